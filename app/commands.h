@@ -1,0 +1,89 @@
+// The program's commands as plain options and one function each; arguments.cpp fills the options
+// from the command line. Each returns the exit status and throws Error for what a person can mend.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stereonav {
+
+struct SceneOptions {
+    std::string scene;         // "" or "terrain": built in; a .toml; a DEM file
+    double verticalScale = 0;  // 0: as the scene says
+    bool openHoles = false;
+    std::string image, sky;  // "": as the scene says
+    std::optional<double> separation_m, zeroParallax_m;
+    double fov_deg = 0;         // vertical; 0: as the scene says
+    int threads = 0;            // 0: all
+    std::string simd = "auto";  // auto, plain, avx2, avx512
+};
+
+struct SizeOption {
+    int width = 1280, height = 720;  // pixels of one eye
+};
+
+struct InfoOptions {
+    SceneOptions scene;
+    SizeOption size;
+    bool json = false;
+};
+int runInfo(const InfoOptions& options);
+
+struct RenderOptions {
+    SceneOptions scene;
+    SizeOption size;
+    std::string pose;             // "x,y,z,heading,pitch,roll" metres and degrees; "": the start pose
+    std::string method = "auto";  // a right-eye method, or auto: the frame plan's choice
+    std::string mode = "sbsl";    // output mode, FFmpeg's short names
+    std::string out;              // image file
+};
+int runRender(const RenderOptions& options);
+
+struct PlayOptions {
+    SceneOptions scene;
+    SizeOption size;
+    std::string path;  // "": the scene's own
+    std::string method = "auto";
+    std::string mode = "sbsl";
+    std::string out;    // folder for frame_00000.png ...; "" with --video or --hash
+    std::string video;  // .mp4, .avi or .mkv
+    double fps = 25;
+    int frames = 0;     // 0: the whole path at fps; else this many, evenly
+    bool hash = false;  // print one content hash of all frames
+};
+int runPlay(const PlayOptions& options);
+
+struct CompareOptions {
+    SceneOptions scene;
+    SizeOption size{500, 400};
+    std::string path;
+    int frames = 24;
+    std::vector<std::string> methods;  // empty: all
+    double relativeSeparation = 0;     // separation as a share of the zero-parallax distance; 0: the scene's
+    std::string json, csv, images, plot;  // "": not written
+    int repeats = 3;                      // timed runs of a frame, the fastest counts
+};
+int runCompare(const CompareOptions& options);
+
+struct ViewOptions {
+    SceneOptions scene;
+    SizeOption size;
+    std::string method = "auto";
+    std::string mode = "sbsl";
+    std::string path;  // Z plays this one at first
+};
+int runView(const ViewOptions& options);
+
+struct MeshOptions {
+    SceneOptions scene;
+    std::string out;      // .glb or .gltf
+    double error_m = -1;  // largest vertical error; < 0: half a sample spacing
+};
+int runMesh(const MeshOptions& options);
+
+// No command given: fly the built-in terrain where there is a display, else play it to out/ and compare.
+int runDefault();
+
+}  // namespace stereonav

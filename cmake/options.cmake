@@ -1,0 +1,19 @@
+# Warnings, sanitizers and what every target of ours is compiled with.
+add_library(stereonav_options INTERFACE)
+target_compile_options(stereonav_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wno-unknown-pragmas
+  -ffp-contract=off -fno-math-errno -fno-trapping-math
+  -Wno-restrict)  # false positives of g++ 12 on std::string operator+ (gcc bug 105651)
+if(STEREONAV_WERROR)
+  target_compile_options(stereonav_options INTERFACE -Werror)
+endif()
+if(STEREONAV_SANITIZE)
+  target_compile_options(stereonav_options INTERFACE -fsanitize=${STEREONAV_SANITIZE}
+    -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(stereonav_options INTERFACE -fsanitize=${STEREONAV_SANITIZE})
+endif()
+target_include_directories(stereonav_options INTERFACE ${CMAKE_SOURCE_DIR})
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()

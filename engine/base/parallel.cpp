@@ -1,0 +1,82 @@
+// Parallel loops over oneTBB. The arena is rebuilt when the thread count changes.
+#include "engine/base/parallel.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+
+namespace stereonav {
+namespace {
+
+struct Arena {
+    std::mutex mutex;
+    int threads = 0;
+    std::shared_ptr<tbb::task_arena> tasks;
+
+    static Arena& instance() {
+        static Arena arena;
+        return arena;
+    }
+
+    void resize(int count) {
+        std::lock_guard lock(mutex);
+        threads = std::max(1, count);
+        tasks = std::make_shared<tbb::task_arena>(threads);
+    }
+
+    std::shared_ptr<tbb::task_arena> get() {
+        std::lock_guard lock(mutex);
+        if (!tasks) {
+            threads = std::max(1, tbb::this_task_arena::max_concurrency());
+            tasks = std::make_shared<tbb::task_arena>(threads);
+        }
+        return tasks;
+    }
+};
+
+}  // namespace
+
+void setThreadCount(int threads) {
+    Arena::instance().resize(threads);
+}
+
+int threadCount() {
+    Arena::instance().get();
+    return Arena::instance().threads;
+}
+
+void parallelFor(int count, const std::function<void(int)>& body, Schedule schedule) {
+    if (count <= 0) return;
+    const auto arena = Arena::instance().get();
+    const int threads = arena->max_concurrency();
+    if (threads == 1 || count == 1) {
+        for (int i = 0; i < count; ++i) body(i);
+        return;
+    }
+    arena->execute([&] {
+        if (schedule == Schedule::Dynamic) {
+            tbb::parallel_for(
+                0, count, [&](int i) { body(i); }, tbb::simple_partitioner());
+            return;
+        }
+        const int slots = std::min(threads, count);
+        tbb::parallel_for(
+            0, slots,
+            [&](int slot) {
+                if (schedule == Schedule::Interleaved) {
+                    for (int i = slot; i < count; i += slots) body(i);
+                } else {
+                    const int begin = static_cast<int>(static_cast<long long>(count) * slot / slots);
+                    const int end = static_cast<int>(static_cast<long long>(count) * (slot + 1) / slots);
+                    for (int i = begin; i < end; ++i) body(i);
+                }
+            },
+            tbb::static_partitioner());
+    });
+}
+
+}  // namespace stereonav

@@ -1,0 +1,47 @@
+// A recorded flight: poses at times. Playback runs on the path's own clock, so it is even and the
+// same every time, however fast the frames are made.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "engine/camera/pose.h"
+
+namespace stereonav {
+
+struct PathSample {
+    double time;  // seconds, strictly increasing along a path
+    Pose pose;
+};
+
+class RecordedPath {
+public:
+    RecordedPath() = default;
+    // Throws Error (named `source`) unless there are at least two samples, times are finite and
+    // strictly increasing, positions finite and quaternions not zero; quaternions are normalised.
+    RecordedPath(std::vector<PathSample> samples, const std::string& source);
+
+    const std::vector<PathSample>& samples() const { return mSamples; }
+    double startTime() const { return mSamples.front().time; }
+    double duration() const { return mSamples.back().time - mSamples.front().time; }
+
+    // Position linear, orientation spherical-linear between the two samples around `time`; clamped
+    // to the ends.
+    Pose at(double time) const;
+
+    // The poses of `count` frames evenly spread over the whole path, first and last included
+    // (count 1: the first).
+    std::vector<Pose> frames(int count) const;
+    // The poses of frames at a fixed rate, from the start time while within the duration.
+    std::vector<Pose> framesAtRate(double framesPerSecond) const;
+
+private:
+    std::vector<PathSample> mSamples;
+};
+
+// By extension: .gltf and .glb (an animated camera node; y up is turned to z up), .path
+// (OpenSceneGraph text: t x y z qx qy qz qw a line). Throws Error with file and place.
+RecordedPath readPath(const std::filesystem::path& file);
+void writePath(const std::filesystem::path& file, const RecordedPath& path);
+
+}  // namespace stereonav

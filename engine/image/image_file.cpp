@@ -1,0 +1,103 @@
+// Picture files through OpenCV's imgcodecs.
+#include "engine/image/image_file.h"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+
+namespace stereonav {
+namespace {
+
+cv::Mat readAny(const std::filesystem::path& file) {
+    const std::string content = readTextFile(file);
+    if (content.empty()) throw Error(file.string(), "", "the file is empty", "name an image file");
+    cv::Mat image;
+    try {
+        const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8U, const_cast<char*>(content.data()));
+        image = cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH);
+    } catch (const cv::Exception&) {
+    }
+    if (image.empty())
+        throw Error(file.string(), "", "is not a picture this program can read, or it is cut off",
+                    "give a PNG, JPEG, TIFF, BMP or Radiance .hdr file");
+    return image;
+}
+
+glm::vec3 linearPixel(const cv::Mat& image, int y, int x) {
+    switch (image.depth()) {
+        case CV_8U: {
+            const auto p = image.at<cv::Vec3b>(y, x);
+            return {linearFromSrgb(p[2] / 255.0f), linearFromSrgb(p[1] / 255.0f),
+                    linearFromSrgb(p[0] / 255.0f)};
+        }
+        case CV_16U: {
+            const auto p = image.at<cv::Vec3w>(y, x);
+            return {linearFromSrgb(p[2] / 65535.0f), linearFromSrgb(p[1] / 65535.0f),
+                    linearFromSrgb(p[0] / 65535.0f)};
+        }
+        default: {
+            const auto p = image.at<cv::Vec3f>(y, x);
+            return {p[2], p[1], p[0]};
+        }
+    }
+}
+
+void checkDepth(const cv::Mat& image, const std::filesystem::path& file) {
+    if (image.depth() != CV_8U && image.depth() != CV_16U && image.depth() != CV_32F)
+        throw Error(file.string(), "", "expected 8, 16 or 32-bit float samples, got another depth",
+                    "convert the picture to 8 bits");
+}
+
+}  // namespace
+
+Plane<PackedColor> readColorImage(const std::filesystem::path& file) {
+    const cv::Mat image = readAny(file);
+    checkDepth(image, file);
+    Plane<PackedColor> plane(image.cols, image.rows);
+    const auto& table = packedFromSrgbByte();
+    for (int y = 0; y < image.rows; ++y)
+        for (int x = 0; x < image.cols; ++x) {
+            if (image.depth() == CV_8U) {
+                const auto p = image.at<cv::Vec3b>(y, x);
+                plane.at(x, y) =
+                    static_cast<PackedColor>(table[p[2]] | table[p[1]] << 10 | table[p[0]] << 20);
+            } else {
+                plane.at(x, y) = packColor(linearPixel(image, y, x));
+            }
+        }
+    return plane;
+}
+
+LinearImage readLinearImage(const std::filesystem::path& file) {
+    const cv::Mat image = readAny(file);
+    checkDepth(image, file);
+    LinearImage linear{image.cols, image.rows, {}};
+    linear.pixels.reserve(static_cast<std::size_t>(image.cols) * image.rows);
+    for (int y = 0; y < image.rows; ++y)
+        for (int x = 0; x < image.cols; ++x) linear.pixels.push_back(linearPixel(image, y, x));
+    return linear;
+}
+
+void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image) {
+    cv::Mat bytes(image.height(), image.width(), CV_8UC3);
+    const auto& table = srgbByteFromPacked();
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const PackedColor c = image.at(x, y);
+            bytes.at<cv::Vec3b>(y, x) = {table[c >> 20 & 1023], table[c >> 10 & 1023], table[c & 1023]};
+        }
+    writeFileAtomically(file, [&](const std::filesystem::path& temporary) {
+        bool written = false;
+        try {
+            written = cv::imwrite(temporary.string(), bytes);
+        } catch (const cv::Exception&) {
+        }
+        if (!written)
+            throw Error(file.string(), "", "can not be written as a picture",
+                        "use .png or .jpg and a folder that can be written");
+    });
+}
+
+}  // namespace stereonav

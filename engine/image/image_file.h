@@ -1,0 +1,26 @@
+// Picture files, through OpenCV. Kept in a target of its own: the library behind it is slow to load.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/image/packed_color.h"
+#include "engine/image/plane.h"
+
+namespace stereonav {
+
+// PNG, JPEG, TIFF, BMP...: 8 or 16 bit, gray or colour, taken as sRGB. Row 0 is the top. Throws Error.
+Plane<PackedColor> readColorImage(const std::filesystem::path& file);
+
+// Linear RGB, row 0 at the top: .hdr (Radiance) and, like readColorImage, everything else.
+struct LinearImage {
+    int width = 0, height = 0;
+    std::vector<glm::vec3> pixels;
+};
+LinearImage readLinearImage(const std::filesystem::path& file);
+
+// By extension (.png, .jpg, ...), 8-bit sRGB; written beside and renamed. Throws Error.
+void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image);
+
+}  // namespace stereonav

@@ -1,0 +1,61 @@
+// The crossing between engine and scene: a scene answers rays, and does not know that there are two
+// eyes. Calls are coarse (a tile, a batch), const, and may run on several threads at once as long as
+// their pixels differ. What they write does not depend on the thread count.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "engine/camera/eye_view.h"
+#include "engine/image/eye_image.h"
+
+namespace stereonav {
+
+struct PixelRect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // x0 <= x < x1, y0 <= y < y1
+    int width() const { return x1 - x0; }
+    int height() const { return y1 - y0; }
+};
+
+struct PixelIndex {
+    std::uint16_t x, y;
+};
+
+class EyeRenderer {
+public:
+    virtual ~EyeRenderer() = default;
+
+    // The scene chooses how a picture is cut into tiles (bands of columns for terrain). Together the
+    // tiles 0 .. tileCount(view) - 1 cover every pixel once.
+    virtual int tileCount(const EyeView& view) const = 0;
+    // Casts one tile into `image`, which has the view's size: every plane the image has is written.
+    virtual void renderTile(const EyeView& view, int tile, EyeImage& image) const = 0;
+
+    // Casts scattered pixels, all inside `bounds`; batches that run at the same time have disjoint
+    // bounds. Within `bounds` the image's viewDepth tells what is known of the scene already (0:
+    // nothing), from which the scene may conclude where a ray can start; outside `bounds` it must
+    // not be read. `pixels` is in row-major order, top row first, without repeats.
+    virtual void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
+                              EyeImage& image) const = 0;
+
+    // False only if no ray through the rectangle hits anything before its view depth
+    // maxDepth(x) = parallaxScale / (column - x) for x the pixel's right edge (infinite where
+    // x >= column): the part of the ray that lies outside the other eye's window edge (region V of
+    // Wan et al. 2004, fig. 2). Conservative: true may mean nothing is there.
+    virtual bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
+                                  double parallaxScale) const = 0;
+
+    // Whether pixels carry a part of their colour that depends on the direction of view, so that it
+    // has to be evaluated again for the other eye.
+    virtual bool viewDependent() const { return false; }
+    // Replaces `color` in row y, columns x0 .. x1 - 1 from baseColor, normal and viewDepth as seen by
+    // `view`. Called only where viewDependent().
+    virtual void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const {
+        (void)view, (void)y, (void)x0, (void)x1, (void)image;
+    }
+};
+
+// Casts the whole picture with all threads. The image must have the view's size.
+void renderEye(const EyeRenderer& renderer, const EyeView& view, EyeImage& image);
+
+}  // namespace stereonav

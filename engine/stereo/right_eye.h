@@ -1,0 +1,80 @@
+// The right eye from the left one: warp, then cast rays into the holes. One method per way of
+// reconstructing; `Full` casts every pixel and is what the others are measured against.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "engine/base/parallel.h"
+#include "engine/camera/stereo_rig.h"
+#include "engine/render/eye_renderer.h"
+
+namespace stereonav {
+
+enum class RightEyeMethod {
+    Full,      // no warp: every pixel cast
+    Paper,     // W5 to W9: splats of eight subpixels, weight threshold, holes cast
+    Linear,    // inverse resampling between neighbouring survivors, two taps
+    Cubic,     // the same, four taps (Catmull-Rom)
+    McMillan,  // W14: back-to-front forward warp without holes filled or clipping fixed
+    NoFill,    // the default's warp, holes left black: what filling is worth
+};
+constexpr RightEyeMethod kDefaultRightEyeMethod = RightEyeMethod::Cubic;
+
+struct NamedMethod {
+    std::string_view name;
+    RightEyeMethod method;
+};
+constexpr std::array<NamedMethod, 6> kRightEyeMethods{{{"full", RightEyeMethod::Full},
+                                                       {"paper", RightEyeMethod::Paper},
+                                                       {"linear", RightEyeMethod::Linear},
+                                                       {"cubic", RightEyeMethod::Cubic},
+                                                       {"mcmillan", RightEyeMethod::McMillan},
+                                                       {"nofill", RightEyeMethod::NoFill}}};
+
+struct WarpSetting {
+    RightEyeMethod method = kDefaultRightEyeMethod;
+    // Inverse methods: a pixel between survivors further apart than this many right pixels is a hole.
+    float maxStretch = 1.1f;
+    // Paper: a pixel whose accumulated splat weight is below this share of full cover is a hole.
+    float weightThreshold = 0.5f;
+    Schedule warpSchedule = Schedule::Dynamic;
+    Schedule fillSchedule = Schedule::Dynamic;  // Dynamic sorts the bands by their number of holes
+};
+
+struct RightEyeTimings {
+    double warp_ms = 0, fill_ms = 0;
+    long long holePixels = 0;  // cast again, of width * height
+    double right_ms() const { return warp_ms + fill_ms; }
+};
+
+// Makes right eyes, keeping its buffers between frames. Not for two threads at once; the work inside
+// runs on all threads.
+class RightEye {
+public:
+    RightEye();
+    ~RightEye();
+    RightEye(RightEye&&) noexcept;
+    RightEye& operator=(RightEye&&) noexcept;
+
+    // left: the left eye as cast. right: resized here; every pixel of color and viewDepth is set
+    // (viewDepth 0 where a hole was left). Widths from 1 up.
+    RightEyeTimings render(const EyeRenderer& renderer, const StereoViews& views, const EyeImage& left,
+                           const WarpSetting& setting, EyeImage& right);
+
+    // 255 where the last render() cast a ray (or left a hole), 0 where it warped. Valid until the
+    // next call.
+    const Plane<std::uint8_t>& holeMask() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> mState;
+};
+
+// nullopt for an unknown name.
+std::optional<RightEyeMethod> rightEyeMethodFromName(std::string_view name);
+std::string_view nameOf(RightEyeMethod method);
+
+}  // namespace stereonav

@@ -1,0 +1,61 @@
+// A heightfield: the continuous bilinear surface over a regular grid of samples. Everything that
+// casts, shades or bakes terrain reads this one structure; it does not change after loading.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace stereonav {
+
+// Spaces. World: metres, x east, y north, z up, origin at the middle of the grid at z = 0 of the
+// source's heights. Grid: gx = (x - originWorld.x) / spacing.x, so sample (i, j) is at (i, j); i
+// counts east, j counts north. Cell (i, j) has the corner samples (i, j) to (i + 1, j + 1).
+class Heightfield {
+public:
+    Heightfield() = default;
+    // heights: metres above z = 0, width * height values, row 0 southernmost; NaN marks a hole in the
+    // ground (every cell touching it is open). spacing: metres, > 0. At least 2 x 2 samples, and one
+    // finite cell. Throws Error otherwise, named by `source`.
+    Heightfield(int width, int height, glm::dvec2 spacing, std::vector<float> heights,
+                const std::string& source);
+
+    int width() const { return mWidth; }    // samples, >= 2
+    int height() const { return mHeight; }  // samples, >= 2
+    glm::dvec2 spacing() const { return mSpacing; }
+    glm::dvec2 originWorld() const { return mOrigin; }  // of sample (0, 0)
+    float minHeight() const { return mMin; }
+    float maxHeight() const { return mMax; }
+    // A Lipschitz constant of the surface: |h(p) - h(q)| <= maxSlope() * |p - q|, in metres a metre.
+    // Infinite when there are holes.
+    double maxSlope() const { return mMaxSlope; }
+    bool hasHoles() const { return mHasHoles; }
+
+    float sample(int i, int j) const { return mHeights[static_cast<std::size_t>(j) * mWidth + i]; }
+    const float* data() const { return mHeights.data(); }
+
+    glm::dvec2 gridFromWorld(const glm::dvec2& world) const { return (world - mOrigin) / mSpacing; }
+    glm::dvec2 worldFromGrid(const glm::dvec2& grid) const { return mOrigin + grid * mSpacing; }
+    bool contains(const glm::dvec2& world) const;
+
+    // Height in metres at a world position; positions outside are clamped to the border. NaN in a
+    // hole.
+    double heightAt(const glm::dvec2& world) const;
+    // Unit normal, continuous across cells: from gradients at the samples (central differences,
+    // one-sided at borders and holes), interpolated bilinearly. Clamped outside.
+    glm::dvec3 normalAt(const glm::dvec2& world) const;
+    // Gradient (dh/dx, dh/dy) at a sample, metres a metre.
+    glm::dvec2 gradientAtSample(int i, int j) const;
+
+private:
+    int mWidth = 0, mHeight = 0;
+    glm::dvec2 mSpacing{1.0}, mOrigin{0.0};
+    float mMin = 0, mMax = 0;
+    double mMaxSlope = 0;
+    bool mHasHoles = false;
+    std::vector<float> mHeights;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,63 @@
+// A scene as its TOML file says it: which files, where, how it looks, how it is flown. Parsing
+// checks keys and values; it opens none of the files named.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stereonav {
+
+struct TerrainLook {
+    double sunAzimuth = 5.5;     // radians clockwise from north; the default shines from the north-west
+    double sunElevation = 0.79;  // radians above the horizon
+    float ambient = 0.35f;       // share of light that is there in shadow, 0..1
+    double fogDistance = 0.0;    // metres over which 63 % (1 - 1/e) is lost; 0: no fog
+    glm::vec3 fogColor{0.62f, 0.68f, 0.75f};  // linear
+    float specular = 0.0f;    // strength of the view-dependent highlight, 0: none (nothing is stored)
+    float shininess = 32.0f;  // Blinn-Phong exponent
+    bool shadeImage = false;  // light the colour image too (images mostly hold light already)
+};
+
+struct LandmarkFile {
+    std::filesystem::path mesh;     // .gltf or .glb
+    glm::dvec2 positionWorld{0.0};  // metres from the world's origin
+    std::optional<double> z;        // metres; unset: on the ground
+    double heading = 0.0;           // radians clockwise
+    double scale = 1.0;
+};
+
+struct SceneFile {
+    std::filesystem::path file;  // the TOML file, or the DEM when there is none
+    bool builtIn = false;        // the generated terrain
+    std::uint64_t seed = 1;      // of the generated terrain
+    int builtInSize = 513;       // its samples a side
+    std::filesystem::path dem;
+    double verticalScale = 1.0;   // > 0
+    bool openHoles = false;       // leave nodata open instead of filling it
+    std::filesystem::path image;  // "" for hypsometric tint
+    std::filesystem::path sky;    // "" for the built-in gradient
+    TerrainLook look;
+    std::vector<LandmarkFile> landmarks;
+    std::optional<glm::dvec3> startPosition;  // world metres; z above the ground when startAboveGround
+    bool startAboveGround = true;
+    double startHeading = 0, startPitch = 0, startRoll = 0;  // radians
+    std::filesystem::path path;                              // "" for the scene's own computed flight
+    std::optional<double> separation;                        // metres
+    std::optional<double> zeroParallax;
+    double verticalFov = 0.8;  // radians
+    double clearance = 0.0;    // metres; 0: chosen from the spacing
+};
+
+// Reads a .toml scene. Relative files are relative to the scene's folder. Throws Error: unknown keys
+// all together, each with line and the nearest known key; wrong types and ranges with their line.
+SceneFile readSceneFile(const std::filesystem::path& toml);
+
+// `name` as a user gives it: "" or "terrain" for the built-in terrain, a .toml, or a DEM file.
+SceneFile sceneFileFromName(const std::string& name);
+
+}  // namespace stereonav

@@ -1,0 +1,38 @@
+// Casts rays at a terrain for any view: the engine's door into a terrain scene.
+#pragma once
+
+#include <memory>
+
+#include "engine/render/eye_renderer.h"
+#include "terrain/terrain_scene.h"
+
+namespace stereonav {
+
+// Instruction set of the ray caster; Auto takes the widest this processor has.
+enum class SimdTarget { Auto, Plain, Avx2, Avx512 };
+
+class TerrainRenderer final : public EyeRenderer {
+public:
+    // scene must outlive the renderer.
+    explicit TerrainRenderer(const TerrainScene& scene, SimdTarget target = SimdTarget::Auto);
+    ~TerrainRenderer() override;
+
+    int tileCount(const EyeView& view) const override;
+    void renderTile(const EyeView& view, int tile, EyeImage& image) const override;
+    void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
+                      EyeImage& image) const override;
+    bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
+                          double parallaxScale) const override;
+    bool viewDependent() const override;
+    void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override;
+
+    SimdTarget target() const;  // what Auto became
+    const TerrainScene& scene() const { return mScene; }
+
+private:
+    struct State;
+    const TerrainScene& mScene;
+    std::unique_ptr<State> mState;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,50 @@
+// A loaded terrain: all that its ray caster needs, immutable.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/camera/recorded_path.h"
+#include "engine/camera/stereo_rig.h"
+#include "terrain/color_texture.h"
+#include "terrain/heightfield.h"
+#include "terrain/scene_file.h"
+#include "terrain/sky_map.h"
+
+namespace stereonav {
+
+class LandmarkSet;  // terrain/landmark.h: meshes cast with Embree
+
+// What the reader did, for `info`.
+struct TerrainReport {
+    std::string driver;            // "GeoTIFF", "built-in", ...
+    std::string sourceCrs;         // name of the source's reference system, "" when it has none
+    std::string projection;        // how it was brought to metres: "as it is", "local ..."
+    long long missingSamples = 0;  // nodata, NaN or infinite in the source
+    long long filledSamples = 0;   // of them, filled
+    glm::dvec2 sourceOffset{0.0};  // source x, y of the world's origin (metres in the local projection)
+    std::string colorSource;       // "image winter.jpg 457x499", "hypsometric tint", ...
+    std::string skySource;
+};
+
+struct TerrainScene {
+    TerrainScene();
+    ~TerrainScene();
+    TerrainScene(TerrainScene&&) noexcept;
+    TerrainScene& operator=(TerrainScene&&) noexcept;
+
+    Heightfield ground;
+    ColorTexture color;
+    SkyMap sky;
+    TerrainLook look;                        // fog, specular, sun
+    std::unique_ptr<LandmarkSet> landmarks;  // null when there are none
+    Pose startPose;
+    RecordedPath path;  // the scene's own flight
+    StereoSetting stereo;
+    Lens lens;               // width and height are the caller's to set
+    double clearance = 2.0;  // metres kept above the ground
+    TerrainReport report;
+};
+
+}  // namespace stereonav
