@@ -1,0 +1,84 @@
+// Flies a viewer from wishes (keys, mouse) without knowing what is flown over: free flight, or at a
+// set height over the ground. Never below a clearance over the ground. Same flight at any frame rate.
+#pragma once
+
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/camera/pose.h"
+
+namespace stereonav {
+
+// Height of the ground in metres at a world position (x, y); NaN where there is no ground.
+using GroundHeight = std::function<double(const glm::dvec2&)>;
+
+enum class FlightMode {
+    Free,          // forward is where the viewer looks
+    FollowGround,  // forward is level; the height above the ground is kept, `up` changes it
+};
+
+// What the pilot wants during one step. Values outside their range are clamped, NaN counts as 0.
+struct FlightInput {
+    double forward = 0, right = 0, up = 0;  // -1 to 1, shares of the speed
+    double yawRate = 0;                     // radians a second, clockwise seen from above
+    double pitchRate = 0;                   // radians a second, upwards
+    double rollRate = 0;                    // radians a second, right side down
+    double speedMultiplier = 1;             // > 0
+};
+
+struct FlightSetting {
+    double clearance = 2.0;      // metres kept above the ground, > 0
+    double followHeight = 50.0;  // metres above the ground at the start of FollowGround, >= clearance
+    double speed = 100.0;        // metres a second at full input, > 0
+    double groundStep = 10.0;    // metres between the places where the ground is looked at, > 0:
+                                 // half of the ground's sample spacing
+};
+
+// Position and angles with damped velocities; between steps nothing else is remembered. One thread.
+class Navigator {
+public:
+    // Throws Error when a setting or the home pose is not finite or out of range.
+    Navigator(GroundHeight ground, const Pose& home, const FlightSetting& setting);
+
+    // Moves on by dt seconds (0 to kLongestStep; longer is cut to it, negative and NaN is nothing).
+    static constexpr double kLongestStep = 1.0;
+    void step(const FlightInput& input, double dt);
+
+    // Turns at once, radians: for a mouse, whose motion is not a rate.
+    void turnBy(double yaw, double pitch);
+    void levelRoll() { mRoll = mRollRate = 0; }
+
+    Pose pose() const { return poseFromAngles(mPosition, mHeading, mPitch, mRoll); }
+    // Places the viewer (lifted to the clearance where needed) at rest.
+    void setPose(const Pose& pose);
+    void goHome() { setPose(mHome); }
+    void setHome(const Pose& home) { mHome = home; }
+
+    FlightMode mode() const { return mMode; }
+    // FollowGround takes up the present height above the ground, but not below followHeight.
+    void setMode(FlightMode mode);
+
+    const glm::dvec3& velocity() const { return mVelocity; }  // world, metres a second
+    double heightAboveGround() const;                         // metres; infinite over a hole
+    double followHeight() const { return mFollowHeight; }     // metres
+    const FlightSetting& setting() const { return mSetting; }
+
+private:
+    void turn(const FlightInput& input, double dt);
+    void move(const FlightInput& input, double dt);
+    double followedHeight() const;
+    void keepClearance();
+    double floorAt(const glm::dvec2& place) const;
+
+    GroundHeight mGround;
+    Pose mHome;
+    FlightSetting mSetting;
+    FlightMode mMode = FlightMode::Free;
+    glm::dvec3 mPosition{0.0}, mVelocity{0.0};
+    double mHeading = 0, mPitch = 0, mRoll = 0;          // radians
+    double mYawRate = 0, mPitchRate = 0, mRollRate = 0;  // radians a second
+    double mFollowHeight = 0;                            // metres
+};
+
+}  // namespace stereonav
