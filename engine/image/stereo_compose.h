@@ -1,0 +1,96 @@
+// One picture from two eyes, for any display: either eye alone, side by side, top-bottom,
+// interleaved, anaglyph. Pure pixel work on the CPU, used for files and video; the window's fragment
+// shader follows the same tables (engine/display/stereo_presenter).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "engine/image/packed_color.h"
+#include "engine/image/plane.h"
+
+namespace stereonav {
+
+// In the order in which a viewer steps through them.
+enum class OutputMode {
+    Left,
+    Right,
+    SideBySide,      // left eye on the left: parallel viewing, most displays
+    CrossEyed,       // right eye on the left
+    SideBySideHalf,  // each eye squeezed to half its width
+    CrossEyedHalf,
+    TopBottom,  // left eye on top
+    BottomTop,
+    TopBottomHalf,  // each eye squeezed to half its height
+    BottomTopHalf,
+    Rows,  // row 0 from the left eye, row 1 from the right one, ...
+    RowsRightFirst,
+    Columns,
+    ColumnsRightFirst,
+    Checkerboard,
+    CheckerboardRightFirst,
+    RedCyanGray,
+    RedCyanHalf,
+    RedCyanColor,
+    RedCyanDubois,
+    GreenMagentaGray,
+    GreenMagentaHalf,
+    GreenMagentaColor,
+    GreenMagentaDubois,
+    AmberBlueGray,
+    AmberBlueHalf,
+    AmberBlueColor,
+    AmberBlueDubois,
+};
+
+enum class OutputLayout { OneEye, SideBySide, TopBottom, Rows, Columns, Checkerboard, Anaglyph };
+
+struct OutputModeInfo {
+    OutputMode mode;
+    std::string_view shortName;  // FFmpeg's, "arcd"
+    std::string_view longName;   // "red-cyan-dubois"
+    OutputLayout layout;
+    bool half;        // each eye squeezed along the layout's axis
+    bool rightFirst;  // the right eye comes first (or, of one eye, is the one)
+};
+
+struct ComposeSetting {
+    OutputMode mode = OutputMode::SideBySide;
+    bool swapEyes = false;
+    // Anaglyph matrices act on sRGB-encoded values by default, as FFmpeg and most players do (the
+    // coefficients of Dubois are mostly quoted for that); true: on linear light, then encoded.
+    bool linearAnaglyph = false;
+};
+
+// Rows give the output's R, G, B; columns weigh left r, g, b, right r, g, b. Clamped to [0, 1] after.
+using AnaglyphMatrix = std::array<std::array<float, 6>, 3>;
+
+std::span<const OutputModeInfo> outputModes();
+const OutputModeInfo& infoOf(OutputMode mode);
+// FFmpeg's short names (tbl and abl alike) and the long ones; nullopt for any other.
+std::optional<OutputMode> outputModeFromName(std::string_view name);
+// All short names, "ml, mr, sbsl, ...": for messages.
+std::string outputModeNames();
+
+// For anaglyph modes only. Colour: each channel from the eye whose glass passes it. Gray: luma
+// .299 .587 .114 of that eye. Half-colour: colour, but luma for the eye that has one channel only.
+// Dubois: E. Dubois, "A projection method to generate anaglyph stereo images", ICASSP 2001, the
+// coefficients published for LCDs.
+const AnaglyphMatrix& anaglyphMatrix(OutputMode mode);
+
+// Pixels of the picture composed from two eyes of width x height. Squeezed eyes have half the size,
+// rounded up.
+std::pair<int, int> composedSize(OutputMode mode, int width, int height);
+// The other way round: the size of one eye for a picture of at most width x height; at least 1 x 1.
+std::pair<int, int> eyeSizeFor(OutputMode mode, int width, int height);
+
+// Squeezed modes average pairs of pixels in linear light; interleaved modes take each pixel from the
+// eye whose turn it is, at its own place. Throws Error when the two sizes differ or are empty.
+Plane<PackedColor> composeStereo(const Plane<PackedColor>& left, const Plane<PackedColor>& right,
+                                 const ComposeSetting& setting);
+
+}  // namespace stereonav
