@@ -1,0 +1,14 @@
+// A truth finer than any method: many rays a pixel, averaged in linear light.
+#pragma once
+
+#include "engine/base/progress.h"
+#include "engine/render/eye_renderer.h"
+
+namespace stereonav {
+
+// factor x factor rays in each pixel, 1 to 16. Cast in strips of columns, so that the memory stays
+// that of a strip: about 64 MB at most. progress is reported from 0 to 1. Throws Error, Cancelled.
+Plane<PackedColor> renderSupersampled(const EyeRenderer& renderer, const EyeView& view, int factor,
+                                      Progress& progress);
+
+}  // namespace stereonav
