@@ -18,7 +18,7 @@ packages_for() {
 # missing_packages NAME...: those that dpkg does not know as installed
 missing_packages() {
     local installed name
-    installed=" $(dpkg-query -W -f='${db:Status-Status}:${Package} ' "$@" 2>/dev/null) "
+    installed=" $(dpkg-query -W -f='${db:Status-Status}:${Package} ' "$@" 2>/dev/null || true) "
     for name in "$@"; do
         [[ $installed == *" installed:$name "* ]] || echo "$name"
     done
