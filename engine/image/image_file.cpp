@@ -10,9 +10,21 @@
 namespace stereonav {
 namespace {
 
+// The decoders below show the upper part of a cut-off JPEG as if it were whole, and print about a
+// cut-off PNG, so both are checked for their end: a JPEG's end marker (FFD9) comes after its last scan
+// (FFDA), a PNG closes with the chunk IEND.
+bool isCutOff(const std::string& content) {
+    if (content.starts_with("\xff\xd8")) {
+        const auto scan = content.rfind("\xff\xda");
+        return scan == std::string::npos || content.find("\xff\xd9", scan) == std::string::npos;
+    }
+    return content.starts_with("\x89PNG") && content.rfind("IEND") == std::string::npos;
+}
+
 cv::Mat readAny(const std::filesystem::path& file) {
     const std::string content = readTextFile(file);
     if (content.empty()) throw Error(file.string(), "", "the file is empty", "name an image file");
+    if (isCutOff(content)) throw Error(file.string(), "", "is cut off: its end is missing", "copy it again");
     cv::Mat image;
     try {
         const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8U, const_cast<char*>(content.data()));

@@ -1,7 +1,7 @@
 // The colour of one pixel or texel in 32 bits: three channels of 10 bits, each the square root of a
 // linear RGB value in [0, 1] (gamma 2). r is in bits 0..9, g in 10..19, b in 20..29; bits 30 and 31
 // are zero. The layout is OpenGL's UNSIGNED_INT_2_10_10_10_REV. Square roots spend the bits where
-// the eye needs them: a step is finer than a quarter of an 8-bit sRGB step everywhere.
+// the eye needs them: a step is finer than four tenths of an 8-bit sRGB step everywhere.
 #pragma once
 
 #include <array>

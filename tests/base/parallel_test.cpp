@@ -1,0 +1,138 @@
+// Parallel loops over every schedule and several thread counts: each index once, the partition of
+// the static schedules, exceptions, and loops inside loops.
+#include "engine/base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+namespace stereonav {
+namespace {
+
+constexpr Schedule kSchedules[] = {Schedule::Dynamic, Schedule::Interleaved, Schedule::Contiguous};
+
+class ParallelFor : public testing::TestWithParam<std::tuple<Schedule, int>> {
+protected:
+    void SetUp() override {
+        mBefore = threadCount();
+        setThreadCount(threads());
+    }
+    void TearDown() override { setThreadCount(mBefore); }
+    Schedule schedule() const { return std::get<0>(GetParam()); }
+    int threads() const { return std::get<1>(GetParam()); }
+
+private:
+    int mBefore = 1;
+};
+
+TEST_P(ParallelFor, ThreadCountIsWhatWasSet) {
+    EXPECT_EQ(threadCount(), threads());
+}
+
+TEST_P(ParallelFor, VisitsEveryIndexOnce) {
+    for (const int count : {0, 1, 2, 3, 7, 64, 1001}) {
+        std::vector<std::atomic<int>> visits(count);
+        parallelFor(
+            count, [&](int i) { ++visits.at(i); }, schedule());
+        for (int i = 0; i < count; ++i) EXPECT_EQ(visits[i], 1) << "index " << i << " of " << count;
+    }
+}
+
+TEST_P(ParallelFor, NegativeCountDoesNothing) {
+    int visits = 0;
+    parallelFor(
+        -3, [&](int) { ++visits; }, schedule());
+    EXPECT_EQ(visits, 0);
+}
+
+TEST_P(ParallelFor, RethrowsTheBodysException) {
+    try {
+        parallelFor(
+            100,
+            [](int i) {
+                if (i == 42) throw std::out_of_range("42");
+            },
+            schedule());
+        FAIL() << "the exception was lost";
+    } catch (const std::out_of_range& error) {
+        EXPECT_STREQ(error.what(), "42");
+    }
+}
+
+TEST_P(ParallelFor, WorksAgainAfterAnException) {
+    EXPECT_THROW(parallelFor(
+                     10, [](int) { throw std::runtime_error("no"); }, schedule()),
+                 std::runtime_error);
+    std::atomic<int> visits = 0;
+    parallelFor(
+        10, [&](int) { ++visits; }, schedule());
+    EXPECT_EQ(visits, 10);
+}
+
+TEST_P(ParallelFor, MayBeNested) {
+    std::vector<std::atomic<int>> visits(12 * 9);
+    parallelFor(
+        12,
+        [&](int outer) {
+            parallelFor(
+                9, [&](int inner) { ++visits[outer * 9 + inner]; }, schedule());
+        },
+        schedule());
+    for (std::size_t i = 0; i < visits.size(); ++i) EXPECT_EQ(visits[i], 1) << "index " << i;
+}
+
+TEST_P(ParallelFor, NeverUsesMoreThreadsThanSet) {
+    std::mutex mutex;
+    std::map<std::thread::id, int> used;
+    parallelFor(
+        200,
+        [&](int) {
+            std::lock_guard lock(mutex);
+            ++used[std::this_thread::get_id()];
+        },
+        schedule());
+    EXPECT_LE(static_cast<int>(used.size()), threads());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ParallelFor,
+                         testing::Combine(testing::ValuesIn(kSchedules), testing::Values(1, 2, 3, 5)));
+
+// A static schedule runs a slot on one thread, in rising order: neighbours in the same slot see one
+// another's writes without any lock.
+TEST(ParallelSchedule, StaticSlotsRunInOrder) {
+    const int before = threadCount();
+    constexpr int kThreads = 3, kCount = 32;
+    setThreadCount(kThreads);
+    std::vector<std::atomic<int>> order(kCount);
+    std::atomic<int> clock = 0;
+    parallelFor(
+        kCount, [&](int i) { order[i] = ++clock; }, Schedule::Interleaved);
+    for (int i = kThreads; i < kCount; ++i) EXPECT_GT(order[i], order[i - kThreads]) << "index " << i;
+    parallelFor(
+        kCount, [&](int i) { order[i] = ++clock; }, Schedule::Contiguous);
+    for (int i = 1; i < kCount; ++i) {
+        const bool sameRun = i != kCount * 1 / kThreads && i != kCount * 2 / kThreads;
+        if (sameRun) {
+            EXPECT_GT(order[i], order[i - 1]) << "index " << i;
+        }
+    }
+    setThreadCount(before);
+}
+
+TEST(ParallelSchedule, CountBelowOneIsOneThread) {
+    const int before = threadCount();
+    setThreadCount(0);
+    EXPECT_EQ(threadCount(), 1);
+    setThreadCount(-4);
+    EXPECT_EQ(threadCount(), 1);
+    setThreadCount(before);
+}
+
+}  // namespace
+}  // namespace stereonav
