@@ -1,0 +1,34 @@
+// A linked shader program from the sources embedded in the binary.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/display/gl_object.h"
+
+namespace stereonav {
+
+struct ShaderSource {
+    std::string_view name;  // file name in shaders/
+    std::string_view text;
+};
+// Every file of shaders/ (a generated source, see cmake/shaders.cmake).
+std::span<const ShaderSource> shaderSources();
+
+class ShaderProgram {
+public:
+    // Names of files in shaders/. Throws Error with the shader's name and the driver's message.
+    ShaderProgram(std::string_view vertexName, std::string_view fragmentName);
+
+    void use() const { glUseProgram(mProgram.name()); }
+    // -1, which OpenGL ignores, for a uniform that the compiler dropped.
+    GLint location(const std::string& uniform) const {
+        return glGetUniformLocation(mProgram.name(), uniform.c_str());
+    }
+
+private:
+    GlProgram mProgram;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,134 @@
+// Textures, uniforms and one triangle.
+#include "engine/display/stereo_presenter.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+void uploadEncoding(const GlTexture& texture) {
+    std::array<float, 1024> table;
+    for (int i = 0; i < 1024; ++i) {
+        const float root = static_cast<float>(i) / 1023.0f;
+        table[static_cast<std::size_t>(i)] = srgbFromLinear(root * root);
+    }
+    glBindTexture(GL_TEXTURE_1D, texture.name());
+    glTexImage1D(GL_TEXTURE_1D, 0, GL_R32F, 1024, 0, GL_RED, GL_FLOAT, table.data());
+    glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+// Columns of the matrix that act on one eye, in OpenGL's column-major order.
+std::array<float, 9> eyePart(const AnaglyphMatrix& m, std::size_t firstColumn) {
+    std::array<float, 9> part{};
+    for (std::size_t column = 0; column < 3; ++column)
+        for (std::size_t row = 0; row < 3; ++row) part[column * 3 + row] = m[row][firstColumn + column];
+    return part;
+}
+
+int layoutNumber(OutputLayout layout) {
+    switch (layout) {
+        case OutputLayout::OneEye:
+            return 0;
+        case OutputLayout::SideBySide:
+            return 1;
+        case OutputLayout::TopBottom:
+            return 2;
+        case OutputLayout::Rows:
+            return 3;
+        case OutputLayout::Columns:
+            return 4;
+        case OutputLayout::Checkerboard:
+            return 5;
+        case OutputLayout::Anaglyph:
+            return 6;
+    }
+    return 0;
+}
+
+}  // namespace
+
+StereoPresenter::StereoPresenter() : mProgram("stereo_present.vert", "stereo_present.frag") {
+    uploadEncoding(mEncoded);
+    mProgram.use();
+    glUniform1i(mProgram.location("uFirst"), 0);
+    glUniform1i(mProgram.location("uSecond"), 1);
+    glUniform1i(mProgram.location("uEncoded"), 2);
+}
+
+void StereoPresenter::upload(const Plane<PackedColor>& left, const Plane<PackedColor>& right) {
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (left.empty() || left.width() > largest || left.height() > largest)
+        throw Error(
+            "", "picture size",
+            fmt::format("expected 1 to {} pixels a side, got {}x{}", largest, left.width(), left.height()),
+            "make the window smaller");
+    mOneEye = right.empty();
+    if (!mOneEye && (right.width() != left.width() || right.height() != left.height()))
+        throw Error("", "stereo picture",
+                    fmt::format("expected two eyes of one size, got {}x{} and {}x{}", left.width(),
+                                left.height(), right.width(), right.height()),
+                    "render both eyes at the same size");
+    mWidth = left.width();
+    mHeight = left.height();
+    for (int i = 0; i < (mOneEye ? 1 : 2); ++i) {
+        const Plane<PackedColor>& eye = i == 0 ? left : right;
+        if (mTextureWidth[i] != mWidth || mTextureHeight[i] != mHeight) {
+            glBindTexture(GL_TEXTURE_2D, mEyes[i].name());
+            glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB10_A2, mWidth, mHeight, 0, GL_RGBA,
+                         GL_UNSIGNED_INT_2_10_10_10_REV, nullptr);
+            glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+            glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+            mTextureWidth[i] = mWidth;
+            mTextureHeight[i] = mHeight;
+        }
+        uploadEye(mEyes[i], eye);
+    }
+}
+
+void StereoPresenter::uploadEye(const GlTexture& texture, const Plane<PackedColor>& eye) const {
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, eye.stride());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, eye.width(), eye.height(), GL_RGBA,
+                    GL_UNSIGNED_INT_2_10_10_10_REV, eye.row(0));
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
+void StereoPresenter::draw(const ComposeSetting& setting, const Viewport& viewport, int turnX,
+                           int turnY) const {
+    if (!hasPicture() || viewport.width < 1 || viewport.height < 1) return;
+    const OutputModeInfo& info = infoOf(setting.mode);
+    const bool swapped = setting.swapEyes != info.rightFirst;
+    const int right = mOneEye ? 0 : 1;
+    const auto [width, height] = composedSize(setting.mode, mWidth, mHeight);
+    mProgram.use();
+    glActiveTexture(GL_TEXTURE2);
+    glBindTexture(GL_TEXTURE_1D, mEncoded.name());
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, mEyes[swapped ? 0 : right].name());
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, mEyes[swapped ? right : 0].name());
+    glUniform2i(mProgram.location("uEyeSize"), mWidth, mHeight);
+    glUniform2i(mProgram.location("uComposed"), width, height);
+    glUniform4i(mProgram.location("uViewport"), viewport.x, viewport.y, viewport.width, viewport.height);
+    glUniform2i(mProgram.location("uTurn"), turnX, turnY);
+    glUniform1i(mProgram.location("uLayout"), layoutNumber(info.layout));
+    glUniform1i(mProgram.location("uHalf"), info.half);
+    glUniform1i(mProgram.location("uLinear"), setting.linearAnaglyph);
+    const AnaglyphMatrix& matrix = anaglyphMatrix(setting.mode);
+    glUniformMatrix3fv(mProgram.location("uFromFirst"), 1, GL_FALSE, eyePart(matrix, 0).data());
+    glUniformMatrix3fv(mProgram.location("uFromSecond"), 1, GL_FALSE, eyePart(matrix, 3).data());
+    glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    glBindVertexArray(mVertices.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace stereonav

@@ -1,0 +1,43 @@
+// Puts two eyes on the screen in any output mode: uploads them and composes in one fragment shader,
+// with the tables of engine/image/stereo_compose, whose picture it equals within 1/255.
+#pragma once
+
+#include "engine/display/gl_object.h"
+#include "engine/display/shader_program.h"
+#include "engine/image/stereo_compose.h"
+
+namespace stereonav {
+
+// Framebuffer pixels, y from the bottom.
+struct Viewport {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+// Needs a current OpenGL 3.3 core context, the same for all calls; one thread.
+class StereoPresenter {
+public:
+    StereoPresenter();
+
+    // right may be empty: the left eye then stands for both. Throws Error where the sizes differ or
+    // exceed the driver's textures.
+    void upload(const Plane<PackedColor>& left, const Plane<PackedColor>& right);
+    bool hasPicture() const { return mWidth > 0; }
+
+    // Fills the viewport with the composed picture (nearest pixels where the sizes differ).
+    // turnX, turnY: where the viewport's top left pixel lies on the screen, so that interleaved
+    // displays get each eye on its own rows and columns wherever the window is.
+    void draw(const ComposeSetting& setting, const Viewport& viewport, int turnX = 0, int turnY = 0) const;
+
+private:
+    void uploadEye(const GlTexture& texture, const Plane<PackedColor>& eye) const;
+
+    ShaderProgram mProgram;
+    GlVertexArray mVertices;
+    GlTexture mEyes[2];  // left, right
+    GlTexture mEncoded;
+    bool mOneEye = false;
+    int mWidth = 0, mHeight = 0;
+    int mTextureWidth[2] = {0, 0}, mTextureHeight[2] = {0, 0};
+};
+
+}  // namespace stereonav

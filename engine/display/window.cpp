@@ -1,0 +1,245 @@
+// The only file that talks to GLFW for the window and its input.
+#include "engine/display/window.h"
+
+#include <epoxy/gl.h>
+// GLFW after the loader, which brings its own OpenGL declarations.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kMonitorShare = 0.92;  // of the monitor's free area: leaves room for decorations
+constexpr int kSmallestWindow = 64;     // screen units
+constexpr double kDeadZone = 0.12;      // of a stick's way: worn sticks rest that far off centre
+
+std::string lastProblem() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text ? text : "no reason given";
+}
+
+Error displayError(const std::string& problem) {
+    return Error("", "window", problem,
+                 "start it in a desktop session with OpenGL 3.3, or use render, play and compare, which need "
+                 "no display");
+}
+
+bool environmentNamesDisplay() {
+    const auto named = [](const char* variable) {
+        const char* value = std::getenv(variable);
+        return value && *value;
+    };
+    return named("DISPLAY") || named("WAYLAND_DISPLAY");
+}
+
+double withoutDeadZone(float value) {
+    const double size = std::abs(value);
+    if (size < kDeadZone) return 0;
+    return std::copysign((size - kDeadZone) / (1 - kDeadZone), value);
+}
+
+// The asked-for size, or as much of it as the monitor has room for.
+std::pair<int, int> fitted(int width, int height) {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (!monitor) return {width, height};
+    int x = 0, y = 0, areaWidth = 0, areaHeight = 0;
+    glfwGetMonitorWorkarea(monitor, &x, &y, &areaWidth, &areaHeight);
+    if (areaWidth < 1 || areaHeight < 1) return {width, height};
+    const double scale =
+        std::min({1.0, kMonitorShare * areaWidth / width, kMonitorShare * areaHeight / height});
+    return {std::max(static_cast<int>(width * scale), kSmallestWindow),
+            std::max(static_cast<int>(height * scale), kSmallestWindow)};
+}
+
+char letterOf(int key, int scancode) {
+    const char* name = glfwGetKeyName(key, scancode);
+    return name && name[0] > 0 && name[1] == 0 ? name[0] : 0;
+}
+
+}  // namespace
+
+bool hasDisplay() {
+    if (!environmentNamesDisplay()) return false;
+    try {
+        const Window probe("stereonav", kSmallestWindow, kSmallestWindow, false);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+Window::Window(const std::string& title, int width, int height, bool visible) {
+    if (!environmentNamesDisplay())
+        throw displayError("there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
+    if (!glfwInit()) throw displayError("the display can not be used: " + lastProblem());
+    try {
+        open(title, width, height, visible);
+    } catch (...) {
+        if (mHandle) glfwDestroyWindow(mHandle);
+        glfwTerminate();
+        throw;
+    }
+}
+
+void Window::open(const std::string& title, int width, int height, bool visible) {
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_VISIBLE, visible ? GLFW_TRUE : GLFW_FALSE);
+    const auto [fitWidth, fitHeight] = fitted(width, height);
+    mHandle = glfwCreateWindow(fitWidth, fitHeight, title.c_str(), nullptr, nullptr);
+    if (!mHandle) throw displayError("no window with OpenGL 3.3 can be opened: " + lastProblem());
+    glfwSetWindowSizeLimits(mHandle, kSmallestWindow, kSmallestWindow, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwMakeContextCurrent(mHandle);
+    glfwSwapInterval(1);
+    installCallbacks();
+}
+
+void Window::installCallbacks() {
+    glfwSetWindowUserPointer(mHandle, this);
+    glfwSetKeyCallback(mHandle, [](GLFWwindow* handle, int key, int scancode, int action, int mods) {
+        if (action == GLFW_RELEASE) return;
+        auto* window = static_cast<Window*>(glfwGetWindowUserPointer(handle));
+        window->mKeys.push_back(
+            {key, letterOf(key, scancode), (mods & GLFW_MOD_SHIFT) != 0, action == GLFW_REPEAT});
+    });
+    glfwSetScrollCallback(mHandle, [](GLFWwindow* handle, double, double y) {
+        static_cast<Window*>(glfwGetWindowUserPointer(handle))->mWheel += y;
+    });
+    glfwSetCursorPosCallback(mHandle, [](GLFWwindow* handle, double x, double y) {
+        static_cast<Window*>(glfwGetWindowUserPointer(handle))->onPointer(x, y);
+    });
+    glfwSetFramebufferSizeCallback(mHandle, [](GLFWwindow* handle, int, int) {
+        static_cast<Window*>(glfwGetWindowUserPointer(handle))->mRedraw = true;
+    });
+    glfwSetWindowRefreshCallback(mHandle, [](GLFWwindow* handle) {
+        static_cast<Window*>(glfwGetWindowUserPointer(handle))->mRedraw = true;
+    });
+    glfwSetWindowPosCallback(mHandle, [](GLFWwindow* handle, int, int) {
+        static_cast<Window*>(glfwGetWindowUserPointer(handle))->mRedraw = true;
+    });
+}
+
+Window::~Window() {
+    glfwDestroyWindow(mHandle);
+    glfwTerminate();
+}
+
+void Window::onPointer(double x, double y) {
+    const bool held = glfwGetMouseButton(mHandle, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS ||
+                      glfwGetMouseButton(mHandle, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
+    const glm::dvec2 now(x, y);
+    if (mPointerKnown && (held || mCaptured)) mDrag += now - mPointer;
+    mPointer = now;
+    mPointerKnown = true;
+}
+
+void Window::setCaptured(bool captured) {
+    if (captured == mCaptured) return;
+    mCaptured = captured;
+    mPointerKnown = false;  // the pointer jumps when it is hidden or shown
+    glfwSetInputMode(mHandle, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+}
+
+bool Window::shouldClose() const {
+    return glfwWindowShouldClose(mHandle) != 0;
+}
+
+void Window::setTitle(const std::string& title) {
+    glfwSetWindowTitle(mHandle, title.c_str());
+}
+
+void Window::handleEvents(double seconds) {
+    if (seconds > 0)
+        glfwWaitEventsTimeout(seconds);
+    else
+        glfwPollEvents();
+}
+
+void Window::wake() {
+    glfwPostEmptyEvent();
+}
+
+void Window::swapBuffers() {
+    glfwSwapBuffers(mHandle);
+}
+
+glm::ivec2 Window::framebufferSize() const {
+    glm::ivec2 size(0);
+    if (!minimised()) glfwGetFramebufferSize(mHandle, &size.x, &size.y);
+    return size;
+}
+
+glm::ivec2 Window::framebufferOrigin() const {
+    int x = 0, y = 0, width = 0, height = 0, pixels = 0, rows = 0;
+    glfwGetWindowPos(mHandle, &x, &y);
+    glfwGetWindowSize(mHandle, &width, &height);
+    glfwGetFramebufferSize(mHandle, &pixels, &rows);
+    const double scale = width > 0 ? static_cast<double>(pixels) / width : 1.0;
+    return {static_cast<int>(std::lround(x * scale)), static_cast<int>(std::lround(y * scale))};
+}
+
+float Window::contentScale() const {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(mHandle, &x, &y);
+    return std::max(x, 1.0f);
+}
+
+bool Window::minimised() const {
+    return glfwGetWindowAttrib(mHandle, GLFW_ICONIFIED) != 0;
+}
+
+bool Window::redrawNeeded() {
+    return std::exchange(mRedraw, false);
+}
+
+bool Window::keyDown(int key) const {
+    return glfwGetKey(mHandle, key) == GLFW_PRESS;
+}
+
+std::vector<KeyPress> Window::takeKeys() {
+    return std::exchange(mKeys, {});
+}
+
+double Window::takeWheel() {
+    return std::exchange(mWheel, 0.0);
+}
+
+glm::dvec2 Window::takeDrag() {
+    return std::exchange(mDrag, glm::dvec2(0.0));
+}
+
+Gamepad Window::gamepad() const {
+    Gamepad pad;
+    GLFWgamepadstate state;
+    if (!glfwJoystickIsGamepad(GLFW_JOYSTICK_1) || !glfwGetGamepadState(GLFW_JOYSTICK_1, &state)) return pad;
+    const auto stick = [&](int x, int y) {
+        return glm::dvec2(withoutDeadZone(state.axes[x]), withoutDeadZone(state.axes[y]));
+    };
+    const auto pressed = [&](int button) { return state.buttons[button] == GLFW_PRESS; };
+    pad.present = true;
+    pad.leftStick = stick(GLFW_GAMEPAD_AXIS_LEFT_X, GLFW_GAMEPAD_AXIS_LEFT_Y);
+    pad.rightStick = stick(GLFW_GAMEPAD_AXIS_RIGHT_X, GLFW_GAMEPAD_AXIS_RIGHT_Y);
+    pad.leftTrigger = (state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER] + 1) / 2;
+    pad.rightTrigger = (state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] + 1) / 2;
+    pad.a = pressed(GLFW_GAMEPAD_BUTTON_A);
+    pad.b = pressed(GLFW_GAMEPAD_BUTTON_B);
+    pad.x = pressed(GLFW_GAMEPAD_BUTTON_X);
+    pad.y = pressed(GLFW_GAMEPAD_BUTTON_Y);
+    pad.leftBumper = pressed(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER);
+    pad.rightBumper = pressed(GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER);
+    return pad;
+}
+
+}  // namespace stereonav

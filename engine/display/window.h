@@ -1,0 +1,77 @@
+// A window with an OpenGL 3.3 context and what the user does to it: keys, mouse, wheel, gamepad. One
+// window at a time, all calls from the main thread (GLFW's rule), except wake().
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace stereonav {
+
+// Whether a window with the OpenGL this program needs can be opened here. Opens a hidden one to see,
+// unless no display is named at all. Not while a Window exists.
+bool hasDisplay();
+
+struct KeyPress {
+    int key = 0;      // GLFW_KEY_...: the place on a US keyboard
+    char letter = 0;  // what the user's layout has there without shift, 0 when it is not ASCII
+    bool shift = false;
+    bool repeat = false;  // held down
+};
+
+// Sticks in [-1, 1] (y downwards) with a dead zone taken out; triggers in [0, 1].
+struct Gamepad {
+    bool present = false;
+    glm::dvec2 leftStick{0.0}, rightStick{0.0};
+    double leftTrigger = 0, rightTrigger = 0;
+    bool a = false, b = false, x = false, y = false, leftBumper = false, rightBumper = false;
+};
+
+class Window {
+public:
+    // width, height in screen units, cut to the monitor's free area with their ratio kept. Throws
+    // Error where there is no display or no OpenGL 3.3.
+    Window(const std::string& title, int width, int height, bool visible = true);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    bool shouldClose() const;
+    void setTitle(const std::string& title);
+    // Handles what happened; waits at most `seconds` for something to happen (0: not at all).
+    void handleEvents(double seconds);
+    // Ends a wait of handleEvents early; from any thread.
+    static void wake();
+    void swapBuffers();
+
+    glm::ivec2 framebufferSize() const;    // pixels; 0 x 0 while minimised
+    glm::ivec2 framebufferOrigin() const;  // the top left pixel on the screen
+    float contentScale() const;            // 2 on a display with twice the usual density
+    bool minimised() const;
+    bool redrawNeeded();  // resized or uncovered since the last call
+
+    bool keyDown(int key) const;
+    std::vector<KeyPress> takeKeys();
+    double takeWheel();               // notches, upwards is positive
+    glm::dvec2 takeDrag();            // screen units, x right, y down, while a button is held or captured
+    void setCaptured(bool captured);  // hide the pointer and take all its motion
+    bool captured() const { return mCaptured; }
+    Gamepad gamepad() const;
+
+    GLFWwindow* handle() const { return mHandle; }
+
+private:
+    void open(const std::string& title, int width, int height, bool visible);
+    void installCallbacks();
+    void onPointer(double x, double y);
+
+    GLFWwindow* mHandle = nullptr;
+    std::vector<KeyPress> mKeys;
+    double mWheel = 0;
+    glm::dvec2 mDrag{0.0}, mPointer{0.0};
+    bool mPointerKnown = false, mCaptured = false, mRedraw = true;
+};
+
+}  // namespace stereonav
