@@ -1,0 +1,16 @@
+// The colour of the generated terrain: what grows or lies on the ground by height, slope and water,
+// with the sun's light, cast shadows and the sky's light baked in.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/image/packed_color.h"
+#include "engine/image/plane.h"
+#include "terrain/built_in_relief.h"
+
+namespace stereonav {
+
+// 2 * size texels a side over the relief's extent, row 0 northernmost. Reports the last 40 % of the job.
+Plane<PackedColor> makeBuiltInColor(const Relief& relief, std::uint64_t seed, Progress& progress);
+
+}  // namespace stereonav
