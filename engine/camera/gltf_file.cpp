@@ -1,0 +1,287 @@
+// Reading and checking glTF. tinygltf trusts lengths in places (a BIN chunk may overrun the file by
+// its header), so the frame of a .glb is checked here first, and every accessor before it is read.
+#include "engine/camera/gltf_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = std::numeric_limits<std::uint32_t>::max();  // of a .glb
+
+std::uint32_t wordAt(const std::string& bytes, std::size_t at) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, bytes.data() + at, sizeof word);
+    return word;
+}
+
+// The header, and chunks that end inside the file.
+void checkBinaryFrame(const std::string& bytes, const std::string& name) {
+    const auto cutOff = [&](std::size_t expected) {
+        throw Error(name, "",
+                    fmt::format("expected {} bytes, found {}: it is cut off", expected, bytes.size()),
+                    "copy or export the file again");
+    };
+    if (bytes.size() < 20) cutOff(20);
+    const std::size_t total = wordAt(bytes, 8);
+    if (wordAt(bytes, 4) != 2)
+        throw Error(name, "header", fmt::format("expected glTF version 2, found {}", wordAt(bytes, 4)),
+                    "export it as glTF 2.0");
+    if (bytes.size() < total) cutOff(total);
+    std::size_t at = 12;
+    while (at + 8 <= total) {
+        const std::size_t end = at + 8 + wordAt(bytes, at);
+        if (end > total)
+            throw Error(name, fmt::format("chunk at byte {}", at),
+                        fmt::format("expected it to end by byte {}, it ends at {}", total, end),
+                        "export the file again");
+        at = end;
+    }
+}
+
+void checkExtensions(const GltfFile& file) {
+    static const std::set<std::string> known = {"KHR_materials_unlit", "KHR_lights_punctual"};
+    for (const std::string& extension : file.model.extensionsRequired)
+        if (!known.contains(extension))
+            throw Error(file.name, "extensionsRequired", "needs " + extension + ", which is not supported",
+                        "export it without compression and extensions");
+}
+
+// Keeps the encoded bytes; decoding is left to those who need the picture.
+bool keepImageBytes(tinygltf::Image* image, int index, std::string*, std::string*, int, int,
+                    const unsigned char* bytes, int size, void* user) {
+    auto& kept = *static_cast<std::vector<std::vector<unsigned char>>*>(user);
+    kept.resize(std::max(kept.size(), static_cast<std::size_t>(index) + 1));
+    if (image->bufferView < 0 && size > 0) kept[index].assign(bytes, bytes + size);
+    return true;
+}
+
+double numberAt(const unsigned char* at, int componentType, bool normalized) {
+    const auto read = [&]<typename T>(T value, double scale) {
+        std::memcpy(&value, at, sizeof value);
+        return normalized ? std::max(static_cast<double>(value) / scale, -1.0) : static_cast<double>(value);
+    };
+    switch (componentType) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return read(std::int8_t{}, 127);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return read(std::uint8_t{}, 255);
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return read(std::int16_t{}, 32767);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return read(std::uint16_t{}, 65535);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return read(std::uint32_t{}, 4294967295.0);
+        default: {
+            float value = 0;
+            std::memcpy(&value, at, sizeof value);
+            return value;
+        }
+    }
+}
+
+bool isKnownComponentType(int type) {
+    return type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
+           (type >= TINYGLTF_COMPONENT_TYPE_BYTE && type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT &&
+            type != TINYGLTF_COMPONENT_TYPE_INT);
+}
+
+const tinygltf::Accessor& accessorAt(const GltfFile& file, int index, const std::string& place) {
+    if (index < 0 || static_cast<std::size_t>(index) >= file.model.accessors.size())
+        throw Error(file.name, place,
+                    fmt::format("refers to accessor {}, the file has {}", index, file.model.accessors.size()),
+                    "export the file again");
+    const tinygltf::Accessor& accessor = file.model.accessors[index];
+    if (!isKnownComponentType(accessor.componentType))
+        throw Error(file.name, fmt::format("accessor {}", index),
+                    fmt::format("expected a component type of 5120 to 5126, got {}", accessor.componentType),
+                    "export the file again");
+    if (accessor.sparse.isSparse || accessor.bufferView < 0)
+        throw Error(file.name, fmt::format("accessor {}", index),
+                    "is sparse or compressed, expected plain data", "export it without compression");
+    return accessor;
+}
+
+// Bytes of an accessor from its first element on, once all its elements are known to lie inside.
+std::span<const unsigned char> elementBytes(const GltfFile& file, int index, std::size_t elementSize,
+                                            std::size_t stride) {
+    const tinygltf::Accessor& accessor = file.model.accessors[index];
+    const std::string place = fmt::format("accessor {}", index);
+    const auto bytes = bufferViewBytes(file, accessor.bufferView, place);
+    const bool fits = accessor.byteOffset <= bytes.size() &&
+                      elementSize <= bytes.size() - accessor.byteOffset &&
+                      (accessor.count - 1) <= (bytes.size() - accessor.byteOffset - elementSize) / stride;
+    if (!fits)
+        throw Error(
+            file.name, place,
+            fmt::format("expected {} elements of {} bytes, stride {} from byte {}, inside a buffer view of "
+                        "{} bytes",
+                        accessor.count, elementSize, stride, accessor.byteOffset, bytes.size()),
+            "the file is damaged: export it again");
+    return bytes.subspan(accessor.byteOffset);
+}
+
+void visit(const GltfFile& file, int node, std::vector<int> chain, std::vector<std::vector<int>>& chains) {
+    const auto& nodes = file.model.nodes;
+    if (node < 0 || static_cast<std::size_t>(node) >= nodes.size())
+        throw Error(file.name, "nodes", fmt::format("refers to node {}, the file has {}", node, nodes.size()),
+                    "export the file again");
+    // In a tree no node is met twice, so a longer list than there are nodes is a loop or a shared child.
+    if (chains.size() >= nodes.size() || chain.size() > 1000)
+        throw Error(file.name, fmt::format("node {}", node), "is its own ancestor or has two parents",
+                    "export the file again");
+    chain.push_back(node);
+    chains.push_back(chain);
+    for (const int child : nodes[node].children) visit(file, child, chain, chains);
+}
+
+}  // namespace
+
+GltfFile readGltf(const std::filesystem::path& path) {
+    GltfFile file{path.string(), {}, {}};
+    const std::string bytes = readTextFile(path);
+    if (bytes.empty()) throw Error(file.name, "", "the file is empty", "name a .gltf or .glb file");
+    if (bytes.size() > kMaxFileBytes)
+        throw Error(file.name, "", "is larger than 4 GiB, the limit of glTF", "split it");
+    const bool binary = bytes.starts_with("glTF");
+    if (binary) checkBinaryFrame(bytes, file.name);
+    tinygltf::TinyGLTF loader;
+    loader.SetImageLoader(keepImageBytes, &file.imageBytes);
+    std::string problem, warning;
+    bool loaded = false;
+    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+    const auto size = static_cast<unsigned>(bytes.size());
+    try {
+        loaded =
+            binary ? loader.LoadBinaryFromMemory(&file.model, &problem, &warning,
+                                                 reinterpret_cast<const unsigned char*>(bytes.data()), size,
+                                                 folder)
+                   : loader.LoadASCIIFromString(&file.model, &problem, &warning, bytes.data(), size, folder);
+    } catch (const std::exception& error) {
+        problem = error.what();
+    }
+    if (!loaded) {
+        while (!problem.empty() && std::isspace(static_cast<unsigned char>(problem.back())))
+            problem.pop_back();
+        throw Error(file.name, "", "is not glTF 2.0 that can be read: " + problem,
+                    "check that it is a complete .gltf or .glb file");
+    }
+    checkExtensions(file);
+    file.imageBytes.resize(file.model.images.size());
+    return file;
+}
+
+bool hasGltfExtension(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".gltf" || extension == ".glb";
+}
+
+std::span<const unsigned char> bufferViewBytes(const GltfFile& file, int bufferView,
+                                               const std::string& place) {
+    const auto& model = file.model;
+    const auto damaged = [&](const std::string& problem) {
+        return Error(file.name, place, problem, "the file is damaged: export it again");
+    };
+    if (bufferView < 0 || static_cast<std::size_t>(bufferView) >= model.bufferViews.size())
+        throw damaged(
+            fmt::format("refers to buffer view {}, the file has {}", bufferView, model.bufferViews.size()));
+    const tinygltf::BufferView& view = model.bufferViews[bufferView];
+    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size())
+        throw damaged(fmt::format("refers to buffer {}, the file has {}", view.buffer, model.buffers.size()));
+    const auto& data = model.buffers[view.buffer].data;
+    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
+        throw damaged(fmt::format("expected {} bytes from {} in buffer {}, which has {}", view.byteLength,
+                                  view.byteOffset, view.buffer, data.size()));
+    return std::span(data).subspan(view.byteOffset, view.byteLength);
+}
+
+int accessorComponents(const GltfFile& file, int accessor, const std::string& place) {
+    return tinygltf::GetNumComponentsInType(
+        static_cast<std::uint32_t>(accessorAt(file, accessor, place).type));
+}
+
+std::vector<double> accessorValues(const GltfFile& file, int index, int components,
+                                   const std::string& place) {
+    const tinygltf::Accessor& accessor = accessorAt(file, index, place);
+    const int found = accessorComponents(file, index, place);
+    if (found != components)
+        throw Error(
+            file.name, place,
+            fmt::format("expected {} numbers an element, accessor {} has {}", components, index, found),
+            "export the file again");
+    if (accessor.count == 0) return {};
+    const std::size_t size = static_cast<std::size_t>(
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)));
+    const std::size_t given = file.model.bufferViews.size() > static_cast<std::size_t>(accessor.bufferView)
+                                  ? file.model.bufferViews[accessor.bufferView].byteStride
+                                  : 0;
+    const std::size_t stride = given != 0 ? given : size * components;
+    const auto bytes = elementBytes(file, index, size * components, stride);
+    std::vector<double> values;
+    values.reserve(accessor.count * components);
+    for (std::size_t e = 0; e < accessor.count; ++e)
+        for (int c = 0; c < components; ++c) {
+            const double v =
+                numberAt(&bytes[e * stride + c * size], accessor.componentType, accessor.normalized);
+            if (!std::isfinite(v))
+                throw Error(file.name, place,
+                            fmt::format("element {} of accessor {} is not a finite number", e, index),
+                            "remove NaN and infinite values");
+            values.push_back(v);
+        }
+    return values;
+}
+
+glm::dmat4 NodePlacement::parentFromNode() const {
+    if (hasMatrix) return matrix;
+    glm::dmat4 m = glm::mat4_cast(rotation);
+    for (int k = 0; k < 3; ++k) m[k] *= scale[k];
+    m[3] = glm::dvec4(translation, 1.0);
+    return m;
+}
+
+NodePlacement placementOf(const tinygltf::Node& node) {
+    NodePlacement p;
+    if (node.translation.size() == 3)
+        p.translation = {node.translation[0], node.translation[1], node.translation[2]};
+    if (node.rotation.size() == 4)  // x y z w in the file, w x y z in glm
+        p.rotation = glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+    if (node.scale.size() == 3) p.scale = {node.scale[0], node.scale[1], node.scale[2]};
+    p.hasMatrix = node.matrix.size() == 16;
+    if (p.hasMatrix)
+        for (int k = 0; k < 16; ++k) p.matrix[k / 4][k % 4] = node.matrix[k];
+    return p;
+}
+
+std::vector<std::vector<int>> nodeChains(const GltfFile& file) {
+    const auto& model = file.model;
+    std::vector<int> roots;
+    if (!model.scenes.empty()) {
+        const int scene = std::max(model.defaultScene, 0);
+        if (static_cast<std::size_t>(scene) >= model.scenes.size())
+            throw Error(file.name, "scene", fmt::format("is {}, the file has {}", scene, model.scenes.size()),
+                        "export the file again");
+        roots = model.scenes[scene].nodes;
+    } else {
+        std::set<int> children;
+        for (const auto& node : model.nodes) children.insert(node.children.begin(), node.children.end());
+        for (int n = 0; n < static_cast<int>(model.nodes.size()); ++n)
+            if (!children.contains(n)) roots.push_back(n);
+    }
+    std::vector<std::vector<int>> chains;
+    for (const int root : roots) visit(file, root, {}, chains);
+    return chains;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,78 @@
+// glTF files through tinygltf, which parses the JSON and the chunks and leaves the rest to us: checked
+// access to accessors (strides, normalised integers), node transforms, and writing. Used for camera
+// paths, landmark meshes and the terrain mesh; include it in .cpp files only (tiny_gltf.h is large).
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <filesystem>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stereonav {
+
+// Spaces: glTF is y up, the world z up; both are right-handed and in metres.
+inline glm::dvec3 worldFromGltf(const glm::dvec3& p) {
+    return {p.x, -p.z, p.y};
+}
+inline glm::dvec3 gltfFromWorld(const glm::dvec3& p) {
+    return {p.x, p.z, -p.y};
+}
+
+struct GltfFile {
+    std::string name;  // for messages
+    tinygltf::Model model;
+    // Encoded bytes of images that are files or data URIs of their own; those in a buffer view are
+    // taken with bufferViewBytes().
+    std::vector<std::vector<unsigned char>> imageBytes;
+};
+
+// Reads .glb or .gltf (told apart by content). Throws Error naming the file and what is wrong.
+GltfFile readGltf(const std::filesystem::path& file);
+
+// Whether a name ends like a glTF file's: .gltf or .glb, in any case.
+bool hasGltfExtension(const std::filesystem::path& file);
+
+// Elements of an accessor as numbers, `components` a piece; normalised integers become [0, 1] or
+// [-1, 1]. Throws Error with `place` unless the accessor exists, has that many components, lies
+// inside its buffer, and every value is finite.
+std::vector<double> accessorValues(const GltfFile& file, int accessor, int components,
+                                   const std::string& place);
+// Components of an accessor's elements (3 for VEC3); throws Error when there is no such accessor.
+int accessorComponents(const GltfFile& file, int accessor, const std::string& place);
+
+std::span<const unsigned char> bufferViewBytes(const GltfFile& file, int bufferView,
+                                               const std::string& place);
+
+// Translation, rotation and scale of a node; a matrix is used as it is when given.
+struct NodePlacement {
+    glm::dvec3 translation{0.0};
+    glm::dquat rotation = glm::dquat(1, 0, 0, 0);
+    glm::dvec3 scale{1.0};
+    bool hasMatrix = false;
+    glm::dmat4 matrix{1.0};
+
+    glm::dmat4 parentFromNode() const;
+};
+NodePlacement placementOf(const tinygltf::Node& node);
+
+// The nodes of the default scene (of all roots when there is none), parents before children, each
+// with the indices from its root down to itself. Throws Error on loops and indices out of range.
+std::vector<std::vector<int>> nodeChains(const GltfFile& file);
+
+// Appends data to buffer 0 as a new accessor and returns its index. elements: components * count
+// floats; bounds: write min and max (needed for positions and animation times).
+int addFloats(tinygltf::Model& model, std::span<const float> elements, int components, bool bounds,
+              int target = 0);
+int addIndices(tinygltf::Model& model, std::span<const std::uint32_t> indices);
+// Appends raw bytes to buffer 0 and returns the new buffer view.
+int addBytes(tinygltf::Model& model, std::span<const unsigned char> bytes, int target = 0);
+
+// By extension: .glb binary, .gltf text with the buffers embedded. Written beside and renamed.
+void writeGltf(const std::filesystem::path& file, const tinygltf::Model& model);
+
+}  // namespace stereonav

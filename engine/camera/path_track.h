@@ -1,0 +1,26 @@
+// One animation channel of a glTF file: keyframes of a translation, rotation or scale, checked.
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "engine/camera/gltf_file.h"
+
+namespace stereonav {
+
+enum class Interpolation { Linear, Step, CubicSpline };
+
+struct PathTrack {
+    Interpolation interpolation = Interpolation::Linear;
+    bool isRotation = false;
+    std::vector<double> times;       // seconds, strictly increasing
+    std::vector<glm::dvec4> values;  // one a time, xyzw; CubicSpline: in-tangent, value, out-tangent
+
+    // Clamped to the ends. left: at a keyframe, the limit from earlier times.
+    glm::dvec4 at(double time, bool left) const;
+};
+
+// Throws Error naming animation, channel and keyframe.
+PathTrack readPathTrack(const GltfFile& file, int animation, int channel);
+
+}  // namespace stereonav
