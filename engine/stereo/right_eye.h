@@ -38,6 +38,8 @@ struct WarpSetting {
     RightEyeMethod method = kDefaultRightEyeMethod;
     // Inverse methods: a pixel between survivors further apart than this many right pixels is a hole.
     float maxStretch = 1.1f;
+    // ... and one between survivors nearer to each other than this: a fold, or a silhouette.
+    float minStretch = 0.6f;
     // Paper: a pixel whose accumulated splat weight is below this share of full cover is a hole.
     float weightThreshold = 0.5f;
     Schedule warpSchedule = Schedule::Dynamic;

@@ -1,0 +1,280 @@
+// The pipeline of the right eye: rows warped in bands, region V, colours shaded again where they depend
+// on the view, holes cast.
+#include "engine/stereo/right_eye.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/stopwatch.h"
+#include "engine/stereo/border_occluders.h"
+#include "engine/stereo/hole_fill.h"
+#include "engine/stereo/packed_resample.h"
+#include "engine/stereo/paint_row.h"
+#include "engine/stereo/row_kernels.h"
+#include "engine/stereo/splat_row.h"
+#include "engine/stereo/work_queue.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kRowsOfTask = 8;  // rows of a warp task: some ten microseconds
+
+struct Scratch {
+    std::vector<float> column, inverse, accumulators;
+    std::vector<std::int32_t> source;
+    std::vector<std::uint16_t> survivors, links;
+
+    void resize(int width, bool splats) {
+        const std::size_t size = static_cast<std::size_t>(width) + kRowPadding;
+        column.resize(size);
+        inverse.resize(size);
+        source.resize(size);
+        survivors.resize(size);
+        links.resize(size);
+        if (splats) accumulators.resize(static_cast<std::size_t>(splatScratchSize(width)));
+    }
+};
+
+bool isInverse(RightEyeMethod method) {
+    return method == RightEyeMethod::Linear || method == RightEyeMethod::Cubic ||
+           method == RightEyeMethod::NoFill;
+}
+
+struct WarpJob {
+    const StereoViews& views;
+    const EyeImage& left;
+    const WarpSetting& setting;
+    EyeImage& right;
+    Plane<std::uint8_t>& mask;
+    bool viewDependent;
+
+    int width() const { return left.width(); }
+    float shift() const { return static_cast<float>(views.shiftAtInfinity); }
+    float scale() const { return static_cast<float>(views.parallaxScale); }
+};
+
+ResampleRow resampleRowOf(const WarpJob& job, Scratch& scratch, int y) {
+    ResampleRow row{};
+    row.leftColor = job.left.color.row(y);
+    row.leftDepth = job.left.viewDepth.row(y);
+    row.color = job.right.color.row(y);
+    row.depth = job.right.viewDepth.row(y);
+    row.holes = job.mask.row(y);
+    row.width = job.width();
+    row.stride = job.left.color.stride();
+    row.shift = job.shift();
+    row.scale = job.scale();
+    row.minStretch = job.setting.minStretch;
+    row.maxStretch = job.setting.maxStretch;
+    row.reach = 1;
+    row.cubic = job.setting.method != RightEyeMethod::Linear;
+    row.column = scratch.column.data();
+    row.inverse = scratch.inverse.data();
+    row.source = scratch.source.data();
+    row.survivors = scratch.survivors.data();
+    row.links = scratch.links.data();
+    return row;
+}
+
+SplatRow splatRowOf(const WarpJob& job, Scratch& scratch, int y) {
+    return {job.left.color.row(y),
+            job.left.viewDepth.row(y),
+            job.right.color.row(y),
+            job.right.viewDepth.row(y),
+            job.mask.row(y),
+            job.width(),
+            job.shift(),
+            job.scale(),
+            job.setting.weightThreshold,
+            scratch.accumulators.data(),
+            scratch.source.data()};
+}
+
+PaintRow paintRowOf(const WarpJob& job, Scratch& scratch, int y) {
+    return {job.left.color.row(y),
+            job.left.viewDepth.row(y),
+            job.right.color.row(y),
+            job.right.viewDepth.row(y),
+            job.mask.row(y),
+            job.width(),
+            job.shift(),
+            job.scale(),
+            scratch.source.data()};
+}
+
+// What shading again needs: base colour between the two linked pixels (or of the nearest one), and the
+// normal of the nearer end.
+void warpSurface(const WarpJob& job, const Scratch& scratch, int y) {
+    const PackedColor* leftBase = job.left.baseColor.row(y);
+    const std::uint32_t* leftNormal = job.left.normal.row(y);
+    PackedColor* base = job.right.baseColor.row(y);
+    std::uint32_t* normal = job.right.normal.row(y);
+    const std::uint8_t* holes = job.mask.row(y);
+    const bool between = isInverse(job.setting.method);
+    for (int p = 0; p < job.width(); ++p) {
+        const int s = scratch.source[p];
+        if (holes[p] || s < 0) {
+            base[p] = normal[p] = 0;
+        } else if (between) {
+            const float t = ((static_cast<float>(p) + 0.5f) - scratch.column[s]) * scratch.inverse[s];
+            base[p] = lerpPacked(leftBase[s], leftBase[s + 1], t);
+            normal[p] = leftNormal[t < 0.5f ? s : s + 1];
+        } else {
+            base[p] = leftBase[s];
+            normal[p] = leftNormal[s];
+        }
+    }
+}
+
+// Runs of warped surface; holes are cast for the right eye anyway, sky has no surface.
+void shadeRowAgain(const EyeRenderer& renderer, const WarpJob& job, int y) {
+    const float* depth = job.right.viewDepth.row(y);
+    const std::uint8_t* holes = job.mask.row(y);
+    const auto surface = [&](int x) { return !holes[x] && depth[x] < kMissDepth; };
+    for (int x = 0; x < job.width();) {
+        if (!surface(x)) {
+            ++x;
+            continue;
+        }
+        int end = x + 1;
+        while (end < job.width() && surface(end)) ++end;
+        renderer.shadeAgain(job.views.right, y, x, end, job.right);
+        x = end;
+    }
+}
+
+void warpRow(const WarpJob& job, ResampleFunction resample, Scratch& scratch, int y) {
+    switch (job.setting.method) {
+        case RightEyeMethod::Paper:
+            splatRow(splatRowOf(job, scratch, y));
+            break;
+        case RightEyeMethod::McMillan:
+            paintRow(paintRowOf(job, scratch, y));
+            break;
+        default:
+            resample(resampleRowOf(job, scratch, y));
+            break;
+    }
+}
+
+void checkSizes(const StereoViews& views, const EyeImage& left) {
+    const EyeView& view = views.right;
+    if (left.width() != view.width || left.height() != view.height || left.width() < 1 ||
+        left.viewDepth.width() != left.width() || left.viewDepth.height() != left.height())
+        throw Error("", "left eye",
+                    fmt::format("expected an image of {}x{} pixels, the size of the views, got {}x{}",
+                                view.width, view.height, left.width(), left.height()),
+                    "cast the left eye with the same views");
+}
+
+void copyPlane(const Plane<std::uint32_t>& from, Plane<std::uint32_t>& to) {
+    if (!from.empty()) std::memcpy(to.row(0), from.row(0), from.byteCount());
+}
+
+void fillMask(Plane<std::uint8_t>& mask, int value) {
+    if (!mask.empty()) std::memset(mask.row(0), value, mask.byteCount());
+}
+
+}  // namespace
+
+struct RightEye::State {
+    Plane<std::uint8_t> mask;
+    std::vector<Scratch> scratch;  // one for each worker
+    HoleFill holeFill;
+    ResampleFunction resample = fastestResampler();
+
+    void resize(int width, int height, bool splats) {
+        mask.resize(width, height);
+        scratch.resize(static_cast<std::size_t>(threadCount()));
+        for (Scratch& s : scratch) s.resize(width, splats);
+    }
+
+    void warp(const EyeRenderer& renderer, const WarpJob& job);
+    void copy(const WarpJob& job);
+};
+
+void RightEye::State::warp(const EyeRenderer& renderer, const WarpJob& job) {
+    const int height = job.left.height();
+    const int tasks = (height + kRowsOfTask - 1) / kRowsOfTask;
+    forEachPiece(tasks, job.setting.warpSchedule, [&](int worker, int task) {
+        const int end = std::min(height, (task + 1) * kRowsOfTask);
+        for (int y = task * kRowsOfTask; y < end; ++y) {
+            warpRow(job, resample, scratch[worker], y);
+            if (!job.viewDependent) continue;
+            warpSurface(job, scratch[worker], y);
+            shadeRowAgain(renderer, job, y);
+        }
+    });
+    if (job.setting.method != RightEyeMethod::McMillan)
+        markBorderOccluders(renderer, job.views, mask, job.right);
+}
+
+// Without parallax the right eye is the left one.
+void RightEye::State::copy(const WarpJob& job) {
+    copyPlane(job.left.color, job.right.color);
+    std::memcpy(job.right.viewDepth.row(0), job.left.viewDepth.row(0), job.left.viewDepth.byteCount());
+    if (job.viewDependent) {
+        copyPlane(job.left.baseColor, job.right.baseColor);
+        copyPlane(job.left.normal, job.right.normal);
+    }
+    fillMask(mask, 0);
+}
+
+RightEye::RightEye() : mState(std::make_unique<State>()) {}
+RightEye::~RightEye() = default;
+RightEye::RightEye(RightEye&&) noexcept = default;
+RightEye& RightEye::operator=(RightEye&&) noexcept = default;
+
+RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews& views, const EyeImage& left,
+                                 const WarpSetting& setting, EyeImage& right) {
+    checkSizes(views, left);
+    const int width = left.width(), height = left.height();
+    const bool viewDependent = renderer.viewDependent() && !left.baseColor.empty();
+    right.resize(width, height, viewDependent);
+    mState->resize(width, height, setting.method == RightEyeMethod::Paper);
+    const WarpJob job{views, left, setting, right, mState->mask, viewDependent};
+
+    RightEyeTimings timings;
+    Stopwatch watch;
+    if (setting.method == RightEyeMethod::Full) {
+        fillMask(mState->mask, 255);
+        watch.lap_ms();
+        renderEye(renderer, views.right, right);
+        timings.fill_ms = watch.lap_ms();
+        timings.holePixels = static_cast<long long>(width) * height;
+        return timings;
+    }
+    if (views.parallaxScale == 0)
+        mState->copy(job);
+    else
+        mState->warp(renderer, job);
+    timings.warp_ms = watch.lap_ms();
+    if (setting.method == RightEyeMethod::McMillan || setting.method == RightEyeMethod::NoFill)
+        return timings;
+    timings.holePixels =
+        mState->holeFill.fill(renderer, views.right, mState->mask, setting.fillSchedule, right);
+    timings.fill_ms = watch.lap_ms();
+    return timings;
+}
+
+const Plane<std::uint8_t>& RightEye::holeMask() const {
+    return mState->mask;
+}
+
+std::optional<RightEyeMethod> rightEyeMethodFromName(std::string_view name) {
+    for (const NamedMethod& named : kRightEyeMethods)
+        if (named.name == name) return named.method;
+    return std::nullopt;
+}
+
+std::string_view nameOf(RightEyeMethod method) {
+    for (const NamedMethod& named : kRightEyeMethods)
+        if (named.method == method) return named.name;
+    return "";
+}
+
+}  // namespace stereonav

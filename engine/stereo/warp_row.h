@@ -1,0 +1,69 @@
+// One row of the warp from the left to the right eye, as plain pointers: what the vector kernels and
+// the scalar oracle share. Light on purpose: the kernels are compiled once for each instruction set.
+// A left pixel i of view depth z lies at column r = (i + 0.5) + (shift - scale / z) of the right row.
+#pragma once
+
+#include <cstdint>
+
+namespace stereonav {
+
+// Elements that scratch rows hold beyond the width: vector code reads and writes whole registers.
+constexpr int kRowPadding = 64;
+
+// Inverse one-dimensional resampling. Of the left pixels, those survive that lie strictly left of all
+// pixels to their right (Wan et al. 2004, section 2.4); their columns increase. A link joins survivors
+// i and i + 1 when they are minStretch to maxStretch right pixels apart. A right pixel is warped when
+// its centre falls between the ends of a link whose `reach` neighbouring links on both sides hold too;
+// else it is a hole.
+struct ResampleRow {
+    const std::uint32_t* leftColor;
+    const float* leftDepth;  // metres > 0; infinity: sky
+    std::uint32_t* color;    // 0 in a hole
+    float* depth;            // metres, the nearer of the two linked pixels; 0 in a hole
+    std::uint8_t* holes;     // 255 in a hole, 0 elsewhere
+    int width, stride;       // pixels, width >= 1; every row may be read up to the stride (>= 32)
+    float shift, scale;      // pixels, pixels * metres
+    float minStretch, maxStretch;
+    int reach;   // 0 or 1
+    bool cubic;  // four taps (Catmull-Rom; needs reach 1), else two
+
+    // Scratch, width + kRowPadding elements each. Afterwards, for a warped right pixel p:
+    // s = source[p] is the link's left end, ((p + 0.5) - column[s]) * inverse[s] the place in it.
+    float* column;
+    float* inverse;
+    std::int32_t* source;
+    std::uint16_t* survivors;  // flags of left pixels; their layout is the kernel's own
+    std::uint16_t* links;      // the same
+};
+
+using ResampleFunction = void (*)(const ResampleRow&);
+
+// Splats of the paper (section 2.5): two pixels wide, eight subpixels a pixel, Gaussian, blended front
+// to back along a supersampled scanline; pixels of too little weight are holes. Sky is not reprojected.
+struct SplatRow {
+    const std::uint32_t* leftColor;
+    const float* leftDepth;
+    std::uint32_t* color;
+    float* depth;  // metres, the nearest of the splats that reach the pixel; 0 in a hole
+    std::uint8_t* holes;
+    int width;
+    float shift, scale;
+    float weightThreshold;  // share of full cover
+
+    float* accumulators;   // scratch, splatScratchSize(width)
+    std::int32_t* source;  // scratch, width; afterwards the left pixel nearest to a warped pixel
+};
+
+// McMillan's forward warp: back to front, each left pixel painted over what lies behind it.
+struct PaintRow {
+    const std::uint32_t* leftColor;
+    const float* leftDepth;
+    std::uint32_t* color;
+    float* depth;
+    std::uint8_t* holes;
+    int width;
+    float shift, scale;
+    std::int32_t* source;  // as above
+};
+
+}  // namespace stereonav

@@ -1,0 +1,338 @@
+// The row warps: vector kernels against the scalar oracle bit for bit, the hidden-pixel rule against a
+// depth buffer, the three kinds of gap, the fixed-point arithmetic.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "engine/image/plane.h"
+#include "engine/stereo/packed_resample.h"
+#include "engine/stereo/paint_row.h"
+#include "engine/stereo/row_kernels.h"
+#include "engine/stereo/splat_row.h"
+#include "engine/stereo/warp_oracle.h"
+
+namespace stereonav {
+namespace {
+
+constexpr float kSky = std::numeric_limits<float>::infinity();
+
+std::uint32_t gray(int level) {
+    return static_cast<std::uint32_t>(level) * 0x00100401u;
+}
+
+// Everything a row needs, owned.
+struct RowBuffers {
+    explicit RowBuffers(int w)
+        : width(w), leftColor(w, 1), color(w, 1), leftDepth(w, 1), depth(w, 1), holes(w, 1) {
+        for (auto* floats : {&column, &inverse}) floats->assign(w + kRowPadding, 0.0f);
+        source.assign(w + kRowPadding, 0);
+        survivors.assign(w + kRowPadding, 0);
+        links.assign(w + kRowPadding, 0);
+        accumulators.assign(splatScratchSize(w), 0.0f);
+    }
+    ResampleRow resample(float shift, float scale, bool cubic, int reach = 1, float minStretch = 0.5f,
+                         float maxStretch = 1.1f) {
+        return {leftColor.row(0),
+                leftDepth.row(0),
+                color.row(0),
+                depth.row(0),
+                holes.row(0),
+                width,
+                leftColor.stride(),
+                shift,
+                scale,
+                minStretch,
+                maxStretch,
+                reach,
+                cubic,
+                column.data(),
+                inverse.data(),
+                source.data(),
+                survivors.data(),
+                links.data()};
+    }
+    SplatRow splat(float shift, float scale, float threshold = 0.5f) {
+        return {leftColor.row(0),
+                leftDepth.row(0),
+                color.row(0),
+                depth.row(0),
+                holes.row(0),
+                width,
+                shift,
+                scale,
+                threshold,
+                accumulators.data(),
+                source.data()};
+    }
+    PaintRow paint(float shift, float scale) {
+        return {
+            leftColor.row(0), leftDepth.row(0), color.row(0), depth.row(0), holes.row(0), width, shift, scale,
+            source.data()};
+    }
+    bool hole(int p) const { return holes.at(p, 0) != 0; }
+
+    int width;
+    Plane<std::uint32_t> leftColor, color;
+    Plane<float> leftDepth, depth;
+    Plane<std::uint8_t> holes;
+    std::vector<float> column, inverse, accumulators;
+    std::vector<std::int32_t> source;
+    std::vector<std::uint16_t> survivors, links;
+};
+
+// Smooth ground with jumps, spikes and sky.
+void fillRandomly(RowBuffers& row, std::mt19937& random, double skyShare) {
+    std::uniform_real_distribution<double> unit(0, 1);
+    double depth = 5 + 20 * unit(random), slope = 0;
+    bool sky = false;
+    for (int i = 0; i < row.width; ++i) {
+        if (unit(random) < 0.03) depth = 2 + 60 * unit(random) * unit(random);
+        if (unit(random) < 0.05) slope = 0.1 * (unit(random) - 0.5);
+        if (unit(random) < 0.04) sky = unit(random) < skyShare;
+        depth = std::max(1.0, depth * (1 + slope * 0.1));
+        const bool spike = unit(random) < 0.01;
+        row.leftDepth.at(i, 0) = sky ? kSky : static_cast<float>(spike ? 1.0 : depth);
+        row.leftColor.at(i, 0) = static_cast<std::uint32_t>(random()) & 0x3fffffffu;
+    }
+}
+
+struct KernelCase {
+    int width;
+    float shift, scale;
+    double skyShare;
+};
+
+std::vector<KernelCase> kernelCases() {
+    std::vector<KernelCase> cases;
+    for (const int width : {1, 2, 3, 15, 16, 17, 31, 33, 48, 130, 500, 1000, 1283})
+        for (const float scale : {0.0f, 1e-6f, 1.0f, 40.0f, 400.0f, 1e4f, 1e9f})
+            for (const double sky : {0.0, 0.5, 1.0}) cases.push_back({width, scale / 20, scale, sky});
+    return cases;
+}
+
+void expectSameRow(const RowBuffers& expected, const RowBuffers& actual, const std::string& what) {
+    for (int p = 0; p < expected.width; ++p) {
+        ASSERT_EQ(expected.holes.at(p, 0), actual.holes.at(p, 0)) << what << " pixel " << p;
+        ASSERT_EQ(expected.color.at(p, 0), actual.color.at(p, 0)) << what << " pixel " << p;
+        ASSERT_EQ(expected.depth.at(p, 0), actual.depth.at(p, 0)) << what << " pixel " << p;
+        ASSERT_EQ(expected.source[p], actual.source[p]) << what << " pixel " << p;
+        if (!expected.hole(p)) {
+            const int s = expected.source[p];
+            ASSERT_EQ(expected.column[s], actual.column[s]) << what << " pixel " << p;
+            ASSERT_EQ(expected.inverse[s], actual.inverse[s]) << what << " pixel " << p;
+        }
+    }
+}
+
+void compareWithOracle(const NamedResampler& kernel) {
+    if (!kernel.supported) GTEST_SKIP() << "this processor has no " << kernel.name;
+    std::mt19937 random(1);
+    long long warped = 0, holes = 0;
+    for (const KernelCase& c : kernelCases())
+        for (int mode = 0; mode < 6; ++mode) {
+            const bool cubic = mode % 2 == 1;
+            const int reach = cubic ? 1 : mode / 2 % 2;
+            RowBuffers oracle(c.width);
+            fillRandomly(oracle, random, c.skyShare);
+            RowBuffers actual = oracle;
+            resampleRowOracle(oracle.resample(c.shift, c.scale, cubic, reach));
+            kernel.function(actual.resample(c.shift, c.scale, cubic, reach));
+            for (int p = 0; p < c.width; ++p) ++(oracle.hole(p) ? holes : warped);
+            expectSameRow(oracle, actual,
+                          "width " + std::to_string(c.width) + " scale " + std::to_string(c.scale));
+            if (testing::Test::HasFatalFailure()) return;
+        }
+    EXPECT_GT(warped, 50000);
+    EXPECT_GT(holes, 50000);
+}
+
+TEST(ResampleKernels, plainGivesTheBitsOfTheOracle) {
+    compareWithOracle(resamplers().plain);
+}
+TEST(ResampleKernels, avx2GivesTheBitsOfTheOracle) {
+    compareWithOracle(resamplers().avx2);
+}
+TEST(ResampleKernels, avx512GivesTheBitsOfTheOracle) {
+    compareWithOracle(resamplers().avx512);
+}
+
+TEST(PackedResample, interpolatesWithinHalfALevelOfTheExactValue) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int n = 0; n < 20000; ++n) {
+        std::uint32_t taps[4];
+        for (auto& tap : taps) tap = static_cast<std::uint32_t>(random()) & 0x3fffffffu;
+        const float t = unit(random);
+        const double d = t;
+        const double w[4] = {((-0.5 * d + 1) * d - 0.5) * d, (1.5 * d - 2.5) * d * d + 1,
+                             ((-1.5 * d + 2) * d + 0.5) * d, (0.5 * d - 0.5) * d * d};
+        const std::uint32_t cubic = cubicPacked(taps, t), linear = lerpPacked(taps[1], taps[2], t);
+        for (int shift = 0; shift < 30; shift += 10) {
+            double exact = 0;
+            for (int k = 0; k < 4; ++k) exact += w[k] * (taps[k] >> shift & 1023u);
+            const double between = (1 - d) * (taps[1] >> shift & 1023u) + d * (taps[2] >> shift & 1023u);
+            ASSERT_NEAR(cubic >> shift & 1023u, std::clamp(exact, 0.0, 1023.0), 0.75) << "t " << t;
+            ASSERT_NEAR(linear >> shift & 1023u, between, 0.6) << "t " << t;
+        }
+    }
+}
+
+TEST(PackedResample, keepsTheEndsExactly) {
+    std::mt19937 random(3);
+    for (int n = 0; n < 2000; ++n) {
+        std::uint32_t taps[4];
+        for (auto& tap : taps) tap = static_cast<std::uint32_t>(random()) & 0x3fffffffu;
+        ASSERT_EQ(cubicPacked(taps, 0), taps[1]);
+        ASSERT_EQ(cubicPacked(taps, 1), taps[2]);
+        ASSERT_EQ(lerpPacked(taps[1], taps[2], 0), taps[1]);
+        ASSERT_EQ(lerpPacked(taps[1], taps[2], 1), taps[2]);
+    }
+}
+
+// Draws every left pixel as a segment one pixel wide into a finely sampled right row with a depth
+// buffer: who is visible where. A warped pixel must show the surface that wins there.
+TEST(HiddenPixels, survivorsAreWhatADepthBufferShows) {
+    std::mt19937 random(4);
+    int checked = 0;
+    for (int n = 0; n < 200; ++n) {
+        RowBuffers row(300);
+        const float scale = 60, shift = 6;
+        // Two surfaces of constant depth each: a far one and near blocks before it.
+        std::uniform_int_distribution<int> length(8, 60);
+        bool near = false;
+        for (int i = 0; i < row.width;) {
+            const int end = std::min(row.width, i + length(random));
+            for (; i < end; ++i) {
+                row.leftDepth.at(i, 0) = near ? 4.0f : 20.0f;
+                row.leftColor.at(i, 0) = near ? gray(1000) : gray(100);
+            }
+            near = !near;
+        }
+        resampleRowOracle(row.resample(shift, scale, true));
+        const float nearMove = shift - scale / 4, farMove = shift - scale / 20;
+        for (int p = 0; p < row.width; ++p) {
+            if (row.hole(p)) continue;
+            const auto nearAt = [&](float x) {  // is the near surface seen by the right eye at x?
+                const int i = static_cast<int>(std::floor(x - nearMove));
+                return i >= 0 && i < row.width && row.leftDepth.at(i, 0) == 4.0f;
+            };
+            const float centre = static_cast<float>(p) + 0.5f;
+            if (nearAt(centre - 1) != nearAt(centre + 1)) continue;  // at a silhouette either is right
+            const float expected = nearAt(centre) ? 4.0f : 20.0f;
+            ASSERT_EQ(row.depth.at(p, 0), expected) << "row " << n << " pixel " << p;
+            ASSERT_EQ(row.color.at(p, 0), nearAt(centre) ? gray(1000) : gray(100));
+            if (expected == 20.0f) {
+                const int i = static_cast<int>(std::floor(centre - farMove));
+                ASSERT_TRUE(i >= 0 && i < row.width) << "the far surface was outside the left eye";
+            }
+            ++checked;
+        }
+    }
+    EXPECT_GT(checked, 20000);
+}
+
+// A near block before a far wall, as drawn by each method. Far moves by +1, near by -4.
+RowBuffers blockRow() {
+    RowBuffers row(60);
+    for (int i = 0; i < row.width; ++i) {
+        const bool near = i >= 20 && i < 35;
+        row.leftDepth.at(i, 0) = near ? 10.0f : 60.0f;
+        row.leftColor.at(i, 0) = near ? gray(900) : gray(200);
+    }
+    return row;
+}
+constexpr float kBlockScale = 60, kBlockShift = 2;
+
+void expectThreeGaps(const RowBuffers& row) {
+    // left-end gap: the far wall begins at column 1; the near block lies at 16 .. 31, so that pixels
+    // 31 .. 35 open behind it; the right end is covered.
+    EXPECT_TRUE(row.hole(0));
+    for (int p = 4; p < 14; ++p) EXPECT_FALSE(row.hole(p)) << p;
+    for (int p = 18; p < 29; ++p) EXPECT_FALSE(row.hole(p)) << p;
+    for (int p = 32; p < 35; ++p) EXPECT_TRUE(row.hole(p)) << p;
+    for (int p = 39; p < 57; ++p) EXPECT_FALSE(row.hole(p)) << p;
+}
+
+TEST(Gaps, inverseMethodsLeaveTheLeftEndAndTheMiddle) {
+    RowBuffers row = blockRow();
+    resampleRowOracle(row.resample(kBlockShift, kBlockScale, true));
+    expectThreeGaps(row);
+    for (int p = 4; p < 14; ++p) EXPECT_EQ(row.color.at(p, 0), gray(200));
+    for (int p = 18; p < 29; ++p) EXPECT_EQ(row.color.at(p, 0), gray(900));
+}
+
+TEST(Gaps, splatsLeaveTheLeftEndAndTheMiddle) {
+    RowBuffers row = blockRow();
+    splatRow(row.splat(kBlockShift, kBlockScale));
+    expectThreeGaps(row);
+    for (int p = 4; p < 14; ++p) EXPECT_EQ(row.color.at(p, 0), gray(200));
+    for (int p = 18; p < 29; ++p) EXPECT_EQ(row.color.at(p, 0), gray(900));
+}
+
+TEST(Gaps, theRightEndOpensWhenEverythingMovesLeft) {
+    for (const bool splats : {false, true}) {
+        RowBuffers row(40);
+        for (int i = 0; i < row.width; ++i) {
+            row.leftDepth.at(i, 0) = 10.0f;
+            row.leftColor.at(i, 0) = gray(500);
+        }
+        if (splats)
+            splatRow(row.splat(0, 60));  // six pixels to the left
+        else
+            resampleRowOracle(row.resample(0, 60, true));
+        for (int p = 1; p < 30; ++p) EXPECT_FALSE(row.hole(p)) << splats << " " << p;
+        for (int p = 35; p < 40; ++p) EXPECT_TRUE(row.hole(p)) << splats << " " << p;
+    }
+}
+
+TEST(Splats, skyIsNotReprojected) {
+    RowBuffers row(40);
+    for (int i = 0; i < row.width; ++i) {
+        row.leftDepth.at(i, 0) = i < 20 ? kSky : 30.0f;
+        row.leftColor.at(i, 0) = gray(300);
+    }
+    splatRow(row.splat(2, 60));
+    for (int p = 0; p < 18; ++p) EXPECT_TRUE(row.hole(p)) << p;
+    for (int p = 21; p < 39; ++p) EXPECT_FALSE(row.hole(p)) << p;
+}
+
+TEST(Splats, stretchedBeyondTheThresholdIsAHole) {
+    // A steep surface: neighbouring left pixels land five right pixels apart.
+    RowBuffers row(64);
+    for (int i = 0; i < row.width; ++i) {
+        const float wanted = 5 * (static_cast<float>(i) - 32) + 32;  // right column
+        row.leftDepth.at(i, 0) = 1000 / (static_cast<float>(i) + 200 - wanted);
+        row.leftColor.at(i, 0) = gray(700);
+    }
+    splatRow(row.splat(200 - 0.5f, 1000));
+    int holes = 0, covered = 0;
+    for (int p = 10; p < 54; ++p) {
+        if (row.hole(p)) {
+            ++holes;
+        } else {
+            ++covered;
+            ASSERT_EQ(row.color.at(p, 0), gray(700));
+        }
+    }
+    EXPECT_GT(holes, covered);
+    EXPECT_GT(covered, 4);
+}
+
+TEST(Splats, blendFrontToBack) {
+    // Left pixel 11 lands on 8, before the far pixels 7, 8, 9: its colour must dominate there.
+    RowBuffers row(24);
+    for (int i = 0; i < row.width; ++i) {
+        row.leftDepth.at(i, 0) = i >= 11 && i < 15 ? 10.0f : 1e6f;
+        row.leftColor.at(i, 0) = i >= 11 && i < 15 ? gray(1000) : gray(0);
+    }
+    splatRow(row.splat(0, 30));
+    for (int p = 9; p < 11; ++p) EXPECT_GT(row.color.at(p, 0) & 1023u, 970u) << p;
+    EXPECT_LT(row.color.at(6, 0) & 1023u, 30u);
+}
+
+}  // namespace
+}  // namespace stereonav

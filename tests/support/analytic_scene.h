@@ -1,0 +1,190 @@
+// Scenes whose rays have closed answers: planes, spheres and boxes with a smooth pattern, over a sky.
+// One pixel at a time and without any shortcut, so they can serve as the truth for the warp.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/glm.hpp>
+#include <limits>
+#include <vector>
+
+#include "engine/camera/stereo_rig.h"
+#include "engine/render/eye_renderer.h"
+
+namespace stereonav::test {
+
+struct SurfacePoint {
+    double depth = std::numeric_limits<double>::infinity();  // ray parameter: the view depth
+    glm::dvec3 point{0.0}, normal{0.0};
+    int shape = -1;
+};
+
+using Shape = std::function<SurfacePoint(const glm::dvec3& origin, const glm::dvec3& direction)>;
+
+inline Shape plane(const glm::dvec3& point, const glm::dvec3& normal) {
+    return [=](const glm::dvec3& origin, const glm::dvec3& direction) {
+        SurfacePoint hit;
+        const double slope = glm::dot(direction, normal);
+        const double t = glm::dot(point - origin, normal) / slope;
+        if (slope != 0 && t > 0) hit = {t, origin + t * direction, glm::normalize(normal), 0};
+        return hit;
+    };
+}
+
+inline Shape sphere(const glm::dvec3& centre, double radius) {
+    return [=](const glm::dvec3& origin, const glm::dvec3& direction) {
+        SurfacePoint hit;
+        const glm::dvec3 o = origin - centre;
+        const double a = glm::dot(direction, direction), b = glm::dot(o, direction);
+        const double root = b * b - a * (glm::dot(o, o) - radius * radius);
+        const double t = (-b - std::sqrt(std::max(root, 0.0))) / a;
+        if (root >= 0 && t > 0)
+            hit = {t, origin + t * direction, (origin + t * direction - centre) / radius, 0};
+        return hit;
+    };
+}
+
+// Axes of the world; slabs.
+inline Shape box(const glm::dvec3& low, const glm::dvec3& high) {
+    return [=](const glm::dvec3& origin, const glm::dvec3& direction) {
+        SurfacePoint hit;
+        double enter = 0, leave = std::numeric_limits<double>::infinity();
+        glm::dvec3 normal(0.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (direction[axis] == 0) {
+                if (origin[axis] < low[axis] || origin[axis] > high[axis]) return hit;
+                continue;
+            }
+            double t0 = (low[axis] - origin[axis]) / direction[axis];
+            double t1 = (high[axis] - origin[axis]) / direction[axis];
+            if (t0 > t1) std::swap(t0, t1);
+            if (t0 > enter) {
+                enter = t0;
+                normal = glm::dvec3(0.0);
+                normal[axis] = direction[axis] > 0 ? -1 : 1;
+            }
+            leave = std::min(leave, t1);
+        }
+        if (enter > 0 && enter <= leave) hit = {enter, origin + enter * direction, normal, 0};
+        return hit;
+    };
+}
+
+class AnalyticScene : public EyeRenderer {
+public:
+    explicit AnalyticScene(std::vector<Shape> shapes, double waves = 0.5, bool glossy = false)
+        : mShapes(std::move(shapes)), mWaves(waves), mGlossy(glossy) {}
+
+    SurfacePoint cast(const EyeView& view, double x, double y) const {
+        const glm::dvec3 direction = view.rayDirection(x, y);
+        SurfacePoint nearest;
+        for (std::size_t i = 0; i < mShapes.size(); ++i) {
+            SurfacePoint hit = mShapes[i](view.eye, direction);
+            hit.shape = static_cast<int>(i);
+            if (hit.depth >= view.nearDepth && hit.depth < nearest.depth) nearest = hit;
+        }
+        return nearest;
+    }
+
+    // A smooth pattern of the place, another hue for each shape; the sky depends on the direction.
+    glm::dvec3 baseColor(const EyeView& view, double x, double y, const SurfacePoint& hit) const {
+        if (hit.shape < 0) {
+            const glm::dvec3 d = glm::normalize(view.rayDirection(x, y));
+            return 0.4 + 0.3 * glm::sin(glm::dvec3(3 * d.x, 4 * d.y, 5 * d.x + d.z));
+        }
+        const glm::dvec3 p = hit.point * mWaves;
+        const double hue = hit.shape * 1.3;
+        return 0.35 + 0.25 * glm::sin(glm::dvec3(p.x + hue, p.y + 2 * hue + p.z, p.x - p.z + 3 * hue));
+    }
+
+    // A highlight that moves with the eye: cubed cosine between normal and view.
+    static glm::dvec3 gloss(const EyeView& view, const glm::dvec3& point, const glm::dvec3& normal) {
+        const double cosine = glm::dot(glm::normalize(view.eye - point), normal);
+        return glm::dvec3(0.35 * std::pow(std::abs(cosine), 12.0));
+    }
+
+    int tileCount(const EyeView& view) const override { return view.height; }
+
+    void renderTile(const EyeView& view, int tile, EyeImage& image) const override {
+        for (int x = 0; x < view.width; ++x) renderPixel(view, x, tile, image);
+    }
+
+    void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
+                      EyeImage& image) const override {
+        for (const PixelIndex p : pixels) {
+            if (p.x < bounds.x0 || p.x >= bounds.x1 || p.y < bounds.y0 || p.y >= bounds.y1)
+                throw std::logic_error("pixel outside its bounds");
+            if (image.viewDepth.at(p.x, p.y) != 0) throw std::logic_error("a hole has a depth");
+            renderPixel(view, p.x, p.y, image);
+        }
+    }
+
+    bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
+                          double parallaxScale) const override {
+        for (int y = rect.y0; y < rect.y1; ++y)
+            for (int x = rect.x0; x < rect.x1; ++x) {
+                const double edge = column - (x + 1);
+                const double limit =
+                    edge > 0 ? parallaxScale / edge : std::numeric_limits<double>::infinity();
+                if (cast(view, x + 0.5, y + 0.5).depth < limit) return true;
+            }
+        return false;
+    }
+
+    bool viewDependent() const override { return mGlossy; }
+
+    void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override {
+        for (int x = x0; x < x1; ++x) {
+            const glm::dvec3 point = view.pointAt(x + 0.5, y + 0.5, image.viewDepth.at(x, y));
+            const glm::dvec3 base = unpackColor(image.baseColor.at(x, y));
+            image.color.at(x, y) =
+                packColor(glm::vec3(base + gloss(view, point, unpackNormal(image.normal.at(x, y)))));
+        }
+    }
+
+    static std::uint32_t packNormal(const glm::dvec3& n) {
+        glm::dvec2 p = glm::dvec2(n) / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+        if (n.z < 0)
+            p = (1.0 - glm::abs(glm::dvec2(p.y, p.x))) * glm::dvec2(p.x < 0 ? -1 : 1, p.y < 0 ? -1 : 1);
+        const auto word = [](double v) { return static_cast<std::uint32_t>(std::lround((v + 1) * 32767.5)); };
+        return word(p.x) | word(p.y) << 16;
+    }
+
+    static glm::dvec3 unpackNormal(std::uint32_t packed) {
+        const glm::dvec2 p((packed & 0xffffu) / 32767.5 - 1, (packed >> 16) / 32767.5 - 1);
+        glm::dvec3 n(p, 1 - std::abs(p.x) - std::abs(p.y));
+        if (n.z < 0) {
+            n.x = (1 - std::abs(p.y)) * (p.x < 0 ? -1 : 1);
+            n.y = (1 - std::abs(p.x)) * (p.y < 0 ? -1 : 1);
+        }
+        return glm::normalize(n);
+    }
+
+private:
+    void renderPixel(const EyeView& view, int x, int y, EyeImage& image) const {
+        const SurfacePoint hit = cast(view, x + 0.5, y + 0.5);
+        glm::dvec3 color = baseColor(view, x + 0.5, y + 0.5, hit);
+        if (!image.baseColor.empty()) {
+            image.baseColor.at(x, y) = packColor(glm::vec3(color));
+            image.normal.at(x, y) = hit.shape < 0 ? 0 : packNormal(hit.normal);
+        }
+        if (mGlossy && hit.shape >= 0) color += gloss(view, hit.point, hit.normal);
+        image.color.at(x, y) = packColor(glm::vec3(color));
+        image.viewDepth.at(x, y) = static_cast<float>(hit.depth);
+    }
+
+    std::vector<Shape> mShapes;
+    double mWaves;  // radians a metre
+    bool mGlossy;
+};
+
+// An eye image cast in full.
+inline EyeImage castEye(const EyeRenderer& renderer, const EyeView& view) {
+    EyeImage image;
+    image.resize(view.width, view.height, renderer.viewDependent());
+    renderEye(renderer, view, image);
+    return image;
+}
+
+}  // namespace stereonav::test
