@@ -1,0 +1,259 @@
+// Elevation models: opened and read (dem_samples), then placed on a grid in metres, by turning rows
+// over where that is enough and by resampling where it is not.
+#include "terrain/dem_reader.h"
+
+#include <fmt/format.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "terrain/dem_samples.h"
+
+namespace stereonav {
+namespace {
+
+constexpr const char* kExpected = "an elevation model";
+constexpr const char* kAdvice = "give a GeoTIFF, .hgt, USGS DEM, ESRI ASCII or 16-bit PNG file";
+constexpr double kScaleTolerance = 0.01;  // a projection stretched by more is not metres on the ground
+
+std::optional<int> wholeNumber(const std::string& text) {
+    int value = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size() || value < 0) return std::nullopt;
+    return value;
+}
+
+// Metres a pixel of a web map tile whose path ends in zoom/x/y.ext; the second is its latitude.
+std::optional<double> tileSpacing(const std::filesystem::path& file) {
+    const auto y = wholeNumber(file.stem().string());
+    const auto x = wholeNumber(file.parent_path().filename().string());
+    const auto zoom = wholeNumber(file.parent_path().parent_path().filename().string());
+    if (!x || !y || !zoom || *zoom > 24) return std::nullopt;
+    const double tiles = std::ldexp(1.0, *zoom);
+    if (*x >= tiles || *y >= tiles) return std::nullopt;
+    const double latitude = std::atan(std::sinh(std::numbers::pi * (1 - 2 * (*y + 0.5) / tiles)));
+    constexpr double kEquator_m = 40075016.68557849;
+    return kEquator_m * std::cos(latitude) / (256 * tiles);
+}
+
+// Coordinates without a reference system that can hardly be anything but degrees: fine steps inside
+// the globe's range, not starting at (0, 0) as measured surfaces do.
+bool looksLikeDegrees(const Georeference& raster) {
+    const glm::dvec2 a = raster.fromPixel({0, 0}), b = raster.fromPixel({raster.width, raster.height});
+    const auto within = [](const glm::dvec2& p) { return std::abs(p.x) <= 360 && std::abs(p.y) <= 90.01; };
+    const bool atZero = std::abs(std::min(a.x, b.x)) < 1e-9 && std::abs(std::min(a.y, b.y)) < 1e-9;
+    return within(a) && within(b) && !atZero && raster.axisAligned() &&
+           std::abs(raster.transform[1]) <= 0.02 && std::abs(raster.transform[5]) <= 0.02;
+}
+
+// Its name; files that leave it out get one from the datum and the projection.
+std::string systemName(const std::string& wkt) {
+    OGRSpatialReference system;
+    if (wkt.empty() || system.importFromWkt(wkt.c_str()) != OGRERR_NONE) return "";
+    const char* name = system.GetName();
+    if (name && std::string_view(name) != "unnamed" && std::string_view(name) != "unknown") return name;
+    const char *datum = system.GetAttrValue("GEOGCS"), *projection = system.GetAttrValue("PROJECTION");
+    int north = 0;
+    const int zone = system.GetUTMZone(&north);
+    std::string made = datum ? datum : "unnamed datum";
+    if (zone != 0)
+        made += fmt::format(" / UTM zone {}{}", zone, north ? 'N' : 'S');
+    else if (projection)
+        made += fmt::format(" / {}", projection);
+    return made;
+}
+
+void placeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGrid& dem) {
+    dem.source = georeferenceOf(dataset, dem.georeferenced);
+    dem.driver = dataset.GetDriver()->GetMetadataItem(GDAL_DMD_LONGNAME);
+    if (std::string_view(dataset.GetDriverName()) == "GTiff") dem.driver = "GeoTIFF";
+    dem.crs = systemName(dem.source.wkt);
+    if (dem.source.wkt.empty() && dem.georeferenced && looksLikeDegrees(dem.source)) {
+        OGRSpatialReference degrees;
+        degrees.importFromEPSG(4326);
+        dem.source.wkt = wktOf(degrees);
+        dem.crs = "WGS 84 (assumed: the file names none, its coordinates look like degrees)";
+    }
+    if (!isGsiTile(dataset)) return;
+    dem.driver = "GSI elevation tile (RGB-coded PNG)";
+    if (dem.georeferenced) return;
+    constexpr double kZoom14At36North_m = 40075016.68557849 / (256.0 * 16384.0) * 0.80901699437494742;
+    const auto spacing = tileSpacing(file);
+    const double step = spacing.value_or(kZoom14At36North_m);
+    dem.source.transform = {0, step, 0, 0, 0, -step};
+    dem.projection = fmt::format("tile of {:.4g} m a sample, {}", step,
+                                 spacing ? "from its path zoom/x/y" : "assumed: zoom 14 at 36 degrees north");
+}
+
+// Catmull-Rom weights of the four samples around fraction u of the middle two.
+std::array<double, 4> cubicWeights(double u) {
+    return {((-0.5 * u + 1) * u - 0.5) * u, (1.5 * u - 2.5) * u * u + 1, ((-1.5 * u + 2) * u + 0.5) * u,
+            (0.5 * u - 0.5) * u * u};
+}
+
+// Samples read between: cubic where all sixteen around are known, else bilinear over the known ones
+// of four. Missing where the nearest sample is missing, so holes keep their size.
+class SampleReader {
+public:
+    SampleReader(const std::vector<float>& samples, int width, int height)
+        : mSamples(samples), mWidth(width), mHeight(height) {}
+
+    float at(const glm::dvec2& pixel) const {
+        constexpr double kSlack = 0.51;  // pixels beyond the outermost sample
+        const double x = pixel.x - 0.5, y = pixel.y - 0.5;
+        if (!(x >= -kSlack && y >= -kSlack && x <= mWidth - 1 + kSlack && y <= mHeight - 1 + kSlack))
+            return std::numeric_limits<float>::quiet_NaN();
+        const double cx = std::clamp(x, 0.0, mWidth - 1.0), cy = std::clamp(y, 0.0, mHeight - 1.0);
+        const float nearest = sample(static_cast<int>(cx + 0.5), static_cast<int>(cy + 0.5));
+        if (std::isnan(nearest)) return nearest;
+        const int i = std::min(static_cast<int>(cx), mWidth - 2),
+                  j = std::min(static_cast<int>(cy), mHeight - 2);
+        const double cubic = cubicAt(i, j, cx - i, cy - j);
+        return static_cast<float>(std::isnan(cubic) ? bilinearAt(i, j, cx - i, cy - j) : cubic);
+    }
+
+private:
+    float sample(int i, int j) const { return mSamples[static_cast<std::size_t>(j) * mWidth + i]; }
+
+    double cubicAt(int i, int j, double u, double v) const {
+        if (i < 1 || j < 1 || i + 2 >= mWidth || j + 2 >= mHeight)
+            return std::numeric_limits<double>::quiet_NaN();
+        const auto wx = cubicWeights(u), wy = cubicWeights(v);
+        double sum = 0;
+        for (int b = 0; b < 4; ++b)
+            for (int a = 0; a < 4; ++a) sum += wx[a] * wy[b] * sample(i - 1 + a, j - 1 + b);
+        return sum;
+    }
+
+    double bilinearAt(int i, int j, double u, double v) const {
+        double sum = 0, weights = 0;
+        for (int b = 0; b < 2; ++b)
+            for (int a = 0; a < 2; ++a) {
+                const float h = sample(i + a, j + b);
+                if (std::isnan(h)) continue;
+                const double w = (a ? u : 1 - u) * (b ? v : 1 - v);
+                sum += w * h;
+                weights += w;
+            }
+        return sum / weights;  // the nearest of the four is known, so weights >= 1/4
+    }
+
+    const std::vector<float>& mSamples;
+    int mWidth, mHeight;
+};
+
+void resample(const std::filesystem::path& file, DemGrid& dem, std::vector<float>& samples,
+              Progress& progress) {
+    dem.grid = metricGrid(dem.source, file);
+    checkRasterSize(file, dem.grid.width, dem.grid.height);
+    const PixelMap map(dem.grid, dem.source, file);
+    const SampleReader reader(samples, dem.source.width, dem.source.height);
+    std::vector<float> heights(static_cast<std::size_t>(dem.grid.width) * dem.grid.height);
+    constexpr int kBand = 64;
+    const int width = dem.grid.width, height = dem.grid.height;
+    for (int first = 0; first < height; first += kBand) {
+        progress.report(double(first) / height, "bringing " + file.filename().string() + " to metres");
+        parallelFor(std::min(kBand, height - first), [&](int k) {
+            float* out = &heights[static_cast<std::size_t>(first + k) * width];
+            for (int i = 0; i < width; ++i) out[i] = reader.at(map.at(i, first + k));
+        });
+    }
+    samples = std::move(heights);
+    dem.projection = fmt::format("{}, resampled from {}x{}",
+                                 dem.grid.wkt.empty() ? "turned level" : "local transverse Mercator",
+                                 dem.source.width, dem.source.height);
+}
+
+void flipRows(std::vector<float>& samples, int width, int height) {
+    for (int j = 0; j < height / 2; ++j)
+        std::swap_ranges(&samples[static_cast<std::size_t>(j) * width],
+                         &samples[static_cast<std::size_t>(j) * width] + width,
+                         &samples[static_cast<std::size_t>(height - 1 - j) * width]);
+}
+
+// Turns an axis-aligned raster north up and east right; dem.grid follows.
+void orient(DemGrid& dem, std::vector<float>& samples) {
+    dem.grid = dem.source;
+    auto& t = dem.grid.transform;
+    const int width = dem.grid.width, height = dem.grid.height;
+    if (t[1] < 0) {
+        for (int j = 0; j < height; ++j) {
+            const auto row = samples.begin() + static_cast<std::ptrdiff_t>(j) * width;
+            std::reverse(row, row + width);
+        }
+        t[0] += t[1] * width;
+        t[1] = -t[1];
+    }
+    if (t[5] > 0) {
+        flipRows(samples, width, height);
+        t[3] += t[5] * height;
+        t[5] = -t[5];
+    }
+    t[2] = t[4] = 0;
+}
+
+std::string projectionAsItIs(const DemGrid& dem, double metres) {
+    if (!dem.georeferenced) return "none: 1 m a sample";
+    return metres == 1.0 ? "as it is" : fmt::format("as it is, {:.9g} m a unit", metres);
+}
+
+void checkGrid(const std::filesystem::path& file, const DemGrid& dem) {
+    if (dem.source.width < 2 || dem.source.height < 2)
+        throw Error(
+            file.string(), "size",
+            fmt::format("expected at least 2x2 samples, got {}x{}", dem.source.width, dem.source.height),
+            "a surface needs two samples each way");
+    for (const double number : dem.source.transform)
+        if (!std::isfinite(number))
+            throw Error(file.string(), "georeference", "expected finite numbers, got others",
+                        "check the file's pixel size and corner");
+    const auto& t = dem.source.transform;
+    if (t[1] * t[5] - t[2] * t[4] == 0)
+        throw Error(file.string(), "georeference",
+                    fmt::format("expected pixel sizes that are not 0, got {:g} x {:g}", t[1], t[5]),
+                    "check the file's pixel size");
+}
+
+}  // namespace
+
+DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress) {
+    const GdalMessages messages;
+    const GdalDataset dataset = openRaster(file, messages, kExpected, kAdvice);
+    checkRasterSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
+    DemGrid dem;
+    placeSource(*dataset, file, dem);
+    checkGrid(file, dem);
+    std::vector<float> samples = readSamples(*dataset, messages, file, verticalScale, progress);
+    dem.sourceMissing = std::count_if(samples.begin(), samples.end(), [](float h) { return std::isnan(h); });
+    if (dem.sourceMissing == static_cast<long long>(samples.size()))
+        throw Error(file.string(), "", fmt::format("all {} samples are missing (nodata)", samples.size()),
+                    "check the file's nodata value");
+    const double metres = metresPerUnit(dem.source);
+    const glm::dvec2 scale = metres > 0 ? groundScale(dem.source) : glm::dvec2(0.0);
+    const bool onGround = std::max(std::abs(scale.x - 1), std::abs(scale.y - 1)) <= kScaleTolerance;
+    const std::string given = dem.projection;
+    if (onGround && dem.source.axisAligned()) {
+        orient(dem, samples);
+        dem.projection = projectionAsItIs(dem, metres);
+    } else {
+        resample(file, dem, samples, progress);
+    }
+    if (!given.empty()) dem.projection = given;
+    const double unit = dem.grid.wkt.empty() ? 1.0 : metresPerUnit(dem.grid);
+    dem.width = dem.grid.width;
+    dem.height = dem.grid.height;
+    dem.spacing = glm::dvec2(dem.grid.transform[1], -dem.grid.transform[5]) * unit;
+    dem.sourceOffset = dem.grid.fromPixel(0.5 * glm::dvec2(dem.width, dem.height));
+    flipRows(samples, dem.width, dem.height);
+    dem.heights = std::move(samples);
+    return dem;
+}
+
+}  // namespace stereonav

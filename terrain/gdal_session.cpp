@@ -1,0 +1,98 @@
+// GDAL's drivers, messages and handles; see the header.
+#include "terrain/gdal_session.h"
+
+#include <cpl_error.h>
+#include <fmt/format.h>
+#include <ogr_spatialref.h>
+
+#include <mutex>
+
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+constexpr long long kMaxSide = 65536;
+constexpr long long kMaxSamples = 1ll << 28;  // 1 GiB of heights; as much again for the pyramid and colour
+
+void registerDriversOnce() {
+    static std::once_flag once;
+    std::call_once(once, [] { GDALAllRegister(); });
+}
+
+void checkFile(const std::filesystem::path& file, const std::string& advice) {
+    std::error_code code;
+    const auto status = std::filesystem::status(file, code);
+    if (!std::filesystem::exists(status))
+        throw Error(file.string(), "", "there is no such file", "check the name and the folder");
+    if (std::filesystem::is_directory(status))
+        throw Error(file.string(), "", "expected a file, found a folder", "name the file itself");
+    const auto size = std::filesystem::file_size(file, code);
+    if (!code && size == 0) throw Error(file.string(), "", "the file is empty", advice);
+}
+
+}  // namespace
+
+GdalMessages::GdalMessages() {
+    registerDriversOnce();
+    CPLPushErrorHandlerEx(&GdalMessages::keep, this);
+}
+
+GdalMessages::~GdalMessages() {
+    CPLPopErrorHandler();
+}
+
+void GdalMessages::keep(CPLErr level, CPLErrorNum, const char* text) {
+    auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
+    constexpr std::size_t kLongest = 160;
+    if (level >= CE_Failure && self->mFirstError.empty())
+        self->mFirstError = std::string(text).substr(0, kLongest);
+}
+
+GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& messages,
+                       const std::string& expected, const std::string& advice) {
+    checkFile(file, advice);
+    // A fixed list: formats that fetch other files or addresses are none of ours.
+    static const char* const kDrivers[] = {"GTiff", "SRTMHGT", "USGSDEM", "AAIGrid", "DTED", "EHdr",
+                                           "HFA",   "PNG",     "JPEG",    "BMP",     nullptr};
+    GdalDataset dataset(GDALDataset::Open(
+        file.string().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers));
+    if (dataset && dataset->GetRasterCount() > 0) return dataset;
+    std::string reason = messages.firstError();
+    if (reason.find("not recognized") != std::string::npos) reason.clear();
+    throw Error(file.string(), "",
+                "expected " + expected + (reason.empty() ? ", found something else" : ", found: " + reason),
+                advice);
+}
+
+Georeference georeferenceOf(GDALDataset& dataset, bool& known) {
+    Georeference place;
+    place.width = dataset.GetRasterXSize();
+    place.height = dataset.GetRasterYSize();
+    std::array<double, 6> transform{};
+    known = dataset.GetGeoTransform(transform.data()) == CE_None;
+    if (known) place.transform = transform;
+    if (const OGRSpatialReference* system = dataset.GetSpatialRef(); known && system)
+        place.wkt = wktOf(*system);
+    return place;
+}
+
+std::string wktOf(const OGRSpatialReference& system) {
+    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+    char* text = nullptr;
+    system.exportToWkt(&text, options);
+    const std::string wkt = text ? text : "";
+    CPLFree(text);
+    return wkt;
+}
+
+void checkRasterSize(const std::filesystem::path& file, long long width, long long height) {
+    if (width >= 1 && height >= 1 && width <= kMaxSide && height <= kMaxSide && width * height <= kMaxSamples)
+        return;
+    throw Error(file.string(), "size",
+                fmt::format("expected at most {0} samples a side and {1} in all, got {2} x {3}", kMaxSide,
+                            kMaxSamples, width, height),
+                "cut out a part or thin it out, for example with gdal_translate -outsize");
+}
+
+}  // namespace stereonav

@@ -1,0 +1,51 @@
+// The door to GDAL: its drivers registered once, its messages caught instead of printed, its handles
+// closed. Used by the readers of elevation models and ground images; no header outside names GDAL.
+#pragma once
+
+#include <gdal_priv.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "terrain/georeference.h"
+
+namespace stereonav {
+
+// While it lives, GDAL's messages of this thread are kept here and nothing is printed.
+class GdalMessages {
+public:
+    GdalMessages();
+    ~GdalMessages();
+    GdalMessages(const GdalMessages&) = delete;
+    GdalMessages& operator=(const GdalMessages&) = delete;
+
+    bool hasError() const { return !mFirstError.empty(); }
+    const std::string& firstError() const { return mFirstError; }  // "" when there was none
+    void clear() { mFirstError.clear(); }
+
+private:
+    static void CPL_STDCALL keep(CPLErr level, CPLErrorNum number, const char* text);
+    std::string mFirstError;
+};
+
+struct CloseDataset {
+    void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using GdalDataset = std::unique_ptr<GDALDataset, CloseDataset>;
+
+// A raster this program can read, checked to be a file with content. `expected` completes the
+// sentence "expected ..." and `advice` says what to give instead. Throws Error.
+GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& messages,
+                       const std::string& expected, const std::string& advice);
+
+// Where the raster lies; `known` is set to whether the file says so (else a unit a pixel, no system).
+Georeference georeferenceOf(GDALDataset& dataset, bool& known);
+
+// WKT 2, on one line; "" for none.
+std::string wktOf(const OGRSpatialReference& system);
+
+// Throws Error unless both sides lie in [1, 65536] and the product is at most 2^28.
+void checkRasterSize(const std::filesystem::path& file, long long width, long long height);
+
+}  // namespace stereonav

@@ -1,0 +1,20 @@
+// Missing samples of a height grid, filled smoothly from the border of each hole.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "engine/base/progress.h"
+
+namespace stereonav {
+
+long long countMissing(const std::vector<float>& heights);
+
+// Replaces every NaN by the membrane through the known samples (Laplace's equation with the known
+// samples fixed; the grid's own border is free, so a gap at the border goes on level). It stays within
+// the range of the samples around it and continues ramps. The same on every run and thread count.
+// Returns how many it filled. Leaves a grid alone that has no finite sample. Throws Cancelled.
+long long fillMissing(std::vector<float>& heights, int width, int height, const glm::dvec2& spacing,
+                      Progress& progress);
+
+}  // namespace stereonav
