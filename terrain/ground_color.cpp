@@ -1,0 +1,237 @@
+// Tint, light, and images laid over the ground.
+#include "terrain/ground_color.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "terrain/gdal_session.h"
+#include "terrain/ground_picture.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kMostTexels = 1 << 26;  // 256 MiB, a third more with the mip levels
+constexpr int kMostSide = 32768;
+constexpr double kLitDensity = 2.0;  // texels a sample where light is baked in
+constexpr const char* kAdvice = "give a JPEG, PNG or TIFF picture of the ground";
+
+glm::dvec3 sunDirection(const TerrainLook& look) {
+    const double level = std::cos(look.sunElevation);
+    return {level * std::sin(look.sunAzimuth), level * std::cos(look.sunAzimuth),
+            std::sin(look.sunElevation)};
+}
+
+// Valleys green, then grass, scree and rock, snow on top; t: height as a share of the ground's range.
+glm::vec3 heightTint(float t) {
+    static constexpr std::array<glm::vec3, 6> kRamp{{{0.09f, 0.17f, 0.06f},
+                                                     {0.19f, 0.25f, 0.09f},
+                                                     {0.36f, 0.32f, 0.15f},
+                                                     {0.33f, 0.25f, 0.16f},
+                                                     {0.40f, 0.37f, 0.34f},
+                                                     {0.78f, 0.80f, 0.84f}}};
+    const float x = std::clamp(t, 0.0f, 1.0f) * (kRamp.size() - 1);
+    const int k = std::min(static_cast<int>(x), static_cast<int>(kRamp.size()) - 2);
+    return glm::mix(kRamp[k], kRamp[k + 1], x - static_cast<float>(k));
+}
+
+// The height at a grid position; beside a hole that of the known samples around, NaN inside one.
+double knownHeightAt(const Heightfield& ground, const glm::dvec2& grid) {
+    const double height = ground.heightAt(ground.worldFromGrid(grid));
+    if (std::isfinite(height)) return height;
+    const int i = std::clamp(static_cast<int>(grid.x), 0, ground.width() - 2);
+    const int j = std::clamp(static_cast<int>(grid.y), 0, ground.height() - 2);
+    double sum = 0;
+    int known = 0;
+    for (int k = 0; k < 4; ++k)
+        if (const float h = ground.sample(i + k % 2, j + k / 2); std::isfinite(h)) {
+            sum += h;
+            ++known;
+        }
+    return known ? sum / known : std::numeric_limits<double>::quiet_NaN();
+}
+
+class Tint {
+public:
+    Tint(const Heightfield& ground, const TerrainLook& look) : mGround(ground), mLook(look) {
+        const double range = double(ground.maxHeight()) - ground.minHeight();
+        mPerMetre = range > 0 ? 1 / range : 0.0;
+    }
+
+    // Linear colour of the ground at a grid position, lit.
+    glm::vec3 at(const glm::dvec2& grid) const {
+        const glm::dvec3 normal = mGround.normalAt(mGround.worldFromGrid(grid));
+        const double height = knownHeightAt(mGround, grid);
+        const double share = std::isfinite(height) ? (height - mGround.minHeight()) * mPerMetre : 0.0;
+        constexpr float kRockFrom = 0.82f, kRockFull = 0.57f;  // cosines of 35 and 55 degrees
+        const float steep = 1 - glm::smoothstep(kRockFull, kRockFrom, static_cast<float>(normal.z));
+        const glm::vec3 rock(0.27f, 0.25f, 0.23f);
+        return groundLight(normal, mLook) *
+               glm::mix(heightTint(static_cast<float>(share)), rock, 0.7f * steep);
+    }
+
+private:
+    const Heightfield& mGround;
+    const TerrainLook& mLook;
+    double mPerMetre = 0;
+};
+
+// The texture over the extent of the samples' own squares: half a sample beyond the outer ones.
+// colorAt: linear colour from column and row (0 northernmost) and the grid position of a texel's centre.
+using ColorAt = std::function<glm::vec3(int column, int row, const glm::dvec2& grid)>;
+ColorTexture bake(const Heightfield& ground, int width, int height, const ColorAt& colorAt,
+                  Progress& progress) {
+    const glm::dvec2 origin(-0.5);
+    const glm::dvec2 perTexel = glm::dvec2(ground.width(), ground.height()) / glm::dvec2(width, height);
+    Plane<PackedColor> texels(width, height);
+    constexpr int kBand = 64;
+    for (int first = 0; first < height; first += kBand) {
+        progress.report(double(first) / height, "colouring the ground");
+        parallelFor(std::min(kBand, height - first), [&](int k) {
+            const int row = first + k;
+            for (int i = 0; i < width; ++i) {
+                const glm::dvec2 grid = origin + glm::dvec2(i + 0.5, height - row - 0.5) * perTexel;
+                texels.at(i, row) = packColor(colorAt(i, row, grid));
+            }
+        });
+    }
+    return ColorTexture(texels, origin, perTexel);
+}
+
+struct TextureSize {
+    int width, height;
+};
+
+// `density` texels a sample, less where that were too many.
+TextureSize textureSize(const Heightfield& ground, glm::dvec2 density) {
+    const double texels = ground.width() * density.x * ground.height() * density.y;
+    if (texels > kMostTexels) density *= std::sqrt(kMostTexels / texels);
+    const auto side = [](double n) { return static_cast<int>(std::clamp(n + 0.5, 1.0, double(kMostSide))); };
+    return {side(ground.width() * density.x), side(ground.height() * density.y)};
+}
+
+// Where the image lies: by its own georeference, or over the elevation file's extent.
+struct ImagePlace {
+    Georeference place;
+    bool own = false;
+};
+
+ImagePlace placeOf(GDALDataset& dataset, const DemGrid& dem) {
+    ImagePlace image;
+    bool known = false;
+    image.place = georeferenceOf(dataset, known);
+    image.own = known && dem.georeferenced;
+    if (image.place.wkt.empty()) image.place.wkt = dem.source.wkt;
+    if (image.own) return image;
+    const double columns = dem.source.width / double(image.place.width);
+    const double rows = dem.source.height / double(image.place.height);
+    const auto& t = dem.source.transform;
+    image.place.wkt = dem.source.wkt;
+    image.place.transform = {t[0], t[1] * columns, t[2] * rows, t[3], t[4] * columns, t[5] * rows};
+    return image;
+}
+
+// Image pixels for each of the texture's, at its middle.
+glm::dvec2 pixelsPerTexel(const PixelMap& map, const Georeference& texture) {
+    const int i = texture.width / 2, j = texture.height / 2;
+    const int a = std::max(0, i - 1), b = std::max(0, j - 1);
+    glm::dvec2 density(1.0);
+    if (i > a) density.x = glm::length(map.at(i, j) - map.at(a, j)) / (i - a);
+    if (j > b) density.y = glm::length(map.at(i, j) - map.at(i, b)) / (j - b);
+    return density;
+}
+
+// 0, step, 2 * step, ... and the last.
+std::vector<int> spread(int count, int step) {
+    std::vector<int> places;
+    for (int k = 0; k < count - 1; k += step) places.push_back(k);
+    places.push_back(count - 1);
+    return places;
+}
+
+// The pixels that the texture may touch, with some around.
+PixelWindow touchedWindow(const PixelMap& map, const Georeference& texture, const Georeference& image) {
+    glm::dvec2 low(1e18), high(-1e18);
+    for (const int j : spread(texture.height, PixelMap::kStep))
+        for (const int i : spread(texture.width, PixelMap::kStep)) {
+            const glm::dvec2 p = map.at(i, j);
+            if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    const auto side = [](double v, int most) { return static_cast<int>(std::clamp(v, 0.0, double(most))); };
+    return {side(std::floor(low.x) - 2, image.width), side(std::floor(low.y) - 2, image.height),
+            side(std::ceil(high.x) + 2, image.width), side(std::ceil(high.y) + 2, image.height)};
+}
+
+[[noreturn]] void throwNoOverlap(const std::filesystem::path& file) {
+    throw Error(file.string(), "", "the picture does not overlap the elevation model",
+                "give one of the same place, or remove its georeference to lay it over the whole");
+}
+
+std::string describe(const std::filesystem::path& file, const ImagePlace& image, bool lit) {
+    return fmt::format("image {} {}x{}, {}{}", file.filename().string(), image.place.width,
+                       image.place.height, image.own ? "by its georeference" : "over the same extent",
+                       lit ? ", lit" : "");
+}
+
+}  // namespace
+
+float groundLight(const glm::dvec3& normal, const TerrainLook& look) {
+    const glm::dvec3 sun = sunDirection(look);
+    const double ambient = look.ambient, direct = 1 - ambient;
+    const double level = ambient + direct * std::max(0.0, sun.z);
+    if (level <= 0) return 0.0f;
+    return static_cast<float>((ambient + direct * std::max(0.0, glm::dot(normal, sun))) / level);
+}
+
+GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Progress& progress) {
+    const Tint tint(ground, look);
+    const TextureSize size = textureSize(ground, glm::dvec2(kLitDensity));
+    const auto color = [&](int, int, const glm::dvec2& grid) { return tint.at(grid); };
+    return {bake(ground, size.width, size.height, color, progress), "tint by height, lit"};
+}
+
+GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& dem, const Heightfield& ground,
+                            const TerrainLook& look, Progress& progress) {
+    const GdalMessages messages;
+    const GdalDataset dataset = openRaster(file, messages, "a picture", kAdvice);
+    const ImagePlace image = placeOf(*dataset, dem);
+    if (!overlap(dem.grid, image.place, file)) throwNoOverlap(file);
+    const glm::dvec2 density = pixelsPerTexel(PixelMap(dem.grid, image.place, file), dem.grid);
+    if (!std::isfinite(density.x + density.y)) throwNoOverlap(file);
+    const TextureSize size =
+        textureSize(ground, look.shadeImage ? glm::max(density, glm::dvec2(kLitDensity)) : density);
+    Georeference texture = dem.grid;
+    texture.width = size.width;
+    texture.height = size.height;
+    const auto& t = dem.grid.transform;
+    texture.transform = {t[0], t[1] * dem.grid.width / size.width,  0, t[3],
+                         0,    t[5] * dem.grid.height / size.height};
+    const PixelMap map(texture, image.place, file);
+    const PixelWindow window = touchedWindow(map, texture, image.place);
+    if (window.xMin >= window.xMax || window.yMin >= window.yMax) throwNoOverlap(file);
+    progress.report(0, "reading " + file.filename().string());
+    const glm::dvec2 shrink = glm::max(glm::dvec2(1.0), pixelsPerTexel(map, texture));
+    const GroundPicture picture(*dataset, messages, file, window, shrink);
+    const Tint tint(ground, look);
+    const auto color = [&](int column, int row, const glm::dvec2& grid) {
+        const GroundPicture::Sample sample = picture.at(map.at(column, row));
+        glm::vec3 seen = sample.color;
+        if (look.shadeImage && sample.cover > 0)
+            seen *= groundLight(ground.normalAt(ground.worldFromGrid(grid)), look);
+        return sample.cover >= 1 ? seen : glm::mix(tint.at(grid), seen, sample.cover);
+    };
+    return {bake(ground, size.width, size.height, color, progress), describe(file, image, look.shadeImage)};
+}
+
+}  // namespace stereonav
