@@ -46,6 +46,13 @@ double niceStep(double range) {
     return 10.0 * power;
 }
 
+// The box of an axis-parallel line, with room for its width.
+cv::Rect around(const cv::Point& a, const cv::Point& b) {
+    const cv::Point low(std::min(a.x, b.x) - 3, std::min(a.y, b.y) - 3);
+    const cv::Point high(std::max(a.x, b.x) + 3, std::max(a.y, b.y) + 3);
+    return {low, high};
+}
+
 // One panel: the map from time and error to its pixels, and the drawing of its parts.
 class Panel {
 public:
@@ -99,13 +106,13 @@ private:
     }
 
     void drawErrorAxis() {
-        const bool narrow = mLogMax - mLogMin < 0.8;
+        const bool narrow = mLogMax - mLogMin < 1.3;
         for (int power = static_cast<int>(std::floor(mLogMin)); power <= mLogMax; ++power)
             for (const int factor : {1, 2, 3, 4, 5, 6, 7, 8, 9}) {
                 const double error = factor * std::pow(10.0, power), log = std::log10(error);
                 if (log < mLogMin || log > mLogMax) continue;
                 cv::line(mCanvas, {left(), row(error)}, {right(), row(error)}, kGrid, 1);
-                if (!narrow && factor != 1 && factor != 2 && factor != 5) continue;
+                if (factor != 1 && factor != 2 && factor != 5 && !(narrow && factor == 3)) continue;
                 const std::string label = fmt::format("{:.4g}", error);
                 text(mCanvas, label, {left() - 8 - textSize(label, 0.5).width, row(error) + 5}, 0.5, kInk);
             }
@@ -115,25 +122,26 @@ private:
         const std::vector<std::size_t> front = paretoFront(mPanel.points);
         for (std::size_t k = 0; k + 1 < front.size(); ++k) {
             const cv::Point a = at(mPanel.points[front[k]]), b = at(mPanel.points[front[k + 1]]);
-            cv::line(mCanvas, a, {b.x, a.y}, kFront, 2, cv::LINE_AA);  // a stays the best until b's time
-            cv::line(mCanvas, {b.x, a.y}, b, kFront, 2, cv::LINE_AA);
+            const cv::Point corner(b.x, a.y);  // a stays the best until b's time
+            cv::line(mCanvas, a, corner, kFront, 2, cv::LINE_AA);
+            cv::line(mCanvas, corner, b, kFront, 2, cv::LINE_AA);
+            for (const cv::Point& end : {a, b}) mTaken.push_back(around(corner, end));
         }
     }
 
     void drawPoints() {
         const std::vector<std::size_t> front = paretoFront(mPanel.points);
-        std::vector<cv::Rect> taken;
         for (std::size_t k = 0; k < mPanel.points.size(); ++k) {
             const bool best = std::find(front.begin(), front.end(), k) != front.end();
             const cv::Point p = at(mPanel.points[k]);
             cv::circle(mCanvas, p, best ? 7 : 5, best ? kFront : kDot, cv::FILLED, cv::LINE_AA);
-            taken.emplace_back(p.x - 9, p.y - 9, 18, 18);
+            mTaken.emplace_back(p.x - 9, p.y - 9, 18, 18);
         }
-        for (const PlotPoint& point : mPanel.points) drawName(point, taken);
+        for (const PlotPoint& point : mPanel.points) drawName(point);
     }
 
     // Beside its point where nothing else stands: right, left, above, below, then further away.
-    void drawName(const PlotPoint& point, std::vector<cv::Rect>& taken) {
+    void drawName(const PlotPoint& point) {
         const std::string words = point.error > 0 ? point.name : point.name + " (exact)";
         const cv::Size size = textSize(words, 0.55);
         const cv::Point p = at(point);
@@ -143,14 +151,14 @@ private:
             for (const cv::Point offset :
                  {cv::Point(12, -size.height / 2), cv::Point(-12 - size.width, -size.height / 2),
                   cv::Point(-size.width / 2, -size.height - 12 - dy), cv::Point(-size.width / 2, 12 + dy),
-                  cv::Point(12, -size.height - 4 - dy), cv::Point(12, 4 + dy)}) {
+                  cv::Point(-12 - size.width, -size.height - 4 - dy), cv::Point(12, -size.height - 4 - dy), cv::Point(12, 4 + dy)}) {
                 const cv::Rect box(p + offset, size);
-                const bool clear = std::none_of(taken.begin(), taken.end(), [&](const cv::Rect& other) {
+                const bool clear = std::none_of(mTaken.begin(), mTaken.end(), [&](const cv::Rect& other) {
                     return (other & box).area() > 0;
                 });
                 if (!clear || (inside & box) != box) continue;
                 text(mCanvas, words, {box.x, box.y + box.height}, 0.55, kInk);
-                taken.push_back(box);
+                mTaken.push_back(box);
                 return;
             }
         }
@@ -159,6 +167,7 @@ private:
 
     cv::Mat mCanvas;
     const PlotPanel& mPanel;
+    std::vector<cv::Rect> mTaken;  // where names must not stand
     double mTimeMax = 0, mLogMin = 0, mLogMax = 1;
 };
 

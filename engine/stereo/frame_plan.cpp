@@ -1,0 +1,115 @@
+#include "engine/stereo/frame_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/stopwatch.h"
+
+namespace stereonav {
+namespace {
+
+struct Sample {
+    double cast_ms = 0, warp_ms = 0, fill_ms = 0;
+    long long holes = 0;
+};
+
+// Buffers of the calibration frames, and one frame measured with them.
+struct Bench {
+    const EyeRenderer& renderer;
+    WarpSetting setting;
+    EyeImage left, right;
+    RightEye eye;
+
+    Sample run(const StereoViews& views) {
+        left.resize(views.left.width, views.left.height, renderer.viewDependent());
+        renderEye(renderer, views.left, left);
+        WarpSetting full = setting;
+        full.method = RightEyeMethod::Full;
+        Sample sample;
+        sample.cast_ms = eye.render(renderer, views, left, full, right).right_ms();
+        const RightEyeTimings timings = eye.render(renderer, views, left, setting, right);
+        sample.warp_ms = timings.warp_ms;
+        sample.fill_ms = timings.fill_ms;
+        sample.holes = timings.holePixels;
+        return sample;
+    }
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+FrameCosts costsOf(const std::vector<Sample>& samples, double pixels) {
+    std::vector<double> cast, warp, share;
+    double fill_ms = 0, holes = 0;
+    for (const Sample& sample : samples) {
+        cast.push_back(sample.cast_ms);
+        warp.push_back(sample.warp_ms);
+        share.push_back(static_cast<double>(sample.holes) / pixels);
+        fill_ms += sample.fill_ms;
+        holes += static_cast<double>(sample.holes);
+    }
+    FrameCosts costs;
+    costs.cast_ns = median(cast) * 1e6 / pixels;
+    costs.warp_ns = median(warp) * 1e6 / pixels;
+    costs.holeShare = median(share);
+    costs.hole_ns = holes > 0 ? fill_ms * 1e6 / holes : 0.0;
+    return costs;
+}
+
+std::string reasonFor(const FramePlan& plan, RightEyeMethod warp) {
+    const std::string warped = fmt::format("{} takes {:.2f} ms ({:.1f} % of the pixels cast again)",
+                                           nameOf(warp), plan.warpRight_ms, 100.0 * plan.costs.holeShare);
+    const std::string cast = fmt::format("casting every pixel takes {:.2f} ms", plan.castRight_ms);
+    return plan.warps() ? warped + ", " + cast : cast + ", " + warped;
+}
+
+}  // namespace
+
+std::size_t frameBytes(int width, int height, bool viewDependent) {
+    // stride as Plane has it; colour and depth, and with view-dependent shading base colour and normal
+    const std::size_t stride = (static_cast<std::size_t>(width) + Plane<float>::kPadding + 15) / 16 * 16;
+    const std::size_t pixels = stride * static_cast<std::size_t>(height);
+    return pixels * (2 * (viewDependent ? 16 : 8) + 1);
+}
+
+FramePlan planFromCosts(const FrameCosts& costs, int width, int height, bool viewDependent,
+                        RightEyeMethod warp) {
+    const double pixels = static_cast<double>(width) * height;
+    FramePlan plan;
+    plan.width = width;
+    plan.height = height;
+    plan.viewDependent = viewDependent;
+    plan.costs = costs;
+    plan.castRight_ms = costs.cast_ns * pixels * 1e-6;
+    plan.warpRight_ms = (costs.warp_ns + costs.holeShare * costs.hole_ns) * pixels * 1e-6;
+    plan.method = plan.warpRight_ms < plan.castRight_ms ? warp : RightEyeMethod::Full;
+    plan.bytes = frameBytes(width, height, viewDependent);
+    plan.reason = reasonFor(plan, warp);
+    return plan;
+}
+
+FramePlan planFrame(const EyeRenderer& renderer, std::span<const StereoViews> views, RightEyeMethod warp,
+                    double budget_ms) {
+    if (views.empty())
+        throw Error("", "", "expected at least one view to plan a frame for, got none",
+                    "give the start pose");
+    Bench bench{renderer, {}, {}, {}, {}};
+    bench.setting.method = warp;
+    const Stopwatch watch;
+    bench.run(views.front());  // buffers and caches, not counted
+    std::vector<Sample> samples;
+    for (const StereoViews& view : views) {
+        samples.push_back(bench.run(view));
+        if (watch.elapsed_ms() > budget_ms) break;
+    }
+    const EyeView& size = views.front().right;
+    const double pixels = static_cast<double>(size.width) * size.height;
+    return planFromCosts(costsOf(samples, pixels), size.width, size.height, renderer.viewDependent(), warp);
+}
+
+}  // namespace stereonav

@@ -1,0 +1,47 @@
+// What a scene's frames need and how their right eye is made, decided once by measurement. It lives
+// with the stereo code, one room above the renderers, because it weighs the warp against the cast.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "engine/camera/stereo_rig.h"
+#include "engine/render/eye_renderer.h"
+#include "engine/stereo/right_eye.h"
+
+namespace stereonav {
+
+// Measured costs of one frame of a given size and separation.
+struct FrameCosts {
+    double cast_ns = 0;    // a pixel of a full cast, all threads together
+    double warp_ns = 0;    // a pixel of the warp
+    double hole_ns = 0;    // a ray cast into a hole; 0 when there were none
+    double holeShare = 0;  // holes of all pixels of the right eye, 0..1
+};
+
+struct FramePlan {
+    int width = 0, height = 0;                       // pixels of one eye
+    bool viewDependent = false;                      // base colour and normals are stored and shaded again
+    RightEyeMethod method = kDefaultRightEyeMethod;  // Full where casting is cheaper
+    double castRight_ms = 0, warpRight_ms = 0;       // predicted, of the right eye alone
+    FrameCosts costs;
+    std::size_t bytes = 0;  // held for both eyes and the hole mask
+    std::string reason;     // one sentence with the figures
+
+    bool warps() const { return method != RightEyeMethod::Full; }
+};
+
+// Which is cheaper for this many pixels. warp: the method used where it wins.
+FramePlan planFromCosts(const FrameCosts& costs, int width, int height, bool viewDependent,
+                        RightEyeMethod warp = kDefaultRightEyeMethod);
+
+// Measures a few calibration frames (all views of one size, at least one) and decides. Takes about
+// `budget_ms`, at least one frame; each frame is cast once before it is timed.
+FramePlan planFrame(const EyeRenderer& renderer, std::span<const StereoViews> views,
+                    RightEyeMethod warp = kDefaultRightEyeMethod, double budget_ms = 300.0);
+
+// Bytes that a frame of this size holds: both eyes' planes and the hole mask.
+std::size_t frameBytes(int width, int height, bool viewDependent);
+
+}  // namespace stereonav

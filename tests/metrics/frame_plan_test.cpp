@@ -1,0 +1,80 @@
+// The frame plan: which right eye is cheaper.
+#include "engine/stereo/frame_plan.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/error.h"
+#include "tests/support/analytic_scene.h"
+
+namespace stereonav {
+namespace {
+
+// Casting costs nothing: there is nothing to cast.
+class InstantScene final : public EyeRenderer {
+public:
+    int tileCount(const EyeView&) const override { return 1; }
+    void renderTile(const EyeView&, int, EyeImage& image) const override {
+        if (image.viewDepth.at(0, 0) == 0.0f)
+            for (int y = 0; y < image.height(); ++y)
+                for (int x = 0; x < image.width(); ++x) image.viewDepth.at(x, y) = 10.0f;
+    }
+    void renderPixels(const EyeView&, PixelRect, std::span<const PixelIndex>, EyeImage&) const override {}
+    bool mayHitBeyondEdge(const EyeView&, PixelRect, double, double) const override { return false; }
+};
+
+StereoViews viewsOf(int width, int height) {
+    return makeStereoViews(poseFromAngles({0, 0, 0}, 0, 0, 0), {width, height, 0.8, 1.0, 0.1}, {0.3, 10.0});
+}
+
+TEST(FramePlan, PredictsFromCostsInClosedForm) {
+    // 1 Mpixel: cast 10 ms; warp 1 ms and 2 % holes at 50 ns = 1 ms
+    const FrameCosts costs{10.0, 1.0, 50.0, 0.02};
+    const FramePlan plan = planFromCosts(costs, 1000, 1000, false);
+    EXPECT_NEAR(plan.castRight_ms, 10.0, 1e-9);
+    EXPECT_NEAR(plan.warpRight_ms, 2.0, 1e-9);
+    EXPECT_EQ(plan.method, kDefaultRightEyeMethod);
+    EXPECT_TRUE(plan.warps());
+    EXPECT_NE(plan.reason.find("2.00 ms"), std::string::npos) << plan.reason;
+    EXPECT_NE(plan.reason.find("10.00 ms"), std::string::npos) << plan.reason;
+}
+
+TEST(FramePlan, CastsWhereHolesCostMoreThanTheyAreWorth) {
+    const FramePlan plan = planFromCosts({10.0, 1.0, 50.0, 0.2}, 1000, 1000, false);
+    EXPECT_EQ(plan.method, RightEyeMethod::Full);
+    EXPECT_FALSE(plan.warps());
+    // exactly at the break-even, 9 ns of holes a pixel, nothing is won by the warp
+    EXPECT_FALSE(planFromCosts({10.0, 1.0, 90.0, 0.1}, 1000, 1000, false).warps());
+    EXPECT_TRUE(planFromCosts({10.0, 1.0, 89.0, 0.1}, 1000, 1000, false).warps());
+}
+
+TEST(FramePlan, BytesAreThoseOfThePlanes) {
+    for (const bool viewDependent : {false, true}) {
+        EyeImage image;
+        image.resize(333, 77, viewDependent);
+        Plane<std::uint8_t> mask(333, 77);
+        const std::size_t eye = image.color.byteCount() + image.viewDepth.byteCount() +
+                                image.baseColor.byteCount() + image.normal.byteCount();
+        EXPECT_EQ(frameBytes(333, 77, viewDependent), 2 * eye + mask.byteCount());
+    }
+}
+
+TEST(FramePlan, MeasuresThatASlowSceneIsWarpedAndAnInstantOneCast) {
+    const std::vector<StereoViews> views(3, viewsOf(160, 120));
+    // thirty spheres are cast for every ray
+    std::vector<test::Shape> shapes{test::plane({0, 30, 0}, {0, -1, 0})};
+    for (int k = 0; k < 30; ++k) shapes.push_back(test::sphere({k - 15.0, 15.0, 0}, 0.3));
+    const FramePlan slow = planFrame(test::AnalyticScene(shapes), views);
+    EXPECT_EQ(slow.method, kDefaultRightEyeMethod) << slow.reason;
+    EXPECT_GT(slow.costs.cast_ns, slow.costs.warp_ns);
+    EXPECT_GT(slow.costs.holeShare, 0.0);
+    EXPECT_LT(slow.costs.holeShare, 0.5);
+    EXPECT_GT(slow.costs.hole_ns, 0.0);
+    const FramePlan instant = planFrame(InstantScene(), views);
+    EXPECT_EQ(instant.method, RightEyeMethod::Full) << instant.reason;
+    EXPECT_EQ(instant.width, 160);
+    EXPECT_FALSE(instant.viewDependent);
+    EXPECT_THROW(planFrame(InstantScene(), {}), Error);
+}
+
+}  // namespace
+}  // namespace stereonav
