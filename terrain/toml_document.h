@@ -1,0 +1,76 @@
+// A TOML file read key by key, collecting what is wrong: callers ask for what they know, and whatever
+// nobody asked for is unknown. Knows nothing of scenes. Keeps the TOML library out of headers.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stereonav {
+
+// Numbers that a key takes. Open ends are not taken themselves.
+struct NumberRange {
+    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+    bool openLow = false, openHigh = false;
+};
+constexpr NumberRange kAnyNumber{};
+constexpr NumberRange kNotNegative{0.0, std::numeric_limits<double>::infinity(), false, false};
+constexpr NumberRange kPositive{0.0, std::numeric_limits<double>::infinity(), true, false};
+
+class TomlSection;
+
+class TomlDocument {
+public:
+    // Throws Error when the file can not be read, is no TOML or is larger than a scene can be.
+    explicit TomlDocument(const std::filesystem::path& file);
+    ~TomlDocument();
+    TomlDocument(const TomlDocument&) = delete;
+    TomlDocument& operator=(const TomlDocument&) = delete;
+
+    // The table [name]; an empty one when the file has none.
+    TomlSection section(const std::string& name);
+    // The tables [[name]], in the order of the file.
+    std::vector<TomlSection> sections(const std::string& name);
+
+    // Throws one Error: for all keys that were never asked for, each with its line and the nearest
+    // known one; else for the first wrong value.
+    void finish() const;
+
+private:
+    friend class TomlSection;
+    struct State;
+    std::unique_ptr<State> mState;
+};
+
+// Each read() leaves `value` as it is when the key is absent or wrong; the latter is noted in the
+// document. Numbers must be finite. Lives no longer than its document.
+class TomlSection {
+public:
+    bool has(const std::string& key) const;
+    void read(const std::string& key, bool& value);
+    void read(const std::string& key, std::string& value);  // not empty
+    void read(const std::string& key, double& value, const NumberRange& range);
+    void read(const std::string& key, std::span<double> values, const NumberRange& range);
+    void read(const std::string& key, std::int64_t& value, std::int64_t low, std::int64_t high);
+    // Degrees in the file, radians in `value`.
+    void readDegrees(const std::string& key, double& value, const NumberRange& rangeDegrees);
+
+    // Notes a problem at the key (or, without it, at the section's line).
+    void note(const std::string& key, const std::string& problem, const std::string& advice);
+
+private:
+    friend class TomlDocument;
+    struct Place;
+    TomlSection(TomlDocument::State& document, std::string name, const void* table)
+        : mDocument(&document), mName(std::move(name)), mTable(table) {}
+
+    TomlDocument::State* mDocument;
+    std::string mName;
+    const void* mTable;  // the library's table, null when the file has none
+};
+
+}  // namespace stereonav
