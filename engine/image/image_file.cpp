@@ -13,18 +13,17 @@ namespace {
 // The decoders below show the upper part of a cut-off JPEG as if it were whole, and print about a
 // cut-off PNG, so both are checked for their end: a JPEG's end marker (FFD9) comes after its last scan
 // (FFDA), a PNG closes with the chunk IEND.
-bool isCutOff(const std::string& content) {
+bool isCutOff(std::string_view content) {
     if (content.starts_with("\xff\xd8")) {
         const auto scan = content.rfind("\xff\xda");
-        return scan == std::string::npos || content.find("\xff\xd9", scan) == std::string::npos;
+        return scan == std::string_view::npos || content.find("\xff\xd9", scan) == std::string_view::npos;
     }
-    return content.starts_with("\x89PNG") && content.rfind("IEND") == std::string::npos;
+    return content.starts_with("\x89PNG") && content.rfind("IEND") == std::string_view::npos;
 }
 
-cv::Mat readAny(const std::filesystem::path& file) {
-    const std::string content = readTextFile(file);
-    if (content.empty()) throw Error(file.string(), "", "the file is empty", "name an image file");
-    if (isCutOff(content)) throw Error(file.string(), "", "is cut off: its end is missing", "copy it again");
+cv::Mat decodeAny(std::string_view content, const std::string& file, const std::string& place) {
+    if (content.empty()) throw Error(file, place, "the picture is empty", "name an image file");
+    if (isCutOff(content)) throw Error(file, place, "is cut off: its end is missing", "copy it again");
     cv::Mat image;
     try {
         const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8U, const_cast<char*>(content.data()));
@@ -32,9 +31,15 @@ cv::Mat readAny(const std::filesystem::path& file) {
     } catch (const cv::Exception&) {
     }
     if (image.empty())
-        throw Error(file.string(), "", "is not a picture this program can read, or it is cut off",
+        throw Error(file, place, "is not a picture this program can read, or it is cut off",
                     "give a PNG, JPEG, TIFF, BMP or Radiance .hdr file");
     return image;
+}
+
+cv::Mat readAny(const std::filesystem::path& file) {
+    const std::string content = readTextFile(file);
+    if (content.empty()) throw Error(file.string(), "", "the file is empty", "name an image file");
+    return decodeAny(content, file.string(), "");
 }
 
 glm::vec3 linearPixel(const cv::Mat& image, int y, int x) {
@@ -62,11 +67,7 @@ void checkDepth(const cv::Mat& image, const std::filesystem::path& file) {
                     "convert the picture to 8 bits");
 }
 
-}  // namespace
-
-Plane<PackedColor> readColorImage(const std::filesystem::path& file) {
-    const cv::Mat image = readAny(file);
-    checkDepth(image, file);
+Plane<PackedColor> packedFrom(const cv::Mat& image) {
     Plane<PackedColor> plane(image.cols, image.rows);
     const auto& table = packedFromSrgbByte();
     for (int y = 0; y < image.rows; ++y)
@@ -82,6 +83,43 @@ Plane<PackedColor> readColorImage(const std::filesystem::path& file) {
     return plane;
 }
 
+cv::Mat srgbBytes(const Plane<PackedColor>& image) {
+    cv::Mat bytes(image.height(), image.width(), CV_8UC3);
+    const auto& table = srgbByteFromPacked();
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const PackedColor c = image.at(x, y);
+            bytes.at<cv::Vec3b>(y, x) = {table[c >> 20 & 1023], table[c >> 10 & 1023], table[c & 1023]};
+        }
+    return bytes;
+}
+
+}  // namespace
+
+Plane<PackedColor> readColorImage(const std::filesystem::path& file) {
+    const cv::Mat image = readAny(file);
+    checkDepth(image, file);
+    return packedFrom(image);
+}
+
+Plane<PackedColor> decodeColorImage(std::span<const unsigned char> bytes, const std::string& file,
+                                    const std::string& place) {
+    const cv::Mat image = decodeAny({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, place);
+    checkDepth(image, file);
+    return packedFrom(image);
+}
+
+std::vector<unsigned char> encodeColorImage(const Plane<PackedColor>& image, const std::string& extension) {
+    std::vector<unsigned char> bytes;
+    bool encoded = false;
+    try {
+        encoded = cv::imencode(extension, srgbBytes(image), bytes);
+    } catch (const cv::Exception&) {
+    }
+    if (!encoded) throw Error("", "picture", "can not be encoded as " + extension, "use .png or .jpg");
+    return bytes;
+}
+
 LinearImage readLinearImage(const std::filesystem::path& file) {
     const cv::Mat image = readAny(file);
     checkDepth(image, file);
@@ -93,13 +131,7 @@ LinearImage readLinearImage(const std::filesystem::path& file) {
 }
 
 void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image) {
-    cv::Mat bytes(image.height(), image.width(), CV_8UC3);
-    const auto& table = srgbByteFromPacked();
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x) {
-            const PackedColor c = image.at(x, y);
-            bytes.at<cv::Vec3b>(y, x) = {table[c >> 20 & 1023], table[c >> 10 & 1023], table[c & 1023]};
-        }
+    const cv::Mat bytes = srgbBytes(image);
     writeFileAtomically(file, [&](const std::filesystem::path& temporary) {
         bool written = false;
         try {

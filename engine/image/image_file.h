@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "engine/image/packed_color.h"
@@ -12,6 +14,12 @@ namespace stereonav {
 
 // PNG, JPEG, TIFF, BMP...: 8 or 16 bit, gray or colour, taken as sRGB. Row 0 is the top. Throws Error.
 Plane<PackedColor> readColorImage(const std::filesystem::path& file);
+
+// The same from a picture's bytes held in memory; file and place are named in errors.
+Plane<PackedColor> decodeColorImage(std::span<const unsigned char> bytes, const std::string& file,
+                                    const std::string& place);
+// The bytes of a picture file, 8-bit sRGB; extension: ".png" or ".jpg". Throws Error.
+std::vector<unsigned char> encodeColorImage(const Plane<PackedColor>& image, const std::string& extension);
 
 // Linear RGB, row 0 at the top: .hdr (Radiance) and, like readColorImage, everything else.
 struct LinearImage {
