@@ -25,20 +25,14 @@ constexpr int kMostSide = 32768;
 constexpr double kLitDensity = 2.0;  // texels a sample where light is baked in
 constexpr const char* kAdvice = "give a JPEG, PNG or TIFF picture of the ground";
 
-glm::dvec3 sunDirection(const TerrainLook& look) {
-    const double level = std::cos(look.sunElevation);
-    return {level * std::sin(look.sunAzimuth), level * std::cos(look.sunAzimuth),
-            std::sin(look.sunElevation)};
-}
-
 // Valleys green, then grass, scree and rock, snow on top; t: height as a share of the ground's range.
 glm::vec3 heightTint(float t) {
-    static constexpr std::array<glm::vec3, 6> kRamp{{{0.09f, 0.17f, 0.06f},
-                                                     {0.19f, 0.25f, 0.09f},
-                                                     {0.36f, 0.32f, 0.15f},
-                                                     {0.33f, 0.25f, 0.16f},
-                                                     {0.40f, 0.37f, 0.34f},
-                                                     {0.78f, 0.80f, 0.84f}}};
+    static constexpr std::array<glm::vec3, 6> kRamp{{{0.045f, 0.095f, 0.030f},
+                                                     {0.100f, 0.145f, 0.045f},
+                                                     {0.210f, 0.180f, 0.080f},
+                                                     {0.190f, 0.140f, 0.090f},
+                                                     {0.260f, 0.240f, 0.220f},
+                                                     {0.740f, 0.760f, 0.800f}}};
     const float x = std::clamp(t, 0.0f, 1.0f) * (kRamp.size() - 1);
     const int k = std::min(static_cast<int>(x), static_cast<int>(kRamp.size()) - 2);
     return glm::mix(kRamp[k], kRamp[k + 1], x - static_cast<float>(k));
@@ -62,7 +56,7 @@ double knownHeightAt(const Heightfield& ground, const glm::dvec2& grid) {
 
 class Tint {
 public:
-    Tint(const Heightfield& ground, const TerrainLook& look) : mGround(ground), mLook(look) {
+    Tint(const Heightfield& ground, const TerrainLook& look) : mGround(ground), mLight(look) {
         const double range = double(ground.maxHeight()) - ground.minHeight();
         mPerMetre = range > 0 ? 1 / range : 0.0;
     }
@@ -74,14 +68,13 @@ public:
         const double share = std::isfinite(height) ? (height - mGround.minHeight()) * mPerMetre : 0.0;
         constexpr float kRockFrom = 0.82f, kRockFull = 0.57f;  // cosines of 35 and 55 degrees
         const float steep = 1 - glm::smoothstep(kRockFull, kRockFrom, static_cast<float>(normal.z));
-        const glm::vec3 rock(0.27f, 0.25f, 0.23f);
-        return groundLight(normal, mLook) *
-               glm::mix(heightTint(static_cast<float>(share)), rock, 0.7f * steep);
+        const glm::vec3 rock(0.160f, 0.148f, 0.135f);
+        return mLight.at(normal) * glm::mix(heightTint(static_cast<float>(share)), rock, 0.7f * steep);
     }
 
 private:
     const Heightfield& mGround;
-    const TerrainLook& mLook;
+    GroundLight mLight;
     double mPerMetre = 0;
 };
 
@@ -186,12 +179,17 @@ std::string describe(const std::filesystem::path& file, const ImagePlace& image,
 
 }  // namespace
 
-float groundLight(const glm::dvec3& normal, const TerrainLook& look) {
-    const glm::dvec3 sun = sunDirection(look);
-    const double ambient = look.ambient, direct = 1 - ambient;
-    const double level = ambient + direct * std::max(0.0, sun.z);
-    if (level <= 0) return 0.0f;
-    return static_cast<float>((ambient + direct * std::max(0.0, glm::dot(normal, sun))) / level);
+GroundLight::GroundLight(const TerrainLook& look) {
+    const double across = std::cos(look.sunElevation), up = std::sin(look.sunElevation);
+    const double level = look.ambient + (1 - look.ambient) * std::max(0.0, up);
+    if (level <= 0) return;  // a sun below the horizon and no ambient light: night
+    mAmbient = look.ambient / level;
+    mDirect = (1 - look.ambient) / level *
+              glm::dvec3(across * std::sin(look.sunAzimuth), across * std::cos(look.sunAzimuth), up);
+}
+
+float GroundLight::at(const glm::dvec3& unitNormal) const {
+    return static_cast<float>(mAmbient + std::max(0.0, glm::dot(unitNormal, mDirect)));
 }
 
 GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Progress& progress) {
@@ -224,11 +222,12 @@ GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& de
     const glm::dvec2 shrink = glm::max(glm::dvec2(1.0), pixelsPerTexel(map, texture));
     const GroundPicture picture(*dataset, messages, file, window, shrink);
     const Tint tint(ground, look);
+    const GroundLight light(look);
     const auto color = [&](int column, int row, const glm::dvec2& grid) {
         const GroundPicture::Sample sample = picture.at(map.at(column, row));
         glm::vec3 seen = sample.color;
         if (look.shadeImage && sample.cover > 0)
-            seen *= groundLight(ground.normalAt(ground.worldFromGrid(grid)), look);
+            seen *= light.at(ground.normalAt(ground.worldFromGrid(grid)));
         return sample.cover >= 1 ? seen : glm::mix(tint.at(grid), seen, sample.cover);
     };
     return {bake(ground, size.width, size.height, color, progress), describe(file, image, look.shadeImage)};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <string>
 
 #include "engine/base/progress.h"
@@ -18,9 +19,17 @@ struct GroundColor {
     std::string source;  // for `info`: "image winter.jpg 457x499 over the same extent", ...
 };
 
-// Light on ground with unit normal `normal`, as a factor on its colour: 1 on level ground, `ambient`
-// of it where the sun does not reach (Lambert).
-float groundLight(const glm::dvec3& normal, const TerrainLook& look);
+// Light on ground as a factor on its colour: 1 on level ground, less on slopes turned away, down to
+// the ambient share where the sun does not reach (Lambert).
+class GroundLight {
+public:
+    explicit GroundLight(const TerrainLook& look);
+    float at(const glm::dvec3& unitNormal) const;
+
+private:
+    glm::dvec3 mDirect{0.0};  // towards the sun, scaled with its strength
+    double mAmbient = 0;
+};
 
 // Colour by relative height, rock on steep slopes, lit; two texels a sample each way.
 GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Progress& progress);

@@ -17,7 +17,7 @@ namespace stereonav {
 namespace {
 
 constexpr int kGradientSize = 1024;  // a texel is 0.2 degrees
-constexpr int kSmallestMap = 256, kLargestMap = 2048;
+constexpr int kSmallestMap = 1024, kLargestMap = 2048;
 
 bool coversSphere(const LinearImage& image) {
     return std::abs(image.width - 2.0 * image.height) <= 0.02 * image.width;
