@@ -162,9 +162,8 @@ std::vector<double> passingTimes(const std::vector<glm::dvec3>& points) {
 
 Pose flightPose(const Plan& plan, const std::vector<glm::dvec3>& points, int k) {
     const double u = plannedParameter(k);
-    // The climb over a second, not over one segment, so that the view does not nod.
-    const glm::dvec3 climb =
-        points[std::min(k + kWindow / 2, kSegments)] - points[std::max(k - kWindow / 2, 0)];
+    // The climb over two seconds, not over one segment, so that the view does not nod.
+    const glm::dvec3 climb = points[std::min(k + kWindow, kSegments)] - points[std::max(k - kWindow, 0)];
     const double climbAngle = std::atan2(climb.z, std::hypot(climb.x, climb.y));
     return poseFromAngles(points[k], headingOf(plan.direction(u)) - kLookInwards,
                           kFollowClimb * climbAngle - kLookDown, -kBank * plan.bend(u));
