@@ -5,38 +5,46 @@
 #include "engine/base/parallel.h"
 
 namespace stereonav {
-namespace {
-
-Plane<PackedColor> halved(const Plane<PackedColor>& fine) {
-    Plane<PackedColor> coarse((fine.width() + 1) / 2, (fine.height() + 1) / 2);
-    for (int y = 0; y < coarse.height(); ++y) {
-        const PackedColor* a = fine.row(2 * y);
-        const PackedColor* b = fine.row(std::min(2 * y + 1, fine.height() - 1));
-        for (int x = 0; x < coarse.width(); ++x) {
-            const int x0 = 2 * x, x1 = std::min(2 * x + 1, fine.width() - 1);
-            coarse.at(x, y) = packColor(
-                0.25f * (unpackColor(a[x0]) + unpackColor(a[x1]) + unpackColor(b[x0]) + unpackColor(b[x1])));
-        }
-    }
-    return coarse;
-}
-
-}  // namespace
 
 ColorTexture::ColorTexture(const Plane<PackedColor>& image, glm::dvec2 gridOrigin, glm::dvec2 gridPerTexel)
-    : mGridOrigin(gridOrigin), mGridPerTexel(gridPerTexel) {
-    Plane<PackedColor> base(image.width(), image.height());
-    for (int y = 0; y < image.height(); ++y)
-        std::copy_n(image.row(image.height() - 1 - y), image.width(), base.row(y));
-    mLevels.push_back(std::move(base));
-    while (mLevels.back().width() > 1 || mLevels.back().height() > 1)
-        mLevels.push_back(halved(mLevels.back()));
+    : mWidth(image.width()), mHeight(image.height()), mGridOrigin(gridOrigin), mGridPerTexel(gridPerTexel) {
+    std::size_t total = 0;
+    for (int k = 0; k < kMaxLevels; ++k) {
+        mOffsets.push_back(static_cast<std::int32_t>(total));
+        total += static_cast<std::size_t>(widthOf(k) + 1) * (heightOf(k) + 1);
+        if (widthOf(k) == 1 && heightOf(k) == 1) break;
+    }
+    mTexels.resize(total);
+    for (int y = 0; y < mHeight; ++y)
+        std::copy_n(image.row(mHeight - 1 - y), mWidth,
+                    texels(0) + static_cast<std::ptrdiff_t>(y) * (mWidth + 1));
+    pad(0);
+    for (int k = 1; k < levelCount(); ++k) {
+        halve(k);
+        pad(k);
+    }
 }
 
-std::size_t ColorTexture::byteCount() const {
-    std::size_t bytes = 0;
-    for (const auto& level : mLevels) bytes += level.byteCount();
-    return bytes;
+void ColorTexture::pad(int k) {
+    const int width = widthOf(k), height = heightOf(k);
+    const std::ptrdiff_t stride = width + 1;
+    for (int y = 0; y < height; ++y) texels(k)[y * stride + width] = texels(k)[y * stride + width - 1];
+    std::copy_n(texels(k) + (height - 1) * stride, stride, texels(k) + height * stride);
+}
+
+void ColorTexture::halve(int k) {
+    const Level fine = level(k - 1);
+    const int width = widthOf(k);
+    parallelFor(heightOf(k), [&](int y) {
+        const PackedColor* south = fine.row(2 * y);
+        const PackedColor* north = fine.row(std::min(2 * y + 1, fine.height() - 1));
+        PackedColor* out = texels(k) + static_cast<std::ptrdiff_t>(y) * (width + 1);
+        for (int x = 0; x < width; ++x) {
+            const int x0 = 2 * x, x1 = std::min(2 * x + 1, fine.width() - 1);
+            out[x] = packColor(0.25f * (unpackColor(south[x0]) + unpackColor(south[x1]) +
+                                        unpackColor(north[x0]) + unpackColor(north[x1])));
+        }
+    });
 }
 
 }  // namespace stereonav

@@ -2,6 +2,7 @@
 // bilinear lookup by the ray's footprint.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <vector>
 
@@ -10,24 +11,54 @@
 
 namespace stereonav {
 
-// Levels halve (rounding up) down to 1 x 1, averaged in linear light. Texel (0, 0) of a level is
-// south-west, as the heightfield's samples: x counts east, y counts north.
+// Levels halve (rounding up) down to 1 x 1, averaged in linear light; texel (i, j) of level k covers
+// the 2^k x 2^k texels of level 0 from (i, j) * 2^k on. Texel (0, 0) is south-west, as the
+// heightfield's samples: x counts east, y counts north. All levels lie in one array; each has one more
+// column and row than texels, which repeat the last, so that a bilinear lookup needs no test.
 class ColorTexture {
 public:
+    static constexpr int kMaxLevels = 16;
+
+    // One level: texel (x, y) is row(y)[x].
+    class Level {
+    public:
+        Level(const PackedColor* texels, int width, int height)
+            : mTexels(texels), mWidth(width), mHeight(height) {}
+        int width() const { return mWidth; }
+        int height() const { return mHeight; }
+        int stride() const { return mWidth + 1; }
+        const PackedColor* row(int y) const { return mTexels + static_cast<std::ptrdiff_t>(y) * stride(); }
+        const PackedColor& at(int x, int y) const { return row(y)[x]; }
+
+    private:
+        const PackedColor* mTexels;
+        int mWidth, mHeight;
+    };
+
     ColorTexture() = default;
-    // image: row 0 northernmost, as files have it. gridFromTexel: grid coordinates of the outer
-    // corner of the south-west texel, and grid units a texel.
+    // image: row 0 northernmost, as files have it, at most 32768 texels a side. gridOrigin: grid
+    // coordinates of the outer corner of the south-west texel; gridPerTexel: grid units a texel.
     ColorTexture(const Plane<PackedColor>& image, glm::dvec2 gridOrigin, glm::dvec2 gridPerTexel);
 
-    int levelCount() const { return static_cast<int>(mLevels.size()); }
-    const Plane<PackedColor>& level(int k) const { return mLevels[k]; }
+    int levelCount() const { return static_cast<int>(mOffsets.size()); }
+    Level level(int k) const { return {mTexels.data() + mOffsets[k], widthOf(k), heightOf(k)}; }
+    std::int32_t offset(int k) const { return mOffsets[k]; }
+    const PackedColor* data() const { return mTexels.data(); }
     // Level-0 texel coordinates (continuous, centre of texel 0 at 0.5) = (grid - origin) / perTexel.
     glm::dvec2 gridOrigin() const { return mGridOrigin; }
     glm::dvec2 gridPerTexel() const { return mGridPerTexel; }
-    std::size_t byteCount() const;
+    std::size_t byteCount() const { return mTexels.size() * sizeof(PackedColor); }
 
 private:
-    std::vector<Plane<PackedColor>> mLevels;
+    int widthOf(int k) const { return (mWidth + (1 << k) - 1) >> k; }
+    int heightOf(int k) const { return (mHeight + (1 << k) - 1) >> k; }
+    PackedColor* texels(int k) { return mTexels.data() + mOffsets[k]; }
+    void pad(int k);
+    void halve(int k);
+
+    int mWidth = 0, mHeight = 0;
+    std::vector<std::int32_t> mOffsets;
+    std::vector<PackedColor> mTexels;
     glm::dvec2 mGridOrigin{0.0}, mGridPerTexel{1.0};
 };
 

@@ -1,75 +1,323 @@
-// Plain first version: the cell walk for every ray.
+// Chooses the kernels, hands them bands and batches, and adds what only some scenes have: landmarks and
+// view-dependent highlights.
 #include "terrain/terrain_renderer.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <glm/vector_relational.hpp>
+#include <vector>
 
+#include "engine/base/error.h"
+#include "terrain/caster_types.h"
+#include "terrain/height_pyramid.h"
+#include "terrain/landmark.h"
 #include "terrain/plain_caster.h"
+#include "terrain/specular.h"
+#include "terrain/terrain_view.h"
 
 namespace stereonav {
-
-struct TerrainRenderer::State {};
-
 namespace {
 
-PackedColor skyColor(const SkyMap& sky, const glm::dvec3& d) {
-    const double s = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
-    double px = d.x / s, py = d.y / s;
-    if (d.z < 0) {
-        const double qx = std::copysign(1 - std::abs(py), px), qy = std::copysign(1 - std::abs(px), py);
-        px = qx, py = qy;
+const CasterKernels& kernelsFor(SimdTarget target) {
+    const bool hasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    const bool hasAvx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+    if (target == SimdTarget::Auto)
+        target = hasAvx512 ? SimdTarget::Avx512 : hasAvx2 ? SimdTarget::Avx2 : SimdTarget::Plain;
+    if (target == SimdTarget::Avx512 && hasAvx512) return avx512::kCasterKernels;
+    if (target == SimdTarget::Avx2 && hasAvx2) return avx2::kCasterKernels;
+    if (target == SimdTarget::Plain) return plain::kCasterKernels;
+    throw Error("", "--simd", "this processor does not have that instruction set", "use auto");
+}
+
+double exactHit(const void* context, const double* origin, const double* direction, double tMin, int* cell,
+                double* position) {
+    const auto& ground = *static_cast<const Heightfield*>(context);
+    const glm::dvec2 spacing = ground.spacing();
+    const glm::dvec3 world(ground.worldFromGrid({origin[0], origin[1]}), origin[2]);
+    const GroundHit hit =
+        castPlain(ground, world, {direction[0] * spacing.x, direction[1] * spacing.y, direction[2]}, tMin);
+    cell[0] = hit.i, cell[1] = hit.j;
+    position[0] = hit.u, position[1] = hit.v;
+    return hit.t;
+}
+
+GroundData groundData(const Heightfield& ground, const HeightPyramid& pyramid) {
+    GroundData g;
+    g.heights = ground.data();
+    g.width = ground.width();
+    g.height = ground.height();
+    g.maxima = pyramid.data();
+    std::copy(pyramid.offsets().begin(), pyramid.offsets().end(), g.maximaOffset);
+    std::copy(pyramid.pitches().begin(), pyramid.pitches().end(), g.maximaPitch);
+    g.levels = pyramid.levelCount();
+    g.minHeight = ground.minHeight();
+    g.maxHeight = ground.maxHeight();
+    g.maxSlope = static_cast<float>(ground.maxSlope() * (1 + 1e-6));
+    g.spacingX = ground.spacing().x;
+    g.spacingY = ground.spacing().y;
+    g.exactHit = exactHit;
+    g.context = &ground;
+    return g;
+}
+
+TextureData textureData(const ColorTexture& color, const glm::dvec2& spacing) {
+    TextureData t;
+    t.texels = color.data();
+    t.levels = color.levelCount();
+    t.width = color.level(0).width();
+    t.height = color.level(0).height();
+    for (int k = 0; k < ColorTexture::kMaxLevels; ++k) t.offset[k] = color.offset(std::min(k, t.levels - 1));
+    const glm::dvec2 scale = 1.0 / color.gridPerTexel(), shift = -color.gridOrigin() * scale;
+    t.scaleX = static_cast<float>(scale.x);
+    t.scaleY = static_cast<float>(scale.y);
+    t.shiftX = static_cast<float>(shift.x);
+    t.shiftY = static_cast<float>(shift.y);
+    const glm::dvec2 texel = color.gridPerTexel() * spacing;
+    t.texelsPerMetre = static_cast<float>(1 / std::sqrt(texel.x * texel.y));
+    return t;
+}
+
+CasterTarget targetOf(EyeImage& image) {
+    return {image.color.row(0), image.viewDepth.row(0), image.color.stride(), image.viewDepth.stride()};
+}
+
+std::vector<PixelIndex> pixelsOf(const CasterView& view, const CasterBand& band) {
+    std::vector<PixelIndex> pixels;
+    for (int q = 0; q < view.steps; ++q) {
+        const int end = bandEdge(band.right, band.rightSlope, q, view.lanes);
+        for (int a = bandEdge(band.left, band.leftSlope, q, view.lanes); a < end; ++a)
+            pixels.push_back({static_cast<std::uint16_t>(view.firstX + a * view.laneX + q * view.stepX),
+                              static_cast<std::uint16_t>(view.firstY + a * view.laneY + q * view.stepY)});
     }
-    const int n = sky.map().width();
-    const auto index = [n](double p) { return std::clamp(static_cast<int>((p * 0.5 + 0.5) * n), 0, n - 1); };
-    return sky.map().at(index(px), index(py));
-}
-
-PackedColor groundColor(const ColorTexture& color, double gx, double gy) {
-    const auto& level = color.level(0);
-    const double x = (gx - color.gridOrigin().x) / color.gridPerTexel().x - 0.5;
-    const double y = (gy - color.gridOrigin().y) / color.gridPerTexel().y - 0.5;
-    const int i = std::clamp(static_cast<int>(std::floor(x)), 0, std::max(0, level.width() - 2));
-    const int j = std::clamp(static_cast<int>(std::floor(y)), 0, std::max(0, level.height() - 2));
-    const int i1 = std::min(i + 1, level.width() - 1), j1 = std::min(j + 1, level.height() - 1);
-    const float u = static_cast<float>(std::clamp(x - i, 0.0, 1.0)),
-                v = static_cast<float>(std::clamp(y - j, 0.0, 1.0));
-    const glm::vec3 south = unpackColor(level.at(i, j)) * (1 - u) + unpackColor(level.at(i1, j)) * u;
-    const glm::vec3 north = unpackColor(level.at(i, j1)) * (1 - u) + unpackColor(level.at(i1, j1)) * u;
-    return packColor(south * (1 - v) + north * v);
-}
-
-void castPixel(const TerrainScene& scene, const EyeView& view, int x, int y, EyeImage& image) {
-    const glm::dvec3 d = view.rayDirection(x + 0.5, y + 0.5);
-    const GroundHit hit = castPlain(scene.ground, view.eye, d, view.nearDepth);
-    const bool miss = !std::isfinite(hit.t);
-    image.viewDepth.at(x, y) = static_cast<float>(hit.t);
-    image.color.at(x, y) =
-        miss ? skyColor(scene.sky, d) : groundColor(scene.color, hit.i + hit.u, hit.j + hit.v);
+    return pixels;
 }
 
 }  // namespace
 
-TerrainRenderer::TerrainRenderer(const TerrainScene& scene, SimdTarget) : mScene(scene) {}
+struct TerrainRenderer::State {
+    HeightPyramid pyramid;
+    CasterScene scene;
+    const CasterKernels* kernels;
+    Specular specular;
+    SimdTarget target;
+
+    State(const TerrainScene& terrain, SimdTarget wanted)
+        : pyramid(terrain.ground), kernels(&kernelsFor(wanted)), specular(terrain.look) {
+        scene.ground = groundData(terrain.ground, pyramid);
+        scene.texture = textureData(terrain.color, terrain.ground.spacing());
+        scene.sky = {terrain.sky.map().row(0), terrain.sky.map().width(), terrain.sky.map().stride()};
+        if (terrain.look.fogDistance > 0)
+            scene.fog = {static_cast<float>(1 / terrain.look.fogDistance), packColor(terrain.look.fogColor)};
+        target = kernels == &avx512::kCasterKernels ? SimdTarget::Avx512
+                 : kernels == &avx2::kCasterKernels ? SimdTarget::Avx2
+                                                    : SimdTarget::Plain;
+    }
+};
+
+TerrainRenderer::TerrainRenderer(const TerrainScene& scene, SimdTarget target)
+    : mScene(scene), mState(std::make_unique<State>(scene, target)) {}
 TerrainRenderer::~TerrainRenderer() = default;
+
 int TerrainRenderer::tileCount(const EyeView& view) const {
-    return view.height;
+    return bandCount(makeCasterView(view, mScene.ground));
 }
+
 void TerrainRenderer::renderTile(const EyeView& view, int tile, EyeImage& image) const {
-    for (int x = 0; x < view.width; ++x) castPixel(mScene, view, x, tile, image);
+    const CasterView caster = makeCasterView(view, mScene.ground);
+    const CasterBand band = bandOf(caster, tile);
+    thread_local std::vector<float> scratch;
+    scratch.resize(8 * (static_cast<std::size_t>(caster.lanes) + 128));
+    mState->kernels->castBand(mState->scene, caster, band, targetOf(image), scratch.data());
+    if (mScene.landmarks || viewDependent()) finish(view, pixelsOf(caster, band), image);
 }
-void TerrainRenderer::renderPixels(const EyeView& view, PixelRect, std::span<const PixelIndex> pixels,
-                                   EyeImage& image) const {
-    for (const PixelIndex p : pixels) castPixel(mScene, view, p.x, p.y, image);
+
+void TerrainRenderer::finish(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const {
+    if (mScene.landmarks) castLandmarks(view, pixels, image);
+    if (!viewDependent() || image.normal.empty()) return;
+    for (const PixelIndex p : pixels) {
+        const float depth = image.viewDepth.at(p.x, p.y);
+        image.baseColor.at(p.x, p.y) = image.color.at(p.x, p.y);
+        const glm::dvec3 point = view.pointAt(p.x + 0.5, p.y + 0.5, std::isfinite(depth) ? depth : 0.0);
+        image.normal.at(p.x, p.y) = packNormal(mScene.ground.normalAt(glm::dvec2(point)));
+        shadeAgain(view, p.y, p.x, p.x + 1, image);
+    }
 }
-bool TerrainRenderer::mayHitBeyondEdge(const EyeView&, PixelRect, double, double) const {
-    return false;
+
+void TerrainRenderer::castLandmarks(const EyeView& view, std::span<const PixelIndex> pixels,
+                                    EyeImage& image) const {
+    constexpr int kChunk = 256;
+    glm::dvec3 direction[kChunk];
+    float depth[kChunk];
+    PackedColor color[kChunk];
+    for (std::size_t first = 0; first < pixels.size(); first += kChunk) {
+        const int count = static_cast<int>(std::min<std::size_t>(kChunk, pixels.size() - first));
+        for (int k = 0; k < count; ++k) {
+            const PixelIndex p = pixels[first + k];
+            direction[k] = view.rayDirection(p.x + 0.5, p.y + 0.5);
+            depth[k] = image.viewDepth.at(p.x, p.y);
+            color[k] = image.color.at(p.x, p.y);
+        }
+        mScene.landmarks->cast(view, count, direction, depth, color);
+        for (int k = 0; k < count; ++k) {
+            const PixelIndex p = pixels[first + k];
+            image.viewDepth.at(p.x, p.y) = depth[k];
+            image.color.at(p.x, p.y) = color[k];
+        }
+    }
 }
+
+void TerrainRenderer::shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const {
+    for (int x = x0; x < x1; ++x) {
+        const bool ground = std::isfinite(image.viewDepth.at(x, y));
+        const PackedColor base = image.baseColor.at(x, y);
+        const glm::dvec3 toEye = -glm::normalize(view.rayDirection(x + 0.5, y + 0.5));
+        image.color.at(x, y) =
+            ground ? mState->specular.shade(base, unpackNormal(image.normal.at(x, y)), toEye) : base;
+    }
+}
+
 bool TerrainRenderer::viewDependent() const {
+    return mState->specular.active();
+}
+SimdTarget TerrainRenderer::target() const {
+    return mState->target;
+}
+
+namespace {
+
+// How far in front of a known surface a hole's ray starts: the depth of a warped pixel is that of its
+// nearer neighbour in the left picture, good to about a pixel's worth of ground.
+constexpr float kInFront = 0.98f;
+constexpr int kLookBack = 24;  // steps towards lower rays searched for a known depth
+
+// Depth from which the ray of pixel p may start: known depths below it (Wan et al. 2004, section 3.2),
+// where they prove its way free (caster_kernel.cpp has the rule for any view).
+float startInFront(const CasterView& v, const GroundData& ground, PixelRect bounds, const EyeImage& image,
+                   PixelIndex p) {
+    if (!v.coherent) return 0;
+    const int a = (p.x - v.firstX) * v.laneX + (p.y - v.firstY) * v.laneY;
+    const int q = (p.x - v.firstX) * v.stepX + (p.y - v.firstY) * v.stepY;
+    const double lowQ = v.lowQ - q * v.lowW;
+    const double drift = v.verticalColumns ? 0 : (v.lowA - a * v.lowW) / -lowQ;
+    if (!v.verticalColumns && !(lowQ < 0)) return 0;
+    const auto heading = [&](int lane, int step) {
+        const glm::dvec3 d((v.base[0] + lane * v.perLane[0] + step * v.perStep[0]) * ground.spacingX,
+                           (v.base[1] + lane * v.perLane[1] + step * v.perStep[1]) * ground.spacingY,
+                           v.base[2] + lane * v.perLane[2] + step * v.perStep[2]);
+        const double run = std::max(1e-12, std::hypot(d.x, d.y));
+        return glm::dvec4(d.x / run, d.y / run, d.z / run, run);
+    };
+    const glm::dvec4 ray = heading(a, q);
+    for (int back = 1; back <= std::min(q, kLookBack); ++back) {
+        const int lane = a + static_cast<int>(std::lround(drift * back)), step = q - back;
+        const int x = v.firstX + lane * v.laneX + step * v.stepX,
+                  y = v.firstY + lane * v.laneY + step * v.stepY;
+        if (x < bounds.x0 || x >= bounds.x1 || y < bounds.y0 || y >= bounds.y1) return 0;
+        const float depth = image.viewDepth.at(x, y);
+        if (!(depth > 0)) continue;
+        if (v.verticalColumns) return depth * kInFront;
+        const glm::dvec4 lower = heading(lane, step);
+        const double aside = std::hypot(ray.x - lower.x, ray.y - lower.y);
+        if (!std::isfinite(depth) || !(ray.z - lower.z >= ground.maxSlope * aside)) continue;
+        return depth * static_cast<float>(lower.w / ray.w) * kInFront;
+    }
+    return 0;
+}
+
+}  // namespace
+
+void TerrainRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
+                                   EyeImage& image) const {
+    const CasterView caster = makeCasterView(view, mScene.ground);
+    thread_local std::vector<PixelIndex> order;
+    order.assign(pixels.begin(), pixels.end());
+    const auto step = [&](PixelIndex p) { return p.x * caster.stepX + p.y * caster.stepY; };
+    if (caster.stepX == 0 && caster.stepY < 0) {
+        std::reverse(order.begin(), order.end());
+    } else if (caster.stepX != 0) {
+        std::stable_sort(order.begin(), order.end(),
+                         [&](PixelIndex p, PixelIndex q) { return step(p) < step(q); });
+    }
+    const CasterTarget target = targetOf(image);
+    CasterPixel chunk[16];
+    float start[16];
+    const std::size_t lanes = mState->kernels->lanes;
+    for (std::size_t first = 0; first < order.size(); first += lanes) {
+        const int count = static_cast<int>(std::min(lanes, order.size() - first));
+        for (int k = 0; k < count; ++k) {
+            const PixelIndex p = order[first + k];
+            chunk[k] = {p.x, p.y};
+            start[k] = startInFront(caster, mState->scene.ground, bounds, image, p);
+        }
+        mState->kernels->castPixels(mState->scene, caster, {chunk, start, count}, target);
+    }
+    if (mScene.landmarks || viewDependent()) finish(view, order, image);
+}
+
+namespace {
+
+struct Box {
+    glm::dvec3 low, high;
+};
+
+// Bounds of the part of the rectangle's frustum between two depths.
+Box frustumBox(const EyeView& view, PixelRect rect, double from, double to) {
+    Box box{glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
+    for (const double x : {double(rect.x0), double(rect.x1)})
+        for (const double y : {double(rect.y0), double(rect.y1)})
+            for (const double depth : {from, to}) {
+                const glm::dvec3 p = view.pointAt(x, y, depth);
+                box.low = glm::min(box.low, p);
+                box.high = glm::max(box.high, p);
+            }
+    return box;
+}
+
+// Whether any ground below the box's footprint reaches up to its lower side.
+bool reachesGround(const Heightfield& ground, const HeightPyramid& pyramid, const Box& box) {
+    const glm::dvec2 low = ground.gridFromWorld(glm::dvec2(box.low)),
+                     high = ground.gridFromWorld(glm::dvec2(box.high));
+    const int lastI = ground.width() - 2, lastJ = ground.height() - 2;
+    if (high.x < 0 || high.y < 0 || low.x > lastI + 1 || low.y > lastJ + 1) return false;
+    const auto cell = [](double g, int last) {
+        return std::clamp(static_cast<int>(std::floor(std::clamp(g, -1.0, 1e9))), 0, last);
+    };
+    const int i0 = cell(low.x, lastI), i1 = cell(high.x, lastI), j0 = cell(low.y, lastJ),
+              j1 = cell(high.y, lastJ);
+    int level = 0;
+    while (level + 1 < pyramid.levelCount() &&
+           std::max((i1 >> level) - (i0 >> level), (j1 >> level) - (j0 >> level)) > 3)
+        ++level;
+    for (int j = j0 >> level; j <= j1 >> level; ++j)
+        for (int i = i0 >> level; i <= i1 >> level; ++i)
+            if (pyramid.at(level, i, j) >= box.low.z) return true;
     return false;
 }
-void TerrainRenderer::shadeAgain(const EyeView&, int, int, int, EyeImage&) const {}
-SimdTarget TerrainRenderer::target() const {
-    return SimdTarget::Plain;
+
+}  // namespace
+
+bool TerrainRenderer::mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
+                                       double parallaxScale) const {
+    if (rect.x1 >= column) return true;
+    const double end = parallaxScale / (column - rect.x1);
+    double from = view.nearDepth;
+    while (from < end) {
+        const double to = std::min(end, from * 2);
+        const Box box = frustumBox(view, rect, from, to);
+        if (reachesGround(mScene.ground, mState->pyramid, box)) return true;
+        if (mScene.landmarks) {
+            const glm::dvec3 low = mScene.landmarks->boundsMin(), high = mScene.landmarks->boundsMax();
+            if (glm::all(glm::lessThanEqual(low, box.high)) && glm::all(glm::lessThanEqual(box.low, high)))
+                return true;
+        }
+        from = to;
+    }
+    return false;
 }
 
 }  // namespace stereonav

@@ -31,6 +31,10 @@ public:
 
 private:
     struct State;
+    // What the kernels leave out: landmarks, normals, highlights.
+    void finish(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const;
+    void castLandmarks(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const;
+
     const TerrainScene& mScene;
     std::unique_ptr<State> mState;
 };

@@ -8,6 +8,7 @@
 namespace stereonav::STEREONAV_ISA {
 
 constexpr int kLanes = 8;
+constexpr const char* kName = "avx2";
 
 struct M {
     __m256 v;  // all bits of a lane set or clear
@@ -205,6 +206,10 @@ struct FPair {
 // base[index] and base[index + 1].
 STEREONAV_INLINE FPair gatherPair(const float* base, I index, M m) {
     return {gather(base, index, m, F(0.0f)), gather(base + 1, index, m, F(0.0f))};
+}
+// table[index] for a table of sixteen entries; index in [0, 16).
+STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {
+    return _mm256_i32gather_epi32(table, index.v, 4);
 }
 // Sixteen-bit halves of each lane: a + (b - a) * t / 2^15, rounded; t in [0, 2^15), |b - a| < 2^15.
 STEREONAV_INLINE I lerpHalves(I a, I b, I t) {

@@ -8,6 +8,7 @@
 namespace stereonav::STEREONAV_ISA {
 
 constexpr int kLanes = 16;
+constexpr const char* kName = "avx512";
 
 struct M {
     __mmask16 v;
@@ -209,6 +210,10 @@ STEREONAV_INLINE FPair gatherPair(const float* base, I index, M m) {
     const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
     const __m512i odd = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
     return {_mm512_permutex2var_ps(a, even, b), _mm512_permutex2var_ps(a, odd, b)};
+}
+// table[index] for a table of sixteen entries; index in [0, 16).
+STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {
+    return _mm512_permutexvar_epi32(index.v, _mm512_loadu_si512(table));
 }
 // Sixteen-bit halves of each lane: a + (b - a) * t / 2^15, rounded; t in [0, 2^15), |b - a| < 2^15.
 STEREONAV_INLINE I lerpHalves(I a, I b, I t) {

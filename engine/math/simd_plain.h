@@ -8,6 +8,7 @@
 namespace stereonav::STEREONAV_ISA {
 
 constexpr int kLanes = 4;
+constexpr const char* kName = "plain";
 
 struct M {
     std::uint32_t v;  // bit k is lane k
@@ -240,6 +241,10 @@ struct FPair {
 // base[index] and base[index + 1].
 STEREONAV_INLINE FPair gatherPair(const float* base, I index, M m) {
     return {gather(base, index, m, F(0.0f)), gather(base + 1, index, m, F(0.0f))};
+}
+// table[index] for a table of sixteen entries; index in [0, 16).
+STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {
+    return mapLanes<std::int32_t>([&](int k) { return table[index.v[k]]; });
 }
 // Sixteen-bit halves of each lane: a + (b - a) * t / 2^15, rounded; t in [0, 2^15), |b - a| < 2^15.
 STEREONAV_INLINE std::int32_t lerpHalf(std::int32_t a, std::int32_t b, std::int32_t t) {

@@ -1,0 +1,146 @@
+// Colour of a packet: the ground's texture filtered by the ray's footprint, fog, or the sky. Texels are
+// mixed as they are stored, as square roots of linear light in 14-bit fixed point; the mip levels
+// themselves are averaged in linear light. Included by kernels only.
+#pragma once
+
+#include "engine/math/simd.h"
+#include "terrain/caster_types.h"
+#include "terrain/kernel_cast.h"
+
+namespace stereonav::STEREONAV_ISA {
+
+// A packed colour opened into 16-bit halves, each channel times 16: red and blue, and green.
+struct Channels {
+    I redBlue, green;
+};
+
+STEREONAV_INLINE Channels openColor(I packed) {
+    return {(shiftLeft<4>(packed) & I(0x3FF0)) | (packed & I(0x3FF00000)), shiftRight<6>(packed) & I(0x3FF0)};
+}
+
+STEREONAV_INLINE I closeColor(Channels c) {
+    const I redBlue = c.redBlue + I(0x00080008), green = c.green + I(8);
+    return (shiftRight<4>(redBlue) & I(0x3FF)) | (redBlue & I(0x3FF00000)) |
+           (shiftLeft<6>(green) & I(0xFFC00));
+}
+
+STEREONAV_INLINE Channels mix(Channels a, Channels b, I weight) {
+    return {lerpHalves(a.redBlue, b.redBlue, weight), lerpHalves(a.green, b.green, weight)};
+}
+
+// A weight in [0, 1] as 15-bit fixed point in both halves of a lane.
+STEREONAV_INLINE I weightOf(F w) {
+    const I fixed = truncateToInt(w * F(32767.0f));
+    return fixed | shiftLeft<16>(fixed);
+}
+
+STEREONAV_INLINE Channels bilinear(const std::uint32_t* texels, I index, I stride, F fractionX, F fractionY,
+                                   M m) {
+    const float* base = reinterpret_cast<const float*>(texels);
+    const FPair south = gatherPair(base, index, m), north = gatherPair(base, index + stride, m);
+    const I x = weightOf(fractionX), y = weightOf(fractionY);
+    return mix(mix(openColor(asInt(south.first)), openColor(asInt(south.second)), x),
+               mix(openColor(asInt(north.first)), openColor(asInt(north.second)), x), y);
+}
+
+// x, y: level-0 texel coordinates, texel centres at halves.
+STEREONAV_INLINE Channels sampleLevel(const TextureData& texture, F x, F y, I level, M m) {
+    const I one = shiftLeft(I(1), level);
+    const I width = shiftRight(I(texture.width - 1) + one, level);
+    const I height = shiftRight(I(texture.height - 1) + one, level);
+    const F scale = asFloat(shiftLeft<23>(I(127) - level));  // 2^-level
+    const F tx = mulAdd(x, scale, F(-0.5f)), ty = mulAdd(y, scale, F(-0.5f));
+    const I i = clamp(floorToInt(tx), I(0), width - I(1)), j = clamp(floorToInt(ty), I(0), height - I(1));
+    const F fx = clamp(tx - toFloat(i), F(0.0f), F(1.0f)), fy = clamp(ty - toFloat(j), F(0.0f), F(1.0f));
+    const I stride = width + I(1);
+    return bilinear(texture.texels, lookup16(texture.offset, level) + j * stride + i, stride, fx, fy, m);
+}
+
+// Base-2 logarithm within 0.01, for positive normal numbers.
+STEREONAV_INLINE F approxLog2(F x) {
+    const I bitsOfX = asInt(x);
+    const F exponent = toFloat(shiftRight<23>(bitsOfX) - I(127));
+    const F mantissa = asFloat((bitsOfX & I(0x7FFFFF)) | I(0x3F800000));
+    return exponent + mulAdd(mulAdd(F(-0.33333f), mantissa, F(2.0f)), mantissa, F(-1.66667f));
+}
+
+struct Footprint {
+    F level;  // mip level, >= 0
+};
+
+// The footprint of a pixel on the ground is t * pixelWidth across, and along the ray as much longer as
+// the ray is flatter. The level fits the geometric mean of the two, but is never more than kMaxSharper
+// levels finer than the long side asks for: a compromise between shimmer and blur (docs/decisions).
+STEREONAV_INLINE F mipLevel(const TextureData& texture, const CasterView& view, const Rays& rays, F length,
+                            F t, F approach) {
+    (void)rays;
+    const F across = t * F(view.pixelWidth * texture.texelsPerMetre);
+    const F along = t * F(view.pixelHeight * texture.texelsPerMetre) * length / max(abs(approach), F(1e-6f));
+    const F levelAcross = approxLog2(max(across, F(1e-6f)));
+    const F levelAlong = approxLog2(min(max(along, F(1e-6f)), F(1e9f)));
+    const F level = F(0.5f) * (levelAcross + levelAlong);
+    return clamp(level, F(0.0f), F(static_cast<float>(texture.levels - 1)));
+}
+
+STEREONAV_INLINE Channels groundColor(const TextureData& texture, F gx, F gy, F level, M m) {
+    const F x = mulAdd(gx, F(texture.scaleX), F(texture.shiftX));
+    const F y = mulAdd(gy, F(texture.scaleY), F(texture.shiftY));
+    const I fine = truncateToInt(level);
+    const F fraction = level - toFloat(fine);
+    const Channels sharp = sampleLevel(texture, x, y, fine, m);
+    const M between = m & (fraction > F(0.0f));
+    if (!any(between)) return sharp;
+    const I coarse = min(fine + I(1), I(texture.levels - 1));
+    return mix(sharp, sampleLevel(texture, x, y, coarse, between), weightOf(fraction));
+}
+
+// directions in metres, any length.
+STEREONAV_INLINE Channels skyColor(const SkyData& sky, F x, F y, F z, M m) {
+    const F scale = F(1.0f) / max(abs(x) + abs(y) + abs(z), F(1e-30f));
+    const F px = x * scale, py = y * scale;
+    const M below = z < F(0.0f);
+    const F foldedX = select(px < F(0.0f), abs(py) - F(1.0f), F(1.0f) - abs(py));
+    const F foldedY = select(py < F(0.0f), abs(px) - F(1.0f), F(1.0f) - abs(px));
+    const float half = 0.5f * static_cast<float>(sky.size);
+    const F tx = mulAdd(select(below, foldedX, px), F(half), F(half - 0.5f));
+    const F ty = mulAdd(select(below, foldedY, py), F(half), F(half - 0.5f));
+    const I last(sky.size - 2);
+    const I i = clamp(floorToInt(tx), I(0), last), j = clamp(floorToInt(ty), I(0), last);
+    const F fx = clamp(tx - toFloat(i), F(0.0f), F(1.0f)), fy = clamp(ty - toFloat(j), F(0.0f), F(1.0f));
+    return bilinear(sky.texels, j * I(sky.stride) + i, I(sky.stride), fx, fy, m);
+}
+
+// e^-x within 2e-5, for x >= 0.
+STEREONAV_INLINE F expMinus(F x) {
+    const F y = min(x, F(80.0f)) * F(1.44269504f);
+    const I whole = truncateToInt(y);
+    const F f = y - toFloat(whole);
+    // 2^-f on [0, 1): minimax cubic, relative error below 1e-4; squared at half the argument.
+    const F h = f * F(-0.34657359f);
+    const F half = mulAdd(h, mulAdd(h, mulAdd(h, F(0.16666667f), F(0.5f)), F(1.0f)), F(1.0f));
+    return half * half * asFloat(shiftLeft<23>(I(127) - whole));
+}
+
+STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view, const Rays& rays,
+                               const Hits& hits, M lanes) {
+    const F x = rays.x * F(static_cast<float>(scene.ground.spacingX));
+    const F y = rays.y * F(static_cast<float>(scene.ground.spacingY));
+    const M ground = lanes & (hits.t < infinity());
+    const M sky = andNot(lanes, ground);
+    Channels color{I(0), I(0)};
+    if (any(ground)) {
+        const F length = sqrt(mulAdd(x, x, mulAdd(y, y, rays.z * rays.z)));
+        const F t = select(ground, hits.t, F(1.0f));
+        const F level = mipLevel(scene.texture, view, rays, length, t, hits.approach);
+        color = groundColor(scene.texture, toFloat(hits.i) + hits.u, toFloat(hits.j) + hits.v, level, ground);
+        if (scene.fog.perMetre > 0) {
+            const F through = expMinus(t * length * F(scene.fog.perMetre));
+            color = mix(openColor(I(static_cast<int>(scene.fog.color))), color, weightOf(through));
+        }
+    }
+    I packed = closeColor(color);
+    if (any(sky)) packed = select(sky, closeColor(skyColor(scene.sky, x, y, rays.z, sky)), packed);
+    return packed;
+}
+
+}  // namespace stereonav::STEREONAV_ISA

@@ -1,0 +1,114 @@
+// The fast caster against the plain cell walk: same cell, same depth, for any view, on every
+// instruction set this processor has.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <random>
+
+#include "engine/base/parallel.h"
+#include "engine/camera/stereo_rig.h"
+#include "terrain/plain_caster.h"
+#include "terrain/terrain_renderer.h"
+#include "tests/support/test_grounds.h"
+
+namespace stereonav {
+namespace {
+
+struct Tally {
+    long long pixels = 0, wrong = 0;
+    double worst = 0;  // relative depth error of pixels that are right
+    std::string first;
+};
+
+bool sameDepth(double expected, double got, double tolerance) {
+    if (!std::isfinite(expected) || !std::isfinite(got)) return std::isfinite(expected) == std::isfinite(got);
+    return std::abs(got - expected) <= tolerance * expected;
+}
+
+void compare(const TerrainScene& scene, const TerrainRenderer& renderer, const EyeView& view, Tally& tally) {
+    EyeImage image;
+    image.resize(view.width, view.height);
+    renderEye(renderer, view, image);
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            const GroundHit hit =
+                castPlain(scene.ground, view.eye, view.rayDirection(x + 0.5, y + 0.5), view.nearDepth);
+            const double got = image.viewDepth.at(x, y);
+            ++tally.pixels;
+            if (sameDepth(hit.t, got, 1e-6)) {
+                if (std::isfinite(hit.t)) tally.worst = std::max(tally.worst, std::abs(got - hit.t) / hit.t);
+                continue;
+            }
+            if (tally.wrong++ == 0)
+                tally.first = "pixel " + std::to_string(x) + "," + std::to_string(y) + " expected " +
+                              std::to_string(hit.t) + " got " + std::to_string(got);
+        }
+}
+
+// A pose over the ground (mostly inside its extent), any heading; kind chooses pitch and roll.
+Pose randomPose(const Heightfield& ground, std::mt19937& random, int kind) {
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    const glm::dvec2 last(ground.width() - 1, ground.height() - 1);
+    const glm::dvec2 spread = kind % 10 == 9 ? glm::dvec2(2.0) : glm::dvec2(1.0);
+    const glm::dvec2 grid = last * (0.5 + spread * (glm::dvec2(unit(random), unit(random)) - 0.5));
+    const glm::dvec2 world = ground.worldFromGrid(grid);
+    double height = ground.heightAt(world);
+    if (!std::isfinite(height)) height = ground.maxHeight();
+    const double z = height + 2.0 + 400.0 * unit(random) * unit(random);
+    const double pi = std::numbers::pi, heading = 2 * pi * unit(random);
+    switch (kind % 5) {
+        case 0:
+            return poseFromAngles({world, z}, heading, 0, 0);  // level
+        case 1:
+            return poseFromAngles({world, z}, heading, -0.9 * unit(random), 0);  // looking down
+        case 2:
+            return poseFromAngles({world, z}, heading, 0, 2 * pi * unit(random));  // rolled
+        case 3:
+            return poseFromAngles({world, z}, heading, pi * (unit(random) - 0.5), 2 * pi * unit(random));
+        default:
+            return poseFromAngles({world, z}, heading, unit(random) < 0.7 ? -pi / 2 : pi / 2, 0);  // straight
+    }
+}
+
+EyeView randomView(const Heightfield& ground, std::mt19937& random, int kind) {
+    std::uniform_int_distribution<int> width(1, 70), height(1, 60);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    Lens lens{width(random), height(random), 0.2 + 1.8 * unit(random), 1.0, 0.1};
+    StereoSetting stereo{2.0 * unit(random), 20.0 + 200.0 * unit(random)};
+    return makeStereoViews(randomPose(ground, random, kind), lens, stereo).right;
+}
+
+std::vector<SimdTarget> targets() {
+    std::vector<SimdTarget> all{SimdTarget::Plain};
+    if (__builtin_cpu_supports("avx2")) all.push_back(SimdTarget::Avx2);
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
+        all.push_back(SimdTarget::Avx512);
+    return all;
+}
+
+void expectPlainHits(const TerrainScene& scene, int views, unsigned seed) {
+    for (const SimdTarget target : targets()) {
+        const TerrainRenderer renderer(scene, target);
+        std::mt19937 random(seed);
+        Tally tally;
+        for (int k = 0; k < views; ++k) compare(scene, renderer, randomView(scene.ground, random, k), tally);
+        std::printf("[          ] target %d: %lld pixels, %lld wrong, worst depth error %.1e\n",
+                    static_cast<int>(target), tally.pixels, tally.wrong, tally.worst);
+        EXPECT_LE(tally.wrong, tally.pixels / 1000000) << tally.first;
+    }
+}
+
+class CasterOnGround : public testing::TestWithParam<std::string> {};
+
+TEST_P(CasterOnGround, HitsWhatThePlainWalkHits) {
+    expectPlainHits(test::makeScene(test::makeGround(GetParam(), 97, 83, 7)), 150, 11);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, CasterOnGround, testing::ValuesIn(test::groundKinds()),
+                         [](const auto& kind) { return kind.param; });
+
+}  // namespace
+}  // namespace stereonav
