@@ -24,15 +24,16 @@ struct FlightInput {
     double yawRate = 0;                     // radians a second, clockwise seen from above
     double pitchRate = 0;                   // radians a second, upwards
     double rollRate = 0;                    // radians a second, right side down
-    double speedMultiplier = 1;             // > 0
+    double speedMultiplier = 1;             // >= 0
 };
 
 struct FlightSetting {
     double clearance = 2.0;      // metres kept above the ground, > 0
     double followHeight = 50.0;  // metres above the ground at the start of FollowGround, >= clearance
     double speed = 100.0;        // metres a second at full input, > 0
-    double groundStep = 10.0;    // metres between the places where the ground is looked at, > 0:
-                                 // half of the ground's sample spacing
+    // Metres between the places where the ground is looked at along the way, > 0: half of the ground's
+    // sample spacing. Also bounds the speed, to kMostLooks of these a second.
+    double groundStep = 10.0;
 };
 
 // Position and angles with damped velocities; between steps nothing else is remembered. One thread.
@@ -43,6 +44,7 @@ public:
 
     // Moves on by dt seconds (0 to kLongestStep; longer is cut to it, negative and NaN is nothing).
     static constexpr double kLongestStep = 1.0;
+    static constexpr int kMostLooks = 20000;
     void step(const FlightInput& input, double dt);
 
     // Turns at once, radians: for a mouse, whose motion is not a rate.
@@ -67,8 +69,9 @@ public:
 private:
     void turn(const FlightInput& input, double dt);
     void move(const FlightInput& input, double dt);
-    double followedHeight() const;
+    void moveOverGround(double climb, double dt);
     void keepClearance();
+    glm::dvec3 wantedVelocity(const FlightInput& input) const;
     double floorAt(const glm::dvec2& place) const;
 
     GroundHeight mGround;
