@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the release and runs stereonav with the arguments given.
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/.ci/setup.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.ci/setup.sh"
 
 install_missing build
 configure release ${STEREONAV_CMAKE_ARGS:-}

@@ -2,7 +2,7 @@
 # Installs what is missing, builds the release and runs every test under a virtual display.
 # Arguments go to ctest: ./test.sh -R warp
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/.ci/setup.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.ci/setup.sh"
 
 install_missing build test
 configure release ${STEREONAV_CMAKE_ARGS:-}
