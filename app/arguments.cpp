@@ -1,17 +1,193 @@
-// The command line, through CLI11.
+// The command line, through CLI11: one subcommand for each function of commands.h.
 #include "app/arguments.h"
 
+#include <charconv>
 #include <CLI/CLI.hpp>
+#include <functional>
 
 #include "app/commands.h"
+#include "engine/base/error.h"
 
 namespace stereonav {
+namespace {
+
+constexpr const char* kModeHelp = "how two eyes become one picture: ml, mr, sbsl, sbsr, tbl, irl, arcd, ... ";
+
+bool parseWhole(std::string_view text, int& value) {
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+    return result.ec == std::errc() && result.ptr == text.data() + text.size();
+}
+
+// "500x400"; the range is checked where the size is used.
+SizeOption sizeFromText(const std::string& text) {
+    SizeOption size;
+    const std::size_t cross = text.find('x');
+    if (cross == std::string::npos || !parseWhole(std::string_view(text).substr(0, cross), size.width) ||
+        !parseWhole(std::string_view(text).substr(cross + 1), size.height))
+        throw Error("--size", "", "expected WIDTHxHEIGHT in pixels, got \"" + text + "\"", "try 1280x720");
+    return size;
+}
+
+// "0.0333" or "1/30".
+double shareFromText(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    const auto number = [&](const std::string& part) {
+        std::size_t used = 0;
+        double value = 0;
+        try {
+            value = std::stod(part, &used);
+        } catch (const std::exception&) {
+        }
+        if (used == 0 || used != part.size())
+            throw Error("--relative-separation", "", "expected a number or a fraction, got \"" + text + "\"",
+                        "try 1/30");
+        return value;
+    };
+    if (slash == std::string::npos) return number(text);
+    return number(text.substr(0, slash)) / number(text.substr(slash + 1));
+}
+
+void addScene(CLI::App& command, SceneOptions& options) {
+    command.add_option("SCENE", options.scene,
+                       "a scene (.toml) or an elevation model; left out: the built-in terrain");
+    command.add_option("--vertical-scale", options.verticalScale, "factor on heights")
+        ->check(CLI::PositiveNumber);
+    command.add_flag("--open-holes", options.openHoles, "leave missing ground open instead of filling it");
+    command.add_option("--image", options.image, "colour of the ground");
+    command.add_option("--sky", options.sky, "an equirectangular picture or a light probe (.hdr)");
+    command.add_option("--separation", options.separation_m, "of the eyes, in metres");
+    command.add_option("--zero-parallax", options.zeroParallax_m, "distance seen in the screen, in metres");
+    command.add_option("--fov", options.fov_deg, "vertical field of view in degrees");
+    command.add_option("--threads", options.threads, "threads to use, 0 for all processors");
+    command.add_option("--simd", options.simd, "instruction set: auto, plain, avx2, avx512");
+}
+
+// What the subcommands fill, and which of them runs.
+struct Parsed {
+    InfoOptions info;
+    RenderOptions render;
+    PlayOptions play;
+    CompareOptions compare;
+    std::string size, relativeSeparation;
+    std::function<int()> run = runDefault;
+
+    // Runs after parsing: texts become values here, so that their errors name the option.
+    void addSize(CLI::App& command, const char* fallback) {
+        command.add_option("--size", size, std::string("pixels of one eye, ") + fallback + " when left out");
+    }
+    void takeSize(SizeOption& option) const {
+        if (!size.empty()) option = sizeFromText(size);
+    }
+};
+
+void addInfo(CLI::App& app, Parsed& parsed) {
+    CLI::App& command = *app.add_subcommand("info", "print what was read and the frame plan");
+    addScene(command, parsed.info.scene);
+    parsed.addSize(command, "1280x720");
+    command.add_flag("--json", parsed.info.json, "as JSON");
+    command.callback([&parsed] {
+        parsed.run = [&parsed] {
+            parsed.takeSize(parsed.info.size);
+            return runInfo(parsed.info);
+        };
+    });
+}
+
+void addRender(CLI::App& app, Parsed& parsed) {
+    RenderOptions& options = parsed.render;
+    CLI::App& command = *app.add_subcommand("render", "one pose into a picture");
+    addScene(command, options.scene);
+    parsed.addSize(command, "1280x720");
+    command.add_option("--pose", options.pose,
+                       "x,y,z,heading,pitch,roll in metres and degrees; left out: the start pose");
+    command.add_option("--method", options.method, "how the right eye is made, auto: the best");
+    command.add_option("--mode", options.mode, kModeHelp);
+    command.add_option("--out", options.out, "the picture's file")->required();
+    command.callback([&parsed] {
+        parsed.run = [&parsed] {
+            parsed.takeSize(parsed.render.size);
+            return runRender(parsed.render);
+        };
+    });
+}
+
+void addPlay(CLI::App& app, Parsed& parsed) {
+    PlayOptions& options = parsed.play;
+    CLI::App& command = *app.add_subcommand("play", "a flight into pictures, a video, or a hash");
+    addScene(command, options.scene);
+    parsed.addSize(command, "1280x720");
+    command.add_option("--path", options.path,
+                       "a recorded path (.gltf, .glb, .path); left out: the scene's own");
+    command.add_option("--method", options.method, "how the right eye is made, auto: the best");
+    command.add_option("--mode", options.mode, kModeHelp);
+    command.add_option("--out", options.out, "folder for frame_00000.png and so on");
+    command.add_option("--video", options.video, "a video: .mp4, .avi or .mkv (lossless)");
+    command.add_option("--frames", options.frames, "this many frames evenly over the path")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--fps", options.fps, "frames a second");
+    command.add_flag("--hash", options.hash, "print one content hash of both eyes of all frames");
+    command.callback([&parsed] {
+        parsed.run = [&parsed] {
+            parsed.takeSize(parsed.play.size);
+            return runPlay(parsed.play);
+        };
+    });
+}
+
+void addCompare(CLI::App& app, Parsed& parsed) {
+    CompareOptions& options = parsed.compare;
+    CLI::App& command = *app.add_subcommand("compare", "measure the ways of making the right eye");
+    addScene(command, options.scene);
+    parsed.addSize(command, "500x400");
+    command.add_option("--path", options.path,
+                       "a recorded path (.gltf, .glb, .path); left out: the scene's own");
+    command.add_option("--frames", options.frames, "frames evenly over the path, 24 when left out");
+    command.add_option("--methods", options.methods, "some of them, as in full,paper,linear; left out: all")
+        ->delimiter(',');
+    command.add_option("--relative-separation", parsed.relativeSeparation,
+                       "separation as a share of the zero-parallax distance, as in 1/30");
+    command.add_option("--json", options.json, "figures as JSON");
+    command.add_option("--csv", options.csv, "figures as CSV");
+    command.add_option("--images", options.images, "folder for pictures of the flight's middle frame");
+    command.add_option("--plot", options.plot, "error against time as a picture");
+    command.add_option("--repeats", options.repeats,
+                       "timed runs of a frame, the fastest counts; 3 when left out");
+    command.callback([&parsed] {
+        parsed.run = [&parsed] {
+            parsed.takeSize(parsed.compare.size);
+            if (!parsed.relativeSeparation.empty())
+                parsed.compare.relativeSeparation = shareFromText(parsed.relativeSeparation);
+            return runCompare(parsed.compare);
+        };
+    });
+}
+
+// The name of the subcommand that was being parsed, with a blank before it; "" when none.
+std::string commandIn(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    return chosen.empty() ? "" : " " + chosen.front()->get_name();
+}
+
+}  // namespace
 
 int runCommandLine(int argc, char** argv) {
     CLI::App app{"Stereo flight through terrain, with the second eye warped and measured", "stereonav"};
     app.set_version_flag("--version", "stereonav 0.1.0");
-    CLI11_PARSE(app, argc, argv);
-    return 0;
+    app.require_subcommand(0, 1);
+    app.footer(
+        "Without a command: flies the built-in terrain, or, where there is no display, plays it to out/.");
+    Parsed parsed;
+    addInfo(app, parsed);
+    addRender(app, parsed);
+    addPlay(app, parsed);
+    addCompare(app, parsed);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+        throw Error("", "", error.what(), "see stereonav" + commandIn(app) + " --help");
+    }
+    return parsed.run();
 }
 
 }  // namespace stereonav

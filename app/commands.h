@@ -35,7 +35,7 @@ struct RenderOptions {
     SceneOptions scene;
     SizeOption size;
     std::string pose;             // "x,y,z,heading,pitch,roll" metres and degrees; "": the start pose
-    std::string method = "auto";  // a right-eye method, or auto: the frame plan's choice
+    std::string method = "auto";  // a right-eye method; auto: the default one, whatever was measured
     std::string mode = "sbsl";    // output mode, FFmpeg's short names
     std::string out;              // image file
 };
@@ -44,8 +44,8 @@ int runRender(const RenderOptions& options);
 struct PlayOptions {
     SceneOptions scene;
     SizeOption size;
-    std::string path;  // "": the scene's own
-    std::string method = "auto";
+    std::string path;             // "": the scene's own
+    std::string method = "auto";  // as in RenderOptions: files do not depend on measured times
     std::string mode = "sbsl";
     std::string out;    // folder for frame_00000.png ...; "" with --video or --hash
     std::string video;  // .mp4, .avi or .mkv
@@ -70,7 +70,7 @@ int runCompare(const CompareOptions& options);
 struct ViewOptions {
     SceneOptions scene;
     SizeOption size;
-    std::string method = "auto";
+    std::string method = "auto";  // auto: the frame plan's choice
     std::string mode = "sbsl";
     std::string path;  // Z plays this one at first
 };

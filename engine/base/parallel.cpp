@@ -1,6 +1,8 @@
 // Parallel loops over oneTBB. The arena is rebuilt when the thread count changes.
 #include "engine/base/parallel.h"
 
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
@@ -15,6 +17,7 @@ namespace {
 struct Arena {
     std::mutex mutex;
     int threads = 0;
+    std::unique_ptr<tbb::global_control> limit;
     std::shared_ptr<tbb::task_arena> tasks;
 
     static Arena& instance() {
@@ -25,6 +28,11 @@ struct Arena {
     void resize(int count) {
         std::lock_guard lock(mutex);
         threads = std::max(1, count);
+        limit.reset();
+        // more threads than processors: allowed (for tests), but the library warns unless told
+        if (threads > tbb::info::default_concurrency())
+            limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                          static_cast<std::size_t>(threads));
         tasks = std::make_shared<tbb::task_arena>(threads);
     }
 

@@ -1,0 +1,109 @@
+// `stereonav play`: a flight into numbered pictures, a video, or one hash of all frames.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/output_place.h"
+#include "app/progress_bar.h"
+#include "app/stereo_frame.h"
+#include "app/video_file.h"
+#include "engine/base/error.h"
+#include "engine/image/image_file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kMostFrames = 1'000'000;
+
+void checkOptions(const PlayOptions& options) {
+    if (options.out.empty() && options.video.empty() && !options.hash)
+        throw Error("play", "", "expected a place for the frames", "give --out DIR, --video FILE or --hash");
+    if (!options.out.empty()) checkOutputFolder("--out", options.out);
+    if (!options.video.empty()) checkVideoFile("--video", options.video);
+    if (!(options.fps > 0.0 && options.fps <= 1000.0))
+        throw Error("--fps", "", fmt::format("expected more than 0 and at most 1000, got {}", options.fps),
+                    "25 is common");
+    if (options.frames < 0 || options.frames > kMostFrames)
+        throw Error("--frames", "", fmt::format("expected 1 to {}, got {}", kMostFrames, options.frames),
+                    "leave it out for the whole path at --fps");
+    checkSize(options.size);
+}
+
+std::vector<Pose> posesOf(const PlayOptions& options, const RecordedPath& path) {
+    if (options.frames > 0) return path.frames(options.frames);
+    if (path.duration() * options.fps > kMostFrames)
+        throw Error("--fps", "",
+                    fmt::format("{} s at {} frames a second are over {} frames", path.duration(), options.fps,
+                                kMostFrames),
+                    "give --frames or fewer frames a second");
+    return path.framesAtRate(options.fps);
+}
+
+// Where composed frames go; what was not asked for stays unused.
+class FrameSink {
+public:
+    FrameSink(const PlayOptions& options, const OutputMode mode) : mFolder(options.out), mMode(mode) {
+        if (options.video.empty()) return;
+        const auto [width, height] = composedSize(mode, options.size.width, options.size.height);
+        mVideo = std::make_unique<VideoFile>(options.video, options.fps, width, height);
+    }
+
+    void add(const StereoFrame& frame, int index) {
+        if (mFolder.empty() && !mVideo) return;
+        const Plane<PackedColor> picture = frame.compose(mMode);
+        if (!mFolder.empty())
+            writeColorImage(std::filesystem::path(mFolder) / fmt::format("frame_{:05d}.png", index), picture);
+        if (mVideo) mVideo->add(picture);
+    }
+
+    void finish() {
+        if (mVideo) mVideo->finish();
+    }
+
+private:
+    std::string mFolder;
+    OutputMode mMode;
+    std::unique_ptr<VideoFile> mVideo;
+};
+
+double medianOf(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace
+
+int runPlay(const PlayOptions& options) {
+    checkOptions(options);
+    const OutputMode mode = modeFromText(options.mode);
+    const RightEyeMethod method = methodFromText(options.method);
+    // the path first: a bad one should not cost the reading of a large scene
+    std::optional<RecordedPath> path;
+    if (!options.path.empty()) path = readPath(options.path);
+    ProgressBar bar;
+    const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    const std::vector<Pose> poses = posesOf(options, path ? *path : scene.terrain->path);
+    FrameSink sink(options, mode);
+    StereoFrame frame(scene, method);
+    Hash hash;
+    std::vector<double> left_ms, right_ms;
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+        bar.progress().report(static_cast<double>(k) / static_cast<double>(poses.size()),
+                              fmt::format("frame {} of {}", k + 1, poses.size()));
+        frame.render(poses[k]);
+        left_ms.push_back(frame.left_ms());
+        right_ms.push_back(frame.timings().right_ms());
+        if (options.hash) frame.addTo(hash);
+        sink.add(frame, static_cast<int>(k));
+    }
+    sink.finish();
+    bar.clear();
+    std::printf("%zu frames, median left %.2f ms, right %.2f ms\n", poses.size(), medianOf(left_ms),
+                medianOf(right_ms));
+    if (options.hash) std::printf("hash %016llx\n", static_cast<unsigned long long>(hash.value()));
+    return 0;
+}
+
+}  // namespace stereonav

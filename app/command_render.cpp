@@ -1,0 +1,34 @@
+// `stereonav render`: one pose of a scene into a picture.
+#include <cstdio>
+
+#include "app/output_place.h"
+#include "app/progress_bar.h"
+#include "app/stereo_frame.h"
+#include "engine/base/error.h"
+#include "engine/image/image_file.h"
+
+namespace stereonav {
+
+int runRender(const RenderOptions& options) {
+    checkOutputPicture("--out", options.out);
+    checkSize(options.size);
+    const OutputMode mode = modeFromText(options.mode);
+    const RightEyeMethod method = methodFromText(options.method);
+    std::optional<Pose> pose;
+    if (!options.pose.empty()) pose = poseFromText(options.pose);
+    ProgressBar bar;
+    const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    StereoFrame frame(scene, method);
+    bar.progress().report(0.9, "casting");
+    frame.render(pose ? *pose : scene.terrain->startPose);
+    const Plane<PackedColor> picture = frame.compose(mode);
+    writeColorImage(options.out, picture);
+    bar.clear();
+    std::printf("%s: %dx%d, left %.2f ms, right %.2f ms, holes %.2f %%\n", options.out.c_str(),
+                picture.width(), picture.height(), frame.left_ms(), frame.timings().right_ms(),
+                100.0 * static_cast<double>(frame.timings().holePixels) /
+                    (static_cast<double>(options.size.width) * options.size.height));
+    return 0;
+}
+
+}  // namespace stereonav

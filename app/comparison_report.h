@@ -1,0 +1,26 @@
+// What `compare` found, as a table, JSON, CSV and a plot.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/camera/stereo_rig.h"
+#include "engine/metrics/method_comparison.h"
+
+namespace stereonav {
+
+struct ComparisonReport {
+    std::string scene, path, machine, simd;
+    int width = 0, height = 0;  // pixels of one eye
+    int threads = 0, frames = 0, repeats = 0;
+    StereoSetting stereo;
+    std::vector<MethodFigures> methods;  // medians over the frames
+};
+
+std::string tableOf(const ComparisonReport& report);
+std::string jsonOf(const ComparisonReport& report);
+std::string csvOf(const ComparisonReport& report);
+// Error against time, once for each truth.
+Plane<PackedColor> plotOf(const ComparisonReport& report);
+
+}  // namespace stereonav

@@ -1,0 +1,75 @@
+#include "app/progress_bar.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace stereonav {
+namespace {
+
+constexpr double kRedraw_ms = 80.0;           // often enough to look alive, rare enough to cost nothing
+constexpr double kLineInterval_ms = 10000.0;  // where the lines stay
+
+// Set by the signal handler, which can reach nothing else; cleared by the next bar.
+volatile std::sig_atomic_t interrupted = 0;
+
+void interrupt(int) {
+    interrupted = 1;
+}
+
+void catchSignal(int signal, struct sigaction& former) {
+    struct sigaction action = {};
+    action.sa_handler = interrupt;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second one ends the program
+    sigaction(signal, &action, &former);
+}
+
+}  // namespace
+
+std::string progressLine(double fraction, const std::string& what, int barWidth) {
+    fraction = std::clamp(fraction, 0.0, 1.0);
+    const int full = static_cast<int>(fraction * barWidth);
+    std::string bar(static_cast<std::size_t>(full), '=');
+    if (full < barWidth) bar += '>';
+    bar.resize(static_cast<std::size_t>(barWidth), ' ');
+    return fmt::format("[{}] {:3d} % {}", bar, static_cast<int>(fraction * 100.0), what);
+}
+
+ProgressBar::ProgressBar()
+    : mTerminal(isatty(STDERR_FILENO) != 0),
+      mProgress([this](double fraction, const std::string& what) { show(fraction, what); }) {
+    mNext_ms = mTerminal ? 0.0 : kLineInterval_ms;
+    interrupted = 0;
+    catchSignal(SIGINT, mFormerInterrupt);
+    catchSignal(SIGTERM, mFormerTerminate);
+}
+
+ProgressBar::~ProgressBar() {
+    clear();
+    sigaction(SIGINT, &mFormerInterrupt, nullptr);
+    sigaction(SIGTERM, &mFormerTerminate, nullptr);
+}
+
+void ProgressBar::show(double fraction, const std::string& what) {
+    if (interrupted != 0) mProgress.cancel();
+    const std::lock_guard lock(mMutex);
+    const double now = mSinceStart.elapsed_ms();
+    if (now < mNext_ms) return;
+    mNext_ms = now + (mTerminal ? kRedraw_ms : kLineInterval_ms);
+    if (mTerminal)
+        std::fprintf(stderr, "\r\033[K%s", progressLine(fraction, what, 30).c_str());
+    else
+        std::fprintf(stderr, "%3d %% %s\n", static_cast<int>(fraction * 100.0), what.c_str());
+    std::fflush(stderr);
+    mDrawn = true;
+}
+
+void ProgressBar::clear() {
+    const std::lock_guard lock(mMutex);
+    if (mTerminal && mDrawn) std::fputs("\r\033[K", stderr);
+    mDrawn = false;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,55 @@
+// From what the command line says to a scene that can be cast: shared by all commands.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "engine/base/progress.h"
+#include "engine/image/stereo_compose.h"
+#include "engine/stereo/frame_plan.h"
+#include "terrain/terrain_renderer.h"
+
+namespace stereonav {
+
+struct LoadedScene {
+    std::string name;  // as given, "terrain" for the built-in one
+    std::unique_ptr<TerrainScene> terrain;
+    std::unique_ptr<TerrainRenderer> renderer;  // of *terrain
+    Lens lens;                                  // with the size asked for
+    StereoSetting stereo;
+
+    StereoViews viewsAt(const Pose& head) const { return makeStereoViews(head, lens, stereo); }
+};
+
+// The scene's file with what the options change.
+SceneFile describeScene(const SceneOptions& options);
+
+// Checks options and size, sets the thread count, reads the scene. Throws Error, Cancelled.
+LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress);
+
+// 1 to 32768 pixels a side, and a frame that fits in half of this machine's memory. Throws Error.
+void checkSize(const SizeOption& size);
+
+// The recorded path in `file`, or the scene's own when it is "".
+RecordedPath flightOf(const LoadedScene& scene, const std::string& file);
+
+// "x,y,z,heading,pitch,roll" in metres and degrees; the last ones may be left out (0). Throws Error.
+Pose poseFromText(const std::string& text);
+
+// A method by name; "auto" is the default way of warping: what is written to files must not depend on
+// what was measured. Throws Error with the known names.
+RightEyeMethod methodFromText(const std::string& name);
+OutputMode modeFromText(const std::string& name);
+SimdTarget simdFromText(const std::string& name);
+std::string nameOf(SimdTarget target);
+
+// The frame plan of a loaded scene: measured at the start pose and along its flight.
+FramePlan planScene(const LoadedScene& scene);
+
+// The processor's name, "unknown" where the system does not tell.
+std::string machineName();
+
+}  // namespace stereonav

@@ -1,0 +1,32 @@
+#include "app/stereo_frame.h"
+
+#include "engine/base/stopwatch.h"
+
+namespace stereonav {
+namespace {
+
+template <typename T>
+void addRows(Hash& hash, const Plane<T>& plane) {
+    for (int y = 0; y < plane.height(); ++y)
+        hash.add(plane.row(y), sizeof(T) * static_cast<std::size_t>(plane.width()));
+}
+
+}  // namespace
+
+void StereoFrame::render(const Pose& head) {
+    const StereoViews views = mScene.viewsAt(head);
+    mLeft.resize(views.left.width, views.left.height, mScene.renderer->viewDependent());
+    const Stopwatch watch;
+    renderEye(*mScene.renderer, views.left, mLeft);
+    mLeft_ms = watch.elapsed_ms();
+    mTimings = mEye.render(*mScene.renderer, views, mLeft, mWarp, mRight);
+}
+
+void StereoFrame::addTo(Hash& hash) const {
+    for (const EyeImage* eye : {&mLeft, &mRight}) {
+        addRows(hash, eye->color);
+        addRows(hash, eye->viewDepth);
+    }
+}
+
+}  // namespace stereonav
