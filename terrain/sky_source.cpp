@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/image/image_file.h"
+#include "engine/image/radiance_file.h"
 #include "terrain/gdal_session.h"
+#include "terrain/ground_picture.h"
 
 namespace stereonav {
 namespace {
@@ -19,8 +20,8 @@ namespace {
 constexpr int kGradientSize = 1024;  // a texel is 0.2 degrees
 constexpr int kSmallestMap = 1024, kLargestMap = 2048;
 
-bool coversSphere(const LinearImage& image) {
-    return std::abs(image.width - 2.0 * image.height) <= 0.02 * image.width;
+bool coversSphere(int width, int height) {
+    return std::abs(width - 2.0 * height) <= 0.02 * width;
 }
 
 // Box average of 2 x 2; the last column or row of an odd size is averaged alone.
@@ -86,31 +87,61 @@ glm::vec3 skyColorOf(const LinearImage& image, bool sphere, const glm::vec3& d) 
     return lookUp(image, 0.5 + heading / (2 * std::numbers::pi), v);
 }
 
-// Sizes from the header, before the pixels are read.
-void checkSize(const std::filesystem::path& file) {
+// As many texels a side as the source has columns: twice what its horizon needs, for lookups of the
+// nearest texel.
+int mapSize(int columns) {
+    return std::clamp(columns, kSmallestMap, kLargestMap);
+}
+
+struct SkyPicture {
+    LinearImage image;
+    std::string source;
+    bool sphere;
+};
+
+SkyPicture described(LinearImage image, const std::filesystem::path& file, const char* kind, int width,
+                     int height) {
+    const bool sphere = coversSphere(width, height);
+    return {std::move(image),
+            fmt::format("{} {} {}x{}, {}", kind, file.filename().string(), width, height,
+                        sphere ? "the whole sphere" : "a panorama above the horizon"),
+            sphere};
+}
+
+SkyPicture readProbe(const std::filesystem::path& file) {
+    LinearImage image = readRadianceImage(file);
+    const int width = image.width, height = image.height;
+    toneMap(image, coversSphere(width, height));
+    while (image.width > 2 * mapSize(width)) image = halved(image);
+    return described(std::move(image), file, "light probe", width, height);
+}
+
+SkyPicture readPicture(const std::filesystem::path& file) {
     constexpr const char* kAdvice = "give a JPEG, PNG, TIFF or Radiance .hdr picture";
     const GdalMessages messages;
     const GdalDataset dataset = openRaster(file, messages, "a picture of the sky", kAdvice);
-    checkRasterSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
+    const int width = dataset->GetRasterXSize(), height = dataset->GetRasterYSize();
+    const double shrink = std::max(1.0, width / (2.0 * mapSize(width)));
+    const GroundPicture picture(*dataset, messages, file, {0, 0, width, height}, glm::dvec2(shrink));
+    LinearImage image{std::max(1, static_cast<int>(width / shrink + 0.5)),
+                      std::max(1, static_cast<int>(height / shrink + 0.5)),
+                      {}};
+    image.pixels.reserve(static_cast<std::size_t>(image.width) * image.height);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            image.pixels.push_back(
+                picture.at({(x + 0.5) * width / image.width, (y + 0.5) * height / image.height}).color);
+    return described(std::move(image), file, "picture", width, height);
 }
 
 }  // namespace
 
 SkySource readSky(const std::filesystem::path& file) {
     if (file.empty()) return {SkyMap(kGradientSize, gradientSky), "built-in gradient"};
-    const bool probe = file.extension() == ".hdr";
-    if (!probe) checkSize(file);
-    LinearImage image = readLinearImage(file);
-    const bool sphere = coversSphere(image);
-    const std::string source =
-        fmt::format("{} {} {}x{}, {}", probe ? "light probe" : "picture", file.filename().string(),
-                    image.width, image.height, sphere ? "the whole sphere" : "a panorama above the horizon");
-    if (probe) toneMap(image, sphere);
-    // As many texels a side as the source has columns: twice what its horizon needs, for lookups of
-    // the nearest texel.
-    const int size = std::clamp(image.width, kSmallestMap, kLargestMap);
-    while (image.width > 2 * size) image = halved(image);
-    return {SkyMap(size, [&](const glm::vec3& d) { return skyColorOf(image, sphere, d); }), source};
+    const SkyPicture sky = file.extension() == ".hdr" ? readProbe(file) : readPicture(file);
+    return {SkyMap(mapSize(sky.image.width),
+                   [&](const glm::vec3& d) { return skyColorOf(sky.image, sky.sphere, d); }),
+            sky.source};
 }
 
 }  // namespace stereonav

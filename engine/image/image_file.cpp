@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/image/radiance_file.h"
 
 namespace stereonav {
 namespace {
@@ -121,6 +122,7 @@ std::vector<unsigned char> encodeColorImage(const Plane<PackedColor>& image, con
 }
 
 LinearImage readLinearImage(const std::filesystem::path& file) {
+    if (file.extension() == ".hdr") return readRadianceImage(file);
     const cv::Mat image = readAny(file);
     checkDepth(image, file);
     LinearImage linear{image.cols, image.rows, {}};

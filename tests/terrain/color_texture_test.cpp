@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace stereonav {
@@ -35,9 +36,22 @@ TEST(ColorTexture, LevelsHalveRoundingUp) {
     for (int k = 0; k < 5; ++k) {
         EXPECT_EQ(texture.level(k).width(), widths[k]);
         EXPECT_EQ(texture.level(k).height(), heights[k]);
-        bytes += texture.level(k).byteCount();
+        EXPECT_EQ(texture.level(k).row(0), texture.data() + texture.offset(k));
+        bytes += static_cast<std::size_t>(widths[k] + 1) * (heights[k] + 1) * sizeof(PackedColor);
     }
     EXPECT_EQ(texture.byteCount(), bytes);
+}
+
+TEST(ColorTexture, LastColumnAndRowAreRepeated) {
+    const ColorTexture texture(randomImage(13, 5), {}, {1, 1});
+    for (int k = 0; k < texture.levelCount(); ++k) {
+        const ColorTexture::Level level = texture.level(k);
+        for (int y = 0; y <= level.height(); ++y)
+            EXPECT_EQ(level.at(level.width(), y),
+                      level.at(level.width() - 1, std::min(y, level.height() - 1)));
+        for (int x = 0; x < level.width(); ++x)
+            EXPECT_EQ(level.at(x, level.height()), level.at(x, level.height() - 1));
+    }
 }
 
 TEST(ColorTexture, AveragesInLinearLight) {

@@ -210,6 +210,28 @@ TEST(DemReader, EsriAsciiWithoutSystem) {
     EXPECT_TRUE(std::isnan(sampleAt(dem, 1, 0)));
 }
 
+// 1201 x 1201 big-endian numbers, row 0 north; the place is in the name alone.
+TEST(DemReader, SrtmHgt) {
+    const TempFolder folder;
+    std::string content;
+    for (int r = 0; r < 1201; ++r)
+        for (int c = 0; c < 1201; ++c) {
+            const int height = r == 600 && c == 600 ? -32768 : 1000 + c - 2 * (r - 600);
+            content += static_cast<char>(height >> 8 & 255);
+            content += static_cast<char>(height & 255);
+        }
+    const DemGrid dem = read(folder.text("N46E011.hgt", content));
+    EXPECT_EQ(dem.sourceMissing, 1);
+    EXPECT_THAT(dem.driver, HasSubstr("SRTM"));
+    EXPECT_NEAR(dem.spacing.y, 92.63, 0.02);
+    const double latitude = 46.5 * M_PI / 180, sine = std::sin(latitude);
+    const double primeVertical = 6378137 / std::sqrt(1 - 0.00669437999014 * sine * sine);
+    EXPECT_NEAR(dem.spacing.x, primeVertical * std::cos(latitude) * M_PI / 180 / 1200, 0.001);
+    // North is up and east is right, and the middle is the middle sample's neighbour.
+    EXPECT_NEAR(sampleAt(dem, dem.width / 2 + 5, dem.height / 2), 1605, 3);
+    EXPECT_GT(sampleAt(dem, dem.width / 2, dem.height - 10), sampleAt(dem, dem.width / 2, 10) + 2000);
+}
+
 TEST(DemReader, SixteenBitPngIsAMetreASampleUnlessAWorldFileSaysElse) {
     const TempFolder folder;
     RasterSpec spec = rampSpec();
