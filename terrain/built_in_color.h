@@ -7,10 +7,12 @@
 #include "engine/image/packed_color.h"
 #include "engine/image/plane.h"
 #include "terrain/built_in_relief.h"
+#include "terrain/built_in_terrain.h"
 
 namespace stereonav {
 
-// 2 * size texels a side over the relief's extent, row 0 northernmost. Reports the last 40 % of the job.
+// kBuiltInTexels * size texels a side over the relief's extent, row 0 northernmost. Reports the last 40 % of
+// the job.
 Plane<PackedColor> makeBuiltInColor(const Relief& relief, std::uint64_t seed, Progress& progress);
 
 }  // namespace stereonav

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the generator's result changes.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 struct Header {
     char magic[8] = {'S', 'N', 'T', 'E', 'R', 'R', 'A', '\n'};
@@ -36,7 +36,7 @@ std::size_t heightBytes(int size) {
     return sizeof(float) * static_cast<std::size_t>(size) * size;
 }
 std::size_t rowBytes(int size) {
-    return sizeof(PackedColor) * 2 * static_cast<std::size_t>(size);
+    return sizeof(PackedColor) * kBuiltInTexels * static_cast<std::size_t>(size);
 }
 
 std::uint64_t contentHash(const BuiltInTerrain& terrain) {
@@ -62,7 +62,8 @@ fs::path cacheFile(std::uint64_t seed, int size) {
 // nullopt when there is none, or it is not whole.
 std::optional<BuiltInTerrain> readCache(const fs::path& file, std::uint64_t seed, int size) {
     std::error_code code;
-    const std::uintmax_t expected = sizeof(Header) + heightBytes(size) + rowBytes(size) * 2 * size;
+    const std::uintmax_t expected =
+        sizeof(Header) + heightBytes(size) + rowBytes(size) * kBuiltInTexels * size;
     if (fs::file_size(file, code) != expected || code) return std::nullopt;
     std::ifstream in(file, std::ios::binary);
     Header header;
@@ -73,8 +74,8 @@ std::optional<BuiltInTerrain> readCache(const fs::path& file, std::uint64_t seed
     terrain.spacing = header.spacing;
     terrain.heights.resize(static_cast<std::size_t>(size) * size);
     in.read(reinterpret_cast<char*>(terrain.heights.data()), static_cast<std::streamsize>(heightBytes(size)));
-    terrain.color.resize(2 * size, 2 * size);
-    for (int y = 0; y < 2 * size; ++y)
+    terrain.color.resize(kBuiltInTexels * size, kBuiltInTexels * size);
+    for (int y = 0; y < terrain.color.height(); ++y)
         in.read(reinterpret_cast<char*>(terrain.color.row(y)), static_cast<std::streamsize>(rowBytes(size)));
     const Header whole = headerOf(terrain, seed);
     if (!in || std::memcmp(&header, &whole, sizeof header) != 0) return std::nullopt;

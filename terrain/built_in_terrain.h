@@ -12,13 +12,14 @@
 namespace stereonav {
 
 constexpr int kBuiltInSizeMin = 17, kBuiltInSizeMax = 2049;
+constexpr int kBuiltInTexels = 3;  // a sample, each way
 
 struct BuiltInTerrain {
     int size = 0;                // samples a side
     double spacing = 30.0;       // metres between samples, both ways
     std::vector<float> heights;  // metres, size * size, row 0 southernmost
-    // Base colour with the sun's light baked in, 2 * size texels a side over the same extent as the
-    // samples (outer edges of the texels on the outer samples), row 0 northernmost.
+    // Base colour with the sun's light baked in, kBuiltInTexels * size texels a side over the same extent as
+    // the samples (outer edges of the texels on the outer samples), row 0 northernmost.
     Plane<PackedColor> color;
 };
 

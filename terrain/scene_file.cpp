@@ -127,6 +127,15 @@ void readFlightAndStereo(TomlSection flight, TomlSection stereo, const fs::path&
     stereo.readDegrees("fov_deg", scene.verticalFov, {0.0, 180.0, true, true});
 }
 
+// The same as data/scenes/built_in.toml, which is not needed to fly.
+SceneFile builtInScene() {
+    SceneFile scene;
+    scene.builtIn = true;
+    scene.file = "terrain";
+    scene.look.fogDistance = 40000;
+    return scene;
+}
+
 }  // namespace
 
 SceneFile readSceneFile(const fs::path& toml) {
@@ -146,12 +155,8 @@ SceneFile readSceneFile(const fs::path& toml) {
 }
 
 SceneFile sceneFileFromName(const std::string& name) {
+    if (name.empty() || name == "terrain") return builtInScene();
     SceneFile scene;
-    if (name.empty() || name == "terrain") {
-        scene.builtIn = true;
-        scene.file = "terrain";
-        return scene;
-    }
     std::string extension = fs::path(name).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -18,9 +18,12 @@ constexpr int kWindow = 75;      // segments to each side over which the height 
 
 // The spiral, in shares of the ground's half extents: from near the border inwards, counter-clockwise
 // by a good half turn.
-constexpr double kOuterRadius = 0.78, kInnerRadius = 0.36, kTurn = 1.25 * pi;
+constexpr double kOuterRadius = 0.74, kInnerRadius = 0.32, kTurn = 1.25 * pi;
 // The view: inwards of the direction of flight, below the horizon, banked for an even turn; radians.
-constexpr double kLookInwards = 0.35, kLookDown = 0.22, kBank = 0.12;
+constexpr double kLookInwards = 0.55, kLookDown = 0.10, kBank = 0.12;
+// And further down from high above the mean ground: by this share of the angle under which it lies half
+// an extent away.
+constexpr double kLookAtGround = 0.8;
 // Share of the climb angle that the view follows.
 constexpr double kFollowClimb = 0.35;
 
@@ -28,10 +31,30 @@ glm::dvec2 halfExtents(const Heightfield& ground) {
     return 0.5 * glm::dvec2(ground.width() - 1, ground.height() - 1) * ground.spacing();
 }
 
-// Metres above the ground from which it can be overlooked: 3.5 % of its extent.
-double comfortableHeight(const Heightfield& ground, double clearance) {
+// Metres: the side of a square as large as the ground.
+double extentOf(const Heightfield& ground) {
     const glm::dvec2 half = halfExtents(ground);
-    return std::max(clearance, 0.035 * 2 * std::sqrt(half.x * half.y));
+    return 2 * std::sqrt(half.x * half.y);
+}
+
+// Metres; from a lattice of places, as precise as a view needs.
+double meanHeight(const Heightfield& ground) {
+    constexpr int kPlaces = 64;
+    double sum = 0;
+    int count = 0;
+    for (int k = 0; k < kPlaces * kPlaces; ++k) {
+        const glm::dvec2 share = glm::dvec2(k % kPlaces, k / kPlaces) / (kPlaces - 1.0);
+        const double height = ground.heightAt((2.0 * share - 1.0) * halfExtents(ground));
+        if (!std::isfinite(height)) continue;
+        sum += height;
+        ++count;
+    }
+    return count > 0 ? sum / count : ground.minHeight();
+}
+
+// Metres above the ground from which it can be overlooked: 5 % of its extent.
+double comfortableHeight(const Heightfield& ground, double clearance) {
+    return std::max(clearance, 0.05 * extentOf(ground));
 }
 
 // Upper bound of the ground in the box around two places: the highest corner of the cells it touches.
@@ -90,7 +113,7 @@ double headingOf(const glm::dvec2& direction) {
 // The plan of the flight, u from 0 to 1.
 struct Plan {
     const Heightfield& ground;
-    double startAngle;
+    double startAngle, meanGround;
 
     glm::dvec2 at(double u) const {
         return onEllipse(ground, kOuterRadius + (kInnerRadius - kOuterRadius) * u, startAngle + kTurn * u);
@@ -165,8 +188,10 @@ Pose flightPose(const Plan& plan, const std::vector<glm::dvec3>& points, int k) 
     // The climb over two seconds, not over one segment, so that the view does not nod.
     const glm::dvec3 climb = points[std::min(k + kWindow, kSegments)] - points[std::max(k - kWindow, 0)];
     const double climbAngle = std::atan2(climb.z, std::hypot(climb.x, climb.y));
-    return poseFromAngles(points[k], headingOf(plan.direction(u)) - kLookInwards,
-                          kFollowClimb * climbAngle - kLookDown, -kBank * plan.bend(u));
+    const double above = std::atan2(points[k].z - plan.meanGround, 0.5 * extentOf(plan.ground));
+    const double pitch = kFollowClimb * climbAngle - kLookDown - kLookAtGround * std::max(above, 0.0);
+    return poseFromAngles(points[k], headingOf(plan.direction(u)) - kLookInwards, pitch,
+                          -kBank * plan.bend(u));
 }
 
 }  // namespace
@@ -180,7 +205,7 @@ Pose defaultStartPose(const Heightfield& ground, double clearance, double pitch)
 }
 
 RecordedPath defaultFlight(const Heightfield& ground, double clearance) {
-    const Plan plan{ground, bestViewAngle(ground)};
+    const Plan plan{ground, bestViewAngle(ground), meanHeight(ground)};
     const auto heights = smoothAbove(leastHeights(plan, comfortableHeight(ground, clearance)));
     std::vector<glm::dvec3> points;
     for (int k = 0; k <= kSegments; ++k) points.emplace_back(plan.at(plannedParameter(k)), heights[k]);

@@ -47,8 +47,8 @@ TEST(BuiltInTerrain, HasMountainsAndPlains) {
     for (const std::uint64_t seed : {0ull, 1ull, 2ull, ~0ull}) {
         const BuiltInTerrain t = generateBuiltInTerrain(seed, 257, progress);
         ASSERT_EQ(t.heights.size(), 257u * 257u);
-        EXPECT_EQ(t.color.width(), 514);
-        EXPECT_EQ(t.color.height(), 514);
+        EXPECT_EQ(t.color.width(), 771);
+        EXPECT_EQ(t.color.height(), 771);
         const auto [low, high] = std::minmax_element(t.heights.begin(), t.heights.end());
         EXPECT_GE(*low, 0.0f);
         EXPECT_NEAR(*high, 2500.0f, 1.0f);

@@ -120,6 +120,7 @@ TEST_F(SceneFileTest, TheBuiltInSampleIsTheBuiltInTerrain) {
         EXPECT_TRUE(named.builtIn && file.builtIn);
         EXPECT_EQ(named.seed, file.seed);
         EXPECT_EQ(named.builtInSize, file.builtInSize);
+        EXPECT_EQ(named.look.fogDistance, file.look.fogDistance);
         EXPECT_TRUE(named.dem.empty());
     }
 }
