@@ -25,7 +25,7 @@ constexpr double kLookInwards = 0.55, kLookDown = 0.10, kBank = 0.12;
 // an extent away.
 constexpr double kLookAtGround = 0.8;
 // Share of the climb angle that the view follows.
-constexpr double kFollowClimb = 0.35;
+constexpr double kFollowClimb = 0.12;
 
 glm::dvec2 halfExtents(const Heightfield& ground) {
     return 0.5 * glm::dvec2(ground.width() - 1, ground.height() - 1) * ground.spacing();
