@@ -224,7 +224,7 @@ void checkGrid(const std::filesystem::path& file, const DemGrid& dem) {
 }  // namespace
 
 DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress) {
-    const GdalMessages messages;
+    GdalMessages messages;
     const GdalDataset dataset = openRaster(file, messages, kExpected, kAdvice);
     checkRasterSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
     DemGrid dem;

@@ -116,9 +116,7 @@ bool hasOwnMask(GDALRasterBand& band) {
 [[noreturn]] void throwCutOff(const std::filesystem::path& file, int row, int rows,
                               const GdalMessages& messages) {
     throw Error(file.string(), fmt::format("row {} of {}", row + 1, rows),
-                "the file is cut off or damaged" +
-                    (messages.hasError() ? " (" + messages.firstError() + ")" : std::string()),
-                kReadAgain);
+                "the file is cut off or damaged" + messages.reason(file), kReadAgain);
 }
 
 // Height of one GSI pixel in metres; NaN for its nodata, (128, 0, 0).
@@ -161,7 +159,7 @@ bool isGsiTile(GDALDataset& dataset) {
     return !bytes.empty();
 }
 
-std::vector<float> readSamples(GDALDataset& dataset, const GdalMessages& messages,
+std::vector<float> readSamples(GDALDataset& dataset, GdalMessages& messages,
                                const std::filesystem::path& file, double verticalScale, Progress& progress) {
     if (isGsiTile(dataset)) return gsiSamples(dataset, verticalScale);
     checkHoldsElevations(dataset, file);
@@ -172,6 +170,7 @@ std::vector<float> readSamples(GDALDataset& dataset, const GdalMessages& message
     band.GetBlockSize(&blockWidth, &blockHeight);
     const int run = std::clamp(blockHeight, 16, 256);
     const bool masked = hasOwnMask(band);
+    messages.clear();  // a georeference that GDAL could not make sense of is no damage to the samples
     std::vector<double> stored(static_cast<std::size_t>(width) * run);
     std::vector<unsigned char> mask(masked ? stored.size() : 0);
     std::vector<float> heights(static_cast<std::size_t>(width) * height);

@@ -16,7 +16,7 @@ bool isGsiTile(GDALDataset& dataset);
 
 // Metres times verticalScale, in the raster's own row order, NaN where missing. Throws Error when the
 // raster holds no elevations or can not be read; Cancelled.
-std::vector<float> readSamples(GDALDataset& dataset, const GdalMessages& messages,
+std::vector<float> readSamples(GDALDataset& dataset, GdalMessages& messages,
                                const std::filesystem::path& file, double verticalScale, Progress& progress);
 
 }  // namespace stereonav

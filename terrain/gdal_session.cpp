@@ -1,11 +1,13 @@
 // GDAL's drivers, messages and handles; see the header.
 #include "terrain/gdal_session.h"
 
+#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
 #include <mutex>
+#include <string_view>
 
 #include "engine/base/error.h"
 
@@ -35,6 +37,8 @@ void checkFile(const std::filesystem::path& file, const std::string& advice) {
 
 GdalMessages::GdalMessages() {
     registerDriversOnce();
+    // Else the rest of a picture that is cut off is filled with gray.
+    CPLSetThreadLocalConfigOption("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");
     CPLPushErrorHandlerEx(&GdalMessages::keep, this);
 }
 
@@ -44,9 +48,22 @@ GdalMessages::~GdalMessages() {
 
 void GdalMessages::keep(CPLErr level, CPLErrorNum, const char* text) {
     auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
-    constexpr std::size_t kLongest = 160;
+    constexpr std::size_t kLongest = 400;
     if (level >= CE_Failure && self->mFirstError.empty())
         self->mFirstError = std::string(text).substr(0, kLongest);
+}
+
+std::string GdalMessages::reason(const std::filesystem::path& file) const {
+    std::string text = mFirstError;
+    const std::string name = file.string();
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name)) {
+        std::size_t length = name.size();
+        while (at + length < text.size() &&
+               std::string_view(":, ").find(text[at + length]) != std::string_view::npos)
+            ++length;
+        text.erase(at, length);
+    }
+    return text.empty() ? text : " (" + text + ")";
 }
 
 GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& messages,
@@ -58,11 +75,9 @@ GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& me
     GdalDataset dataset(GDALDataset::Open(
         file.string().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers));
     if (dataset && dataset->GetRasterCount() > 0) return dataset;
-    std::string reason = messages.firstError();
+    std::string reason = messages.reason(file);
     if (reason.find("not recognized") != std::string::npos) reason.clear();
-    throw Error(file.string(), "",
-                "expected " + expected + (reason.empty() ? ", found something else" : ", found: " + reason),
-                advice);
+    throw Error(file.string(), "", "expected " + expected + ", found something else" + reason, advice);
 }
 
 Georeference georeferenceOf(GDALDataset& dataset, bool& known) {

@@ -21,7 +21,8 @@ public:
     GdalMessages& operator=(const GdalMessages&) = delete;
 
     bool hasError() const { return !mFirstError.empty(); }
-    const std::string& firstError() const { return mFirstError; }  // "" when there was none
+    // " (what went wrong)", without the file's own name; "" when there was no error.
+    std::string reason(const std::filesystem::path& file) const;
     void clear() { mFirstError.clear(); }
 
 private:

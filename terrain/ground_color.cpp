@@ -201,7 +201,7 @@ GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Pro
 
 GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& dem, const Heightfield& ground,
                             const TerrainLook& look, Progress& progress) {
-    const GdalMessages messages;
+    GdalMessages messages;
     const GdalDataset dataset = openRaster(file, messages, "a picture", kAdvice);
     const ImagePlace image = placeOf(*dataset, dem);
     if (!overlap(dem.grid, image.place, file)) throwNoOverlap(file);

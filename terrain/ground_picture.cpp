@@ -60,9 +60,8 @@ PackedColor paletteColor(const GDALColorTable& table, int index) {
 
 }  // namespace
 
-GroundPicture::GroundPicture(GDALDataset& dataset, const GdalMessages& messages,
-                             const std::filesystem::path& file, const PixelWindow& window,
-                             const glm::dvec2& shrink) {
+GroundPicture::GroundPicture(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
+                             const PixelWindow& window, const glm::dvec2& shrink) {
     checkIsPicture(dataset, file);
     const int sourceWidth = window.xMax - window.xMin, sourceHeight = window.yMax - window.yMin;
     const int width = std::max(1, static_cast<int>(sourceWidth / shrink.x + 0.5));
@@ -73,13 +72,13 @@ GroundPicture::GroundPicture(GDALDataset& dataset, const GdalMessages& messages,
     mColor.resize(width, height);
     const WindowReader reader(dataset, window, width, height);
     const auto fail = [&] {
-        throw Error(file.string(), "",
-                    "the picture is cut off or damaged" +
-                        (messages.hasError() ? " (" + messages.firstError() + ")" : std::string()),
+        throw Error(file.string(), "", "the picture is cut off or damaged" + messages.reason(file),
                     "fetch or export the file again");
     };
     GDALRasterBand& first = *dataset.GetRasterBand(1);
     const GDALColorTable* palette = first.GetColorTable();
+    const bool masked = !(first.GetMaskFlags() & GMF_ALL_VALID);
+    messages.clear();  // from here on only what goes wrong with the pixels counts
     const bool bytes = first.GetRasterDataType() == GDT_Byte,
                color = !palette && dataset.GetRasterCount() >= 3;
     const auto& packed = packedFromSrgbByte();
@@ -98,7 +97,7 @@ GroundPicture::GroundPicture(GDALDataset& dataset, const GdalMessages& messages,
                     mColor.at(x, y) |= color ? code << 10 * channel : code | code << 10 | code << 20;
             }
     }
-    if (first.GetMaskFlags() & GMF_ALL_VALID) return;
+    if (!masked) return;
     std::vector<unsigned char> mask(static_cast<std::size_t>(width) * height);
     if (!reader.bytes(*first.GetMaskBand(), mask.data())) fail();
     mMask.resize(width, height);

@@ -20,7 +20,7 @@ struct PixelWindow {
 class GroundPicture {
 public:
     // Reads the window, averaged down by the factor `shrink` (>= 1) each way. Throws Error.
-    GroundPicture(GDALDataset& dataset, const GdalMessages& messages, const std::filesystem::path& file,
+    GroundPicture(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
                   const PixelWindow& window, const glm::dvec2& shrink);
 
     struct Sample {

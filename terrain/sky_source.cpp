@@ -118,7 +118,7 @@ SkyPicture readProbe(const std::filesystem::path& file) {
 
 SkyPicture readPicture(const std::filesystem::path& file) {
     constexpr const char* kAdvice = "give a JPEG, PNG, TIFF or Radiance .hdr picture";
-    const GdalMessages messages;
+    GdalMessages messages;
     const GdalDataset dataset = openRaster(file, messages, "a picture of the sky", kAdvice);
     const int width = dataset->GetRasterXSize(), height = dataset->GetRasterYSize();
     const double shrink = std::max(1.0, width / (2.0 * mapSize(width)));

@@ -334,6 +334,17 @@ TEST(DemReader, TruncatedGeoTiff) {
     expectOneLine(errorOf([&] { read(file); }), file, "expected an elevation model");
 }
 
+// A system that GDAL can not make sense of is no damage to the samples.
+TEST(DemReader, BrokenSystemIsNotTakenForDamage) {
+    const TempFolder folder;
+    const auto file =
+        folder.text("g.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2\n3 4\n");
+    folder.text("g.prj", "PROJCS[\"nonsense\",GEOGCS[7],,]");
+    const DemGrid dem = read(file);
+    EXPECT_EQ(dem.crs, "");
+    EXPECT_EQ(sampleAt(dem, 1, 0), 4.0f);
+}
+
 TEST(DemReader, TruncatedAsciiGrid) {
     const TempFolder folder;
     const auto file =

@@ -163,6 +163,12 @@ TEST(GroundColor, BadImagesAreRefused) {
     const auto cut = writeRaster(folder / "cut.tif", large);
     std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
     EXPECT_THAT(errorOf([&] { lay(cut, place); }), HasSubstr("the picture is cut off or damaged"));
+    large.driver = "JPEG";
+    large.value = [](int c, int r, int band) { return (c * 7 + r * 13 + band * 40) % 256; };
+    const auto photo = writeRaster(folder / "cut.jpg", large);
+    std::filesystem::resize_file(photo, std::filesystem::file_size(photo) / 2);
+    EXPECT_THAT(errorOf([&] { lay(photo, place); }),
+                HasSubstr("cut.jpg: the picture is cut off or damaged (lib"));
 }
 
 TEST(GroundColor, UncoveredGroundIsTinted) {
