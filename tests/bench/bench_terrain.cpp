@@ -1,0 +1,207 @@
+// How fast terrain is cast, warped and filled, against Embree on the same ground, view, threads and
+// shading. With --marks: one JSON object of ratios, each measured side by side in this run.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <vector>
+
+#include "engine/base/parallel.h"
+#include "engine/base/stopwatch.h"
+#include "engine/stereo/right_eye.h"
+#include "terrain/built_in_terrain.h"
+#include "terrain/terrain_renderer.h"
+#include "tests/bench/embree_ground.h"
+
+namespace stereonav::bench {
+namespace {
+
+constexpr int kWidth = 500, kHeight = 400;
+
+// The built-in terrain at 512 x 512 samples.
+const TerrainScene& scene() {
+    static const TerrainScene terrain = [] {
+        Progress quiet;
+        BuiltInTerrain built = builtInTerrain(1, 512, quiet);
+        TerrainScene s;
+        s.ground = Heightfield(built.size, built.size, glm::dvec2(built.spacing), built.heights, "built-in");
+        const glm::dvec2 texels(built.color.width(), built.color.height());
+        s.color = ColorTexture(built.color, {0.0, 0.0}, glm::dvec2(built.size - 1) / texels);
+        s.sky = SkyMap(256, gradientSky);
+        return s;
+    }();
+    return terrain;
+}
+
+enum class Attitude { Level, Pitched };
+
+// Views from four sides, high over the ground's border, towards its middle.
+std::vector<StereoViews> views(Attitude attitude, int width, int height) {
+    std::vector<StereoViews> all;
+    const double pi = std::numbers::pi;
+    const Heightfield& ground = scene().ground;
+    const double extent = ground.spacing().x * (ground.width() - 1);
+    for (int k = 0; k < 8; ++k) {
+        const double heading = pi / 4 * k + 0.1;
+        const glm::dvec2 away = -0.42 * extent * glm::dvec2(std::sin(heading), std::cos(heading));
+        const double z = ground.heightAt(away) + 0.06 * extent;
+        const bool pitched = attitude == Attitude::Pitched;
+        const Pose pose = poseFromAngles({away, z}, heading, pitched ? -pi / 6 : 0, pitched ? pi / 9 : 0);
+        const Lens lens{width, height, 0.8, 1.0, 1.0};
+        all.push_back(makeStereoViews(pose, lens, {0.25 * extent / 30, 0.25 * extent}));
+    }
+    return all;
+}
+
+void castAll(const TerrainRenderer& renderer, const std::vector<StereoViews>& all, EyeImage& image) {
+    for (const StereoViews& v : all) renderEye(renderer, v.left, image);
+}
+
+// Embree casts blocks of 4 x 4 pixels (its best case), our kernels colour: the same shading for both.
+void embreeAll(const EmbreeGround& embree, const TerrainRenderer* shading,
+               const std::vector<StereoViews>& all, EyeImage& image) {
+    for (const StereoViews& v : all)
+        for (int y = 0; y < v.left.height; y += 4)
+            for (int x = 0; x < v.left.width; x += 4) {
+                PixelIndex pixels[16];
+                alignas(64) int valid[16];
+                alignas(64) float depth[16];
+                for (int k = 0; k < 16; ++k) {
+                    pixels[k] = {static_cast<std::uint16_t>(x + k % 4),
+                                 static_cast<std::uint16_t>(y + k / 4)};
+                    valid[k] = -1;  // both sides of the picture are multiples of 4
+                }
+                embree.cast(v.left, pixels, valid, depth);
+                if (shading != nullptr) shading->shadeDepths(v.left, pixels, depth, image);
+                benchmark::DoNotOptimize(depth);
+            }
+}
+
+double medianOf(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+double time_ms(const std::function<void()>& work) {
+    const Stopwatch watch;
+    work();
+    return watch.elapsed_ms();
+}
+
+// Milliseconds a picture of ours and of Embree's faster geometry, in turn; medians of `rounds`.
+struct Duel {
+    double ours_ms, embree_ms;
+    double ratio() const { return embree_ms / ours_ms; }
+};
+
+Duel castAgainstEmbree(Attitude attitude, int rounds) {
+    setThreadCount(1);
+    const auto all = views(attitude, kWidth, kHeight);
+    const TerrainRenderer renderer(scene());
+    const EmbreeGround grid(scene().ground, EmbreeGeometry::Grid);
+    const EmbreeGround triangles(scene().ground, EmbreeGeometry::Triangles);
+    EyeImage image;
+    image.resize(kWidth, kHeight);
+    std::vector<double> ours, gridTimes, triangleTimes;
+    for (int k = 0; k < rounds; ++k) {
+        ours.push_back(time_ms([&] { castAll(renderer, all, image); }));
+        gridTimes.push_back(time_ms([&] { embreeAll(grid, &renderer, all, image); }));
+        triangleTimes.push_back(time_ms([&] { embreeAll(triangles, &renderer, all, image); }));
+    }
+    const double views = static_cast<double>(all.size());
+    return {medianOf(ours) / views, std::min(medianOf(gridTimes), medianOf(triangleTimes)) / views};
+}
+
+struct RightEyeMarks {
+    double warpMpixPerSecond, rightVsFull;
+};
+
+// The default right eye on two threads at 1280 x 720, and a full cast of the same eye, in turn.
+RightEyeMarks rightEyeMarks(int rounds) {
+    setThreadCount(2);
+    constexpr int kWide = 1280, kHigh = 720;
+    const auto all = views(Attitude::Level, kWide, kHigh);
+    const TerrainRenderer renderer(scene());
+    RightEye rightEye;
+    EyeImage left, right;
+    left.resize(kWide, kHigh);
+    std::vector<double> warp, ratio;
+    for (const StereoViews& v : all) {
+        renderEye(renderer, v.left, left);
+        for (int k = 0; k < rounds; ++k) {
+            WarpSetting warped, full;
+            full.method = RightEyeMethod::Full;
+            const RightEyeTimings t = rightEye.render(renderer, v, left, warped, right);
+            const RightEyeTimings f = rightEye.render(renderer, v, left, full, right);
+            if (k == 0) continue;
+            warp.push_back(kWide * kHigh / t.warp_ms / 1e3);
+            ratio.push_back(t.right_ms() / f.right_ms());
+        }
+    }
+    return {medianOf(warp), medianOf(ratio)};
+}
+
+int printMarks() {
+    const Duel level = castAgainstEmbree(Attitude::Level, 15);
+    const Duel pitched = castAgainstEmbree(Attitude::Pitched, 15);
+    const RightEyeMarks marks = rightEyeMarks(12);
+    const nlohmann::ordered_json json = {{"left_vs_embree16", level.ratio()},
+                                         {"left_vs_embree16_pitched", pitched.ratio()},
+                                         {"warp_mpix_per_s", marks.warpMpixPerSecond},
+                                         {"right_vs_full", marks.rightVsFull},
+                                         {"left_ms", level.ours_ms},
+                                         {"embree16_ms", level.embree_ms},
+                                         {"left_pitched_ms", pitched.ours_ms},
+                                         {"embree16_pitched_ms", pitched.embree_ms}};
+    std::printf("%s\n", json.dump().c_str());
+    return 0;
+}
+
+SimdTarget targetOf(const benchmark::State& state) {
+    return static_cast<SimdTarget>(state.range(1));
+}
+
+void BM_LeftEye(benchmark::State& state) {
+    setThreadCount(1);
+    const auto all = views(static_cast<Attitude>(state.range(0)), kWidth, kHeight);
+    const TerrainRenderer renderer(scene(), targetOf(state));
+    EyeImage image;
+    image.resize(kWidth, kHeight);
+    for (auto _ : state) castAll(renderer, all, image);
+    state.counters["ms_a_picture"] =
+        benchmark::Counter(static_cast<double>(all.size()) * 1e-3,
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void BM_Embree16(benchmark::State& state) {
+    const auto all = views(static_cast<Attitude>(state.range(0)), kWidth, kHeight);
+    const TerrainRenderer renderer(scene());
+    const EmbreeGround embree(scene().ground, static_cast<EmbreeGeometry>(state.range(1)));
+    EyeImage image;
+    image.resize(kWidth, kHeight);
+    for (auto _ : state) embreeAll(embree, state.range(2) != 0 ? &renderer : nullptr, all, image);
+    state.counters["ms_a_picture"] =
+        benchmark::Counter(static_cast<double>(all.size()) * 1e-3,
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+// attitude: 0 level, 1 pitched by 30 and rolled by 20 degrees; target: 1 plain, 2 AVX2, 3 AVX-512.
+BENCHMARK(BM_LeftEye)->ArgsProduct({{0, 1}, {1, 2, 3}})->Unit(benchmark::kMillisecond);
+// geometry: 0 grid, 1 triangles; shaded: 0 traversal alone.
+BENCHMARK(BM_Embree16)->ArgsProduct({{0, 1}, {0, 1}, {0, 1}})->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace stereonav::bench
+
+int main(int argc, char** argv) {
+    for (int k = 1; k < argc; ++k)
+        if (std::strcmp(argv[k], "--marks") == 0) return stereonav::bench::printMarks();
+    benchmark::Initialize(&argc, argv);
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}
