@@ -29,6 +29,9 @@ public:
         int stride() const { return mWidth + 1; }
         const PackedColor* row(int y) const { return mTexels + static_cast<std::ptrdiff_t>(y) * stride(); }
         const PackedColor& at(int x, int y) const { return row(y)[x]; }
+        std::size_t byteCount() const {
+            return sizeof(PackedColor) * stride() * (static_cast<std::size_t>(mHeight) + 1);
+        }
 
     private:
         const PackedColor* mTexels;

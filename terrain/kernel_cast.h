@@ -119,6 +119,26 @@ STEREONAV_INLINE void leaveBlock(const Eye& eye, Walk& w, const BlockExit& e, I 
     w.active = andNot(w.active, outside < I(0));
 }
 
+// The same for single cells: nothing to round, the other index stays.
+STEREONAV_INLINE BlockExit cellExit(const Eye& eye, const Walk& w) {
+    BlockExit e;
+    e.borderI = w.i + select(w.eastward, I(1), I(0));
+    e.borderJ = w.j + select(w.northward, I(1), I(0));
+    e.tx = (toFloat(e.borderI - I(eye.baseI)) - eye.relativeX) * w.inverseX;
+    e.ty = (toFloat(e.borderJ - I(eye.baseJ)) - eye.relativeY) * w.inverseY;
+    e.t = max(min(e.tx, e.ty), w.t);
+    return e;
+}
+
+STEREONAV_INLINE void leaveCell(const Eye& eye, Walk& w, const BlockExit& e, M move) {
+    const M crossX = e.tx < e.ty;
+    w.i = select(move & crossX, e.borderI + e.borderI - w.i - I(1), w.i);
+    w.j = select(andNot(move, crossX), e.borderJ + e.borderJ - w.j - I(1), w.j);
+    w.t = select(move, e.t, w.t);
+    const I outside = w.i | w.j | (eye.lastI - w.i) | (eye.lastJ - w.j);
+    w.active = andNot(w.active, outside < I(0));
+}
+
 struct CellHit {
     M hit, unsure;
     F t, approach, curvature;
@@ -145,9 +165,10 @@ STEREONAV_INLINE CellHit hitCell(const Eye& eye, const Walk& w, const BlockExit&
     c.unsure = m & (height < F(0.0f) - eye.margin - eye.margin);
     height = max(height, F(0.0f));
     const F discriminant = mulAdd(b, b, F(-4.0f) * a * height);
-    const F root = sqrt(max(discriminant, F(0.0f)));
+    const F root = discriminant * approxRsqrt(max(discriminant, F(1e-30f)));
     const M rising = b > F(0.0f);
-    const F s = select(rising, b + root, height + height) / select(rising, F(-2.0f) * a, root - b);
+    const F s =
+        select(rising, b + root, height + height) * approxReciprocal(select(rising, F(-2.0f) * a, root - b));
     // The cell's far border is rounded too: a little more is let in, and settled in double precision.
     const F length = mulAdd(e.t, F(0x1p-21f), e.t - w.t);
     c.hit = andNot(m, c.unsure) & (discriminant >= F(0.0f)) & (s >= F(0.0f)) & (s <= length);
@@ -225,8 +246,8 @@ inline void castExactly(const Eye& eye, const Rays& rays, F from, M m, Hits& hit
 STEREONAV_INLINE Walk startWalk(const Eye& eye, const Rays& rays, F start, I level, M lanes) {
     Walk w;
     w.rays = rays;
-    w.inverseX = F(1.0f) / divisible(rays.x);
-    w.inverseY = F(1.0f) / divisible(rays.y);
+    w.inverseX = approxReciprocal(divisible(rays.x));
+    w.inverseY = approxReciprocal(divisible(rays.y));
     w.eastward = rays.x > F(0.0f);
     w.northward = rays.y > F(0.0f);
     w.downward = rays.z < F(0.0f);
@@ -277,35 +298,61 @@ STEREONAV_INLINE M leap(const Eye& eye, Walk& w, M move) {
     return parked;
 }
 
+// What is kept of a packet's hits until all its lanes are done.
+STEREONAV_INLINE void keep(CellHit& found, const CellHit& c) {
+    found.t = select(c.hit, c.t, found.t);
+    found.approach = select(c.hit, c.approach, found.approach);
+    found.curvature = select(c.hit, c.curvature, found.curvature);
+    found.h00 = select(c.hit, c.h00, found.h00);
+    found.h10 = select(c.hit, c.h10, found.h10);
+    found.h01 = select(c.hit, c.h01, found.h01);
+    found.h11 = select(c.hit, c.h11, found.h11);
+    found.hit = found.hit | c.hit;
+    found.unsure = found.unsure | c.unsure;
+}
+
+// Tries the cells that the lanes `m` stand in, and moves on those that miss.
+STEREONAV_INLINE void tryCells(const Eye& eye, Walk& w, M m, CellHit& found) {
+    const BlockExit e = cellExit(eye, w);
+    const CellHit c = hitCell(eye, w, e, m);
+    keep(found, c);
+    const M done = c.hit | c.unsure;
+    w.active = andNot(w.active, done);
+    leaveCell(eye, w, e, andNot(m, done));
+}
+
 // First hits of the rays `lanes` at or behind `start` (and the near distance). level: pyramid level to
-// begin with; 0 where the hit is thought to be close.
+// begin with; 0 where the hit is thought to be close: then two cells are tried outright, which is all
+// that most rays need and leaves nothing for the processor to guess.
 STEREONAV_INLINE Hits castPacket(const Eye& eye, const Rays& rays, F start, I level, M lanes) {
+    Walk w = startWalk(eye, rays, start, level, lanes);
+    CellHit found;
+    found.hit = found.unsure = maskFromBits(0);
+    found.t = infinity();
+    found.approach = F(-1.0f);
+    found.curvature = found.h00 = found.h10 = found.h01 = found.h11 = F(0.0f);
+    if (any(w.active & (level == I(0)))) {
+        tryCells(eye, w, w.active & (level == I(0)), found);
+        tryCells(eye, w, w.active & (level == I(0)), found);
+    }
+    while (any(w.active)) {
+        const M parked = leap(eye, w, w.active);
+        if (!any(parked)) break;
+        tryCells(eye, w, parked, found);
+    }
     Hits hits;
     hits.t = infinity();
     hits.i = hits.j = I(0);
     hits.u = hits.v = F(0.0f);
     hits.approach = F(-1.0f);
     hits.free = F(0.0f);
-    M below = maskFromBits(0);
-    Walk w = startWalk(eye, rays, start, level, lanes);
-    M move = w.active;
-    while (any(move)) {
-        const M parked = leap(eye, w, move);
-        if (!any(parked)) break;
-        const BlockExit e = blockExit(eye, w, w.i, w.j, I(0));
-        const CellHit c = hitCell(eye, w, e, parked);
-        M doubtful = c.unsure;
-        if (any(c.hit)) doubtful = doubtful | refine(eye, w, c, c.hit, hits);
+    if (any(found.hit | found.unsure)) {
+        const M doubtful = found.unsure | refine(eye, w, found, found.hit, hits);
         if (any(doubtful)) castExactly(eye, rays, w.t, doubtful, hits);
-        below = below | c.unsure;
-        w.active = andNot(w.active, c.hit | c.unsure);
-        leaveBlock(eye, w, e, w.i, w.j, I(0), andNot(parked, c.hit | c.unsure));
-        w.level = select(parked, I(0), w.level);
-        move = w.active;
     }
     // Hits end the free way, misses at the border of the ground (w.t).
     hits.free = select(hits.t < infinity(), hits.t, select(w.risen, infinity(), w.t));
-    hits.free = select(below, F(0.0f), hits.free);
+    hits.free = select(found.unsure, F(0.0f), hits.free);
     return hits;
 }
 
