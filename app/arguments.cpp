@@ -68,6 +68,7 @@ struct Parsed {
     RenderOptions render;
     PlayOptions play;
     CompareOptions compare;
+    MeshOptions mesh;
     std::string size, relativeSeparation;
     std::function<int()> run = runDefault;
 
@@ -162,6 +163,18 @@ void addCompare(CLI::App& app, Parsed& parsed) {
     });
 }
 
+void addMesh(CLI::App& app, Parsed& parsed) {
+    MeshOptions& options = parsed.mesh;
+    CLI::App& command = *app.add_subcommand("mesh", "the ground with its colour as a glTF mesh");
+    addScene(command, options.scene);
+    command.add_option("--out", options.out, "the mesh's file, .glb or .gltf")->required();
+    command
+        .add_option("--error", options.error_m,
+                    "largest vertical error in metres, half a sample spacing when left out")
+        ->check(CLI::NonNegativeNumber);
+    command.callback([&parsed] { parsed.run = [&parsed] { return runMesh(parsed.mesh); }; });
+}
+
 // The name of the subcommand that was being parsed, with a blank before it; "" when none.
 std::string commandIn(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
@@ -181,6 +194,7 @@ int runCommandLine(int argc, char** argv) {
     addRender(app, parsed);
     addPlay(app, parsed);
     addCompare(app, parsed);
+    addMesh(app, parsed);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

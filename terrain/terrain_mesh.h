@@ -24,6 +24,9 @@ struct TerrainMesh {
 // from rounding: 1e-12 of the heights). Throws Error for other values; Cancelled.
 TerrainMesh simplifyTerrain(const Heightfield& ground, double error, Progress& progress);
 
+// Whether a mesh can be written under this name: .glb or .gltf.
+bool isMeshFileName(const std::filesystem::path& file);
+
 // Writes .glb or .gltf: positions in metres from the world's origin (y up), normals, and the colour
 // texture as a picture inside, unlit since the light is in it. Written beside and renamed. Throws Error.
 void writeTerrainMesh(const std::filesystem::path& file, const Heightfield& ground, const ColorTexture& color,

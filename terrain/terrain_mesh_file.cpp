@@ -89,9 +89,13 @@ tinygltf::Primitive primitiveOf(tinygltf::Model& model, const Heightfield& groun
 
 }  // namespace
 
+bool isMeshFileName(const std::filesystem::path& file) {
+    return hasGltfExtension(file);
+}
+
 void writeTerrainMesh(const std::filesystem::path& file, const Heightfield& ground, const ColorTexture& color,
                       const TerrainMesh& mesh) {
-    if (!hasGltfExtension(file))
+    if (!isMeshFileName(file))
         throw Error(file.string(), "",
                     fmt::format("expected a mesh named .glb or .gltf, got \"{}\"", file.extension().string()),
                     "give the file one of these extensions");
