@@ -144,7 +144,8 @@ void addCompare(CLI::App& app, Parsed& parsed) {
                        "a recorded path (.gltf, .glb, .path); left out: the scene's own");
     command.add_option("--frames", options.frames, "frames evenly over the path, 24 when left out");
     command.add_option("--methods", options.methods, "some of them, as in full,paper,linear; left out: all")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);  // the next word is the scene's, not another method
     command.add_option("--relative-separation", parsed.relativeSeparation,
                        "separation as a share of the zero-parallax distance, as in 1/30");
     command.add_option("--json", options.json, "figures as JSON");

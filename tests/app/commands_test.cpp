@@ -75,7 +75,7 @@ TEST_F(Commands, InfoCountsMissingSamples) {
 
 TEST_F(Commands, RenderWritesThePictureAndNothingElse) {
     runWell({"render", hills(), "--size", "60x40", "--mode", "sbsl", "--out", "deep/er/pair.png"});
-    runWell({"render", hills(), "--size", "60x40", "--mode", "arcd", "--pose", "0,0,400,30,-20,5", "--out",
+    runWell({"render", hills(), "--size", "60x40", "--mode", "arcd", "--pose", "-20,0,400,30,-20,5", "--out",
              "red.jpg"});
     EXPECT_EQ(left(), (std::set<std::string>{"deep/er/pair.png", "red.jpg"}));
     // the size of a PNG stands in bytes 16 to 23, most significant first
@@ -118,6 +118,27 @@ TEST_F(Commands, PlaybackIsTheSameEveryTimeOnAnyNumberOfThreads) {
         EXPECT_EQ(hashes.count(hashIn(runWell(arguments))), 0u) << method;
     }
     EXPECT_TRUE(left().empty());
+}
+
+// With a highlight the right eye is shaded again, which must not depend on the threads either.
+TEST_F(Commands, PlaybackOfGlossyGroundIsTheSameOnAnyNumberOfThreads) {
+    hills();
+    const auto scene = [&](const std::string& specular) {
+        return input("scene" + specular + ".toml",
+                     "[terrain]\ndem = \"hills.asc\"\n[look]\nspecular = " + specular + "\n");
+    };
+    const auto hashOf = [&](const std::string& file, const std::string& threads) {
+        return hashIn(
+            runWell({"play", file, "--size", "96x64", "--frames", "3", "--hash", "--threads", threads}));
+    };
+    const std::string glossy = hashOf(scene("0.6"), "1");
+    EXPECT_EQ(glossy.size(), 16u);
+    EXPECT_EQ(hashOf(scene("0.6"), "2"), glossy);
+    EXPECT_NE(hashOf(scene("0.0"), "2"), glossy);
+    const Json plan =
+        Json::parse(runWell({"info", scene("0.6"), "--size", "32x24", "--json"}).out).at("plan");
+    EXPECT_EQ(plan.at("view_dependent"), true);
+    EXPECT_EQ(plan.at("planes").size(), 5u);
 }
 
 TEST_F(Commands, CompareGivesEveryFieldForEveryMethod) {
@@ -173,8 +194,8 @@ TEST_F(Commands, CompareGivesEveryFieldForEveryMethod) {
 }
 
 TEST_F(Commands, CompareTakesSomeMethodsInTheirOrder) {
-    runWell({"compare", hills(), "--size", "32x24", "--frames", "1", "--repeats", "1", "--methods",
-             "linear,full,linear", "--json", "a.json"});
+    runWell({"compare", "--size", "32x24", "--frames", "1", "--repeats", "1", "--json", "a.json", "--methods",
+             "linear,full,linear", hills()});
     const Json methods = Json::parse(contentOf(place() / "a.json")).at("methods");
     ASSERT_EQ(methods.size(), 2u);
     EXPECT_EQ(methods[0].at("name"), "linear");
