@@ -20,8 +20,9 @@ struct Shader {
     GLuint name;
 };
 
-void compile(const Shader& shader, std::string_view name) {
-    const std::string_view text = sourceOf(name);
+void compile(const Shader& shader, std::string_view name, const std::string& defines) {
+    std::string text(sourceOf(name));
+    text.insert(text.find('\n') + 1, defines);
     const char* data = text.data();
     const GLint length = static_cast<GLint>(text.size());
     glShaderSource(shader.name, 1, &data, &length);
@@ -39,10 +40,11 @@ void compile(const Shader& shader, std::string_view name) {
 
 }  // namespace
 
-ShaderProgram::ShaderProgram(std::string_view vertexName, std::string_view fragmentName) {
+ShaderProgram::ShaderProgram(std::string_view vertexName, std::string_view fragmentName,
+                             const std::string& defines) {
     const Shader vertex(GL_VERTEX_SHADER), fragment(GL_FRAGMENT_SHADER);
-    compile(vertex, vertexName);
-    compile(fragment, fragmentName);
+    compile(vertex, vertexName, defines);
+    compile(fragment, fragmentName, defines);
     glAttachShader(mProgram.name(), vertex.name);
     glAttachShader(mProgram.name(), fragment.name);
     glLinkProgram(mProgram.name());

@@ -18,8 +18,10 @@ std::span<const ShaderSource> shaderSources();
 
 class ShaderProgram {
 public:
-    // Names of files in shaders/. Throws Error with the shader's name and the driver's message.
-    ShaderProgram(std::string_view vertexName, std::string_view fragmentName);
+    // Names of files in shaders/; `defines` are lines put after the first line (#version) of both.
+    // Throws Error with the shader's name and the driver's message.
+    ShaderProgram(std::string_view vertexName, std::string_view fragmentName,
+                  const std::string& defines = "");
 
     void use() const { glUseProgram(mProgram.name()); }
     // -1, which OpenGL ignores, for a uniform that the compiler dropped.

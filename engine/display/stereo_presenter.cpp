@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <string>
 
 #include "engine/base/error.h"
 
@@ -30,34 +31,42 @@ std::array<float, 9> eyePart(const AnaglyphMatrix& m, std::size_t firstColumn) {
     return part;
 }
 
-int layoutNumber(OutputLayout layout) {
-    switch (layout) {
-        case OutputLayout::OneEye:
-            return 0;
-        case OutputLayout::SideBySide:
-            return 1;
-        case OutputLayout::TopBottom:
-            return 2;
-        case OutputLayout::Rows:
-            return 3;
-        case OutputLayout::Columns:
-            return 4;
-        case OutputLayout::Checkerboard:
-            return 5;
-        case OutputLayout::Anaglyph:
-            return 6;
-    }
-    return 0;
-}
-
 }  // namespace
 
-StereoPresenter::StereoPresenter() : mProgram("stereo_present.vert", "stereo_present.frag") {
+StereoPresenter::StereoPresenter() {
     uploadEncoding(mEncoded);
-    mProgram.use();
-    glUniform1i(mProgram.location("uFirst"), 0);
-    glUniform1i(mProgram.location("uSecond"), 1);
-    glUniform1i(mProgram.location("uEncoded"), 2);
+}
+
+StereoPresenter::Pass StereoPresenter::passOf(const OutputModeInfo& info) {
+    switch (info.layout) {
+        case OutputLayout::SideBySide:
+            return info.half ? Pass::HalfWidth : Pass::OneEye;
+        case OutputLayout::TopBottom:
+            return info.half ? Pass::HalfHeight : Pass::OneEye;
+        case OutputLayout::Rows:
+            return Pass::Rows;
+        case OutputLayout::Columns:
+            return Pass::Columns;
+        case OutputLayout::Checkerboard:
+            return Pass::Checkerboard;
+        case OutputLayout::Anaglyph:
+            return Pass::Anaglyph;
+        case OutputLayout::OneEye:
+            break;
+    }
+    return Pass::OneEye;
+}
+
+const ShaderProgram& StereoPresenter::programFor(Pass pass) const {
+    if (const auto found = mPrograms.find(pass); found != mPrograms.end()) return found->second;
+    const std::string defines = fmt::format("#define LAYOUT {}\n", static_cast<int>(pass));
+    const ShaderProgram& program =
+        mPrograms.try_emplace(pass, "stereo_present.vert", "stereo_present.frag", defines).first->second;
+    program.use();
+    glUniform1i(program.location("uFirst"), 0);
+    glUniform1i(program.location("uSecond"), 1);
+    glUniform1i(program.location("uEncoded"), 2);
+    return program;
 }
 
 void StereoPresenter::upload(const Plane<PackedColor>& left, const Plane<PackedColor>& right) {
@@ -102,28 +111,50 @@ void StereoPresenter::uploadEye(const GlTexture& texture, const Plane<PackedColo
 
 void StereoPresenter::draw(const ComposeSetting& setting, const Viewport& viewport, int turnX,
                            int turnY) const {
-    if (!hasPicture() || viewport.width < 1 || viewport.height < 1) return;
+    if (!hasPicture()) return;
     const OutputModeInfo& info = infoOf(setting.mode);
     const bool swapped = setting.swapEyes != info.rightFirst;
     const int right = mOneEye ? 0 : 1;
+    const int first = swapped ? right : 0, second = swapped ? 0 : right;
+    const Pass pass = passOf(info);
     const auto [width, height] = composedSize(setting.mode, mWidth, mHeight);
-    mProgram.use();
+    const auto drawPart = [&](int eye, int other, const Viewport& part, int partWidth, int partHeight) {
+        drawPass(pass, eye, other, part, partWidth, partHeight, setting, turnX, turnY);
+    };
+    const Viewport& v = viewport;
+    if (info.layout == OutputLayout::SideBySide) {
+        drawPart(first, first, {v.x, v.y, v.width / 2, v.height}, width / 2, height);
+        drawPart(second, second, {v.x + v.width / 2, v.y, v.width / 2, v.height}, width / 2, height);
+    } else if (info.layout == OutputLayout::TopBottom) {
+        const int half = v.height / 2;
+        drawPart(first, first, {v.x, v.y + v.height - half, v.width, half}, width, height / 2);
+        drawPart(second, second, {v.x, v.y + v.height - 2 * half, v.width, half}, width, height / 2);
+    } else {
+        drawPart(first, second, v, width, height);
+    }
+}
+
+void StereoPresenter::drawPass(Pass pass, int first, int second, const Viewport& viewport, int pictureWidth,
+                               int pictureHeight, const ComposeSetting& setting, int turnX, int turnY) const {
+    if (viewport.width < 1 || viewport.height < 1) return;
+    const ShaderProgram& program = programFor(pass);
+    program.use();
     glActiveTexture(GL_TEXTURE2);
     glBindTexture(GL_TEXTURE_1D, mEncoded.name());
     glActiveTexture(GL_TEXTURE1);
-    glBindTexture(GL_TEXTURE_2D, mEyes[swapped ? 0 : right].name());
+    glBindTexture(GL_TEXTURE_2D, mEyes[second].name());
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, mEyes[swapped ? right : 0].name());
-    glUniform2i(mProgram.location("uEyeSize"), mWidth, mHeight);
-    glUniform2i(mProgram.location("uComposed"), width, height);
-    glUniform4i(mProgram.location("uViewport"), viewport.x, viewport.y, viewport.width, viewport.height);
-    glUniform2i(mProgram.location("uTurn"), turnX, turnY);
-    glUniform1i(mProgram.location("uLayout"), layoutNumber(info.layout));
-    glUniform1i(mProgram.location("uHalf"), info.half);
-    glUniform1i(mProgram.location("uLinear"), setting.linearAnaglyph);
+    glBindTexture(GL_TEXTURE_2D, mEyes[first].name());
+    glUniform2i(program.location("uEyeSize"), mWidth, mHeight);
+    glUniform4i(program.location("uViewport"), viewport.x, viewport.y, viewport.width, viewport.height);
+    glUniform2f(program.location("uScale"),
+                static_cast<float>(pictureWidth) / static_cast<float>(viewport.width),
+                static_cast<float>(pictureHeight) / static_cast<float>(viewport.height));
+    glUniform2i(program.location("uTurn"), turnX, turnY);
+    glUniform1i(program.location("uLinear"), setting.linearAnaglyph);
     const AnaglyphMatrix& matrix = anaglyphMatrix(setting.mode);
-    glUniformMatrix3fv(mProgram.location("uFromFirst"), 1, GL_FALSE, eyePart(matrix, 0).data());
-    glUniformMatrix3fv(mProgram.location("uFromSecond"), 1, GL_FALSE, eyePart(matrix, 3).data());
+    glUniformMatrix3fv(program.location("uFromFirst"), 1, GL_FALSE, eyePart(matrix, 0).data());
+    glUniformMatrix3fv(program.location("uFromSecond"), 1, GL_FALSE, eyePart(matrix, 3).data());
     glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);

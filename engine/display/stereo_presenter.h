@@ -2,6 +2,8 @@
 // with the tables of engine/image/stereo_compose, whose picture it equals within 1/255.
 #pragma once
 
+#include <map>
+
 #include "engine/display/gl_object.h"
 #include "engine/display/shader_program.h"
 #include "engine/image/stereo_compose.h"
@@ -29,9 +31,17 @@ public:
     void draw(const ComposeSetting& setting, const Viewport& viewport, int turnX = 0, int turnY = 0) const;
 
 private:
-    void uploadEye(const GlTexture& texture, const Plane<PackedColor>& eye) const;
+    // What one program draws; see shaders/stereo_present.frag.
+    enum class Pass { OneEye, HalfWidth, HalfHeight, Rows, Columns, Checkerboard, Anaglyph };
 
-    ShaderProgram mProgram;
+    void uploadEye(const GlTexture& texture, const Plane<PackedColor>& eye) const;
+    const ShaderProgram& programFor(Pass pass) const;
+    static Pass passOf(const OutputModeInfo& info);
+    // pictureWidth, pictureHeight: what is scaled to the viewport; first, second: eyes, 0 or 1.
+    void drawPass(Pass pass, int first, int second, const Viewport& viewport, int pictureWidth,
+                  int pictureHeight, const ComposeSetting& setting, int turnX, int turnY) const;
+
+    mutable std::map<Pass, ShaderProgram> mPrograms;  // made when first drawn
     GlVertexArray mVertices;
     GlTexture mEyes[2];  // left, right
     GlTexture mEncoded;

@@ -132,6 +132,28 @@ TEST_F(StereoPresenterTest, ViewportAndItsPlaceOnTheScreenAreKept) {
         }
 }
 
+TEST_F(StereoPresenterTest, OddWindowsLeaveTheirLastColumnOrRowBlack) {
+    const Picture left = noise(5, 4, 8), right = noise(5, 4, 9);
+    StereoPresenter presenter;
+    presenter.upload(left, right);
+    Target target(11, 4);
+    presenter.draw({OutputMode::SideBySide, false, false}, {0, 0, 11, 4});
+    target.read();
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 11; ++x) {
+            const Bytes expected = x < 10 ? bytesOf((x < 5 ? left : right).at(x % 5, y)) : Bytes{0, 0, 0};
+            ASSERT_LE(largestDifference(target.at(x, y), expected), 1) << x << ' ' << y;
+        }
+    Target tall(5, 9);
+    presenter.draw({OutputMode::TopBottom, false, false}, {0, 0, 5, 9});
+    tall.read();
+    for (int y = 0; y < 9; ++y)
+        for (int x = 0; x < 5; ++x) {
+            const Bytes expected = y < 8 ? bytesOf((y < 4 ? left : right).at(x, y % 4)) : Bytes{0, 0, 0};
+            ASSERT_LE(largestDifference(tall.at(x, y), expected), 1) << x << ' ' << y;
+        }
+}
+
 TEST_F(StereoPresenterTest, PicturesOfAnotherSizeAreScaledToTheNearestPixel) {
     const Picture left = noise(5, 4, 6), right = noise(5, 4, 7);
     StereoPresenter presenter;
