@@ -69,6 +69,7 @@ struct Parsed {
     PlayOptions play;
     CompareOptions compare;
     MeshOptions mesh;
+    ViewOptions view;
     std::string size, relativeSeparation;
     std::function<int()> run = runDefault;
 
@@ -176,6 +177,24 @@ void addMesh(CLI::App& app, Parsed& parsed) {
     command.callback([&parsed] { parsed.run = [&parsed] { return runMesh(parsed.mesh); }; });
 }
 
+void addView(CLI::App& app, Parsed& parsed) {
+    ViewOptions& options = parsed.view;
+    CLI::App& command = *app.add_subcommand("view", "fly through the scene in a window");
+    addScene(command, options.scene);
+    parsed.addSize(command, "1280x720");
+    command.add_option("--method", options.method,
+                       "how the right eye is made, auto: what measures best here");
+    command.add_option("--mode", options.mode, kModeHelp);
+    command.add_option("--path", options.path, "a recorded path (.gltf, .glb, .path) for Z to play");
+    command.add_option("--shots", options.shots, "folder for saved pictures and recorded flights");
+    command.callback([&parsed] {
+        parsed.run = [&parsed] {
+            parsed.takeSize(parsed.view.size);
+            return runView(parsed.view);
+        };
+    });
+}
+
 // The name of the subcommand that was being parsed, with a blank before it; "" when none.
 std::string commandIn(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
@@ -196,6 +215,7 @@ int runCommandLine(int argc, char** argv) {
     addPlay(app, parsed);
     addCompare(app, parsed);
     addMesh(app, parsed);
+    addView(app, parsed);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -3,6 +3,7 @@
 
 #include "app/commands.h"
 #include "app/output_place.h"
+#include "engine/display/window.h"
 
 namespace stereonav {
 namespace {
@@ -32,7 +33,7 @@ int playAndCompare() {
 }  // namespace
 
 int runDefault() {
-    return playAndCompare();
+    return hasDisplay() ? runView({}) : playAndCompare();
 }
 
 }  // namespace stereonav

@@ -72,7 +72,8 @@ struct ViewOptions {
     SizeOption size;
     std::string method = "auto";  // auto: the frame plan's choice
     std::string mode = "sbsl";
-    std::string path;  // Z plays this one at first
+    std::string path;   // Z plays this one at first
+    std::string shots;  // folder for screenshots and recorded flights; "": the present one
 };
 int runView(const ViewOptions& options);
 

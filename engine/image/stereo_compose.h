@@ -64,6 +64,8 @@ struct ComposeSetting {
     // Anaglyph matrices act on sRGB-encoded values by default, as FFmpeg and most players do (the
     // coefficients of Dubois are mostly quoted for that); true: on linear light, then encoded.
     bool linearAnaglyph = false;
+
+    bool operator==(const ComposeSetting&) const = default;
 };
 
 // Rows give the output's R, G, B; columns weigh left r, g, b, right r, g, b. Clamped to [0, 1] after.

@@ -1,0 +1,31 @@
+// Keys, mouse and gamepad as wishes of the pilot and commands to the session.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/view_session.h"
+#include "engine/display/window.h"
+
+namespace stereonav {
+
+// What a key press means; nullopt when nothing. Letters are those of the user's own layout. Held keys
+// repeat only what is a matter of degree.
+std::optional<ViewAction> actionOf(const KeyPress& press);
+
+// Keys and what they do, for the help that F1 shows.
+const std::vector<std::pair<std::string, std::string>>& viewHelp();
+
+// Reads what is held down now; remembers the gamepad's buttons to notice new presses.
+class ViewInput {
+public:
+    FlightInput flightOf(const Window& window, const Gamepad& pad) const;
+    std::vector<ViewAction> actionsOf(const Gamepad& pad);
+
+private:
+    Gamepad mBefore;
+};
+
+}  // namespace stereonav

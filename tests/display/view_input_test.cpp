@@ -1,0 +1,89 @@
+// Keys and gamepad buttons mean what the help says.
+#include "app/view_input.h"
+
+#include <gmock/gmock.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <optional>
+#include <set>
+#include <tuple>
+
+namespace stereonav {
+namespace {
+
+std::optional<ViewCommand> commandOf(const KeyPress& press) {
+    const auto action = actionOf(press);
+    return action ? std::optional(action->command) : std::nullopt;
+}
+
+TEST(ViewKeys, LettersFollowTheUsersLayout) {
+    EXPECT_EQ(commandOf({GLFW_KEY_Z, 'z', false, false}), ViewCommand::Record);
+    EXPECT_EQ(commandOf({GLFW_KEY_Z, 'z', true, false}), ViewCommand::Play);
+    // A German keyboard has z where a US one has y.
+    EXPECT_EQ(commandOf({GLFW_KEY_Y, 'z', false, false}), ViewCommand::Record);
+    EXPECT_EQ(commandOf({GLFW_KEY_Z, 'y', false, false}), std::nullopt);
+    EXPECT_EQ(commandOf({GLFW_KEY_M, 'm', false, false}), ViewCommand::NextMode);
+    EXPECT_EQ(commandOf({GLFW_KEY_M, 'm', true, false}), ViewCommand::PreviousMode);
+    EXPECT_EQ(commandOf({GLFW_KEY_X, 'x', false, false}), ViewCommand::SwapEyes);
+    EXPECT_EQ(commandOf({GLFW_KEY_F, 'f', false, false}), ViewCommand::ToggleFollow);
+    EXPECT_EQ(commandOf({GLFW_KEY_R, 'r', false, false}), ViewCommand::Reset);
+    EXPECT_EQ(commandOf({GLFW_KEY_P, 'p', false, false}), ViewCommand::Screenshot);
+}
+
+TEST(ViewKeys, KeysWithoutLetters) {
+    EXPECT_EQ(commandOf({GLFW_KEY_ESCAPE, 0, false, false}), ViewCommand::Quit);
+    EXPECT_EQ(commandOf({GLFW_KEY_F1, 0, false, false}), ViewCommand::Help);
+    EXPECT_EQ(commandOf({GLFW_KEY_F12, 0, false, false}), ViewCommand::Screenshot);
+    EXPECT_EQ(commandOf({GLFW_KEY_SPACE, ' ', false, false}), ViewCommand::Home);
+    EXPECT_EQ(commandOf({GLFW_KEY_3, '3', false, false}), ViewCommand::ToggleStereo);
+    EXPECT_EQ(commandOf({GLFW_KEY_F5, 0, false, false}), std::nullopt);
+}
+
+TEST(ViewKeys, OnlyMattersOfDegreeRepeat) {
+    for (const auto& [key, letter, command] :
+         {std::tuple{GLFW_KEY_LEFT_BRACKET, '[', ViewCommand::LessSeparation},
+          std::tuple{GLFW_KEY_RIGHT_BRACKET, ']', ViewCommand::MoreSeparation},
+          std::tuple{GLFW_KEY_SEMICOLON, ';', ViewCommand::NearerZeroParallax},
+          std::tuple{GLFW_KEY_APOSTROPHE, '\'', ViewCommand::FartherZeroParallax}}) {
+        EXPECT_EQ(commandOf({key, letter, false, false}), command);
+        EXPECT_EQ(commandOf({key, letter, false, true}), command);
+        // A layout without that sign has something else there, outside ASCII.
+        EXPECT_EQ(commandOf({key, 0, false, false}), command);
+    }
+    EXPECT_EQ(commandOf({GLFW_KEY_Z, 'z', false, true}), std::nullopt);
+    EXPECT_EQ(commandOf({GLFW_KEY_3, '3', false, true}), std::nullopt);
+    EXPECT_EQ(commandOf({GLFW_KEY_ESCAPE, 0, false, true}), std::nullopt);
+}
+
+TEST(ViewKeys, DigitsChooseDifferentModes) {
+    std::set<OutputMode> seen;
+    for (int key = GLFW_KEY_0; key <= GLFW_KEY_9; ++key) {
+        const auto action = actionOf({key, static_cast<char>(key), false, false});
+        ASSERT_TRUE(action.has_value());
+        if (key == GLFW_KEY_3) continue;
+        EXPECT_EQ(action->command, ViewCommand::SetMode);
+        seen.insert(action->mode);
+    }
+    EXPECT_EQ(seen.size(), 9u);
+}
+
+TEST(ViewKeys, GamepadButtonsActOnceAPress) {
+    ViewInput input;
+    Gamepad pad;
+    pad.present = true;
+    EXPECT_TRUE(input.actionsOf(pad).empty());
+    pad.b = pad.rightBumper = true;
+    const auto actions = input.actionsOf(pad);
+    ASSERT_EQ(actions.size(), 2u);
+    EXPECT_EQ(actions[0].command, ViewCommand::SwapEyes);
+    EXPECT_EQ(actions[1].command, ViewCommand::MoreSeparation);
+    EXPECT_TRUE(input.actionsOf(pad).empty()) << "held, not pressed again";
+    pad.b = false;
+    EXPECT_TRUE(input.actionsOf(pad).empty());
+    pad.b = true;
+    EXPECT_EQ(input.actionsOf(pad).size(), 1u);
+}
+
+}  // namespace
+}  // namespace stereonav

@@ -1,0 +1,215 @@
+// The viewer's logic without a window: settings move slowly, modes are all reachable, flights are
+// recorded and played, parallax is watched.
+#include "app/view_session.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace stereonav {
+namespace {
+
+namespace fs = std::filesystem;
+
+ViewScene flatScene() {
+    ViewScene scene;
+    scene.ground = [](const glm::dvec2&) { return 0.0; };
+    scene.start = poseFromAngles({0, 0, 500}, 0, -0.1, 0);
+    scene.path = RecordedPath(
+        {{2.0, poseFromAngles({0, 0, 500}, 0, 0, 0)}, {4.0, poseFromAngles({100, 0, 500}, 0, 0, 0)}}, "test");
+    scene.stereo = {20.0, 600.0};
+    scene.extent = 9000;
+    return scene;
+}
+
+class ViewSessionTest : public testing::Test {
+protected:
+    void SetUp() override {
+        mFolder = fs::path(testing::TempDir()) / ("stereonav_session_" + std::to_string(getpid()));
+        fs::create_directories(mFolder);
+    }
+    void TearDown() override { fs::remove_all(mFolder); }
+    ViewSession session() { return ViewSession(mScene, {OutputMode::SideBySide, std::nullopt, mFolder}); }
+
+    // A frame with this range of parallax.
+    static ViewFrame frameWith(double nearest, double farthest) {
+        ViewFrame frame;
+        frame.left.resize(10, 10);
+        frame.request.stereo = {20.0, 600.0};
+        frame.rightTimings = {0.4, 0.3, 7};
+        frame.nearParallax = nearest;
+        frame.farParallax = farthest;
+        return frame;
+    }
+
+    ViewScene mScene = flatScene();
+    fs::path mFolder;
+};
+
+constexpr double kFrame = 1.0 / 60;
+
+TEST_F(ViewSessionTest, SeparationMovesSlowlyToItsTarget) {
+    ViewSession s = session();
+    s.act({ViewCommand::MoreSeparation});
+    double before = s.stereo().separation;
+    EXPECT_EQ(before, 20.0) << "nothing jumps";
+    for (int i = 0; i < 240; ++i) {
+        s.step({}, kFrame);
+        EXPECT_GE(s.stereo().separation, before);
+        EXPECT_LT(s.stereo().separation / before, 1.01) << "a step at 60 Hz";
+        before = s.stereo().separation;
+    }
+    EXPECT_DOUBLE_EQ(before, 22.0);
+    EXPECT_FALSE(s.moving()) << "and then rests";
+    for (int i = 0; i < 200; ++i) s.act({ViewCommand::MoreSeparation});
+    for (int i = 0; i < 600; ++i) s.step({}, kFrame);
+    EXPECT_LE(s.stereo().separation, 0.25 * 600 * 1.0001);
+    for (int i = 0; i < 200; ++i) s.act({ViewCommand::LessSeparation});
+    for (int i = 0; i < 600; ++i) s.step({}, kFrame);
+    EXPECT_EQ(s.stereo().separation, 0.0);
+    s.act({ViewCommand::MoreSeparation});
+    for (int i = 0; i < 600; ++i) s.step({}, kFrame);
+    EXPECT_GT(s.stereo().separation, 0.0) << "none is not for ever";
+}
+
+TEST_F(ViewSessionTest, TheSlowChangeDoesNotDependOnTheFrameRate) {
+    ViewSession fine = session(), coarse = session();
+    fine.act({ViewCommand::FartherZeroParallax});
+    coarse.act({ViewCommand::FartherZeroParallax});
+    for (int i = 0; i < 30; ++i) fine.step({}, 0.01);
+    coarse.step({}, 0.3);
+    EXPECT_NEAR(fine.stereo().zeroParallax, coarse.stereo().zeroParallax, 1e-9);
+    EXPECT_GT(coarse.stereo().zeroParallax, 600.0);
+    EXPECT_LT(coarse.stereo().zeroParallax, 660.0);
+}
+
+TEST_F(ViewSessionTest, EveryModeIsReachedByStepping) {
+    ViewSession s = session();
+    std::set<OutputMode> seen;
+    for (std::size_t i = 0; i < outputModes().size(); ++i) {
+        seen.insert(s.compose().mode);
+        s.act({ViewCommand::NextMode});
+    }
+    EXPECT_EQ(seen.size(), outputModes().size());
+    EXPECT_EQ(s.compose().mode, OutputMode::SideBySide) << "and round again";
+    s.act({ViewCommand::PreviousMode});
+    EXPECT_EQ(s.compose().mode, OutputMode::Right);
+    s.act({ViewCommand::SetMode, OutputMode::Checkerboard});
+    s.act({ViewCommand::SwapEyes});
+    EXPECT_EQ(s.compose().mode, OutputMode::Checkerboard);
+    EXPECT_TRUE(s.compose().swapEyes);
+    s.act({ViewCommand::LinearAnaglyph});
+    EXPECT_TRUE(s.compose().linearAnaglyph);
+    s.act({ViewCommand::ToggleStereo});
+    EXPECT_EQ(s.compose().mode, OutputMode::Left);
+    EXPECT_FALSE(s.compose().swapEyes);
+    EXPECT_FALSE(s.requestFor(100, 100).twoEyes);
+    s.act({ViewCommand::Reset});
+    EXPECT_EQ(s.compose().mode, OutputMode::SideBySide);
+    EXPECT_TRUE(s.requestFor(100, 100).twoEyes);
+    EXPECT_EQ(s.compose(), (ComposeSetting{OutputMode::SideBySide, false, false}));
+}
+
+TEST_F(ViewSessionTest, RequestsAskForEyesThatFillTheWindow) {
+    ViewSession s = session();
+    FrameRequest r = s.requestFor(1280, 720);
+    EXPECT_EQ(std::pair(r.lens.width, r.lens.height), std::pair(640, 720));
+    const long long version = r.version;
+    EXPECT_EQ(s.requestFor(1280, 720).version, version) << "nothing changed, nothing to render";
+    s.act({ViewCommand::SetMode, OutputMode::SideBySideHalf});
+    r = s.requestFor(1280, 720);
+    EXPECT_EQ(std::pair(r.lens.width, r.lens.height), std::pair(1280, 720));
+    EXPECT_GT(r.version, version);
+    s.act({ViewCommand::SetMode, OutputMode::TopBottom});
+    r = s.requestFor(1280, 721);
+    EXPECT_EQ(std::pair(r.lens.width, r.lens.height), std::pair(1280, 360));
+}
+
+TEST_F(ViewSessionTest, RecordsAFlightSavesItAndPlaysItAgain) {
+    ViewSession s = session();
+    s.act({ViewCommand::Record});
+    EXPECT_TRUE(s.recording());
+    FlightInput forward;
+    forward.forward = 1;
+    for (int i = 0; i < 60; ++i) s.step(forward, kFrame);
+    const Pose end = s.pose();
+    s.act({ViewCommand::Record});
+    EXPECT_FALSE(s.recording());
+    ASSERT_TRUE(fs::exists(mFolder / "flight_0001.gltf")) << s.notice();
+    EXPECT_NEAR(readPath(mFolder / "flight_0001.gltf").duration(), 1.0, 1e-3);
+
+    s.act({ViewCommand::Home});
+    s.act({ViewCommand::Play});
+    EXPECT_TRUE(s.playing());
+    EXPECT_NEAR(glm::length(s.pose().position - mScene.start.position), 0, 1e-9);
+    for (int i = 0; i < 30; ++i) s.step(forward, kFrame);
+    EXPECT_TRUE(s.playing()) << "keys do not disturb it";
+    for (int i = 0; i < 40; ++i) s.step({}, kFrame);
+    EXPECT_FALSE(s.playing());
+    EXPECT_NEAR(glm::length(s.pose().position - end.position), 0, 1e-3);
+}
+
+TEST_F(ViewSessionTest, PlaysTheScenesFlightOnItsOwnClock) {
+    ViewSession s = session();
+    s.act({ViewCommand::Play});
+    for (int i = 0; i < 4; ++i) s.step({}, 0.25);
+    EXPECT_NEAR(s.pose().position.x, 50.0, 1e-9) << "half of 2 s, whatever the frame rate";
+    s.act({ViewCommand::Play});
+    EXPECT_FALSE(s.playing());
+    EXPECT_NEAR(s.pose().position.x, 50.0, 1e-6) << "stopping stays there";
+}
+
+TEST_F(ViewSessionTest, ParallaxBeyondTheBudgetIsSaid) {
+    const ViewSession s = session();
+    EXPECT_EQ(s.warningLine(frameWith(-0.01, 0.015)), "");
+    EXPECT_THAT(s.warningLine(frameWith(-0.015, 0.02)), testing::HasSubstr("3.5 %"));
+    EXPECT_THAT(s.warningLine(frameWith(-0.03, -0.01)), testing::HasSubstr("before the screen"));
+    EXPECT_THAT(s.warningLine(frameWith(0.03, 0.05)), testing::HasSubstr("behind the screen"));
+    ViewFrame oneEye = frameWith(-0.5, 0.5);
+    oneEye.request.twoEyes = false;
+    EXPECT_EQ(s.warningLine(oneEye), "");
+}
+
+TEST_F(ViewSessionTest, TheLineHoldsTheFigures) {
+    ViewFrame frame = frameWith(-0.01, 0.015);
+    frame.left_ms = 3.14;
+    const std::string line = session().statusLine(frame, 24.04);
+    for (const char* part : {"24.0 fps", "left 3.1 ms", "warp 0.4 ms", "fill 0.3 ms", "holes 7.0 %",
+                             "side-by-side", "separation 20.0 m", "zero parallax 600 m", "-1.0 to +1.5 %"})
+        EXPECT_THAT(line, testing::HasSubstr(part));
+}
+
+TEST_F(ViewSessionTest, AFlightComesToRestExactly) {
+    ViewSession s = session();
+    FlightInput input;
+    input.forward = 1;
+    input.yawRate = 0.5;
+    for (int i = 0; i < 60; ++i) s.step(input, kFrame);
+    EXPECT_TRUE(s.moving());
+    for (int i = 0; i < 1200; ++i) s.step({}, kFrame);
+    EXPECT_FALSE(s.moving());
+    const long long version = s.requestFor(100, 100).version;
+    for (int i = 0; i < 60; ++i) s.step({}, kFrame);
+    EXPECT_EQ(s.requestFor(100, 100).version, version);
+    s.look(0.1, 0);
+    s.step({}, kFrame);
+    EXPECT_TRUE(s.moving());
+    EXPECT_GT(s.requestFor(100, 100).version, version);
+}
+
+TEST_F(ViewSessionTest, ScreenshotsAreWishedOnceEach) {
+    ViewSession s = session();
+    EXPECT_FALSE(s.takeScreenshotWish());
+    s.act({ViewCommand::Screenshot});
+    EXPECT_TRUE(s.takeScreenshotWish());
+    EXPECT_FALSE(s.takeScreenshotWish());
+    EXPECT_FALSE(s.quit());
+    s.act({ViewCommand::Quit});
+    EXPECT_TRUE(s.quit());
+}
+
+}  // namespace
+}  // namespace stereonav

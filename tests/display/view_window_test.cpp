@@ -1,0 +1,143 @@
+// Starts the program in a window under Xvfb, drives it with keys and mouse, and looks at the pictures
+// it saves and at the window's own pixels. Needs xvfb-run, xdotool and import (ImageMagick).
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "engine/base/file.h"
+#include "engine/image/image_file.h"
+#include "engine/image/stereo_compose.h"
+
+namespace stereonav {
+namespace {
+
+namespace fs = std::filesystem;
+using Picture = Plane<PackedColor>;
+
+bool installed(const std::string& program) {
+    return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+int byteOf(PackedColor c, int channel) {
+    return srgbByteFromPacked()[c >> (10 * channel) & 1023];
+}
+
+// Mean absolute difference of sRGB bytes over two rectangles of the same size.
+double difference(const Picture& a, int ax, int ay, const Picture& b, int bx, int by, int width, int height) {
+    double sum = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int k = 0; k < 3; ++k)
+                sum += std::abs(byteOf(a.at(ax + x, ay + y), k) - byteOf(b.at(bx + x, by + y), k));
+    return sum / (3.0 * width * height);
+}
+
+double difference(const Picture& a, const Picture& b) {
+    EXPECT_EQ(a.width(), b.width());
+    EXPECT_EQ(a.height(), b.height());
+    if (a.width() != b.width() || a.height() != b.height()) return 0;
+    return difference(a, 0, 0, b, 0, 0, a.width(), a.height());
+}
+
+// Means below this are rounding; above kDifferent the pictures show different things.
+constexpr double kSame = 0.5, kDifferent = 1.5;
+
+class ViewWindow : public testing::Test {
+protected:
+    void SetUp() override {
+        for (const char* program : {"xvfb-run", "xdotool", "import"})
+            if (!installed(program)) GTEST_SKIP() << program << " is not installed";
+        mFolder = fs::path(testing::TempDir()) / ("stereonav_view_" + std::to_string(getpid()));
+        fs::create_directories(mFolder);
+    }
+    void TearDown() override {
+        if (!HasFailure()) fs::remove_all(mFolder);
+    }
+
+    int drive() {
+        const std::string command = "XDG_CACHE_HOME='" + mFolder.string() +
+                                    "/cache' xvfb-run -a -s '-screen 0 1280x1024x24' "
+                                    "'" STEREONAV_SOURCE_DIR
+                                    "/tests/display/drive_view.sh' '" STEREONAV_PROGRAM "' '" +
+                                    mFolder.string() + "'";
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    std::string textOf(const std::string& name) const {
+        return fs::exists(mFolder / name) ? readTextFile(mFolder / name) : "";
+    }
+    std::map<std::string, fs::path> steps() const {
+        std::map<std::string, fs::path> steps;
+        std::ifstream in(mFolder / "steps.txt");
+        for (std::string step, file; in >> step >> file;) steps[step] = file;
+        return steps;
+    }
+
+    fs::path mFolder;
+};
+
+// The middle of the window, where no text lies, against the picture that was saved.
+void expectWindowShows(const fs::path& window, const Picture& saved) {
+    const Picture shown = readColorImage(window);
+    ASSERT_EQ(shown.width(), saved.width());
+    ASSERT_EQ(shown.height(), saved.height());
+    const int y = saved.height() * 4 / 10, height = saved.height() / 10;
+    EXPECT_LT(difference(shown, 0, y, saved, 0, y, saved.width(), height), kSame) << window;
+}
+
+TEST_F(ViewWindow, ObeysKeysAndMouse) {
+    ASSERT_EQ(drive(), 0) << textOf("problems.txt") << textOf("log.txt");
+    EXPECT_EQ(textOf("status.txt"), "0\n") << textOf("log.txt");
+    std::map<std::string, Picture> shots;
+    std::map<std::string, std::string> names;
+    for (const auto& [step, file] : steps()) {
+        shots[step] = readColorImage(file);
+        names[step] = file.stem().string().substr(std::string("stereonav_0001_").size());
+    }
+    ASSERT_EQ(shots.size(), 15u);
+    const Picture& start = shots["start"];
+    ASSERT_EQ(start.width(), 640);
+    ASSERT_EQ(start.height(), 240);
+    EXPECT_THAT(textOf("log.txt"), testing::HasSubstr("saved "));
+
+    // Eye swap exchanges the halves exactly; the halves are two different eyes.
+    EXPECT_LT(difference(start, 0, 0, shots["swapped"], 320, 0, 320, 240), 1e-9);
+    EXPECT_LT(difference(start, 320, 0, shots["swapped"], 0, 0, 320, 240), 1e-9);
+    EXPECT_GT(difference(start, 0, 0, start, 320, 0, 320, 240), kDifferent);
+
+    // Each mode under its name, in its size.
+    EXPECT_EQ(names["anaglyph"], "arcd");
+    EXPECT_EQ(names["anaglyph_next"], "agmg");
+    EXPECT_EQ(names["left"], "ml");
+    EXPECT_EQ(names["top_bottom"], "tbl");
+    EXPECT_EQ(shots["anaglyph"].width(), 640);
+    EXPECT_EQ(shots["top_bottom"].height(), 240);
+    EXPECT_GT(difference(shots["anaglyph"], shots["left"]), kDifferent);
+    EXPECT_GT(difference(shots["one_eye"], shots["left"]), 0.1) << "the head lies between the eyes";
+
+    // Flight and stereo settings change the picture; keys that change nothing do not.
+    EXPECT_GT(difference(start, shots["moved"]), kDifferent);
+    EXPECT_GT(difference(shots["moved"], shots["separated"]), 0.1);
+    EXPECT_GT(difference(shots["separated"], shots["recorded"]), kDifferent);
+    EXPECT_GT(difference(shots["playing"], shots["recorded"]), kDifferent);
+    EXPECT_LT(difference(shots["played"], shots["recorded"]), kSame) << "the flight ends where it ended";
+    EXPECT_GT(difference(shots["dragged"], shots["played"]), kDifferent);
+    EXPECT_GT(difference(shots["home"], shots["dragged"]), kDifferent);
+    EXPECT_EQ(shots["resized"].width(), 500);
+    EXPECT_EQ(shots["resized"].height(), 200);
+    EXPECT_TRUE(fs::exists(mFolder / "shots" / "flight_0001.gltf"));
+
+    expectWindowShows(mFolder / "window_anaglyph.png", shots["anaglyph"]);
+    expectWindowShows(mFolder / "window_side_by_side.png", start);
+}
+
+}  // namespace
+}  // namespace stereonav

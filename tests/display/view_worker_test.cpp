@@ -1,0 +1,214 @@
+// The thread beside the window: it never makes the window wait, takes the newest request, reports
+// progress, and hands over what went wrong.
+#include "app/view_worker.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/stopwatch.h"
+
+namespace stereonav {
+namespace {
+
+using namespace std::chrono_literals;
+
+// A wall at one view depth, whose colour is the whole metres of the eye's height; as slow as wished.
+class Wall : public EyeRenderer {
+public:
+    explicit Wall(std::chrono::milliseconds pause = 0ms) : mPause(pause) {}
+    int tileCount(const EyeView&) const override { return 1; }
+    void renderTile(const EyeView& view, int, EyeImage& image) const override {
+        std::this_thread::sleep_for(mPause);
+        for (int y = 0; y < view.height; ++y) paint(view, y, 0, view.width, image);
+    }
+    void renderPixels(const EyeView& view, PixelRect, std::span<const PixelIndex> pixels,
+                      EyeImage& image) const override {
+        for (const PixelIndex& p : pixels) paint(view, p.y, p.x, p.x + 1, image);
+    }
+    bool mayHitBeyondEdge(const EyeView&, PixelRect, double, double) const override { return false; }
+
+    static constexpr float kDepth = 100.0f;
+
+private:
+    static void paint(const EyeView& view, int y, int x0, int x1, EyeImage& image) {
+        for (int x = x0; x < x1; ++x) {
+            image.color.at(x, y) = static_cast<PackedColor>(view.eye.z);
+            image.viewDepth.at(x, y) = kDepth;
+        }
+    }
+    std::chrono::milliseconds mPause;
+};
+
+ViewScene sceneOf(std::shared_ptr<Wall> wall) {
+    ViewScene scene;
+    scene.renderer = wall.get();
+    scene.owner = std::move(wall);
+    return scene;
+}
+
+FrameRequest requestAt(long long version, double height) {
+    FrameRequest request;
+    request.version = version;
+    request.pose.position = {0, 0, height};
+    request.pose = poseFromAngles(request.pose.position, 0, 0, 0);
+    request.lens.width = 40;
+    request.lens.height = 20;
+    request.stereo = {2.0, 50.0};
+    request.warp.method = RightEyeMethod::Full;
+    return request;
+}
+
+template <typename Condition>
+bool within(std::chrono::milliseconds limit, const Condition& condition) {
+    const Stopwatch watch;
+    while (!condition()) {
+        if (watch.elapsed_ms() > static_cast<double>(limit.count())) return false;
+        std::this_thread::sleep_for(1ms);
+    }
+    return true;
+}
+
+std::shared_ptr<const ViewFrame> nextFrame(ViewWorker& worker) {
+    std::shared_ptr<const ViewFrame> frame;
+    within(10s, [&] { return (frame = worker.takeFrame()) != nullptr; });
+    return frame;
+}
+
+TEST(ViewWorker, LoadsAndRendersBothEyes) {
+    std::atomic<int> woken = 0;
+    ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [&] { ++woken; });
+    ASSERT_TRUE(within(10s, [&] { return worker.scene() != nullptr; }));
+    EXPECT_EQ(worker.takeFrame(), nullptr);
+    worker.request(requestAt(1, 7));
+    const auto frame = nextFrame(worker);
+    ASSERT_NE(frame, nullptr);
+    EXPECT_EQ(frame->request.version, 1);
+    for (int y = 0; y < 20; ++y)
+        for (int x = 0; x < 40; ++x) {
+            ASSERT_EQ(frame->left.color.at(x, y), 7u);
+            ASSERT_EQ(frame->right.color.at(x, y), 7u);
+        }
+    // A wall at twice the zero-parallax distance: half of the parallax at infinity, by the formula
+    // separation / zero parallax / window width, the window being 2 tan(0.4) * 2 wide.
+    const double expected = 2.0 / 50.0 / (4 * std::tan(0.4)) / 2;
+    EXPECT_NEAR(frame->nearParallax, expected, 1e-6);
+    EXPECT_NEAR(frame->farParallax, expected, 1e-6);
+    EXPECT_EQ(worker.takeFrame(), nullptr) << "each frame is handed out once";
+    EXPECT_TRUE(within(10s, [&] { return woken >= 2; }));
+}
+
+TEST(ViewWorker, OneEyeNeedsNoRightOne) {
+    ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
+    FrameRequest request = requestAt(1, 3);
+    request.twoEyes = false;
+    worker.request(request);
+    const auto frame = nextFrame(worker);
+    ASSERT_NE(frame, nullptr);
+    EXPECT_TRUE(frame->right.color.empty());
+    EXPECT_EQ(frame->left.width(), 40);
+}
+
+TEST(ViewWorker, TheCallerNeverWaitsAndTheNewestRequestWins) {
+    ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>(50ms)); }, [] {});
+    ASSERT_TRUE(within(10s, [&] { return worker.scene() != nullptr; }));
+    double longest = 0;
+    for (int i = 1; i <= 200; ++i) {
+        const Stopwatch watch;
+        worker.request(requestAt(i, i));
+        worker.takeFrame();
+        longest = std::max(longest, watch.elapsed_ms());
+        std::this_thread::sleep_for(1ms);
+    }
+    EXPECT_LT(longest, 40.0) << "less than the 100 ms of a frame of two eyes";
+    int frames = 0;
+    std::shared_ptr<const ViewFrame> frame;
+    ASSERT_TRUE(within(10s, [&] {
+        if (auto next = worker.takeFrame()) {
+            frame = next;
+            ++frames;
+        }
+        return frame && frame->request.version == 200;
+    }));
+    EXPECT_EQ(frame->left.color.at(0, 0), 200u);
+    EXPECT_LE(frames, 3) << "requests in between are left out";
+}
+
+TEST(ViewWorker, FramesThatAreHeldStayAsTheyAre) {
+    ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
+    std::vector<std::shared_ptr<const ViewFrame>> held;
+    for (int i = 1; i <= 6; ++i) {
+        worker.request(requestAt(i, 10 * i));
+        held.push_back(nextFrame(worker));
+        ASSERT_NE(held.back(), nullptr);
+    }
+    for (int i = 1; i <= 6; ++i)
+        EXPECT_EQ(held[static_cast<std::size_t>(i) - 1]->left.color.at(5, 5), 10u * i);
+}
+
+TEST(ViewWorker, ReportsProgressAndStopsLoadingWhenClosed) {
+    std::atomic<bool> cancelled = false;
+    const Stopwatch watch;
+    {
+        ViewWorker worker(
+            [&](Progress& progress) -> ViewScene {
+                try {
+                    for (int i = 0; i < 10000; ++i) {
+                        progress.report(0.25, "reading");
+                        std::this_thread::sleep_for(1ms);
+                    }
+                } catch (const Cancelled&) {
+                    cancelled = true;
+                    throw;
+                }
+                return {};
+            },
+            [] {});
+        ASSERT_TRUE(within(5s, [&] { return worker.loading().what == "reading"; }));
+        EXPECT_EQ(worker.loading().fraction, 0.25);
+        EXPECT_EQ(worker.scene(), nullptr);
+    }
+    EXPECT_TRUE(cancelled);
+    EXPECT_LT(watch.elapsed_ms(), 5000.0);
+}
+
+TEST(ViewWorker, WhatLoadingThrowsArrivesAtTheWindow) {
+    ViewWorker worker([](Progress&) -> ViewScene { throw Error("a.tif", "", "is cut off", "copy it again"); },
+                      [] {});
+    std::string message;
+    ASSERT_TRUE(within(10s, [&] {
+        try {
+            worker.scene();
+            return false;
+        } catch (const Error& error) {
+            message = error.what();
+            return true;
+        }
+    }));
+    EXPECT_EQ(message, "a.tif: is cut off; copy it again");
+    EXPECT_THROW(worker.takeFrame(), Error);
+}
+
+TEST(ViewWorker, WhatRenderingThrowsArrivesAtTheWindow) {
+    ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
+    FrameRequest request = requestAt(1, 1);
+    request.stereo.zeroParallax = -1;
+    worker.request(request);
+    EXPECT_TRUE(within(10s, [&] {
+        try {
+            worker.takeFrame();
+            return false;
+        } catch (const Error&) {
+            return true;
+        }
+    }));
+}
+
+}  // namespace
+}  // namespace stereonav
