@@ -20,6 +20,7 @@ int playAndCompare() {
     PlayOptions video = pictures;
     video.out.clear();
     video.frames = 0;
+    video.fps = 15;
     video.video = "out/flight.mp4";
     runPlay(video);
     CompareOptions compare;

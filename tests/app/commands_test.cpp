@@ -231,5 +231,19 @@ TEST_F(Commands, FliesTheBuiltInTerrain) {
     EXPECT_EQ(json.at("terrain").at("missing_samples"), 0);
 }
 
+// What a user without a display gets from the bare command.
+TEST_F(Commands, WithoutArgumentsAndDisplayTheFlightGoesToAFolder) {
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    const Outcome outcome = run({});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("true_psnr_db"), std::string::npos) << outcome.out;
+    const std::set<std::string> names = left();
+    for (const char* name : {"out/flight.mp4", "out/compare.json", "out/compare.csv",
+                             "out/error_against_time.png", "out/frame_00000.png"})
+        EXPECT_EQ(names.count(name), 1u) << name;
+    EXPECT_EQ(Json::parse(contentOf(place() / "out/compare.json")).at("scene"), "terrain");
+}
+
 }  // namespace
 }  // namespace stereonav::test
