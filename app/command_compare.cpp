@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void checkOptions(const CompareOptions& options) {
-    checkSize(options.size);
+    checkSize(options.size, kCompareBytesPerPixel);
     if (options.frames < 1 || options.frames > 100'000)
         throw Error("--frames", "", fmt::format("expected 1 to 100000, got {}", options.frames),
                     "24 is the default");

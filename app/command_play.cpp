@@ -27,7 +27,7 @@ void checkOptions(const PlayOptions& options) {
     if (options.frames < 0 || options.frames > kMostFrames)
         throw Error("--frames", "", fmt::format("expected 1 to {}, got {}", kMostFrames, options.frames),
                     "leave it out for the whole path at --fps");
-    checkSize(options.size);
+    checkSize(options.size, options.video.empty() ? kRenderBytesPerPixel : kVideoBytesPerPixel);
 }
 
 std::vector<Pose> posesOf(const PlayOptions& options, const RecordedPath& path) {

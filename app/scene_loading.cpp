@@ -43,22 +43,18 @@ void checkOptions(const SceneOptions& options) {
                     "use the distance to what should lie in the screen");
 }
 
-// Bytes a pixel of one eye costs while a command runs: planes of both eyes and of the truth with
-// their masks, the composed picture twice (packed and bytes).
-constexpr long long kBytesPerPixel = 96;
-
 long long memoryBytes() {
     return static_cast<long long>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGE_SIZE);
 }
 
 }  // namespace
 
-void checkSize(const SizeOption& size) {
+void checkSize(const SizeOption& size, int bytesPerPixel) {
     constexpr int kLargest = 32768;
     const std::string got = fmt::format("{}x{}", size.width, size.height);
     if (size.width < 1 || size.height < 1 || size.width > kLargest || size.height > kLargest)
         throw Error("--size", "", "expected 1 to 32768 pixels a side, got " + got, "try 1280x720");
-    const long long bytes = kBytesPerPixel * size.width * size.height;
+    const long long bytes = static_cast<long long>(bytesPerPixel) * size.width * size.height;
     if (bytes > memoryBytes() / 2)
         throw Error("--size", "",
                     fmt::format("{} needs {:.1f} GB, more than half of this machine's {:.1f} GB", got,

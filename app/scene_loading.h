@@ -30,8 +30,13 @@ SceneFile describeScene(const SceneOptions& options);
 // Checks options and size, sets the thread count, reads the scene. Throws Error, Cancelled.
 LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress);
 
-// 1 to 32768 pixels a side, and a frame that fits in half of this machine's memory. Throws Error.
-void checkSize(const SizeOption& size);
+// Bytes that a command holds for each pixel of one eye, measured at 2000x2000 and rounded up: both
+// eyes and the composed picture; a video encoder's frames (FFV1); every method with its truths and
+// the SSIM's intermediate pictures.
+constexpr int kRenderBytesPerPixel = 96, kVideoBytesPerPixel = 384, kCompareBytesPerPixel = 320;
+
+// 1 to 32768 pixels a side, and no more than half of this machine's memory. Throws Error.
+void checkSize(const SizeOption& size, int bytesPerPixel = kRenderBytesPerPixel);
 
 // The recorded path in `file`, or the scene's own when it is "".
 RecordedPath flightOf(const LoadedScene& scene, const std::string& file);

@@ -93,7 +93,14 @@ TEST_F(BadInput, ASizeThatFitsTheRangeButNotTheMemory) {
                   {"--size", "32768x32768"});
 }
 
+TEST_F(BadInput, AWindowWithoutADisplay) {
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    expectRefused({"view", hills()}, {"display"});
+}
+
 TEST_F(BadInput, UnknownNames) {
+    expectRefused({"view", hills(), "--mode", "magic"}, {"magic", "arcd"});
     expectRefused({"compare", hills(), "--methods", "full,magic"}, {"magic", "paper", "cubic"});
     expectRefused({"render", hills(), "--method", "magic", "--out", "out.png"}, {"magic", "linear"});
     expectRefused({"render", hills(), "--mode", "magic", "--out", "out.png"}, {"magic", "sbsl", "arcd"});

@@ -30,7 +30,7 @@ protected:
 
 TEST_F(Commands, HelpAndVersion) {
     EXPECT_NE(runWell({"--version"}).out.find("stereonav 0."), std::string::npos);
-    for (const std::string command : {"info", "render", "play", "compare"}) {
+    for (const std::string command : {"info", "render", "play", "compare", "view", "mesh"}) {
         EXPECT_NE(runWell({"--help"}).out.find(command), std::string::npos);
         EXPECT_NE(runWell({command, "--help"}).out.find("--threads"), std::string::npos);
     }
