@@ -70,8 +70,9 @@ GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& me
                        const std::string& expected, const std::string& advice) {
     checkFile(file, advice);
     // A fixed list: formats that fetch other files or addresses are none of ours.
-    static const char* const kDrivers[] = {"GTiff", "SRTMHGT", "USGSDEM", "AAIGrid", "DTED", "EHdr",
-                                           "HFA",   "PNG",     "JPEG",    "BMP",     nullptr};
+    static const char* const kDrivers[] = {"GTiff", "SRTMHGT", "USGSDEM", "AAIGrid", "DTED",
+                                           "EHdr",  "HFA",     "WEBP",    "GIF",     "JP2OpenJPEG",
+                                           "PNG",   "JPEG",    "BMP",     nullptr};
     GdalDataset dataset(GDALDataset::Open(
         file.string().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers));
     if (dataset && dataset->GetRasterCount() > 0) return dataset;

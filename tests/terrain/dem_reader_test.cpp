@@ -153,6 +153,36 @@ TEST(DemReader, DegreesBecomeMetres) {
         }
 }
 
+TEST(DemReader, HolesKeepTheirPlaceAndSizeInResampling) {
+    const TempFolder folder;
+    RasterSpec spec;
+    spec.epsg = 4326;
+    spec.width = spec.height = 100;
+    const double step = 1.0 / 1200;
+    spec.transform = {11, step, 0, 46, 0, -step};
+    spec.hasNodata = true;
+    spec.nodata = -1;
+    const auto isHole = [](double c, double r) { return std::hypot(c - 60.3, r - 30.6) < 12; };
+    spec.value = [&](int c, int r, int) { return isHole(c, r) ? -1.0 : 300.0; };
+    const DemGrid dem = read(writeRaster(folder / "hole.tif", spec));
+    long long missing = 0;
+    for (int j = 0; j < dem.height; ++j)
+        for (int i = 0; i < dem.width; ++i) {
+            const float h = sampleAt(dem, i, j);
+            missing += std::isnan(h);
+            if (!std::isnan(h)) {
+                EXPECT_NEAR(h, 300, 1e-3);
+            }
+            // The grid's middle is the source's; steps are the same there.
+            const double c = 49.5 + i - 0.5 * (dem.width - 1), r = 49.5 - j + 0.5 * (dem.height - 1);
+            const double fromMiddle = std::hypot(c - 60.3, r - 30.6);
+            if (std::abs(fromMiddle - 12) > 1.5) {
+                EXPECT_EQ(std::isnan(h), fromMiddle < 12) << i << " " << j;
+            }
+        }
+    EXPECT_NEAR(double(missing), double(dem.sourceMissing), 0.03 * double(dem.sourceMissing));
+}
+
 TEST(DemReader, WebMercatorIsBroughtToTrueMetres) {
     const TempFolder folder;
     RasterSpec spec = rampSpec();

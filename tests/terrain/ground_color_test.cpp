@@ -190,7 +190,7 @@ TEST(GroundColor, SixteenBitGray) {
     RasterSpec spec = pictureSpec(20, 10);
     spec.bands = 1;
     spec.type = GDT_UInt16;
-    spec.value = [](int c, int, int) { return 257.0 * 12 * c; };
+    spec.value = [](int c, int, int) { return 257.0 * 12 * c + 100; };  // 100: under half a step of 8 bits
     const GroundColor color = lay(writeRaster(folder / "gray.tif", spec), place);
     for (int c = 0; c < 20; ++c) EXPECT_EQ(srgbOf(color.texture.level(0).at(c, 4)), glm::vec3(12.0f * c));
 }
