@@ -323,7 +323,9 @@ ComposeSetting ViewSession::compose() const {
 }
 
 std::string ViewSession::statusLine(const ViewFrame& frame, double framesPerSecond) const {
-    std::string line = fmt::format("{:.1f} fps  left {:.1f} ms", framesPerSecond, frame.left_ms);
+    // Nothing is known of the rate before the first frames that followed each other.
+    std::string line = framesPerSecond > 0 ? fmt::format("{:.1f} fps  ", framesPerSecond) : "";
+    line += fmt::format("left {:.1f} ms", frame.left_ms);
     if (!frame.request.twoEyes) return line + "  one eye";
     const double pixels = static_cast<double>(frame.left.width()) * frame.left.height();
     line += fmt::format(

@@ -180,6 +180,7 @@ TEST_F(ViewSessionTest, TheLineHoldsTheFigures) {
     for (const char* part : {"24.0 fps", "left 3.1 ms", "warp 0.4 ms", "fill 0.3 ms", "holes 7.0 %",
                              "side-by-side", "separation 20.0 m", "zero parallax 600 m", "-1.0 to +1.5 %"})
         EXPECT_THAT(line, testing::HasSubstr(part));
+    EXPECT_THAT(session().statusLine(frame, 0), testing::StartsWith("left 3.1 ms")) << "no rate is known yet";
 }
 
 TEST_F(ViewSessionTest, AFlightComesToRestExactly) {
