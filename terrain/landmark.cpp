@@ -128,6 +128,42 @@ void castPacket(RTCScene scene, const glm::vec3& origin, float tNear, const glm:
     }
 }
 
+// The part of a view's window (at view depth 1) that a box covers: other rays need not be cast. All of
+// it when the box reaches behind the near depth.
+class Silhouette {
+public:
+    Silhouette(const EyeView& view, const glm::dvec3& low, const glm::dvec3& high) : mView(view) {
+        constexpr double kMargin = 1e-4;  // Embree sees the directions as floats, rounded to 6e-8
+        const glm::dvec2 everywhere(std::numeric_limits<double>::infinity());
+        glm::dvec2 least = everywhere, most = -everywhere;
+        for (int k = 0; k < 8; ++k) {
+            const glm::dvec3 corner(k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z);
+            const glm::dvec3 d = corner - view.eye;
+            const double depth = glm::dot(d, view.forward);
+            if (!(depth > view.nearDepth)) return;
+            const glm::dvec2 seen = glm::dvec2(glm::dot(d, view.right), glm::dot(d, view.up)) / depth;
+            least = glm::min(least, seen - kMargin);
+            most = glm::max(most, seen + kMargin);
+        }
+        mLeast = least;
+        mMost = most;
+    }
+
+    // Whether any of the rays may meet the box.
+    bool touches(const glm::dvec3* direction, int count) const {
+        for (int k = 0; k < count; ++k) {
+            const glm::dvec2 d(glm::dot(direction[k], mView.right), glm::dot(direction[k], mView.up));
+            if (d.x >= mLeast.x && d.x <= mMost.x && d.y >= mLeast.y && d.y <= mMost.y) return true;
+        }
+        return false;
+    }
+
+private:
+    const EyeView& mView;
+    glm::dvec2 mLeast{-std::numeric_limits<double>::infinity()};
+    glm::dvec2 mMost{std::numeric_limits<double>::infinity()};
+};
+
 int nativePacket(RTCDevice device) {
     if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) return 16;
     if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) return 8;
@@ -216,8 +252,10 @@ void LandmarkSet::cast(const EyeView& view, int count, const glm::dvec3* directi
                        PackedColor* color) const {
     const glm::dvec3 origin = view.eye - mState->centre;
     const auto nearDepth = static_cast<float>(view.nearDepth);
+    const Silhouette silhouette(view, mState->low, mState->high);
     for (int first = 0; first < count; first += mState->packet) {
         const int lanes = std::min(mState->packet, count - first);
+        if (!silhouette.touches(direction + first, lanes)) continue;
         PacketHits hits;
         mState->cast(glm::vec3(origin), nearDepth, direction + first, viewDepth + first, lanes, hits);
         for (int k = 0; k < lanes; ++k) {

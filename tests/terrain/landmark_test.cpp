@@ -286,6 +286,26 @@ TEST_F(Landmarks, NearerGroundAndMarkedLanesAreLeftAlone) {
     EXPECT_NEAR(through, 2.05, 1e-5);
 }
 
+// Rays far to the side are left out early; a view from inside the set's bounds must not lose any.
+TEST_F(Landmarks, FromBetweenTwoLandmarksBothAreSeen) {
+    LandmarkFile a = file(modelOf(box({1, 1, 1}))), b = a;
+    a.positionWorld = {-50, 0};
+    b.positionWorld = {50, 0};
+    const LandmarkSet landmarks({a, b}, mGround, mLook);
+    for (const double side : {-1.0, 1.0}) {
+        const EyeView view = viewFrom(poseFromAngles({0, 0, 1}, side * kPi / 2, 0, 0.4));
+        const Cast cast = castAll(landmarks, view);
+        int hits = 0;
+        for (std::size_t k = 0; k < cast.depth.size(); ++k) {
+            const double x = 50 * side;
+            const double expected = boxDepth(view.eye, cast.direction[k], {x - 1, -1, 0}, {x + 1, 1, 2});
+            ASSERT_EQ(std::isinf(cast.depth[k]), std::isinf(expected));
+            hits += !std::isinf(expected);
+        }
+        EXPECT_GT(hits, 5);
+    }
+}
+
 // Every pixel has the same bits whichever others are cast with it.
 TEST_F(Landmarks, APixelDoesNotDependOnItsPacket) {
     LandmarkFile f = file(modelOf(sphere(10, 24)));

@@ -16,7 +16,9 @@
 #include "engine/camera/gltf_file.h"
 #include "engine/image/image_file.h"
 #include "terrain/mesh_triangulation.h"
+#include "terrain/terrain_loader.h"
 #include "tests/camera/temporary_folder.h"
+#include "tests/support/test_grounds.h"
 
 namespace stereonav {
 namespace {
@@ -203,6 +205,19 @@ TEST(TerrainMesh, ExtremeHeightRanges) {
         EXPECT_LE(bruteError(ground, mesh), 0.1 * range * (1 + 1e-9));
         EXPECT_GT(mesh.triangles.size(), 100u);
     }
+}
+
+// The paper's own mountains, 1197 x 643 samples: less than an eighth of the triangles at half a spacing.
+TEST(TerrainMesh, RealMountains) {
+    if (test::realData().empty()) GTEST_SKIP() << "no real data: set STEREONAV_TEST_DATA";
+    const auto file = test::realData() / "terrain/srtm_bigtujunga30m_utm11.tif";
+    Progress progress;
+    const TerrainScene scene = loadTerrain(sceneFileFromName(file.string()), progress);
+    const TerrainMesh mesh = simplifyTerrain(scene.ground, 15, progress);
+    EXPECT_LE(bruteError(scene.ground, mesh), 15 + 1e-9);
+    EXPECT_EQ(gridArea(mesh), 1196.0 * 642.0);
+    EXPECT_LT(mesh.triangles.size(), 2u * 1196 * 642 / 8);
+    expectWatertight(scene.ground, mesh);
 }
 
 // Delaunay by definition: no point lies inside the circle of a triangle (checked in long double).
