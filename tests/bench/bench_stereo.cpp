@@ -1,0 +1,125 @@
+// Speed of the right eye's warp alone (no rays cast), in right pixels a second: by method, size, thread
+// count and schedule. The left eye is a hilly ground drawn by floating horizon, so that survivors,
+// folds and gaps are as frequent as in terrain.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "engine/stereo/right_eye.h"
+#include "engine/stereo/row_kernels.h"
+
+namespace {
+
+using namespace stereonav;
+
+// Nothing to cast: only the warp is left.
+class NoScene final : public EyeRenderer {
+public:
+    int tileCount(const EyeView&) const override { return 0; }
+    void renderTile(const EyeView&, int, EyeImage&) const override {}
+    void renderPixels(const EyeView&, PixelRect, std::span<const PixelIndex>, EyeImage&) const override {}
+    bool mayHitBeyondEdge(const EyeView&, PixelRect, double, double) const override { return false; }
+};
+
+double groundHeight(double x, double z) {
+    return 60 * std::sin(x * 0.004 + 1) * std::sin(z * 0.003) +
+           25 * std::sin(x * 0.013) * std::sin(z * 0.011 + x * 0.002) + 6 * std::sin(x * 0.05 + z * 0.03);
+}
+
+// Level view from 120 m above a ground with hills, sky above.
+EyeImage groundImage(const EyeView& view) {
+    EyeImage image;
+    image.resize(view.width, view.height);
+    std::mt19937 random(1);
+    for (int x = 0; x < view.width; ++x) {
+        const double side = view.rayDirection(x + 0.5, 0).x;
+        int top = view.height;
+        for (double z = 20; z < 20000; z *= 1.002) {
+            const double slope = (groundHeight(view.eye.x + side * z, z) - 120) / z;
+            const int row = std::max(0, static_cast<int>((view.yMax - slope) / view.pixelHeight()));
+            for (; top > row; --top) image.viewDepth.at(x, top - 1) = static_cast<float>(z);
+        }
+        for (int y = 0; y < top; ++y) image.viewDepth.at(x, y) = kMissDepth;
+        for (int y = 0; y < view.height; ++y)
+            image.color.at(x, y) = static_cast<std::uint32_t>(random()) & 0x3fffffffu;
+    }
+    return image;
+}
+
+StereoViews viewsOf(int width, int height) {
+    Lens lens;
+    lens.width = width;
+    lens.height = height;
+    return makeStereoViews(Pose{}, lens, {10, 300});  // separation 1/30 of the zero-parallax distance
+}
+
+void warp(benchmark::State& state, RightEyeMethod method, Schedule schedule) {
+    const int width = static_cast<int>(state.range(0)), height = static_cast<int>(state.range(1));
+    setThreadCount(static_cast<int>(state.range(2)));
+    const StereoViews views = viewsOf(width, height);
+    const EyeImage left = groundImage(views.left);
+    const NoScene scene;
+    RightEye eye;
+    EyeImage right;
+    WarpSetting setting;
+    setting.method = method;
+    setting.warpSchedule = schedule;
+    eye.render(scene, views, left, setting, right);
+    for (auto _ : state)
+        state.SetIterationTime(eye.render(scene, views, left, setting, right).warp_ms * 1e-3);
+    long long holes = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) holes += eye.holeMask().at(x, y) != 0;
+    state.counters["Mpix/s"] =
+        benchmark::Counter(1e-6 * width * height, benchmark::Counter::kIsIterationInvariantRate);
+    state.counters["holes_percent"] = 100.0 * static_cast<double>(holes) / (width * height);
+}
+
+void sizes(benchmark::internal::Benchmark* b) {
+    for (const int threads : {1, 2})
+        for (const auto& [width, height] : {std::pair{500, 400}, std::pair{1280, 720}})
+            b->Args({width, height, threads});
+    b->ArgNames({"width", "height", "threads"})->UseManualTime()->Unit(benchmark::kMillisecond)->MinTime(0.2);
+}
+
+BENCHMARK_CAPTURE(warp, cubic, RightEyeMethod::Cubic, Schedule::Dynamic)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, linear, RightEyeMethod::Linear, Schedule::Dynamic)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, paper, RightEyeMethod::Paper, Schedule::Dynamic)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, mcmillan, RightEyeMethod::McMillan, Schedule::Dynamic)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, cubic_interleaved, RightEyeMethod::Cubic, Schedule::Interleaved)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, cubic_contiguous, RightEyeMethod::Cubic, Schedule::Contiguous)->Apply(sizes);
+
+// One thread, row after row, by instruction set.
+void rows(benchmark::State& state, NamedResampler kernel, bool cubic) {
+    if (!kernel.supported) {
+        state.SkipWithError("not supported by this processor");
+        return;
+    }
+    const StereoViews views = viewsOf(1280, 180);
+    const EyeImage left = groundImage(views.left);
+    EyeImage right;
+    right.resize(1280, 180);
+    Plane<std::uint8_t> holes(1280, 180);
+    std::vector<float> column(1280 + kRowPadding), inverse(1280 + kRowPadding);
+    std::vector<std::int32_t> source(1280 + kRowPadding);
+    std::vector<std::uint16_t> survivors(1280 + kRowPadding), links(1280 + kRowPadding);
+    for (auto _ : state)
+        for (int y = 0; y < 180; ++y)
+            kernel.function({left.color.row(y), left.viewDepth.row(y), right.color.row(y),
+                             right.viewDepth.row(y), holes.row(y), 1280, left.color.stride(),
+                             static_cast<float>(views.shiftAtInfinity),
+                             static_cast<float>(views.parallaxScale), 0.6f, 1.1f, 1, cubic, column.data(),
+                             inverse.data(), source.data(), survivors.data(), links.data()});
+    state.counters["Mpix/s"] =
+        benchmark::Counter(1e-6 * 1280 * 180, benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK_CAPTURE(rows, plain_cubic, resamplers().plain, true);
+BENCHMARK_CAPTURE(rows, avx2_cubic, resamplers().avx2, true);
+BENCHMARK_CAPTURE(rows, avx512_cubic, resamplers().avx512, true);
+BENCHMARK_CAPTURE(rows, avx512_linear, resamplers().avx512, false);
+
+}  // namespace
+
+BENCHMARK_MAIN();
