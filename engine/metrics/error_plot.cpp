@@ -151,7 +151,8 @@ private:
             for (const cv::Point offset :
                  {cv::Point(12, -size.height / 2), cv::Point(-12 - size.width, -size.height / 2),
                   cv::Point(-size.width / 2, -size.height - 12 - dy), cv::Point(-size.width / 2, 12 + dy),
-                  cv::Point(-12 - size.width, -size.height - 4 - dy), cv::Point(12, -size.height - 4 - dy), cv::Point(12, 4 + dy)}) {
+                  cv::Point(-12 - size.width, -size.height - 4 - dy), cv::Point(12, -size.height - 4 - dy),
+                  cv::Point(12, 4 + dy)}) {
                 const cv::Rect box(p + offset, size);
                 const bool clear = std::none_of(mTaken.begin(), mTaken.end(), [&](const cv::Rect& other) {
                     return (other & box).area() > 0;
