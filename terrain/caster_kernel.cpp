@@ -1,6 +1,7 @@
 // Casts bands of a picture and scattered pixels, one packet of rays at a time. Within a band, rows go
 // from lower rays to higher ones, and a ray starts where a lower one's free way proves its own to be
 // free (coherentStart). Compiled once for each instruction set.
+#include "terrain/kernel_columns.h"
 #include "terrain/kernel_shade.h"
 
 namespace stereonav::STEREONAV_ISA {
@@ -66,6 +67,7 @@ public:
           mPitch(view.lanes + 2 * (kMargin + kLanes)) {}
 
     void cast() {
+        if (mView.verticalColumns && mView.coherent) return castColumns();
         for (int q = 0; q < mView.steps; ++q) {
             const int begin = bandEdge(mBand.left, mBand.leftSlope, q, mView.lanes);
             const int end = bandEdge(mBand.right, mBand.rightSlope, q, mView.lanes);
@@ -78,6 +80,20 @@ public:
     }
 
 private:
+    void castColumns() {
+        const int begin = bandEdge(mBand.left, mBand.leftSlope, 0, mView.lanes);
+        const int end = bandEdge(mBand.right, mBand.rightSlope, 0, mView.lanes);
+        for (int a = begin; a < end; a += kLanes) {
+            const int count = end - a < kLanes ? end - a : kLanes;
+            const M lanes = firstLanes(count);
+            Columns columns(mEye, raysOfRow(mView, a, 0), lanes);
+            for (int q = 0; q < mView.steps; ++q) {
+                const Hits hits = columns.cast(mView.base[2] + q * mView.perStep[2]);
+                put(a, q, count, lanes, hits.t, shadePacket(mScene, mView, columns.rays(), hits, lanes));
+            }
+        }
+    }
+
     float* depths(int q) { return mRing + static_cast<std::int64_t>(q & (kRows - 1)) * mPitch; }
 
     void clear(float* row, int from, int to) {
@@ -93,14 +109,12 @@ private:
         const I level = select(start > F(0.0f), I(0), I(kColdLevel < mScene.ground.levels ? kColdLevel : 0));
         const Hits hits = castPacket(mEye, rays, start, level, lanes);
         const I color = shadePacket(mScene, mView, rays, hits, lanes);
-        const M lost = andNot(hits.free > F(0.0f), hits.t < infinity());
-        store(row + a, mView.verticalColumns ? select(lost, infinity(), hits.free) : hits.free, lanes);
+        store(row + a, hits.free, lanes);
         put(a, q, count, lanes, hits.t, color);
     }
 
     STEREONAV_INLINE F coherentStart(const Rays& rays, int a, int q) {
         if (!mView.coherent || q == 0) return F(0.0f);
-        if (mView.verticalColumns) return backed(loadF(depths(q - 1) + a));
         const double lowQ = mView.lowQ - q * mView.lowW;
         if (!(lowQ < 0)) return F(0.0f);
         const double drift = (mView.lowA - (a + kLanes / 2) * mView.lowW) / -lowQ;  // lanes a step down
