@@ -188,7 +188,7 @@ STEREONAV_INLINE M refine(const Eye& eye, const Walk& w, const CellHit& c, M m, 
     const D du = toDouble(c.h10) - h00, dv = toDouble(c.h01) - h00;
     const D twist = (toDouble(c.h11) - toDouble(c.h01)) - du;
     const F height = toFloat(((D(eye.z) - h00) + t * w.rays.exactZ) - (u * (du + v * twist) + v * dv));
-    const F step = F(0.0f) - height / c.approach;
+    const F step = F(0.0f) - height * approxReciprocal(c.approach);
     const D exactStep = toDouble(step);
     const D exactU = u + exactStep * w.rays.exactX, exactV = v + exactStep * w.rays.exactY;
     const M inside = (D(0.0) < exactU) & (exactU < D(1.0)) & (D(0.0) < exactV) & (exactV < D(1.0));

@@ -64,21 +64,14 @@ STEREONAV_INLINE F approxLog2(F x) {
     return exponent + mulAdd(mulAdd(F(-0.33333f), mantissa, F(2.0f)), mantissa, F(-1.66667f));
 }
 
-struct Footprint {
-    F level;  // mip level, >= 0
-};
-
-// The footprint of a pixel on the ground is t * pixelWidth across, and along the ray as much longer as
-// the ray is flatter. The level fits the geometric mean of the two, but is never more than kMaxSharper
-// levels finer than the long side asks for: a compromise between shimmer and blur (docs/decisions).
-STEREONAV_INLINE F mipLevel(const TextureData& texture, const CasterView& view, const Rays& rays, F length,
-                            F t, F approach) {
-    (void)rays;
-    const F across = t * F(view.pixelWidth * texture.texelsPerMetre);
-    const F along = t * F(view.pixelHeight * texture.texelsPerMetre) * length / max(abs(approach), F(1e-6f));
-    const F levelAcross = approxLog2(max(across, F(1e-6f)));
-    const F levelAlong = approxLog2(min(max(along, F(1e-6f)), F(1e9f)));
-    const F level = F(0.5f) * (levelAcross + levelAlong);
+// The footprint of a pixel on the ground is t * pixelWidth across, and along the ray longer by as much
+// as the ray is flat to the ground. The level fits the geometric mean of the two sides: a compromise
+// between shimmer and blur (docs/decisions).
+STEREONAV_INLINE F mipLevel(const TextureData& texture, const CasterView& view, F length, F t, F approach) {
+    const F side = t * F(texture.texelsPerMetre);
+    const F area = side * side * F(view.pixelWidth * view.pixelHeight) * length *
+                   approxReciprocal(max(abs(approach), F(1e-6f)));
+    const F level = F(0.5f) * approxLog2(clamp(area, F(1e-6f), F(1e18f)));
     return clamp(level, F(0.0f), F(static_cast<float>(texture.levels - 1)));
 }
 
@@ -96,7 +89,7 @@ STEREONAV_INLINE Channels groundColor(const TextureData& texture, F gx, F gy, F 
 
 // directions in metres, any length.
 STEREONAV_INLINE Channels skyColor(const SkyData& sky, F x, F y, F z, M m) {
-    const F scale = F(1.0f) / max(abs(x) + abs(y) + abs(z), F(1e-30f));
+    const F scale = approxReciprocal(max(abs(x) + abs(y) + abs(z), F(1e-30f)));
     const F px = x * scale, py = y * scale;
     const M below = z < F(0.0f);
     const F foldedX = select(px < F(0.0f), abs(py) - F(1.0f), F(1.0f) - abs(py));
@@ -129,9 +122,10 @@ STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view,
     const M sky = andNot(lanes, ground);
     Channels color{I(0), I(0)};
     if (any(ground)) {
-        const F length = sqrt(mulAdd(x, x, mulAdd(y, y, rays.z * rays.z)));
+        const F square = mulAdd(x, x, mulAdd(y, y, rays.z * rays.z));
+        const F length = square * approxRsqrt(square);
         const F t = select(ground, hits.t, F(1.0f));
-        const F level = mipLevel(scene.texture, view, rays, length, t, hits.approach);
+        const F level = mipLevel(scene.texture, view, length, t, hits.approach);
         color = groundColor(scene.texture, toFloat(hits.i) + hits.u, toFloat(hits.j) + hits.v, level, ground);
         if (scene.fog.perMetre > 0) {
             const F through = expMinus(t * length * F(scene.fog.perMetre));

@@ -183,10 +183,11 @@ void TerrainRenderer::shadeAgain(const EyeView& view, int y, int x0, int x1, Eye
 
 void TerrainRenderer::shadeDepths(const EyeView& view, std::span<const PixelIndex> pixels,
                                   const float* viewDepth, EyeImage& image) const {
-    CasterPixel chunk[16];
-    const int count = static_cast<int>(std::min<std::size_t>(16, pixels.size()));
-    for (int k = 0; k < count; ++k) chunk[k] = {pixels[k].x, pixels[k].y};
-    mState->kernels->shadePixels(mState->scene, makeCasterView(view, mScene.ground), {chunk, nullptr, count},
+    const CasterView caster = makeCasterView(view, mScene.ground);
+    thread_local std::vector<CasterPixel> all;
+    all.clear();
+    for (const PixelIndex p : pixels) all.push_back({p.x, p.y});
+    mState->kernels->shadePixels(mState->scene, caster, {all.data(), nullptr, static_cast<int>(all.size())},
                                  viewDepth, targetOf(image));
 }
 

@@ -26,7 +26,7 @@ public:
     bool viewDependent() const override;
     void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override;
 
-    // Colours pixels whose view depth was found by another caster (infinite: sky), at most 16 at once: what
+    // Colours pixels whose view depth was found by another caster (infinite: sky): what
     // renderPixels does after casting. For benchmarks against other casters.
     void shadeDepths(const EyeView& view, std::span<const PixelIndex> pixels, const float* viewDepth,
                      EyeImage& image) const;

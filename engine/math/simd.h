@@ -31,10 +31,5 @@ STEREONAV_INLINE I clamp(I x, I low, I high) {
 STEREONAV_INLINE F abs(F a) {
     return max(a, F(0.0f) - a);
 }
-// Largest integer <= a, for |a| < 2^31.
-STEREONAV_INLINE I floorToInt(F a) {
-    const I t = truncateToInt(a);
-    return t - select(a < toFloat(t), I(1), I(0));
-}
 
 }  // namespace stereonav::STEREONAV_ISA

@@ -174,6 +174,10 @@ STEREONAV_INLINE F toFloat(I a) {
 STEREONAV_INLINE I truncateToInt(F a) {
     return _mm256_cvttps_epi32(a.v);
 }
+// Largest integer <= a, for |a| < 2^31.
+STEREONAV_INLINE I floorToInt(F a) {
+    return _mm256_cvtps_epi32(_mm256_floor_ps(a.v));
+}
 STEREONAV_INLINE I asInt(F a) {
     return _mm256_castps_si256(a.v);
 }

@@ -171,6 +171,10 @@ STEREONAV_INLINE F toFloat(I a) {
 STEREONAV_INLINE I truncateToInt(F a) {
     return _mm512_cvttps_epi32(a.v);
 }
+// Largest integer <= a, for |a| < 2^31.
+STEREONAV_INLINE I floorToInt(F a) {
+    return _mm512_cvt_roundps_epi32(a.v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+}
 STEREONAV_INLINE I asInt(F a) {
     return _mm512_castps_si512(a.v);
 }

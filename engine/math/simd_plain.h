@@ -202,6 +202,11 @@ STEREONAV_INLINE I truncateToInt(F a) {
                                                                  : INT32_MIN;
     });
 }
+// Largest integer <= a, for |a| < 2^31.
+STEREONAV_INLINE I floorToInt(F a) {
+    const I t = truncateToInt(a);
+    return t - select(a < toFloat(t), I(1), I(0));
+}
 STEREONAV_INLINE I asInt(F a) {
     I r;
     std::memcpy(r.v, a.v, sizeof r.v);
