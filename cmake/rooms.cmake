@@ -26,7 +26,7 @@ endfunction()
 function(stereonav_kernels target)
   set(flags_plain "")
   set(flags_avx2 -mavx2 -mfma)
-  set(flags_avx512 -g -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx512cd -mfma -mprefer-vector-width=512
+  set(flags_avx512 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx512cd -mfma -mprefer-vector-width=512
     -Wno-uninitialized -Wno-maybe-uninitialized)  # false positives in g++ 12's own intrinsics (gcc bug 105593)
   foreach(isa plain avx2 avx512)
     add_library(${target}_${isa} OBJECT ${ARGN})

@@ -233,36 +233,42 @@ void castPixels(const CasterScene& scene, const CasterView& view, const CasterBa
     }
 }
 
-void shadePixels(const CasterScene& scene, const CasterView& view, const CasterBatch& batch, const float* t,
-                 const CasterTarget& target) {
+// What shading needs to know of points at known depths.
+STEREONAV_INLINE Hits hitsAt(const GroundData& ground, const Eye& eye, const Rays& rays, F t, M lanes) {
+    Hits hits;
+    hits.t = t;
+    const M below = lanes & (t < infinity());
+    const F safe = select(below, t, F(0.0f));
+    const F gx = mulAdd(safe, rays.x, eye.relativeX), gy = mulAdd(safe, rays.y, eye.relativeY);
+    hits.i = clamp(floorToInt(gx) + I(eye.baseI), I(0), eye.lastI);
+    hits.j = clamp(floorToInt(gy) + I(eye.baseJ), I(0), eye.lastJ);
+    hits.u = gx - toFloat(hits.i - I(eye.baseI));
+    hits.v = gy - toFloat(hits.j - I(eye.baseJ));
+    const I index = hits.j * I(ground.width) + hits.i;
+    const FPair south = gatherPair(ground.heights, index, below);
+    const FPair north = gatherPair(ground.heights + ground.width, index, below);
+    const F du = south.second - south.first, dv = north.first - south.first;
+    const F twist = (north.second - north.first) - du;
+    hits.approach = rays.z - rays.x * mulAdd(hits.v, twist, du) - rays.y * mulAdd(hits.u, twist, dv);
+    hits.free = F(0.0f);
+    return hits;
+}
+
+void shadeRow(const CasterScene& scene, const CasterView& view, int y, const CasterTarget& target) {
     const Eye eye = makeEye(scene.ground, view);
-    for (int first = 0; first < batch.count; first += kLanes) {
-        const int count = batch.count - first < kLanes ? batch.count - first : kLanes;
-        const M lanes = firstLanes(count);
-        const Rays rays = raysOfPixels(view, batch.pixels + first, count);
-        Hits hits;
-        alignas(64) float depth[kLanes] = {};
-        for (int k = 0; k < count; ++k) depth[k] = t[first + k];
-        hits.t = loadF(depth);
-        const M ground = lanes & (hits.t < infinity());
-        const F safe = select(ground, hits.t, F(0.0f));
-        const F gx = mulAdd(safe, rays.x, eye.relativeX), gy = mulAdd(safe, rays.y, eye.relativeY);
-        hits.i = clamp(floorToInt(gx) + I(eye.baseI), I(0), eye.lastI);
-        hits.j = clamp(floorToInt(gy) + I(eye.baseJ), I(0), eye.lastJ);
-        hits.u = gx - toFloat(hits.i - I(eye.baseI));
-        hits.v = gy - toFloat(hits.j - I(eye.baseJ));
-        const I index = hits.j * I(scene.ground.width) + hits.i;
-        const FPair south = gatherPair(scene.ground.heights, index, ground);
-        const FPair north = gatherPair(scene.ground.heights + scene.ground.width, index, ground);
-        const F du = south.second - south.first, dv = north.first - south.first;
-        const F twist = (north.second - north.first) - du;
-        hits.approach = rays.z - rays.x * mulAdd(hits.v, twist, du) - rays.y * mulAdd(hits.u, twist, dv);
-        scatter(target, batch.pixels + first, count, hits.t, shadePacket(scene, view, rays, hits, lanes));
+    const int q = (y - view.firstY) * view.stepY;
+    float* depth = target.depth + y * target.depthStride;
+    std::uint32_t* color = target.color + y * target.colorStride;
+    for (int x = 0; x < view.lanes; x += kLanes) {
+        const M lanes = firstLanes(view.lanes - x);
+        const Rays rays = raysOfRow(view, x, q);
+        const Hits hits = hitsAt(scene.ground, eye, rays, loadF(depth + x), lanes);
+        store(color + x, shadePacket(scene, view, rays, hits, lanes), lanes);
     }
 }
 
 }  // namespace
 
-constinit const CasterKernels kCasterKernels = {kName, kLanes, castBand, castPixels, shadePixels};
+constinit const CasterKernels kCasterKernels = {kName, kLanes, castBand, castPixels, shadeRow};
 
 }  // namespace stereonav::STEREONAV_ISA

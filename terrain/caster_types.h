@@ -105,9 +105,8 @@ struct CasterKernels {
     void (*castBand)(const CasterScene&, const CasterView&, const CasterBand&, const CasterTarget&,
                      float* scratch);
     void (*castPixels)(const CasterScene&, const CasterView&, const CasterBatch&, const CasterTarget&);
-    // Colours points found elsewhere, as castPixels would: t is the view depth (infinite: sky).
-    void (*shadePixels)(const CasterScene&, const CasterView&, const CasterBatch&, const float* t,
-                        const CasterTarget&);
+    // Colours row y of a view whose lanes are columns from depths that another caster found.
+    void (*shadeRow)(const CasterScene&, const CasterView&, int y, const CasterTarget&);
 };
 
 namespace plain {

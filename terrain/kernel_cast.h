@@ -178,8 +178,8 @@ STEREONAV_INLINE CellHit hitCell(const Eye& eye, const Walk& w, const BlockExit&
     return c;
 }
 
-// One Newton step in double precision from the single-precision hit. Lanes whose hit is not settled
-// by it, or lies outside the cell, are returned.
+// One Newton step from the single-precision hit, with the height over ground taken in double precision.
+// Lanes whose hit is not settled by it, or lies outside the cell, are returned.
 STEREONAV_INLINE M refine(const Eye& eye, const Walk& w, const CellHit& c, M m, Hits& hits) {
     const D t = toDouble(c.t);
     const D u = (D(eye.x) - toDouble(w.i)) + t * w.rays.exactX;
@@ -189,17 +189,17 @@ STEREONAV_INLINE M refine(const Eye& eye, const Walk& w, const CellHit& c, M m, 
     const D twist = (toDouble(c.h11) - toDouble(c.h01)) - du;
     const F height = toFloat(((D(eye.z) - h00) + t * w.rays.exactZ) - (u * (du + v * twist) + v * dv));
     const F step = F(0.0f) - height * approxReciprocal(c.approach);
-    const D exactStep = toDouble(step);
-    const D exactU = u + exactStep * w.rays.exactX, exactV = v + exactStep * w.rays.exactY;
-    const M inside = (D(0.0) < exactU) & (exactU < D(1.0)) & (D(0.0) < exactV) & (exactV < D(1.0));
+    const F settledU = mulAdd(step, w.rays.x, toFloat(u)), settledV = mulAdd(step, w.rays.y, toFloat(v));
+    const M inside =
+        (settledU > F(0.0f)) & (settledU < F(1.0f)) & (settledV > F(0.0f)) & (settledV < F(1.0f));
     const F remaining = abs(c.curvature * step * step);
     const M settled = remaining <= F(1e-7f) * abs(c.approach) * c.t;
     const M good = m & inside & settled;
-    hits.t = select(good, toFloat(t + exactStep), hits.t);
+    hits.t = select(good, c.t + step, hits.t);
     hits.i = select(good, w.i, hits.i);
     hits.j = select(good, w.j, hits.j);
-    hits.u = select(good, toFloat(exactU), hits.u);
-    hits.v = select(good, toFloat(exactV), hits.v);
+    hits.u = select(good, settledU, hits.u);
+    hits.v = select(good, settledV, hits.v);
     hits.approach = select(good, c.approach, hits.approach);
     return andNot(m, good);
 }

@@ -181,14 +181,9 @@ void TerrainRenderer::shadeAgain(const EyeView& view, int y, int x0, int x1, Eye
     }
 }
 
-void TerrainRenderer::shadeDepths(const EyeView& view, std::span<const PixelIndex> pixels,
-                                  const float* viewDepth, EyeImage& image) const {
+void TerrainRenderer::shadeRows(const EyeView& view, int y0, int y1, EyeImage& image) const {
     const CasterView caster = makeCasterView(view, mScene.ground);
-    thread_local std::vector<CasterPixel> all;
-    all.clear();
-    for (const PixelIndex p : pixels) all.push_back({p.x, p.y});
-    mState->kernels->shadePixels(mState->scene, caster, {all.data(), nullptr, static_cast<int>(all.size())},
-                                 viewDepth, targetOf(image));
+    for (int y = y0; y < y1; ++y) mState->kernels->shadeRow(mState->scene, caster, y, targetOf(image));
 }
 
 bool TerrainRenderer::viewDependent() const {

@@ -26,10 +26,9 @@ public:
     bool viewDependent() const override;
     void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override;
 
-    // Colours pixels whose view depth was found by another caster (infinite: sky): what
-    // renderPixels does after casting. For benchmarks against other casters.
-    void shadeDepths(const EyeView& view, std::span<const PixelIndex> pixels, const float* viewDepth,
-                     EyeImage& image) const;
+    // Colours rows y0 .. y1 - 1 of an upright view from the depths in image.viewDepth, which another caster
+    // found: the same shading for comparing casters.
+    void shadeRows(const EyeView& view, int y0, int y1, EyeImage& image) const;
 
     SimdTarget target() const;  // what Auto became
     const TerrainScene& scene() const { return mScene; }

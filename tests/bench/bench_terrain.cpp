@@ -62,22 +62,14 @@ void castAll(const TerrainRenderer& renderer, const std::vector<StereoViews>& al
     for (const StereoViews& v : all) renderEye(renderer, v.left, image);
 }
 
-// Embree casts blocks of 4 x 4 pixels (its best case), our kernels colour: the same shading for both.
+// Embree casts blocks of 4 x 4 pixels (its best case; the sides are multiples of 4), our kernels colour: the
+// same shading for both.
 void embreeAll(const EmbreeGround& embree, const TerrainRenderer* shading,
                const std::vector<StereoViews>& all, EyeImage& image) {
-    std::vector<PixelIndex> pixels(static_cast<std::size_t>(4) * kWidth);
-    std::vector<float> depth(pixels.size());
-    alignas(64) int valid[16];
-    std::fill_n(valid, 16, -1);  // both sides of the picture are multiples of 4
     for (const StereoViews& v : all)
         for (int y = 0; y < v.left.height; y += 4) {
-            for (int k = 0; k < 4 * v.left.width; ++k)
-                pixels[k] = {static_cast<std::uint16_t>(k / 16 * 4 + k % 4),
-                             static_cast<std::uint16_t>(y + k % 16 / 4)};
-            for (std::size_t k = 0; k < pixels.size(); k += 16)
-                embree.cast(v.left, &pixels[k], valid, &depth[k]);
-            if (shading != nullptr) shading->shadeDepths(v.left, pixels, depth.data(), image);
-            benchmark::DoNotOptimize(depth.data());
+            for (int x = 0; x < v.left.width; x += 4) embree.castBlock(v.left, x, y, image.viewDepth);
+            if (shading != nullptr) shading->shadeRows(v.left, y, y + 4, image);
         }
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/camera/eye_view.h"
-#include "engine/render/eye_renderer.h"
+#include "engine/image/plane.h"
 #include "terrain/heightfield.h"
 
 namespace stereonav::bench {
@@ -40,13 +40,15 @@ public:
         return rtcGetDeviceProperty(mDevice, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
     }
 
-    // View depths of the 16 pixels; those with valid[k] = 0 are left alone.
-    void cast(const EyeView& view, const PixelIndex* pixels, const int* valid, float* depth) const {
+    // View depths of the 4 x 4 pixels from (x0, y0) on, all inside the picture.
+    void castBlock(const EyeView& view, int x0, int y0, Plane<float>& viewDepth) const {
+        alignas(64) static constexpr int kAll[16] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                                     -1, -1, -1, -1, -1, -1, -1, -1};
         alignas(64) RTCRayHit16 rays;
-        const glm::dvec3 base = view.rayDirection(0.5, 0.5);
+        const glm::dvec3 base = view.rayDirection(x0 + 0.5, y0 + 0.5);
         const glm::dvec3 perX = view.right * view.pixelWidth(), perY = -view.up * view.pixelHeight();
         for (int k = 0; k < 16; ++k) {
-            const glm::dvec3 d = base + perX * double(pixels[k].x) + perY * double(pixels[k].y);
+            const glm::dvec3 d = base + perX * double(k % 4) + perY * double(k / 4);
             rays.ray.org_x[k] = static_cast<float>(view.eye.x);
             rays.ray.org_y[k] = static_cast<float>(view.eye.y);
             rays.ray.org_z[k] = static_cast<float>(view.eye.z);
@@ -63,10 +65,11 @@ public:
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        rtcIntersect16(valid, mScene, &context, &rays);
+        rtcIntersect16(kAll, mScene, &context, &rays);
         for (int k = 0; k < 16; ++k)
-            depth[k] = rays.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity()
-                                                                     : rays.ray.tfar[k];
+            viewDepth.at(x0 + k % 4, y0 + k / 4) = rays.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID
+                                                       ? std::numeric_limits<float>::infinity()
+                                                       : rays.ray.tfar[k];
     }
 
 private:
