@@ -68,7 +68,7 @@ public:
 
     void cast() {
         if (mView.verticalColumns && mView.coherent) return castColumns();
-        for (int q = 0; q < mView.steps; ++q) {
+        for (int q = mBand.firstStep; q < mBand.endStep; ++q) {
             const int begin = bandEdge(mBand.left, mBand.leftSlope, q, mView.lanes);
             const int end = bandEdge(mBand.right, mBand.rightSlope, q, mView.lanes);
             float* row = depths(q);
@@ -86,8 +86,8 @@ private:
         for (int a = begin; a < end; a += kLanes) {
             const int count = end - a < kLanes ? end - a : kLanes;
             const M lanes = firstLanes(count);
-            Columns columns(mEye, raysOfRow(mView, a, 0), lanes);
-            for (int q = 0; q < mView.steps; ++q) {
+            Columns columns(mEye, raysOfRow(mView, a, mBand.firstStep), lanes);
+            for (int q = mBand.firstStep; q < mBand.endStep; ++q) {
                 const Hits hits = columns.cast(mView.base[2] + q * mView.perStep[2]);
                 put(a, q, count, lanes, hits.t, shadePacket(mScene, mView, columns.rays(), hits, lanes));
             }
@@ -114,7 +114,7 @@ private:
     }
 
     STEREONAV_INLINE F coherentStart(const Rays& rays, int a, int q) {
-        if (!mView.coherent || q == 0) return F(0.0f);
+        if (!mView.coherent) return F(0.0f);
         const double lowQ = mView.lowQ - q * mView.lowW;
         if (!(lowQ < 0)) return F(0.0f);
         const double drift = (mView.lowA - (a + kLanes / 2) * mView.lowW) / -lowQ;  // lanes a step down
@@ -122,7 +122,7 @@ private:
             sy(static_cast<float>(mScene.ground.spacingY));
         const Heading ray = headingOf(rays.x * sx, rays.y * sy, rays.z);
         F start(0.0f);
-        for (int back = 1; back <= 4 && back <= q; back *= 2) {
+        for (int back = 1; back <= 4 && back <= q - mBand.firstStep; back *= 2) {
             const double exactShift = drift * back;
             if (!(exactShift > -8 && exactShift < 8)) break;
             const int shift = static_cast<int>(exactShift + (exactShift < 0 ? -0.5 : 0.5));

@@ -65,9 +65,11 @@ struct CasterView {
     float pixelWidth = 0, pixelHeight = 0;  // at unit view depth
 };
 
-// The pixels of a tile: lanes from ceil(left) to ceil(right), each line a + slope * step.
+// The pixels of a tile: lanes from ceil(left) to ceil(right), each line a + slope * step, and steps
+// firstStep to endStep - 1.
 struct CasterBand {
     double left = 0, leftSlope = 0, right = 0, rightSlope = 0;
+    int firstStep = 0, endStep = 0;
 };
 
 // First lane of a band's edge at a step, kept inside the picture.

@@ -7,13 +7,13 @@
 #include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 #include <glm/vector_relational.hpp>
 #include <vector>
 
 #include "engine/base/error.h"
 #include "terrain/caster_types.h"
 #include "terrain/height_pyramid.h"
+#include "terrain/hole_rays.h"
 #include "terrain/landmark.h"
 #include "terrain/plain_caster.h"
 #include "terrain/specular.h"
@@ -88,7 +88,7 @@ CasterTarget targetOf(EyeImage& image) {
 
 std::vector<PixelIndex> pixelsOf(const CasterView& view, const CasterBand& band) {
     std::vector<PixelIndex> pixels;
-    for (int q = 0; q < view.steps; ++q) {
+    for (int q = band.firstStep; q < band.endStep; ++q) {
         const int end = bandEdge(band.right, band.rightSlope, q, view.lanes);
         for (int a = bandEdge(band.left, band.leftSlope, q, view.lanes); a < end; ++a)
             pixels.push_back({static_cast<std::uint16_t>(view.firstX + a * view.laneX + q * view.stepX),
@@ -193,75 +193,32 @@ SimdTarget TerrainRenderer::target() const {
     return mState->target;
 }
 
-namespace {
-
-// How far in front of a known surface a hole's ray starts: the depth of a warped pixel is that of its
-// nearer neighbour in the left picture, good to about a pixel's worth of ground.
-constexpr float kInFront = 0.98f;
-constexpr int kLookBack = 24;  // steps towards lower rays searched for a known depth
-
-// Depth from which the ray of pixel p may start: known depths below it (Wan et al. 2004, section 3.2),
-// where they prove its way free (caster_kernel.cpp has the rule for any view).
-float startInFront(const CasterView& v, const GroundData& ground, PixelRect bounds, const EyeImage& image,
-                   PixelIndex p) {
-    if (!v.coherent) return 0;
-    const int a = (p.x - v.firstX) * v.laneX + (p.y - v.firstY) * v.laneY;
-    const int q = (p.x - v.firstX) * v.stepX + (p.y - v.firstY) * v.stepY;
-    const double lowQ = v.lowQ - q * v.lowW;
-    const double drift = v.verticalColumns ? 0 : (v.lowA - a * v.lowW) / -lowQ;
-    if (!v.verticalColumns && !(lowQ < 0)) return 0;
-    const auto heading = [&](int lane, int step) {
-        const glm::dvec3 d((v.base[0] + lane * v.perLane[0] + step * v.perStep[0]) * ground.spacingX,
-                           (v.base[1] + lane * v.perLane[1] + step * v.perStep[1]) * ground.spacingY,
-                           v.base[2] + lane * v.perLane[2] + step * v.perStep[2]);
-        const double run = std::max(1e-12, std::hypot(d.x, d.y));
-        return glm::dvec4(d.x / run, d.y / run, d.z / run, run);
-    };
-    const glm::dvec4 ray = heading(a, q);
-    for (int back = 1; back <= std::min(q, kLookBack); ++back) {
-        const int lane = a + static_cast<int>(std::lround(drift * back)), step = q - back;
-        const int x = v.firstX + lane * v.laneX + step * v.stepX,
-                  y = v.firstY + lane * v.laneY + step * v.stepY;
-        if (x < bounds.x0 || x >= bounds.x1 || y < bounds.y0 || y >= bounds.y1) return 0;
-        const float depth = image.viewDepth.at(x, y);
-        if (!(depth > 0)) continue;
-        if (v.verticalColumns) return depth * kInFront;
-        const glm::dvec4 lower = heading(lane, step);
-        const double aside = std::hypot(ray.x - lower.x, ray.y - lower.y);
-        if (!std::isfinite(depth) || !(ray.z - lower.z >= ground.maxSlope * aside)) continue;
-        return depth * static_cast<float>(lower.w / ray.w) * kInFront;
-    }
-    return 0;
-}
-
-}  // namespace
-
 void TerrainRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
                                    EyeImage& image) const {
     const CasterView caster = makeCasterView(view, mScene.ground);
-    thread_local std::vector<PixelIndex> order;
-    order.assign(pixels.begin(), pixels.end());
-    const auto step = [&](PixelIndex p) { return p.x * caster.stepX + p.y * caster.stepY; };
-    if (caster.stepX == 0 && caster.stepY < 0) {
-        std::reverse(order.begin(), order.end());
-    } else if (caster.stepX != 0) {
-        std::stable_sort(order.begin(), order.end(),
-                         [&](PixelIndex p, PixelIndex q) { return step(p) < step(q); });
-    }
+    thread_local HoleSort holes;
+    holes.sort(caster, bounds, pixels);
     const CasterTarget target = targetOf(image);
+    thread_local std::vector<float> scratch;
+    scratch.resize(8 * (static_cast<std::size_t>(caster.lanes) + 128));
+    for (const CasterBand& band : holes.dense()) {
+        mState->kernels->castBand(mState->scene, caster, band, target, scratch.data());
+        if (mScene.landmarks || viewDependent()) finish(view, pixelsOf(caster, band), image);
+    }
     CasterPixel chunk[16];
     float start[16];
+    const std::span<const PixelIndex> sparse = holes.sparse();
     const std::size_t lanes = mState->kernels->lanes;
-    for (std::size_t first = 0; first < order.size(); first += lanes) {
-        const int count = static_cast<int>(std::min(lanes, order.size() - first));
+    for (std::size_t first = 0; first < sparse.size(); first += lanes) {
+        const int count = static_cast<int>(std::min(lanes, sparse.size() - first));
         for (int k = 0; k < count; ++k) {
-            const PixelIndex p = order[first + k];
+            const PixelIndex p = sparse[first + k];
             chunk[k] = {p.x, p.y};
             start[k] = startInFront(caster, mState->scene.ground, bounds, image, p);
         }
         mState->kernels->castPixels(mState->scene, caster, {chunk, start, count}, target);
     }
-    if (mScene.landmarks || viewDependent()) finish(view, order, image);
+    if (mScene.landmarks || viewDependent()) finish(view, sparse, image);
 }
 
 namespace {

@@ -113,6 +113,7 @@ CasterBand bandOf(const CasterView& view, int index) {
     const Fan fan = fanOf(view);
     const int count = std::max(1, static_cast<int>(std::ceil((fan.end - fan.begin) / kBandWidth)));
     CasterBand band;
+    band.endStep = view.steps;
     // Lines are kept as value at step 0 and slope; the outermost take all that is left of them.
     const auto line = [&](int k, double& at, double& slope) {
         if (k == 0 || k == count) {
