@@ -7,19 +7,28 @@
 namespace stereonav::STEREONAV_ISA {
 namespace {
 
-constexpr int kRows = 8;       // rows of the ring of depths; a power of two above the largest look-back
-constexpr int kMargin = 32;    // zeroed depths kept on both sides of a row
-constexpr int kColdLevel = 3;  // pyramid level for a ray about which nothing is known
+constexpr int kRows = 8;     // rows of the ring of depths; a power of two above the largest look-back
+constexpr int kMargin = 32;  // zeroed depths kept on both sides of a row
+constexpr int kMaxBack = 4;  // rows looked back for coherence, below kRows
+constexpr double kExpectedRise = 0.8;  // pixel heights that slopes rise a row, to choose the row; then proven
+constexpr int kColdLevel = 3;          // pyramid level for a ray about which nothing is known
 
-STEREONAV_INLINE D lanesFrom(double base, double perLane) {
-    return D(base) + toDouble(laneIndex()) * D(perLane);
+// Lane k's part of a row's directions.
+struct LaneOffsets {
+    D x, y, z;
+};
+
+STEREONAV_INLINE LaneOffsets laneOffsets(const CasterView& view) {
+    const D lane = toDouble(laneIndex());
+    return {lane * D(view.perLane[0]), lane * D(view.perLane[1]), lane * D(view.perLane[2])};
 }
 
-STEREONAV_INLINE Rays raysOfRow(const CasterView& view, int a, int q) {
+STEREONAV_INLINE Rays raysOfRow(const CasterView& view, const LaneOffsets& offsets, int a, int q) {
+    const auto first = [&](int k) { return D(view.base[k] + a * view.perLane[k] + q * view.perStep[k]); };
     Rays r;
-    D* exact[3] = {&r.exactX, &r.exactY, &r.exactZ};
-    for (int k = 0; k < 3; ++k)
-        *exact[k] = lanesFrom(view.base[k] + a * view.perLane[k] + q * view.perStep[k], view.perLane[k]);
+    r.exactX = first(0) + offsets.x;
+    r.exactY = first(1) + offsets.y;
+    r.exactZ = first(2) + offsets.z;
     r.x = toFloat(r.exactX);
     r.y = toFloat(r.exactY);
     r.z = toFloat(r.exactZ);
@@ -28,12 +37,12 @@ STEREONAV_INLINE Rays raysOfRow(const CasterView& view, int a, int q) {
 
 // Directions in metres and what coherence needs of them.
 struct Heading {
-    F x, y, inverseLength, slope;  // horizontal metres; 1 / horizontal length; rise over run
+    F x, y, slope, inverseRun;  // unit horizontal direction; rise over run; 1 / horizontal length
 };
 
 STEREONAV_INLINE Heading headingOf(F x, F y, F z) {
-    const F inverse = F(1.0f) / sqrt(max(mulAdd(x, x, y * y), F(1e-24f)));
-    return {x, y, inverse, z * inverse};
+    const F inverse = approxRsqrt(max(mulAdd(x, x, y * y), F(1e-24f)));
+    return {x * inverse, y * inverse, z * inverse, inverse};
 }
 
 // Lipschitz coherence. Let a ray with horizontal unit heading e and slope s be free of ground out to
@@ -41,17 +50,27 @@ STEREONAV_INLINE Heading headingOf(F x, F y, F z) {
 // r (s' - s) and beside it by r |e' - e| at every distance up to r; as the ground rises at most by
 // maxSlope a metre sideways, it is free to r too if s' - s >= maxSlope |e' - e|. With e' = e this is the
 // rule of Wan et al. 2004, section 2.1 (a higher ray of a column hits no nearer); unlike theirs it
-// holds for any roll and pitch. Rounding is covered by kSlack.
-constexpr float kSlack = 4e-7f;
+// holds for any roll and pitch. kSlack covers the rounding of headings (2^-21) and slopes.
+constexpr float kSlack = 2e-6f;
 
-STEREONAV_INLINE F startFrom(const GroundData& ground, const Heading& ray, const Heading& lower, F lowerT) {
-    const F ex = ray.x * ray.inverseLength - lower.x * lower.inverseLength;
-    const F ey = ray.y * ray.inverseLength - lower.y * lower.inverseLength;
-    const F aside = sqrt(mulAdd(ex, ex, ey * ey)) + F(kSlack);
-    const F rise = ray.slope - lower.slope;
-    const M proven = (rise - F(kSlack) * (abs(ray.slope) + F(1.0f))) >= F(ground.maxSlope) * aside;
+STEREONAV_INLINE F startFrom(F inverseMaxSlope, const Heading& ray, const Heading& lower, F lowerT) {
+    const F ex = ray.x - lower.x, ey = ray.y - lower.y;
+    const F rise = (ray.slope - lower.slope) - F(kSlack) * (abs(ray.slope) + F(1.0f));
+    const F reach = rise * inverseMaxSlope - F(kSlack);
+    const M proven = (reach > F(0.0f)) & (mulAdd(ex, ex, ey * ey) <= reach * reach);
     // The same horizontal distance, in this ray's parameter.
-    return select(proven, lowerT * ray.inverseLength / lower.inverseLength, F(0.0f));
+    return select(proven, lowerT * ray.inverseRun * approxReciprocal(lower.inverseRun), F(0.0f));
+}
+
+// How far to look back for a ray that proves this one's way: the nearest row whose pixels come close
+// enough to the same heading. drift: lanes a step towards lower rays.
+STEREONAV_INLINE int lookBack(double drift, float maxSlope) {
+    for (int back = 1; back < kMaxBack; ++back) {
+        const double at = drift * back;
+        const double beside = at - static_cast<int>(at + (at < 0 ? -0.5 : 0.5));
+        if ((beside < 0 ? -beside : beside) * maxSlope <= kExpectedRise * back) return back;
+    }
+    return kMaxBack;
 }
 
 class Band {
@@ -63,6 +82,7 @@ public:
           mBand(band),
           mTarget(target),
           mEye(makeEye(scene.ground, view)),
+          mOffsets(laneOffsets(view)),
           mRing(scratch + kMargin + kLanes),
           mPitch(view.lanes + 2 * (kMargin + kLanes)) {}
 
@@ -72,10 +92,10 @@ public:
             const int begin = bandEdge(mBand.left, mBand.leftSlope, q, mView.lanes);
             const int end = bandEdge(mBand.right, mBand.rightSlope, q, mView.lanes);
             float* row = depths(q);
-            clear(row, begin - kMargin, begin);
+            lead(row, q, begin - kMargin, begin);
             for (int a = begin; a < end; a += kLanes)
                 castPacketAt(a, q, end - a < kLanes ? end - a : kLanes, row);
-            clear(row, end, end + kMargin);
+            lead(row, q, end, end + kMargin);
         }
     }
 
@@ -86,7 +106,7 @@ private:
         for (int a = begin; a < end; a += kLanes) {
             const int count = end - a < kLanes ? end - a : kLanes;
             const M lanes = firstLanes(count);
-            Columns columns(mEye, raysOfRow(mView, a, mBand.firstStep), lanes);
+            Columns columns(mEye, raysOfRow(mView, mOffsets, a, mBand.firstStep), lanes);
             for (int q = mBand.firstStep; q < mBand.endStep; ++q) {
                 const Hits hits = columns.cast(mView.base[2] + q * mView.perStep[2]);
                 put(a, q, count, lanes, hits.t, shadePacket(mScene, mView, columns.rays(), hits, lanes));
@@ -96,15 +116,23 @@ private:
 
     float* depths(int q) { return mRing + static_cast<std::int64_t>(q & (kRows - 1)) * mPitch; }
 
-    void clear(float* row, int from, int to) {
+    // Beside the band nothing is known, or what the picture holds already: the depth of a warped pixel is
+    // good to about a pixel's worth of ground, so its ray counts as free up to a little before.
+    void lead(float* row, int q, int from, int to) {
         if (from < -kMargin) from = -kMargin;
         if (to > mView.lanes + kMargin) to = mView.lanes + kMargin;
         for (int a = from; a < to; ++a) row[a] = 0.0f;
+        if (mView.laneX != 1) return;
+        const float* known =
+            mTarget.depth + (mView.firstY + std::int64_t{q} * mView.stepY) * mTarget.depthStride;
+        if (from < mBand.knownFrom) from = mBand.knownFrom;
+        if (to > mBand.knownTo) to = mBand.knownTo;
+        for (int a = from; a < to; ++a) row[a] = known[a] < __builtin_inff() ? known[a] * kInFront : 0.0f;
     }
 
     void castPacketAt(int a, int q, int count, float* row) {
         const M lanes = firstLanes(count);
-        const Rays rays = raysOfRow(mView, a, q);
+        const Rays rays = raysOfRow(mView, mOffsets, a, q);
         const F start = coherentStart(rays, a, q);
         const I level = select(start > F(0.0f), I(0), I(kColdLevel < mScene.ground.levels ? kColdLevel : 0));
         const Hits hits = castPacket(mEye, rays, start, level, lanes);
@@ -117,21 +145,22 @@ private:
         if (!mView.coherent) return F(0.0f);
         const double lowQ = mView.lowQ - q * mView.lowW;
         if (!(lowQ < 0)) return F(0.0f);
-        const double drift = (mView.lowA - (a + kLanes / 2) * mView.lowW) / -lowQ;  // lanes a step down
+        const double drift = (mView.lowA - (a + kLanes / 2) * mView.lowW) / -lowQ;
         const F sx(static_cast<float>(mScene.ground.spacingX)),
             sy(static_cast<float>(mScene.ground.spacingY));
+        const F inverseMaxSlope(1.0f / mScene.ground.maxSlope);
         const Heading ray = headingOf(rays.x * sx, rays.y * sy, rays.z);
         F start(0.0f);
-        for (int back = 1; back <= 4 && back <= q - mBand.firstStep; back *= 2) {
+        for (int back = lookBack(drift, mScene.ground.maxSlope); back <= kMaxBack; ++back) {
             const double exactShift = drift * back;
-            if (!(exactShift > -8 && exactShift < 8)) break;
+            if (back > q - mBand.firstStep || !(exactShift > -8 && exactShift < 8)) break;
             const int shift = static_cast<int>(exactShift + (exactShift < 0 ? -0.5 : 0.5));
             const auto change = [&](int k) {
                 return F(static_cast<float>(shift * mView.perLane[k] - back * mView.perStep[k]));
             };
             const Heading lower =
                 headingOf((rays.x + change(0)) * sx, (rays.y + change(1)) * sy, rays.z + change(2));
-            start = max(start, startFrom(mScene.ground, ray, lower, loadF(depths(q - back) + a + shift)));
+            start = max(start, startFrom(inverseMaxSlope, ray, lower, loadF(depths(q - back) + a + shift)));
             if (all(start > F(0.0f))) break;
         }
         return backed(start);
@@ -165,6 +194,7 @@ private:
     const CasterBand& mBand;
     const CasterTarget& mTarget;
     const Eye mEye;
+    const LaneOffsets mOffsets;
     float* const mRing;
     const std::int64_t mPitch;
 };
@@ -257,11 +287,12 @@ STEREONAV_INLINE Hits hitsAt(const GroundData& ground, const Eye& eye, const Ray
 void shadeRow(const CasterScene& scene, const CasterView& view, int y, const CasterTarget& target) {
     const Eye eye = makeEye(scene.ground, view);
     const int q = (y - view.firstY) * view.stepY;
+    const LaneOffsets offsets = laneOffsets(view);
     float* depth = target.depth + y * target.depthStride;
     std::uint32_t* color = target.color + y * target.colorStride;
     for (int x = 0; x < view.lanes; x += kLanes) {
         const M lanes = firstLanes(view.lanes - x);
-        const Rays rays = raysOfRow(view, x, q);
+        const Rays rays = raysOfRow(view, offsets, x, q);
         const Hits hits = hitsAt(scene.ground, eye, rays, loadF(depth + x), lanes);
         store(color + x, shadePacket(scene, view, rays, hits, lanes), lanes);
     }

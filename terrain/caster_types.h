@@ -70,7 +70,14 @@ struct CasterView {
 struct CasterBand {
     double left = 0, leftSlope = 0, right = 0, rightSlope = 0;
     int firstStep = 0, endStep = 0;
+    // Lanes whose depths the picture may hold already (0: it does not), beside the band; empty where the
+    // picture is made anew.
+    int knownFrom = 0, knownTo = 0;
 };
+
+// How far in front of a known surface a ray beside or above it starts: the depth of a warped pixel is that
+// of its nearer neighbour in the left picture, good to about a pixel's worth of ground.
+constexpr float kInFront = 0.98f;
 
 // First lane of a band's edge at a step, kept inside the picture.
 __attribute__((always_inline)) inline int bandEdge(double at, double slope, int step, int lanes) {

@@ -11,9 +11,6 @@ namespace {
 constexpr int kBlock = 16;
 constexpr int kDenseHoles = kBlock * kBlock * 3 / 8;
 
-// How far in front of a known surface a hole's ray starts: the depth of a warped pixel is that of its
-// nearer neighbour in the left picture, good to about a pixel's worth of ground.
-constexpr float kInFront = 0.98f;
 constexpr int kLookBack = 24;  // steps towards lower rays searched for a known depth
 
 struct Heading {
@@ -93,7 +90,7 @@ void HoleSort::sort(const CasterView& view, PixelRect bounds, std::span<const Pi
             const int x1 = std::min(x0 + kBlock, bounds.x1),
                       y1 = std::min(bounds.y0 + end * kBlock, bounds.y1);
             const int first = view.stepY < 0 ? view.firstY - (y1 - 1) : y0;
-            mDense.push_back({double(x0), 0, double(x1), 0, first, first + (y1 - y0)});
+            mDense.push_back({double(x0), 0, double(x1), 0, first, first + (y1 - y0), bounds.x0, bounds.x1});
             j = end;
         }
     for (const PixelIndex p : pixels)

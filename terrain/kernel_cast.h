@@ -323,7 +323,7 @@ STEREONAV_INLINE void tryCells(const Eye& eye, Walk& w, M m, CellHit& found) {
 
 // First hits of the rays `lanes` at or behind `start` (and the near distance). level: pyramid level to
 // begin with; 0 where the hit is thought to be close: then two cells are tried outright, which is all
-// that most rays need and leaves nothing for the processor to guess.
+// that most rays need.
 STEREONAV_INLINE Hits castPacket(const Eye& eye, const Rays& rays, F start, I level, M lanes) {
     Walk w = startWalk(eye, rays, start, level, lanes);
     CellHit found;
@@ -333,7 +333,7 @@ STEREONAV_INLINE Hits castPacket(const Eye& eye, const Rays& rays, F start, I le
     found.curvature = found.h00 = found.h10 = found.h01 = found.h11 = F(0.0f);
     if (any(w.active & (level == I(0)))) {
         tryCells(eye, w, w.active & (level == I(0)), found);
-        tryCells(eye, w, w.active & (level == I(0)), found);
+        if (any(w.active)) tryCells(eye, w, w.active & (level == I(0)), found);
     }
     while (any(w.active)) {
         const M parked = leap(eye, w, w.active);

@@ -78,8 +78,13 @@ STEREONAV_INLINE F mipLevel(const TextureData& texture, const CasterView& view, 
 STEREONAV_INLINE Channels groundColor(const TextureData& texture, F gx, F gy, F level, M m) {
     const F x = mulAdd(gx, F(texture.scaleX), F(texture.shiftX));
     const F y = mulAdd(gy, F(texture.scaleY), F(texture.shiftY));
-    const I fine = truncateToInt(level);
-    const F fraction = level - toFloat(fine);
+    // The step from one level to the next is taken in the middle half between them: outside it one level
+    // is enough, and neighbours mostly agree on which.
+    const F nearest =
+        clamp(mulAdd(level - toFloat(truncateToInt(level)), F(2.0f), F(-0.5f)), F(0.0f), F(1.0f));
+    const M whole = nearest >= F(1.0f);
+    const I fine = truncateToInt(level) + select(whole, I(1), I(0));
+    const F fraction = select(whole, F(0.0f), nearest);
     const Channels sharp = sampleLevel(texture, x, y, fine, m);
     const M between = m & (fraction > F(0.0f));
     if (!any(between)) return sharp;

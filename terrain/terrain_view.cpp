@@ -6,7 +6,8 @@
 namespace stereonav {
 namespace {
 
-constexpr double kBandWidth = 64;    // pixels where bands are widest
+constexpr double kBandWidth = 64;    // lanes of straight bands: whole packets
+constexpr double kFanWidth = 112;    // lanes of fanned bands where they are widest: few cut packets
 constexpr double kMaxBandSlope = 2;  // lanes a step; see the margins in caster_kernel.cpp
 
 // Straight down, as a homogeneous point of the image plane in pixel coordinates (centre of pixel
@@ -67,6 +68,8 @@ struct Fan {
     bool open = false;
     double step = 0;            // where bands are widest
     double begin = 0, end = 0;  // lanes of the outermost lines there
+    double width() const { return open ? kFanWidth : kBandWidth; }
+    int count() const { return std::max(1, static_cast<int>(std::ceil((end - begin) / width()))); }
 };
 
 Fan fanOf(const CasterView& v) {
@@ -105,13 +108,12 @@ CasterView makeCasterView(const EyeView& view, const Heightfield& ground) {
 }
 
 int bandCount(const CasterView& view) {
-    const Fan fan = fanOf(view);
-    return std::max(1, static_cast<int>(std::ceil((fan.end - fan.begin) / kBandWidth)));
+    return fanOf(view).count();
 }
 
 CasterBand bandOf(const CasterView& view, int index) {
     const Fan fan = fanOf(view);
-    const int count = std::max(1, static_cast<int>(std::ceil((fan.end - fan.begin) / kBandWidth)));
+    const int count = fan.count();
     CasterBand band;
     band.endStep = view.steps;
     // Lines are kept as value at step 0 and slope; the outermost take all that is left of them.
@@ -121,7 +123,7 @@ CasterBand bandOf(const CasterView& view, int index) {
             slope = 0;
             return;
         }
-        const double a = fan.begin + k * kBandWidth;
+        const double a = fan.begin + k * fan.width();
         slope = fan.open ? lineSlope(view, a, fan.step) : 0;
         at = a - slope * fan.step;
     };
