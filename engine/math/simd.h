@@ -4,7 +4,12 @@
 // that runs on every processor. No function contracts a*b+c by itself; mulAdd() may.
 #pragma once
 
+// Sanitized builds leave the choice to the compiler: instrumented code all in one function takes minutes.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define STEREONAV_INLINE inline
+#else
 #define STEREONAV_INLINE inline __attribute__((always_inline))
+#endif
 
 #if defined(STEREONAV_ISA_avx512)
 #include "engine/math/simd_avx512.h"
