@@ -12,6 +12,7 @@ constexpr int kBlock = 16;
 constexpr int kDenseHoles = kBlock * kBlock * 3 / 8;
 
 constexpr int kLookBack = 24;  // steps towards lower rays searched for a known depth
+constexpr int kProofs = 3;     // of those, how many are tried as proof
 
 struct Heading {
     double x, y, slope, run;  // unit horizontal direction, rise over run, horizontal length
@@ -51,12 +52,17 @@ float startInFront(const CasterView& v, const GroundData& ground, PixelRect boun
     if (!(lowQ < 0)) return 0.0f;
     const double drift = (v.lowA - a * v.lowW) / -lowQ;
     const Heading ray = headingOf(v, ground, a, q);
-    for (int back = 1; back <= std::min(q, kLookBack); ++back) {
-        const int lane = a + static_cast<int>(std::lround(drift * back)), step = q - back;
+    int tries = kProofs;
+    for (int back = 1; back <= std::min(q, kLookBack) && tries > 0; ++back) {
+        const double at = drift * back, nearest = std::floor(at + 0.5);
+        // Too far aside to be proven, most likely.
+        if (std::abs(at - nearest) * ground.maxSlope > back) continue;
+        const int lane = a + static_cast<int>(nearest), step = q - back;
         const float depth = depthInside(image, bounds, v.firstX + lane * v.laneX + step * v.stepX,
                                         v.firstY + lane * v.laneY + step * v.stepY);
         if (depth < 0.0f) return 0.0f;
         if (depth == 0.0f || !std::isfinite(depth)) continue;
+        --tries;
         const Heading lower = headingOf(v, ground, lane, step);
         const double x = ray.x - lower.x, y = ray.y - lower.y;
         if (!(ray.slope - lower.slope >= ground.maxSlope * std::sqrt(x * x + y * y))) continue;
