@@ -272,8 +272,9 @@ STEREONAV_INLINE Walk startWalk(const Eye& eye, const Rays& rays, F start, I lev
     return w;
 }
 
-// Leaps with the lanes `move` until each has left the ground, or stands in a cell it may hit: those are
-// returned.
+// Leaps with the lanes `move` until all (patient) or most have left the ground or stand in a cell they may
+// hit: the latter are returned. Waiting for the last leaves the others idle where lanes differ much.
+template <bool patient>
 STEREONAV_INLINE M leap(const Eye& eye, Walk& w, M move) {
     const I top(eye.ground.levels - 1);
     M parked = maskFromBits(0);
@@ -294,6 +295,7 @@ STEREONAV_INLINE M leap(const Eye& eye, Walk& w, M move) {
         w.risen = w.risen | risen;
         w.active = andNot(w.active, risen);
         move = andNot(move, arrived) & w.active;
+        if (!patient && __builtin_popcount(bits(parked)) > __builtin_popcount(bits(move))) break;
     }
     return parked;
 }
@@ -336,9 +338,8 @@ STEREONAV_INLINE Hits castPacket(const Eye& eye, const Rays& rays, F start, I le
         if (any(w.active)) tryCells(eye, w, w.active & (level == I(0)), found);
     }
     while (any(w.active)) {
-        const M parked = leap(eye, w, w.active);
-        if (!any(parked)) break;
-        tryCells(eye, w, parked, found);
+        const M parked = leap<false>(eye, w, w.active);
+        if (any(parked)) tryCells(eye, w, parked, found);
     }
     Hits hits;
     hits.t = infinity();

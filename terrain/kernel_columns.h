@@ -60,7 +60,7 @@ private:
     STEREONAV_INLINE M jump(M m) {
         leaveCell(mEye, mWalk, mExit, m);
         mWalk.level = I(0);
-        return leap(mEye, mWalk, m & mWalk.active);
+        return leap<true>(mEye, mWalk, m & mWalk.active);
     }
 
     // The ground along the columns in the cells that the lanes m stand in: h0 + h1 s + h2 s^2, s counted
