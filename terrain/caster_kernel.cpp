@@ -7,9 +7,11 @@
 namespace stereonav::STEREONAV_ISA {
 namespace {
 
-constexpr int kRows = 8;     // rows of the ring of depths; a power of two above the largest look-back
-constexpr int kMargin = 32;  // zeroed depths kept on both sides of a row
-constexpr int kMaxBack = 4;  // rows looked back for coherence, below kRows
+constexpr int kRows = 8;         // rows of the ring of depths; a power of two above the largest look-back
+constexpr int kMargin = 32;      // zeroed depths kept on both sides of a row
+constexpr int kMaxBack = 4;      // rows looked back for coherence, below kRows
+constexpr int kFarBack = 7;      // the furthest
+constexpr double kMaxDrift = 2;  // lanes a row; with it no lead lies outside the margins
 constexpr double kExpectedRise = 0.8;  // pixel heights that slopes rise a row, to choose the row; then proven
 constexpr int kColdLevel = 3;          // pyramid level for a ray about which nothing is known
 
@@ -62,12 +64,16 @@ STEREONAV_INLINE F startFrom(F inverseMaxSlope, const Heading& ray, const Headin
     return select(proven, lowerT * ray.inverseRun * approxReciprocal(lower.inverseRun), F(0.0f));
 }
 
+STEREONAV_INLINE int nearestInt(double x) {
+    return static_cast<int>(x + (x < 0 ? -0.5 : 0.5));
+}
+
 // How far to look back for a ray that proves this one's way: the nearest row whose pixels come close
 // enough to the same heading. drift: lanes a step towards lower rays.
 STEREONAV_INLINE int lookBack(double drift, float maxSlope) {
     for (int back = 1; back < kMaxBack; ++back) {
         const double at = drift * back;
-        const double beside = at - static_cast<int>(at + (at < 0 ? -0.5 : 0.5));
+        const double beside = at - nearestInt(at);
         if ((beside < 0 ? -beside : beside) * maxSlope <= kExpectedRise * back) return back;
     }
     return kMaxBack;
@@ -133,7 +139,7 @@ private:
     void castPacketAt(int a, int q, int count, float* row) {
         const M lanes = firstLanes(count);
         const Rays rays = raysOfRow(mView, mOffsets, a, q);
-        const F start = coherentStart(rays, a, q);
+        const F start = coherentStart(rays, a, q, lanes);
         const I level = select(start > F(0.0f), I(0), I(kColdLevel < mScene.ground.levels ? kColdLevel : 0));
         const Hits hits = castPacket(mEye, rays, start, level, lanes);
         const I color = shadePacket(mScene, mView, rays, hits, lanes);
@@ -141,27 +147,35 @@ private:
         put(a, q, count, lanes, hits.t, color);
     }
 
-    STEREONAV_INLINE F coherentStart(const Rays& rays, int a, int q) {
+    STEREONAV_INLINE F coherentStart(const Rays& rays, int a, int q, M lanes) {
         if (!mView.coherent) return F(0.0f);
         const double lowQ = mView.lowQ - q * mView.lowW;
         if (!(lowQ < 0)) return F(0.0f);
         const double drift = (mView.lowA - (a + kLanes / 2) * mView.lowW) / -lowQ;
+        if (!(drift > -kMaxDrift && drift < kMaxDrift)) return F(0.0f);
         const F sx(static_cast<float>(mScene.ground.spacingX)),
             sy(static_cast<float>(mScene.ground.spacingY));
         const F inverseMaxSlope(1.0f / mScene.ground.maxSlope);
         const Heading ray = headingOf(rays.x * sx, rays.y * sy, rays.z);
+        const int rows = q - mBand.firstStep;
         F start(0.0f);
-        for (int back = lookBack(drift, mScene.ground.maxSlope); back <= kMaxBack; ++back) {
-            const double exactShift = drift * back;
-            if (back > q - mBand.firstStep || !(exactShift > -8 && exactShift < 8)) break;
-            const int shift = static_cast<int>(exactShift + (exactShift < 0 ? -0.5 : 0.5));
+        const auto ledBy = [&](int back, int shift) {
             const auto change = [&](int k) {
                 return F(static_cast<float>(shift * mView.perLane[k] - back * mView.perStep[k]));
             };
             const Heading lower =
                 headingOf((rays.x + change(0)) * sx, (rays.y + change(1)) * sy, rays.z + change(2));
             start = max(start, startFrom(inverseMaxSlope, ray, lower, loadF(depths(q - back) + a + shift)));
-            if (all(start > F(0.0f))) break;
+            return all((start > F(0.0f)) | ~lanes);
+        };
+        bool done = false;
+        for (int back = lookBack(drift, mScene.ground.maxSlope); back <= kMaxBack && back <= rows && !done;
+             ++back)
+            done = ledBy(back, nearestInt(drift * back));
+        // Lanes at the band's edges, whose leads lie outside: from further back, one within it will do.
+        if (!done && rows >= kFarBack) {
+            const int inside = static_cast<int>(drift * kFarBack);
+            if (!ledBy(kFarBack, inside)) ledBy(kFarBack, inside + (drift < 0 ? -1 : 1));
         }
         return backed(start);
     }

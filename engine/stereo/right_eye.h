@@ -37,9 +37,9 @@ constexpr std::array<NamedMethod, 6> kRightEyeMethods{{{"full", RightEyeMethod::
 struct WarpSetting {
     RightEyeMethod method = kDefaultRightEyeMethod;
     // Inverse methods: a pixel between survivors further apart than this many right pixels is a hole.
-    float maxStretch = 1.1f;
+    float maxStretch = 1.4f;
     // ... and one between survivors nearer to each other than this: a fold, or a silhouette.
-    float minStretch = 0.6f;
+    float minStretch = 0.5f;
     // Paper: a pixel whose accumulated splat weight is below this share of full cover is a hole.
     float weightThreshold = 0.5f;
     Schedule warpSchedule = Schedule::Dynamic;
