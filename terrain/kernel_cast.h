@@ -290,7 +290,11 @@ STEREONAV_INLINE M leap(const Eye& eye, Walk& w, M move) {
         parked = parked | arrived;
         const M over = andNot(move, near);
         leaveBlock(eye, w, e, blockI, blockJ, w.level, over);
-        w.level = clamp(w.level + select(near, I(-1), I(1)), I(0), top);
+        // Down where the block may be hit; up where a border of the block above was crossed.
+        const I crossed = select(e.tx < e.ty, blockI + select(w.eastward, I(1), I(0)),
+                                 blockJ + select(w.northward, I(1), I(0)));
+        const I up = (crossed & I(1)) ^ I(1);
+        w.level = clamp(w.level + select(near, I(-1), up), I(0), top);
         const M risen = andNot(over & (mulAdd(w.t, w.rays.z, w.over) > F(0.0f)), w.downward);
         w.risen = w.risen | risen;
         w.active = andNot(w.active, risen);
