@@ -27,7 +27,21 @@ void HoleFill::listBand(const Plane<std::uint8_t>& mask, int band) {
                 if (row[i]) *out++ = {static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(y)};
         }
     }
-    mBands[band] = {band, static_cast<int>(out - list)};
+    mHoles[band] = static_cast<int>(out - list);
+}
+
+// Appends the band's tasks: itself, or its pieces.
+void HoleFill::cutBand(const Plane<std::uint8_t>& mask, int band) {
+    const PixelIndex* next = mPixels.data() + static_cast<std::size_t>(kBandWidth) * mask.height() * band;
+    const PixelIndex* const end = next + mHoles[band];
+    const int rows = mHoles[band] > kTaskHoles ? kTaskRows : mask.height();
+    const int x0 = band * kBandWidth, x1 = std::min(x0 + kBandWidth, mask.width());
+    for (int y0 = 0; next != end; y0 += rows) {
+        const int y1 = std::min(y0 + rows, mask.height());
+        const PixelIndex* const first = next;
+        next = std::find_if(first, end, [&](PixelIndex p) { return p.y >= y1; });
+        if (next != first) mTasks.push_back({{x0, y0, x1, y1}, first, static_cast<int>(next - first)});
+    }
 }
 
 long long HoleFill::fill(const EyeRenderer& renderer, const EyeView& view, const Plane<std::uint8_t>& mask,
@@ -35,22 +49,19 @@ long long HoleFill::fill(const EyeRenderer& renderer, const EyeView& view, const
     const int bands = (mask.width() + kBandWidth - 1) / kBandWidth;
     const std::size_t capacity = static_cast<std::size_t>(kBandWidth) * mask.height();
     mPixels.resize(capacity * bands);
-    mBands.resize(bands);
+    mHoles.resize(bands);
     forEachPiece(bands, Schedule::Dynamic, [&](int, int band) { listBand(mask, band); });
+    mTasks.clear();
+    for (int band = 0; band < bands; ++band) cutBand(mask, band);
     if (schedule == Schedule::Dynamic)
-        std::sort(mBands.begin(), mBands.end(), [](const Band& a, const Band& b) {
-            return a.holes != b.holes ? a.holes > b.holes : a.index < b.index;
-        });
-    forEachPiece(bands, schedule, [&](int, int i) {
-        const Band& band = mBands[i];
-        if (band.holes == 0) return;
-        const int x0 = band.index * kBandWidth;
-        const PixelRect bounds{x0, 0, std::min(x0 + kBandWidth, mask.width()), mask.height()};
-        const PixelIndex* list = mPixels.data() + capacity * band.index;
-        renderer.renderPixels(view, bounds, std::span(list, static_cast<std::size_t>(band.holes)), image);
+        std::stable_sort(mTasks.begin(), mTasks.end(),
+                         [](const Task& a, const Task& b) { return a.holes > b.holes; });
+    forEachPiece(static_cast<int>(mTasks.size()), schedule, [&](int, int i) {
+        const Task& task = mTasks[i];
+        renderer.renderPixels(view, task.bounds, std::span(task.pixels, static_cast<std::size_t>(task.holes)),
+                              image);
     });
-    return std::accumulate(mBands.begin(), mBands.end(), 0ll,
-                           [](long long sum, const Band& b) { return sum + b.holes; });
+    return std::accumulate(mHoles.begin(), mHoles.end(), 0ll);
 }
 
 }  // namespace stereonav

@@ -1,5 +1,6 @@
 // Casts rays into the holes of a warped image: vertical bands of columns are the tasks, so that a scene
-// can use the depth below in a column (Wan et al. 2004, section 3.3).
+// can use the depth below in a column (Wan et al. 2004, section 3.3). A band full of holes, such as the
+// strip that only the right eye sees, is cut into several, or one thread would be left with it.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,9 @@ namespace stereonav {
 
 class HoleFill {
 public:
-    static constexpr int kBandWidth = 32;  // columns of a task: two vectors of sixteen
+    static constexpr int kBandWidth = 32;    // columns of a task: two vectors of sixteen
+    static constexpr int kTaskHoles = 1024;  // a band with more holes is cut
+    static constexpr int kTaskRows = 128;    // into pieces of so many rows
 
     // Casts every pixel whose mask is not 0 and gives their number. image.viewDepth is 0 there before.
     // Dynamic takes the bands in the order of decreasing number of holes, one at a time.
@@ -21,14 +24,17 @@ public:
                    Schedule schedule, EyeImage& image);
 
 private:
-    struct Band {
-        int index;
+    struct Task {
+        PixelRect bounds;
+        const PixelIndex* pixels;  // row-major, inside bounds
         int holes;
     };
     void listBand(const Plane<std::uint8_t>& mask, int band);
+    void cutBand(const Plane<std::uint8_t>& mask, int band);
 
     std::vector<PixelIndex> mPixels;  // kBandWidth * height for each band
-    std::vector<Band> mBands;
+    std::vector<int> mHoles;          // of each band
+    std::vector<Task> mTasks;
 };
 
 }  // namespace stereonav

@@ -98,9 +98,8 @@ inline void scatterSurvivors(const ResampleRow& row) {
         const __m512 column = _mm512_loadu_ps(row.column + i);
         const unsigned link = row.links[b];
         unsigned usable = link;
-        if (row.reach > 0)
-            usable &=
-                (link << 1 | before >> 15) & (link >> 1 | static_cast<unsigned>(row.links[b + 1]) << 15);
+        if (row.reach > 0) usable &= link >> 1 | static_cast<unsigned>(row.links[b + 1]) << 15;
+        if (row.reach > 1) usable &= link << 1 | before >> 15;
         before = link;
         const __m512 gap = _mm512_sub_ps(_mm512_loadu_ps(row.column + i + 1), column);
         _mm512_storeu_ps(row.inverse + i, _mm512_maskz_div_ps(static_cast<__mmask16>(usable), one, gap));

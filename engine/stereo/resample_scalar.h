@@ -83,7 +83,8 @@ inline void findLinks(const ResampleRow& row) {
 inline void findInverses(const ResampleRow& row) {
     for (int i = 0; i < row.width; ++i) {
         bool holds = row.links[i] != 0;
-        if (holds && row.reach > 0) holds = i > 0 && row.links[i - 1] && row.links[i + 1];
+        if (holds && row.reach > 0) holds = row.links[i + 1];
+        if (holds && row.reach > 1) holds = i > 0 && row.links[i - 1];
         row.inverse[i] = holds ? 1.0f / (row.column[i + 1] - row.column[i]) : 0.0f;
     }
 }

@@ -21,7 +21,7 @@ enum class RightEyeMethod {
     McMillan,  // W14: back-to-front forward warp without holes filled or clipping fixed
     NoFill,    // the default's warp, holes left black: what filling is worth
 };
-constexpr RightEyeMethod kDefaultRightEyeMethod = RightEyeMethod::Cubic;
+constexpr RightEyeMethod kDefaultRightEyeMethod = RightEyeMethod::Linear;
 
 struct NamedMethod {
     std::string_view name;
@@ -36,7 +36,8 @@ constexpr std::array<NamedMethod, 6> kRightEyeMethods{{{"full", RightEyeMethod::
 
 struct WarpSetting {
     RightEyeMethod method = kDefaultRightEyeMethod;
-    // Inverse methods: a pixel between survivors further apart than this many right pixels is a hole.
+    // Inverse methods: a pixel between survivors further apart than this many right pixels is a hole. By
+    // compare on real terrain, 1.1 is 1 to 1.5 dB better and casts up to twice the rays.
     float maxStretch = 1.4f;
     // ... and one between survivors nearer to each other than this: a fold, or a silhouette.
     float minStretch = 0.5f;

@@ -39,7 +39,8 @@ std::vector<bool> findLinks(const ResampleRow& row, const std::vector<bool>& sur
 void findInverses(const ResampleRow& row, const std::vector<bool>& links) {
     for (int i = 0; i < row.width; ++i) {
         bool holds = links[i];
-        if (row.reach > 0) holds = holds && i > 0 && links[i - 1] && links[i + 1];
+        if (row.reach > 0) holds = holds && links[i + 1];
+        if (row.reach > 1) holds = holds && i > 0 && links[i - 1];
         row.inverse[i] = holds ? 1.0f / (row.column[i + 1] - row.column[i]) : 0.0f;
     }
 }

@@ -13,8 +13,7 @@ constexpr int kRowPadding = 64;
 // Inverse one-dimensional resampling. Of the left pixels, those survive that lie strictly left of all
 // pixels to their right (Wan et al. 2004, section 2.4); their columns increase. A link joins survivors
 // i and i + 1 when they are minStretch to maxStretch right pixels apart. A right pixel is warped when
-// its centre falls between the ends of a link whose `reach` neighbouring links on both sides hold too;
-// else it is a hole.
+// its centre falls between the ends of a link whose neighbours within `reach` hold too; else it is a hole.
 struct ResampleRow {
     const std::uint32_t* leftColor;
     const float* leftDepth;  // metres > 0; infinity: sky
@@ -24,8 +23,8 @@ struct ResampleRow {
     int width, stride;       // pixels, width >= 1; every row may be read up to the stride (>= 32)
     float shift, scale;      // pixels, pixels * metres
     float minStretch, maxStretch;
-    int reach;   // 0 or 1
-    bool cubic;  // four taps (Catmull-Rom; needs reach 1), else two
+    int reach;   // 0: the link alone; 1: and the next to the right; 2: and the one to the left
+    bool cubic;  // four taps (Catmull-Rom; needs reach 2), else two
 
     // Scratch, width + kRowPadding elements each. Afterwards, for a warped right pixel p:
     // s = source[p] is the link's left end, ((p + 0.5) - column[s]) * inverse[s] the place in it.

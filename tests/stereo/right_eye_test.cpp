@@ -132,7 +132,7 @@ TEST(RightEye, noFillIsTheDefaultWarpWithBlackHoles) {
     const AnalyticScene scene = ballsBeforeWall();
     const StereoViews views = viewsOf(160, 120, 0.3);
     const Rendered open = renderMethod(scene, views, RightEyeMethod::NoFill);
-    const Rendered filled = renderMethod(scene, views, RightEyeMethod::Cubic);
+    const Rendered filled = renderMethod(scene, views, kDefaultRightEyeMethod);
     int holes = 0;
     for (int y = 0; y < 120; ++y)
         for (int x = 0; x < 160; ++x) {
