@@ -15,6 +15,8 @@
 #include "engine/base/stopwatch.h"
 #include "engine/stereo/right_eye.h"
 #include "terrain/built_in_terrain.h"
+#include "terrain/equidistant_caster.h"
+#include "terrain/plain_caster.h"
 #include "terrain/terrain_renderer.h"
 #include "tests/bench/embree_ground.h"
 
@@ -180,6 +182,44 @@ void BM_Embree16(benchmark::State& state) {
         benchmark::Counter(static_cast<double>(all.size()) * 1e-3,
                            benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
+
+// The paper's stepping at half a sample spacing, unshaded, and how late its hits are on average.
+void BM_Equidistant(benchmark::State& state) {
+    const EyeView view = views(Attitude::Level, kWidth / 5, kHeight / 5).front().left;
+    const Heightfield& ground = scene().ground;
+    const double step = 0.5 * ground.spacing().x;
+    double late = 0;
+    std::vector<double> times;
+    long long hits = 0;
+    for (auto _ : state)
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x) {
+                const glm::dvec3 direction = view.rayDirection(x + 0.5, y + 0.5);
+                const double t = castEquidistant(ground, view.eye, direction, view.nearDepth, step);
+                times.push_back(t);
+            }
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            const double t = times[static_cast<std::size_t>(y) * view.width + x];
+            const double exact =
+                castPlain(ground, view.eye, view.rayDirection(x + 0.5, y + 0.5), view.nearDepth).t;
+            if (std::isfinite(t) && std::isfinite(exact)) late += t - exact, ++hits;
+        }
+    state.counters["late_m"] = hits > 0 ? late / static_cast<double>(hits) : 0;
+}
+BENCHMARK(BM_Equidistant)->Unit(benchmark::kMillisecond)->Iterations(1);
+
+// The plain cell walk of the same picture.
+void BM_PlainWalk(benchmark::State& state) {
+    const EyeView view = views(Attitude::Level, kWidth / 5, kHeight / 5).front().left;
+    for (auto _ : state)
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x)
+                benchmark::DoNotOptimize(
+                    castPlain(scene().ground, view.eye, view.rayDirection(x + 0.5, y + 0.5), view.nearDepth)
+                        .t);
+}
+BENCHMARK(BM_PlainWalk)->Unit(benchmark::kMillisecond)->Iterations(3);
 
 // attitude: 0 level, 1 pitched by 30 and rolled by 20 degrees; target: 1 plain, 2 AVX2, 3 AVX-512.
 BENCHMARK(BM_LeftEye)->ArgsProduct({{0, 1}, {1, 2, 3}})->Unit(benchmark::kMillisecond);

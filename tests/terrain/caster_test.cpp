@@ -11,6 +11,7 @@
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"
 #include "terrain/plain_caster.h"
+#include "terrain/terrain_loader.h"
 #include "terrain/terrain_renderer.h"
 #include "tests/support/test_grounds.h"
 
@@ -105,6 +106,14 @@ class CasterOnGround : public testing::TestWithParam<std::string> {};
 
 TEST_P(CasterOnGround, HitsWhatThePlainWalkHits) {
     expectPlainHits(test::makeScene(test::makeGround(GetParam(), 97, 83, 7)), 150, 11);
+}
+
+TEST(Caster, HitsWhatThePlainWalkHitsOnRealGround) {
+    const std::filesystem::path file = test::realData() / "terrain" / "srtm_bigtujunga30m_utm11.tif";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no real data: set STEREONAV_TEST_DATA";
+    Progress quiet;
+    TerrainScene scene = loadTerrain(sceneFileFromName(file.string()), quiet);
+    expectPlainHits(scene, 150, 23);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, CasterOnGround, testing::ValuesIn(test::groundKinds()),
