@@ -20,6 +20,7 @@ class Specular {
 public:
     explicit Specular(const TerrainLook& look);
     bool active() const { return mStrength > 0; }
+    const glm::dvec3& toSun() const { return mToSun; }  // unit
     // toEye: unit, from the point. Adds the highlight to base.
     PackedColor shade(PackedColor base, const glm::dvec3& normal, const glm::dvec3& toEye) const;
     // cosine^shininess by linear interpolation in a table; cosine in [0, 1]. The absolute error is below

@@ -137,19 +137,24 @@ void TerrainRenderer::renderTile(const EyeView& view, int tile, EyeImage& image)
 }
 
 void TerrainRenderer::finish(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const {
-    if (mScene.landmarks) castLandmarks(view, pixels, image);
+    std::vector<bool> onLandmark(pixels.size(), false);
+    if (mScene.landmarks) castLandmarks(view, pixels, image, onLandmark);
     if (!viewDependent() || image.normal.empty()) return;
-    for (const PixelIndex p : pixels) {
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        const PixelIndex p = pixels[k];
         const float depth = image.viewDepth.at(p.x, p.y);
         image.baseColor.at(p.x, p.y) = image.color.at(p.x, p.y);
         const glm::dvec3 point = view.pointAt(p.x + 0.5, p.y + 0.5, std::isfinite(depth) ? depth : 0.0);
-        image.normal.at(p.x, p.y) = packNormal(mScene.ground.normalAt(glm::dvec2(point)));
+        // Landmarks are matt: a normal turned from the sun has no highlight.
+        const glm::dvec3 normal =
+            onLandmark[k] ? -mState->specular.toSun() : mScene.ground.normalAt(glm::dvec2(point));
+        image.normal.at(p.x, p.y) = packNormal(normal);
         shadeAgain(view, p.y, p.x, p.x + 1, image);
     }
 }
 
-void TerrainRenderer::castLandmarks(const EyeView& view, std::span<const PixelIndex> pixels,
-                                    EyeImage& image) const {
+void TerrainRenderer::castLandmarks(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image,
+                                    std::vector<bool>& hit) const {
     constexpr int kChunk = 256;
     glm::dvec3 direction[kChunk];
     float depth[kChunk];
@@ -165,6 +170,7 @@ void TerrainRenderer::castLandmarks(const EyeView& view, std::span<const PixelIn
         mScene.landmarks->cast(view, count, direction, depth, color);
         for (int k = 0; k < count; ++k) {
             const PixelIndex p = pixels[first + k];
+            hit[first + k] = depth[k] < image.viewDepth.at(p.x, p.y);
             image.viewDepth.at(p.x, p.y) = depth[k];
             image.color.at(p.x, p.y) = color[k];
         }

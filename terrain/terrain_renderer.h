@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "engine/render/eye_renderer.h"
 #include "terrain/terrain_scene.h"
@@ -37,7 +38,8 @@ private:
     struct State;
     // What the kernels leave out: landmarks, normals, highlights.
     void finish(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const;
-    void castLandmarks(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const;
+    void castLandmarks(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image,
+                       std::vector<bool>& hit) const;
 
     const TerrainScene& mScene;
     std::unique_ptr<State> mState;
