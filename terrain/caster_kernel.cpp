@@ -3,6 +3,7 @@
 // free (coherentStart). Compiled once for each instruction set.
 #include "terrain/kernel_columns.h"
 #include "terrain/kernel_shade.h"
+#include "terrain/kernel_stream.h"
 
 namespace stereonav::STEREONAV_ISA {
 namespace {
@@ -13,7 +14,6 @@ constexpr int kMaxBack = 4;      // rows looked back for coherence, below kRows
 constexpr int kFarBack = 7;      // the furthest
 constexpr double kMaxDrift = 2;  // lanes a row; with it no lead lies outside the margins
 constexpr double kExpectedRise = 0.8;  // pixel heights that slopes rise a row, to choose the row; then proven
-constexpr int kColdLevel = 3;          // pyramid level for a ray about which nothing is known
 
 // Lane k's part of a row's directions.
 struct LaneOffsets {
@@ -218,63 +218,9 @@ void castBand(const CasterScene& scene, const CasterView& view, const CasterBand
     Band(scene, view, band, target, scratch).cast();
 }
 
-// Lane and step of a picture's pixel.
-struct Place {
-    int a, q;
-};
-
-STEREONAV_INLINE Place placeOf(const CasterView& view, CasterPixel p) {
-    const int dx = p.x - view.firstX, dy = p.y - view.firstY;
-    return {dx * view.laneX + dy * view.laneY, dx * view.stepX + dy * view.stepY};
-}
-
-STEREONAV_INLINE Rays raysOfPixels(const CasterView& view, const CasterPixel* pixels, int count) {
-    alignas(64) double direction[3][kLanes];
-    for (int k = 0; k < kLanes; ++k) {
-        const Place p = placeOf(view, pixels[k < count ? k : 0]);
-        for (int c = 0; c < 3; ++c)
-            direction[c][k] = view.base[c] + p.a * view.perLane[c] + p.q * view.perStep[c];
-    }
-    Rays r;
-    __builtin_memcpy(&r.exactX, direction[0], sizeof r.exactX);
-    __builtin_memcpy(&r.exactY, direction[1], sizeof r.exactY);
-    __builtin_memcpy(&r.exactZ, direction[2], sizeof r.exactZ);
-    r.x = toFloat(r.exactX);
-    r.y = toFloat(r.exactY);
-    r.z = toFloat(r.exactZ);
-    return r;
-}
-
-STEREONAV_INLINE void scatter(const CasterTarget& target, const CasterPixel* pixels, int count, F t,
-                              I color) {
-    alignas(64) float depth[kLanes];
-    alignas(64) std::uint32_t packed[kLanes];
-    store(depth, t);
-    store(packed, color);
-    for (int k = 0; k < count; ++k) {
-        target.depth[pixels[k].y * target.depthStride + pixels[k].x] = depth[k];
-        target.color[pixels[k].y * target.colorStride + pixels[k].x] = packed[k];
-    }
-}
-
-STEREONAV_INLINE F startsOf(const CasterBatch& batch, int first, int count) {
-    alignas(64) float start[kLanes] = {};
-    for (int k = 0; k < count; ++k) start[k] = batch.start[first + k];
-    return loadF(start);
-}
-
 void castPixels(const CasterScene& scene, const CasterView& view, const CasterBatch& batch,
                 const CasterTarget& target) {
-    const Eye eye = makeEye(scene.ground, view);
-    const int cold = kColdLevel < scene.ground.levels ? kColdLevel : 0;
-    for (int first = 0; first < batch.count; first += kLanes) {
-        const int count = batch.count - first < kLanes ? batch.count - first : kLanes;
-        const M lanes = firstLanes(count);
-        const Rays rays = raysOfPixels(view, batch.pixels + first, count);
-        const F start = startsOf(batch, first, count);
-        const Hits hits = castPacket(eye, rays, start, select(start > F(0.0f), I(0), I(cold)), lanes);
-        scatter(target, batch.pixels + first, count, hits.t, shadePacket(scene, view, rays, hits, lanes));
-    }
+    RayStream(scene, view, batch, target).cast();
 }
 
 // What shading needs to know of points at known depths.

@@ -44,7 +44,8 @@ float startInColumn(const CasterView& v, PixelRect bounds, const EyeImage& image
 
 float startInFront(const CasterView& v, const GroundData& ground, PixelRect bounds, const EyeImage& image,
                    PixelIndex p) {
-    if (!v.coherent) return 0.0f;
+    // Through a hole in the ground a lower ray goes below it, and says nothing of a higher one.
+    if (!v.coherent || !std::isfinite(ground.maxSlope)) return 0.0f;
     if (v.verticalColumns) return startInColumn(v, bounds, image, p);
     const int a = (p.x - v.firstX) * v.laneX + (p.y - v.firstY) * v.laneY;
     const int q = (p.x - v.firstX) * v.stepX + (p.y - v.firstY) * v.stepY;

@@ -119,6 +119,9 @@ STEREONAV_INLINE void leaveBlock(const Eye& eye, Walk& w, const BlockExit& e, I 
     w.active = andNot(w.active, outside < I(0));
 }
 
+// Pyramid level to begin with for a ray about which nothing is known.
+constexpr int kColdLevel = 3;
+
 // The same for single cells: nothing to round, the other index stays.
 STEREONAV_INLINE BlockExit cellExit(const Eye& eye, const Walk& w) {
     BlockExit e;
@@ -327,6 +330,24 @@ STEREONAV_INLINE void tryCells(const Eye& eye, Walk& w, M m, CellHit& found) {
     leaveCell(eye, w, e, andNot(m, done));
 }
 
+// The last word on a packet's hits, once all its lanes are done.
+STEREONAV_INLINE Hits settle(const Eye& eye, const Walk& w, const CellHit& found) {
+    Hits hits;
+    hits.t = infinity();
+    hits.i = hits.j = I(0);
+    hits.u = hits.v = F(0.0f);
+    hits.approach = F(-1.0f);
+    hits.free = F(0.0f);
+    if (any(found.hit | found.unsure)) {
+        const M doubtful = found.unsure | refine(eye, w, found, found.hit, hits);
+        if (any(doubtful)) castExactly(eye, w.rays, w.t, doubtful, hits);
+    }
+    // Hits end the free way, misses at the border of the ground (w.t).
+    hits.free = select(hits.t < infinity(), hits.t, select(w.risen, infinity(), w.t));
+    hits.free = select(found.unsure, F(0.0f), hits.free);
+    return hits;
+}
+
 // First hits of the rays `lanes` at or behind `start` (and the near distance). level: pyramid level to
 // begin with; 0 where the hit is thought to be close: then two cells are tried outright, which is all
 // that most rays need.
@@ -345,20 +366,7 @@ STEREONAV_INLINE Hits castPacket(const Eye& eye, const Rays& rays, F start, I le
         const M parked = leap<false>(eye, w, w.active);
         if (any(parked)) tryCells(eye, w, parked, found);
     }
-    Hits hits;
-    hits.t = infinity();
-    hits.i = hits.j = I(0);
-    hits.u = hits.v = F(0.0f);
-    hits.approach = F(-1.0f);
-    hits.free = F(0.0f);
-    if (any(found.hit | found.unsure)) {
-        const M doubtful = found.unsure | refine(eye, w, found, found.hit, hits);
-        if (any(doubtful)) castExactly(eye, rays, w.t, doubtful, hits);
-    }
-    // Hits end the free way, misses at the border of the ground (w.t).
-    hits.free = select(hits.t < infinity(), hits.t, select(w.risen, infinity(), w.t));
-    hits.free = select(found.unsure, F(0.0f), hits.free);
-    return hits;
+    return settle(eye, w, found);
 }
 
 }  // namespace stereonav::STEREONAV_ISA

@@ -211,12 +211,13 @@ void TerrainRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::s
         mState->kernels->castBand(mState->scene, caster, band, target, scratch.data());
         if (mScene.landmarks || viewDependent()) finish(view, pixelsOf(caster, band), image);
     }
-    CasterPixel chunk[16];
-    float start[16];
+    // Long enough to keep all lanes busy, short enough for later pixels to start from earlier ones.
+    constexpr std::size_t kChunk = 128;
+    CasterPixel chunk[kChunk];
+    float start[kChunk];
     const std::span<const PixelIndex> sparse = holes.sparse();
-    const std::size_t lanes = mState->kernels->lanes;
-    for (std::size_t first = 0; first < sparse.size(); first += lanes) {
-        const int count = static_cast<int>(std::min(lanes, sparse.size() - first));
+    for (std::size_t first = 0; first < sparse.size(); first += kChunk) {
+        const int count = static_cast<int>(std::min(kChunk, sparse.size() - first));
         for (int k = 0; k < count; ++k) {
             const PixelIndex p = sparse[first + k];
             chunk[k] = {p.x, p.y};

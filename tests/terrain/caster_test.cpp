@@ -102,6 +102,44 @@ void expectPlainHits(const TerrainScene& scene, int views, unsigned seed) {
     }
 }
 
+// Scattered pixels of a picture that knows the rest, as holes of a warped image are filled.
+void expectPlainHitsInHoles(const TerrainScene& scene, int views, unsigned seed) {
+    for (const SimdTarget target : targets()) {
+        const TerrainRenderer renderer(scene, target);
+        std::mt19937 random(seed);
+        Tally tally;
+        for (int k = 0; k < views; ++k) {
+            const EyeView view = randomView(scene.ground, random, k);
+            EyeImage image;
+            image.resize(view.width, view.height);
+            renderEye(renderer, view, image);
+            std::vector<PixelIndex> holes;
+            std::vector<float> full;
+            std::vector<PackedColor> colors;
+            for (int y = 0; y < view.height; ++y)
+                for (int x = 0; x < view.width; ++x)
+                    if (random() % 5 == 0 || (x > 10 && x < 30 && y > 8)) {
+                        holes.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+                        full.push_back(image.viewDepth.at(x, y));
+                        colors.push_back(image.color.at(x, y));
+                        image.viewDepth.at(x, y) = 0;
+                        image.color.at(x, y) = 0;
+                    }
+            renderer.renderPixels(view, {0, 0, view.width, view.height}, holes, image);
+            for (std::size_t n = 0; n < holes.size(); ++n) {
+                const float got = image.viewDepth.at(holes[n].x, holes[n].y);
+                ++tally.pixels;
+                if (sameDepth(full[n], got, 1e-6)) {
+                    ASSERT_EQ(image.color.at(holes[n].x, holes[n].y), colors[n]);
+                } else if (tally.wrong++ == 0) {
+                    tally.first = "expected " + std::to_string(full[n]) + " got " + std::to_string(got);
+                }
+            }
+        }
+        EXPECT_LE(tally.wrong, tally.pixels / 1000000) << tally.first;
+    }
+}
+
 class CasterOnGround : public testing::TestWithParam<std::string> {};
 
 TEST_P(CasterOnGround, HitsWhatThePlainWalkHits) {
@@ -114,6 +152,10 @@ TEST(Caster, HitsWhatThePlainWalkHitsOnRealGround) {
     Progress quiet;
     TerrainScene scene = loadTerrain(sceneFileFromName(file.string()), quiet);
     expectPlainHits(scene, 150, 23);
+}
+
+TEST_P(CasterOnGround, FillsHolesAsTheWholePictureIsCast) {
+    expectPlainHitsInHoles(test::makeScene(test::makeGround(GetParam(), 97, 83, 7)), 100, 17);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, CasterOnGround, testing::ValuesIn(test::groundKinds()),
