@@ -37,8 +37,8 @@ struct SkyData {
 };
 
 struct FogData {
-    float perMetre = 0;  // extinction; 0: no fog
-    std::uint32_t color = 0;
+    float perMetre = 0;    // extinction; 0: no fog
+    float linear[3] = {};  // its colour
 };
 
 struct CasterScene {

@@ -7,7 +7,7 @@ namespace stereonav {
 namespace {
 
 // Blocks of 16 x 16 pixels of which at least 3 in 8 are holes are cast as bands: a packet led by its
-// neighbours costs about a third of one that starts from scattered knowledge (measured).
+// neighbours costs far less than one that starts from scattered knowledge.
 constexpr int kBlock = 16;
 constexpr int kDenseHoles = kBlock * kBlock * 3 / 8;
 

@@ -108,15 +108,34 @@ STEREONAV_INLINE Channels skyColor(const SkyData& sky, F x, F y, F z, M m) {
     return bilinear(sky.texels, j * I(sky.stride) + i, I(sky.stride), fx, fy, m);
 }
 
-// e^-x within 2e-5, for x >= 0.
+// e^-x for x >= 0, relative error below 1e-5: a power of two, and the square of a series to the fifth
+// power for half of the rest (at most ln 2 / 2, so what is left out is below 2.5e-6).
 STEREONAV_INLINE F expMinus(F x) {
     const F y = min(x, F(80.0f)) * F(1.44269504f);
     const I whole = truncateToInt(y);
-    const F f = y - toFloat(whole);
-    // 2^-f on [0, 1): minimax cubic, relative error below 1e-4; squared at half the argument.
-    const F h = f * F(-0.34657359f);
-    const F half = mulAdd(h, mulAdd(h, mulAdd(h, F(0.16666667f), F(0.5f)), F(1.0f)), F(1.0f));
+    const F h = (y - toFloat(whole)) * F(-0.34657359f);
+    F half = mulAdd(h, F(1.0f / 120), F(1.0f / 24));
+    half = mulAdd(h, half, F(1.0f / 6));
+    half = mulAdd(h, half, F(0.5f));
+    half = mulAdd(h, mulAdd(h, half, F(1.0f)), F(1.0f));
     return half * half * asFloat(shiftLeft<23>(I(127) - whole));
+}
+
+// One channel (14-bit square root of linear light) seen through fog of the given linear colour.
+STEREONAV_INLINE I fogChannel(I root, float fog, F through) {
+    constexpr float kFull = 1023.0f * 16;
+    const F value = toFloat(root) * F(1 / kFull);
+    const F linear = lerp(F(fog), value * value, through);
+    return truncateToInt(mulAdd(sqrt(clamp(linear, F(0.0f), F(1.0f))), F(kFull), F(0.5f)));
+}
+
+// Fog mixes in linear light, unlike texels, which hardly differ from their neighbours.
+STEREONAV_INLINE Channels fogged(const FogData& fog, Channels c, F through) {
+    const I low(0xFFFF);
+    const I red = fogChannel(c.redBlue & low, fog.linear[0], through);
+    const I green = fogChannel(c.green & low, fog.linear[1], through);
+    const I blue = fogChannel(shiftRight<16>(c.redBlue) & low, fog.linear[2], through);
+    return {red | shiftLeft<16>(blue), green};
 }
 
 STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view, const Rays& rays,
@@ -133,8 +152,7 @@ STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view,
         const F level = mipLevel(scene.texture, view, length, t, hits.approach);
         color = groundColor(scene.texture, toFloat(hits.i) + hits.u, toFloat(hits.j) + hits.v, level, ground);
         if (scene.fog.perMetre > 0) {
-            const F through = expMinus(t * length * F(scene.fog.perMetre));
-            color = mix(openColor(I(static_cast<int>(scene.fog.color))), color, weightOf(through));
+            color = fogged(scene.fog, color, expMinus(t * length * F(scene.fog.perMetre)));
         }
     }
     I packed = closeColor(color);

@@ -53,7 +53,7 @@ LandmarkShader::LandmarkShader(LandmarkMesh&& mesh, const TerrainLook& look)
            std::cos(look.sunElevation) * std::cos(look.sunAzimuth), std::sin(look.sunElevation)),
       mAmbient(look.ambient),
       mFogPerMetre(look.fogDistance > 0 ? 1 / look.fogDistance : 0),
-      mFogRoot(glm::sqrt(glm::max(look.fogColor, glm::vec3(0)))) {}
+      mFogColor(look.fogColor) {}
 
 void LandmarkShader::recentre(const glm::dvec3& centre) {
     for (auto& vertex : mMesh.vertices) vertex.position = glm::dvec3(glm::vec3(vertex.position - centre));
@@ -122,8 +122,7 @@ PackedColor LandmarkShader::color(const LandmarkHit& hit, const glm::dvec3& dire
     color *= static_cast<float>(light);
     if (mFogPerMetre > 0) {
         const auto through = static_cast<float>(std::exp(-distance * mFogPerMetre));
-        const glm::vec3 root = glm::mix(mFogRoot, glm::sqrt(glm::clamp(color, 0.0f, 1.0f)), through);
-        color = root * root;
+        color = glm::mix(mFogColor, glm::clamp(color, 0.0f, 1.0f), through);
     }
     return packColor(color);
 }

@@ -36,7 +36,7 @@ private:
     glm::dvec3 mSun;  // towards it, unit
     float mAmbient;
     double mFogPerMetre;
-    glm::vec3 mFogRoot;  // square root of the fog's linear colour: colours are mixed as they are stored
+    glm::vec3 mFogColor;  // linear
 };
 
 }  // namespace stereonav

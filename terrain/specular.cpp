@@ -33,6 +33,8 @@ glm::dvec3 unpackNormal(std::uint32_t packed) {
 Specular::Specular(const TerrainLook& look) : mStrength(look.specular) {
     const double c = std::cos(look.sunElevation);
     mToSun = {c * std::sin(look.sunAzimuth), c * std::cos(look.sunAzimuth), std::sin(look.sunElevation)};
+    if (!active()) return;
+    mPower.resize(kEntries + 1);
     for (int k = 0; k <= kEntries; ++k)
         mPower[k] = std::pow(static_cast<float>(k) / kEntries, look.shininess);
 }

@@ -3,9 +3,9 @@
 // al. 2004, section 4), with their table in place of the power function.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "engine/image/packed_color.h"
 #include "terrain/scene_file.h"
@@ -32,7 +32,7 @@ public:
 private:
     float mStrength;
     glm::dvec3 mToSun;
-    std::array<float, kEntries + 1> mPower;
+    std::vector<float> mPower;  // empty where there is no highlight
 };
 
 }  // namespace stereonav

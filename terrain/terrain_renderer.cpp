@@ -111,8 +111,9 @@ struct TerrainRenderer::State {
         scene.ground = groundData(terrain.ground, pyramid);
         scene.texture = textureData(terrain.color, terrain.ground.spacing());
         scene.sky = {terrain.sky.map().row(0), terrain.sky.map().width(), terrain.sky.map().stride()};
+        const glm::vec3& fog = terrain.look.fogColor;
         if (terrain.look.fogDistance > 0)
-            scene.fog = {static_cast<float>(1 / terrain.look.fogDistance), packColor(terrain.look.fogColor)};
+            scene.fog = {static_cast<float>(1 / terrain.look.fogDistance), {fog.x, fog.y, fog.z}};
         target = kernels == &avx512::kCasterKernels ? SimdTarget::Avx512
                  : kernels == &avx2::kCasterKernels ? SimdTarget::Avx2
                                                     : SimdTarget::Plain;

@@ -72,7 +72,8 @@ ResampleRow resampleRowOf(const WarpJob& job, Scratch& scratch, int y) {
     row.maxStretch = job.setting.maxStretch;
     row.cubic = job.setting.method == RightEyeMethod::Cubic;
     // Four taps must not cross a silhouette. Two can not, but a near thing's last pixel before a gap is
-    // cut anywhere within it: cast, it gains more than it costs (compare; 1 to 2 dB for 0.6 % more rays).
+    // cut anywhere within it: cast, it gains more than it costs (compare on real terrain: 0.2 to 3.8 dB for
+    // 0.4 to 0.6 % more rays).
     row.reach = row.cubic ? 2 : 1;
     row.column = scratch.column.data();
     row.inverse = scratch.inverse.data();

@@ -37,7 +37,7 @@ constexpr std::array<NamedMethod, 6> kRightEyeMethods{{{"full", RightEyeMethod::
 struct WarpSetting {
     RightEyeMethod method = kDefaultRightEyeMethod;
     // Inverse methods: a pixel between survivors further apart than this many right pixels is a hole. By
-    // compare on real terrain, 1.1 is 1 to 1.5 dB better and casts up to twice the rays.
+    // compare on real terrain, 1.1 is 1 to 3 dB better and casts 1.3 to 2.6 times the rays.
     float maxStretch = 1.4f;
     // ... and one between survivors nearer to each other than this: a fold, or a silhouette.
     float minStretch = 0.5f;
