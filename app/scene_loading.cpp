@@ -132,25 +132,16 @@ OutputMode modeFromText(const std::string& name) {
 }
 
 SimdTarget simdFromText(const std::string& name) {
-    for (const SimdTarget target :
-         {SimdTarget::Auto, SimdTarget::Plain, SimdTarget::Avx2, SimdTarget::Avx512})
-        if (nameOf(target) == name) return target;
+    for (const NamedSimdTarget& known : kSimdTargets)
+        if (known.name == name) return known.target;
     throw Error("--simd", "", "there is no instruction set \"" + name + "\"",
                 "use auto, plain, avx2 or avx512");
 }
 
 std::string nameOf(SimdTarget target) {
-    switch (target) {
-        case SimdTarget::Plain:
-            return "plain";
-        case SimdTarget::Avx2:
-            return "avx2";
-        case SimdTarget::Avx512:
-            return "avx512";
-        case SimdTarget::Auto:
-            break;
-    }
-    return "auto";
+    for (const NamedSimdTarget& known : kSimdTargets)
+        if (known.target == target) return std::string(known.name);
+    return "";
 }
 
 FramePlan planScene(const LoadedScene& scene) {

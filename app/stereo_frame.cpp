@@ -15,7 +15,7 @@ void addRows(Hash& hash, const Plane<T>& plane) {
 
 void StereoFrame::render(const Pose& head) {
     const StereoViews views = mScene.viewsAt(head);
-    mLeft.resize(views.left.width, views.left.height, mScene.renderer->viewDependent());
+    mLeft.resize(views.left.width, views.left.height, mScene.renderer->viewDependence());
     const Stopwatch watch;
     renderEye(*mScene.renderer, views.left, mLeft);
     mLeft_ms = watch.elapsed_ms();

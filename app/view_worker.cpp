@@ -33,7 +33,7 @@ void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& 
     frame.request = request;
     frame.rightTimings = {};
     frame.nearParallax = frame.farParallax = 0;
-    frame.left.resize(request.lens.width, request.lens.height, renderer.viewDependent());
+    frame.left.resize(request.lens.width, request.lens.height, renderer.viewDependence());
     const Stopwatch watch;
     if (!request.twoEyes) {
         renderEye(renderer, makeEyeView(request.pose, request.lens), frame.left);

@@ -8,13 +8,10 @@
 #include <vector>
 
 #include "engine/image/packed_color.h"
+#include "engine/image/packed_normal.h"
 #include "terrain/scene_file.h"
 
 namespace stereonav {
-
-// Unit normals in 32 bits: octahedral, 16 bits an axis.
-std::uint32_t packNormal(const glm::dvec3& unit);
-glm::dvec3 unpackNormal(std::uint32_t packed);
 
 class Specular {
 public:

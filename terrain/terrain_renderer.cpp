@@ -23,15 +23,8 @@ namespace stereonav {
 namespace {
 
 const CasterKernels& kernelsFor(SimdTarget target) {
-    const bool hasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    const bool hasAvx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
-    if (target == SimdTarget::Auto)
-        target = hasAvx512 ? SimdTarget::Avx512 : hasAvx2 ? SimdTarget::Avx2 : SimdTarget::Plain;
-    if (target == SimdTarget::Avx512 && hasAvx512) return avx512::kCasterKernels;
-    if (target == SimdTarget::Avx2 && hasAvx2) return avx2::kCasterKernels;
-    if (target == SimdTarget::Plain) return plain::kCasterKernels;
-    throw Error("", "--simd", "this processor does not have that instruction set", "use auto");
+    if (target == SimdTarget::Avx512) return avx512::kCasterKernels;
+    return target == SimdTarget::Avx2 ? avx2::kCasterKernels : plain::kCasterKernels;
 }
 
 double exactHit(const void* context, const double* origin, const double* direction, double tMin, int* cell,
@@ -107,16 +100,14 @@ struct TerrainRenderer::State {
     SimdTarget target;
 
     State(const TerrainScene& terrain, SimdTarget wanted)
-        : pyramid(terrain.ground), kernels(&kernelsFor(wanted)), specular(terrain.look) {
+        : pyramid(terrain.ground), specular(terrain.look), target(availableTarget(wanted)) {
+        kernels = &kernelsFor(target);
         scene.ground = groundData(terrain.ground, pyramid);
         scene.texture = textureData(terrain.color, terrain.ground.spacing());
         scene.sky = {terrain.sky.map().row(0), terrain.sky.map().width(), terrain.sky.map().stride()};
         const glm::vec3& fog = terrain.look.fogColor;
         if (terrain.look.fogDistance > 0)
             scene.fog = {static_cast<float>(1 / terrain.look.fogDistance), {fog.x, fog.y, fog.z}};
-        target = kernels == &avx512::kCasterKernels ? SimdTarget::Avx512
-                 : kernels == &avx2::kCasterKernels ? SimdTarget::Avx2
-                                                    : SimdTarget::Plain;
     }
 };
 
@@ -193,8 +184,8 @@ void TerrainRenderer::shadeRows(const EyeView& view, int y0, int y1, EyeImage& i
     for (int y = y0; y < y1; ++y) mState->kernels->shadeRow(mState->scene, caster, y, targetOf(image));
 }
 
-bool TerrainRenderer::viewDependent() const {
-    return mState->specular.active();
+ViewDependence TerrainRenderer::viewDependence() const {
+    return mState->specular.active() ? ViewDependence::Highlight : ViewDependence::None;
 }
 SimdTarget TerrainRenderer::target() const {
     return mState->target;

@@ -4,13 +4,11 @@
 #include <memory>
 #include <vector>
 
+#include "engine/math/simd_target.h"
 #include "engine/render/eye_renderer.h"
 #include "terrain/terrain_scene.h"
 
 namespace stereonav {
-
-// Instruction set of the ray caster; Auto takes the widest this processor has.
-enum class SimdTarget { Auto, Plain, Avx2, Avx512 };
 
 class TerrainRenderer final : public EyeRenderer {
 public:
@@ -24,7 +22,7 @@ public:
                       EyeImage& image) const override;
     bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
                           double parallaxScale) const override;
-    bool viewDependent() const override;
+    ViewDependence viewDependence() const override;
     void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override;
 
     // Colours rows y0 .. y1 - 1 of an upright view from the depths in image.viewDepth, which another caster

@@ -10,6 +10,7 @@ namespace stereonav {
 struct EyeView {
     glm::dvec3 eye{0.0};                                        // world, metres
     glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  // world, orthonormal
+    glm::dvec3 head{0.0};                                       // world: midway between the eyes
     double xMin = -1, xMax = 1, yMin = -1, yMax = 1;            // the window at view depth 1
     int width = 0, height = 0;                                  // pixels
     double nearDepth = 0.1;                                     // metres, > 0: nothing nearer is seen

@@ -43,7 +43,7 @@ void checkSetting(const StereoSetting& s) {
 EyeView makeEyeView(const Pose& head, const Lens& lens) {
     checkLens(lens);
     EyeView view;
-    view.eye = head.position;
+    view.eye = view.head = head.position;
     view.right = head.right();
     view.up = head.up();
     view.forward = head.forward();

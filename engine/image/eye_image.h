@@ -10,6 +10,13 @@
 
 namespace stereonav {
 
+// How a pixel's colour depends on the direction of view, and so what is kept to shade it again.
+enum class ViewDependence {
+    None,       // not at all
+    Highlight,  // a part is added to baseColor; the normal is needed for it
+    Normal      // all of it follows from normal and depth: no baseColor
+};
+
 constexpr float kMissDepth = std::numeric_limits<float>::infinity();
 
 struct EyeImage {
@@ -17,19 +24,21 @@ struct EyeImage {
     // Metres along the viewing axis (not along the ray); kMissDepth where the ray hit nothing;
     // 0 where nothing is known yet (a hole in a warped image).
     Plane<float> viewDepth;
-    // Only with view-dependent shading, else empty: colour without the view-dependent part, and the
-    // unit world normal (octahedral, 16 bits an axis, x in the low half).
+    // Only with view-dependent shading, else empty. Highlight: colour without the view-dependent part, and
+    // the unit world normal (octahedral, see packed_normal.h). Normal: only the normal, as three channels
+    // like a colour's (10 bits each, x lowest, 0..1023 for -1..1), so that it is resampled like one.
     Plane<PackedColor> baseColor;
     Plane<std::uint32_t> normal;
 
     int width() const { return color.width(); }
     int height() const { return color.height(); }
 
-    void resize(int width, int height, bool viewDependent = false) {
+    void resize(int width, int height, ViewDependence dependence = ViewDependence::None) {
+        const bool base = dependence == ViewDependence::Highlight, any = dependence != ViewDependence::None;
         color.resize(width, height);
         viewDepth.resize(width, height);
-        baseColor.resize(viewDependent ? width : 0, viewDependent ? height : 0);
-        normal.resize(viewDependent ? width : 0, viewDependent ? height : 0);
+        baseColor.resize(base ? width : 0, base ? height : 0);
+        normal.resize(any ? width : 0, any ? height : 0);
     }
 };
 

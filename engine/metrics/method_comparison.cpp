@@ -58,7 +58,7 @@ public:
 
 private:
     void time(const StereoViews& views) {
-        mLeft.resize(views.left.width, views.left.height, mRenderer.viewDependent());
+        mLeft.resize(views.left.width, views.left.height, mRenderer.viewDependence());
         for (int repeat = 0; repeat < mSetting.repeats; ++repeat) {
             const bool first = repeat == 0;
             const Stopwatch watch;

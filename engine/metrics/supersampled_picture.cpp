@@ -41,7 +41,7 @@ Plane<PackedColor> renderSupersampled(const EyeRenderer& renderer, const EyeView
         progress.report(static_cast<double>(x0) / view.width, "casting the truth");
         const int x1 = std::min(view.width, x0 + stripWidth);
         const EyeView strip = columnsOf(view, x0, x1).supersampled(factor);
-        fine.resize(strip.width, strip.height, renderer.viewDependent());
+        fine.resize(strip.width, strip.height, renderer.viewDependence());
         renderEye(renderer, strip, fine);
         parallelFor(view.height, [&](int y) {
             for (int x = x0; x < x1; ++x)

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/camera/pose.h"
+#include "engine/nav/flight.h"
 
 namespace stereonav {
 
@@ -16,15 +17,6 @@ using GroundHeight = std::function<double(const glm::dvec2&)>;
 enum class FlightMode {
     Free,          // forward is where the viewer looks
     FollowGround,  // forward is level; the height above the ground is kept, `up` changes it
-};
-
-// What the pilot wants during one step. Values outside their range are clamped, NaN counts as 0.
-struct FlightInput {
-    double forward = 0, right = 0, up = 0;  // -1 to 1, shares of the speed
-    double yawRate = 0;                     // radians a second, clockwise seen from above
-    double pitchRate = 0;                   // radians a second, upwards
-    double rollRate = 0;                    // radians a second, right side down
-    double speedMultiplier = 1;             // >= 0
 };
 
 struct FlightSetting {

@@ -45,13 +45,24 @@ public:
     virtual bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
                                   double parallaxScale) const = 0;
 
-    // Whether pixels carry a part of their colour that depends on the direction of view, so that it
-    // has to be evaluated again for the other eye.
-    virtual bool viewDependent() const { return false; }
-    // Replaces `color` in row y, columns x0 .. x1 - 1 from baseColor, normal and viewDepth as seen by
-    // `view`. Called only where viewDependent().
+    // Whether, and from what, colours have to be evaluated again for the other eye. Images that carry
+    // those planes get them written by the calls above.
+    virtual ViewDependence viewDependence() const { return ViewDependence::None; }
+    bool viewDependent() const { return viewDependence() != ViewDependence::None; }
+    // Replaces `color` in row y, columns x0 .. x1 - 1 as seen by `view`, from baseColor, normal and
+    // viewDepth, or from normal and viewDepth alone. Called only where viewDependent().
     virtual void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const {
         (void)view, (void)y, (void)x0, (void)x1, (void)image;
+    }
+
+    // Whether a pixel's colour is gathered from several depths, so that it can not be warped as a whole.
+    // viewDepth is then where the ray first meets anything.
+    virtual bool translucent() const { return false; }
+    // As renderTile, but image.viewDepth holds, for each pixel, a depth before which nothing is expected
+    // (0: unknown, kMissDepth: nothing at all): the ray starts there with one jump (W12; Wan et al. 2004,
+    // section 4). What renderTile gives is right too, only slower.
+    virtual void renderTileFromDepth(const EyeView& view, int tile, EyeImage& image) const {
+        renderTile(view, tile, image);
     }
 };
 

@@ -24,7 +24,7 @@ struct Bench {
     RightEye eye;
 
     Sample run(const StereoViews& views) {
-        left.resize(views.left.width, views.left.height, renderer.viewDependent());
+        left.resize(views.left.width, views.left.height, renderer.viewDependence());
         renderEye(renderer, views.left, left);
         WarpSetting full = setting;
         full.method = RightEyeMethod::Full;

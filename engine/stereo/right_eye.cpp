@@ -237,7 +237,7 @@ RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews&
     checkSizes(views, left);
     const int width = left.width(), height = left.height();
     const bool viewDependent = renderer.viewDependent() && !left.baseColor.empty();
-    right.resize(width, height, viewDependent);
+    right.resize(width, height, viewDependent ? renderer.viewDependence() : ViewDependence::None);
     mState->resize(width, height, setting.method == RightEyeMethod::Paper);
     const WarpJob job{views, left, setting, right, mState->mask, viewDependent};
 

@@ -20,6 +20,7 @@ enum class RightEyeMethod {
     Cubic,     // the same, four taps (Catmull-Rom)
     McMillan,  // W14: back-to-front forward warp without holes filled or clipping fixed
     NoFill,    // the default's warp, holes left black: what filling is worth
+    DepthSplat,  // W12: depths splatted, every ray cast from there with one jump; for translucent scenes
 };
 constexpr RightEyeMethod kDefaultRightEyeMethod = RightEyeMethod::Linear;
 

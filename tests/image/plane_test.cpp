@@ -82,7 +82,7 @@ TEST(EyeImage, HoldsShadingPlanesOnlyWhenAsked) {
     image.resize(30, 20);
     EXPECT_TRUE(image.normal.empty());
     EXPECT_TRUE(image.baseColor.empty());
-    image.resize(30, 20, true);
+    image.resize(30, 20, ViewDependence::Highlight);
     EXPECT_EQ(image.normal.width(), 30);
     EXPECT_EQ(image.baseColor.height(), 20);
     image.resize(30, 20);

@@ -50,7 +50,7 @@ TEST(FramePlan, CastsWhereHolesCostMoreThanTheyAreWorth) {
 TEST(FramePlan, BytesAreThoseOfThePlanes) {
     for (const bool viewDependent : {false, true}) {
         EyeImage image;
-        image.resize(333, 77, viewDependent);
+        image.resize(333, 77, viewDependent ? ViewDependence::Highlight : ViewDependence::None);
         Plane<std::uint8_t> mask(333, 77);
         const std::size_t eye = image.color.byteCount() + image.viewDepth.byteCount() +
                                 image.baseColor.byteCount() + image.normal.byteCount();

@@ -48,7 +48,7 @@ TEST(TerrainQuality, theDefaultIsCloseToTheFullCastAndAheadOfThePaper) {
     for (const Pose& pose : scene.path.frames(4)) {
         const StereoViews views = makeStereoViews(pose, lens, stereo);
         EyeImage left, full;
-        for (EyeImage* image : {&left, &full}) image->resize(500, 400, renderer.viewDependent());
+        for (EyeImage* image : {&left, &full}) image->resize(500, 400, renderer.viewDependence());
         renderEye(renderer, views.left, left);
         renderEye(renderer, views.right, full);
         const auto decibels = [&](RightEyeMethod method) {

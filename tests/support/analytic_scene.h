@@ -132,7 +132,9 @@ public:
         return false;
     }
 
-    bool viewDependent() const override { return mGlossy; }
+    ViewDependence viewDependence() const override {
+        return mGlossy ? ViewDependence::Highlight : ViewDependence::None;
+    }
 
     void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override {
         for (int x = x0; x < x1; ++x) {
@@ -182,7 +184,7 @@ private:
 // An eye image cast in full.
 inline EyeImage castEye(const EyeRenderer& renderer, const EyeView& view) {
     EyeImage image;
-    image.resize(view.width, view.height, renderer.viewDependent());
+    image.resize(view.width, view.height, renderer.viewDependence());
     renderEye(renderer, view, image);
     return image;
 }

@@ -1,0 +1,46 @@
+// Finds the colon's lumen in a CT: air, and fluid made bright by a contrast agent, told from lungs, other
+// bowel gas and the air around the patient by place, size and shape.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/base/progress.h"
+#include "engine/volume/volume.h"
+
+namespace stereonav {
+
+struct SegmentationSetting {
+    double air = -700;              // HU: below is air
+    double tagged = 200;            // HU: above, with a level surface under air, is tagged fluid
+    double wall = -450;             // HU: the wall is this isosurface (half way between air and tissue)
+    std::vector<glm::dvec3> seeds;  // world, metres: pieces that hold one are the colon; empty: chosen
+};
+
+// A piece of the lumen, in order from rectum to caecum.
+struct LumenSegment {
+    std::size_t voxels = 0;
+    double volume = 0;             // cubic metres
+    glm::ivec3 first{0}, last{0};  // bounding box, last included
+};
+
+// A lumen and the field whose isosurface is its wall. Both have the same frame: the study's, cropped to the
+// lumen and a margin of some voxels. A voxel is in the lumen exactly if its value is below isovalue and it
+// is connected (by faces) to the lumen.
+struct LumenField {
+    GreyVolume field;
+    double isovalue = 0;  // stored numbers of `field`
+    MaskVolume lumen;     // the segment's number, 1, 2, ... in order; 0 outside
+    std::vector<LumenSegment> segments;
+    std::vector<std::string> notes;  // what was found and left out, one line each
+};
+
+// From grey values. Tagged fluid becomes air in `field`, without a film between it and the air above.
+// Throws Error (no air, all air, seeds outside, nothing like a colon), Cancelled.
+LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress);
+
+// From a ready mask: `field` is the mask smoothed so that the wall shows no stairs, scaled to HU-like
+// numbers. setting: seeds only. Throws Error on an empty or full mask; Cancelled.
+LumenField lumenFromMask(const MaskVolume& mask, const SegmentationSetting& setting, Progress& progress);
+
+}  // namespace stereonav

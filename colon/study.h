@@ -1,0 +1,53 @@
+// A CT study or a ready mask from files, through ITK: a folder of DICOM slices, NIfTI, NRRD, MetaImage.
+// World: the patient's axes (LPS) in metres; orientation and spacing as the file says.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/progress.h"
+#include "engine/volume/volume.h"
+
+namespace stereonav {
+
+struct StudyOptions {
+    std::string series;     // of a DICOM folder with several: its number in the list (1, 2, ...) or its UID
+    bool resample = false;  // mend uneven or tilted slices onto an even upright grid
+    std::optional<int> label;  // the one label of a mask with several
+};
+
+struct Study {
+    std::string format;       // "DICOM", "NRRD", ... as shown to the user
+    std::string description;  // patient-free: series description, modality, kernel; may be ""
+    bool isMask = false;      // then `mask` is filled, else `grey`
+    GreyVolume grey;          // HU for CT
+    MaskVolume mask;
+    std::uint64_t key = 0;           // of the content and the options: equal studies have equal keys
+    std::vector<std::string> notes;  // what was mended or assumed, one line each
+};
+
+struct SeriesInfo {
+    std::string uid, description;
+    int slices = 0;
+};
+// The series in a folder of DICOM files, in the order --series counts them. Throws Error.
+std::vector<SeriesInfo> listSeries(const std::filesystem::path& folder);
+
+// True where readStudy would try: a folder with DICOM files, or a name ending in .nrrd .nhdr .nii .nii.gz
+// .mha .mhd. Nothing is read but the folder's list.
+bool looksLikeStudy(const std::filesystem::path& path);
+
+// The study's key without decoding its voxels, for looking into the cache first.
+std::uint64_t studyKey(const std::filesystem::path& path, const StudyOptions& options);
+
+// Throws Error (one line: what was expected, what was found, what to do), Cancelled. The size is checked
+// against this machine's memory before it is taken.
+Study readStudy(const std::filesystem::path& path, const StudyOptions& options, Progress& progress);
+
+// A mask as gzip-compressed NRRD in LPS millimetres, written atomically; readStudy reads it back.
+void writeMask(const std::filesystem::path& file, const MaskVolume& mask, const std::string& comment);
+
+}  // namespace stereonav

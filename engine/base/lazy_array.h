@@ -1,0 +1,62 @@
+// A large array of zeros whose memory is taken page by page as it is written: volumes that are used in a
+// few places cost little. Move-only.
+#pragma once
+
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+namespace stereonav {
+
+template <typename T>
+class LazyArray {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+    // Bytes behind the last element that vector code may read (zeros).
+    static constexpr std::size_t kPadding = 64;
+
+    LazyArray() = default;
+    // All zero. Throws std::bad_alloc when the address space does not hold it.
+    explicit LazyArray(std::size_t count) : mCount(count) {
+        if (count == 0) return;
+        void* p = mmap(nullptr, bytes(), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE,
+                       -1, 0);
+        if (p == MAP_FAILED) throw std::bad_alloc();
+        mData = static_cast<T*>(p);
+    }
+    ~LazyArray() {
+        if (mData) munmap(mData, bytes());
+    }
+    LazyArray(LazyArray&& other) noexcept { swap(other); }
+    LazyArray& operator=(LazyArray&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+
+    // Asks for large pages: fewer address translations where rays jump about, but memory in steps of 2 MB.
+    void preferLargePages() {
+        if (mData) madvise(mData, bytes(), MADV_HUGEPAGE);
+    }
+
+    std::size_t size() const { return mCount; }
+    bool empty() const { return mCount == 0; }
+    T* data() { return mData; }
+    const T* data() const { return mData; }
+    T& operator[](std::size_t i) { return mData[i]; }
+    const T& operator[](std::size_t i) const { return mData[i]; }
+
+private:
+    std::size_t bytes() const { return mCount * sizeof(T) + kPadding; }
+    void swap(LazyArray& other) noexcept {
+        std::swap(mData, other.mData);
+        std::swap(mCount, other.mCount);
+    }
+    T* mData = nullptr;
+    std::size_t mCount = 0;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,85 @@
+// What a ray caster needs of a volume, in the order it needs it: how far a ray may leap from a cell, and,
+// in the cells that hold the surface (or anything that is not transparent), the cell's eight values and
+// normals in one cache line.
+//
+// Cell (i, j, k) is the box between voxels (i, j, k) and (i + 1, j + 1, k + 1).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/progress.h"
+#include "engine/volume/volume.h"
+
+namespace stereonav {
+
+// Bytes and indices of cells, in bricks of 16^3 so that what is near in space is near in memory, whatever
+// the direction; a brick of bytes is one page, which is never taken where nothing was written. Cells of
+// a brick: i in bits 0..3, j in 4..7, k in 8..11.
+struct BrickLayout {
+    glm::ivec3 bricks{0};
+    BrickLayout() = default;
+    explicit BrickLayout(const glm::ivec3& cells) : bricks((cells + 15) / 16) {}
+    std::size_t count() const { return static_cast<std::size_t>(bricks.x) * bricks.y * bricks.z * 4096; }
+    std::size_t index(int i, int j, int k) const {
+        const std::size_t brick =
+            (static_cast<std::size_t>(k >> 4) * bricks.y + (j >> 4)) * bricks.x + (i >> 4);
+        return brick << 12 | (k & 15) << 8 | (j & 15) << 4 | (i & 15);
+    }
+};
+
+struct alignas(64) CellRecord {
+    std::int16_t values[8];  // at corner x + 2 y + 4 z, stored numbers
+    std::uint32_t
+        normals[8];  // there: unit world normal towards smaller values, 10 bits signed an axis, x lowest
+    std::uint32_t spare[4];
+};
+static_assert(sizeof(CellRecord) == 64);
+
+// Leap codes of cells.
+constexpr std::uint8_t kCellActive = 0;  // holds surface: see the record
+constexpr std::uint8_t kCellNear = 1;    // none, but the next cell may: walk on cell by cell
+// code c > 1: from any point of the cell, nothing active lies within (c - 1) * leapUnit metres.
+
+struct SurfaceCells {
+    VolumeFrame frame;  // of the voxels
+    BrickLayout layout;
+    double leapUnit = 0;             // metres; a quarter of the smallest spacing, more where leaps are long
+    LazyArray<std::uint8_t> codes;   // by layout. kCellActive without a record: outside the region
+    LazyArray<std::uint32_t> cells;  // by layout: record number + 1, 0 where there is none
+    std::vector<CellRecord> records;
+    float isovalue = 0;  // the surface is where the trilinear value reaches it, in stored numbers
+
+    // The record of a cell, null where it has none. The cell must lie in the volume.
+    const CellRecord* record(const glm::ivec3& cell) const {
+        const std::uint32_t n = cells[layout.index(cell.x, cell.y, cell.z)];
+        return n ? &records[n - 1] : nullptr;
+    }
+    std::size_t bytesHeld() const;  // pages in use
+};
+
+struct SurfaceSetting {
+    float isovalue = 0;  // stored numbers of the volume
+    // Cells are active when the range of their values meets [lowest, highest], ends included. For the
+    // surface alone both are the isovalue; for translucent walls the range where opacity is not zero.
+    float lowest = 0, highest = 0;
+    // If given (same frame as the volume): cells without a corner inside do not count, and leaps are
+    // known only in cells with one.
+    const MaskVolume* region = nullptr;
+};
+
+// Throws Error when the volume has fewer than 2 voxels along an axis or too many for 32-bit indices of
+// cells; Cancelled. Runs on all threads, the result does not depend on their number.
+SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress);
+
+// The gradient of the values smoothed by a tricubic B-spline over 4x4x4 voxels, at any voxel-space point
+// (Wyman et al. 2006, section 4; Y3), in stored numbers a metre along the world axes. Beyond the faces
+// the outermost voxels count on.
+glm::dvec3 smoothGradient(const GreyVolume& volume, const glm::dvec3& voxel);
+
+// A distance that is free of surface around a world point: no point of the surface is nearer, and the
+// true distance is more than it by less than `tolerance` (metres). Looks no further than `upTo` metres,
+// which is then the answer. 0 at and behind the surface and outside the volume's region.
+double freeDistance(const SurfaceCells& cells, const glm::dvec3& world, double upTo, double tolerance);
+
+}  // namespace stereonav

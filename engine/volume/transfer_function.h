@@ -1,0 +1,50 @@
+// Colour and opacity by value, for translucent volumes.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace stereonav {
+
+struct TransferPoint {
+    double value = 0;       // of the volume (HU for CT)
+    glm::vec3 color{1.0f};  // linear RGB
+    double opacity = 0;     // in [0, 1]: what a layer of referenceLength takes away
+};
+
+// Linear between its points, constant beyond them.
+class TransferFunction {
+public:
+    TransferFunction() = default;
+    // Throws Error (named `source`, with the point's place) unless values are finite and strictly increasing,
+    // opacities and colours in [0, 1], referenceLength > 0.
+    TransferFunction(std::vector<TransferPoint> points, double referenceLength, const std::string& source);
+
+    bool empty() const { return mPoints.empty(); }
+    const std::vector<TransferPoint>& points() const { return mPoints; }
+    double referenceLength() const { return mReferenceLength; }  // metres
+
+    TransferPoint at(double value) const;
+    // Optical depth a metre: -ln(1 - opacity) / referenceLength; opacity 1 counts as kDensest.
+    static constexpr double kDensest = 1.0 - 1e-6;
+    double extinction(double value) const;
+
+    // The values between which something is not transparent; lowest > highest where all is. The ends may be
+    // infinite.
+    struct Range {
+        double lowest, highest;
+    };
+    Range visibleRange() const;
+
+private:
+    std::vector<TransferPoint> mPoints;
+    double mReferenceLength = 0.001;
+};
+
+// Text: "reference_mm L" and one line "value red green blue opacity" a point (sRGB and opacity 0..1), # for
+// comments. Throws Error with file and line.
+TransferFunction readTransferFunction(const std::filesystem::path& file);
+void writeTransferFunction(const std::filesystem::path& file, const TransferFunction& function);
+
+}  // namespace stereonav

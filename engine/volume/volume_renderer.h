@@ -1,0 +1,45 @@
+// Casts rays at the isosurface of a volume, or composites what is translucent: the engine's door into CT.
+#pragma once
+
+#include <memory>
+
+#include "engine/math/simd_target.h"
+#include "engine/render/eye_renderer.h"
+#include "engine/volume/volume_scene.h"
+
+namespace stereonav {
+
+struct VolumeCasting {
+    SimdTarget target = SimdTarget::Auto;
+    bool leaping = true;      // false: cell by cell; the same hits, slower
+    bool shadeAgain = true;   // keep normals and shade again for the other eye
+    double stepVoxels = 0.5;  // translucent: distance of samples, in the smallest spacing
+};
+
+class VolumeRenderer final : public EyeRenderer {
+public:
+    // scene must outlive the renderer. Translucent where the look has a transfer function.
+    explicit VolumeRenderer(const VolumeScene& scene, const VolumeCasting& casting = {});
+    ~VolumeRenderer() override;
+
+    int tileCount(const EyeView& view) const override;
+    void renderTile(const EyeView& view, int tile, EyeImage& image) const override;
+    void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
+                      EyeImage& image) const override;
+    bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
+                          double parallaxScale) const override;
+    ViewDependence viewDependence() const override;
+    void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override;
+    bool translucent() const override;
+    void renderTileFromDepth(const EyeView& view, int tile, EyeImage& image) const override;
+
+    SimdTarget target() const;  // what Auto became
+    const VolumeScene& scene() const { return mScene; }
+
+private:
+    struct State;
+    const VolumeScene& mScene;
+    std::unique_ptr<State> mState;
+};
+
+}  // namespace stereonav
