@@ -170,7 +170,7 @@ void ViewSession::actOnFlight(ViewCommand command) {
     } else if (command == ViewCommand::Reset) {
         reset();
     } else if (command == ViewCommand::ToggleFollow) {
-        const bool follows = mNavigator.mode() == FlightMode::FollowGround;
+        const bool follows = mNavigator.flightMode() == FlightMode::FollowGround;
         mNavigator.setMode(follows ? FlightMode::Free : FlightMode::FollowGround);
         notify(follows ? "free flight" : "following the ground");
     }

@@ -112,6 +112,14 @@ void Navigator::setMode(FlightMode mode) {
     mMode = mode;
 }
 
+void Navigator::setMode(int mode) {
+    if (mode == 0 || mode == 1) setMode(static_cast<FlightMode>(mode));
+}
+
+std::string_view Navigator::modeName(int mode) const {
+    return mode == 0 ? "free" : mode == 1 ? "over ground" : "";
+}
+
 void Navigator::turnBy(double yaw, double pitch) {
     mHeading = std::remainder(mHeading + clamped(yaw, -2 * pi, 2 * pi), 2 * pi);
     mPitch = std::clamp(mPitch + clamped(pitch, -pi, pi), -pi / 2, pi / 2);

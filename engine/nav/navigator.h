@@ -14,7 +14,7 @@ namespace stereonav {
 // Height of the ground in metres at a world position (x, y); NaN where there is no ground.
 using GroundHeight = std::function<double(const glm::dvec2&)>;
 
-enum class FlightMode {
+enum class FlightMode : int {
     Free,          // forward is where the viewer looks
     FollowGround,  // forward is level; the height above the ground is kept, `up` changes it
 };
@@ -29,7 +29,7 @@ struct FlightSetting {
 };
 
 // Position and angles with damped velocities; between steps nothing else is remembered. One thread.
-class Navigator {
+class Navigator final : public Flight {
 public:
     // Throws Error when a setting or the home pose is not finite or out of range.
     Navigator(GroundHeight ground, const Pose& home, const FlightSetting& setting);
@@ -37,21 +37,29 @@ public:
     // Moves on by dt seconds (0 to kLongestStep; longer is cut to it, negative and NaN is nothing).
     static constexpr double kLongestStep = 1.0;
     static constexpr int kMostLooks = 20000;
-    void step(const FlightInput& input, double dt);
+    void step(const FlightInput& input, double dt) override;
 
-    // Turns at once, radians: for a mouse, whose motion is not a rate.
-    void turnBy(double yaw, double pitch);
+    void turnBy(double yaw, double pitch) override;
     void levelRoll() { mRoll = mRollRate = 0; }
 
-    Pose pose() const { return poseFromAngles(mPosition, mHeading, mPitch, mRoll); }
+    Pose pose() const override { return poseFromAngles(mPosition, mHeading, mPitch, mRoll); }
     // Places the viewer (lifted to the clearance where needed) at rest.
-    void setPose(const Pose& pose);
-    void goHome() { setPose(mHome); }
+    void setPose(const Pose& pose) override;
+    void goHome() override { setPose(mHome); }
     void setHome(const Pose& home) { mHome = home; }
 
-    FlightMode mode() const { return mMode; }
+    FlightMode flightMode() const { return mMode; }
     // FollowGround takes up the present height above the ground, but not below followHeight.
     void setMode(FlightMode mode);
+
+    // By number, as every flight's: 0 free, 1 over ground. Other numbers change nothing.
+    int modeCount() const override { return 2; }
+    int mode() const override { return static_cast<int>(mMode); }
+    void setMode(int mode) override;
+    std::string_view modeName(int mode) const override;
+
+    double speed() const override { return mSetting.speed; }
+    double clearanceNow() const override { return heightAboveGround(); }
 
     const glm::dvec3& velocity() const { return mVelocity; }  // world, metres a second
     double heightAboveGround() const;                         // metres; infinite over a hole
