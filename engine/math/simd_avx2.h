@@ -211,6 +211,18 @@ struct FPair {
 STEREONAV_INLINE FPair gatherPair(const float* base, I index, M m) {
     return {gather(base, index, m, F(0.0f)), gather(base + 1, index, m, F(0.0f))};
 }
+struct IPair {
+    I first, second;
+};
+STEREONAV_INLINE IPair gatherPair(const std::uint32_t* base, I index, M m) {
+    return {gather(base, index, m), gather(base + 1, index, m)};
+}
+// base[index] of bytes; three more bytes behind each are read.
+STEREONAV_INLINE I gatherByte(const std::uint8_t* base, I index, M m) {
+    const __m256i four = _mm256_mask_i32gather_epi32(
+        _mm256_setzero_si256(), reinterpret_cast<const int*>(base), index.v, _mm256_castps_si256(m.v), 1);
+    return _mm256_and_si256(four, _mm256_set1_epi32(255));
+}
 // table[index] for a table of sixteen entries; index in [0, 16).
 STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {
     return _mm256_i32gather_epi32(table, index.v, 4);

@@ -215,6 +215,23 @@ STEREONAV_INLINE FPair gatherPair(const float* base, I index, M m) {
     const __m512i odd = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
     return {_mm512_permutex2var_ps(a, even, b), _mm512_permutex2var_ps(a, odd, b)};
 }
+struct IPair {
+    I first, second;
+};
+STEREONAV_INLINE IPair gatherPair(const std::uint32_t* base, I index, M m) {
+    const __m512i zero = _mm512_setzero_si512();
+    const __m256i low = _mm512_castsi512_si256(index.v), high = _mm512_extracti64x4_epi64(index.v, 1);
+    const __m512i a = _mm512_mask_i32gather_epi64(zero, static_cast<__mmask8>(m.v), low, base, 4);
+    const __m512i b = _mm512_mask_i32gather_epi64(zero, static_cast<__mmask8>(m.v >> 8), high, base, 4);
+    const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+    const __m512i odd = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
+    return {_mm512_permutex2var_epi32(a, even, b), _mm512_permutex2var_epi32(a, odd, b)};
+}
+// base[index] of bytes; three more bytes behind each are read.
+STEREONAV_INLINE I gatherByte(const std::uint8_t* base, I index, M m) {
+    const __m512i four = _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m.v, index.v, base, 1);
+    return _mm512_and_si512(four, _mm512_set1_epi32(255));
+}
 // table[index] for a table of sixteen entries; index in [0, 16).
 STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {
     return _mm512_permutexvar_epi32(index.v, _mm512_loadu_si512(table));

@@ -247,6 +247,16 @@ struct FPair {
 STEREONAV_INLINE FPair gatherPair(const float* base, I index, M m) {
     return {gather(base, index, m, F(0.0f)), gather(base + 1, index, m, F(0.0f))};
 }
+struct IPair {
+    I first, second;
+};
+STEREONAV_INLINE IPair gatherPair(const std::uint32_t* base, I index, M m) {
+    return {gather(base, index, m), gather(base + 1, index, m)};
+}
+// base[index] of bytes.
+STEREONAV_INLINE I gatherByte(const std::uint8_t* base, I index, M m) {
+    return mapLanes<std::int32_t>([&](int k) { return (m.v >> k & 1) ? std::int32_t{base[index.v[k]]} : 0; });
+}
 // table[index] for a table of sixteen entries; index in [0, 16).
 STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {
     return mapLanes<std::int32_t>([&](int k) { return table[index.v[k]]; });

@@ -31,10 +31,14 @@ struct BrickLayout {
 struct alignas(64) CellRecord {
     std::int16_t values[8];  // at corner x + 2 y + 4 z, stored numbers
     std::uint32_t
-        normals[8];  // there: unit world normal towards smaller values, 10 bits signed an axis, x lowest
+        normals[8];  // there: unit world normal towards smaller values, packed as packCornerNormal does
     std::uint32_t spare[4];
 };
 static_assert(sizeof(CellRecord) == 64);
+
+// A unit vector in three channels of 10 bits, x lowest: 0..1023 for -1..1, as EyeImage::normal wants it.
+std::uint32_t packCornerNormal(const glm::dvec3& unit);
+glm::dvec3 unpackCornerNormal(std::uint32_t packed);  // length near 1
 
 // Leap codes of cells.
 constexpr std::uint8_t kCellActive = 0;  // holds surface: see the record

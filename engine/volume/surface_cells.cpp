@@ -1,0 +1,329 @@
+// From a volume to what rays need: cells are told active row by row, distances between cells become leap
+// codes, and active cells get their records, brick by brick.
+#include "engine/volume/surface_cells.h"
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "engine/volume/distance_transform.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kBrick = 16;
+constexpr int kLargestCode = 255;
+
+// One flag a cell, in a volume of the cells' own frame.
+struct CellFlags {
+    MaskVolume active;  // holds surface
+    MaskVolume region;  // rays are followed here
+};
+
+VolumeFrame cellFrameOf(const VolumeFrame& voxels) {
+    VolumeFrame cells = voxels;
+    cells.size = voxels.size - 1;
+    cells.origin = voxels.worldFromVoxel(glm::dvec3(0.5));
+    return cells;
+}
+
+bool anySet(const std::uint8_t* row, int count) {
+    int i = 0;
+    for (; i + 8 <= count; i += 8) {
+        std::uint64_t eight;
+        std::memcpy(&eight, row + i, 8);
+        if (eight != 0) return true;
+    }
+    for (; i < count; ++i)
+        if (row[i]) return true;
+    return false;
+}
+
+// The four rows of voxels around a row of cells.
+template <typename T>
+struct FourRows {
+    const T* rows[4];
+    FourRows(const Volume<T>& volume, int j, int k) {
+        for (int n = 0; n < 4; ++n)
+            rows[n] = volume.values.data() + volume.frame.index(0, j + (n & 1), k + (n >> 1));
+    }
+};
+
+// Flags of one row of cells; false when nothing of the region is in it.
+bool flagRegion(const SurfaceSetting& setting, int j, int k, int cells, std::uint8_t* region) {
+    if (!setting.region) {
+        std::memset(region, 1, static_cast<std::size_t>(cells));
+        return true;
+    }
+    const FourRows<std::uint8_t> m(*setting.region, j, k);
+    if (std::none_of(std::begin(m.rows), std::end(m.rows),
+                     [&](const std::uint8_t* row) { return anySet(row, cells + 1); }))
+        return false;
+    for (int i = 0; i < cells; ++i) {
+        const int any = m.rows[0][i] | m.rows[0][i + 1] | m.rows[1][i] | m.rows[1][i + 1] | m.rows[2][i] |
+                        m.rows[2][i + 1] | m.rows[3][i] | m.rows[3][i + 1];
+        region[i] = any != 0;
+    }
+    return true;
+}
+
+void flagActive(const GreyVolume& volume, const SurfaceSetting& setting, int j, int k, int cells,
+                const std::uint8_t* region, std::uint8_t* active) {
+    const FourRows<std::int16_t> v(volume, j, k);
+    const bool surfaceAlone = setting.lowest == setting.highest;
+    // As 16-bit numbers: maximum >= lowest, minimum <= highest (< for the surface alone, where a cell at or
+    // above it throughout holds none).
+    const int lowest = static_cast<int>(std::clamp(std::ceil(setting.lowest), -32768.0f, 32767.0f));
+    const float top = surfaceAlone ? std::ceil(setting.highest) - 1.0f : std::floor(setting.highest);
+    const int highest = static_cast<int>(std::clamp(top, -32769.0f, 32767.0f));
+    for (int i = 0; i < cells; ++i) {
+        const auto least = [&](int n) { return std::min(v.rows[n][i], v.rows[n][i + 1]); };
+        const auto most = [&](int n) { return std::max(v.rows[n][i], v.rows[n][i + 1]); };
+        const int low = std::min(std::min(least(0), least(1)), std::min(least(2), least(3)));
+        const int high = std::max(std::max(most(0), most(1)), std::max(most(2), most(3)));
+        active[i] = (region[i] != 0) & (high >= lowest) & (low <= highest);
+    }
+}
+
+CellFlags flagCells(const GreyVolume& volume, const SurfaceSetting& setting, const VolumeFrame& frame) {
+    CellFlags flags{MaskVolume(frame), MaskVolume(frame)};
+    const glm::ivec3 size = frame.size;
+    parallelFor(size.z, [&](int k) {
+        for (int j = 0; j < size.y; ++j) {
+            const std::size_t row = frame.index(0, j, k);
+            std::uint8_t* region = flags.region.values.data() + row;
+            if (!flagRegion(setting, j, k, size.x, region)) continue;
+            flagActive(volume, setting, j, k, size.x, region, flags.active.values.data() + row);
+        }
+    });
+    return flags;
+}
+
+// Cells of the region that do not touch an active cell, not even by a corner. The distance between the
+// nearest points of two cells is that between the centre of one and the nearest centre of the other's
+// 27 neighbours, so distances to what is not far are exact between cells as boxes.
+MaskVolume farCells(const CellFlags& flags) {
+    const VolumeFrame& frame = flags.active.frame;
+    const glm::ivec3 size = frame.size;
+    MaskVolume far(frame);
+    parallelFor(size.z, [&](int k) {
+        std::vector<std::uint8_t> any(static_cast<std::size_t>(size.x) + 2);
+        for (int j = 0; j < size.y; ++j) {
+            const std::uint8_t* region = flags.region.values.data() + frame.index(0, j, k);
+            if (!anySet(region, size.x)) continue;
+            std::fill(any.begin(), any.end(), std::uint8_t{0});
+            for (int z = std::max(k - 1, 0); z <= std::min(k + 1, size.z - 1); ++z)
+                for (int y = std::max(j - 1, 0); y <= std::min(j + 1, size.y - 1); ++y) {
+                    const std::uint8_t* active = flags.active.values.data() + frame.index(0, y, z);
+                    for (int i = 0; i < size.x; ++i) any[i + 1] |= active[i];
+                }
+            std::uint8_t* out = far.values.data() + frame.index(0, j, k);
+            for (int i = 0; i < size.x; ++i) out[i] = region[i] & !(any[i] | any[i + 1] | any[i + 2]);
+        }
+    });
+    return far;
+}
+
+// The largest distance that occurs, in the volume's units.
+std::uint16_t largestOf(const DistanceVolume& distance) {
+    const glm::ivec3 size = distance.frame.size;
+    std::vector<std::uint16_t> best(static_cast<std::size_t>(size.z), 0);
+    parallelFor(size.z, [&](int k) {
+        const std::uint16_t* d = distance.values.data() + distance.frame.index(0, 0, k);
+        std::uint16_t most = 0;
+        for (int n = 0; n < size.x * size.y; ++n)
+            most = std::max(most, d[n] == DistanceVolume::kNoSeed ? std::uint16_t{0} : d[n]);
+        best[k] = most;
+    });
+    return best.empty() ? std::uint16_t{0} : *std::max_element(best.begin(), best.end());
+}
+
+// Codes of the region's cells, which are not active. Distances have a finer unit than leaps: `divisor` of
+// theirs make one.
+void encodeLeaps(const CellFlags& flags, const DistanceVolume& distance, int divisor, SurfaceCells& cells) {
+    const VolumeFrame& frame = flags.active.frame;
+    parallelFor(frame.size.z, [&](int k) {
+        for (int j = 0; j < frame.size.y; ++j) {
+            const std::size_t row = frame.index(0, j, k);
+            const std::uint8_t* region = flags.region.values.data() + row;
+            if (!anySet(region, frame.size.x)) continue;
+            const std::uint8_t* active = flags.active.values.data() + row;
+            const std::uint16_t* d = distance.values.data() + row;
+            for (int i = 0; i < frame.size.x; ++i) {
+                if (!region[i] || active[i]) continue;
+                cells.codes[cells.layout.index(i, j, k)] =
+                    static_cast<std::uint8_t>(std::min(1 + d[i] / divisor, kLargestCode));
+            }
+        }
+    });
+}
+
+// The gradient at a voxel of the values smoothed by a tricubic B-spline: weights 1/6, 4/6, 1/6 across and
+// -1/2, 0, 1/2 along. In stored numbers a metre along i, j, k.
+glm::dvec3 gradientAt(const GreyVolume& volume, const glm::ivec3& at) {
+    const glm::ivec3 last = volume.frame.size - 1;
+    const int x[3] = {std::max(at.x - 1, 0), at.x, std::min(at.x + 1, last.x)};
+    constexpr float kSmooth[3] = {1.0f / 6, 4.0f / 6, 1.0f / 6};
+    float gx = 0, gy = 0, gz = 0;
+    for (int c = 0; c < 3; ++c)
+        for (int b = 0; b < 3; ++b) {
+            const std::int16_t* row =
+                volume.values.data() + volume.frame.index(0, std::clamp(at.y + b - 1, 0, last.y),
+                                                          std::clamp(at.z + c - 1, 0, last.z));
+            const float v0 = row[x[0]], v1 = row[x[1]], v2 = row[x[2]];
+            const float across = (v0 + 4 * v1 + v2) * (1.0f / 6);
+            gx += kSmooth[b] * kSmooth[c] * (v2 - v0);
+            gy += static_cast<float>(b - 1) * kSmooth[c] * across;
+            gz += kSmooth[b] * static_cast<float>(c - 1) * across;
+        }
+    return glm::dvec3(0.5 * gx, 0.5 * gy, 0.5 * gz) / volume.frame.spacing;
+}
+
+std::uint32_t normalAt(const GreyVolume& volume, const glm::ivec3& at) {
+    const glm::dvec3 down = -(volume.frame.axes * gradientAt(volume, at));
+    const double length = glm::length(down);
+    return packCornerNormal(length > 0 ? down / length : glm::dvec3(0, 0, 1));
+}
+
+// Writes the records of one brick's active cells; corners that cells share are computed once.
+class BrickRecords {
+public:
+    explicit BrickRecords(const GreyVolume& volume) : mVolume(volume), mNormals(17 * 17 * 17) {}
+
+    void write(const glm::ivec3& brick, const MaskVolume& active, std::uint32_t first, SurfaceCells& cells) {
+        std::fill(mNormals.begin(), mNormals.end(), 0u);
+        const glm::ivec3 low = brick * kBrick;
+        const glm::ivec3 high = glm::min(low + kBrick, active.frame.size);
+        for (int k = low.z; k < high.z; ++k)
+            for (int j = low.y; j < high.y; ++j)
+                for (int i = low.x; i < high.x; ++i) {
+                    if (!active.at(i, j, k)) continue;
+                    cells.cells[cells.layout.index(i, j, k)] = first + 1;
+                    fill(low, {i, j, k}, cells.records[first++]);
+                }
+    }
+
+private:
+    void fill(const glm::ivec3& low, const glm::ivec3& cell, CellRecord& record) {
+        for (int n = 0; n < 8; ++n) {
+            const glm::ivec3 corner = cell + glm::ivec3(n & 1, n >> 1 & 1, n >> 2);
+            record.values[n] = mVolume.at(corner);
+            const glm::ivec3 local = corner - low;
+            std::uint32_t& normal =
+                mNormals[static_cast<std::size_t>((local.z * 17 + local.y) * 17 + local.x)];
+            if (normal == 0) normal = normalAt(mVolume, corner);  // no packed unit vector is 0
+            record.normals[n] = normal;
+        }
+    }
+
+    const GreyVolume& mVolume;
+    std::vector<std::uint32_t> mNormals;
+};
+
+glm::ivec3 brickAt(const BrickLayout& layout, int n) {
+    return {n % layout.bricks.x, n / layout.bricks.x % layout.bricks.y,
+            n / (layout.bricks.x * layout.bricks.y)};
+}
+
+std::uint32_t countActive(const MaskVolume& active, const glm::ivec3& brick) {
+    const glm::ivec3 low = brick * kBrick, high = glm::min(low + kBrick, active.frame.size);
+    std::uint32_t count = 0;
+    for (int k = low.z; k < high.z; ++k)
+        for (int j = low.y; j < high.y; ++j) {
+            const std::uint8_t* row = active.values.data() + active.frame.index(0, j, k);
+            for (int i = low.x; i < high.x; ++i) count += row[i];
+        }
+    return count;
+}
+
+void writeRecords(const GreyVolume& volume, const MaskVolume& active, SurfaceCells& cells) {
+    const int bricks = cells.layout.bricks.x * cells.layout.bricks.y * cells.layout.bricks.z;
+    std::vector<std::uint32_t> first(static_cast<std::size_t>(bricks) + 1, 0);
+    parallelFor(bricks, [&](int n) { first[n + 1] = countActive(active, brickAt(cells.layout, n)); });
+    std::uint64_t total = 0;
+    for (const std::uint32_t count : first) total += count;
+    // Kernels count records in 4-byte steps with 32-bit numbers.
+    if (total > (1ull << 31) / (sizeof(CellRecord) / 4) - 1)
+        throw Error("", "isosurface", fmt::format("{} cells hold surface, more than 134 million", total),
+                    "choose another isovalue or a smaller volume");
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    cells.records.resize(first.back());
+    parallelFor(bricks, [&](int n) {
+        if (first[n] == first[n + 1]) return;
+        BrickRecords(volume).write(brickAt(cells.layout, n), active, first[n], cells);
+    });
+}
+
+void checkSize(const VolumeFrame& frame, const BrickLayout& layout) {
+    const glm::ivec3 size = frame.size;
+    const std::string got = fmt::format("{}x{}x{}", size.x, size.y, size.z);
+    if (size.x < 2 || size.y < 2 || size.z < 2)
+        throw Error("", "volume", "expected at least 2 voxels along each axis, got " + got,
+                    "a single slice has no surface");
+    if (layout.count() > (1ull << 31) - 64)
+        throw Error("", "volume", "expected at most 2^31 voxels, got " + got, "crop or resample it");
+}
+
+}  // namespace
+
+std::uint32_t packCornerNormal(const glm::dvec3& unit) {
+    const auto channel = [](double v) {
+        return static_cast<std::uint32_t>(std::lround(std::clamp(v, -1.0, 1.0) * 511.5 + 511.5));
+    };
+    return channel(unit.x) | channel(unit.y) << 10 | channel(unit.z) << 20;
+}
+
+glm::dvec3 unpackCornerNormal(std::uint32_t packed) {
+    const auto channel = [&](int shift) { return (packed >> shift & 1023u) / 511.5 - 1.0; };
+    return {channel(0), channel(10), channel(20)};
+}
+
+std::size_t SurfaceCells::bytesHeld() const {
+    const auto pages = [](const auto& array) -> std::size_t {
+        if (array.empty()) return 0;
+        constexpr std::size_t kPage = 4096;
+        const std::size_t count = (array.size() * sizeof(array[0]) + kPage - 1) / kPage;
+        std::vector<unsigned char> held(count);
+        void* start = const_cast<void*>(static_cast<const void*>(array.data()));
+        if (mincore(start, count * kPage, held.data()) != 0) return array.size() * sizeof(array[0]);
+        return kPage * static_cast<std::size_t>(
+                           std::count_if(held.begin(), held.end(), [](unsigned char c) { return c & 1; }));
+    };
+    return pages(codes) + pages(cells) + records.size() * sizeof(CellRecord);
+}
+
+SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress) {
+    SurfaceCells cells;
+    cells.frame = volume.frame;
+    cells.isovalue = setting.isovalue;
+    cells.layout = BrickLayout(volume.frame.size - 1);
+    checkSize(volume.frame, cells.layout);
+    const VolumeFrame frame = cellFrameOf(volume.frame);
+    progress.report(0.0, "finding the surface");
+    CellFlags flags = flagCells(volume, setting, frame);
+    progress.report(0.3, "measuring distances to the surface");
+    const MaskVolume far = farCells(flags);
+    const glm::dvec3 spacing = volume.frame.spacing;
+    cells.leapUnit = 0.25 * std::min({spacing.x, spacing.y, spacing.z});
+    DistanceVolume distance = distanceToOutside(far, false, cells.leapUnit);
+    const int largest = largestOf(distance);
+    const int coarser = std::max(1, (largest + kLargestCode - 2) / (kLargestCode - 1));
+    cells.leapUnit *= coarser;
+    progress.report(0.7, "storing what rays need");
+    cells.codes = LazyArray<std::uint8_t>(cells.layout.count());
+    cells.cells = LazyArray<std::uint32_t>(cells.layout.count());
+    encodeLeaps(flags, distance, coarser, cells);
+    writeRecords(volume, flags.active, cells);
+    progress.report(1.0, "storing what rays need");
+    return cells;
+}
+
+}  // namespace stereonav
