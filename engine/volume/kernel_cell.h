@@ -1,0 +1,155 @@
+// The exact hit of rays with the trilinear isosurface in their cells (Parker et al. 1998; Y2): the value
+// along a ray is a cubic, and the first place where it reaches the isovalue is looked for between its
+// extrema. Included by kernels only.
+#pragma once
+
+#include "engine/volume/kernel_rays.h"
+
+namespace stereonav::STEREONAV_ISA {
+
+// c0 + c1 s + c2 s^2 + c3 s^3
+struct Cubic {
+    F c0, c1, c2, c3;
+    STEREONAV_INLINE F at(F s) const { return mulAdd(mulAdd(mulAdd(c3, s, c2), s, c1), s, c0); }
+    STEREONAV_INLINE F slope(F s) const { return mulAdd(mulAdd(F(3.0f) * c3, s, c2 + c2), s, c1); }
+};
+
+// Values at a cell's corners less the isovalue: corner x + 2 y + 4 z.
+struct Corners {
+    F v[8];
+};
+
+STEREONAV_INLINE Corners cornersOf(const CellData& cells, I word, M m) {
+    Corners corners;
+    for (int pair = 0; pair < 4; pair += 2) {
+        const IPair two = gatherPair(cells.records + pair, word, m);
+        const I words[2] = {two.first, two.second};
+        for (int k = 0; k < 2; ++k) {
+            const I both = words[k];
+            const int n = 2 * (pair + k);
+            corners.v[n] = toFloat(shiftRight<16>(shiftLeft<16>(both))) - F(cells.isovalue);
+            corners.v[n + 1] = toFloat(shiftRight<16>(both)) - F(cells.isovalue);
+        }
+    }
+    return corners;
+}
+
+// The value along start + s * way, s from 0 to 1.
+STEREONAV_INLINE Cubic cubicAlong(const Corners& c, const V3& start, const V3& way) {
+    F a[4], b[4];  // along the edges in x: a + b s
+    for (int n = 0; n < 4; ++n) {
+        const F slope = c.v[2 * n + 1] - c.v[2 * n];
+        a[n] = mulAdd(slope, start.x, c.v[2 * n]);
+        b[n] = slope * way.x;
+    }
+    F q0[2], q1[2], q2[2];
+    for (int n = 0; n < 2; ++n) {
+        const F da = a[2 * n + 1] - a[2 * n], db = b[2 * n + 1] - b[2 * n];
+        q0[n] = mulAdd(da, start.y, a[2 * n]);
+        q1[n] = mulAdd(db, start.y, mulAdd(da, way.y, b[2 * n]));
+        q2[n] = db * way.y;
+    }
+    const F d0 = q0[1] - q0[0], d1 = q1[1] - q1[0], d2 = q2[1] - q2[0];
+    return {mulAdd(d0, start.z, q0[0]), mulAdd(d1, start.z, mulAdd(d0, way.z, q1[0])),
+            mulAdd(d2, start.z, mulAdd(d1, way.z, q2[0])), d2 * way.z};
+}
+
+struct Root {
+    F s;
+    M found;
+};
+
+// The first s in [0, 1] where the cubic is >= 0. Between its local minimum and maximum a cubic rises, so one
+// bracket holds the first root, in which Newton's steps are kept by bisection.
+STEREONAV_INLINE Root firstRoot(const Cubic& f, M m) {
+    const F zero(0.0f), one(1.0f);
+    const M atOnce = m & (f.c0 >= zero);
+    const F discriminant = mulAdd(f.c2, f.c2, F(-3.0f) * f.c1 * f.c3);
+    const F root = sqrt(max(discriminant, zero));
+    const M bent = discriminant > zero;
+    const M falling = f.c2 < zero;
+    // Both extrema without cancelling: one from the sum of equal signs, the other from their product.
+    const F q = select(falling, root - f.c2, zero - f.c2 - root);
+    const F first = q / (F(3.0f) * f.c3), second = f.c1 / q;
+    const F low = select(falling, first, second), high = select(falling, second, first);
+    const M hasLow = bent & (low > zero) & (low < one);
+    const M hasHigh = bent & (high > zero) & (high < one);
+    const M tops = hasHigh & (f.at(high) >= zero);
+    F to = select(tops, high, one);
+    F from = select(hasLow & (low < to), low, zero);
+    const M found = andNot(m, atOnce) & (tops | (f.at(one) >= zero));
+    F s = zero;
+    if (any(found)) {
+        const F below = f.at(from), above = f.at(to);
+        s = mulAdd((to - from) * below, approxReciprocal(min(below - above, F(-1e-30f))), from);
+        for (int step = 0; step < 4; ++step) {
+            const F value = f.at(s);
+            const M under = value < zero;
+            from = select(under, s, from);
+            to = select(under, to, s);
+            const F next = s - value / f.slope(s);
+            const M kept = (next >= from) & (next <= to);
+            s = select(kept, next, F(0.5f) * (from + to));
+        }
+    }
+    return {select(atOnce, zero, s), atOnce | found};
+}
+
+struct Hits {
+    F t;       // view depth; infinite where nothing is hit
+    V3 local;  // in the cell, 0..1
+    I word;    // of the cell's record
+    M hit;
+};
+
+// A ray's way through its cell.
+struct Crossing {
+    F in, out;      // view depths
+    V3 start, way;  // in the cell's own coordinates
+};
+
+STEREONAV_INLINE F inCell(F eye, F t, F direction, I cell) {
+    return clamp(mulAdd(t, direction, eye) - toFloat(cell), F(0.0f), F(1.0f));
+}
+
+STEREONAV_INLINE Crossing crossingOf(const Grid& grid, const Rays& r, const Cells& at, F nearest) {
+    const V3 near = grid.nearPlanes(r, at), far = grid.farPlanes(r, at);
+    Crossing c;
+    c.in = max(max(near.x, nearest), max(near.y, near.z));
+    c.out = max(c.in, min(far.x, min(far.y, far.z)));
+    const F span = c.out - c.in;
+    c.start = {inCell(grid.eyeX, c.in, r.direction.x, at.x), inCell(grid.eyeY, c.in, r.direction.y, at.y),
+               inCell(grid.eyeZ, c.in, r.direction.z, at.z)};
+    c.way = {span * r.direction.x, span * r.direction.y, span * r.direction.z};
+    return c;
+}
+
+// Walks the active rays to the surface. Rays end without a hit where they leave the volume, or the part of it
+// that is known.
+STEREONAV_INLINE Hits castPacket(const Grid& grid, const Rays& r, Walk w, F nearest) {
+    Hits hits;
+    hits.t = F(__builtin_inff());
+    hits.local = {F(0.0f), F(0.0f), F(0.0f)};
+    hits.word = I(0);
+    hits.hit = maskFromBits(0);
+    while (any(w.active)) {
+        const Parked parked = leap(grid, r, w);
+        if (!any(parked.lanes)) break;
+        const I record = gather(grid.data.cells, parked.index, parked.lanes);
+        const M known = parked.lanes & (I(0) < record);
+        const I word = shiftLeft<4>(record - I(1));
+        const Crossing c = crossingOf(grid, r, w.at, nearest);
+        const Root root = firstRoot(cubicAlong(cornersOf(grid.data, word, known), c.start, c.way), known);
+        hits.t = select(root.found, mulAdd(root.s, c.out - c.in, c.in), hits.t);
+        hits.local = {select(root.found, mulAdd(root.s, c.way.x, c.start.x), hits.local.x),
+                      select(root.found, mulAdd(root.s, c.way.y, c.start.y), hits.local.y),
+                      select(root.found, mulAdd(root.s, c.way.z, c.start.z), hits.local.z)};
+        hits.word = select(root.found, word, hits.word);
+        hits.hit = hits.hit | root.found;
+        w.active = w.active & andNot(known, root.found);
+        stepCell(grid, r, w, w.active);
+    }
+    return hits;
+}
+
+}  // namespace stereonav::STEREONAV_ISA

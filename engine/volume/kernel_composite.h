@@ -1,0 +1,100 @@
+// Translucent volumes: samples at even distances along each ray, composited front to back. Rays leap to the
+// cells that are not transparent; samples lie at whole multiples of the step from the eye, wherever a leap
+// ended. Opacity is 1 - exp(-extinction * step): sound for any density. Included by kernels only.
+#pragma once
+
+#include "engine/volume/kernel_light.h"
+
+namespace stereonav::STEREONAV_ISA {
+
+constexpr float kEnoughLeft = 1.0f / 1024;  // of the light: less than a packed step
+
+struct Composite {
+    F red, green, blue;
+    F through;  // of what lies behind
+    F first;    // view depth of the first sample that is not transparent; infinite: none
+};
+
+STEREONAV_INLINE F valueAt(const Corners& c, const V3& p) {
+    const F near = lerp(lerp(c.v[0], c.v[1], p.x), lerp(c.v[2], c.v[3], p.x), p.y);
+    const F far = lerp(lerp(c.v[4], c.v[5], p.x), lerp(c.v[6], c.v[7], p.x), p.y);
+    return lerp(near, far, p.z);
+}
+
+STEREONAV_INLINE F channelAt(I packed, int shift) {
+    const F root = toFloat(shiftRight(packed, I(shift)) & I(1023)) * F(1.0f / 1023);
+    return root * root;
+}
+
+// One sample of the lanes m, which stand in active cells.
+STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, const Grid& grid,
+                                const Rays& r, const Walk& w, I word, M m, Composite& sum) {
+    const V3 local{inCell(grid.eyeX, w.t, r.direction.x, w.at.x),
+                   inCell(grid.eyeY, w.t, r.direction.y, w.at.y),
+                   inCell(grid.eyeZ, w.t, r.direction.z, w.at.z)};
+    const F value = valueAt(cornersOf(grid.data, word, m), local) + F(grid.data.isovalue);
+    const TransferData& transfer = data.transfer;
+    const F at =
+        clamp((value - F(transfer.first)) * F(transfer.scale), F(0.0f), F(TransferData::kEntries - 0.01f));
+    const I entry = truncateToInt(at);
+    const F rest = at - toFloat(entry);
+    const F density = lerp(gather(transfer.extinction, entry, m, F(0.0f)),
+                           gather(transfer.extinction + 1, entry, m, F(0.0f)), rest);
+    const M seen = m & (density > F(0.0f));
+    if (!any(seen)) return;
+    const I color = gather(transfer.color, entry, seen);
+    const V3 n = directionOf(mixCorners(grid.data.records + 4, word, local, seen));
+    const Lit lit = litBy(data, view, r, w.t, n);
+    const F passes = exp2(density * F(-1.44269504f * transfer.step));
+    const F share = select(seen, sum.through * (F(1.0f) - passes), F(0.0f));
+    sum.red = mulAdd(share, mulAdd(lit.diffuse, channelAt(color, 0), lit.highlight), sum.red);
+    sum.green = mulAdd(share, mulAdd(lit.diffuse, channelAt(color, 10), lit.highlight), sum.green);
+    sum.blue = mulAdd(share, mulAdd(lit.diffuse, channelAt(color, 20), lit.highlight), sum.blue);
+    sum.through = sum.through - share;
+    sum.first = select(seen, min(sum.first, w.t), sum.first);
+}
+
+// To the first sample behind t, and the cell there.
+STEREONAV_INLINE void toSample(const VolumeData& data, const Grid& grid, const Rays& r, Walk& w, F t, M m) {
+    const F apart = F(data.transfer.step) * r.perMetre;
+    const F number = toFloat(floorToInt(t / apart)) + F(1.0f);
+    w.t = select(m, number * apart, w.t);
+    const Cells c = grid.cellsAt(r.direction, w.t);
+    w.at = {select(m, c.x, w.at.x), select(m, c.y, w.at.y), select(m, c.z, w.at.z)};
+}
+
+// w stands anywhere before the first sample.
+STEREONAV_INLINE Composite compositePacket(const VolumeData& data, const VolumeView& view, const Grid& grid,
+                                           const Rays& r, Walk w) {
+    Composite sum{F(0.0f), F(0.0f), F(0.0f), F(1.0f), F(__builtin_inff())};
+    toSample(data, grid, r, w, w.t, w.active);
+    const F unit(grid.data.leapUnit);
+    while (any(w.active)) {
+        w.active = w.active & grid.inside(w.at);
+        const I index = grid.index(w.at);
+        const I code = gatherByte(grid.data.codes, index, w.active);
+        const M here = w.active & (code == I(0));
+        if (any(here)) {
+            const I record = gather(grid.data.cells, index, here);
+            const M known = here & (I(0) < record);
+            w.active = andNot(w.active, andNot(here, known));
+            addSample(data, view, grid, r, w, shiftLeft<4>(record - I(1)), known, sum);
+            w.active = w.active & (sum.through >= F(kEnoughLeft));
+        }
+        // From the middle between two samples, so that rounding can not repeat one.
+        const F half = F(0.5f * data.transfer.step) * r.perMetre;
+        const F way = grid.data.leaping ? max(toFloat(code - I(1)) * unit * r.perMetre, half) : half;
+        toSample(data, grid, r, w, w.t + way, w.active);
+    }
+    return sum;
+}
+
+STEREONAV_INLINE I compositeColor(const VolumeData& data, const Composite& sum) {
+    // What is left at the end is too little to see; the rest is what the background shows through.
+    const F through = select(sum.through < F(kEnoughLeft), F(0.0f), sum.through);
+    const Light behind = backgroundOf(data.light);
+    return packLight({mulAdd(through, behind.red, sum.red), mulAdd(through, behind.green, sum.green),
+                      mulAdd(through, behind.blue, sum.blue)});
+}
+
+}  // namespace stereonav::STEREONAV_ISA

@@ -1,0 +1,127 @@
+// Normals from the corners of cells, and Blinn-Phong under a lamp at the head. Included by kernels only.
+#pragma once
+
+#include "engine/volume/kernel_cell.h"
+
+namespace stereonav::STEREONAV_ISA {
+
+// Three channels of 10 bits, spread so that all three can be mixed in 16-bit halves, with four more bits of
+// fraction.
+struct Channels {
+    I xz, y;
+};
+STEREONAV_INLINE Channels openChannels(I packed) {
+    return {(shiftLeft<4>(packed) & I(0x3FF0)) | (packed & I(0x3FF00000)), shiftRight<6>(packed) & I(0x3FF0)};
+}
+STEREONAV_INLINE I closeChannels(Channels c) {
+    const I x = shiftRight<4>(c.xz + I(8)) & I(0x3FF);
+    const I y = shiftLeft<6>(c.y + I(8)) & I(0xFFC00);
+    return x | y | ((c.xz + I(0x80000)) & I(0x3FF00000));
+}
+STEREONAV_INLINE Channels mix(Channels a, Channels b, I t) {
+    return {lerpHalves(a.xz, b.xz, t), lerpHalves(a.y, b.y, t)};
+}
+// A weight for lerpHalves in both halves.
+STEREONAV_INLINE I weightOf(F t) {
+    const I w = truncateToInt(min(t, F(0.99996f)) * F(32768.0f));
+    return w | shiftLeft<16>(w);
+}
+
+// The eight corners' words from `first` on, mixed at a place in the cell.
+STEREONAV_INLINE Channels mixCorners(const std::uint32_t* first, I word, const V3& local, M m) {
+    const I x = weightOf(local.x), y = weightOf(local.y), z = weightOf(local.z);
+    Channels edges[4];
+    for (int n = 0; n < 4; ++n) {
+        const IPair ends = gatherPair(first + 2 * n, word, m);
+        edges[n] = mix(openChannels(ends.first), openChannels(ends.second), x);
+    }
+    return mix(mix(edges[0], edges[1], y), mix(edges[2], edges[3], y), z);
+}
+
+STEREONAV_INLINE F signedChannel(I fourteenBits) {
+    return mulAdd(toFloat(fourteenBits & I(0x3FFF)), F(1.0f / (511.5f * 16)), F(-1.0f));
+}
+STEREONAV_INLINE V3 directionOf(Channels c) {
+    return {signedChannel(c.xz), signedChannel(c.y), signedChannel(shiftRight<16>(c.xz))};
+}
+
+// 2^x for |x| < 120: the fraction by a polynomial of the fifth degree, relative error below 3e-7 and 1.
+STEREONAV_INLINE F exp2(F x) {
+    const F bounded = clamp(x, F(-120.0f), F(120.0f));
+    const I whole = floorToInt(bounded);
+    const F f = bounded - toFloat(whole);
+    F p = mulAdd(F(1.8775767e-3f), f, F(8.9893397e-3f));
+    p = mulAdd(p, f, F(5.5826318e-2f));
+    p = mulAdd(p, f, F(2.4015361e-1f));
+    p = mulAdd(p, f, F(6.9315308e-1f));
+    p = mulAdd(p, f, F(9.9999994e-1f));
+    return p * asFloat(shiftLeft<23>(whole + I(127)));
+}
+// log2 of positive normal numbers.
+STEREONAV_INLINE F log2(F x) {
+    const I bitsOfX = asInt(x);
+    const F exponent = toFloat(shiftRight<23>(bitsOfX) - I(127));
+    const F m = asFloat((bitsOfX & I(0x7FFFFF)) | I(0x3F800000));
+    // (m - 1) / (m + 1) in the series of the inverse hyperbolic tangent; m in [1, 2).
+    const F u = (m - F(1.0f)) / (m + F(1.0f)), square = u * u;
+    F p = mulAdd(square, F(2.0f / 9), F(2.0f / 7));
+    p = mulAdd(p, square, F(2.0f / 5));
+    p = mulAdd(p, square, F(2.0f / 3));
+    p = mulAdd(p, square, F(2.0f));
+    return mulAdd(u * p, F(1.44269504f), exponent);
+}
+
+struct Light {
+    F red, green, blue;
+};
+
+// The lamp's share that reaches a point and what the surface sends to the eye: factor * (albedo * diffuse
+// part + highlight). t: view depth; normals of any length but 0.
+struct Lit {
+    F diffuse, highlight;
+};
+STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const Rays& r, F t, V3 n) {
+    const auto world = [&](int k) {
+        return mulAdd(r.windowX, F(view.right[k]), mulAdd(r.windowY, F(view.up[k]), F(view.forward[k])));
+    };
+    const V3 way{world(0), world(1), world(2)};
+    const V3 lamp{F(view.head[0]) - t * way.x, F(view.head[1]) - t * way.y, F(view.head[2]) - t * way.z};
+    const F square = max(dot(lamp, lamp), F(1e-20f));
+    const F inverse = approxRsqrt(square);
+    const F length = approxRsqrt(max(dot(n, n), F(1e-12f)));
+    const F cosine = dot(n, lamp) * inverse * length;
+    const LightData& light = data.light;
+    const F reaches = approxReciprocal(mulAdd(square, F(light.inverseFalloffSquared), F(1.0f)));
+    const F diffuse = mulAdd(F(light.diffuse), max(cosine, F(0.0f)), F(light.ambient)) * reaches;
+    if (!(light.specular > 0)) return {diffuse, F(0.0f)};
+    const F toEye = F(0.0f) - r.perMetre;
+    const V3 half{mulAdd(lamp.x, inverse, way.x * toEye), mulAdd(lamp.y, inverse, way.y * toEye),
+                  mulAdd(lamp.z, inverse, way.z * toEye)};
+    const F aligned = dot(n, half) * length * approxRsqrt(max(dot(half, half), F(1e-12f)));
+    const F power = exp2(log2(clamp(aligned, F(1e-18f), F(1.0f))) * F(light.shininess));
+    return {diffuse, select(cosine > F(0.0f), power * F(light.specular) * reaches, F(0.0f))};
+}
+
+// Linear light in one channel to a packed channel.
+STEREONAV_INLINE I closeLinear(F v) {
+    return truncateToInt(mulAdd(sqrt(clamp(v, F(0.0f), F(1.0f))), F(1023.0f), F(0.5f)));
+}
+STEREONAV_INLINE I packLight(const Light& c) {
+    return closeLinear(c.red) | shiftLeft<10>(closeLinear(c.green)) | shiftLeft<20>(closeLinear(c.blue));
+}
+
+STEREONAV_INLINE Light backgroundOf(const LightData& light) {
+    return {F(light.background[0]), F(light.background[1]), F(light.background[2])};
+}
+
+STEREONAV_INLINE I surfaceColor(const VolumeData& data, const VolumeView& view, const Rays& r, F t,
+                                const V3& n, M hit) {
+    const LightData& light = data.light;
+    const Lit lit = litBy(data, view, r, select(hit, t, F(1.0f)), n);
+    const I color = packLight({mulAdd(lit.diffuse, F(light.albedo[0]), lit.highlight),
+                               mulAdd(lit.diffuse, F(light.albedo[1]), lit.highlight),
+                               mulAdd(lit.diffuse, F(light.albedo[2]), lit.highlight)});
+    return select(hit, color, packLight(backgroundOf(light)));
+}
+
+}  // namespace stereonav::STEREONAV_ISA

@@ -1,0 +1,159 @@
+// Packets of rays in a volume's voxel space: where they are, how far they may leap, which cell comes next.
+// Included by kernels only.
+#pragma once
+
+#include "engine/math/simd.h"
+#include "engine/volume/volume_kernel_types.h"
+
+namespace stereonav::STEREONAV_ISA {
+
+struct V3 {
+    F x, y, z;
+};
+STEREONAV_INLINE F dot(const V3& a, const V3& b) {
+    return mulAdd(a.x, b.x, mulAdd(a.y, b.y, a.z * b.z));
+}
+
+struct Cells {
+    I x, y, z;  // from the eye's cell
+};
+
+// One ray a lane. Directions that are almost parallel to a plane of the grid are kept off it, so that their
+// inverses are finite; what a ray misses by that is far below a voxel.
+struct Rays {
+    V3 direction, inverse;     // voxels a metre of view depth, and its inverse
+    I stepX, stepY, stepZ;     // 1 or -1: to the next cell
+    F planeX, planeY, planeZ;  // 1 or 0: the far plane of a cell
+    F perMetre;                // view depth a metre of way
+    F windowX, windowY;        // at unit view depth
+};
+
+STEREONAV_INLINE F awayFromZero(F d) {
+    const F tiny(1e-12f);
+    return select(abs(d) < tiny, select(d < F(0.0f), F(-1e-12f), tiny), d);
+}
+
+// x, y: pixels, whose centres the rays go through.
+STEREONAV_INLINE Rays makeRays(const VolumeView& view, F x, F y) {
+    Rays r;
+    const auto along = [&](int k) {
+        return awayFromZero(
+            mulAdd(x, F(static_cast<float>(view.perX[k])),
+                   mulAdd(y, F(static_cast<float>(view.perY[k])), F(static_cast<float>(view.direction[k])))));
+    };
+    r.direction = {along(0), along(1), along(2)};
+    r.inverse = {F(1.0f) / r.direction.x, F(1.0f) / r.direction.y, F(1.0f) / r.direction.z};
+    const auto forward = [](F d) { return d > F(0.0f); };
+    r.stepX = select(forward(r.direction.x), I(1), I(-1));
+    r.stepY = select(forward(r.direction.y), I(1), I(-1));
+    r.stepZ = select(forward(r.direction.z), I(1), I(-1));
+    r.planeX = select(forward(r.direction.x), F(1.0f), F(0.0f));
+    r.planeY = select(forward(r.direction.y), F(1.0f), F(0.0f));
+    r.planeZ = select(forward(r.direction.z), F(1.0f), F(0.0f));
+    r.windowX = mulAdd(x + F(0.5f), F(view.pixelWidth), F(view.xMin));
+    r.windowY = mulAdd(y + F(0.5f), F(-view.pixelHeight), F(view.yMax));
+    r.perMetre = approxRsqrt(mulAdd(r.windowX, r.windowX, mulAdd(r.windowY, r.windowY, F(1.0f))));
+    return r;
+}
+
+struct Grid {
+    const CellData& data;
+    F eyeX, eyeY, eyeZ;
+    I baseX, baseY, baseZ, lastX, lastY, lastZ;
+    STEREONAV_INLINE Grid(const CellData& cells, const VolumeView& view)
+        : data(cells),
+          eyeX(view.eye[0]),
+          eyeY(view.eye[1]),
+          eyeZ(view.eye[2]),
+          baseX(view.base[0]),
+          baseY(view.base[1]),
+          baseZ(view.base[2]),
+          lastX(cells.last[0]),
+          lastY(cells.last[1]),
+          lastZ(cells.last[2]) {}
+
+    STEREONAV_INLINE Cells cellsAt(const V3& direction, F t) const {
+        return {floorToInt(mulAdd(t, direction.x, eyeX)), floorToInt(mulAdd(t, direction.y, eyeY)),
+                floorToInt(mulAdd(t, direction.z, eyeZ))};
+    }
+    STEREONAV_INLINE M inside(const Cells& c) const {
+        const I x = c.x + baseX, y = c.y + baseY, z = c.z + baseZ;
+        const M low = (x < I(0)) | (y < I(0)) | (z < I(0));
+        return ~(low | (lastX < x) | (lastY < y) | (lastZ < z));
+    }
+    // Index of cells, moved into the volume where they are outside.
+    STEREONAV_INLINE I index(const Cells& c) const {
+        const I x = clamp(c.x + baseX, I(0), lastX), y = clamp(c.y + baseY, I(0), lastY),
+                z = clamp(c.z + baseZ, I(0), lastZ);
+        const I brick =
+            (shiftRight<4>(z) * I(data.bricks[1]) + shiftRight<4>(y)) * I(data.bricks[0]) + shiftRight<4>(x);
+        const I low(15);
+        return shiftLeft<12>(brick) | shiftLeft<8>(z & low) | shiftLeft<4>(y & low) | (x & low);
+    }
+    // View depths at which rays pass the far and the near planes of their cells.
+    STEREONAV_INLINE V3 farPlanes(const Rays& r, const Cells& c) const {
+        return {(toFloat(c.x) + r.planeX - eyeX) * r.inverse.x,
+                (toFloat(c.y) + r.planeY - eyeY) * r.inverse.y,
+                (toFloat(c.z) + r.planeZ - eyeZ) * r.inverse.z};
+    }
+    STEREONAV_INLINE V3 nearPlanes(const Rays& r, const Cells& c) const {
+        const F one(1.0f);
+        return {(toFloat(c.x) + (one - r.planeX) - eyeX) * r.inverse.x,
+                (toFloat(c.y) + (one - r.planeY) - eyeY) * r.inverse.y,
+                (toFloat(c.z) + (one - r.planeZ) - eyeZ) * r.inverse.z};
+    }
+};
+
+// Where rays are: all that a walk changes.
+struct Walk {
+    F t;  // view depth, free of surface up to here
+    Cells at;
+    M active;  // still on its way
+};
+
+// To the next cell: cells are counted, not found again from a rounded position, so that a ray's cells do not
+// depend on how it came there.
+STEREONAV_INLINE void stepCell(const Grid& grid, const Rays& r, Walk& w, M m) {
+    const V3 far = grid.farPlanes(r, w.at);
+    const F next = min(far.x, min(far.y, far.z));
+    w.t = select(m, max(w.t, next), w.t);
+    w.at.x = w.at.x + select(m & (far.x <= next), r.stepX, I(0));
+    w.at.y = w.at.y + select(m & (far.y <= next), r.stepY, I(0));
+    w.at.z = w.at.z + select(m & (far.z <= next), r.stepZ, I(0));
+}
+
+// Leaps and steps until every active ray stands in an active cell, or has left. Gives the lanes that stand in
+// one and the cells' indices.
+struct Parked {
+    M lanes;
+    I index;
+};
+STEREONAV_INLINE Parked leap(const Grid& grid, const Rays& r, Walk& w) {
+    const I none(0), nearby(1);
+    M moving = w.active;
+    Parked parked{maskFromBits(0), I(0)};
+    const F unit(grid.data.leapUnit);
+    while (any(moving)) {
+        const M in = grid.inside(w.at);
+        w.active = andNot(w.active, andNot(moving, in));
+        moving = moving & in;
+        const I index = grid.index(w.at);
+        const I code = gatherByte(grid.data.codes, index, moving);
+        const M here = moving & (code == none);
+        parked.index = select(here, index, parked.index);
+        parked.lanes = parked.lanes | here;
+        moving = andNot(moving, here);
+        const M wide = grid.data.leaping ? moving & (nearby < code) : maskFromBits(0);
+        const M walk = andNot(moving, wide);
+        if (any(wide)) {
+            const F ahead = mulAdd(toFloat(code - nearby) * unit, r.perMetre, w.t);
+            w.t = select(wide, ahead, w.t);
+            const Cells c = grid.cellsAt(r.direction, w.t);
+            w.at = {select(wide, c.x, w.at.x), select(wide, c.y, w.at.y), select(wide, c.z, w.at.z)};
+        }
+        if (any(walk)) stepCell(grid, r, w, walk);
+    }
+    return parked;
+}
+
+}  // namespace stereonav::STEREONAV_ISA

@@ -1,0 +1,282 @@
+// Casts rectangles and scattered pixels of a volume, a packet of 4 by kLanes / 4 pixels at a time. A beam
+// around a block of pixels goes first: as long as the free sphere around its axis is wider than the beam, no
+// ray of the block meets anything, so all of them start where the beam ended. Compiled once for each
+// instruction set.
+#include "engine/volume/kernel_composite.h"
+
+namespace stereonav::STEREONAV_ISA {
+namespace {
+
+constexpr int kBlock = 8;  // pixels a side of a beam
+constexpr int kPacketX = 4, kPacketY = kLanes / 4;
+constexpr int kLargestSide = 64;          // of a rectangle that is cast at once
+constexpr float kInFront = 1.0f - 4e-6f;  // for the rounding of a beam's end
+
+STEREONAV_INLINE Walk startAt(const Grid& grid, const Rays& r, F t, M lanes) {
+    return {t, grid.cellsAt(r.direction, t), lanes};
+}
+
+// Where the volume begins, for rays from outside; infinite where they miss it.
+STEREONAV_INLINE F entryOf(const Grid& grid, const Rays& r) {
+    const auto slab = [](F eye, I base, I last, F inverse, F& in, F& out) {
+        const F a = (toFloat(I(0) - base) - eye) * inverse, b = (toFloat(last + I(1) - base) - eye) * inverse;
+        in = max(in, min(a, b));
+        out = min(out, max(a, b));
+    };
+    F in(0.0f), out(__builtin_inff());
+    slab(grid.eyeX, grid.baseX, grid.lastX, r.inverse.x, in, out);
+    slab(grid.eyeY, grid.baseY, grid.lastY, r.inverse.y, in, out);
+    slab(grid.eyeZ, grid.baseZ, grid.lastZ, r.inverse.z, in, out);
+    return select(in < out, in, F(__builtin_inff()));
+}
+
+STEREONAV_INLINE Walk startOutside(const Grid& grid, const Rays& r, F nearest, M lanes) {
+    const F entry = max(entryOf(grid, r), nearest);
+    const M meets = lanes & (entry < F(__builtin_inff()));
+    Walk w = startAt(grid, r, select(meets, entry, nearest), meets);
+    // Rounding may leave the entry just outside.
+    w.at = {clamp(w.at.x + grid.baseX, I(0), grid.lastX) - grid.baseX,
+            clamp(w.at.y + grid.baseY, I(0), grid.lastY) - grid.baseY,
+            clamp(w.at.z + grid.baseZ, I(0), grid.lastZ) - grid.baseZ};
+    return w;
+}
+
+// Beams around the axes through pixels (x, y) that hold all rays within `radius` (at unit view depth,
+// metres). Gives the view depth up to which they are free.
+STEREONAV_INLINE F castBeams(const Grid& grid, const VolumeView& view, F x, F y, F radius, M lanes) {
+    const Rays r = makeRays(view, x, y);
+    const F length = approxReciprocal(r.perMetre);
+    const F slower = approxReciprocal(length + radius) * F(1.0f - 1e-5f);
+    const F unit(grid.data.leapUnit);
+    F t(view.nearDepth);
+    M moving = lanes;
+    while (any(moving)) {
+        const Cells at = grid.cellsAt(r.direction, t);
+        const M in = moving & grid.inside(at);
+        const I code = gatherByte(grid.data.codes, grid.index(at), in);
+        const F free = toFloat(code - I(1)) * unit;
+        const F ahead = (free - radius * t) * slower;
+        // Less than the smallest leap is not worth a look.
+        moving = in & (ahead * length > unit);
+        t = select(moving, t + ahead, t);
+    }
+    return t * F(kInFront);
+}
+
+struct Packet {
+    const VolumeData& data;
+    const VolumeView& view;
+    Grid grid;
+
+    STEREONAV_INLINE Packet(const VolumeData& d, const VolumeView& v) : data(d), view(v), grid(d.cells, v) {}
+
+    // Depths, colours and, where wanted, packed normals of one packet of rays.
+    struct Result {
+        F depth;
+        I color, normal;
+    };
+    STEREONAV_INLINE Result cast(F x, F y, F start, M lanes, bool wantNormal) const {
+        const Rays r = makeRays(view, x, y);
+        const F nearest(view.nearDepth);
+        const Walk w = view.inside ? startAt(grid, r, max(start, nearest), lanes)
+                                   : startOutside(grid, r, max(start, nearest), lanes);
+        if (data.transfer.extinction) {
+            const Composite sum = compositePacket(data, view, grid, r, w);
+            return {sum.first, compositeColor(data, sum), I(0)};
+        }
+        const Hits hits = castPacket(grid, r, w, nearest);
+        const Channels n = mixCorners(grid.data.records + 4, hits.word, hits.local, hits.hit);
+        Result result{hits.t, surfaceColor(data, view, r, hits.t, directionOf(n), hits.hit), I(0)};
+        if (wantNormal) result.normal = closeChannels(n);
+        return result;
+    }
+};
+
+// Rectangles: packets in blocks, blocks in pieces of at most kLargestSide.
+class RectCaster {
+public:
+    STEREONAV_INLINE RectCaster(const VolumeData& data, const VolumeView& view, const VolumeTarget& target,
+                                bool fromDepth)
+        : mPacket(data, view), mTarget(target), mFromDepth(fromDepth) {}
+
+    void cast(const VolumeRect& rect) {
+        const bool beams = mPacket.view.inside && mPacket.data.cells.leaping && !mFromDepth;
+        if (beams) castBlockBeams(rect);
+        for (int y = rect.y0; y < rect.y1; y += kPacketY)
+            for (int x = rect.x0; x < rect.x1; x += kPacketX) {
+                const int block = (y - rect.y0) / kBlock * kBlocks + (x - rect.x0) / kBlock;
+                castAt(x, y, rect, beams ? mStart[block] : 0.0f);
+            }
+    }
+
+private:
+    static constexpr int kBlocks = kLargestSide / kBlock;
+
+    void castBlockBeams(const VolumeRect& rect) {
+        const int rows = (rect.y1 - rect.y0 + kBlock - 1) / kBlock;
+        constexpr int kAll = kBlocks * kBlocks;
+        const float side = 0.5f * (kBlock - 1) + 0.01f;
+        const float dx = side * mPacket.view.pixelWidth, dy = side * mPacket.view.pixelHeight;
+        const F radius = sqrt(F(dx * dx + dy * dy));
+        for (int n = 0; n < rows * kBlocks && n < kAll; n += kLanes) {
+            const I number = laneIndex() + I(n);
+            const I row = shiftRight<3>(number), column = number & I(kBlocks - 1);
+            const F x = toFloat(column * I(kBlock) + I(rect.x0)) + F(0.5f * (kBlock - 1));
+            const F y = toFloat(row * I(kBlock) + I(rect.y0)) + F(0.5f * (kBlock - 1));
+            const M lanes = (column * I(kBlock) < I(rect.x1 - rect.x0)) & (row < I(rows));
+            store(mStart + n, castBeams(mPacket.grid, mPacket.view, x, y, radius, lanes));
+        }
+    }
+
+    STEREONAV_INLINE void castAt(int x, int y, const VolumeRect& rect, float start) {
+        const I lane = laneIndex();
+        const I across = lane & I(3), down = shiftRight<2>(lane);
+        const M lanes = (across < I(rect.x1 - x)) & (down < I(rect.y1 - y));
+        const F px = toFloat(across + I(x)), py = toFloat(down + I(y));
+        F from(start);
+        M cast = lanes;
+        if (mFromDepth) {
+            from = depthsAt(x, y, rect);
+            cast = lanes & (from < F(__builtin_inff()));
+            from = select(cast, from, F(0.0f));
+        }
+        put(x, y, rect, mPacket.cast(px, py, from, cast, mTarget.normal != nullptr));
+    }
+
+    F depthsAt(int x, int y, const VolumeRect& rect) const {
+        alignas(64) float depth[kLanes] = {};
+        for (int k = 0; k < kLanes; ++k)
+            if (x + (k & 3) < rect.x1 && y + (k >> 2) < rect.y1)
+                depth[k] = mTarget.depth[(y + (k >> 2)) * mTarget.depthStride + x + (k & 3)];
+        return loadF(depth);
+    }
+
+    STEREONAV_INLINE void put(int x, int y, const VolumeRect& rect, const Packet::Result& result) {
+        alignas(64) float depth[kLanes];
+        alignas(64) std::uint32_t color[kLanes], normal[kLanes];
+        store(depth, result.depth);
+        store(color, result.color);
+        store(normal, result.normal);
+        const int columns = rect.x1 - x < kPacketX ? rect.x1 - x : kPacketX;
+        const int rows = rect.y1 - y < kPacketY ? rect.y1 - y : kPacketY;
+        for (int j = 0; j < rows; ++j) {
+            copyRow(mTarget.depth + (y + j) * mTarget.depthStride + x, depth + j * kPacketX, columns);
+            copyRow(mTarget.color + (y + j) * mTarget.colorStride + x, color + j * kPacketX, columns);
+            if (mTarget.normal)
+                copyRow(mTarget.normal + (y + j) * mTarget.normalStride + x, normal + j * kPacketX, columns);
+        }
+    }
+
+    template <typename T>
+    STEREONAV_INLINE static void copyRow(T* to, const T* from, int columns) {
+        if (columns == kPacketX) {
+            __builtin_memcpy(to, from, sizeof(T) * kPacketX);
+            return;
+        }
+        for (int i = 0; i < columns; ++i) to[i] = from[i];
+    }
+
+    const Packet mPacket;
+    const VolumeTarget& mTarget;
+    const bool mFromDepth;
+    alignas(64) float mStart[kBlocks * kBlocks];
+};
+
+void castRect(const VolumeData& data, const VolumeView& view, const VolumeRect& rect,
+              const VolumeTarget& target, bool fromDepth) {
+    RectCaster caster(data, view, target, fromDepth);
+    for (int y = rect.y0; y < rect.y1; y += kLargestSide)
+        for (int x = rect.x0; x < rect.x1; x += kLargestSide)
+            caster.cast({x, y, x + kLargestSide < rect.x1 ? x + kLargestSide : rect.x1,
+                         y + kLargestSide < rect.y1 ? y + kLargestSide : rect.y1});
+}
+
+// Scattered pixels, a packet of neighbours in the list at a time; one beam around each packet, as many beams
+// side by side as there are lanes.
+class PixelCaster {
+public:
+    STEREONAV_INLINE PixelCaster(const VolumeData& data, const VolumeView& view, const VolumeTarget& target)
+        : mPacket(data, view), mTarget(target) {}
+
+    void cast(const VolumePixel* pixels, int count) {
+        const bool beams = mPacket.view.inside && mPacket.data.cells.leaping;
+        for (int first = 0; first < count; first += kLanes * kLanes) {
+            const int some = count - first < kLanes * kLanes ? count - first : kLanes * kLanes;
+            if (beams) castPacketBeams(pixels + first, some);
+            for (int n = 0; n < some; n += kLanes)
+                castSome(pixels + first + n, some - n < kLanes ? some - n : kLanes,
+                         beams ? mStart[n / kLanes] : 0.0f);
+        }
+    }
+
+private:
+    void castPacketBeams(const VolumePixel* pixels, int count) {
+        alignas(64) float x[kLanes] = {}, y[kLanes] = {}, radius[kLanes] = {};
+        const int packets = (count + kLanes - 1) / kLanes;
+        for (int n = 0; n < packets; ++n) {
+            const int end = (n + 1) * kLanes < count ? (n + 1) * kLanes : count;
+            int low[2] = {65536, 65536}, high[2] = {0, 0};
+            for (int k = n * kLanes; k < end; ++k) {
+                const int at[2] = {pixels[k].x, pixels[k].y};
+                for (int axis = 0; axis < 2; ++axis) {
+                    low[axis] = at[axis] < low[axis] ? at[axis] : low[axis];
+                    high[axis] = at[axis] > high[axis] ? at[axis] : high[axis];
+                }
+            }
+            x[n] = 0.5f * static_cast<float>(low[0] + high[0]);
+            y[n] = 0.5f * static_cast<float>(low[1] + high[1]);
+            const float dx = (0.5f * static_cast<float>(high[0] - low[0]) + 0.01f) * mPacket.view.pixelWidth;
+            const float dy = (0.5f * static_cast<float>(high[1] - low[1]) + 0.01f) * mPacket.view.pixelHeight;
+            radius[n] = __builtin_sqrtf(dx * dx + dy * dy);
+        }
+        store(mStart,
+              castBeams(mPacket.grid, mPacket.view, loadF(x), loadF(y), loadF(radius), firstLanes(packets)));
+    }
+
+    STEREONAV_INLINE void castSome(const VolumePixel* pixels, int count, float start) {
+        alignas(64) float x[kLanes] = {}, y[kLanes] = {};
+        for (int k = 0; k < count; ++k) x[k] = pixels[k].x, y[k] = pixels[k].y;
+        const Packet::Result result =
+            mPacket.cast(loadF(x), loadF(y), F(start), firstLanes(count), mTarget.normal != nullptr);
+        alignas(64) float depth[kLanes];
+        alignas(64) std::uint32_t color[kLanes], normal[kLanes];
+        store(depth, result.depth);
+        store(color, result.color);
+        store(normal, result.normal);
+        for (int k = 0; k < count; ++k) {
+            mTarget.depth[pixels[k].y * mTarget.depthStride + pixels[k].x] = depth[k];
+            mTarget.color[pixels[k].y * mTarget.colorStride + pixels[k].x] = color[k];
+            if (mTarget.normal) mTarget.normal[pixels[k].y * mTarget.normalStride + pixels[k].x] = normal[k];
+        }
+    }
+
+    const Packet mPacket;
+    const VolumeTarget& mTarget;
+    alignas(64) float mStart[kLanes] = {};
+};
+
+void castPixels(const VolumeData& data, const VolumeView& view, const VolumePixel* pixels, int count,
+                const VolumeTarget& target) {
+    PixelCaster(data, view, target).cast(pixels, count);
+}
+
+void shadeRow(const VolumeData& data, const VolumeView& view, int y, int x0, int x1,
+              const VolumeTarget& target) {
+    const float* depth = target.depth + y * target.depthStride;
+    std::uint32_t* color = target.color + y * target.colorStride;
+    const std::uint32_t* normal = target.normal + y * target.normalStride;
+    for (int x = x0; x < x1; x += kLanes) {
+        const Rays r = makeRays(view, laneIndexF() + F(static_cast<float>(x)), F(static_cast<float>(y)));
+        const F t = loadF(depth + x);
+        const M lanes = firstLanes(x1 - x) & (t > F(0.0f));
+        const V3 n = directionOf(openChannels(loadI(normal + x)));
+        const M hit = lanes & (t < F(__builtin_inff()));
+        store(color + x, surfaceColor(data, view, r, t, n, hit), lanes);
+    }
+}
+
+}  // namespace
+
+constinit const VolumeKernels kVolumeKernels = {kName, kLanes, castRect, castPixels, shadeRow};
+
+}  // namespace stereonav::STEREONAV_ISA

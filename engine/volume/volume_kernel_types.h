@@ -1,0 +1,93 @@
+// What the volume's casting kernels read: plain structs and pointers only, since kernels are compiled for
+// wider instruction sets and must not share inline code with the rest (see cmake/rooms.cmake).
+#pragma once
+
+#include <cstdint>
+
+namespace stereonav {
+
+// Layout as in surface_cells.h: bricks of 16^3 cells; records of 64 bytes, 16 words: 4 of values, 8 normals.
+struct CellData {
+    const std::uint8_t* codes = nullptr;
+    const std::uint32_t* cells = nullptr;
+    const std::uint32_t* records = nullptr;
+    std::int32_t bricks[2] = {};  // along x and y
+    std::int32_t last[3] = {};    // the last cell along each axis
+    float leapUnit = 0;           // metres
+    float isovalue = 0;
+    bool leaping = true;
+};
+
+// Linear RGB; see volume_look.h.
+struct LightData {
+    float albedo[3] = {}, background[3] = {};
+    float ambient = 0, diffuse = 0, specular = 0, shininess = 1;
+    float inverseFalloffSquared = 0;  // 1 / metres^2
+};
+
+// Colour and density by value: entry (value - first) * scale, linear between entries.
+struct TransferData {
+    static constexpr int kEntries = 1024;
+    const float* extinction = nullptr;     // a metre; kEntries + 1 of them
+    const std::uint32_t* color = nullptr;  // packed (10-bit square roots)
+    float first = 0, scale = 0;
+    float step = 0;  // metres of way between samples
+};
+
+struct VolumeData {
+    CellData cells;
+    LightData light;
+    TransferData transfer;  // extinction null: the surface alone
+};
+
+// Voxel space has its origin at the cell of the eye: positions stay small and exact near it. Directions have
+// unit view depth: position = eye + t * direction, t the view depth in metres.
+struct VolumeView {
+    std::int32_t base[3] = {};  // the eye's cell
+    float eye[3] = {};          // in it, 0..1
+    double direction[3] = {}, perX[3] = {},
+           perY[3] = {};                               // voxels a metre: pixel (0, 0)'s centre, a pixel on
+    float forward[3] = {}, right[3] = {}, up[3] = {};  // world
+    float xMin = 0, yMax = 0, pixelWidth = 0, pixelHeight = 0;  // window at unit depth
+    float head[3] = {};                                         // world, from the eye: where the lamp is
+    float nearDepth = 0;
+    bool inside = false;  // the eye lies in the volume
+};
+
+struct VolumeTarget {
+    std::uint32_t* color = nullptr;
+    float* depth = nullptr;
+    std::uint32_t* normal = nullptr;  // null: not wanted
+    std::int64_t colorStride = 0, depthStride = 0, normalStride = 0;
+};
+
+struct VolumeRect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+struct VolumePixel {
+    std::uint16_t x, y;
+};
+
+struct VolumeKernels {
+    const char* name;
+    int lanes;
+    // fromDepth: target.depth holds where each ray may start (0: unknown; infinite: hits nothing).
+    void (*castRect)(const VolumeData&, const VolumeView&, const VolumeRect&, const VolumeTarget&,
+                     bool fromDepth);
+    void (*castPixels)(const VolumeData&, const VolumeView&, const VolumePixel*, int count,
+                       const VolumeTarget&);
+    // Colours pixels x0 .. x1 - 1 of row y from their normals and depths; depth 0 is left alone.
+    void (*shadeRow)(const VolumeData&, const VolumeView&, int y, int x0, int x1, const VolumeTarget&);
+};
+
+namespace plain {
+extern const VolumeKernels kVolumeKernels;
+}
+namespace avx2 {
+extern const VolumeKernels kVolumeKernels;
+}
+namespace avx512 {
+extern const VolumeKernels kVolumeKernels;
+}
+
+}  // namespace stereonav

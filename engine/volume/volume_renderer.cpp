@@ -1,0 +1,216 @@
+// Chooses the kernels and hands them rectangles and pixels.
+#include "engine/volume/volume_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "engine/volume/volume_kernel_types.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kTileWidth = 64, kTileHeight = 32;
+
+const VolumeKernels& kernelsFor(SimdTarget target) {
+    if (target == SimdTarget::Avx512) return avx512::kVolumeKernels;
+    return target == SimdTarget::Avx2 ? avx2::kVolumeKernels : plain::kVolumeKernels;
+}
+
+CellData cellDataOf(const SurfaceCells& cells, bool leaping) {
+    CellData d;
+    d.codes = cells.codes.data();
+    d.cells = cells.cells.data();
+    d.records = reinterpret_cast<const std::uint32_t*>(cells.records.data());
+    d.bricks[0] = cells.layout.bricks.x;
+    d.bricks[1] = cells.layout.bricks.y;
+    for (int k = 0; k < 3; ++k) d.last[k] = cells.frame.size[k] - 2;
+    // Rounded down a little: leaps are measured in float.
+    d.leapUnit = static_cast<float>(cells.leapUnit * (1 - 1e-5));
+    d.isovalue = cells.isovalue;
+    d.leaping = leaping;
+    return d;
+}
+
+LightData lightDataOf(const VolumeLook& look) {
+    LightData d;
+    for (int k = 0; k < 3; ++k) {
+        d.albedo[k] = look.surface[k];
+        d.background[k] = look.background[k];
+    }
+    d.ambient = look.ambient;
+    d.diffuse = look.diffuse;
+    d.specular = look.specular;
+    d.shininess = look.shininess;
+    d.inverseFalloffSquared = look.falloff > 0 ? 1 / (look.falloff * look.falloff) : 0.0f;
+    return d;
+}
+
+int tilesAcross(const EyeView& view) {
+    return (view.width + kTileWidth - 1) / kTileWidth;
+}
+
+VolumeRect tileRect(const EyeView& view, int tile) {
+    const int x0 = tile % tilesAcross(view) * kTileWidth, y0 = tile / tilesAcross(view) * kTileHeight;
+    return {x0, y0, std::min(x0 + kTileWidth, view.width), std::min(y0 + kTileHeight, view.height)};
+}
+
+VolumeTarget targetOf(EyeImage& image) {
+    return {
+        image.color.row(0),   image.viewDepth.row(0),   image.normal.empty() ? nullptr : image.normal.row(0),
+        image.color.stride(), image.viewDepth.stride(), image.normal.stride()};
+}
+
+VolumeView makeVolumeView(const EyeView& view, const VolumeFrame& frame) {
+    VolumeView v;
+    const glm::dvec3 eye = frame.voxelFromWorld(view.eye);
+    const glm::dvec3 cell = glm::clamp(glm::floor(eye), glm::dvec3(-1e6), glm::dvec3(1e6));
+    const glm::dvec3 corner = frame.voxelDirection(view.rayDirection(0.5, 0.5));
+    const glm::dvec3 across = frame.voxelDirection(view.right * view.pixelWidth());
+    const glm::dvec3 down = frame.voxelDirection(-view.up * view.pixelHeight());
+    const glm::dvec3 head = view.head - view.eye;
+    v.inside = true;
+    for (int k = 0; k < 3; ++k) {
+        v.base[k] = static_cast<std::int32_t>(cell[k]);
+        v.eye[k] = static_cast<float>(eye[k] - cell[k]);
+        v.direction[k] = corner[k];
+        v.perX[k] = across[k];
+        v.perY[k] = down[k];
+        v.forward[k] = static_cast<float>(view.forward[k]);
+        v.right[k] = static_cast<float>(view.right[k]);
+        v.up[k] = static_cast<float>(view.up[k]);
+        v.head[k] = static_cast<float>(head[k]);
+        v.inside = v.inside && eye[k] >= 0 && eye[k] <= frame.size[k] - 1;
+    }
+    v.xMin = static_cast<float>(view.xMin);
+    v.yMax = static_cast<float>(view.yMax);
+    v.pixelWidth = static_cast<float>(view.pixelWidth());
+    v.pixelHeight = static_cast<float>(view.pixelHeight());
+    v.nearDepth = static_cast<float>(view.nearDepth);
+    return v;
+}
+
+// The function sampled for the kernels.
+struct TransferTable {
+    std::vector<float> extinction;
+    std::vector<std::uint32_t> color;
+    TransferData data;
+
+    TransferTable(const TransferFunction& function, const GreyVolume& field, double step) {
+        if (function.empty()) return;
+        const auto& points = function.points();
+        // Beyond its ends the function is constant.
+        const double first = points.front().value, last = std::max(points.back().value, first + 1e-3);
+        const double scale = TransferData::kEntries / (last - first);
+        for (int k = 0; k <= TransferData::kEntries + 1; ++k) {
+            const double value = first + k / scale;
+            extinction.push_back(static_cast<float>(function.extinction(value)));
+            color.push_back(packColor(function.at(value + 0.5 / scale).color));
+        }
+        // The kernels meet stored numbers.
+        data.first = static_cast<float>((first - field.offset) / field.scale);
+        data.scale = static_cast<float>(scale * field.scale);
+        data.step = static_cast<float>(step);
+        data.extinction = extinction.data();
+        data.color = color.data();
+    }
+};
+
+double smallestSpacing(const VolumeFrame& frame) {
+    return std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z});
+}
+
+}  // namespace
+
+struct VolumeRenderer::State {
+    SimdTarget target;
+    const VolumeKernels* kernels;
+    bool shadeAgain;
+    TransferTable transfer;
+    VolumeData data;
+
+    State(const VolumeScene& scene, const VolumeCasting& casting)
+        : target(availableTarget(casting.target)),
+          kernels(&kernelsFor(target)),
+          shadeAgain(casting.shadeAgain),
+          transfer(scene.look.transfer, scene.field, casting.stepVoxels * smallestSpacing(scene.cells.frame)),
+          data{cellDataOf(scene.cells, casting.leaping), lightDataOf(scene.look), transfer.data} {}
+
+    // Leap code of the cell around a world point, in metres; negative outside the volume.
+    static double freeAt(const SurfaceCells& cells, const glm::dvec3& world) {
+        const glm::ivec3 cell(glm::floor(cells.frame.voxelFromWorld(world)));
+        for (int k = 0; k < 3; ++k)
+            if (cell[k] < 0 || cell[k] > cells.frame.size[k] - 2) return -1;
+        return (cells.codes[cells.layout.index(cell.x, cell.y, cell.z)] - 1) * cells.leapUnit;
+    }
+};
+
+VolumeRenderer::VolumeRenderer(const VolumeScene& scene, const VolumeCasting& casting)
+    : mScene(scene), mState(std::make_unique<State>(scene, casting)) {}
+VolumeRenderer::~VolumeRenderer() = default;
+
+int VolumeRenderer::tileCount(const EyeView& view) const {
+    return tilesAcross(view) * ((view.height + kTileHeight - 1) / kTileHeight);
+}
+
+void VolumeRenderer::renderTile(const EyeView& view, int tile, EyeImage& image) const {
+    mState->kernels->castRect(mState->data, makeVolumeView(view, mScene.cells.frame), tileRect(view, tile),
+                              targetOf(image), false);
+}
+
+void VolumeRenderer::renderTileFromDepth(const EyeView& view, int tile, EyeImage& image) const {
+    mState->kernels->castRect(mState->data, makeVolumeView(view, mScene.cells.frame), tileRect(view, tile),
+                              targetOf(image), true);
+}
+
+void VolumeRenderer::renderPixels(const EyeView& view, PixelRect, std::span<const PixelIndex> pixels,
+                                  EyeImage& image) const {
+    static_assert(sizeof(PixelIndex) == sizeof(VolumePixel));
+    mState->kernels->castPixels(mState->data, makeVolumeView(view, mScene.cells.frame),
+                                reinterpret_cast<const VolumePixel*>(pixels.data()),
+                                static_cast<int>(pixels.size()), targetOf(image));
+}
+
+// A beam around the rectangle, as the kernels' beams.
+bool VolumeRenderer::mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
+                                      double parallaxScale) const {
+    const double beyond = column - rect.x1;
+    const double end = beyond > 0 ? parallaxScale / beyond : std::numeric_limits<double>::infinity();
+    const glm::dvec3 axis = view.rayDirection(0.5 * (rect.x0 + rect.x1), 0.5 * (rect.y0 + rect.y1));
+    const double radius =
+        0.5 * std::hypot(rect.width() * view.pixelWidth(), rect.height() * view.pixelHeight());
+    const double length = glm::length(axis);
+    const SurfaceCells& cells = mScene.cells;
+    double t = view.nearDepth;
+    while (t < end) {
+        const double free = State::freeAt(cells, view.eye + t * axis);
+        if (free < 0) return true;
+        const double ahead = (free - radius * t) / (length + radius) * (1 - 1e-9);
+        if (!(ahead * length > cells.leapUnit)) return true;
+        t += ahead;
+    }
+    return false;
+}
+
+ViewDependence VolumeRenderer::viewDependence() const {
+    const bool again = mState->shadeAgain && !translucent() && mScene.look.specular > 0;
+    return again ? ViewDependence::Normal : ViewDependence::None;
+}
+
+void VolumeRenderer::shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const {
+    mState->kernels->shadeRow(mState->data, makeVolumeView(view, mScene.cells.frame), y, x0, x1,
+                              targetOf(image));
+}
+
+bool VolumeRenderer::translucent() const {
+    return !mScene.look.transfer.empty();
+}
+
+SimdTarget VolumeRenderer::target() const {
+    return mState->target;
+}
+
+}  // namespace stereonav
