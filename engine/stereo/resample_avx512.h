@@ -59,7 +59,7 @@ inline void findLinks(const ResampleRow& row) {
     const int blocks = (row.width + kLanes - 1) / kLanes;
     __m512 next = infinity;      // the block to the right
     __m512 leftmost = infinity;  // of all blocks to the right, in every lane
-    unsigned nextSurvivors = 0;
+    unsigned nextSurvivors = 0, nextMet = 0;
     _mm512_storeu_ps(row.column + blocks * kLanes, infinity);
     row.survivors[blocks] = row.links[blocks] = 0;
     for (int b = blocks - 1; b >= 0; --b) {
@@ -75,7 +75,12 @@ inline void findLinks(const ResampleRow& row) {
         const __m512 gap = _mm512_sub_ps(shiftedDown<1>(column, next), column);
         const __mmask16 even =
             _mm512_cmp_ps_mask(gap, minStretch, _CMP_GE_OQ) & _mm512_cmp_ps_mask(gap, maxStretch, _CMP_LE_OQ);
-        const unsigned both = survivors & (survivors >> 1 | nextSurvivors << 15);
+        unsigned both = survivors & (survivors >> 1 | nextSurvivors << 15);
+        if (row.surface) {
+            const unsigned met = _mm512_cmp_ps_mask(depth, infinity, _CMP_LT_OQ);
+            both &= ~(met ^ (met >> 1 | nextMet << 15));
+            nextMet = met;
+        }
         row.survivors[b] = static_cast<std::uint16_t>(survivors);
         row.links[b] = static_cast<std::uint16_t>(both & even);
         _mm512_storeu_ps(row.column + i, column);
@@ -205,8 +210,17 @@ inline __m512i cubicColors(const ResampleRow& row, const Window& window, __m512 
     return packChannels(sum);
 }
 
+// At t between the linked pixels, or the nearer of them.
+template <bool kSurface>
+inline __m512 depthOf(const ResampleRow& row, const Window& window, __m512 t) {
+    const __m512 a = window.readFloats(row.leftDepth, 0), b = window.readFloats(row.leftDepth, 1);
+    if (!kSurface) return _mm512_min_ps(b, a);
+    const __mmask16 met = _mm512_cmp_ps_mask(a, _mm512_set1_ps(__builtin_inff()), _CMP_LT_OQ);
+    return _mm512_mask_add_ps(a, met, a, _mm512_mul_ps(t, _mm512_sub_ps(b, a)));
+}
+
 // Sixteen right pixels from p on. source: of the block, spread.
-template <bool kCubic>
+template <bool kCubic, bool kSurface>
 inline void resampleBlock(const ResampleRow& row, int p, __m512i source, __m512 centres) {
     const __mmask16 some = _mm512_cmpge_epi32_mask(source, _mm512_setzero_si512());
     const Window window = makeWindow(source, some, row.stride);
@@ -225,11 +239,10 @@ inline void resampleBlock(const ResampleRow& row, int p, __m512i source, __m512 
     const __m512 t = _mm512_mul_ps(_mm512_sub_ps(centres, column), inverse);
     const __m512i color = kCubic ? cubicColors(row, taps, t) : lerpColors(row, taps, t);
     _mm512_storeu_si512(row.color + p, _mm512_maskz_mov_epi32(warped, color));
-    const __m512 depth = _mm512_min_ps(taps.readFloats(row.leftDepth, 1), taps.readFloats(row.leftDepth, 0));
-    _mm512_storeu_ps(row.depth + p, _mm512_maskz_mov_ps(warped, depth));
+    _mm512_storeu_ps(row.depth + p, _mm512_maskz_mov_ps(warped, depthOf<kSurface>(row, taps, t)));
 }
 
-template <bool kCubic>
+template <bool kCubic, bool kSurface>
 inline void resampleBlocks(const ResampleRow& row) {
     const Lanes lanes = makeLanes();
     __m512i carried = _mm512_set1_epi32(-1);
@@ -237,18 +250,18 @@ inline void resampleBlocks(const ResampleRow& row) {
         const __m512i source = _mm512_max_epi32(prefixMaximum(_mm512_loadu_si512(row.source + p)), carried);
         _mm512_storeu_si512(row.source + p, source);
         carried = _mm512_permutexvar_epi32(_mm512_set1_epi32(15), source);
-        resampleBlock<kCubic>(row, p, source,
-                              _mm512_add_ps(_mm512_set1_ps(static_cast<float>(p)), lanes.centre));
+        resampleBlock<kCubic, kSurface>(row, p, source,
+                                        _mm512_add_ps(_mm512_set1_ps(static_cast<float>(p)), lanes.centre));
     }
 }
 
 inline void resample(const ResampleRow& row) {
     findLinks(row);
     scatterSurvivors(row);
-    if (row.cubic)
-        resampleBlocks<true>(row);
+    if (row.surface)
+        row.cubic ? resampleBlocks<true, true>(row) : resampleBlocks<false, true>(row);
     else
-        resampleBlocks<false>(row);
+        row.cubic ? resampleBlocks<true, false>(row) : resampleBlocks<false, false>(row);
 }
 
 }  // namespace

@@ -74,8 +74,10 @@ inline void findSurvivors(const ResampleRow& row) {
 inline void findLinks(const ResampleRow& row) {
     for (int i = 0; i + 1 < row.width; ++i) {
         const float gap = row.column[i + 1] - row.column[i];
-        row.links[i] = static_cast<std::uint16_t>(row.survivors[i] & row.survivors[i + 1] &
-                                                  (gap >= row.minStretch) & (gap <= row.maxStretch));
+        const bool alike = (row.leftDepth[i] < kInfinity) == (row.leftDepth[i + 1] < kInfinity);
+        row.links[i] =
+            static_cast<std::uint16_t>(row.survivors[i] & row.survivors[i + 1] & (gap >= row.minStretch) &
+                                       (gap <= row.maxStretch) & (alike | !row.surface));
     }
     row.links[row.width - 1] = 0;
 }
@@ -116,7 +118,7 @@ inline void resample(const ResampleRow& row) {
         row.color[p] =
             row.cubic ? cubic(row.leftColor + s - 1, t) : lerp(row.leftColor[s], row.leftColor[s + 1], t);
         const float a = row.leftDepth[s], b = row.leftDepth[s + 1];
-        row.depth[p] = b < a ? b : a;
+        row.depth[p] = row.surface && a < kInfinity ? a + t * (b - a) : b < a ? b : a;
     }
 }
 

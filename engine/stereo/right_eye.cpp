@@ -50,18 +50,22 @@ struct WarpJob {
     const WarpSetting& setting;
     EyeImage& right;
     Plane<std::uint8_t>& mask;
-    bool viewDependent;
+    ViewDependence dependence;
 
     int width() const { return left.width(); }
     float shift() const { return static_cast<float>(views.shiftAtInfinity); }
     float scale() const { return static_cast<float>(views.parallaxScale); }
+    // What moves from eye to eye: colours, or the normals from which colours follow.
+    bool movesNormals() const { return dependence == ViewDependence::Normal; }
+    const Plane<std::uint32_t>& from() const { return movesNormals() ? left.normal : left.color; }
+    Plane<std::uint32_t>& to() const { return movesNormals() ? right.normal : right.color; }
 };
 
 ResampleRow resampleRowOf(const WarpJob& job, Scratch& scratch, int y) {
     ResampleRow row{};
-    row.leftColor = job.left.color.row(y);
+    row.leftColor = job.from().row(y);
     row.leftDepth = job.left.viewDepth.row(y);
-    row.color = job.right.color.row(y);
+    row.color = job.to().row(y);
     row.depth = job.right.viewDepth.row(y);
     row.holes = job.mask.row(y);
     row.width = job.width();
@@ -80,13 +84,14 @@ ResampleRow resampleRowOf(const WarpJob& job, Scratch& scratch, int y) {
     row.source = scratch.source.data();
     row.survivors = scratch.survivors.data();
     row.links = scratch.links.data();
+    row.surface = job.movesNormals();
     return row;
 }
 
 SplatRow splatRowOf(const WarpJob& job, Scratch& scratch, int y) {
-    return {job.left.color.row(y),
+    return {job.from().row(y),
             job.left.viewDepth.row(y),
-            job.right.color.row(y),
+            job.to().row(y),
             job.right.viewDepth.row(y),
             job.mask.row(y),
             job.width(),
@@ -98,20 +103,16 @@ SplatRow splatRowOf(const WarpJob& job, Scratch& scratch, int y) {
 }
 
 PaintRow paintRowOf(const WarpJob& job, Scratch& scratch, int y) {
-    return {job.left.color.row(y),
-            job.left.viewDepth.row(y),
-            job.right.color.row(y),
-            job.right.viewDepth.row(y),
-            job.mask.row(y),
-            job.width(),
-            job.shift(),
-            job.scale(),
+    return {job.from().row(y),    job.left.viewDepth.row(y),
+            job.to().row(y),      job.right.viewDepth.row(y),
+            job.mask.row(y),      job.width(),
+            job.shift(),          job.scale(),
             scratch.source.data()};
 }
 
-// What shading again needs: base colour between the two linked pixels (or of the nearest one), and the
+// What a highlight needs: base colour between the two linked pixels (or of the nearest one), and the
 // normal of the nearer end.
-void warpSurface(const WarpJob& job, const Scratch& scratch, int y) {
+void warpHighlight(const WarpJob& job, const Scratch& scratch, int y) {
     const PackedColor* leftBase = job.left.baseColor.row(y);
     const std::uint32_t* leftNormal = job.left.normal.row(y);
     PackedColor* base = job.right.baseColor.row(y);
@@ -133,8 +134,18 @@ void warpSurface(const WarpJob& job, const Scratch& scratch, int y) {
     }
 }
 
+// The forward warps know the nearest of the splats, which is what rays may start from; shading needs the
+// depth of the pixel itself.
+void useOwnDepths(const WarpJob& job, const Scratch& scratch, int y) {
+    const float* leftDepth = job.left.viewDepth.row(y);
+    float* depth = job.right.viewDepth.row(y);
+    const std::uint8_t* holes = job.mask.row(y);
+    for (int p = 0; p < job.width(); ++p)
+        if (!holes[p]) depth[p] = leftDepth[scratch.source[p]];
+}
+
 // Runs of warped surface; holes are cast for the right eye anyway, sky has no surface.
-void shadeRowAgain(const EyeRenderer& renderer, const WarpJob& job, int y) {
+void shadeHighlightAgain(const EyeRenderer& renderer, const WarpJob& job, int y) {
     const float* depth = job.right.viewDepth.row(y);
     const std::uint8_t* holes = job.mask.row(y);
     const auto surface = [&](int x) { return !holes[x] && depth[x] < kMissDepth; };
@@ -162,6 +173,23 @@ void warpRow(const WarpJob& job, ResampleFunction resample, Scratch& scratch, in
             resample(resampleRowOf(job, scratch, y));
             break;
     }
+}
+
+void shadeAgain(const EyeRenderer& renderer, const WarpJob& job, const Scratch& scratch, int y) {
+    if (job.dependence == ViewDependence::Highlight) {
+        warpHighlight(job, scratch, y);
+        shadeHighlightAgain(renderer, job, y);
+    } else if (job.dependence == ViewDependence::Normal) {
+        if (!isInverse(job.setting.method)) useOwnDepths(job, scratch, y);
+        renderer.shadeAgain(job.views.right, y, 0, job.width(), job.right);
+    }
+}
+
+// What can be shaded again: images without the planes for it are warped as they are.
+ViewDependence dependenceOf(const EyeRenderer& renderer, const EyeImage& left) {
+    const ViewDependence dependence = renderer.viewDependence();
+    const bool base = dependence != ViewDependence::Highlight || !left.baseColor.empty();
+    return base && !left.normal.empty() ? dependence : ViewDependence::None;
 }
 
 void checkSizes(const StereoViews& views, const EyeImage& left) {
@@ -207,9 +235,7 @@ void RightEye::State::warp(const EyeRenderer& renderer, const WarpJob& job) {
         const int end = std::min(height, (task + 1) * kRowsOfTask);
         for (int y = task * kRowsOfTask; y < end; ++y) {
             warpRow(job, resample, scratch[worker], y);
-            if (!job.viewDependent) continue;
-            warpSurface(job, scratch[worker], y);
-            shadeRowAgain(renderer, job, y);
+            shadeAgain(renderer, job, scratch[worker], y);
         }
     });
     if (job.setting.method != RightEyeMethod::McMillan)
@@ -220,10 +246,8 @@ void RightEye::State::warp(const EyeRenderer& renderer, const WarpJob& job) {
 void RightEye::State::copy(const WarpJob& job) {
     copyPlane(job.left.color, job.right.color);
     std::memcpy(job.right.viewDepth.row(0), job.left.viewDepth.row(0), job.left.viewDepth.byteCount());
-    if (job.viewDependent) {
-        copyPlane(job.left.baseColor, job.right.baseColor);
-        copyPlane(job.left.normal, job.right.normal);
-    }
+    if (job.dependence == ViewDependence::Highlight) copyPlane(job.left.baseColor, job.right.baseColor);
+    if (job.dependence != ViewDependence::None) copyPlane(job.left.normal, job.right.normal);
     fillMask(mask, 0);
 }
 
@@ -236,10 +260,10 @@ RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews&
                                  const WarpSetting& setting, EyeImage& right) {
     checkSizes(views, left);
     const int width = left.width(), height = left.height();
-    const bool viewDependent = renderer.viewDependent() && !left.baseColor.empty();
-    right.resize(width, height, viewDependent ? renderer.viewDependence() : ViewDependence::None);
+    const ViewDependence dependence = dependenceOf(renderer, left);
+    right.resize(width, height, dependence);
     mState->resize(width, height, setting.method == RightEyeMethod::Paper);
-    const WarpJob job{views, left, setting, right, mState->mask, viewDependent};
+    const WarpJob job{views, left, setting, right, mState->mask, dependence};
 
     RightEyeTimings timings;
     Stopwatch watch;

@@ -14,12 +14,12 @@
 namespace stereonav {
 
 enum class RightEyeMethod {
-    Full,      // no warp: every pixel cast
-    Paper,     // W5 to W9: splats of eight subpixels, weight threshold, holes cast
-    Linear,    // inverse resampling between neighbouring survivors, two taps
-    Cubic,     // the same, four taps (Catmull-Rom)
-    McMillan,  // W14: back-to-front forward warp without holes filled or clipping fixed
-    NoFill,    // the default's warp, holes left black: what filling is worth
+    Full,        // no warp: every pixel cast
+    Paper,       // W5 to W9: splats of eight subpixels, weight threshold, holes cast
+    Linear,      // inverse resampling between neighbouring survivors, two taps
+    Cubic,       // the same, four taps (Catmull-Rom)
+    McMillan,    // W14: back-to-front forward warp without holes filled or clipping fixed
+    NoFill,      // the default's warp, holes left black: what filling is worth
     DepthSplat,  // W12: depths splatted, every ray cast from there with one jump; for translucent scenes
 };
 constexpr RightEyeMethod kDefaultRightEyeMethod = RightEyeMethod::Linear;
@@ -64,7 +64,9 @@ public:
     RightEye& operator=(RightEye&&) noexcept;
 
     // left: the left eye as cast. right: resized here; every pixel of color and viewDepth is set
-    // (viewDepth 0 where a hole was left). Widths from 1 up.
+    // (viewDepth 0 where a hole was left). Widths from 1 up. viewDepth of a warped pixel is that of the
+    // nearer of the left pixels it lies between; where colours are shaded again from normals alone, the
+    // estimate at the pixel itself.
     RightEyeTimings render(const EyeRenderer& renderer, const StereoViews& views, const EyeImage& left,
                            const WarpSetting& setting, EyeImage& right);
 

@@ -32,6 +32,7 @@ std::vector<bool> findLinks(const ResampleRow& row, const std::vector<bool>& sur
     for (int i = 0; i + 1 < row.width; ++i) {
         const float gap = row.column[i + 1] - row.column[i];
         links[i] = survives[i] && survives[i + 1] && gap >= row.minStretch && gap <= row.maxStretch;
+        if (row.surface && std::isinf(row.leftDepth[i]) != std::isinf(row.leftDepth[i + 1])) links[i] = false;
     }
     return links;
 }
@@ -66,7 +67,8 @@ void resamplePixel(const ResampleRow& row, int p) {
     const float t = ((static_cast<float>(p) + 0.5f) - row.column[s]) * row.inverse[s];
     row.color[p] = row.cubic ? cubicPacked(row.leftColor + s - 1, t)
                              : lerpPacked(row.leftColor[s], row.leftColor[s + 1], t);
-    row.depth[p] = std::min(row.leftDepth[s], row.leftDepth[s + 1]);
+    const float a = row.leftDepth[s], b = row.leftDepth[s + 1];
+    row.depth[p] = row.surface && !std::isinf(a) ? a + t * (b - a) : std::min(a, b);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct ResampleRow {
     const std::uint32_t* leftColor;
     const float* leftDepth;  // metres > 0; infinity: sky
     std::uint32_t* color;    // 0 in a hole
-    float* depth;            // metres, the nearer of the two linked pixels; 0 in a hole
+    float* depth;            // metres, of the nearer linked pixel (see `surface`); 0 in a hole
     std::uint8_t* holes;     // 255 in a hole, 0 elsewhere
     int width, stride;       // pixels, width >= 1; every row may be read up to the stride (>= 32)
     float shift, scale;      // pixels, pixels * metres
@@ -33,6 +33,11 @@ struct ResampleRow {
     std::int32_t* source;
     std::uint16_t* survivors;  // flags of left pixels; their layout is the kernel's own
     std::uint16_t* links;      // the same
+
+    // The colours are normals, to be shaded at the depth given: a link never joins surface and sky, and
+    // depth is linear between the two linked pixels. Between neighbours whose depths differ by a share d
+    // of their mean that is off from the plane through them by at most d^2 / 4 of it.
+    bool surface = false;
 };
 
 using ResampleFunction = void (*)(const ResampleRow&);

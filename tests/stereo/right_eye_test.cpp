@@ -334,6 +334,89 @@ TEST(ViewDependent, planesAreNotAllocatedOtherwise) {
     EXPECT_TRUE(r.right.normal.empty());
 }
 
+LitScene litBallsBeforeWall() {
+    return LitScene({plane({0, 0, -12}, {0.1, 0.2, 1}), sphere({-1, 0.3, -6}, 1.2),
+                     sphere({1.5, -0.5, -4}, 0.7), box({-0.4, -3, -5}, {0.0, 3, -4.8})});
+}
+
+TEST(NormalDependent, warpedPixelsAreShadedForTheRightEye) {
+    const LitScene scene = litBallsBeforeWall();
+    const StereoViews views = viewsOf(320, 240, 0.3);
+    const double least[] = {28, 60, 66};  // splats smear silhouettes
+    for (int m = 0; m < 3; ++m) {
+        const RightEyeMethod method = kFilled[m];
+        const Rendered r = renderMethod(scene, views, method);
+        ASSERT_FALSE(r.right.normal.empty());
+        ASSERT_TRUE(r.right.baseColor.empty());
+        EXPECT_GT(psnr(r.right, r.full), least[m]) << nameOf(method);
+        EXPECT_LT(wrongSurface(r.right, r.full), 320 * 240 / 200) << nameOf(method);
+        if (method == RightEyeMethod::Paper) continue;
+        // Colours as the left eye saw them leave the highlights where they were.
+        EyeImage leftOnlyColor = r.left;
+        leftOnlyColor.normal = {};
+        EyeImage stale;
+        RightEye eye;
+        WarpSetting setting;
+        setting.method = method;
+        eye.render(scene, views, leftOnlyColor, setting, stale);
+        EXPECT_TRUE(stale.normal.empty());
+        EXPECT_GT(psnr(r.right, r.full), psnr(stale, r.full) + 6) << nameOf(method);
+    }
+}
+
+TEST(NormalDependent, everyMethodGivesEveryPixelItsColor) {
+    // Spheres before nothing: silhouettes against the background, rows without anything.
+    const LitScene scene({sphere({-0.3, 0.1, -5}, 1.0), sphere({0.7, -0.2, -3.5}, 0.4)});
+    for (const int width : {1, 2, 17, 160})
+        for (const NamedMethod& named : kRightEyeMethods) {
+            const Rendered r = renderMethod(scene, viewsOf(width, 60, 0.3), named.method);
+            int lit = 0, dark = 0;
+            for (int y = 0; y < 60; ++y)
+                for (int x = 0; x < width; ++x) {
+                    const float depth = r.right.viewDepth.at(x, y);
+                    const bool met = depth > 0 && depth < kMissDepth;
+                    ASSERT_EQ(met, r.right.color.at(x, y) != 0) << named.name << " " << x << "," << y;
+                    ++(met ? lit : dark);
+                    if (r.holes.at(x, y) && depth > 0) {
+                        ASSERT_EQ(r.right.color.at(x, y), r.full.color.at(x, y)) << named.name;
+                        ASSERT_EQ(r.right.normal.at(x, y), r.full.normal.at(x, y)) << named.name;
+                    }
+                }
+            EXPECT_GT(dark, 10) << named.name;
+            if (width == 160) {
+                EXPECT_GT(lit, 500) << named.name;
+            }
+        }
+}
+
+TEST(NormalDependent, depthIsThatOfTheSurface) {
+    // Seen at a slant, so that neighbours differ in depth; the light falls off with the distance.
+    const LitScene scene({plane({0, 0, -8}, {0.9, 0.3, 1})}, 1.0, 0.0);
+    const Rendered r = renderMethod(scene, viewsOf(320, 240, 0.2), RightEyeMethod::Linear);
+    for (int y = 0; y < 240; ++y)
+        for (int x = 0; x < 320; ++x) {
+            const float truth = r.full.viewDepth.at(x, y);
+            if (std::isinf(truth)) continue;
+            ASSERT_NEAR(r.right.viewDepth.at(x, y), truth, 2e-4f * truth) << x << "," << y;
+        }
+    EXPECT_GT(psnr(r.right, r.full), 60);
+}
+
+TEST(NormalDependent, threadsAndSchedulesDoNotMatter) {
+    const LitScene scene = litBallsBeforeWall();
+    const StereoViews views = viewsOf(211, 100, 0.35);
+    for (const RightEyeMethod method : kFilled) {
+        setThreadCount(1);
+        const Rendered one = renderMethod(scene, views, method);
+        for (const int threads : {2, 5}) {
+            setThreadCount(threads);
+            const Rendered other = renderMethod(scene, views, method);
+            EXPECT_TRUE(sameImage(one.right, other.right)) << nameOf(method) << " " << threads;
+        }
+    }
+    setThreadCount(2);
+}
+
 TEST(Names, eachMethodIsFoundByItsName) {
     for (const NamedMethod& named : kRightEyeMethods) {
         EXPECT_EQ(rightEyeMethodFromName(named.name), named.method);

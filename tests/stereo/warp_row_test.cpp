@@ -34,8 +34,8 @@ struct RowBuffers {
         links.assign(w + kRowPadding, 0);
         accumulators.assign(splatScratchSize(w), 0.0f);
     }
-    ResampleRow resample(float shift, float scale, bool cubic, int reach = 2, float minStretch = 0.5f,
-                         float maxStretch = 1.1f) {
+    ResampleRow resample(float shift, float scale, bool cubic, int reach = 2, bool surface = false,
+                         float minStretch = 0.5f, float maxStretch = 1.1f) {
         return {leftColor.row(0),
                 leftDepth.row(0),
                 color.row(0),
@@ -53,7 +53,8 @@ struct RowBuffers {
                 inverse.data(),
                 source.data(),
                 survivors.data(),
-                links.data()};
+                links.data(),
+                surface};
     }
     SplatRow splat(float shift, float scale, float threshold = 0.5f) {
         return {leftColor.row(0),
@@ -133,14 +134,14 @@ void compareWithOracle(const NamedResampler& kernel) {
     std::mt19937 random(1);
     long long warped = 0, holes = 0;
     for (const KernelCase& c : kernelCases())
-        for (int mode = 0; mode < 6; ++mode) {
-            const bool cubic = mode % 2 == 1;
+        for (int mode = 0; mode < 12; ++mode) {
+            const bool cubic = mode % 2 == 1, surface = mode >= 6;
             const int reach = cubic ? 2 : mode / 2 % 3;
             RowBuffers oracle(c.width);
             fillRandomly(oracle, random, c.skyShare);
             RowBuffers actual = oracle;
-            resampleRowOracle(oracle.resample(c.shift, c.scale, cubic, reach));
-            kernel.function(actual.resample(c.shift, c.scale, cubic, reach));
+            resampleRowOracle(oracle.resample(c.shift, c.scale, cubic, reach, surface));
+            kernel.function(actual.resample(c.shift, c.scale, cubic, reach, surface));
             for (int p = 0; p < c.width; ++p) ++(oracle.hole(p) ? holes : warped);
             expectSameRow(oracle, actual,
                           "width " + std::to_string(c.width) + " scale " + std::to_string(c.scale));
@@ -287,6 +288,55 @@ TEST(Gaps, theRightEndOpensWhenEverythingMovesLeft) {
         for (int p = 1; p < 30; ++p) EXPECT_FALSE(row.hole(p)) << splats << " " << p;
         for (int p = 35; p < 40; ++p) EXPECT_TRUE(row.hole(p)) << splats << " " << p;
     }
+}
+
+// A plane 1 / z = a + b x seen by the left eye at column x is seen by the right eye at x + shift - scale / z.
+TEST(Surface, depthBetweenSurvivorsIsThatOfThePlane) {
+    const float shift = 3, scale = 80;
+    for (const double slope : {-2e-4, 1e-4, 4e-4}) {
+        RowBuffers row(300);
+        for (int i = 0; i < row.width; ++i)
+            row.leftDepth.at(i, 0) = static_cast<float>(1 / (0.15 + slope * (i + 0.5)));
+        resampleRowOracle(row.resample(shift, scale, false, 1, true));
+        int warped = 0;
+        for (int p = 0; p < row.width; ++p) {
+            if (row.hole(p)) continue;
+            // x solves p + 0.5 = x + shift - scale (0.15 + slope x)
+            const double x = (p + 0.5 - shift + scale * 0.15) / (1 - scale * slope);
+            const double truth = 1 / (0.15 + slope * x), d = slope * truth;
+            ASSERT_NEAR(row.depth.at(p, 0), truth, (d * d / 4 + 2e-6) * truth) << p;
+            ++warped;
+        }
+        EXPECT_GT(warped, 250);
+        resampleRowOracle(row.resample(shift, scale, false, 1, false));
+        for (int p = 0; p < row.width; ++p) {
+            const double x = (p + 0.5 - shift + scale * 0.15) / (1 - scale * slope);
+            if (!row.hole(p)) {
+                ASSERT_LE(row.depth.at(p, 0), (1 + 2e-6) / (0.15 + slope * x)) << "never too far";
+            }
+        }
+    }
+}
+
+TEST(Surface, noLinkJoinsSurfaceAndSky) {
+    RowBuffers row(60);  // far surface and sky: a third of a pixel of parallax between them
+    for (int i = 0; i < row.width; ++i) {
+        row.leftDepth.at(i, 0) = i >= 20 && i < 40 ? 30.0f : kSky;
+        row.leftColor.at(i, 0) = i >= 20 && i < 40 ? gray(1000) : 0u;
+    }
+    int mixed = 0;
+    for (const bool surface : {true, false}) {
+        resampleRowOracle(row.resample(2, 10, false, 0, surface, 0.5f, 1.4f));
+        for (int p = 2; p < 58; ++p) {
+            const bool between = !row.hole(p) && row.color.at(p, 0) != 0 && row.color.at(p, 0) != gray(1000);
+            if (surface) {
+                EXPECT_FALSE(between) << p;
+                EXPECT_EQ(row.hole(p), p == 21 || p == 41) << p;
+            }
+            mixed += between;
+        }
+    }
+    EXPECT_GT(mixed, 0) << "colours of surface and sky are blended";
 }
 
 TEST(Splats, skyIsNotReprojected) {

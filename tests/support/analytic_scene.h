@@ -163,8 +163,8 @@ public:
         return glm::normalize(n);
     }
 
-private:
-    void renderPixel(const EyeView& view, int x, int y, EyeImage& image) const {
+protected:
+    virtual void renderPixel(const EyeView& view, int x, int y, EyeImage& image) const {
         const SurfacePoint hit = cast(view, x + 0.5, y + 0.5);
         glm::dvec3 color = baseColor(view, x + 0.5, y + 0.5, hit);
         if (!image.baseColor.empty()) {
@@ -176,9 +176,66 @@ private:
         image.viewDepth.at(x, y) = static_cast<float>(hit.depth);
     }
 
+private:
     std::vector<Shape> mShapes;
     double mWaves;  // radians a metre
     bool mGlossy;
+};
+
+// Surfaces of one colour under a lamp at the head, whose light falls off, with a highlight: colours follow
+// from normal and depth alone (ViewDependence::Normal). The pattern is in the normals: bumps, as of a
+// surface that waves a little. The sky is black.
+class LitScene : public AnalyticScene {
+public:
+    explicit LitScene(std::vector<Shape> surfaces, double waves = 4, double bumps = 0.15)
+        : AnalyticScene(std::move(surfaces)), mWaves(waves), mBumps(bumps) {}
+
+    ViewDependence viewDependence() const override { return ViewDependence::Normal; }
+
+    static glm::dvec3 lit(const EyeView& view, const glm::dvec3& point, const glm::dvec3& normal) {
+        const glm::dvec3 toLamp = view.head - point, toEye = glm::normalize(view.eye - point);
+        const double falloff = 1 / (1 + glm::dot(toLamp, toLamp) / 36);
+        const double diffuse = std::max(0.0, glm::dot(glm::normalize(toLamp), normal));
+        const glm::dvec3 half = glm::normalize(glm::normalize(toLamp) + toEye);
+        const double gloss = std::pow(std::max(0.0, glm::dot(half, normal)), 24.0);
+        return glm::min(falloff * ((0.1 + diffuse) * glm::dvec3(0.7, 0.5, 0.4) + 0.2 * gloss),
+                        glm::dvec3(1.0));
+    }
+
+    void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override {
+        for (int x = x0; x < x1; ++x) {
+            const double depth = image.viewDepth.at(x, y);
+            const glm::dvec3 point = view.pointAt(x + 0.5, y + 0.5, depth);
+            glm::dvec3 color(0.0);
+            if (depth > 0 && std::isfinite(depth))
+                color = lit(view, point, glm::normalize(normalOf(image.normal.at(x, y))));
+            image.color.at(x, y) = packColor(glm::vec3(color));
+        }
+    }
+
+    static std::uint32_t packed(const glm::dvec3& normal) {
+        const auto word = [](double v) { return static_cast<std::uint32_t>(std::lround((v + 1) * 511.5)); };
+        return word(normal.x) | word(normal.y) << 10 | word(normal.z) << 20;
+    }
+    static glm::dvec3 normalOf(std::uint32_t packed) {
+        return glm::dvec3(packed & 1023u, packed >> 10 & 1023u, packed >> 20 & 1023u) / 511.5 - 1.0;
+    }
+
+protected:
+    void renderPixel(const EyeView& view, int x, int y, EyeImage& image) const override {
+        const SurfacePoint hit = cast(view, x + 0.5, y + 0.5);
+        const bool met = hit.shape >= 0;
+        const glm::dvec3 bump = mBumps * glm::sin(mWaves * glm::dvec3(hit.point.y, hit.point.z, hit.point.x));
+        const std::uint32_t normal = met ? packed(glm::normalize(hit.normal + bump)) : 0;
+        if (!image.normal.empty()) image.normal.at(x, y) = normal;
+        const glm::dvec3 color =
+            met ? lit(view, hit.point, glm::normalize(normalOf(normal))) : glm::dvec3(0.0);
+        image.color.at(x, y) = packColor(glm::vec3(color));
+        image.viewDepth.at(x, y) = static_cast<float>(hit.depth);
+    }
+
+private:
+    double mWaves, mBumps;  // radians a metre; share of the normal
 };
 
 // An eye image cast in full.
