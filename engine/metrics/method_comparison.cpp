@@ -32,7 +32,7 @@ public:
         : mRenderer(renderer),
           mSetting(setting),
           mFull(RightEyeMethod::Full),
-          mDefault(kDefaultRightEyeMethod) {
+          mDefault(defaultMethodFor(renderer)) {
         for (const RightEyeMethod method : setting.methods)
             if (method != RightEyeMethod::Full) mRunners.emplace_back(method);
     }
@@ -76,8 +76,8 @@ private:
     }
 
     const Plane<std::uint8_t>& defaultHoles(const StereoViews& views) {
-        const Runner& runner = runnerOf(kDefaultRightEyeMethod);
-        if (runner.method == kDefaultRightEyeMethod) return runner.eye.holeMask();
+        const Runner& runner = runnerOf(mDefault.method);
+        if (runner.method == mDefault.method) return runner.eye.holeMask();
         mDefault.run(mRenderer, views, mLeft, true);
         return mDefault.eye.holeMask();
     }

@@ -51,9 +51,9 @@ public:
     bool viewDependent() const { return viewDependence() != ViewDependence::None; }
     // Replaces `color` in row y, columns x0 .. x1 - 1 as seen by `view`, from baseColor, normal and
     // viewDepth, or from normal and viewDepth alone. Called only where viewDependent(). With Highlight
-    // the run is all surface. With Normal whole rows come: pixels that met nothing (kMissDepth) get the
-    // background, pixels where nothing is known (viewDepth 0) get colour 0. Their normals mean nothing;
-    // those between two pixels' are shorter than a unit.
+    // the run is all surface. With Normal it is a whole row: pixels that met nothing (kMissDepth) get the
+    // background, those of which nothing is known (viewDepth 0) any colour or none; the normals of both
+    // mean nothing, those of the others may be shorter than a unit.
     virtual void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const {
         (void)view, (void)y, (void)x0, (void)x1, (void)image;
     }

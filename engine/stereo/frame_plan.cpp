@@ -33,7 +33,8 @@ struct Bench {
         const RightEyeTimings timings = eye.render(renderer, views, left, setting, right);
         sample.warp_ms = timings.warp_ms;
         sample.fill_ms = timings.fill_ms;
-        sample.holes = timings.holePixels;
+        const bool all = setting.method == RightEyeMethod::DepthSplat;  // every ray is cast, with a jump
+        sample.holes = all ? static_cast<long long>(right.width()) * right.height() : timings.holePixels;
         return sample;
     }
 };
@@ -62,44 +63,51 @@ FrameCosts costsOf(const std::vector<Sample>& samples, double pixels) {
 }
 
 std::string reasonFor(const FramePlan& plan, RightEyeMethod warp) {
-    const std::string warped = fmt::format("{} takes {:.2f} ms ({:.1f} % of the pixels cast again)",
-                                           nameOf(warp), plan.warpRight_ms, 100.0 * plan.costs.holeShare);
+    const std::string again =
+        warp == RightEyeMethod::DepthSplat
+            ? "every pixel cast from where it may meet something"
+            : fmt::format("{:.1f} % of the pixels cast again", 100.0 * plan.costs.holeShare);
+    const std::string warped = fmt::format("{} takes {:.2f} ms ({})", nameOf(warp), plan.warpRight_ms, again);
     const std::string cast = fmt::format("casting every pixel takes {:.2f} ms", plan.castRight_ms);
     return plan.warps() ? warped + ", " + cast : cast + ", " + warped;
 }
 
 }  // namespace
 
-std::size_t frameBytes(int width, int height, bool viewDependent) {
-    // stride as Plane has it; colour and depth, and with view-dependent shading base colour and normal
+std::size_t frameBytes(int width, int height, ViewDependence dependence) {
+    // stride as Plane has it; colour and depth, and what is shaded again
     const std::size_t stride = (static_cast<std::size_t>(width) + Plane<float>::kPadding + 15) / 16 * 16;
     const std::size_t pixels = stride * static_cast<std::size_t>(height);
-    return pixels * (2 * (viewDependent ? 16 : 8) + 1);
+    const std::size_t again = dependence == ViewDependence::None     ? 0
+                              : dependence == ViewDependence::Normal ? 4
+                                                                     : 8;
+    return pixels * (2 * (8 + again) + 1);
 }
 
-FramePlan planFromCosts(const FrameCosts& costs, int width, int height, bool viewDependent,
+FramePlan planFromCosts(const FrameCosts& costs, int width, int height, ViewDependence dependence,
                         RightEyeMethod warp) {
     const double pixels = static_cast<double>(width) * height;
     FramePlan plan;
     plan.width = width;
     plan.height = height;
-    plan.viewDependent = viewDependent;
+    plan.dependence = dependence;
+    plan.viewDependent = dependence != ViewDependence::None;
     plan.costs = costs;
     plan.castRight_ms = costs.cast_ns * pixels * 1e-6;
     plan.warpRight_ms = (costs.warp_ns + costs.holeShare * costs.hole_ns) * pixels * 1e-6;
     plan.method = plan.warpRight_ms < plan.castRight_ms ? warp : RightEyeMethod::Full;
-    plan.bytes = frameBytes(width, height, viewDependent);
+    plan.bytes = frameBytes(width, height, dependence);
     plan.reason = reasonFor(plan, warp);
     return plan;
 }
 
-FramePlan planFrame(const EyeRenderer& renderer, std::span<const StereoViews> views, RightEyeMethod warp,
-                    double budget_ms) {
+FramePlan planFrame(const EyeRenderer& renderer, std::span<const StereoViews> views,
+                    std::optional<RightEyeMethod> warp, double budget_ms) {
     if (views.empty())
         throw Error("", "", "expected at least one view to plan a frame for, got none",
                     "give the start pose");
     Bench bench{renderer, {}, {}, {}, {}};
-    bench.setting.method = warp;
+    bench.setting.method = warp.value_or(defaultMethodFor(renderer));
     const Stopwatch watch;
     bench.run(views.front());  // buffers and caches, not counted
     std::vector<Sample> samples;
@@ -109,7 +117,8 @@ FramePlan planFrame(const EyeRenderer& renderer, std::span<const StereoViews> vi
     }
     const EyeView& size = views.front().right;
     const double pixels = static_cast<double>(size.width) * size.height;
-    return planFromCosts(costsOf(samples, pixels), size.width, size.height, renderer.viewDependent(), warp);
+    return planFromCosts(costsOf(samples, pixels), size.width, size.height, renderer.viewDependence(),
+                         bench.setting.method);
 }
 
 }  // namespace stereonav

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -17,12 +18,13 @@ struct FrameCosts {
     double cast_ns = 0;    // a pixel of a full cast, all threads together
     double warp_ns = 0;    // a pixel of the warp
     double hole_ns = 0;    // a ray cast into a hole; 0 when there were none
-    double holeShare = 0;  // holes of all pixels of the right eye, 0..1
+    double holeShare = 0;  // holes of all pixels of the right eye, 0..1; 1 where all are cast with a jump
 };
 
 struct FramePlan {
-    int width = 0, height = 0;                       // pixels of one eye
-    bool viewDependent = false;                      // base colour and normals are stored and shaded again
+    int width = 0, height = 0;  // pixels of one eye
+    ViewDependence dependence = ViewDependence::None;
+    bool viewDependent = false;                      // planes are stored from which colours are shaded again
     RightEyeMethod method = kDefaultRightEyeMethod;  // Full where casting is cheaper
     double castRight_ms = 0, warpRight_ms = 0;       // predicted, of the right eye alone
     FrameCosts costs;
@@ -33,15 +35,16 @@ struct FramePlan {
 };
 
 // Which is cheaper for this many pixels. warp: the method used where it wins.
-FramePlan planFromCosts(const FrameCosts& costs, int width, int height, bool viewDependent,
+FramePlan planFromCosts(const FrameCosts& costs, int width, int height, ViewDependence dependence,
                         RightEyeMethod warp = kDefaultRightEyeMethod);
 
 // Measures a few calibration frames (all views of one size, at least one) and decides. Takes about
-// `budget_ms`, at least one frame; each frame is cast once before it is timed.
+// `budget_ms`, at least one frame; each frame is cast once before it is timed. warp: the method that is
+// weighed against the full cast; none: defaultMethodFor(renderer).
 FramePlan planFrame(const EyeRenderer& renderer, std::span<const StereoViews> views,
-                    RightEyeMethod warp = kDefaultRightEyeMethod, double budget_ms = 300.0);
+                    std::optional<RightEyeMethod> warp = std::nullopt, double budget_ms = 300.0);
 
 // Bytes that a frame of this size holds: both eyes' planes and the hole mask.
-std::size_t frameBytes(int width, int height, bool viewDependent);
+std::size_t frameBytes(int width, int height, ViewDependence dependence);
 
 }  // namespace stereonav

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/stereo/border_occluders.h"
+#include "engine/stereo/depth_splat.h"
 #include "engine/stereo/hole_fill.h"
 #include "engine/stereo/packed_resample.h"
 #include "engine/stereo/paint_row.h"
@@ -88,6 +90,15 @@ ResampleRow resampleRowOf(const WarpJob& job, Scratch& scratch, int y) {
     return row;
 }
 
+// Depths alone are wanted; the colours come along and are cast anew.
+ResampleRow depthRowOf(const WarpJob& job, Scratch& scratch, int y) {
+    ResampleRow row = resampleRowOf(job, scratch, y);
+    row.minStretch = 0.0f;  // what is drawn together is known the better
+    row.reach = 0;
+    row.surface = false;
+    return row;
+}
+
 SplatRow splatRowOf(const WarpJob& job, Scratch& scratch, int y) {
     return {job.from().row(y),
             job.left.viewDepth.row(y),
@@ -161,8 +172,40 @@ void shadeHighlightAgain(const EyeRenderer& renderer, const WarpJob& job, int y)
     }
 }
 
-void warpRow(const WarpJob& job, ResampleFunction resample, Scratch& scratch, int y) {
+void splatDepths(const WarpJob& job, ResampleFunction resample, Scratch& scratch, int y) {
+    const ResampleRow row = depthRowOf(job, scratch, y);
+    resample(row);
+    shortenDepths(
+        {row.depth, row.holes, row.width, job.setting.depthMargin, job.setting.depthRangeMargin, row.column});
+}
+
+// Holes that stay holes; what shades whole rows leaves anything there.
+void blackenHoles(const WarpJob& job, int y) {
+    const std::uint8_t* holes = job.mask.row(y);
+    PackedColor* color = job.right.color.row(y);
+    for (int p = 0; p < job.width(); ++p) color[p] = holes[p] ? 0u : color[p];
+}
+
+bool leavesHoles(RightEyeMethod method) {
+    return method == RightEyeMethod::McMillan || method == RightEyeMethod::NoFill;
+}
+
+void shadeAgain(const EyeRenderer& renderer, const WarpJob& job, const Scratch& scratch, int y) {
+    if (job.dependence == ViewDependence::Highlight) {
+        warpHighlight(job, scratch, y);
+        shadeHighlightAgain(renderer, job, y);
+    } else if (job.dependence == ViewDependence::Normal) {
+        if (!isInverse(job.setting.method)) useOwnDepths(job, scratch, y);
+        renderer.shadeAgain(job.views.right, y, 0, job.width(), job.right);
+        if (leavesHoles(job.setting.method)) blackenHoles(job, y);
+    }
+}
+
+void warpRow(const EyeRenderer& renderer, const WarpJob& job, ResampleFunction resample, Scratch& scratch,
+             int y) {
     switch (job.setting.method) {
+        case RightEyeMethod::DepthSplat:
+            return splatDepths(job, resample, scratch, y);
         case RightEyeMethod::Paper:
             splatRow(splatRowOf(job, scratch, y));
             break;
@@ -173,16 +216,7 @@ void warpRow(const WarpJob& job, ResampleFunction resample, Scratch& scratch, in
             resample(resampleRowOf(job, scratch, y));
             break;
     }
-}
-
-void shadeAgain(const EyeRenderer& renderer, const WarpJob& job, const Scratch& scratch, int y) {
-    if (job.dependence == ViewDependence::Highlight) {
-        warpHighlight(job, scratch, y);
-        shadeHighlightAgain(renderer, job, y);
-    } else if (job.dependence == ViewDependence::Normal) {
-        if (!isInverse(job.setting.method)) useOwnDepths(job, scratch, y);
-        renderer.shadeAgain(job.views.right, y, 0, job.width(), job.right);
-    }
+    shadeAgain(renderer, job, scratch, y);
 }
 
 // What can be shaded again: images without the planes for it are warped as they are.
@@ -226,6 +260,9 @@ struct RightEye::State {
 
     void warp(const EyeRenderer& renderer, const WarpJob& job);
     void copy(const WarpJob& job);
+    // Both give the number of pixels that were not known.
+    long long fill(const EyeRenderer& renderer, const WarpJob& job);
+    long long castFromDepths(const EyeRenderer& renderer, const WarpJob& job) const;
 };
 
 void RightEye::State::warp(const EyeRenderer& renderer, const WarpJob& job) {
@@ -233,10 +270,7 @@ void RightEye::State::warp(const EyeRenderer& renderer, const WarpJob& job) {
     const int tasks = (height + kRowsOfTask - 1) / kRowsOfTask;
     forEachPiece(tasks, job.setting.warpSchedule, [&](int worker, int task) {
         const int end = std::min(height, (task + 1) * kRowsOfTask);
-        for (int y = task * kRowsOfTask; y < end; ++y) {
-            warpRow(job, resample, scratch[worker], y);
-            shadeAgain(renderer, job, scratch[worker], y);
-        }
+        for (int y = task * kRowsOfTask; y < end; ++y) warpRow(renderer, job, resample, scratch[worker], y);
     });
     if (job.setting.method != RightEyeMethod::McMillan)
         markBorderOccluders(renderer, job.views, mask, job.right);
@@ -249,6 +283,20 @@ void RightEye::State::copy(const WarpJob& job) {
     if (job.dependence == ViewDependence::Highlight) copyPlane(job.left.baseColor, job.right.baseColor);
     if (job.dependence != ViewDependence::None) copyPlane(job.left.normal, job.right.normal);
     fillMask(mask, 0);
+}
+
+long long RightEye::State::fill(const EyeRenderer& renderer, const WarpJob& job) {
+    return holeFill.fill(renderer, job.views.right, mask, job.setting.fillSchedule, job.right);
+}
+
+long long RightEye::State::castFromDepths(const EyeRenderer& renderer, const WarpJob& job) const {
+    const EyeView& view = job.views.right;
+    forEachPiece(renderer.tileCount(view), job.setting.fillSchedule,
+                 [&](int, int tile) { renderer.renderTileFromDepth(view, tile, job.right); });
+    long long unknown = 0;
+    for (int y = 0; y < mask.height(); ++y)
+        unknown += std::count(mask.row(y), mask.row(y) + mask.width(), std::uint8_t{255});
+    return unknown;
 }
 
 RightEye::RightEye() : mState(std::make_unique<State>()) {}
@@ -275,21 +323,33 @@ RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews&
         timings.holePixels = static_cast<long long>(width) * height;
         return timings;
     }
-    if (views.parallaxScale == 0)
-        mState->copy(job);
-    else
+    const bool parallax = views.parallaxScale > 0;
+    if (parallax)
         mState->warp(renderer, job);
+    else
+        mState->copy(job);
     timings.warp_ms = watch.lap_ms();
-    if (setting.method == RightEyeMethod::McMillan || setting.method == RightEyeMethod::NoFill)
-        return timings;
-    timings.holePixels =
-        mState->holeFill.fill(renderer, views.right, mState->mask, setting.fillSchedule, right);
+    if (!parallax || leavesHoles(setting.method)) return timings;
+    timings.holePixels = setting.method == RightEyeMethod::DepthSplat ? mState->castFromDepths(renderer, job)
+                                                                      : mState->fill(renderer, job);
     timings.fill_ms = watch.lap_ms();
     return timings;
 }
 
 const Plane<std::uint8_t>& RightEye::holeMask() const {
     return mState->mask;
+}
+
+RightEyeMethod defaultMethodFor(const EyeRenderer& renderer) {
+    return renderer.translucent() ? RightEyeMethod::DepthSplat : kDefaultRightEyeMethod;
+}
+
+std::vector<RightEyeMethod> methodsFor(const EyeRenderer& renderer) {
+    if (renderer.translucent()) return {RightEyeMethod::Full, RightEyeMethod::DepthSplat};
+    std::vector<RightEyeMethod> methods;
+    for (const NamedMethod& named : kRightEyeMethods)
+        if (named.method != RightEyeMethod::DepthSplat) methods.push_back(named.method);
+    return methods;
 }
 
 std::optional<RightEyeMethod> rightEyeMethodFromName(std::string_view name) {

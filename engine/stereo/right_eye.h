@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"
@@ -28,12 +29,20 @@ struct NamedMethod {
     std::string_view name;
     RightEyeMethod method;
 };
-constexpr std::array<NamedMethod, 6> kRightEyeMethods{{{"full", RightEyeMethod::Full},
+constexpr std::array<NamedMethod, 7> kRightEyeMethods{{{"full", RightEyeMethod::Full},
                                                        {"paper", RightEyeMethod::Paper},
                                                        {"linear", RightEyeMethod::Linear},
                                                        {"cubic", RightEyeMethod::Cubic},
                                                        {"mcmillan", RightEyeMethod::McMillan},
-                                                       {"nofill", RightEyeMethod::NoFill}}};
+                                                       {"nofill", RightEyeMethod::NoFill},
+                                                       {"depthsplat", RightEyeMethod::DepthSplat}}};
+
+// DepthSplat for translucent scenes, else kDefaultRightEyeMethod.
+RightEyeMethod defaultMethodFor(const EyeRenderer& renderer);
+// The methods that are worth comparing, in the order of their names above: full and depthsplat for a
+// translucent scene, all but depthsplat for others. The others work too: depthsplat on an opaque scene
+// only casts with a jump, a warp of a translucent scene moves each pixel as if it were opaque.
+std::vector<RightEyeMethod> methodsFor(const EyeRenderer& renderer);
 
 struct WarpSetting {
     RightEyeMethod method = kDefaultRightEyeMethod;
@@ -44,13 +53,18 @@ struct WarpSetting {
     float minStretch = 0.5f;
     // Paper: a pixel whose accumulated splat weight is below this share of full cover is a hole.
     float weightThreshold = 0.5f;
+    // DepthSplat: rays start before the depth found by this share of it, and by this share of its difference
+    // from the pixels beside it: what lies between the left eye's samples may be a little nearer.
+    float depthMargin = 0.01f;
+    float depthRangeMargin = 1.0f;
     Schedule warpSchedule = Schedule::Dynamic;
     Schedule fillSchedule = Schedule::Dynamic;  // Dynamic sorts the bands by their number of holes
 };
 
 struct RightEyeTimings {
-    double warp_ms = 0, fill_ms = 0;
-    long long holePixels = 0;  // cast again, of width * height
+    double warp_ms = 0, fill_ms = 0;  // DepthSplat: splatting, and casting every pixel
+    // Cast again, of width * height. DepthSplat: cast without knowing where to start.
+    long long holePixels = 0;
     double right_ms() const { return warp_ms + fill_ms; }
 };
 
@@ -70,8 +84,8 @@ public:
     RightEyeTimings render(const EyeRenderer& renderer, const StereoViews& views, const EyeImage& left,
                            const WarpSetting& setting, EyeImage& right);
 
-    // 255 where the last render() cast a ray (or left a hole), 0 where it warped. Valid until the
-    // next call.
+    // 255 where the last render() cast a ray (or left a hole), 0 where it warped (DepthSplat: knew where to
+    // start). Valid until the next call.
     const Plane<std::uint8_t>& holeMask() const;
 
 private:

@@ -29,7 +29,7 @@ StereoViews viewsOf(int width, int height) {
 TEST(FramePlan, PredictsFromCostsInClosedForm) {
     // 1 Mpixel: cast 10 ms; warp 1 ms and 2 % holes at 50 ns = 1 ms
     const FrameCosts costs{10.0, 1.0, 50.0, 0.02};
-    const FramePlan plan = planFromCosts(costs, 1000, 1000, false);
+    const FramePlan plan = planFromCosts(costs, 1000, 1000, ViewDependence::None);
     EXPECT_NEAR(plan.castRight_ms, 10.0, 1e-9);
     EXPECT_NEAR(plan.warpRight_ms, 2.0, 1e-9);
     EXPECT_EQ(plan.method, kDefaultRightEyeMethod);
@@ -39,22 +39,23 @@ TEST(FramePlan, PredictsFromCostsInClosedForm) {
 }
 
 TEST(FramePlan, CastsWhereHolesCostMoreThanTheyAreWorth) {
-    const FramePlan plan = planFromCosts({10.0, 1.0, 50.0, 0.2}, 1000, 1000, false);
+    const FramePlan plan = planFromCosts({10.0, 1.0, 50.0, 0.2}, 1000, 1000, ViewDependence::None);
     EXPECT_EQ(plan.method, RightEyeMethod::Full);
     EXPECT_FALSE(plan.warps());
     // exactly at the break-even, 9 ns of holes a pixel, nothing is won by the warp
-    EXPECT_FALSE(planFromCosts({10.0, 1.0, 90.0, 0.1}, 1000, 1000, false).warps());
-    EXPECT_TRUE(planFromCosts({10.0, 1.0, 89.0, 0.1}, 1000, 1000, false).warps());
+    EXPECT_FALSE(planFromCosts({10.0, 1.0, 90.0, 0.1}, 1000, 1000, ViewDependence::None).warps());
+    EXPECT_TRUE(planFromCosts({10.0, 1.0, 89.0, 0.1}, 1000, 1000, ViewDependence::None).warps());
 }
 
 TEST(FramePlan, BytesAreThoseOfThePlanes) {
-    for (const bool viewDependent : {false, true}) {
+    for (const ViewDependence dependence :
+         {ViewDependence::None, ViewDependence::Highlight, ViewDependence::Normal}) {
         EyeImage image;
-        image.resize(333, 77, viewDependent ? ViewDependence::Highlight : ViewDependence::None);
+        image.resize(333, 77, dependence);
         Plane<std::uint8_t> mask(333, 77);
         const std::size_t eye = image.color.byteCount() + image.viewDepth.byteCount() +
                                 image.baseColor.byteCount() + image.normal.byteCount();
-        EXPECT_EQ(frameBytes(333, 77, viewDependent), 2 * eye + mask.byteCount());
+        EXPECT_EQ(frameBytes(333, 77, dependence), 2 * eye + mask.byteCount());
     }
 }
 
@@ -74,6 +75,16 @@ TEST(FramePlan, MeasuresThatASlowSceneIsWarpedAndAnInstantOneCast) {
     EXPECT_EQ(instant.width, 160);
     EXPECT_FALSE(instant.viewDependent);
     EXPECT_THROW(planFrame(InstantScene(), {}), Error);
+}
+
+TEST(FramePlan, ATranslucentSceneIsWeighedByItsOwnMethod) {
+    const std::vector<StereoViews> views(2, viewsOf(160, 120));
+    const test::GlassScene scene({test::sphere({0, 6, 0}, 1.0)}, test::plane({0, 20, 0}, {0, -1, 0}));
+    const FramePlan plan = planFrame(scene, views);
+    EXPECT_NE(plan.reason.find("depthsplat takes"), std::string::npos) << plan.reason;
+    EXPECT_EQ(plan.costs.holeShare, 1.0) << "every pixel is cast";
+    EXPECT_NEAR(plan.warpRight_ms, (plan.costs.warp_ns + plan.costs.hole_ns) * 160 * 120 * 1e-6, 1e-9);
+    EXPECT_TRUE(plan.method == RightEyeMethod::DepthSplat || plan.method == RightEyeMethod::Full);
 }
 
 }  // namespace

@@ -91,6 +91,21 @@ TEST(MethodComparison, TheEdgeFigureDoesNotDependOnTheSelection) {
     EXPECT_EQ(alone[0].difference.psnr_db, among[1].difference.psnr_db);
 }
 
+TEST(MethodComparison, TranslucentScenesCompareTheirOwnMethods) {
+    const test::GlassScene scene({test::sphere({0, 8, 0}, 1.0)}, test::plane({0, 20, 0}, {0, -1, 0}), 0.7);
+    EXPECT_EQ(methodsFor(scene), (std::vector{RightEyeMethod::Full, RightEyeMethod::DepthSplat}));
+    Progress progress;
+    const auto figures =
+        compareMethods(scene, twoPoses(), kLens, kStereo, settingOf(methodsFor(scene)), progress, {});
+    ASSERT_EQ(figures.size(), 2u);
+    EXPECT_EQ(figures[1].name, "depthsplat");
+    EXPECT_GT(figures[1].difference.psnr_db, 60.0);
+    EXPECT_GT(figures[1].hole_percent, 0.0) << "some rays start at the eye";
+    EXPECT_LT(figures[1].hole_percent, 30.0);
+    EXPECT_GT(figures[1].warp_ms, 0.0);
+    EXPECT_GT(figures[1].fill_ms, 0.0);
+}
+
 TEST(MethodComparison, NeedsPosesAndMethods) {
     const auto scene = ballBeforeWall();
     Progress progress;

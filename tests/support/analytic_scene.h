@@ -45,6 +45,20 @@ inline Shape sphere(const glm::dvec3& centre, double radius) {
     };
 }
 
+// Where a ray leaves the sphere.
+inline Shape sphereFromInside(const glm::dvec3& centre, double radius) {
+    return [=](const glm::dvec3& origin, const glm::dvec3& direction) {
+        SurfacePoint hit;
+        const glm::dvec3 o = origin - centre;
+        const double a = glm::dot(direction, direction), b = glm::dot(o, direction);
+        const double root = b * b - a * (glm::dot(o, o) - radius * radius);
+        const double t = (-b + std::sqrt(std::max(root, 0.0))) / a;
+        if (root >= 0 && t > 0)
+            hit = {t, origin + t * direction, (centre - origin - t * direction) / radius, 0};
+        return hit;
+    };
+}
+
 // Axes of the world; slabs.
 inline Shape box(const glm::dvec3& low, const glm::dvec3& high) {
     return [=](const glm::dvec3& origin, const glm::dvec3& direction) {
@@ -236,6 +250,69 @@ protected:
 
 private:
     double mWaves, mBumps;  // radians a metre; share of the normal
+};
+
+// Glass before an opaque wall: what a ray meets are thin layers, each of which takes a share of the light
+// that grows towards grazing incidence. Closed form; a shell is met twice: sphere and sphereFromInside.
+class GlassScene : public AnalyticScene {
+public:
+    GlassScene(std::vector<Shape> glass, Shape wall, double waves = 0.5, double opacity = 0.35)
+        : AnalyticScene(all(glass, wall), waves),
+          mGlass(std::move(glass)),
+          mWall(std::move(wall)),
+          mOpacity(opacity) {}
+
+    bool translucent() const override { return true; }
+
+    void renderTileFromDepth(const EyeView& view, int tile, EyeImage& image) const override {
+        for (int x = 0; x < view.width; ++x) {
+            const double from = image.viewDepth.at(x, tile);
+            composite(view, x, tile, from, image);
+        }
+    }
+
+protected:
+    void renderPixel(const EyeView& view, int x, int y, EyeImage& image) const override {
+        composite(view, x, y, 0, image);
+    }
+
+private:
+    static std::vector<Shape> all(std::vector<Shape> glass, const Shape& wall) {
+        glass.push_back(wall);
+        return glass;
+    }
+
+    // Layers at `from` and behind it only: what a ray that starts there meets.
+    void composite(const EyeView& view, int x, int y, double from, EyeImage& image) const {
+        const glm::dvec3 direction = view.rayDirection(x + 0.5, y + 0.5);
+        std::vector<SurfacePoint> layers;
+        const double nearest = std::max(from, view.nearDepth);
+        const auto meet = [&](const Shape& shape, int index) {
+            SurfacePoint hit = shape(view.eye, direction);
+            hit.shape = index;
+            if (hit.depth < kMissDepth && hit.depth >= nearest) layers.push_back(hit);
+        };
+        for (std::size_t k = 0; k < mGlass.size(); ++k) meet(mGlass[k], static_cast<int>(k));
+        const int wall = static_cast<int>(mGlass.size());
+        meet(mWall, wall);
+        std::sort(layers.begin(), layers.end(),
+                  [](const SurfacePoint& a, const SurfacePoint& b) { return a.depth < b.depth; });
+        glm::dvec3 color(0.0);
+        double through = 1;
+        for (const SurfacePoint& layer : layers) {
+            const double slope = std::abs(glm::dot(layer.normal, glm::normalize(direction)));
+            const double share = layer.shape == wall ? 1.0 : 1 - std::pow(1 - mOpacity, 1 / (0.1 + slope));
+            color += through * share * baseColor(view, x + 0.5, y + 0.5, layer);
+            through *= 1 - share;
+        }
+        color += through * baseColor(view, x + 0.5, y + 0.5, SurfacePoint{});
+        image.color.at(x, y) = packColor(glm::vec3(color));
+        image.viewDepth.at(x, y) = layers.empty() ? kMissDepth : static_cast<float>(layers.front().depth);
+    }
+
+    std::vector<Shape> mGlass;
+    Shape mWall;
+    double mOpacity;
 };
 
 // An eye image cast in full.
