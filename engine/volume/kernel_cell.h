@@ -70,7 +70,7 @@ STEREONAV_INLINE Root firstRoot(const Cubic& f, M m) {
     const M falling = f.c2 < zero;
     // Both extrema without cancelling: one from the sum of equal signs, the other from their product.
     const F q = select(falling, root - f.c2, zero - f.c2 - root);
-    const F first = q / (F(3.0f) * f.c3), second = f.c1 / q;
+    const F first = q * approxReciprocal(F(3.0f) * f.c3), second = f.c1 * approxReciprocal(q);
     const F low = select(falling, first, second), high = select(falling, second, first);
     const M hasLow = bent & (low > zero) & (low < one);
     const M hasHigh = bent & (high > zero) & (high < one);
@@ -87,7 +87,7 @@ STEREONAV_INLINE Root firstRoot(const Cubic& f, M m) {
             const M under = value < zero;
             from = select(under, s, from);
             to = select(under, to, s);
-            const F next = s - value / f.slope(s);
+            const F next = s - value * approxReciprocal(f.slope(s));
             const M kept = (next >= from) & (next <= to);
             s = select(kept, next, F(0.5f) * (from + to));
         }

@@ -255,7 +255,8 @@ void writeRecords(const GreyVolume& volume, const MaskVolume& active, SurfaceCel
         throw Error("", "isosurface", fmt::format("{} cells hold surface, more than 134 million", total),
                     "choose another isovalue or a smaller volume");
     std::partial_sum(first.begin(), first.end(), first.begin());
-    cells.records.resize(first.back());
+    cells.records = LazyArray<CellRecord>(first.back());
+    cells.records.preferLargePages();
     parallelFor(bricks, [&](int n) {
         if (first[n] == first[n + 1]) return;
         BrickRecords(volume).write(brickAt(cells.layout, n), active, first[n], cells);

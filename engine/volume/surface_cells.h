@@ -51,7 +51,7 @@ struct SurfaceCells {
     double leapUnit = 0;             // metres; a quarter of the smallest spacing, more where leaps are long
     LazyArray<std::uint8_t> codes;   // by layout. kCellActive without a record: outside the region
     LazyArray<std::uint32_t> cells;  // by layout: record number + 1, 0 where there is none
-    std::vector<CellRecord> records;
+    LazyArray<CellRecord> records;
     float isovalue = 0;  // the surface is where the trilinear value reaches it, in stored numbers
 
     // The record of a cell, null where it has none. The cell must lie in the volume.

@@ -7,7 +7,7 @@
 namespace stereonav::STEREONAV_ISA {
 namespace {
 
-constexpr int kBlock = 8;  // pixels a side of a beam
+constexpr int kBlock = 4;  // pixels a side of a beam
 constexpr int kPacketX = 4, kPacketY = kLanes / 4;
 constexpr int kLargestSide = 64;          // of a rectangle that is cast at once
 constexpr float kInFront = 1.0f - 4e-6f;  // for the rounding of a beam's end
@@ -120,7 +120,7 @@ private:
         const F radius = sqrt(F(dx * dx + dy * dy));
         for (int n = 0; n < rows * kBlocks && n < kAll; n += kLanes) {
             const I number = laneIndex() + I(n);
-            const I row = shiftRight<3>(number), column = number & I(kBlocks - 1);
+            const I row = shiftRight<4>(number), column = number & I(kBlocks - 1);
             const F x = toFloat(column * I(kBlock) + I(rect.x0)) + F(0.5f * (kBlock - 1));
             const F y = toFloat(row * I(kBlock) + I(rect.y0)) + F(0.5f * (kBlock - 1));
             const M lanes = (column * I(kBlock) < I(rect.x1 - rect.x0)) & (row < I(rows));
