@@ -159,6 +159,10 @@ STEREONAV_INLINE I max(I a, I b) {
 STEREONAV_INLINE M operator<(I a, I b) {
     return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(b.v, a.v))};
 }
+// 0 <= a <= last
+STEREONAV_INLINE M within(I a, I last) {
+    return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_min_epu32(a.v, last.v), a.v))};
+}
 STEREONAV_INLINE M operator>(I a, I b) {
     return b < a;
 }

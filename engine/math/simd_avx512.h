@@ -156,6 +156,10 @@ STEREONAV_INLINE I max(I a, I b) {
 STEREONAV_INLINE M operator<(I a, I b) {
     return {_mm512_cmp_epi32_mask(a.v, b.v, _MM_CMPINT_LT)};
 }
+// 0 <= a <= last
+STEREONAV_INLINE M within(I a, I last) {
+    return {_mm512_cmp_epu32_mask(a.v, last.v, _MM_CMPINT_LE)};
+}
 STEREONAV_INLINE M operator>(I a, I b) {
     return b < a;
 }

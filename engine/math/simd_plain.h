@@ -183,6 +183,10 @@ STEREONAV_INLINE I max(I a, I b) {
 STEREONAV_INLINE M operator<(I a, I b) {
     return testLanes([&](int k) { return a.v[k] < b.v[k]; });
 }
+// 0 <= a <= last
+STEREONAV_INLINE M within(I a, I last) {
+    return andNot(maskFromBits(0xFu), (a < I(0)) | (last < a));
+}
 STEREONAV_INLINE M operator>(I a, I b) {
     return b < a;
 }

@@ -113,9 +113,10 @@ STEREONAV_INLINE F inCell(F eye, F t, F direction, I cell) {
 }
 
 STEREONAV_INLINE Crossing crossingOf(const Grid& grid, const Rays& r, const Cells& at, F nearest) {
-    const V3 near = grid.nearPlanes(r, at), far = grid.farPlanes(r, at);
+    const V3 far = farPlanes(r, at);
     Crossing c;
-    c.in = max(max(near.x, nearest), max(near.y, near.z));
+    c.in =
+        max(max(far.x - abs(r.inverse.x), nearest), max(far.y - abs(r.inverse.y), far.z - abs(r.inverse.z)));
     c.out = max(c.in, min(far.x, min(far.y, far.z)));
     const F span = c.out - c.in;
     c.start = {inCell(grid.eyeX, c.in, r.direction.x, at.x), inCell(grid.eyeY, c.in, r.direction.y, at.y),
@@ -147,7 +148,7 @@ STEREONAV_INLINE Hits castPacket(const Grid& grid, const Rays& r, Walk w, F near
         hits.word = select(root.found, word, hits.word);
         hits.hit = hits.hit | root.found;
         w.active = w.active & andNot(known, root.found);
-        stepCell(grid, r, w, w.active);
+        stepCell(r, w, w.active);
     }
     return hits;
 }

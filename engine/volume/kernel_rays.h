@@ -21,11 +21,11 @@ struct Cells {
 // One ray a lane. Directions that are almost parallel to a plane of the grid are kept off it, so that their
 // inverses are finite; what a ray misses by that is far below a voxel.
 struct Rays {
-    V3 direction, inverse;     // voxels a metre of view depth, and its inverse
-    I stepX, stepY, stepZ;     // 1 or -1: to the next cell
-    F planeX, planeY, planeZ;  // 1 or 0: the far plane of a cell
-    F perMetre;                // view depth a metre of way
-    F windowX, windowY;        // at unit view depth
+    V3 direction, inverse;  // voxels a metre of view depth, and its inverse
+    V3 farAtEye;            // view depths of the far planes of the cell that the eye is in
+    I stepX, stepY, stepZ;  // 1 or -1: to the next cell
+    F perMetre;             // view depth a metre of way
+    F windowX, windowY;     // at unit view depth
 };
 
 STEREONAV_INLINE F awayFromZero(F d) {
@@ -36,20 +36,24 @@ STEREONAV_INLINE F awayFromZero(F d) {
 // x, y: pixels, whose centres the rays go through.
 STEREONAV_INLINE Rays makeRays(const VolumeView& view, F x, F y) {
     Rays r;
+    const F zero(0.0f), one(1.0f);
     const auto along = [&](int k) {
         return awayFromZero(
             mulAdd(x, F(static_cast<float>(view.perX[k])),
                    mulAdd(y, F(static_cast<float>(view.perY[k])), F(static_cast<float>(view.direction[k])))));
     };
     r.direction = {along(0), along(1), along(2)};
-    r.inverse = {F(1.0f) / r.direction.x, F(1.0f) / r.direction.y, F(1.0f) / r.direction.z};
-    const auto forward = [](F d) { return d > F(0.0f); };
+    r.inverse = {one / r.direction.x, one / r.direction.y, one / r.direction.z};
+    const auto forward = [&](F d) { return d > zero; };
     r.stepX = select(forward(r.direction.x), I(1), I(-1));
     r.stepY = select(forward(r.direction.y), I(1), I(-1));
     r.stepZ = select(forward(r.direction.z), I(1), I(-1));
-    r.planeX = select(forward(r.direction.x), F(1.0f), F(0.0f));
-    r.planeY = select(forward(r.direction.y), F(1.0f), F(0.0f));
-    r.planeZ = select(forward(r.direction.z), F(1.0f), F(0.0f));
+    const auto plane = [&](F d, F inverse, float eye) {
+        return (select(forward(d), one, zero) - F(eye)) * inverse;
+    };
+    r.farAtEye = {plane(r.direction.x, r.inverse.x, view.eye[0]),
+                  plane(r.direction.y, r.inverse.y, view.eye[1]),
+                  plane(r.direction.z, r.inverse.z, view.eye[2])};
     r.windowX = mulAdd(x + F(0.5f), F(view.pixelWidth), F(view.xMin));
     r.windowY = mulAdd(y + F(0.5f), F(-view.pixelHeight), F(view.yMax));
     r.perMetre = approxRsqrt(mulAdd(r.windowX, r.windowX, mulAdd(r.windowY, r.windowY, F(1.0f))));
@@ -77,32 +81,23 @@ struct Grid {
                 floorToInt(mulAdd(t, direction.z, eyeZ))};
     }
     STEREONAV_INLINE M inside(const Cells& c) const {
-        const I x = c.x + baseX, y = c.y + baseY, z = c.z + baseZ;
-        const M low = (x < I(0)) | (y < I(0)) | (z < I(0));
-        return ~(low | (lastX < x) | (lastY < y) | (lastZ < z));
+        return within(c.x + baseX, lastX) & within(c.y + baseY, lastY) & within(c.z + baseZ, lastZ);
     }
-    // Index of cells, moved into the volume where they are outside.
+    // Index of cells inside the volume.
     STEREONAV_INLINE I index(const Cells& c) const {
-        const I x = clamp(c.x + baseX, I(0), lastX), y = clamp(c.y + baseY, I(0), lastY),
-                z = clamp(c.z + baseZ, I(0), lastZ);
+        const I x = c.x + baseX, y = c.y + baseY, z = c.z + baseZ;
         const I brick =
             (shiftRight<4>(z) * I(data.bricks[1]) + shiftRight<4>(y)) * I(data.bricks[0]) + shiftRight<4>(x);
         const I low(15);
         return shiftLeft<12>(brick) | shiftLeft<8>(z & low) | shiftLeft<4>(y & low) | (x & low);
     }
-    // View depths at which rays pass the far and the near planes of their cells.
-    STEREONAV_INLINE V3 farPlanes(const Rays& r, const Cells& c) const {
-        return {(toFloat(c.x) + r.planeX - eyeX) * r.inverse.x,
-                (toFloat(c.y) + r.planeY - eyeY) * r.inverse.y,
-                (toFloat(c.z) + r.planeZ - eyeZ) * r.inverse.z};
-    }
-    STEREONAV_INLINE V3 nearPlanes(const Rays& r, const Cells& c) const {
-        const F one(1.0f);
-        return {(toFloat(c.x) + (one - r.planeX) - eyeX) * r.inverse.x,
-                (toFloat(c.y) + (one - r.planeY) - eyeY) * r.inverse.y,
-                (toFloat(c.z) + (one - r.planeZ) - eyeZ) * r.inverse.z};
-    }
 };
+
+// View depths at which rays leave through the planes of their cells.
+STEREONAV_INLINE V3 farPlanes(const Rays& r, const Cells& c) {
+    return {mulAdd(toFloat(c.x), r.inverse.x, r.farAtEye.x), mulAdd(toFloat(c.y), r.inverse.y, r.farAtEye.y),
+            mulAdd(toFloat(c.z), r.inverse.z, r.farAtEye.z)};
+}
 
 // Where rays are: all that a walk changes.
 struct Walk {
@@ -113,8 +108,8 @@ struct Walk {
 
 // To the next cell: cells are counted, not found again from a rounded position, so that a ray's cells do not
 // depend on how it came there.
-STEREONAV_INLINE void stepCell(const Grid& grid, const Rays& r, Walk& w, M m) {
-    const V3 far = grid.farPlanes(r, w.at);
+STEREONAV_INLINE void stepCell(const Rays& r, Walk& w, M m) {
+    const V3 far = farPlanes(r, w.at);
     const F next = min(far.x, min(far.y, far.z));
     w.t = select(m, max(w.t, next), w.t);
     w.at.x = w.at.x + select(m & (far.x <= next), r.stepX, I(0));
@@ -151,7 +146,7 @@ STEREONAV_INLINE Parked leap(const Grid& grid, const Rays& r, Walk& w) {
             const Cells c = grid.cellsAt(r.direction, w.t);
             w.at = {select(wide, c.x, w.at.x), select(wide, c.y, w.at.y), select(wide, c.z, w.at.z)};
         }
-        if (any(walk)) stepCell(grid, r, w, walk);
+        if (any(walk)) stepCell(r, w, walk);
     }
     return parked;
 }

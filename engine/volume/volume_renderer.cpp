@@ -166,12 +166,22 @@ void VolumeRenderer::renderTileFromDepth(const EyeView& view, int tile, EyeImage
                               targetOf(image), true);
 }
 
-void VolumeRenderer::renderPixels(const EyeView& view, PixelRect, std::span<const PixelIndex> pixels,
+// Lists go row by row through a band of columns; packets of pixels from a narrower band are closer to each
+// other, and so are their rays.
+void VolumeRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
                                   EyeImage& image) const {
-    static_assert(sizeof(PixelIndex) == sizeof(VolumePixel));
-    mState->kernels->castPixels(mState->data, makeVolumeView(view, mScene.cells.frame),
-                                reinterpret_cast<const VolumePixel*>(pixels.data()),
-                                static_cast<int>(pixels.size()), targetOf(image));
+    constexpr int kNarrow = 8, kMost = 1024;
+    const VolumeView volumeView = makeVolumeView(view, mScene.cells.frame);
+    const VolumeTarget target = targetOf(image);
+    VolumePixel sorted[kMost];
+    for (std::size_t first = 0; first < pixels.size(); first += kMost) {
+        const auto some = pixels.subspan(first, std::min<std::size_t>(kMost, pixels.size() - first));
+        int count = 0;
+        for (int x0 = bounds.x0; x0 < bounds.x1; x0 += kNarrow)
+            for (const PixelIndex p : some)
+                if (p.x >= x0 && p.x < x0 + kNarrow) sorted[count++] = {p.x, p.y};
+        mState->kernels->castPixels(mState->data, volumeView, sorted, count, target);
+    }
 }
 
 // A beam around the rectangle, as the kernels' beams.
