@@ -1,0 +1,27 @@
+// Which way the viewer of a colon flight looks: a base that follows the travel, and what the user turned on
+// top of it.
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+namespace stereonav {
+
+struct FlightView {
+    glm::dquat base = glm::dquat(1, 0, 0, 0);  // worldFromCamera
+    double yaw = 0, pitch = 0, roll = 0;       // radians, on top of it: as FlightInput's rates
+
+    glm::dquat orientation() const;
+    glm::dvec3 right() const { return orientation() * glm::dvec3(1, 0, 0); }
+    // The same view with everything in the base.
+    FlightView settled() const { return {orientation(), 0, 0, 0}; }
+    // The base turned towards a unit direction by `share` of the way, along the shortest arc: without roll.
+    FlightView facing(const glm::dvec3& direction, double share) const;
+};
+
+// From a (t = 0) to b (t = 1).
+FlightView between(const FlightView& a, const FlightView& b, double t);
+// The angle between the ways that two views hold the head, radians.
+double angleBetween(const FlightView& a, const FlightView& b);
+
+}  // namespace stereonav
