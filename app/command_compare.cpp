@@ -35,17 +35,17 @@ void checkOptions(const CompareOptions& options) {
     if (!options.csv.empty()) checkOutputFile("--csv", options.csv);
     if (!options.plot.empty()) checkOutputPicture("--plot", options.plot);
     if (!options.images.empty()) checkOutputFolder("--images", options.images);
+    for (const std::string& name : options.methods) methodFromText(name);
 }
 
-std::vector<RightEyeMethod> methodsOf(const CompareOptions& options) {
+// Each once, in the order of their first naming; "auto" is the scene's default.
+std::vector<RightEyeMethod> methodsOf(const CompareOptions& options, const LoadedScene& scene) {
     std::vector<RightEyeMethod> methods;
     for (const std::string& name : options.methods) {
-        const RightEyeMethod method = methodFromText(name);
+        const RightEyeMethod method = methodFromText(name).value_or(scene.defaultMethod());
         if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
     }
-    if (methods.empty())
-        for (const NamedMethod& named : kRightEyeMethods) methods.push_back(named.method);
-    return methods;
+    return methods.empty() ? scene.methods : methods;
 }
 
 // The pictures of one frame: each eye and truth, and of each method its right eye, its holes in red
@@ -77,7 +77,7 @@ ComparisonReport describe(const CompareOptions& options, const LoadedScene& scen
     report.scene = scene.name;
     report.path = options.path;
     report.machine = machineName();
-    report.simd = nameOf(scene.renderer->target());
+    report.simd = nameOf(scene.simd);
     report.width = options.size.width;
     report.height = options.size.height;
     report.threads = threadCount();
@@ -92,15 +92,15 @@ ComparisonReport describe(const CompareOptions& options, const LoadedScene& scen
 int runCompare(const CompareOptions& options) {
     checkOptions(options);
     ComparisonSetting setting;
-    setting.methods = methodsOf(options);
     setting.repeats = options.repeats;
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
     ProgressBar bar;
     LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    setting.methods = methodsOf(options, scene);
     if (options.relativeSeparation > 0.0)
         scene.stereo.separation = scene.stereo.zeroParallax * options.relativeSeparation;
-    const std::vector<Pose> poses = (path ? *path : scene.terrain->path).frames(options.frames);
+    const std::vector<Pose> poses = (path ? *path : scene.path).frames(options.frames);
     const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
     const auto listener = [&](const ComparedFrame& frame) {
         if (!options.images.empty() && frame.index == shown) writePictures(frame, options.images);

@@ -52,7 +52,7 @@ Json planJson(const LoadedScene& scene, const FramePlan& plan) {
     json["separation_m"] = scene.stereo.separation;
     json["zero_parallax_m"] = scene.stereo.zeroParallax;
     json["threads"] = threadCount();
-    json["simd"] = nameOf(scene.renderer->target());
+    json["simd"] = nameOf(scene.simd);
     json["view_dependent"] = plan.viewDependent;
     json["planes"] = plan.viewDependent ? Json{"color", "depth", "base color", "normal", "hole mask"}
                                         : Json{"color", "depth", "hole mask"};
@@ -108,7 +108,7 @@ std::string planText(const LoadedScene& scene, const FramePlan& plan) {
     line("eyes", fmt::format("{:.4g} m apart, zero parallax at {:.4g} m", scene.stereo.separation,
                              scene.stereo.zeroParallax));
     line("threads", std::to_string(threadCount()));
-    line("simd", nameOf(scene.renderer->target()));
+    line("simd", nameOf(scene.simd));
     line("planes",
          plan.viewDependent ? "colour, depth, base colour, normal, hole mask" : "colour, depth, hole mask");
     line("memory", fmt::format("{:.1f} MB", static_cast<double>(plan.bytes) / 1e6));

@@ -78,15 +78,15 @@ double medianOf(std::vector<double> values) {
 int runPlay(const PlayOptions& options) {
     checkOptions(options);
     const OutputMode mode = modeFromText(options.mode);
-    const RightEyeMethod method = methodFromText(options.method);
+    const std::optional<RightEyeMethod> method = methodFromText(options.method);
     // the path first: a bad one should not cost the reading of a large scene
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
-    const std::vector<Pose> poses = posesOf(options, path ? *path : scene.terrain->path);
+    const std::vector<Pose> poses = posesOf(options, path ? *path : scene.path);
     FrameSink sink(options, mode);
-    StereoFrame frame(scene, method);
+    StereoFrame frame(scene, method.value_or(scene.defaultMethod()));
     Hash hash;
     std::vector<double> left_ms, right_ms;
     for (std::size_t k = 0; k < poses.size(); ++k) {

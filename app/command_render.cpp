@@ -13,14 +13,14 @@ int runRender(const RenderOptions& options) {
     checkOutputPicture("--out", options.out);
     checkSize(options.size);
     const OutputMode mode = modeFromText(options.mode);
-    const RightEyeMethod method = methodFromText(options.method);
+    const std::optional<RightEyeMethod> method = methodFromText(options.method);
     std::optional<Pose> pose;
     if (!options.pose.empty()) pose = poseFromText(options.pose);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
-    StereoFrame frame(scene, method);
+    StereoFrame frame(scene, method.value_or(scene.defaultMethod()));
     bar.progress().report(0.9, "casting");
-    frame.render(pose ? *pose : scene.terrain->startPose);
+    frame.render(pose ? *pose : scene.startPose);
     const Plane<PackedColor> picture = frame.compose(mode);
     writeColorImage(options.out, picture);
     bar.clear();

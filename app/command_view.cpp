@@ -2,25 +2,21 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <filesystem>
-#include <future>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "app/commands.h"
-#include "app/scene_loading.h"
+#include "app/screenshots.h"
 #include "app/view_input.h"
+#include "app/view_loading.h"
 #include "app/view_session.h"
-#include "app/view_worker.h"
+#include "app/view_status.h"
 #include "engine/base/stopwatch.h"
 #include "engine/display/overlay.h"
 #include "engine/display/stereo_presenter.h"
 #include "engine/display/window.h"
-#include "engine/image/image_file.h"
 
 namespace stereonav {
 namespace {
@@ -29,83 +25,6 @@ constexpr double kActiveWait = 1.0 / 120;  // seconds between looks at the keys 
 constexpr double kIdleWait = 0.1;          // seconds; events and frames end the wait at once
 constexpr double kFigureSeconds = 0.25;    // the figures change four times a second, to be readable
 constexpr double kFrameWeight = 0.15;      // of the newest frame in the mean time between frames
-
-// A loaded scene with the figures that the viewer chooses speeds and the right eye's method from.
-ViewScene viewSceneOf(const ViewOptions& options, Progress& progress) {
-    auto loaded = std::make_shared<LoadedScene>(loadScene(options.scene, options.size, progress));
-    const TerrainScene& terrain = *loaded->terrain;
-    ViewScene scene;
-    scene.owner = loaded;
-    scene.renderer = loaded->renderer.get();
-    scene.ground = [&ground = terrain.ground](const glm::dvec2& place) { return ground.heightAt(place); };
-    scene.start = terrain.startPose;
-    scene.path = terrain.path;
-    scene.lens = loaded->lens;
-    scene.stereo = loaded->stereo;
-    scene.clearance = terrain.clearance;
-    const glm::dvec2 spacing = terrain.ground.spacing();
-    scene.extent =
-        std::max(spacing.x * (terrain.ground.width() - 1), spacing.y * (terrain.ground.height() - 1));
-    scene.groundStep = 0.5 * std::min(spacing.x, spacing.y);
-    if (options.method == "auto") {
-        progress.report(1.0, "measuring how to make the right eye");
-        scene.method = planScene(*loaded).method;
-    } else {
-        scene.method = methodFromText(options.method);
-    }
-    return scene;
-}
-
-// Saves pictures beside the window's thread; each waits for the frame that shows what was asked for.
-class Screenshots {
-public:
-    explicit Screenshots(std::filesystem::path folder) : mFolder(std::move(folder)) {}
-
-    void wish(long long version) { mVersions.push_back(version); }
-    bool waiting() const { return !mVersions.empty() || !mSaving.empty(); }
-
-    void take(const std::shared_ptr<const ViewFrame>& frame, const ComposeSetting& setting) {
-        std::erase_if(mVersions, [&](long long version) {
-            if (!frame || frame->request.version < version) return false;
-            save(frame, setting);
-            return true;
-        });
-    }
-
-    // What happened since, "" when nothing; throws what saving threw.
-    std::string report() {
-        std::string text;
-        std::erase_if(mSaving, [&](std::future<std::string>& saving) {
-            if (saving.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
-            text = saving.get();
-            return true;
-        });
-        return text;
-    }
-
-private:
-    void save(const std::shared_ptr<const ViewFrame>& frame, const ComposeSetting& setting) {
-        std::filesystem::path file;
-        do file = mFolder / fmt::format("stereonav_{:04}_{}.png", ++mNumber, infoOf(setting.mode).shortName);
-        while (std::filesystem::exists(file));
-        mSaving.push_back(std::async(std::launch::async, [frame, setting, file]() -> std::string {
-            try {
-                const bool oneEye = frame->right.color.empty();
-                writeColorImage(
-                    file, composeStereo(frame->left.color, oneEye ? frame->left.color : frame->right.color,
-                                        setting));
-                return "saved " + file.string();
-            } catch (const std::exception& error) {
-                return error.what();
-            }
-        }));
-    }
-
-    std::filesystem::path mFolder;
-    int mNumber = 0;
-    std::vector<long long> mVersions;
-    std::vector<std::future<std::string>> mSaving;
-};
 
 // Frames a second while they flow; keeps its value while the picture stands still.
 class FrameRate {
@@ -141,14 +60,14 @@ public:
                   composedSize(mMode, options.size.width, options.size.height).second),
           mOverlay(mWindow),
           mScreenshots(options.shots),
-          mWorker([options](Progress& progress) { return viewSceneOf(options, progress); },
+          mWorker([options](Progress& progress) { return viewSceneOf(options, true, progress); },
                   [] { Window::wake(); }) {}
 
     void run() {
         while (!mWindow.shouldClose() && !mQuitWhileLoading && !(mSession && mSession->quit())) {
             mWindow.handleEvents(waitSeconds());
             const double dt = mClock.lap_ms() / 1000;
-            if (!mSession && mWorker.scene()) startSession();
+            takeScene();
             if (mSession)
                 update(dt);
             else
@@ -169,9 +88,17 @@ private:
                                                                                          : kIdleWait;
     }
 
-    void startSession() {
-        mSession.emplace(*mWorker.scene(), ViewSession::Options{mMode, mFlight, mOptions.shots});
-        mSession->notify("F1 shows the keys");
+    // The first scene starts the session, others take its place in it.
+    void takeScene() {
+        auto scene = mWorker.scene();
+        if (!scene || scene == mScene) return;
+        mScene = std::move(scene);
+        if (mSession) {
+            mSession->replaceScene(mScene);
+        } else {
+            mSession.emplace(mScene, ViewSession::Options{mMode, mFlight, mOptions.shots});
+            mSession->notify("F1 shows the keys");
+        }
     }
 
     void quitOnEscape() {
@@ -188,15 +115,45 @@ private:
         for (const ViewAction& action : mInput.actionsOf(pad)) mSession->act(action);
         mWindow.setCaptured(mSession->mouseCaptured());
         const glm::ivec2 size = mWindow.framebufferSize();
-        const glm::dvec2 drag = mWindow.takeDrag();
-        if (size.y > 0) {
-            const double radiansPerUnit = mWorker.scene()->lens.verticalFov / size.y;
-            mSession->look(drag.x * radiansPerUnit, -drag.y * radiansPerUnit);
-        }
-        mSession->changeSpeed(mWindow.takeWheel());
+        usePointer(size);
         mSession->step(mInput.flightOf(mWindow, pad), dt);
         if (size.x > 0 && size.y > 0) askFor(size);
+        followWishes();
         takeFrame();
+    }
+
+    void usePointer(const glm::ivec2& size) {
+        const glm::dvec2 drag = mWindow.takeDrag();
+        const std::vector<glm::dvec2> clicks = mWindow.takeClicks();
+        mSession->turnWheel(mWindow.takeWheel());
+        if (size.x < 1 || size.y < 1) return;
+        const double radiansPerUnit = mScene->lens.verticalFov / size.y;
+        mSession->look(drag.x * radiansPerUnit, -drag.y * radiansPerUnit);
+        const OutputMode mode = mSession->compose().mode;
+        const auto [width, height] = eyeSizeFor(mode, size.x, size.y);
+        for (const glm::dvec2& click : clicks) {
+            const glm::dvec2 place = placeInEye(infoOf(mode).layout, click) * glm::dvec2(width, height);
+            mSession->click(place.x, place.y);
+        }
+    }
+
+    // What the session wants that takes longer than a frame.
+    void followWishes() {
+        if (const auto change = mSession->takeSceneChange()) {
+            applyChange(*change, mOptions, mChanged.scene);
+            mWorker.reload(
+                [options = mChanged](Progress& progress) { return viewSceneOf(options, false, progress); });
+        }
+        if (const std::string problem = mWorker.takeReloadProblem(); !problem.empty()) {
+            mSession->forgetSceneChange();
+            mSession->notify(problem);
+        }
+        if (mSession->takeStudyWish()) mSlices.start(mScene, [] { Window::wake(); });
+        try {
+            if (auto study = mSlices.take()) mSession->showSlices(std::move(study));
+        } catch (const std::exception& error) {
+            mSession->notify(error.what());
+        }
     }
 
     void askFor(const glm::ivec2& size) {
@@ -209,12 +166,35 @@ private:
     void takeFrame() {
         if (auto frame = mWorker.takeFrame()) {
             mFrame = std::move(frame);
-            mPresenter.upload(mFrame->left.color, mFrame->right.color);
+            mSession->observe(*mFrame);
+            if (!mSession->slicesShown()) mPresenter.upload(mFrame->left.color, mFrame->right.color);
             mRate.count(mFrame->request.version < mAsked);
             mNewFrame = true;
         }
-        mScreenshots.take(mFrame, mSession->compose());
+        if (mSession->slicesShown())
+            takeSlice();
+        else
+            mScreenshots.take(mFrame, mSession->compose());
+        if (!mSession->slicesShown() && mSliceVersion != 0) endSlices();
         reportScreenshots();
+    }
+
+    void takeSlice() {
+        const glm::ivec2 size = mWindow.framebufferSize();
+        if (size.x < 1 || size.y < 1) return;
+        const auto [width, height] = eyeSizeFor(mSession->compose().mode, size.x, size.y);
+        const Plane<PackedColor>& picture = mSession->slicePicture(width, height);
+        mScreenshots.take(picture, mSession->compose());
+        if (mSession->sliceVersion() == mSliceVersion) return;
+        mSliceVersion = mSession->sliceVersion();
+        mPresenter.upload(picture, {});
+        mNewFrame = true;
+    }
+
+    void endSlices() {
+        mSliceVersion = 0;
+        if (mFrame) mPresenter.upload(mFrame->left.color, mFrame->right.color);
+        mNewFrame = true;
     }
 
     void reportScreenshots() {
@@ -247,17 +227,28 @@ private:
         if (mFrame && (mFigureWatch.elapsed_ms() > 1000 * kFigureSeconds || mStatus.empty())) {
             mFigureWatch.lap_ms();
             mStatus = mSession->statusLine(*mFrame, mRate.value());
-            mWarning = mSession->warningLine(*mFrame);
+            mWarning = warningLine(*mFrame);
         }
-        content.status = mStatus;
-        content.warning = mWarning;
+        content.status = mSession->slicesShown() ? mSession->sliceStatus() : mStatus;
+        content.warning = mSession->slicesShown() ? "" : mWarning;
+        addLoading(content);
         return content;
+    }
+
+    // Of a scene that is to take the present one's place.
+    void addLoading(OverlayContent& content) const {
+        const ViewWorker::Loading loading = mWorker.loading();
+        if (loading.busy)
+            content.status += fmt::format("\n{:.0f} % {}", 100 * loading.fraction,
+                                          loading.what.empty() ? "loading" : loading.what);
+        if (mSlices.busy()) content.status += "\nreading the slices";
     }
 
     // The mode of the session; but until a picture made for it is there, that of the one shown.
     ComposeSetting shownSetting() const {
         ComposeSetting setting = mSession ? mSession->compose() : ComposeSetting{mMode, false, false};
         const glm::ivec2 size = mWindow.framebufferSize();
+        if (mSession && mSession->slicesShown()) return setting;
         if (mFrame &&
             eyeSizeFor(setting.mode, size.x, size.y) != eyeSizeFor(mFrame->request.mode, size.x, size.y))
             setting.mode = mFrame->request.mode;
@@ -282,7 +273,7 @@ private:
         mWindow.swapBuffers();
     }
 
-    ViewOptions mOptions;
+    ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed since
     OutputMode mMode;
     std::optional<RecordedPath> mFlight;
     Window mWindow;
@@ -296,7 +287,9 @@ private:
     OverlayContent mContent;
     ComposeSetting mDrawn;
     std::string mStatus, mWarning;
-    long long mAsked = 0;
+    long long mAsked = 0, mSliceVersion = 0;
+    std::shared_ptr<const ViewScene> mScene;
+    SliceReading mSlices;
     bool mNewFrame = false, mQuitWhileLoading = false;
     ViewWorker mWorker;  // after the window, whose wake() it calls until it has ended
     std::optional<ViewSession> mSession;

@@ -9,8 +9,22 @@
 
 namespace stereonav {
 
+// Of CT studies; what is not given is chosen from the study.
+struct VolumeOptions {
+    std::string series;              // of a folder with several: its number or UID
+    std::optional<int> label;        // of a mask with several
+    std::vector<std::string> seeds;  // "x,y,z", LPS millimetres
+    bool resample = false;           // mend uneven or tilted slices
+    bool isosurface = false;         // seen from outside, without looking for a colon
+    std::optional<double> isovalue;
+    std::string transfer;           // a transfer function's file; "": none
+    std::optional<double> opacity;  // of a translucent wall a millimetre, in (0, 1]
+    bool backwards = false;         // from the caecum
+    bool cache = true;
+};
+
 struct SceneOptions {
-    std::string scene;         // "" or "terrain": built in; a .toml; a DEM file
+    std::string scene;  // "" or "terrain": built in; a .toml; a DEM file; "colon": built in; a CT study
     double verticalScale = 0;  // 0: as the scene says
     bool openHoles = false;
     std::string image, sky;  // "": as the scene says
@@ -18,6 +32,7 @@ struct SceneOptions {
     double fov_deg = 0;         // vertical; 0: as the scene says
     int threads = 0;            // 0: all
     std::string simd = "auto";  // auto, plain, avx2, avx512
+    VolumeOptions volume;
 };
 
 struct SizeOption {

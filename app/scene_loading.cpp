@@ -8,9 +8,9 @@
 #include <numbers>
 #include <sstream>
 
+#include "app/terrain_loading.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "terrain/terrain_loader.h"
 
 namespace stereonav {
 namespace {
@@ -62,36 +62,15 @@ void checkSize(const SizeOption& size, int bytesPerPixel) {
                     "choose a smaller size");
 }
 
-SceneFile describeScene(const SceneOptions& options) {
-    SceneFile scene = sceneFileFromName(options.scene);
-    if (options.verticalScale > 0.0) scene.verticalScale = options.verticalScale;
-    if (options.openHoles) scene.openHoles = true;
-    if (!options.image.empty()) scene.image = options.image;
-    if (!options.sky.empty()) scene.sky = options.sky;
-    if (options.separation_m) scene.separation = options.separation_m;
-    if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;
-    if (options.fov_deg > 0.0) scene.verticalFov = options.fov_deg * kRadians;
-    return scene;
-}
-
 LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress) {
     checkSize(size);
     checkOptions(options);
     const SimdTarget simd = simdFromText(options.simd);
     if (options.threads > 0) setThreadCount(options.threads);
-    LoadedScene scene;
-    scene.name = options.scene.empty() ? "terrain" : options.scene;
-    scene.terrain = std::make_unique<TerrainScene>(loadTerrain(describeScene(options), progress));
-    scene.renderer = std::make_unique<TerrainRenderer>(*scene.terrain, simd);
-    scene.lens = scene.terrain->lens;
+    LoadedScene scene = loadTerrainScene(options, simd, progress);
     scene.lens.width = size.width;
     scene.lens.height = size.height;
-    scene.stereo = scene.terrain->stereo;
     return scene;
-}
-
-RecordedPath flightOf(const LoadedScene& scene, const std::string& file) {
-    return file.empty() ? scene.terrain->path : readPath(file);
 }
 
 Pose poseFromText(const std::string& text) {
@@ -116,8 +95,8 @@ Pose poseFromText(const std::string& text) {
                           values[5] * kRadians);
 }
 
-RightEyeMethod methodFromText(const std::string& name) {
-    if (name == "auto") return kDefaultRightEyeMethod;
+std::optional<RightEyeMethod> methodFromText(const std::string& name) {
+    if (name == "auto") return std::nullopt;
     if (const auto method = rightEyeMethodFromName(name)) return *method;
     std::string known;
     for (const NamedMethod& method : kRightEyeMethods)
@@ -146,9 +125,8 @@ std::string nameOf(SimdTarget target) {
 
 FramePlan planScene(const LoadedScene& scene) {
     constexpr int kPosesAlongTheFlight = 4;
-    std::vector<StereoViews> views{scene.viewsAt(scene.terrain->startPose)};
-    for (const Pose& pose : scene.terrain->path.frames(kPosesAlongTheFlight))
-        views.push_back(scene.viewsAt(pose));
+    std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};
+    for (const Pose& pose : scene.path.frames(kPosesAlongTheFlight)) views.push_back(scene.viewsAt(pose));
     return planFrame(*scene.renderer, views);
 }
 

@@ -1,6 +1,7 @@
 // From what the command line says to a scene that can be cast: shared by all commands.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,23 +10,28 @@
 #include "app/commands.h"
 #include "engine/base/progress.h"
 #include "engine/image/stereo_compose.h"
+#include "engine/math/simd_target.h"
+#include "engine/nav/flight.h"
 #include "engine/stereo/frame_plan.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/terrain_scene.h"
 
 namespace stereonav {
 
 struct LoadedScene {
-    std::string name;  // as given, "terrain" for the built-in one
-    std::unique_ptr<TerrainScene> terrain;
-    std::unique_ptr<TerrainRenderer> renderer;  // of *terrain
-    Lens lens;                                  // with the size asked for
+    std::string name;                       // as given, "terrain" for the built-in one
+    std::unique_ptr<TerrainScene> terrain;  // what the rest refers to
+    std::unique_ptr<EyeRenderer> renderer;
+    SimdTarget simd = SimdTarget::Auto;  // that the renderer uses
+    Lens lens;                           // with the size asked for
     StereoSetting stereo;
+    Pose startPose;
+    RecordedPath path;                    // the scene's own flight
+    std::vector<RightEyeMethod> methods;  // that compare runs when none are named
+    std::function<std::unique_ptr<Flight>()> makeFlight;
 
     StereoViews viewsAt(const Pose& head) const { return makeStereoViews(head, lens, stereo); }
+    RightEyeMethod defaultMethod() const { return defaultMethodFor(*renderer); }
 };
-
-// The scene's file with what the options change.
-SceneFile describeScene(const SceneOptions& options);
 
 // Checks options and size, sets the thread count, reads the scene. Throws Error, Cancelled.
 LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress);
@@ -38,15 +44,12 @@ constexpr int kRenderBytesPerPixel = 96, kVideoBytesPerPixel = 384, kCompareByte
 // 1 to 32768 pixels a side, and no more than half of this machine's memory. Throws Error.
 void checkSize(const SizeOption& size, int bytesPerPixel = kRenderBytesPerPixel);
 
-// The recorded path in `file`, or the scene's own when it is "".
-RecordedPath flightOf(const LoadedScene& scene, const std::string& file);
-
 // "x,y,z,heading,pitch,roll" in metres and degrees; the last ones may be left out (0). Throws Error.
 Pose poseFromText(const std::string& text);
 
-// A method by name; "auto" is the default way of warping: what is written to files must not depend on
+// A method by name, none for "auto": the scene's default, since what is written to files must not depend on
 // what was measured. Throws Error with the known names.
-RightEyeMethod methodFromText(const std::string& name);
+std::optional<RightEyeMethod> methodFromText(const std::string& name);
 OutputMode modeFromText(const std::string& name);
 SimdTarget simdFromText(const std::string& name);
 std::string nameOf(SimdTarget target);

@@ -27,6 +27,12 @@ std::optional<ViewAction> actionOfKey(int key) {
             return ViewAction{ViewCommand::CaptureMouse};
         case GLFW_KEY_3:
             return ViewAction{ViewCommand::ToggleStereo};
+        case GLFW_KEY_BACKSPACE:
+        case GLFW_KEY_DELETE:
+            return ViewAction{ViewCommand::RemoveSeed};
+        case GLFW_KEY_ENTER:
+        case GLFW_KEY_KP_ENTER:
+            return ViewAction{ViewCommand::FindAgain};
         default:
             return std::nullopt;
     }
@@ -67,6 +73,10 @@ std::optional<ViewCommand> repeatableOfLetter(char letter) {
             return ViewCommand::NearerZeroParallax;
         case '\'':
             return ViewCommand::FartherZeroParallax;
+        case ',':
+            return ViewCommand::LowerIsovalue;
+        case '.':
+            return ViewCommand::HigherIsovalue;
         default:
             return std::nullopt;
     }
@@ -75,7 +85,7 @@ std::optional<ViewCommand> repeatableOfLetter(char letter) {
 std::optional<ViewCommand> commandOfLetter(char letter, bool shift) {
     switch (letter) {
         case 'f':
-            return ViewCommand::ToggleFollow;
+            return ViewCommand::NextFlightMode;
         case 'x':
             return ViewCommand::SwapEyes;
         case 'm':
@@ -86,6 +96,12 @@ std::optional<ViewCommand> commandOfLetter(char letter, bool shift) {
             return ViewCommand::LinearAnaglyph;
         case 'r':
             return ViewCommand::Reset;
+        case 'c':
+            return ViewCommand::FollowClearance;
+        case 't':
+            return ViewCommand::ToggleTranslucent;
+        case 'v':
+            return ViewCommand::Slices;
         case 'p':
             return ViewCommand::Screenshot;
         case 'z':
@@ -106,6 +122,10 @@ std::optional<ViewCommand> repeatableOfKey(int key) {
             return ViewCommand::NearerZeroParallax;
         case GLFW_KEY_APOSTROPHE:
             return ViewCommand::FartherZeroParallax;
+        case GLFW_KEY_PAGE_UP:
+            return ViewCommand::PreviousSlice;
+        case GLFW_KEY_PAGE_DOWN:
+            return ViewCommand::NextSlice;
         default:
             return std::nullopt;
     }
@@ -130,11 +150,12 @@ const std::vector<std::pair<std::string, std::string>>& viewHelp() {
         {"W S A D", "fly forward, back, left, right"},
         {"Q E", "down, up"},
         {"arrows, drag", "look around (Tab holds the mouse)"},
-        {", .", "roll"},
+        {", .", "roll; of a volume seen from outside: move its surface"},
         {"wheel, Shift", "speed, four times the speed"},
         {"Space, R", "home, reset everything"},
-        {"F", "follow the ground, or fly freely"},
+        {"F", "fly freely, over the ground, along the colon"},
         {"[ ]", "eyes closer together, further apart"},
+        {"C", "eyes as far apart as the room suits (colon)"},
         {"; '", "screen (zero parallax) nearer, farther"},
         {"X", "swap the eyes"},
         {"3", "stereo on, off"},
@@ -146,10 +167,19 @@ const std::vector<std::pair<std::string, std::string>>& viewHelp() {
         {"N", "next way of making the right eye"},
         {"L", "anaglyphs in linear light, or on encoded values"},
         {"z Z", "record the flight, play it"},
+        {"T", "translucent wall, or opaque (volumes)"},
+        {"V", "slices (volumes): clicks set seeds, Enter looks again"},
         {"P F12", "save a picture"},
-        {"F1 Esc", "this help, quit"},
+        {"F1 Esc", "this help, back or quit"},
     };
     return help;
+}
+
+glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place) {
+    const auto half = [](double share) { return share < 0.5 ? 2 * share : 2 * share - 1; };
+    if (layout == OutputLayout::SideBySide) return {half(place.x), place.y};
+    if (layout == OutputLayout::TopBottom) return {place.x, half(place.y)};
+    return place;
 }
 
 FlightInput ViewInput::flightOf(const Window& window, const Gamepad& pad) const {
@@ -176,7 +206,7 @@ std::vector<ViewAction> ViewInput::actionsOf(const Gamepad& pad) {
     add(pad.a, mBefore.a, ViewCommand::Home);
     add(pad.b, mBefore.b, ViewCommand::SwapEyes);
     add(pad.x, mBefore.x, ViewCommand::NextMode);
-    add(pad.y, mBefore.y, ViewCommand::ToggleFollow);
+    add(pad.y, mBefore.y, ViewCommand::NextFlightMode);
     add(pad.leftBumper, mBefore.leftBumper, ViewCommand::LessSeparation);
     add(pad.rightBumper, mBefore.rightBumper, ViewCommand::MoreSeparation);
     mBefore = pad;

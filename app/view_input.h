@@ -18,6 +18,9 @@ std::optional<ViewAction> actionOf(const KeyPress& press);
 // Keys and what they do, for the help that F1 shows.
 const std::vector<std::pair<std::string, std::string>>& viewHelp();
 
+// Where in an eye's picture a place in the window lies; both are shares of the size, (0, 0) top left.
+glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place);
+
 // Reads what is held down now; remembers the gamepad's buttons to notice new presses.
 class ViewInput {
 public:

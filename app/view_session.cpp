@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/view_status.h"
 #include "engine/base/error.h"
 
 namespace stereonav {
@@ -15,28 +16,8 @@ namespace {
 constexpr double kStereoStep = 1.1;  // separation and zero parallax, a key press
 constexpr double kSpeedStep = 1.2;   // a notch of the wheel
 constexpr double kSlowest = 0.01, kFastest = 100.0;
-constexpr double kStereoSeconds = 0.35;  // time constant: eyes follow a slow change, not a jump
-constexpr double kSettled = 1e-3;        // relative difference at which a slow change ends
 constexpr double kNoticeSeconds = 4.0;
-constexpr double kCrossingSeconds = 45.0;    // to cross the scene at normal speed
-constexpr double kStill = 1e-4;              // of the normal speed, and radians a second: at rest
-constexpr double kFirstSeparation = 1e-3;    // of the zero-parallax distance: the step up from none
-constexpr double kLargestSeparation = 0.25;  // of the zero-parallax distance
-
-FlightSetting flightSettingOf(const ViewScene& scene) {
-    FlightSetting setting;
-    setting.clearance = scene.clearance;
-    setting.followHeight = std::max(4 * scene.clearance, scene.extent / 150);
-    setting.speed = scene.extent / kCrossingSeconds;
-    setting.groundStep = scene.groundStep;
-    return setting;
-}
-
-// Exponential approach in the logarithm, so that halving and doubling feel alike.
-double approach(double now, double target, double dt) {
-    if (!(now > 0) || !(target > 0) || std::abs(now - target) <= kSettled * target) return target;
-    return target * std::pow(now / target, std::exp(-dt / kStereoSeconds));
-}
+constexpr double kStill = 1e-4;  // of the normal speed, and radians a second: at rest
 
 // Whether so little moved within dt seconds that the flight counts as at rest.
 bool atRest(const Pose& before, const Pose& after, double speed, double dt) {
@@ -62,27 +43,55 @@ bool asksForMotion(const FlightInput& input) {
     return false;
 }
 
-std::string metres(double value) {
-    if (value >= 1000) return fmt::format("{:.2f} km", value / 1000);
-    return fmt::format("{:.{}f} m", value, value >= 100 ? 0 : value >= 10 ? 1 : 2);
-}
-
 }  // namespace
 
-ViewSession::ViewSession(const ViewScene& scene, const Options& options)
-    : mScene(scene),
+ViewSession::ViewSession(std::shared_ptr<const ViewScene> scene, const Options& options)
+    : mScene(std::move(scene)),
       mFolder(options.folder),
-      mNavigator(scene.ground, scene.start, flightSettingOf(scene)),
-      mPath(options.path ? *options.path : scene.path),
-      mStereo(scene.stereo),
-      mTarget(scene.stereo),
+      mFlight(mScene->makeFlight()),
+      mFirstFlightMode(mFlight->mode()),
+      mPath(options.path ? *options.path : mScene->path),
+      mOwnPath(!options.path),
+      mStereo(*mScene),
+      mIsovalue(mScene->isovalue),
+      mTranslucent(mScene->translucent),
       mMode(options.mode),
       mFirstMode(options.mode),
-      mMethod(scene.method) {}
+      mMethod(mScene->method) {}
+
+void ViewSession::replaceScene(std::shared_ptr<const ViewScene> scene) {
+    stopPlaying();
+    const Pose here = mFlight->pose();
+    const int mode = mFlight->mode();
+    std::unique_ptr<Flight> flight = scene->makeFlight();
+    if (mode < flight->modeCount()) flight->setMode(mode);
+    flight->setPose(here);
+    mFlight = std::move(flight);
+    mScene = std::move(scene);
+    if (mOwnPath) mPath = mScene->path;
+    mStereo.replaceScene(*mScene);
+    mMethod = mScene->method;
+    forgetSceneChange();
+    mResting = false;
+    mLooked = true;  // one step at least shows it
+    ++mRequest.version;
+}
+
+std::optional<SceneChange> ViewSession::takeSceneChange() {
+    return std::exchange(mChange, std::nullopt);
+}
+
+void ViewSession::forgetSceneChange() {
+    if (mChange) return;  // asked for since
+    mIsovalue = mScene->isovalue;
+    mTranslucent = mScene->translucent;
+}
 
 void ViewSession::act(const ViewAction& action) {
     mResting = false;
-    if (actOnStereo(action)) return;
+    if (actOnSlices(action.command) || actOnVolume(action.command) || actOnEyes(action.command) ||
+        actOnStereo(action))
+        return;
     switch (action.command) {
         case ViewCommand::Quit:
             mQuit = true;
@@ -134,47 +143,138 @@ bool ViewSession::actOnStereo(const ViewAction& action) {
             mLinear = !mLinear;
             notify(mLinear ? "anaglyph in linear light" : "anaglyph on encoded values");
             return true;
+        default:
+            return false;
+    }
+}
+
+bool ViewSession::actOnEyes(ViewCommand command) {
+    switch (command) {
         case ViewCommand::LessSeparation:
-            scaleSeparation(1 / kStereoStep);
+            mStereo.scaleSeparation(1 / kStereoStep);
             return true;
         case ViewCommand::MoreSeparation:
-            scaleSeparation(kStereoStep);
+            mStereo.scaleSeparation(kStereoStep);
             return true;
         case ViewCommand::NearerZeroParallax:
-            scaleZeroParallax(1 / kStereoStep);
+            mStereo.scaleZeroParallax(1 / kStereoStep);
             return true;
         case ViewCommand::FartherZeroParallax:
-            scaleZeroParallax(kStereoStep);
+            mStereo.scaleZeroParallax(kStereoStep);
+            return true;
+        case ViewCommand::FollowClearance:
+            mStereo.follow();
+            notify(mStereo.follows() ? "the eyes' separation follows the room around them"
+                                     : "the eyes' separation is set by hand here: [ ]");
             return true;
         default:
             return false;
     }
 }
 
-void ViewSession::scaleSeparation(double factor) {
-    const double least = kFirstSeparation * mTarget.zeroParallax;
-    mTarget.separation =
-        factor > 1 ? std::max(mTarget.separation * factor, least) : mTarget.separation * factor;
-    if (mTarget.separation < least) mTarget.separation = 0;
-    mTarget.separation = std::min(mTarget.separation, kLargestSeparation * mTarget.zeroParallax);
+bool ViewSession::actOnVolume(ViewCommand command) {
+    switch (command) {
+        case ViewCommand::LowerIsovalue:
+            moveIsovalue(-1);
+            return true;
+        case ViewCommand::HigherIsovalue:
+            moveIsovalue(1);
+            return true;
+        case ViewCommand::ToggleTranslucent:
+            if (!mScene->canBeTranslucent) return true;
+            mTranslucent = !mTranslucent;
+            mChange = SceneChange{mIsovalue, mTranslucent, std::nullopt};
+            notify(mTranslucent ? "translucent" : "opaque");
+            return true;
+        default:
+            return false;
+    }
 }
 
-void ViewSession::scaleZeroParallax(double factor) {
-    mTarget.zeroParallax = std::max(mTarget.zeroParallax * factor, mTarget.separation / kLargestSeparation);
+void ViewSession::moveIsovalue(double steps) {
+    if (!mIsovalue) return;
+    *mIsovalue += steps * mScene->isovalueStep;
+    mChange = SceneChange{mIsovalue, mTranslucent, std::nullopt};
+    notify(fmt::format("surface at {:.6g}", *mIsovalue));
 }
 
 void ViewSession::actOnFlight(ViewCommand command) {
     stopPlaying();
     if (command == ViewCommand::Home) {
-        mNavigator.goHome();
+        mFlight->goHome();
     } else if (command == ViewCommand::Reset) {
         reset();
-    } else if (command == ViewCommand::ToggleFollow) {
-        const bool follows = mNavigator.flightMode() == FlightMode::FollowGround;
-        mNavigator.setMode(follows ? FlightMode::Free : FlightMode::FollowGround);
-        notify(follows ? "free flight" : "following the ground");
+    } else if (command == ViewCommand::NextFlightMode) {
+        const int mode = mFlight->modeCount() > 0 ? (mFlight->mode() + 1) % mFlight->modeCount() : 0;
+        mFlight->setMode(mode);
+        notify(fmt::format("flight: {}", mFlight->modeName(mFlight->mode())));
     }
 }
+
+// --- slices
+
+bool ViewSession::actOnSlices(ViewCommand command) {
+    if (!mSlices) {
+        if (command == ViewCommand::Slices) openSlices();
+        return command == ViewCommand::Slices || command == ViewCommand::NextSlice ||
+               command == ViewCommand::PreviousSlice || command == ViewCommand::RemoveSeed ||
+               command == ViewCommand::FindAgain;
+    }
+    switch (command) {
+        case ViewCommand::Quit:
+            mSlices.reset();
+            return true;
+        case ViewCommand::Slices:
+            mSlices->nextAxis(pose().position);
+            return true;
+        case ViewCommand::NextSlice:
+            mSlices->turnPages(1);
+            return true;
+        case ViewCommand::PreviousSlice:
+            mSlices->turnPages(-1);
+            return true;
+        case ViewCommand::RemoveSeed:
+            mSlices->removeSeed();
+            return true;
+        case ViewCommand::FindAgain:
+            mChange = SceneChange{std::nullopt, mTranslucent, mSlices->seeds()};
+            notify(mSlices->seeds().empty() ? "looking for the colon again, without seeds"
+                                            : "looking for the colon again, from the seeds");
+            return true;
+        default:
+            return false;
+    }
+}
+
+void ViewSession::openSlices() {
+    if (mStudy) return showSlices(mStudy);
+    if (!mScene->readSlices) return notify("there are no slices of a terrain");
+    mStudyWished = true;
+    notify("reading the slices");
+}
+
+bool ViewSession::takeStudyWish() {
+    return std::exchange(mStudyWished, false);
+}
+
+void ViewSession::showSlices(std::shared_ptr<const SliceStudy> study) {
+    mStudy = std::move(study);
+    mSlices.emplace(mStudy, pose().position, mScene->seeds);
+}
+
+const Plane<PackedColor>& ViewSession::slicePicture(int width, int height) {
+    mSliceWidth = width;
+    mSliceHeight = height;
+    return mSlices->picture(width, height, pose().position, mScene);
+}
+
+void ViewSession::click(double x, double y) {
+    if (!mSlices) return;
+    const std::string text = mSlices->click(x, y, mSliceWidth, mSliceHeight);
+    if (!text.empty()) notify(text);
+}
+
+// --- modes
 
 void ViewSession::stepMode(int by) {
     const int count = static_cast<int>(outputModes().size());
@@ -192,11 +292,11 @@ void ViewSession::nextMethod() {
 }
 
 void ViewSession::reset() {
-    mNavigator.setMode(FlightMode::Free);
-    mNavigator.goHome();
-    mTarget = mScene.stereo;
+    mFlight->setMode(mFirstFlightMode);
+    mFlight->goHome();
+    mStereo.reset(*mScene);
     mMode = mFirstMode;
-    mMethod = mScene.method;
+    mMethod = mScene->method;
     mStereoOn = true;
     mSwapped = mLinear = false;
     mSpeed = 1;
@@ -204,27 +304,29 @@ void ViewSession::reset() {
 }
 
 void ViewSession::look(double yaw, double pitch) {
-    if (mPlaying || (yaw == 0 && pitch == 0)) return;
-    mNavigator.turnBy(yaw, pitch);
+    if (mPlaying || mSlices || (yaw == 0 && pitch == 0)) return;
+    mFlight->turnBy(yaw, pitch);
     mLooked = true;
 }
 
-void ViewSession::changeSpeed(double notches) {
+void ViewSession::turnWheel(double notches) {
     if (notches == 0) return;
+    if (mSlices) return mSlices->turnPages(notches > 0 ? -1 : 1);
     mSpeed = std::clamp(mSpeed * std::pow(kSpeedStep, notches), kSlowest, kFastest);
-    notify(fmt::format("speed {}/s", metres(mSpeed * mNavigator.setting().speed)));
+    notify(fmt::format("speed {}/s", lengthText(mSpeed * mFlight->speed())));
 }
 
 void ViewSession::toggleRecording() {
     if (mRecorder.recording()) return saveFlight();
     stopPlaying();
-    mRecorder.start(mNavigator.pose());
+    mRecorder.start(mFlight->pose());
     notify("recording; z ends it");
 }
 
 void ViewSession::saveFlight() {
     try {
         mPath = mRecorder.finish();
+        mOwnPath = false;
         std::filesystem::path file;
         int number = 1;
         do file = mFolder / fmt::format("flight_{:04}.gltf", number++);
@@ -249,7 +351,7 @@ void ViewSession::togglePlaying() {
 void ViewSession::stopPlaying() {
     if (!mPlaying) return;
     mPlaying = false;
-    mNavigator.setPose(mPlayed);
+    mFlight->setPose(mPlayed);
     notify(fmt::format("played {:.1f} s", mPlayTime));
 }
 
@@ -259,25 +361,19 @@ void ViewSession::stepPlaying(double dt) {
     if (mPlayTime >= mPath.duration()) stopPlaying();
 }
 
-void ViewSession::stepStereo(double dt) {
-    mStereo.separation = approach(mStereo.separation, mTarget.separation, dt);
-    mStereo.zeroParallax = approach(mStereo.zeroParallax, mTarget.zeroParallax, dt);
-}
-
 void ViewSession::fly(const FlightInput& input, double dt) {
     FlightInput wish = input;
     wish.speedMultiplier *= mSpeed;
-    const Pose before = mNavigator.pose();
-    if (!mResting || asksForMotion(input)) mNavigator.step(wish, dt);
+    if (mIsovalue) wish.rollRate = 0;  // the same keys move the surface
+    const Pose before = mFlight->pose();
+    if (!mResting || asksForMotion(input)) mFlight->step(wish, dt);
     if (dt > 0)
-        mResting = !asksForMotion(input) &&
-                   atRest(before, mNavigator.pose(), mNavigator.setting().speed * mSpeed, dt);
-    mRecorder.step(dt, mNavigator.pose());
+        mResting = !asksForMotion(input) && atRest(before, mFlight->pose(), mFlight->speed() * mSpeed, dt);
+    mRecorder.step(dt, mFlight->pose());
 }
 
 void ViewSession::step(const FlightInput& input, double dt) {
-    const StereoSetting before = mStereo;
-    stepStereo(dt);
+    mStereo.step(mFlight->clearanceNow(), mDepthAhead, dt);
     const Pose poseBefore = pose();
     const bool looked = std::exchange(mLooked, false);
     if (mPlaying) {
@@ -286,9 +382,7 @@ void ViewSession::step(const FlightInput& input, double dt) {
         fly(input, dt);
     }
     if (mNoticeLeft > 0 && (mNoticeLeft -= dt) <= 0) mNotice.clear();
-    const bool stereoMoves =
-        before.separation != mStereo.separation || before.zeroParallax != mStereo.zeroParallax;
-    mMoving = mPlaying || recording() || stereoMoves || asksForMotion(input) || looked ||
+    mMoving = mPlaying || recording() || mStereo.moving() || asksForMotion(input) || looked ||
               !samePose(poseBefore, pose());
 }
 
@@ -305,10 +399,10 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
     const auto [eyeWidth, eyeHeight] = eyeSizeFor(compose().mode, width, height);
     FrameRequest wanted;
     wanted.pose = pose();
-    wanted.lens = mScene.lens;
+    wanted.lens = mScene->lens;
     wanted.lens.width = eyeWidth;
     wanted.lens.height = eyeHeight;
-    wanted.stereo = mStereo;
+    wanted.stereo = mStereo.now();
     wanted.warp.method = mMethod;
     wanted.twoEyes = mStereoOn;
     wanted.mode = compose().mode;
@@ -323,35 +417,20 @@ ComposeSetting ViewSession::compose() const {
 }
 
 std::string ViewSession::statusLine(const ViewFrame& frame, double framesPerSecond) const {
-    // Nothing is known of the rate before the first frames that followed each other.
-    std::string line = framesPerSecond > 0 ? fmt::format("{:.1f} fps  ", framesPerSecond) : "";
-    line += fmt::format("left {:.1f} ms", frame.left_ms);
-    if (!frame.request.twoEyes) return line + "  one eye";
-    const double pixels = static_cast<double>(frame.left.width()) * frame.left.height();
-    line += fmt::format(
-        "  warp {:.1f} ms  fill {:.1f} ms  holes {:.1f} %  {}  {}{}", frame.rightTimings.warp_ms,
-        frame.rightTimings.fill_ms, 100 * static_cast<double>(frame.rightTimings.holePixels) / pixels,
-        nameOf(frame.request.warp.method), infoOf(mMode).longName, mSwapped ? " swapped" : "");
-    line += fmt::format("  separation {}  zero parallax {}  parallax {:+.1f} to {:+.1f} %",
-                        metres(frame.request.stereo.separation), metres(frame.request.stereo.zeroParallax),
-                        100 * frame.nearParallax, 100 * frame.farParallax);
+    std::string line = frameText(frame, framesPerSecond);
+    if (frame.request.twoEyes)
+        line += fmt::format("  {}{}{}", infoOf(mMode).longName, mSwapped ? " swapped" : "",
+                            mStereo.follows() ? "  eyes follow" : "");
+    const double clearance = mFlight->clearanceNow();
+    if (std::isfinite(clearance)) line += "  clearance " + lengthText(clearance);
+    if (mScene->placeOnLine) {
+        const PlaceOnLine place = mScene->placeOnLine(pose().position);
+        line += fmt::format("  at {:.0f} of {:.0f} mm", 1000 * place.along, 1000 * place.length);
+    }
+    if (mIsovalue) line += fmt::format("  surface at {:.6g}", *mIsovalue);
     if (mPlaying) line += fmt::format("  playing {:.1f} of {:.1f} s", mPlayTime, mPath.duration());
     if (recording()) line += fmt::format("  recording {:.1f} s", mRecorder.duration());
     return line;
-}
-
-std::string ViewSession::warningLine(const ViewFrame& frame) const {
-    if (!frame.request.twoEyes) return "";
-    const double range = frame.farParallax - frame.nearParallax;
-    if (range > kParallaxBudget)
-        return fmt::format(
-            "parallax spans {:.1f} % of the width, more than {:.0f} %: [ brings the eyes together",
-            100 * range, 100 * kParallaxBudget);
-    if (frame.nearParallax < kNearestParallax)
-        return "the nearest things stand too far before the screen: ; brings the screen nearer";
-    if (frame.farParallax > kFarthestParallax)
-        return "the farthest things lie too far behind the screen: ' moves the screen away";
-    return "";
 }
 
 }  // namespace stereonav

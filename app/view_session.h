@@ -1,14 +1,18 @@
-// What the viewer's user does and sees, without a window: flight, stereo settings, output mode,
-// recording and playing, the line of figures. The window's thread owns it and calls step() in turn.
+// What the viewer's user does and sees, without a window: flight, stereo settings, output mode, recording
+// and playing, slices and what they ask for. The window's thread owns it and calls step() in turn.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "app/view_slices.h"
+#include "app/view_stereo.h"
 #include "app/view_worker.h"
 #include "engine/image/stereo_compose.h"
-#include "engine/nav/navigator.h"
+#include "engine/nav/flight.h"
 #include "engine/nav/path_recorder.h"
 
 namespace stereonav {
@@ -19,7 +23,7 @@ enum class ViewCommand {
     Screenshot,
     Home,
     Reset,
-    ToggleFollow,
+    NextFlightMode,
     ToggleStereo,
     SwapEyes,
     NextMode,
@@ -34,6 +38,15 @@ enum class ViewCommand {
     Record,
     Play,
     CaptureMouse,
+    FollowClearance,
+    LowerIsovalue,
+    HigherIsovalue,
+    ToggleTranslucent,
+    Slices,
+    NextSlice,
+    PreviousSlice,
+    RemoveSeed,
+    FindAgain,
 };
 
 struct ViewAction {
@@ -41,9 +54,12 @@ struct ViewAction {
     OutputMode mode = OutputMode::Left;  // of SetMode
 };
 
-// Parallax that is comfortable, as shares of the picture's width: the whole range, and the short
-// excursions that broadcasters allow before and behind the screen.
-constexpr double kParallaxBudget = 0.03, kNearestParallax = -0.025, kFarthestParallax = 0.04;
+// Another scene that the user asks for: the same study, seen differently. What is not set stays.
+struct SceneChange {
+    std::optional<double> isovalue;
+    std::optional<bool> translucent;
+    std::optional<std::vector<glm::dvec3>> seeds;  // world
+};
 
 class ViewSession {
 public:
@@ -52,15 +68,32 @@ public:
         std::optional<RecordedPath> path;  // what Play plays before anything is recorded
         std::filesystem::path folder;      // for recorded flights
     };
-    // scene must outlive the session.
-    ViewSession(const ViewScene& scene, const Options& options);
+    ViewSession(std::shared_ptr<const ViewScene> scene, const Options& options);
+
+    // The flight goes on in another scene, at the same place or where that one has room for it.
+    void replaceScene(std::shared_ptr<const ViewScene> scene);
+    // What was asked for since the last call.
+    std::optional<SceneChange> takeSceneChange();
+    // Of the last change, when it can not be done: what is shown counts again.
+    void forgetSceneChange();
 
     void act(const ViewAction& action);
     // Turns by radians: clockwise seen from above, upwards.
     void look(double yaw, double pitch);
-    void changeSpeed(double notches);  // each notch a fifth faster
+    void turnWheel(double notches);  // each notch a fifth faster; in the slice view, a slice
+    void click(double x, double y);  // in the slice view: pixels of the last slice picture
     // dt seconds pass. The input's speed multiplier is applied on top of the session's own.
     void step(const FlightInput& input, double dt);
+    // A frame has come: what it shows guides what follows the room.
+    void observe(const ViewFrame& frame) { mDepthAhead = frame.depthAhead; }
+
+    // The slice view. The study is read by the caller, whom takeStudyWish() tells once.
+    bool slicesShown() const { return mSlices.has_value(); }
+    bool takeStudyWish();
+    void showSlices(std::shared_ptr<const SliceStudy> study);
+    const Plane<PackedColor>& slicePicture(int width, int height);
+    long long sliceVersion() const { return mSlices ? mSlices->version() : 0; }
+    std::string sliceStatus() const { return mSlices ? mSlices->status() : ""; }
 
     // What to render for a framebuffer of this size; the version grows with every difference.
     const FrameRequest& requestFor(int width, int height);
@@ -77,20 +110,23 @@ public:
 
     // "24.0 fps  left 3.1 ms  warp ..."; ASCII, which is all that the overlay's font is asked for.
     std::string statusLine(const ViewFrame& frame, double framesPerSecond) const;
-    // "" while the parallax of the frame is comfortable.
-    std::string warningLine(const ViewFrame& frame) const;
 
-    const StereoSetting& stereo() const { return mStereo; }
+    const StereoSetting& stereo() const { return mStereo.now(); }
+    bool followsClearance() const { return mStereo.follows(); }
     OutputMode mode() const { return mMode; }
-    Pose pose() const { return mPlaying ? mPlayed : mNavigator.pose(); }
+    Pose pose() const { return mPlaying ? mPlayed : mFlight->pose(); }
+    const Flight& flight() const { return *mFlight; }
     bool playing() const { return mPlaying; }
     bool recording() const { return mRecorder.recording(); }
 
 private:
     bool actOnStereo(const ViewAction& action);
+    bool actOnEyes(ViewCommand command);
+    bool actOnVolume(ViewCommand command);
+    bool actOnSlices(ViewCommand command);
     void actOnFlight(ViewCommand command);
-    void scaleSeparation(double factor);
-    void scaleZeroParallax(double factor);
+    void moveIsovalue(double steps);
+    void openSlices();
     void fly(const FlightInput& input, double dt);
     void stepMode(int by);
     void nextMethod();
@@ -100,17 +136,26 @@ private:
     void togglePlaying();
     void stepPlaying(double dt);
     void stopPlaying();
-    void stepStereo(double dt);
 
-    const ViewScene& mScene;
+    std::shared_ptr<const ViewScene> mScene;
     std::filesystem::path mFolder;
-    Navigator mNavigator;
+    std::unique_ptr<Flight> mFlight;
+    int mFirstFlightMode = 0;
     PathRecorder mRecorder;
     RecordedPath mPath;  // what Play plays
     bool mPlaying = false;
     double mPlayTime = 0;  // seconds since the path's start
     Pose mPlayed;
-    StereoSetting mStereo, mTarget;  // now, and where it slowly goes
+    bool mOwnPath = false;  // mPath is the scene's own
+    ViewStereo mStereo;
+    double mDepthAhead = 0;  // metres
+    std::optional<double> mIsovalue;
+    bool mTranslucent = false;
+    std::optional<SceneChange> mChange;
+    std::optional<SliceView> mSlices;
+    std::shared_ptr<const SliceStudy> mStudy;
+    bool mStudyWished = false;
+    int mSliceWidth = 1, mSliceHeight = 1;  // pixels of the last slice picture
     OutputMode mMode, mFirstMode;
     RightEyeMethod mMethod;
     bool mStereoOn = true, mSwapped = false, mLinear = false, mHelp = false, mQuit = false, mCaptured = false;

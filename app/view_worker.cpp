@@ -28,17 +28,31 @@ void measureParallax(const StereoViews& views, ViewFrame& frame) {
     frame.farParallax = share(farthest);
 }
 
+// The median depth of the picture's middle ninth; infinite where nothing is hit there.
+double depthAhead(const Plane<float>& depth) {
+    std::vector<float> depths;
+    for (int y = depth.height() / 3; y < depth.height() - depth.height() / 3; y += kParallaxStep)
+        for (int x = depth.width() / 3; x < depth.width() - depth.width() / 3; x += kParallaxStep)
+            depths.push_back(depth.at(x, y));
+    if (depths.empty()) return kMissDepth;
+    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+    std::nth_element(depths.begin(), middle, depths.end());
+    return *middle;
+}
+
 void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& rightEye, ViewFrame& frame) {
     const EyeRenderer& renderer = *scene.renderer;
     frame.request = request;
     frame.rightTimings = {};
     frame.nearParallax = frame.farParallax = 0;
+    frame.depthAhead = kMissDepth;
     frame.left.resize(request.lens.width, request.lens.height, renderer.viewDependence());
     const Stopwatch watch;
     if (!request.twoEyes) {
         renderEye(renderer, makeEyeView(request.pose, request.lens), frame.left);
         frame.left_ms = watch.elapsed_ms();
         frame.right = {};
+        frame.depthAhead = depthAhead(frame.left.viewDepth);
         return;
     }
     const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
@@ -46,6 +60,7 @@ void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& 
     frame.left_ms = watch.elapsed_ms();
     frame.rightTimings = rightEye.render(renderer, views, frame.left, request.warp, frame.right);
     measureParallax(views, frame);
+    frame.depthAhead = depthAhead(frame.left.viewDepth);
 }
 
 }  // namespace
@@ -74,63 +89,78 @@ private:
 };
 
 ViewWorker::ViewWorker(Load load, std::function<void()> wake)
-    : mLoad(std::move(load)),
-      mWake(std::move(wake)),
-      mProgress([this](double fraction, const std::string& what) {
-          const std::lock_guard lock(mMutex);
-          mLoading = {fraction, what};
-      }),
+    : mWake(std::move(wake)),
       mPool(std::make_shared<FramePool>()),
-      mThread([this] { run(); }) {}
+      mLoad(std::move(load)),
+      mLoader([this] { loadScenes(); }),
+      mRenderer([this] { renderFrames(); }) {}
 
 ViewWorker::~ViewWorker() {
-    mProgress.cancel();
     {
         const std::lock_guard lock(mMutex);
         mStop = true;
+        if (mProgress) mProgress->cancel();
     }
     mAsked.notify_all();
-    mThread.join();
+    mLoader.join();
+    mRenderer.join();
 }
 
-void ViewWorker::run() {
-    try {
-        auto scene = std::make_unique<ViewScene>(mLoad(mProgress));
-        const ViewScene& loaded = *scene;
-        {
-            const std::lock_guard lock(mMutex);
-            mScene = std::move(scene);
-        }
-        mWake();
-        work(loaded);
-    } catch (...) {
-        {
-            const std::lock_guard lock(mMutex);
-            mFailure = std::current_exception();
-        }
+void ViewWorker::fail(std::exception_ptr failure) {
+    {
+        const std::lock_guard lock(mMutex);
+        mFailure = std::move(failure);
+    }
+    mWake();
+}
+
+// --- loading
+
+void ViewWorker::loadScenes() {
+    while (const std::optional<Load> load = nextLoad()) {
+        loadOne(*load);
+        mAsked.notify_all();
         mWake();
     }
 }
 
-void ViewWorker::work(const ViewScene& scene) {
-    RightEye rightEye;
-    while (const std::optional<FrameRequest> request = nextRequest()) {
-        auto frame = mPool->take();
-        renderFrame(scene, *request, rightEye, *frame);
-        auto shared = mPool->share(std::move(frame));
-        {
-            const std::lock_guard lock(mMutex);
-            mNewest.swap(shared);
-        }
-        mWake();
-    }
-}
-
-std::optional<FrameRequest> ViewWorker::nextRequest() {
+std::optional<ViewWorker::Load> ViewWorker::nextLoad() {
     std::unique_lock lock(mMutex);
-    mAsked.wait(lock, [this] { return mStop || mRequest; });
+    mLoading.busy = mLoad.has_value();
+    mAsked.wait(lock, [this] { return mStop || mLoad; });
     if (mStop) return std::nullopt;
-    return std::exchange(mRequest, std::nullopt);
+    mLoading = {true, 0, ""};
+    mProgress = std::make_shared<Progress>([this](double fraction, const std::string& what) {
+        const std::lock_guard guard(mMutex);
+        mLoading = {true, fraction, what};
+    });
+    return std::exchange(mLoad, std::nullopt);
+}
+
+void ViewWorker::loadOne(const Load& load) {
+    try {
+        auto scene = std::make_shared<const ViewScene>(load(*mProgress));
+        const std::lock_guard lock(mMutex);
+        if (!mProgress->cancelled()) mScene = std::move(scene);
+    } catch (const Cancelled&) {
+        // by a newer wish, or at the end
+    } catch (const std::exception& error) {
+        const std::lock_guard lock(mMutex);
+        if (!mScene)
+            mFailure = std::current_exception();
+        else
+            mReloadProblem = error.what();
+    }
+}
+
+void ViewWorker::reload(Load load) {
+    {
+        const std::lock_guard lock(mMutex);
+        mLoad = std::move(load);
+        mLoading = {true, 0, ""};
+        if (mProgress && mScene) mProgress->cancel();
+    }
+    mAsked.notify_all();
 }
 
 ViewWorker::Loading ViewWorker::loading() const {
@@ -138,10 +168,42 @@ ViewWorker::Loading ViewWorker::loading() const {
     return mLoading;
 }
 
-const ViewScene* ViewWorker::scene() const {
+std::string ViewWorker::takeReloadProblem() {
+    const std::lock_guard lock(mMutex);
+    return std::exchange(mReloadProblem, "");
+}
+
+std::shared_ptr<const ViewScene> ViewWorker::scene() const {
     const std::lock_guard lock(mMutex);
     if (mFailure) std::rethrow_exception(mFailure);
-    return mScene.get();
+    return mScene;
+}
+
+// --- rendering
+
+void ViewWorker::renderFrames() {
+    RightEye rightEye;
+    try {
+        while (const std::optional<Job> job = nextJob()) {
+            auto frame = mPool->take();
+            renderFrame(*job->scene, job->request, rightEye, *frame);
+            auto shared = mPool->share(std::move(frame));
+            {
+                const std::lock_guard lock(mMutex);
+                mNewest.swap(shared);
+            }
+            mWake();
+        }
+    } catch (...) {
+        fail(std::current_exception());
+    }
+}
+
+std::optional<ViewWorker::Job> ViewWorker::nextJob() {
+    std::unique_lock lock(mMutex);
+    mAsked.wait(lock, [this] { return mStop || (mRequest && mScene); });
+    if (mStop) return std::nullopt;
+    return Job{*std::exchange(mRequest, std::nullopt), mScene};
 }
 
 void ViewWorker::request(const FrameRequest& request) {
@@ -149,7 +211,7 @@ void ViewWorker::request(const FrameRequest& request) {
         const std::lock_guard lock(mMutex);
         mRequest = request;
     }
-    mAsked.notify_one();
+    mAsked.notify_all();
 }
 
 std::shared_ptr<const ViewFrame> ViewWorker::takeFrame() {

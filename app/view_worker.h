@@ -1,38 +1,65 @@
-// The thread beside the window's: loads the scene, then makes the newest frame that was asked for.
-// The window asks, polls and draws; it never waits for this thread until it closes.
+// The threads beside the window's: one loads the scene, and others in its place later on; one makes the
+// newest frame that was asked for. The window asks, polls and draws; it never waits for them until it
+// closes.
 #pragma once
 
 #include <condition_variable>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "engine/base/progress.h"
 #include "engine/camera/recorded_path.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/image/stereo_compose.h"
-#include "engine/nav/navigator.h"
+#include "engine/nav/flight.h"
 #include "engine/stereo/right_eye.h"
+#include "engine/volume/volume.h"
 
 namespace stereonav {
+
+// The grey values behind a scene, for pictures of its slices.
+struct SliceStudy {
+    GreyVolume grey;
+    double windowWidth = 1500, windowLevel = -200;  // values shown from black to white, and their middle
+};
+
+// Makes eyes that suit the room around them: one step on by dt seconds. free: distance around the head;
+// depth: view depth in the middle of the picture; metres.
+using StereoFollower = std::function<StereoSetting(double free, double depth, double dt)>;
+
+struct PlaceOnLine {
+    double along = 0, length = 0;  // metres
+};
 
 // A scene as the viewer needs it, whatever it shows. Immutable, read by both threads.
 struct ViewScene {
     std::shared_ptr<const void> owner;  // of all that the rest refers to
     const EyeRenderer* renderer = nullptr;
-    GroundHeight ground;
-    Pose start;
+    std::function<std::unique_ptr<Flight>()> makeFlight;
     RecordedPath path;  // the scene's own flight
     Lens lens;
     StereoSetting stereo;
     RightEyeMethod method = kDefaultRightEyeMethod;
-    double clearance = 2.0;    // metres
-    double extent = 1000.0;    // metres: what speeds are chosen from
-    double groundStep = 10.0;  // metres: half of the ground's sample spacing
+
+    // Of volumes; empty where they make no sense.
+    double largestSeparation = std::numeric_limits<double>::infinity();     // metres, by hand
+    std::function<StereoFollower(const StereoSetting& from)> makeFollower;  // to let eyes suit the room
+    bool followsAtStart = true;
+    std::function<PlaceOnLine(const glm::dvec3& world)> placeOnLine;
+    std::optional<double> isovalue;  // of a surface that can be moved
+    double isovalueStep = 0;
+    bool canBeTranslucent = false, translucent = false;
+    // Reads the study again for its slices; takes seconds, on a thread of the caller's.
+    std::function<std::shared_ptr<const SliceStudy>(Progress&)> readSlices;
+    const MaskVolume* lumen = nullptr;  // to be outlined in the slices
+    std::vector<glm::dvec3> seeds;      // world: that the lumen was found from
 };
 
 // All that a frame depends on: one value, taken at the start of a frame.
@@ -53,24 +80,32 @@ struct ViewFrame {
     RightEyeTimings rightTimings;
     // Parallax of the nearest and the farthest thing, as shares of the width; positive is behind the screen.
     double nearParallax = 0, farParallax = 0;
+    double depthAhead = 0;  // metres: typical of the picture's middle; infinite where nothing is there
 };
 
 class ViewWorker {
 public:
-    // load runs on the worker's thread and may report progress; wake is called from there when there
+    // load runs on a thread of the worker's and may report progress; wake is called from there when there
     // is something new.
     using Load = std::function<ViewScene(Progress&)>;
     ViewWorker(Load load, std::function<void()> wake);
-    ~ViewWorker();  // stops loading or ends after the frame at work
+    ~ViewWorker();  // stops loading, and ends after the frame at work
+
+    // Loads another scene while the present one is shown; it takes its place when it is there. The newest
+    // wish replaces one that is not done.
+    void reload(Load load);
 
     struct Loading {
+        bool busy = true;
         double fraction = 0;
         std::string what;
     };
     Loading loading() const;
+    // What the last reload failed with, "" when it did not; told once.
+    std::string takeReloadProblem();
 
-    // Null until the scene is loaded. Throws here what loading or rendering threw there.
-    const ViewScene* scene() const;
+    // The newest scene, null until one is loaded. Throws here what the first load or rendering threw there.
+    std::shared_ptr<const ViewScene> scene() const;
     // The newest request replaces one that was not begun.
     void request(const FrameRequest& request);
     // The newest frame, null when there is none since the last call. Throws as scene() does.
@@ -78,23 +113,31 @@ public:
 
 private:
     class FramePool;
-    void run();
-    void work(const ViewScene& scene);
-    std::optional<FrameRequest> nextRequest();
+    struct Job {
+        FrameRequest request;
+        std::shared_ptr<const ViewScene> scene;
+    };
+    void loadScenes();
+    std::optional<Load> nextLoad();
+    void loadOne(const Load& load);
+    void renderFrames();
+    std::optional<Job> nextJob();
+    void fail(std::exception_ptr failure);
 
-    Load mLoad;
     std::function<void()> mWake;
-    Progress mProgress;
     std::shared_ptr<FramePool> mPool;
     mutable std::mutex mMutex;  // guards what follows
     std::condition_variable mAsked;
+    std::optional<Load> mLoad;            // not begun
+    std::shared_ptr<Progress> mProgress;  // of the load at work
     Loading mLoading;
-    std::unique_ptr<ViewScene> mScene;
+    std::string mReloadProblem;
+    std::shared_ptr<const ViewScene> mScene;
     std::exception_ptr mFailure;
     std::optional<FrameRequest> mRequest;
     std::shared_ptr<const ViewFrame> mNewest;
     bool mStop = false;
-    std::thread mThread;  // last: starts when all else is there
+    std::thread mLoader, mRenderer;  // last: they start when all else is there
 };
 
 }  // namespace stereonav

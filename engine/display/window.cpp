@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "engine/base/error.h"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double kMonitorShare = 0.92;  // of the monitor's free area: leaves room for decorations
 constexpr int kSmallestWindow = 64;     // screen units
+constexpr double kClickReach = 4.0;     // screen units that a hand shakes while it clicks
 constexpr double kDeadZone = 0.12;      // of a stick's way: worn sticks rest that far off centre
 
 std::string lastProblem() {
@@ -120,6 +122,9 @@ void Window::installCallbacks() {
     glfwSetCursorPosCallback(mHandle, [](GLFWwindow* handle, double x, double y) {
         static_cast<Window*>(glfwGetWindowUserPointer(handle))->onPointer(x, y);
     });
+    glfwSetMouseButtonCallback(mHandle, [](GLFWwindow* handle, int button, int action, int) {
+        static_cast<Window*>(glfwGetWindowUserPointer(handle))->onButton(button, action == GLFW_PRESS);
+    });
     glfwSetFramebufferSizeCallback(mHandle, [](GLFWwindow* handle, int, int) {
         static_cast<Window*>(glfwGetWindowUserPointer(handle))->mRedraw = true;
     });
@@ -143,6 +148,20 @@ void Window::onPointer(double x, double y) {
     if (mPointerKnown && (held || mCaptured)) mDrag += now - mPointer;
     mPointer = now;
     mPointerKnown = true;
+}
+
+void Window::onButton(int button, bool pressed) {
+    if (button != GLFW_MOUSE_BUTTON_LEFT || mCaptured) return;
+    glm::dvec2 now;
+    glfwGetCursorPos(mHandle, &now.x, &now.y);
+    if (pressed) {
+        mPressed = now;
+        return;
+    }
+    int width = 0, height = 0;
+    glfwGetWindowSize(mHandle, &width, &height);
+    if (glm::length(now - mPressed) <= kClickReach && width > 0 && height > 0)
+        mClicks.push_back(now / glm::dvec2(width, height));
 }
 
 void Window::setCaptured(bool captured) {
@@ -214,6 +233,10 @@ std::vector<KeyPress> Window::takeKeys() {
 
 double Window::takeWheel() {
     return std::exchange(mWheel, 0.0);
+}
+
+std::vector<glm::dvec2> Window::takeClicks() {
+    return std::exchange(mClicks, {});
 }
 
 glm::dvec2 Window::takeDrag() {

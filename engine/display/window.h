@@ -54,8 +54,11 @@ public:
 
     bool keyDown(int key) const;
     std::vector<KeyPress> takeKeys();
-    double takeWheel();               // notches, upwards is positive
-    glm::dvec2 takeDrag();            // screen units, x right, y down, while a button is held or captured
+    double takeWheel();     // notches, upwards is positive
+    glm::dvec2 takeDrag();  // screen units, x right, y down, while a button is held or captured
+    // Places where the left button went down and up without the pointer moving away: shares of the
+    // window's size, (0, 0) top left.
+    std::vector<glm::dvec2> takeClicks();
     void setCaptured(bool captured);  // hide the pointer and take all its motion
     bool captured() const { return mCaptured; }
     Gamepad gamepad() const;
@@ -66,11 +69,14 @@ private:
     void open(const std::string& title, int width, int height, bool visible);
     void installCallbacks();
     void onPointer(double x, double y);
+    void onButton(int button, bool pressed);
 
     GLFWwindow* mHandle = nullptr;
     std::vector<KeyPress> mKeys;
     double mWheel = 0;
     glm::dvec2 mDrag{0.0}, mPointer{0.0};
+    std::vector<glm::dvec2> mClicks;
+    glm::dvec2 mPressed{0.0};  // where the left button went down, screen units
     bool mPointerKnown = false, mCaptured = false, mRedraw = true;
 };
 

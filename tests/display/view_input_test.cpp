@@ -26,7 +26,7 @@ TEST(ViewKeys, LettersFollowTheUsersLayout) {
     EXPECT_EQ(commandOf({GLFW_KEY_M, 'm', false, false}), ViewCommand::NextMode);
     EXPECT_EQ(commandOf({GLFW_KEY_M, 'm', true, false}), ViewCommand::PreviousMode);
     EXPECT_EQ(commandOf({GLFW_KEY_X, 'x', false, false}), ViewCommand::SwapEyes);
-    EXPECT_EQ(commandOf({GLFW_KEY_F, 'f', false, false}), ViewCommand::ToggleFollow);
+    EXPECT_EQ(commandOf({GLFW_KEY_F, 'f', false, false}), ViewCommand::NextFlightMode);
     EXPECT_EQ(commandOf({GLFW_KEY_R, 'r', false, false}), ViewCommand::Reset);
     EXPECT_EQ(commandOf({GLFW_KEY_P, 'p', false, false}), ViewCommand::Screenshot);
 }

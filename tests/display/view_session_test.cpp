@@ -9,19 +9,26 @@
 #include <filesystem>
 #include <set>
 
+#include "app/view_status.h"
+#include "engine/nav/navigator.h"
+
 namespace stereonav {
 namespace {
 
 namespace fs = std::filesystem;
 
+const Pose kStart = poseFromAngles({0, 0, 500}, 0, -0.1, 0);
+
 ViewScene flatScene() {
     ViewScene scene;
-    scene.ground = [](const glm::dvec2&) { return 0.0; };
-    scene.start = poseFromAngles({0, 0, 500}, 0, -0.1, 0);
+    scene.makeFlight = []() -> std::unique_ptr<Flight> {
+        FlightSetting setting;
+        setting.speed = 200;
+        return std::make_unique<Navigator>([](const glm::dvec2&) { return 0.0; }, kStart, setting);
+    };
     scene.path = RecordedPath(
         {{2.0, poseFromAngles({0, 0, 500}, 0, 0, 0)}, {4.0, poseFromAngles({100, 0, 500}, 0, 0, 0)}}, "test");
     scene.stereo = {20.0, 600.0};
-    scene.extent = 9000;
     return scene;
 }
 
@@ -45,7 +52,7 @@ protected:
         return frame;
     }
 
-    ViewScene mScene = flatScene();
+    std::shared_ptr<ViewScene> mScene = std::make_shared<ViewScene>(flatScene());
     fs::path mFolder;
 };
 
@@ -144,7 +151,7 @@ TEST_F(ViewSessionTest, RecordsAFlightSavesItAndPlaysItAgain) {
     s.act({ViewCommand::Home});
     s.act({ViewCommand::Play});
     EXPECT_TRUE(s.playing());
-    EXPECT_NEAR(glm::length(s.pose().position - mScene.start.position), 0, 1e-9);
+    EXPECT_NEAR(glm::length(s.pose().position - kStart.position), 0, 1e-9);
     for (int i = 0; i < 30; ++i) s.step(forward, kFrame);
     EXPECT_TRUE(s.playing()) << "keys do not disturb it";
     for (int i = 0; i < 40; ++i) s.step({}, kFrame);
@@ -163,14 +170,13 @@ TEST_F(ViewSessionTest, PlaysTheScenesFlightOnItsOwnClock) {
 }
 
 TEST_F(ViewSessionTest, ParallaxBeyondTheBudgetIsSaid) {
-    const ViewSession s = session();
-    EXPECT_EQ(s.warningLine(frameWith(-0.01, 0.015)), "");
-    EXPECT_THAT(s.warningLine(frameWith(-0.015, 0.02)), testing::HasSubstr("3.5 %"));
-    EXPECT_THAT(s.warningLine(frameWith(-0.03, -0.01)), testing::HasSubstr("before the screen"));
-    EXPECT_THAT(s.warningLine(frameWith(0.03, 0.05)), testing::HasSubstr("behind the screen"));
+    EXPECT_EQ(warningLine(frameWith(-0.01, 0.015)), "");
+    EXPECT_THAT(warningLine(frameWith(-0.015, 0.02)), testing::HasSubstr("3.5 %"));
+    EXPECT_THAT(warningLine(frameWith(-0.03, -0.01)), testing::HasSubstr("before the screen"));
+    EXPECT_THAT(warningLine(frameWith(0.03, 0.05)), testing::HasSubstr("behind the screen"));
     ViewFrame oneEye = frameWith(-0.5, 0.5);
     oneEye.request.twoEyes = false;
-    EXPECT_EQ(s.warningLine(oneEye), "");
+    EXPECT_EQ(warningLine(oneEye), "");
 }
 
 TEST_F(ViewSessionTest, TheLineHoldsTheFigures) {

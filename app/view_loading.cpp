@@ -1,0 +1,65 @@
+#include "app/view_loading.h"
+
+#include <chrono>
+#include <utility>
+
+namespace stereonav {
+namespace {
+
+constexpr double kUsualOpacity = 0.95;  // of a translucent wall a millimetre: that of Wan et al. 2004
+
+}  // namespace
+
+ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progress) {
+    auto loaded = std::make_shared<LoadedScene>(loadScene(options.scene, options.size, progress));
+    ViewScene scene;
+    scene.owner = loaded;
+    scene.renderer = loaded->renderer.get();
+    scene.makeFlight = loaded->makeFlight;
+    scene.path = loaded->path;
+    scene.lens = loaded->lens;
+    scene.stereo = loaded->stereo;
+    scene.method = methodFromText(options.method).value_or(loaded->defaultMethod());
+    if (measure && options.method == "auto") {
+        progress.report(1.0, "measuring how to make the right eye");
+        scene.method = planScene(*loaded).method;
+    }
+    return scene;
+}
+
+void applyChange(const SceneChange& change, const ViewOptions& first, SceneOptions& options) {
+    VolumeOptions& volume = options.volume;
+    if (change.isovalue) volume.isovalue = change.isovalue;
+    if (change.translucent && !*change.translucent) {
+        volume.transfer.clear();
+        volume.opacity.reset();
+    } else if (change.translucent) {
+        volume.transfer = first.scene.volume.transfer;
+        volume.opacity = first.scene.volume.opacity;
+        if (volume.transfer.empty() && !volume.opacity) volume.opacity = kUsualOpacity;
+    }
+    if (!change.seeds) return;
+    volume.seeds.clear();
+    for (const glm::dvec3& seed : *change.seeds) volume.seeds.push_back(seedText(seed));
+}
+
+void SliceReading::start(std::shared_ptr<const ViewScene> scene, std::function<void()> wake) {
+    if (busy() || !scene->readSlices) return;
+    mReading = std::async(std::launch::async, [this, scene = std::move(scene), wake = std::move(wake)] {
+        try {
+            auto study = scene->readSlices(mProgress);
+            wake();
+            return study;
+        } catch (...) {
+            wake();
+            throw;
+        }
+    });
+}
+
+std::shared_ptr<const SliceStudy> SliceReading::take() {
+    if (!busy() || mReading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
+    return mReading.get();
+}
+
+}  // namespace stereonav

@@ -1,0 +1,23 @@
+// What the viewer's lines of text say of a frame.
+#pragma once
+
+#include <string>
+
+#include "app/view_worker.h"
+
+namespace stereonav {
+
+// Parallax that is comfortable, as shares of the picture's width: the whole range, and the short
+// excursions that broadcasters allow before and behind the screen.
+constexpr double kParallaxBudget = 0.03, kNearestParallax = -0.025, kFarthestParallax = 0.04;
+
+// Metres in the unit that suits the size: "1.3 mm", "20.0 m", "1.25 km".
+std::string lengthText(double metres);
+
+// Times, holes, method and stereo setting of a frame. framesPerSecond: 0 while it is not known.
+std::string frameText(const ViewFrame& frame, double framesPerSecond);
+
+// "" while the parallax of the frame is comfortable.
+std::string warningLine(const ViewFrame& frame);
+
+}  // namespace stereonav
