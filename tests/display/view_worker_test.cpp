@@ -210,5 +210,73 @@ TEST(ViewWorker, WhatRenderingThrowsArrivesAtTheWindow) {
     }));
 }
 
+TEST(ViewWorker, AnotherSceneTakesThePlaceWhileFramesGoOn) {
+    std::atomic<bool> go = false;
+    ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
+    ASSERT_TRUE(within(10s, [&] { return worker.scene() != nullptr; }));
+    ASSERT_TRUE(within(10s, [&] { return !worker.loading().busy; }));
+    const auto first = worker.scene();
+    worker.reload([&](Progress& progress) {
+        while (!go) {
+            progress.report(0.5, "again");
+            std::this_thread::sleep_for(1ms);
+        }
+        return sceneOf(std::make_shared<Wall>());
+    });
+    ASSERT_TRUE(within(10s, [&] { return worker.loading().what == "again"; }));
+    EXPECT_TRUE(worker.loading().busy);
+    for (int i = 1; i <= 5; ++i) {
+        worker.request(requestAt(i, i));
+        const auto frame = nextFrame(worker);
+        ASSERT_NE(frame, nullptr) << "frames do not wait for the other scene";
+        EXPECT_EQ(frame->left.color.at(0, 0), static_cast<PackedColor>(i));
+    }
+    EXPECT_EQ(worker.scene(), first);
+    go = true;
+    EXPECT_TRUE(within(10s, [&] { return worker.scene() != first; }));
+    EXPECT_TRUE(within(10s, [&] { return !worker.loading().busy; }));
+    EXPECT_EQ(worker.takeReloadProblem(), "");
+}
+
+TEST(ViewWorker, TheNewestReloadReplacesOneThatIsNotDone) {
+    ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
+    ASSERT_TRUE(within(10s, [&] { return worker.scene() != nullptr; }));
+    std::atomic<bool> cancelled = false;
+    worker.reload([&](Progress& progress) -> ViewScene {
+        try {
+            while (true) {
+                progress.report(0.1, "slow");
+                std::this_thread::sleep_for(1ms);
+            }
+        } catch (const Cancelled&) {
+            cancelled = true;
+            throw;
+        }
+    });
+    ASSERT_TRUE(within(10s, [&] { return worker.loading().what == "slow"; }));
+    worker.reload([](Progress&) {
+        ViewScene scene = sceneOf(std::make_shared<Wall>());
+        scene.isovalue = 7;
+        return scene;
+    });
+    EXPECT_TRUE(within(10s, [&] { return worker.scene()->isovalue == 7; }));
+    EXPECT_TRUE(cancelled);
+    EXPECT_EQ(worker.takeReloadProblem(), "");
+}
+
+TEST(ViewWorker, AReloadThatFailsLeavesTheSceneAndSaysSoOnce) {
+    ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
+    ASSERT_TRUE(within(10s, [&] { return worker.scene() != nullptr; }));
+    const auto first = worker.scene();
+    worker.reload([](Progress&) -> ViewScene { throw Error("--seed", "", "hits nothing", "click in air"); });
+    std::string problem;
+    ASSERT_TRUE(within(10s, [&] { return !(problem = worker.takeReloadProblem()).empty(); }));
+    EXPECT_EQ(problem, "--seed: hits nothing; click in air");
+    EXPECT_EQ(worker.takeReloadProblem(), "");
+    EXPECT_EQ(worker.scene(), first);
+    worker.request(requestAt(1, 4));
+    EXPECT_NE(nextFrame(worker), nullptr) << "it is still drawn";
+}
+
 }  // namespace
 }  // namespace stereonav
