@@ -20,6 +20,7 @@ using Points = std::vector<glm::dvec3>;
 constexpr int kRounds = 12;
 constexpr double kSmoothing = 0.6;   // standard deviation of G, in radii
 constexpr double kKeptRadius = 0.7;  // smoothing may take this share of the radius in the middle
+constexpr double kMostCut = 0.125;   // of the length, from each end, twice
 constexpr double kMostWorkPoints = 100000;
 constexpr int kChunk = 64;  // points of a parallel task
 
@@ -42,7 +43,7 @@ std::vector<double> arcLengths(const Points& points) {
 std::size_t startOf(const LumenProbe& probe, const Points& points) {
     double along = 0, best = -INFINITY;
     std::size_t start = 0;
-    const double most = 0.25 * polylineLength(points);
+    const double most = kMostCut * polylineLength(points);
     for (std::size_t i = 0; i < points.size() && along <= most; ++i) {
         if (const double gain = probe.distance(points[i]) - 0.5 * along; gain > best) {
             best = gain;
@@ -91,25 +92,32 @@ Points centredAll(const LumenProbe& probe, const Points& points, double spacing)
     return moved;
 }
 
-// The line beyond its ends: turned about them, so that ends and their directions stay.
-glm::dvec3 pointBeyond(const Points& points, std::ptrdiff_t i) {
-    const auto last = static_cast<std::ptrdiff_t>(points.size()) - 1;
-    if (i < 0) return 2.0 * points.front() - points[std::min(-i, last)];
-    if (i > last) return 2.0 * points.back() - points[std::max<std::ptrdiff_t>(2 * last - i, 0)];
-    return points[i];
+// How a sequence goes on beyond its ends.
+enum class Beyond {
+    Turned,    // turned about the end: ends of a line and their directions stay where they are
+    Mirrored,  // as for displacements: the ends are smoothed like the rest
+};
+
+glm::dvec3 valueBeyond(const Points& values, std::ptrdiff_t i, Beyond beyond) {
+    const auto last = static_cast<std::ptrdiff_t>(values.size()) - 1;
+    if (i >= 0 && i <= last) return values[i];
+    const std::ptrdiff_t inner = std::clamp<std::ptrdiff_t>(i < 0 ? -i : 2 * last - i, 0, last);
+    if (beyond == Beyond::Mirrored) return values[inner];
+    return 2.0 * (i < 0 ? values.front() : values.back()) - values[inner];
 }
 
-Points gaussian(const Points& points, const std::vector<double>& sigmas) {
-    Points smooth(points.size());
-    forChunks(points.size(), [&](std::size_t i) {
+// sigmas: standard deviations in points.
+Points gaussian(const Points& values, const std::vector<double>& sigmas, Beyond beyond) {
+    Points smooth(values.size());
+    forChunks(values.size(), [&](std::size_t i) {
         const double sigma = sigmas[i];
         const auto reach = static_cast<std::ptrdiff_t>(std::ceil(3 * sigma));
-        glm::dvec3 sum = points[i];
+        const auto at = static_cast<std::ptrdiff_t>(i);
+        glm::dvec3 sum = values[i];
         double weights = 1;
         for (std::ptrdiff_t n = 1; n <= reach; ++n) {
             const double w = std::exp(-0.5 * (n / sigma) * (n / sigma));
-            const auto at = static_cast<std::ptrdiff_t>(i);
-            sum += w * (pointBeyond(points, at - n) + pointBeyond(points, at + n));
+            sum += w * (valueBeyond(values, at - n, beyond) + valueBeyond(values, at + n, beyond));
             weights += 2 * w;
         }
         smooth[i] = sum / weights;
@@ -117,15 +125,26 @@ Points gaussian(const Points& points, const std::vector<double>& sigmas) {
     return smooth;
 }
 
-Points smoothed(const LumenProbe& probe, const Points& points, double spacing) {
+Points sharpened(const Points& values, const std::vector<double>& sigmas, Beyond beyond) {
+    Points smooth = gaussian(values, sigmas, beyond);
+    const Points twice = gaussian(smooth, sigmas, beyond);
+    for (std::size_t i = 0; i < values.size(); ++i) smooth[i] = 2.0 * smooth[i] - twice[i];
+    return smooth;
+}
+
+// The points moved to the middle, and smoothed: the line with its ends held, and the moves as they are.
+Points smoothed(const LumenProbe& probe, const Points& points, const Points& middle, double spacing) {
     std::vector<double> sigmas(points.size());
-    const double most = std::max(1.0, (points.size() - 1) / 6.0);
-    forChunks(points.size(), [&](std::size_t i) {
-        sigmas[i] = std::clamp(kSmoothing * probe.distance(points[i]) / spacing, 1.0, most);
-    });
-    const Points once = gaussian(points, sigmas), twice = gaussian(once, sigmas);
-    Points smooth(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) smooth[i] = 2.0 * once[i] - twice[i];
+    Points moves(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        // Shorter towards the ends, so that they find the middle too.
+        const double most = 1.0 + 0.5 * static_cast<double>(std::min(i, points.size() - 1 - i));
+        sigmas[i] = std::clamp(kSmoothing * probe.distance(middle[i]) / spacing, 1.0, most);
+        moves[i] = middle[i] - points[i];
+    }
+    Points smooth = sharpened(points, sigmas, Beyond::Turned);
+    moves = sharpened(moves, sigmas, Beyond::Mirrored);
+    for (std::size_t i = 0; i < points.size(); ++i) smooth[i] += moves[i];
     return smooth;
 }
 
@@ -187,7 +206,7 @@ Points resampleEvenly(const LumenProbe& probe, const Points& points, double spac
 }
 
 Points refineCentreline(const LumenProbe& probe, Points rough, const std::function<void()>& poll) {
-    Points points = withoutEnds(probe, rough);
+    Points points = withoutEnds(probe, rough);  // and again once the line is smooth
     const double length = polylineLength(points);
     if (points.size() < 3 || !(length > 0)) return points;
     const double spacing = std::max(probe.smallestSpacing(), length / kMostWorkPoints);
@@ -195,7 +214,8 @@ Points refineCentreline(const LumenProbe& probe, Points rough, const std::functi
     for (int round = 0; round < kRounds; ++round) {
         poll();
         const Points middle = centredAll(probe, points, spacing);
-        moveInside(probe, points, smoothed(probe, middle, spacing), middle);
+        moveInside(probe, points, smoothed(probe, points, middle, spacing), middle);
+        if (round == kRounds / 2) points = withoutEnds(probe, points);
         points = evened(probe, points, spacing);
     }
     return points;

@@ -153,5 +153,257 @@ TEST(Centreline, DoesNotWanderIntoHaustra) {
                 line.length() * 1e3, axis * 1e3);
 }
 
+// Distance to the nearest outside voxel's centre, by looking at all of them around.
+double clearanceByBruteForce(const MaskVolume& mask, const glm::dvec3& world) {
+    double least = INFINITY;
+    for (int k = -1; k <= mask.frame.size.z; ++k)
+        for (int j = -1; j <= mask.frame.size.y; ++j)
+            for (int i = -1; i <= mask.frame.size.x; ++i)
+                if (!mask.frame.contains({i, j, k}) || !mask.at(i, j, k))
+                    least =
+                        std::min(least, glm::length(mask.frame.worldFromVoxel(glm::dvec3(i, j, k)) - world));
+    return least;
+}
+
+TEST(Centreline, RadiiStayBelowTheTrueClearance) {
+    for (const glm::dvec3& spacing :
+         {glm::dvec3(0.0008, 0.0008, 0.0007), glm::dvec3(0.0006, 0.0006, 0.003)}) {
+        const LumenField lumen = lumenOf(
+            [&](const glm::dvec3& p) {
+                const glm::dvec3 axis(0.004 * std::sin(p.z * 120), 0, p.z);
+                return glm::length(p - axis) - 0.004 - 0.002 * std::cos(p.z * 300);
+            },
+            {-0.012, -0.008, 0}, {0.012, 0.008, 0.05}, spacing);
+        const Centreline line = lineOf(lumen);
+        expectSound(lumen, line, 0.001);
+        ASSERT_GT(line.points.size(), 20u);
+        for (std::size_t n = 0; n < line.points.size(); n += 3) {
+            const double clearance = clearanceByBruteForce(lumen.lumen, line.points[n].position);
+            EXPECT_LE(line.points[n].radius, clearance) << n;
+            EXPECT_GE(line.points[n].radius, clearance - glm::length(spacing)) << n;
+        }
+    }
+}
+
+TEST(Centreline, TheLowerEndComesFirstElseTheHinderOne) {
+    const auto firstOf = [](const glm::dvec3& a, const glm::dvec3& b, bool reversed = false) {
+        const glm::dvec3 low = glm::min(a, b) - 0.006, high = glm::max(a, b) + 0.006;
+        const LumenField lumen = lumenOf([&](const glm::dvec3& p) { return capsule(p, a, b, 0.004); }, low,
+                                         high, glm::dvec3(0.001));
+        CentrelineSetting setting;
+        setting.reversed = reversed;
+        const glm::dvec3 first = lineOf(lumen, setting).points.front().position;
+        return glm::length(first - a) < glm::length(first - b) ? 0 : 1;
+    };
+    EXPECT_EQ(firstOf({0, 0, 0}, {0, 0.01, 0.05}), 0);
+    EXPECT_EQ(firstOf({0, 0, 0.05}, {0, 0.01, 0}), 1);
+    EXPECT_EQ(firstOf({0, 0, 0.05}, {0, 0.01, 0}, true), 0);
+    EXPECT_EQ(firstOf({0, 0.05, 0}, {0.01, 0, 0}), 0);
+    EXPECT_EQ(firstOf({0, 0, 0}, {0.01, 0.05, 0}), 1);
+    // A bend whose ends are nearly level: both lie low, the one further back (larger y) is the rectum's.
+    const glm::dvec3 front(0, 0, 0.001), back(0, 0.04, 0), top(0, 0.02, 0.06);
+    const LumenField bend = lumenOf(
+        [&](const glm::dvec3& p) {
+            return std::min(capsule(p, front, top, 0.005), capsule(p, top, back, 0.005));
+        },
+        {-0.007, -0.007, -0.007}, {0.007, 0.047, 0.067}, glm::dvec3(0.001));
+    EXPECT_GT(lineOf(bend).points.front().position.y, 0.03);
+}
+
+// Pieces of lumen at different places, numbered in order.
+LumenField pieces(const std::vector<std::pair<glm::dvec3, glm::dvec3>>& axes) {
+    glm::dvec3 low(INFINITY), high(-INFINITY);
+    for (const auto& [a, b] : axes) {
+        low = glm::min(low, glm::min(a, b) - 0.007);
+        high = glm::max(high, glm::max(a, b) + 0.007);
+    }
+    LumenField lumen = lumenOf(
+        [&](const glm::dvec3& p) {
+            double d = INFINITY;
+            for (const auto& [a, b] : axes) d = std::min(d, capsule(p, a, b, 0.005));
+            return d;
+        },
+        low, high, glm::dvec3(0.0009));
+    const LumenSegment whole = lumen.segments[0];
+    lumen.segments.assign(axes.size(), whole);
+    const VolumeFrame& frame = lumen.lumen.frame;
+    for (int k = 0; k < frame.size.z; ++k)
+        for (int j = 0; j < frame.size.y; ++j)
+            for (int i = 0; i < frame.size.x; ++i)
+                for (std::size_t n = 0; n < axes.size(); ++n)
+                    if (lumen.lumen.at(i, j, k) && capsule(frame.worldFromVoxel(glm::dvec3(i, j, k)),
+                                                           axes[n].first, axes[n].second, 0.005) < 0.001)
+                        lumen.lumen.at(i, j, k) = static_cast<std::uint8_t>(n + 1);
+    return lumen;
+}
+
+TEST(Centreline, SegmentsFollowOneAnotherHeadToTail) {
+    const glm::dvec3 a(0, 0, 0), b(0.03, 0, 0.03), c(0.05, 0, 0.03), d(0.07, 0.01, -0.01),
+        e(0.09, 0.01, -0.01), f(0.09, 0.01, 0.04);
+    // The second is given upside down: it runs downwards because its upper end is nearer.
+    const LumenField lumen = pieces({{a, b}, {d, c}, {e, f}});
+    Centreline line = lineOf(lumen);
+    expectSound(lumen, line, 0.001);
+    const glm::dvec3 ends[] = {a, b, c, d, e, f};
+    std::vector<std::size_t> starts;
+    for (std::size_t n = 0; n < line.points.size(); ++n)
+        if (n == 0 || line.points[n].segment != line.points[n - 1].segment) starts.push_back(n);
+    ASSERT_EQ(starts.size(), 3u);
+    starts.push_back(line.points.size());
+    for (int segment = 0; segment < 3; ++segment) {
+        EXPECT_EQ(line.points[starts[segment]].segment, segment + 1);
+        EXPECT_LT(glm::length(line.points[starts[segment]].position - ends[2 * segment]), 0.005) << segment;
+        EXPECT_LT(glm::length(line.points[starts[segment + 1] - 1].position - ends[2 * segment + 1]), 0.005);
+    }
+    CentrelineSetting back;
+    back.reversed = true;
+    const Centreline reversed = lineOf(lumen, back);
+    ASSERT_EQ(reversed.points.size(), line.points.size());
+    for (std::size_t n = 0; n < line.points.size(); ++n) {
+        EXPECT_EQ(reversed.points[n].position, line.points[line.points.size() - 1 - n].position);
+        EXPECT_EQ(reversed.points[n].segment, line.points[line.points.size() - 1 - n].segment);
+    }
+}
+
+TEST(Centreline, OfVeryFewVoxels) {
+    const Centreline one = lineOf(lumenOfVoxels({{2, 2, 2}}, glm::ivec3(5)));
+    ASSERT_EQ(one.points.size(), 1u);
+    EXPECT_LT(glm::length(one.points[0].position - glm::dvec3(0.002)), 1e-12);
+    EXPECT_NEAR(one.points[0].radius, 0.0005, 1e-5);
+    EXPECT_EQ(one.length(), 0);
+
+    const Centreline two = lineOf(lumenOfVoxels({{2, 2, 2}, {2, 2, 3}}, glm::ivec3(6)));
+    ASSERT_EQ(two.points.size(), 2u);
+    EXPECT_LT(glm::length(two.points[0].position - glm::dvec3(0.002)), 1e-12);
+    EXPECT_LT(glm::length(two.points[1].position - glm::dvec3(0.002, 0.002, 0.003)), 1e-12);
+
+    // At the volume's faces and filling it.
+    const Centreline filled = lineOf(lumenOfVoxels({{0, 0, 0}}, glm::ivec3(1)));
+    ASSERT_EQ(filled.points.size(), 1u);
+    EXPECT_NEAR(filled.points[0].radius, 0.0005, 1e-5);
+}
+
+TEST(Centreline, OfALumenOneVoxelWideFollowsItsCorners) {
+    std::vector<glm::ivec3> voxels;
+    for (int n = 0; n < 8; ++n) voxels.emplace_back(1 + n, 2, 1);
+    for (int n = 1; n < 8; ++n) voxels.emplace_back(8, 2, 1 + n);
+    for (int n = 1; n < 5; ++n) voxels.emplace_back(8, 2 + n, 8);
+    const LumenField lumen = lumenOfVoxels(voxels, {10, 8, 10});
+    CentrelineSetting setting;
+    setting.spacing = 0.0005;
+    Progress progress;
+    const Centreline line = findCentreline(lumen, distancesOf(lumen.lumen), setting, progress);
+    expectSound(lumen, line, 0.0005);
+    EXPECT_GT(line.length(), 0.011);
+    EXPECT_LE(line.length(), 0.0181);
+    for (const CentrelinePoint& p : line.points) EXPECT_LE(p.radius, 0.0006);
+}
+
+TEST(Centreline, OfLumensThatAreNoTubes) {
+    const glm::dvec3 spacing(0.001);
+    const LumenField ball = lumenOf([](const glm::dvec3& p) { return glm::length(p) - 0.01; },
+                                    glm::dvec3(-0.012), glm::dvec3(0.012), spacing);
+    const Centreline across = lineOf(ball);
+    expectSound(ball, across, 0.001);
+    EXPECT_GE(across.points.size(), 2u);
+    EXPECT_LT(farthest(across, [](const glm::dvec3& p) { return glm::length(p); }), 0.0075);
+
+    const LumenField ring = lumenOf(
+        [](const glm::dvec3& p) { return glm::length(glm::dvec2(std::hypot(p.x, p.z) - 0.02, p.y)) - 0.005; },
+        {-0.027, -0.007, -0.027}, {0.027, 0.007, 0.027}, spacing);
+    const Centreline half = lineOf(ring);
+    expectSound(ring, half, 0.001);
+    EXPECT_NEAR(half.length(), kPi * 0.02, 0.012);
+    EXPECT_LT(farthest(half, [](const glm::dvec3& p) { return std::abs(std::hypot(p.x, p.z) - 0.02); }),
+              0.0015);
+
+    const LumenField plate = lumenOf(
+        [](const glm::dvec3& p) {
+            return std::max({std::abs(p.x) - 0.015, std::abs(p.y) - 0.015, std::abs(p.z) - 0.0008});
+        },
+        {-0.017, -0.017, -0.003}, {0.017, 0.017, 0.003}, spacing);
+    const Centreline corner = lineOf(plate);
+    expectSound(plate, corner, 0.001);
+    EXPECT_GT(corner.length(), 0.02);
+}
+
+TEST(Centreline, OfVeryUnevenSpacing) {
+    const glm::dvec3 a(0.01, 0.01, 0.02), b(0.03, 0.02, 0.5);
+    const LumenField lumen = lumenOf([&](const glm::dvec3& p) { return capsule(p, a, b, 0.008); },
+                                     {-0.002, -0.002, 0}, {0.042, 0.034, 0.52}, {0.001, 0.001, 0.02});
+    const Centreline line = lineOf(lumen);
+    expectSound(lumen, line, 0.001);
+    EXPECT_LT(farthest(line, [&](const glm::dvec3& p) { return capsule(p, a, b, 0); }), 0.002);
+    EXPECT_GT(line.length(), 0.44);
+}
+
+TEST(Centreline, SpacingIsKept) {
+    const glm::dvec3 a(0.0), b(0.0, 0.0, 0.06);
+    const LumenField lumen = lumenOf([&](const glm::dvec3& p) { return capsule(p, a, b, 0.006); },
+                                     {-0.008, -0.008, -0.008}, {0.008, 0.008, 0.068}, glm::dvec3(0.001));
+    for (const double spacing : {0.0001, 0.0007, 0.005, 10.0}) {
+        CentrelineSetting setting;
+        setting.spacing = spacing;
+        const Centreline line = lineOf(lumen, setting);
+        ASSERT_GE(line.points.size(), 2u);
+        for (std::size_t n = 1; n < line.points.size(); ++n) {
+            const double step = glm::length(line.points[n].position - line.points[n - 1].position);
+            EXPECT_LT(step, spacing * 1.1) << n;
+            EXPECT_GT(step, std::min(0.9 * spacing, 0.05)) << n;
+        }
+    }
+}
+
+std::string errorOf(const LumenField& lumen, const DistanceVolume& distance, double spacing) {
+    CentrelineSetting setting;
+    setting.spacing = spacing;
+    Progress progress;
+    try {
+        findCentreline(lumen, distance, setting, progress);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Centreline, RefusesWhatHasNone) {
+    const LumenField empty = lumenOfVoxels({}, glm::ivec3(4));
+    EXPECT_THAT(errorOf(empty, distancesOf(empty.lumen), 0.001), HasSubstr("the lumen is empty"));
+    EXPECT_THAT(errorOf(LumenField{}, DistanceVolume{}, 0.001), HasSubstr("the lumen is empty"));
+    LumenField hollow = lumenOfVoxels({}, glm::ivec3(4));
+    hollow.segments.emplace_back();
+    EXPECT_THAT(errorOf(hollow, distancesOf(hollow.lumen), 0.001),
+                HasSubstr("segment 1 of the lumen has no voxels"));
+    const LumenField good = lumenOfVoxels({{1, 1, 1}, {1, 1, 2}}, glm::ivec3(4));
+    EXPECT_THAT(errorOf(good, DistanceVolume{}, 0.001), HasSubstr("distances do not belong"));
+    for (const double spacing : {0.0, -1.0, double(NAN), double(INFINITY)})
+        EXPECT_THAT(errorOf(good, distancesOf(good.lumen), spacing),
+                    HasSubstr("expected metres, more than 0"));
+    EXPECT_THAT(errorOf(good, distancesOf(good.lumen), 1e-11), HasSubstr("more than ten million points"));
+}
+
+TEST(Centreline, StopsWhenCancelled) {
+    const LumenField lumen = lumenOfVoxels({{1, 1, 1}, {1, 1, 2}}, glm::ivec3(4));
+    Progress progress;
+    progress.cancel();
+    EXPECT_THROW(findCentreline(lumen, distancesOf(lumen.lumen), {}, progress), Cancelled);
+}
+
+TEST(Centreline, IsTheSameOnAnyNumberOfThreads) {
+    const Winding tube;
+    const LumenField lumen = tube.lumen(glm::dvec3(0.0015));
+    const int before = threadCount();
+    setThreadCount(1);
+    const Centreline alone = lineOf(lumen);
+    setThreadCount(4);
+    const Centreline together = lineOf(lumen);
+    setThreadCount(before);
+    ASSERT_EQ(alone.points.size(), together.points.size());
+    for (std::size_t n = 0; n < alone.points.size(); ++n) {
+        EXPECT_EQ(alone.points[n].position, together.points[n].position);
+        EXPECT_EQ(alone.points[n].radius, together.points[n].radius);
+    }
+}
+
 }  // namespace
 }  // namespace stereonav
