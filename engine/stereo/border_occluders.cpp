@@ -9,7 +9,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kTileWidth = 16, kTileHeight = 8;  // smallest tiles
+constexpr int kTileWidth = 8, kTileHeight = 4;  // smallest tiles
 constexpr int kStripHeight = 64;                 // pixels a task starts from
 
 struct Search {

@@ -15,12 +15,25 @@ namespace {
 using namespace stereonav;
 
 // Nothing to cast: only the warp is left.
-class NoScene final : public EyeRenderer {
+class NoScene : public EyeRenderer {
 public:
     int tileCount(const EyeView&) const override { return 0; }
     void renderTile(const EyeView&, int, EyeImage&) const override {}
     void renderPixels(const EyeView&, PixelRect, std::span<const PixelIndex>, EyeImage&) const override {}
     bool mayHitBeyondEdge(const EyeView&, PixelRect, double, double) const override { return false; }
+};
+
+// Colours are shaded again from normals by what is hardly more than a copy: what the warp of normals costs,
+// and what the calls for the rows do.
+class CheaplyLitScene final : public NoScene {
+public:
+    ViewDependence viewDependence() const override { return ViewDependence::Normal; }
+    void shadeAgain(const EyeView&, int y, int x0, int x1, EyeImage& image) const override {
+        const std::uint32_t* normal = image.normal.row(y);
+        const float* depth = image.viewDepth.row(y);
+        PackedColor* color = image.color.row(y);
+        for (int x = x0; x < x1; ++x) color[x] = depth[x] < kMissDepth ? normal[x] : 0u;
+    }
 };
 
 double groundHeight(double x, double z) {
@@ -31,7 +44,7 @@ double groundHeight(double x, double z) {
 // Level view from 120 m above a ground with hills, sky above.
 EyeImage groundImage(const EyeView& view) {
     EyeImage image;
-    image.resize(view.width, view.height);
+    image.resize(view.width, view.height, ViewDependence::Normal);
     std::mt19937 random(1);
     for (int x = 0; x < view.width; ++x) {
         const double side = view.rayDirection(x + 0.5, 0).x;
@@ -43,7 +56,7 @@ EyeImage groundImage(const EyeView& view) {
         }
         for (int y = 0; y < top; ++y) image.viewDepth.at(x, y) = kMissDepth;
         for (int y = 0; y < view.height; ++y)
-            image.color.at(x, y) = static_cast<std::uint32_t>(random()) & 0x3fffffffu;
+            image.color.at(x, y) = image.normal.at(x, y) = static_cast<std::uint32_t>(random()) & 0x3fffffffu;
     }
     return image;
 }
@@ -55,12 +68,11 @@ StereoViews viewsOf(int width, int height) {
     return makeStereoViews(Pose{}, lens, {10, 300});  // separation 1/30 of the zero-parallax distance
 }
 
-void warp(benchmark::State& state, RightEyeMethod method, Schedule schedule) {
+void warp(benchmark::State& state, RightEyeMethod method, Schedule schedule, const EyeRenderer& scene) {
     const int width = static_cast<int>(state.range(0)), height = static_cast<int>(state.range(1));
     setThreadCount(static_cast<int>(state.range(2)));
     const StereoViews views = viewsOf(width, height);
     const EyeImage left = groundImage(views.left);
-    const NoScene scene;
     RightEye eye;
     EyeImage right;
     WarpSetting setting;
@@ -77,6 +89,9 @@ void warp(benchmark::State& state, RightEyeMethod method, Schedule schedule) {
     state.counters["holes_percent"] = 100.0 * static_cast<double>(holes) / (width * height);
 }
 
+const NoScene kNoScene;
+const CheaplyLitScene kLit;
+
 void sizes(benchmark::internal::Benchmark* b) {
     for (const int threads : {1, 2})
         for (const auto& [width, height] : {std::pair{500, 400}, std::pair{1280, 720}})
@@ -84,15 +99,21 @@ void sizes(benchmark::internal::Benchmark* b) {
     b->ArgNames({"width", "height", "threads"})->UseManualTime()->Unit(benchmark::kMillisecond)->MinTime(0.2);
 }
 
-BENCHMARK_CAPTURE(warp, cubic, RightEyeMethod::Cubic, Schedule::Dynamic)->Apply(sizes);
-BENCHMARK_CAPTURE(warp, linear, RightEyeMethod::Linear, Schedule::Dynamic)->Apply(sizes);
-BENCHMARK_CAPTURE(warp, paper, RightEyeMethod::Paper, Schedule::Dynamic)->Apply(sizes);
-BENCHMARK_CAPTURE(warp, mcmillan, RightEyeMethod::McMillan, Schedule::Dynamic)->Apply(sizes);
-BENCHMARK_CAPTURE(warp, cubic_interleaved, RightEyeMethod::Cubic, Schedule::Interleaved)->Apply(sizes);
-BENCHMARK_CAPTURE(warp, cubic_contiguous, RightEyeMethod::Cubic, Schedule::Contiguous)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, cubic, RightEyeMethod::Cubic, Schedule::Dynamic, kNoScene)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, linear, RightEyeMethod::Linear, Schedule::Dynamic, kNoScene)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, paper, RightEyeMethod::Paper, Schedule::Dynamic, kNoScene)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, mcmillan, RightEyeMethod::McMillan, Schedule::Dynamic, kNoScene)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, linear_normals, RightEyeMethod::Linear, Schedule::Dynamic, kLit)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, cubic_normals, RightEyeMethod::Cubic, Schedule::Dynamic, kLit)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, paper_normals, RightEyeMethod::Paper, Schedule::Dynamic, kLit)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, depthsplat, RightEyeMethod::DepthSplat, Schedule::Dynamic, kNoScene)->Apply(sizes);
+BENCHMARK_CAPTURE(warp, cubic_interleaved, RightEyeMethod::Cubic, Schedule::Interleaved, kNoScene)
+    ->Apply(sizes);
+BENCHMARK_CAPTURE(warp, cubic_contiguous, RightEyeMethod::Cubic, Schedule::Contiguous, kNoScene)
+    ->Apply(sizes);
 
 // One thread, row after row, by instruction set.
-void rows(benchmark::State& state, NamedResampler kernel, bool cubic) {
+void rows(benchmark::State& state, NamedResampler kernel, bool cubic, bool surface) {
     if (!kernel.supported) {
         state.SkipWithError("not supported by this processor");
         return;
@@ -111,14 +132,15 @@ void rows(benchmark::State& state, NamedResampler kernel, bool cubic) {
                              right.viewDepth.row(y), holes.row(y), 1280, left.color.stride(),
                              static_cast<float>(views.shiftAtInfinity),
                              static_cast<float>(views.parallaxScale), 0.6f, 1.1f, 1, cubic, column.data(),
-                             inverse.data(), source.data(), survivors.data(), links.data()});
+                             inverse.data(), source.data(), survivors.data(), links.data(), surface});
     state.counters["Mpix/s"] =
         benchmark::Counter(1e-6 * 1280 * 180, benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK_CAPTURE(rows, plain_cubic, resamplers().plain, true);
-BENCHMARK_CAPTURE(rows, avx2_cubic, resamplers().avx2, true);
-BENCHMARK_CAPTURE(rows, avx512_cubic, resamplers().avx512, true);
-BENCHMARK_CAPTURE(rows, avx512_linear, resamplers().avx512, false);
+BENCHMARK_CAPTURE(rows, plain_cubic, resamplers().plain, true, false);
+BENCHMARK_CAPTURE(rows, avx2_cubic, resamplers().avx2, true, false);
+BENCHMARK_CAPTURE(rows, avx512_cubic, resamplers().avx512, true, false);
+BENCHMARK_CAPTURE(rows, avx512_linear, resamplers().avx512, false, false);
+BENCHMARK_CAPTURE(rows, avx512_linear_normals, resamplers().avx512, false, true);
 
 }  // namespace
 
