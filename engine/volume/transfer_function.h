@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <string>
 #include <vector>
 
 namespace stereonav {

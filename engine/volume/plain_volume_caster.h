@@ -1,0 +1,60 @@
+// The caster that the fast ones are tested against: double precision, one ray, every cell or sample on the
+// way visited, no leaping, nothing shared with the fast code but the data.
+//
+// A ray is eye + t * direction in world space; with EyeView::rayDirection, t is the view depth.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <limits>
+
+#include "engine/volume/volume.h"
+#include "engine/volume/volume_look.h"
+
+namespace stereonav {
+
+struct PlainRay {
+    glm::dvec3 eye{0.0};        // world
+    glm::dvec3 direction{0.0};  // world, any length > 0
+    double nearDepth = 0;       // t from which the ray counts
+};
+
+struct PlainHit {
+    double t = std::numeric_limits<double>::infinity();  // infinity: nothing hit
+    glm::ivec3 cell{0};
+    glm::dvec3 local{0.0};  // where in the cell, each in [0, 1]
+    bool hit() const { return t < std::numeric_limits<double>::infinity(); }
+    glm::dvec3 voxel() const { return glm::dvec3(cell) + local; }
+};
+
+// The trilinear value in stored numbers at a point of voxel space within [0, size - 1].
+double plainValue(const GreyVolume& volume, const glm::dvec3& voxel);
+
+// The first t >= nearDepth within the volume where the trilinear value is >= isovalue (stored numbers):
+// where the ray enters a cell if it is so there already, else the first root of the cell's cubic (Parker et
+// al. 1998), isolated by the roots of its derivative and bisected, so that tangent rays are decided too.
+PlainHit castPlainVolume(const GreyVolume& volume, double isovalue, const PlainRay& ray);
+
+// The normal that shading uses at a point of voxel space: corner normals (minus the smoothed gradient, unit
+// length, +z where it is zero), trilinear between the cell's corners, unit length. World.
+glm::dvec3 plainNormal(const GreyVolume& volume, const glm::dvec3& voxel);
+
+// Light from `position` to the eye, linear RGB. Blinn-Phong with the lamp at the head: l leads from the
+// position to the head, h halves l and the direction to the eye;
+// falling off * (albedo * (ambient + diffuse * max(n.l, 0)) + specular * max(n.h, 0)^shininess), no highlight
+// where n.l <= 0. normal: unit, towards smaller values; it is not flipped.
+glm::dvec3 shadePlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,
+                      const glm::dvec3& head, const glm::dvec3& eye, const glm::dvec3& albedo);
+
+struct PlainComposite {
+    glm::dvec3 color{0.0};  // linear RGB, background not included
+    double left = 1;        // share of the background that is still seen
+    double firstDepth = std::numeric_limits<double>::infinity();  // t of the first sample that is not clear
+    int samples = 0;                                              // taken within the volume
+};
+
+// Front to back along samples at path lengths k * stepVoxels * (smallest spacing), k = 0, 1, ..., from
+// nearDepth on, each of opacity 1 - exp(-extinction * step); ends where less than 1/1024 is left.
+PlainComposite compositePlain(const GreyVolume& volume, const VolumeLook& look, const PlainRay& ray,
+                              const glm::dvec3& head, double stepVoxels);
+
+}  // namespace stereonav
