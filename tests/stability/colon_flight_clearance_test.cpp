@@ -148,5 +148,36 @@ TEST(ColonFlightClearance, IsKeptBetweenSegments) {
     EXPECT_GE(seen.leastFree, 0.002 - kRounding);
 }
 
+// Poses are checked above; this checks the way between them: a wall without thickness across the tube.
+TEST(ColonFlightClearance, AThinWallIsNeverPassed) {
+    AnalyticLumen lumen = straightTube();
+    lumen.distance = [tube = lumen.distance](const glm::dvec3& p) {
+        return std::min(tube(p), std::abs(p.y - 0.1));
+    };
+    for (const int mode : {0, 1}) {
+        ColonFlight flight(lumen.freeDistance(), lumen.line, lumen.home, {0.0005, 0.03, 0.004});
+        flight.setMode(mode);
+        std::mt19937_64 random(7);
+        FlightInput input;
+        double farthest = 0;
+        for (int k = 0; k < 5000 / kShare; ++k) {
+            changeWish(input, random);
+            // Guided, the flight jumps to the line's other part when it is asked to go there.
+            if (mode == 0) input.forward = std::min(input.forward, 0.0);
+            if (random() % 2) input.speedMultiplier = ColonFlight::kMostMultiplier;
+            flight.step(input, uniform(random, 0.001, 1));
+            const Pose pose = flight.pose();
+            for (const double side : {-0.002, 0.0, 0.002}) {
+                const double y = pose.position.y + side * pose.right().y;
+                ASSERT_LT(y, 0.1) << "mode " << mode << ", step " << k;
+                farthest = std::max(farthest, y);
+            }
+        }
+        if (mode == 1) {
+            EXPECT_GT(farthest, 0.099) << "the wall was never come near to";
+        }
+    }
+}
+
 }  // namespace
 }  // namespace stereonav
