@@ -34,6 +34,7 @@ constexpr double kLongestSubstep = 0.01;  // seconds
 constexpr double kSpeedDamping = 0.25;    // seconds in which 63 % of a wish is reached
 constexpr double kTurnDamping = 0.08;     // seconds, the same for turning
 constexpr double kViewDamping = 0.4;      // seconds, of the view that follows the travel at full speed
+constexpr double kSlowestTurn = 1e-7;     // radians a second: what fades away is at rest below it
 constexpr double kFastestTurn = 20.0;     // radians a second
 constexpr double kEndDamping = 0.5;       // seconds: slows down before the line's very end
 constexpr double kPushSpeed = 0.1;        // k above, as a share of the speed
@@ -143,13 +144,17 @@ void ColonFlight::State::turn(const FlightInput& wish, double h) {
     const double pitch = wanted.pitch + damped(pitchRate, wish.pitchRate, kTurnDamping, h);
     wanted.pitch = guided ? std::clamp(pitch, -pi / 2, pi / 2) : pitch;
     wanted.roll += damped(rollRate, wish.rollRate, kTurnDamping, h);
+    for (double* rate : {&yawRate, &pitchRate, &rollRate})
+        if (std::abs(*rate) < kSlowestTurn) *rate = 0;
     turnTo(wanted);
 }
 
 // As far as the eyes have room. Where turning brings an eye too near to the wall the head gives way.
 void ColonFlight::State::turnTo(const FlightView& wanted) {
     const FlightView from = view;
-    const double path = room.half() * angleBetween(from, wanted);
+    const double angle = pathBetween(from, wanted);
+    if (angle == 0) return;
+    const double path = room.half() * angle;
     const double piece = kTurnPiece * room.allowed(position);
     const int pieces = static_cast<int>(std::clamp(std::ceil(path / piece), 1.0, 1.0 * kMostTurnPieces));
     for (int k = 1; k <= pieces; ++k)
@@ -160,7 +165,7 @@ void ColonFlight::State::turnTo(const FlightView& wanted) {
 }
 
 bool ColonFlight::State::turnPiece(const FlightView& next) {
-    const double there = room.room(position, next.right(), 0);
+    const double there = room.half() > 0 ? room.room(position, next.right(), 0) : 0.0;
     if (there < 0) {
         const glm::dvec3 wall = room.away(position, next.right());
         const glm::dvec3 aside = room.moved(position, view.right(), wall * (-1.5 * there));

@@ -16,6 +16,7 @@ constexpr double kProbe = 0.25;       // of the clearance: how far around the wa
 constexpr double kLeastProbe = 1e-4;  // metres, above the steps of a distance kept in voxels
 constexpr double kClearSlope = 0.25;  // a gradient below it points nowhere: the head is between walls
 constexpr double kOffWall = 1.5;      // of what a piece came too near to the wall by
+constexpr double kFarther = 2.0;      // clearances: looked further than asked, to know more for later
 constexpr double kNothing = 1e-12;    // metres
 constexpr std::int64_t kCellSpan = 1 << 20;
 
@@ -69,14 +70,32 @@ double LumenRoom::free(const glm::dvec3& head, const glm::dvec3& right, double u
 }
 
 double LumenRoom::room(const glm::dvec3& head, const glm::dvec3& right, double upTo) const {
+    const bool asAbove = head == mLast.head && right == mLast.right;
+    if (asAbove && (mLast.room < mLast.upTo || upTo <= mLast.upTo)) return std::min(mLast.room, upTo);
+    mLast = {head, right, upTo, lookedUp(head, right, upTo)};
+    return mLast.room;
+}
+
+double LumenRoom::lookedUp(const glm::dvec3& head, const glm::dvec3& right, double upTo) const {
     const double need = allowed(head);
     // Around the head alone: holds for both eyes however the head is turned.
-    const double around = freeAt(head, need + mHalf + upTo) - mHalf - need;
+    const double enough = upTo + need + mHalf;
+    if (mKnownFree - glm::distance(head, mKnownPoint) >= enough) return upTo;
+    const double farther = enough + kFarther * mClearance, free = freeAt(head, farther);
+    if (free > enough) {
+        mKnownPoint = head;
+        mKnownFree = free;
+    }
+    const double around = free - mHalf - need;
     if (around >= upTo || mHalf <= 0) return std::min(around, upTo);
-    return std::max(around, free(head, right, need + upTo) - need);
+    double nearest = std::min(free, need + upTo);
+    for (const double side : {-mHalf, mHalf})
+        nearest = std::min(nearest, freeAt(head + side * right, need + upTo));
+    return std::max(around, nearest - need);
 }
 
 glm::dvec3 LumenRoom::away(const glm::dvec3& head, const glm::dvec3& right) const {
+    if (mLastAway.known && head == mLastAway.head && right == mLastAway.right) return mLastAway.direction;
     const double probe = std::max(kProbe * mClearance, kLeastProbe);
     const double upTo = mClearance + mHalf + 4 * probe;
     glm::dvec3 slope(0.0);
@@ -87,7 +106,8 @@ glm::dvec3 LumenRoom::away(const glm::dvec3& head, const glm::dvec3& right) cons
         slope += unit * (room(head + probe * unit, right, upTo) * 0.75 / probe);
     }
     const double size = glm::length(slope);
-    return size > kClearSlope ? slope / size : glm::dvec3(0.0);
+    mLastAway = {true, head, right, size > kClearSlope ? slope / size : glm::dvec3(0.0)};
+    return mLastAway.direction;
 }
 
 glm::dvec3 LumenRoom::moved(const glm::dvec3& head, const glm::dvec3& right, const glm::dvec3& by) const {

@@ -51,10 +51,25 @@ public:
     double half() const { return mHalf; }
 
 private:
+    struct Answer {
+        glm::dvec3 head{0.0}, right{0.0};
+        double upTo = -1, room = 0;
+    };
+    struct Direction {
+        bool known = false;
+        glm::dvec3 head{0.0}, right{0.0}, direction{0.0};
+    };
+    double lookedUp(const glm::dvec3& head, const glm::dvec3& right, double upTo) const;
     std::uint64_t cellOf(const glm::dvec3& p, const glm::ivec3& offset) const;
 
     FreeDistance mFree;
     double mClearance, mHalf;
+    // The last answers and the last ball found free of wall: they save looking again and change no result
+    // beyond the tolerance of the distances. Hence one thread.
+    mutable Answer mLast;
+    mutable Direction mLastAway;
+    mutable glm::dvec3 mKnownPoint{0.0};
+    mutable double mKnownFree = 0;
     double mCell = 1;                                                    // metres
     std::unordered_map<std::uint64_t, std::vector<NarrowPlace>> mCells;  // those that matter in a cell
 };

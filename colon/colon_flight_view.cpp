@@ -29,9 +29,12 @@ FlightView between(const FlightView& a, const FlightView& b, double t) {
             glm::mix(a.pitch, b.pitch, t), glm::mix(a.roll, b.roll, t)};
 }
 
-double angleBetween(const FlightView& a, const FlightView& b) {
-    const double cosine = std::abs(glm::dot(a.orientation(), b.orientation()));
-    return 2 * std::acos(std::min(cosine, 1.0));
+double pathBetween(const FlightView& a, const FlightView& b) {
+    // The sine, not the cosine: exact for small angles, and 0 for equal views.
+    const glm::dquat turn = glm::conjugate(a.base) * b.base;
+    const double sine = glm::length(glm::dvec3(turn.x, turn.y, turn.z));
+    return 2 * std::asin(std::min(sine, 1.0)) + std::abs(b.yaw - a.yaw) + std::abs(b.pitch - a.pitch) +
+           std::abs(b.roll - a.roll);
 }
 
 }  // namespace stereonav

@@ -21,7 +21,7 @@ struct FlightView {
 
 // From a (t = 0) to b (t = 1).
 FlightView between(const FlightView& a, const FlightView& b, double t);
-// The angle between the ways that two views hold the head, radians.
-double angleBetween(const FlightView& a, const FlightView& b);
+// At least the angle that the head turns through from a to b as between() turns it, radians.
+double pathBetween(const FlightView& a, const FlightView& b);
 
 }  // namespace stereonav

@@ -160,7 +160,7 @@ TEST(ColonFlightClearance, AThinWallIsNeverPassed) {
         std::mt19937_64 random(7);
         FlightInput input;
         double farthest = 0;
-        for (int k = 0; k < 5000 / kShare; ++k) {
+        for (int k = 0; k < 2000 / kShare; ++k) {
             changeWish(input, random);
             // Guided, the flight jumps to the line's other part when it is asked to go there.
             if (mode == 0) input.forward = std::min(input.forward, 0.0);
