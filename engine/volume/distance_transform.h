@@ -1,10 +1,12 @@
 // Exact Euclidean distance from every voxel to the nearest seed voxel, centre to centre, on grids of any
-// spacing. Separable: runs along i, lower envelopes of parabolas along j and k (Felzenszwalb and
-// Huttenlocher 2012; Meijster et al. 2000), columns side by side in vectors and on all threads.
+// spacing. Separable: runs along i, then least squared distances over lines along j and k (Felzenszwalb and
+// Huttenlocher 2012; Meijster et al. 2000), columns side by side in vectors and on all threads; lines are
+// tried outwards while they can help, so narrow masks cost little and the time grows with the distances.
 #pragma once
 
 #include <cstdint>
 
+#include "engine/math/simd_target.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav {
@@ -19,7 +21,11 @@ struct DistanceVolume : Volume<std::uint16_t> {
 
 // Distance to the nearest voxel with mask 0, for every voxel with mask not 0; 0 elsewhere. Voxels beyond
 // the volume's faces count as 0 too when outsideIsSeed. unit: metres, > 0; 0: a 64th of the smallest spacing.
-// The work is done inside the bounding box of the mask.
-DistanceVolume distanceToOutside(const MaskVolume& mask, bool outsideIsSeed = true, double unit = 0);
+// Where spacings differ, a distance within one part in 4 million of a whole number may come out one unit
+// less. The work is done inside the bounding box of the mask. Memory: 2 bytes a voxel for the result and 4
+// for the squares, taken only where rows of the box hold mask (in pages of 2 MB), besides a plane a thread
+// and 8 bytes a row. Throws Error when the unit or a spacing is not positive.
+DistanceVolume distanceToOutside(const MaskVolume& mask, bool outsideIsSeed = true, double unit = 0,
+                                 SimdTarget target = SimdTarget::Auto);
 
 }  // namespace stereonav

@@ -1,0 +1,250 @@
+// Exact distances in three passes within the mask's bounding box: runs along i give squared distances;
+// planes along i and j, then along i and k, are combined line by line (distance_kernel.cpp), and the last
+// pass writes units.
+#include "engine/volume/distance_transform.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "engine/math/simd_target.h"
+#include "engine/volume/distance_kernel_types.h"
+
+namespace stereonav {
+
+namespace plain {
+void combineDistances(const DistancePlane& plane, float* to, std::ptrdiff_t stride);
+void finishDistances(const DistancePlane& plane, const DistanceUnits& units, std::uint16_t* to,
+                     std::ptrdiff_t stride, int width);
+}  // namespace plain
+namespace avx2 {
+void combineDistances(const DistancePlane& plane, float* to, std::ptrdiff_t stride);
+void finishDistances(const DistancePlane& plane, const DistanceUnits& units, std::uint16_t* to,
+                     std::ptrdiff_t stride, int width);
+}  // namespace avx2
+namespace avx512 {
+void combineDistances(const DistancePlane& plane, float* to, std::ptrdiff_t stride);
+void finishDistances(const DistancePlane& plane, const DistanceUnits& units, std::uint16_t* to,
+                     std::ptrdiff_t stride, int width);
+}  // namespace avx512
+
+namespace {
+
+DistanceKernels kernelsFor(SimdTarget target) {
+    switch (availableTarget(target)) {
+        case SimdTarget::Avx512:
+            return {avx512::combineDistances, avx512::finishDistances};
+        case SimdTarget::Avx2:
+            return {avx2::combineDistances, avx2::finishDistances};
+        default:
+            return {plain::combineDistances, plain::finishDistances};
+    }
+}
+
+// A half-open range of indices; empty ranges join as nothing.
+struct Range {
+    int begin = 0, end = 0;
+    bool empty() const { return begin >= end; }
+    int size() const { return end - begin; }
+    void join(const Range& other) {
+        if (other.empty()) return;
+        *this = empty() ? other : Range{std::min(begin, other.begin), std::max(end, other.end)};
+    }
+};
+
+// The first index from `i` on where the row is set (or, with `set` false, is not); count if none.
+int findNext(const std::uint8_t* row, int i, int count, bool set) {
+    for (; i + 8 <= count; i += 8) {
+        std::uint64_t eight;
+        std::memcpy(&eight, row + i, 8);
+        // Zero bytes show as 0x80, without carries between bytes.
+        constexpr std::uint64_t kLow = 0x7f7f7f7f7f7f7f7full;
+        const std::uint64_t zeros = ~(((eight & kLow) + kLow) | eight | kLow);
+        if (set ? eight != 0 : zeros != 0) break;
+    }
+    while (i < count && (row[i] != 0) != set) ++i;
+    return i;
+}
+
+Range rangeOf(const std::uint8_t* row, int count) {
+    const int begin = findNext(row, 0, count, true);
+    if (begin == count) return {};
+    int end = count;
+    while (row[end - 1] == 0) --end;
+    return {begin, end};
+}
+
+class Transform {
+public:
+    Transform(const MaskVolume& mask, bool outsideIsSeed, double unit, SimdTarget target)
+        : mMask(mask), mOutsideIsSeed(outsideIsSeed), mUnit(unit), mKernels(kernelsFor(target)) {}
+
+    DistanceVolume run() {
+        DistanceVolume result;
+        static_cast<Volume<std::uint16_t>&>(result) = Volume<std::uint16_t>(mMask.frame);
+        result.unit = mUnit;
+        findRanges();
+        if (mBox[0].empty()) return result;
+        const glm::dvec3 spacing = mMask.frame.spacing;
+        mSmallest = std::min({spacing.x, spacing.y, spacing.z});
+        for (int axis = 0; axis < 3; ++axis) {
+            const double ratio = spacing[axis] / mSmallest;
+            mWeight[axis] = static_cast<float>(ratio * ratio);
+        }
+        // Chunks begin at the box; the rows of squares have room for the last one.
+        mStride = (mBox[0].size() + kDistanceChunk - 1) / kDistanceChunk * kDistanceChunk;
+        mSquares = LazyArray<float>(static_cast<std::size_t>(mStride) * mBox[1].size() * mBox[2].size());
+        mSquares.preferLargePages();
+        parallelFor(mBox[2].size(), [&](int k) { firstTwoPasses(mBox[2].begin + k); });
+        parallelFor(mBox[1].size(), [&](int j) { lastPass(mBox[1].begin + j, result); });
+        return result;
+    }
+
+private:
+    Range& rowRange(int j, int k) {
+        return mRows[static_cast<std::size_t>(k) * mMask.frame.size.y + static_cast<std::size_t>(j)];
+    }
+
+    void findRanges() {
+        const glm::ivec3 size = mMask.frame.size;
+        mRows.resize(static_cast<std::size_t>(size.y) * size.z);
+        parallelFor(size.z, [&](int k) {
+            for (int j = 0; j < size.y; ++j)
+                rowRange(j, k) = rangeOf(mMask.values.data() + mMask.frame.index(0, j, k), size.x);
+        });
+        for (int k = 0; k < size.z; ++k)
+            for (int j = 0; j < size.y; ++j) {
+                if (rowRange(j, k).empty()) continue;
+                mBox[0].join(rowRange(j, k));
+                mBox[1].join({j, j + 1});
+                mBox[2].join({k, k + 1});
+            }
+    }
+
+    // What lies next to the first and the last of a range is all seeds, unless it is beyond the volume.
+    bool seedsBelow(const Range& range) const { return mOutsideIsSeed || range.begin > 0; }
+    bool seedsAbove(const Range& range, int axis) const {
+        return mOutsideIsSeed || range.end < mMask.frame.size[axis];
+    }
+
+    float* squares(int j, int k) {
+        return mSquares.data() +
+               (static_cast<std::size_t>(k - mBox[2].begin) * mBox[1].size() + (j - mBox[1].begin)) * mStride;
+    }
+
+    // Chunks that cover a range of columns, as columns from the box's begin.
+    Range chunksOf(const Range& columns) const {
+        const int begin = (columns.begin - mBox[0].begin) / kDistanceChunk * kDistanceChunk;
+        const int end = columns.end - mBox[0].begin;
+        return {begin, (end + kDistanceChunk - 1) / kDistanceChunk * kDistanceChunk};
+    }
+
+    // Squared distances to the ends of each run of set voxels.
+    void measureRuns(int j, int k) {
+        const int count = mMask.frame.size.x;
+        const std::uint8_t* row = mMask.values.data() + mMask.frame.index(0, j, k);
+        float* out = squares(j, k) - mBox[0].begin;
+        for (int begin = rowRange(j, k).begin; begin < count;) {
+            const int end = findNext(row, begin, count, false);
+            const bool low = mOutsideIsSeed || begin > 0, high = mOutsideIsSeed || end < count;
+            constexpr float kFar = std::numeric_limits<float>::infinity();
+            for (int i = begin; i < end; ++i) {
+                const float left = low ? static_cast<float>(i - begin + 1) : kFar;
+                const float right = high ? static_cast<float>(end - i) : kFar;
+                const float least = std::min(left, right);
+                out[i] = least * least * mWeight[0];
+            }
+            begin = findNext(row, end, count, true);
+        }
+    }
+
+    void firstTwoPasses(int k) {
+        Range columns, lines;
+        for (int j = mBox[1].begin; j < mBox[1].end; ++j) {
+            if (rowRange(j, k).empty()) continue;
+            measureRuns(j, k);
+            columns.join(rowRange(j, k));
+            lines.join({j, j + 1});
+        }
+        if (lines.empty()) return;
+        const Range chunks = chunksOf(columns);
+        std::vector<float> copy;
+        copy.reserve(static_cast<std::size_t>(lines.size()) * chunks.size());
+        for (int j = lines.begin; j < lines.end; ++j) appendLine(copy, j, k, chunks);
+        const DistancePlane plane{copy.data(), lines.size(),      chunks.size(),
+                                  mWeight[1],  seedsBelow(lines), seedsAbove(lines, 1)};
+        mKernels.combine(plane, squares(lines.begin, k) + chunks.begin, mStride);
+    }
+
+    void lastPass(int j, DistanceVolume& result) {
+        Range columns, lines;
+        for (int k = mBox[2].begin; k < mBox[2].end; ++k) {
+            if (rowRange(j, k).empty()) continue;
+            columns.join(rowRange(j, k));
+            lines.join({k, k + 1});
+        }
+        if (lines.empty()) return;
+        const Range chunks = chunksOf(columns);
+        std::vector<float> copy;
+        copy.reserve(static_cast<std::size_t>(lines.size()) * chunks.size());
+        for (int k = lines.begin; k < lines.end; ++k) appendLine(copy, j, k, chunks);
+        const DistancePlane plane{copy.data(), lines.size(),      chunks.size(),
+                                  mWeight[2],  seedsBelow(lines), seedsAbove(lines, 2)};
+        const int first = mBox[0].begin + chunks.begin;
+        const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(mMask.frame.size.x) * mMask.frame.size.y;
+        mKernels.finish(plane, units(), result.values.data() + result.frame.index(first, j, lines.begin),
+                        stride, columns.end - first);
+    }
+
+    // Rows without a set voxel are zeros that were never written.
+    void appendLine(std::vector<float>& copy, int j, int k, const Range& chunks) {
+        if (rowRange(j, k).empty()) {
+            copy.resize(copy.size() + chunks.size(), 0.0f);
+        } else {
+            const float* row = squares(j, k);
+            copy.insert(copy.end(), row + chunks.begin, row + chunks.end);
+        }
+    }
+
+    // Squares are of lengths in the smallest spacing. With even spacing they are whole numbers; else each
+    // of their weight, product and two sums may be off by 2^-24.
+    DistanceUnits units() const {
+        const bool whole = mWeight[0] == 1 && mWeight[1] == 1 && mWeight[2] == 1;
+        const glm::dvec3 extent(mBox[0].size() + 1, mBox[1].size() + 1, mBox[2].size() + 1);
+        const bool exact =
+            whole && extent.x * extent.x + extent.y * extent.y + extent.z * extent.z < 16777216.0;
+        const double unit = mUnit / mSmallest;
+        return {static_cast<float>(1 / unit), unit * unit, exact ? 1.0 : 1 - 1.0 / 4194304};
+    }
+
+    const MaskVolume& mMask;
+    bool mOutsideIsSeed;
+    double mUnit, mSmallest = 1;
+    DistanceKernels mKernels;
+    std::vector<Range> mRows;  // columns of set voxels, by row
+    Range mBox[3];             // of set voxels, by axis
+    float mWeight[3] = {1, 1, 1};
+    int mStride = 0;
+    LazyArray<float> mSquares;  // of the box
+};
+
+}  // namespace
+
+DistanceVolume distanceToOutside(const MaskVolume& mask, bool outsideIsSeed, double unit, SimdTarget target) {
+    const glm::dvec3 spacing = mask.frame.spacing;
+    const double smallest = std::min({spacing.x, spacing.y, spacing.z});
+    if (unit == 0) unit = smallest / 64;
+    if (!(unit > 0 && std::isfinite(unit) && smallest > 0))
+        throw Error("", "distance transform",
+                    fmt::format("expected a unit and spacings above 0, got {} and {} m", unit, smallest),
+                    "check the volume's spacing");
+    return Transform(mask, outsideIsSeed, unit, target).run();
+}
+
+}  // namespace stereonav
