@@ -10,7 +10,7 @@ namespace stereonav {
 namespace {
 
 constexpr int kTileWidth = 8, kTileHeight = 4;  // smallest tiles
-constexpr int kStripHeight = 64;                 // pixels a task starts from
+constexpr int kStripHeight = 64;                // pixels a task starts from
 
 struct Search {
     const EyeRenderer& renderer;

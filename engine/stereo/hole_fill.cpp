@@ -2,6 +2,7 @@
 #include "engine/stereo/hole_fill.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <numeric>
 #include <span>
@@ -10,23 +11,40 @@
 
 namespace stereonav {
 
+namespace {
+
+constexpr int kWords = HoleFill::kBandWidth / 8;
+
+// One bit for each of eight mask bytes (0 or 255), the first in bit 0: the product moves the lowest bit of
+// byte k to bit 56 + k.
+std::uint32_t bitsOf(std::uint64_t bytes) {
+    return static_cast<std::uint32_t>((bytes & 0x0101010101010101u) * 0x0102040810204080u >> 56);
+}
+
+// Of a band's pixels in one row. Rows are padded, so that all words can be read.
+std::uint32_t holesOfRow(const std::uint8_t* mask) {
+    std::uint64_t words[kWords];
+    std::memcpy(words, mask, sizeof words);
+    if ((words[0] | words[1] | words[2] | words[3]) == 0) return 0;
+    std::uint32_t bits = 0;
+    for (int k = 0; k < kWords; ++k) bits |= bitsOf(words[k]) << 8 * k;
+    return bits;
+}
+
+}  // namespace
+
 void HoleFill::listBand(const Plane<std::uint8_t>& mask, int band) {
-    static_assert(kBandWidth % 8 == 0);
+    static_assert(kWords == 4 && kBandWidth == 32, "a row of a band is a word of bits");
+    static_assert(Plane<std::uint8_t>::kPadding >= 16, "strides reach to the end of the last band");
     const std::size_t capacity = static_cast<std::size_t>(kBandWidth) * mask.height();
     PixelIndex* const list = mPixels.data() + capacity * band;
     PixelIndex* out = list;
     const int x0 = band * kBandWidth;
-    const int x1 = std::min(x0 + kBandWidth, mask.width());
-    for (int y = 0; y < mask.height(); ++y) {
-        const std::uint8_t* row = mask.row(y);
-        for (int x = x0; x < x1; x += 8) {
-            std::uint64_t eight;  // rows are padded, so eight can be read
-            std::memcpy(&eight, row + x, sizeof eight);
-            if (eight == 0) continue;
-            for (int i = x; i < std::min(x + 8, x1); ++i)
-                if (row[i]) *out++ = {static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(y)};
-        }
-    }
+    const int inside = mask.width() - x0;
+    const std::uint32_t wanted = inside >= kBandWidth ? ~0u : (1u << inside) - 1u;
+    for (int y = 0; y < mask.height(); ++y)
+        for (std::uint32_t bits = holesOfRow(mask.row(y) + x0) & wanted; bits != 0; bits &= bits - 1)
+            *out++ = {static_cast<std::uint16_t>(x0 + std::countr_zero(bits)), static_cast<std::uint16_t>(y)};
     mHoles[band] = static_cast<int>(out - list);
 }
 

@@ -345,7 +345,8 @@ RightEyeMethod defaultMethodFor(const EyeRenderer& renderer) {
 }
 
 std::vector<RightEyeMethod> methodsFor(const EyeRenderer& renderer) {
-    if (renderer.translucent()) return {RightEyeMethod::Full, RightEyeMethod::DepthSplat};
+    if (renderer.translucent())
+        return {RightEyeMethod::Full, RightEyeMethod::Linear, RightEyeMethod::DepthSplat};
     std::vector<RightEyeMethod> methods;
     for (const NamedMethod& named : kRightEyeMethods)
         if (named.method != RightEyeMethod::DepthSplat) methods.push_back(named.method);

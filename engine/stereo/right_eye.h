@@ -39,9 +39,11 @@ constexpr std::array<NamedMethod, 7> kRightEyeMethods{{{"full", RightEyeMethod::
 
 // DepthSplat for translucent scenes, else kDefaultRightEyeMethod.
 RightEyeMethod defaultMethodFor(const EyeRenderer& renderer);
-// The methods that are worth comparing, in the order of their names above: full and depthsplat for a
-// translucent scene, all but depthsplat for others. The others work too: depthsplat on an opaque scene
-// only casts with a jump, a warp of a translucent scene moves each pixel as if it were opaque.
+// The methods that are worth comparing, in the order of their names above: full, linear and depthsplat for
+// a translucent scene, all but depthsplat for others. The others work too; depthsplat on an opaque scene
+// casts every pixel, with a jump. A warp of a translucent scene moves each pixel as if all its colour came
+// from where its ray first met something: near the truth for dense walls, wrong where layers are seen
+// through each other.
 std::vector<RightEyeMethod> methodsFor(const EyeRenderer& renderer);
 
 struct WarpSetting {

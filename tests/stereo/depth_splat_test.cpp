@@ -181,9 +181,42 @@ TEST(DepthSplat, anOpaqueSceneIsTheFullCastToo) {
     EXPECT_EQ(differing(r.right, r.full), 0);
 }
 
+// Mean squared difference of the packed channels.
+double meanSquare(const EyeImage& a, const EyeImage& b) {
+    double sum = 0;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x)
+            for (int shift = 0; shift < 30; shift += 10) {
+                const double d = static_cast<double>(a.color.at(x, y) >> shift & 1023u) -
+                                 static_cast<double>(b.color.at(x, y) >> shift & 1023u);
+                sum += d * d;
+            }
+    return sum / (3.0 * a.width() * a.height());
+}
+
+TEST(DepthSplat, warpingColorsServesDenseGlassOnly) {
+    const StereoViews views = viewsOf(320, 240, 0.3);
+    const auto errorOf = [&](double opacity, RightEyeMethod method) {
+        const GlassScene scene({sphere({-0.6, 0.3, -5}, 1.2), sphereFromInside({-0.6, 0.3, -5}, 1.2)},
+                               plane({0, 0, -12}, {0.2, 0.3, 1}), 3.0, opacity);
+        const EyeImage left = castEye(scene, views.left), full = castEye(scene, views.right);
+        EyeImage right;
+        RightEye eye;
+        WarpSetting setting;
+        setting.method = method;
+        eye.render(scene, views, left, setting, right);
+        return meanSquare(right, full);
+    };
+    EXPECT_LT(errorOf(0.999, RightEyeMethod::Linear), 10);
+    EXPECT_GT(errorOf(0.35, RightEyeMethod::Linear), 100);
+    EXPECT_EQ(errorOf(0.999, RightEyeMethod::DepthSplat), 0);
+    EXPECT_EQ(errorOf(0.35, RightEyeMethod::DepthSplat), 0);
+}
+
 TEST(DepthSplat, isTheDefaultOfTranslucentScenes) {
     EXPECT_EQ(defaultMethodFor(shellBeforeWall()), RightEyeMethod::DepthSplat);
-    EXPECT_EQ(methodsFor(shellBeforeWall()), (std::vector{RightEyeMethod::Full, RightEyeMethod::DepthSplat}));
+    EXPECT_EQ(methodsFor(shellBeforeWall()),
+              (std::vector{RightEyeMethod::Full, RightEyeMethod::Linear, RightEyeMethod::DepthSplat}));
     const AnalyticScene opaque({});
     EXPECT_EQ(defaultMethodFor(opaque), kDefaultRightEyeMethod);
     const std::vector<RightEyeMethod> methods = methodsFor(opaque);
