@@ -24,13 +24,29 @@ void check(const LumenField& lumen, const DistanceVolume& distance, const Centre
         throw Error("", "", "the distances do not belong to the lumen", "compute them from its mask");
 }
 
+// Whether the line runs from the rectum upwards: its start is lower, or, where the ends are about level
+// (within a tenth of the line's height or an end's radius), further back.
+bool startsAtRectum(const LumenProbe& probe, const std::vector<glm::dvec3>& points) {
+    const glm::dvec3 a = points.front(), b = points.back();
+    double low = a.z, high = a.z;
+    for (const glm::dvec3& p : points) {
+        low = std::min(low, p.z);
+        high = std::max(high, p.z);
+    }
+    const double level = std::max({0.1 * (high - low), probe.radius(a), probe.radius(b)});
+    if (std::abs(a.z - b.z) > level) return a.z < b.z;
+    return a.y != b.y ? a.y > b.y : a.z <= b.z;
+}
+
 std::vector<glm::dvec3> linePoints(const LumenField& lumen, int segment, const DistanceVolume& distance,
                                    double spacing, const std::function<void()>& poll) {
     std::vector<glm::dvec3> rough;
     for (const glm::ivec3& v : roughCentreline(lumen, segment, distance, poll))
         rough.push_back(lumen.lumen.frame.worldFromVoxel(glm::dvec3(v)));
     const LumenProbe probe(lumen, distance, segment);
-    return resampleEvenly(probe, refineCentreline(probe, rough, poll), spacing);
+    std::vector<glm::dvec3> points = resampleEvenly(probe, refineCentreline(probe, rough, poll), spacing);
+    if (!startsAtRectum(probe, points)) std::reverse(points.begin(), points.end());
+    return points;
 }
 
 }  // namespace

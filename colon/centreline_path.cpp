@@ -1,6 +1,6 @@
-// Ends by two sweeps of plain length (the farthest place from any place is an end; the farthest from that,
-// the other), on blocks of voxels where the lumen is large. The cheapest way between them is found on the
-// blocks first and then once more on the voxels in and around those blocks.
+// Two sweeps over all of the lumen, on blocks of voxels where it is large. The place farthest from its widest
+// place is one end. From there the cheapest ways lead everywhere, along the middle; the longest of them leads
+// to the other end. It is found once more on the voxels in and around its blocks.
 #include "colon/centreline_path.h"
 
 #include <algorithm>
@@ -65,11 +65,9 @@ std::vector<float> wallWeights(const std::vector<float>& distances) {
 std::vector<Node> farthestWay(const VoxelGraph& graph, const std::vector<float>& distances,
                               const std::function<void()>& poll) {
     const auto deepest = std::max_element(distances.begin(), distances.end()) - distances.begin();
-    const auto sweep = [&](Node start) {
-        return findVoxelPaths(graph, {}, start, VoxelPaths::kNone, poll).farthest;
-    };
-    const Node end = sweep(static_cast<Node>(deepest)), start = sweep(end);
-    return findVoxelPaths(graph, wallWeights(distances), start, end, poll).to(end);
+    const Node end = findVoxelPaths(graph, {}, static_cast<Node>(deepest), VoxelPaths::kNone, poll).farthest;
+    const VoxelPaths ways = findVoxelPaths(graph, wallWeights(distances), end, VoxelPaths::kNone, poll);
+    return ways.to(ways.farthest);
 }
 
 // The voxels of `segment` in the blocks along a way and around them, as a mask of ones.
@@ -121,8 +119,10 @@ std::vector<glm::ivec3> fineWay(const VoxelGraph& graph, const glm::ivec3& start
     return voxels;
 }
 
-std::vector<glm::ivec3> wayThrough(const LumenField& lumen, int segment, const DistanceVolume& distance,
-                                   const std::function<void()>& poll) {
+}  // namespace
+
+std::vector<glm::ivec3> roughCentreline(const LumenField& lumen, int segment, const DistanceVolume& distance,
+                                        const std::function<void()>& poll) {
     const LumenSegment& piece = lumen.segments[segment - 1];
     const glm::ivec3 block = blockOf(lumen.lumen.frame.spacing, piece.voxels);
     const VoxelGraph graph(lumen.lumen, static_cast<std::uint8_t>(segment), piece.first, piece.last, block);
@@ -139,29 +139,6 @@ std::vector<glm::ivec3> wayThrough(const LumenField& lumen, int segment, const D
     const VoxelGraph fine(corridor.mask, 1, corridor.first, corridor.last, glm::ivec3(1));
     return fineWay(fine, deepestVoxel(graph, way.front(), distance),
                    deepestVoxel(graph, way.back(), distance), nodeDistances(fine, distance), poll);
-}
-
-}  // namespace
-
-bool lowerEndFirst(const glm::dvec3& a, const glm::dvec3& b, double height) {
-    if (std::abs(a.z - b.z) > 0.1 * height) return a.z < b.z;
-    return a.y != b.y ? a.y > b.y : a.z <= b.z;
-}
-
-std::vector<glm::ivec3> roughCentreline(const LumenField& lumen, int segment, const DistanceVolume& distance,
-                                        const std::function<void()>& poll) {
-    std::vector<glm::ivec3> way = wayThrough(lumen, segment, distance, poll);
-    const VolumeFrame& frame = lumen.lumen.frame;
-    double low = INFINITY, high = -INFINITY;
-    for (const glm::ivec3& v : way) {
-        const double z = frame.worldFromVoxel(glm::dvec3(v)).z;
-        low = std::min(low, z);
-        high = std::max(high, z);
-    }
-    if (!lowerEndFirst(frame.worldFromVoxel(glm::dvec3(way.front())),
-                       frame.worldFromVoxel(glm::dvec3(way.back())), high - low))
-        std::reverse(way.begin(), way.end());
-    return way;
 }
 
 }  // namespace stereonav

@@ -171,8 +171,8 @@ glm::ivec3 VoxelGraph::blockVoxel(Node node) const {
 
 std::vector<VoxelGraph::Node> VoxelPaths::to(VoxelGraph::Node end) const {
     std::vector<VoxelGraph::Node> path;
-    if (end >= cost.size() || !std::isfinite(cost[end])) return path;
-    for (VoxelGraph::Node n = end; n != kNone; n = previous[n]) path.push_back(n);
+    if (end >= ways.size() || !std::isfinite(ways[end].cost)) return path;
+    for (VoxelGraph::Node n = end; n != kNone; n = ways[n].previous) path.push_back(n);
     std::reverse(path.begin(), path.end());
     return path;
 }
@@ -219,34 +219,38 @@ private:
 
 VoxelPaths findVoxelPaths(const VoxelGraph& graph, std::span<const float> weights, VoxelGraph::Node start,
                           VoxelGraph::Node end, const std::function<void()>& poll) {
+    constexpr float kFar = std::numeric_limits<float>::infinity();
     VoxelPaths paths;
-    paths.cost.assign(graph.nodeCount(), std::numeric_limits<float>::infinity());
-    paths.previous.assign(graph.nodeCount(), VoxelPaths::kNone);
+    paths.ways.assign(graph.nodeCount(), {kFar, kFar, 1.0f, VoxelPaths::kNone});
     if (start >= graph.nodeCount()) return paths;
     float dearest = 1;
-    for (const float w : weights) dearest = std::max(dearest, w);
-    BucketQueue queue(graph.shortestStep(), graph.longestStep() * std::min(dearest, kLargestWeight));
-    paths.cost[start] = 0;
+    for (std::size_t n = 0; n < weights.size(); ++n) {
+        paths.ways[n].weight = std::clamp(weights[n], 1.0f, kLargestWeight);
+        dearest = std::max(dearest, paths.ways[n].weight);
+    }
+    BucketQueue queue(graph.shortestStep(), graph.longestStep() * dearest);
+    paths.ways[start].cost = paths.ways[start].length = 0;
     queue.push(0, start);
     std::size_t taken = 0;
     for (BucketQueue::Entry entry{}; queue.pop(entry);) {
-        if (entry.cost > paths.cost[entry.node]) continue;
+        const VoxelPaths::Way from = paths.ways[entry.node];
+        if (entry.cost > from.cost) continue;
         if (++taken % 262144 == 0) poll();
         // What is still queued costs at least the lower end of this bucket.
-        if (end < graph.nodeCount() && paths.cost[end] <= entry.cost - queue.width()) break;
+        if (end < graph.nodeCount() && paths.ways[end].cost <= entry.cost - queue.width()) break;
         graph.forEachNeighbour(entry.node, [&](VoxelGraph::Node next, int step) {
-            const float weight = weights.empty() ? 1.0f : 0.5f * (weights[entry.node] + weights[next]);
-            const float cost = entry.cost + weight * static_cast<float>(graph.stepLength(step));
-            if (!(cost < paths.cost[next])) return;
-            paths.cost[next] = cost;
-            paths.previous[next] = entry.node;
+            VoxelPaths::Way& to = paths.ways[next];
+            const auto length = static_cast<float>(graph.stepLength(step));
+            const float cost = entry.cost + 0.5f * (from.weight + to.weight) * length;
+            if (!(cost < to.cost)) return;
+            to = {cost, from.length + length, to.weight, entry.node};
             queue.push(cost, next);
         });
     }
-    float highest = -1;
-    for (std::size_t n = 0; n < paths.cost.size(); ++n)
-        if (std::isfinite(paths.cost[n]) && paths.cost[n] > highest) {
-            highest = paths.cost[n];
+    float longest = -1;
+    for (std::size_t n = 0; n < paths.ways.size(); ++n)
+        if (std::isfinite(paths.ways[n].length) && paths.ways[n].length > longest) {
+            longest = paths.ways[n].length;
             paths.farthest = static_cast<VoxelGraph::Node>(n);
         }
     return paths;

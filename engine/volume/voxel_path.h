@@ -82,11 +82,17 @@ struct BlockPieces {
 };
 const BlockPieces& blockPieces(std::uint8_t pattern);
 
+// The cheapest ways from one node to all others.
 struct VoxelPaths {
     static constexpr VoxelGraph::Node kNone = 0xffffffff;
-    std::vector<float> cost;                 // infinite where not reached
-    std::vector<VoxelGraph::Node> previous;  // kNone at the start and where not reached
-    VoxelGraph::Node farthest = kNone;       // the node of the highest finite cost; ties: the first
+    struct Way {
+        float cost, length;         // length: metres along the cheapest way; both infinite where not reached
+        float weight;               // of the node itself
+        VoxelGraph::Node previous;  // kNone at the start and where not reached
+    };
+    std::vector<Way> ways;              // by node
+    VoxelGraph::Node farthest = kNone;  // at the end of the longest of them; ties: the first node
+
     std::vector<VoxelGraph::Node> to(VoxelGraph::Node end) const;  // from the start; empty if not reached
 };
 

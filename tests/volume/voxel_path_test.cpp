@@ -91,23 +91,29 @@ TEST(VoxelPaths, AreTheCheapestByAnotherSearch) {
                 const VoxelPaths paths =
                     findVoxelPaths(graph, nodeWeights, nodeAt(graph, start), VoxelPaths::kNone, kNoPoll);
                 const std::vector<double> truth = lengthsByRelaxing(mask, start, weights);
-                double highest = 0;
+                double longest = 0;
                 for (Node n = 0; n < graph.nodeCount(); ++n) {
                     const double expected = truth[mask.frame.index(graph.blockVoxel(n))];
                     if (!std::isfinite(expected)) {
-                        EXPECT_FALSE(std::isfinite(paths.cost[n]));
+                        EXPECT_FALSE(std::isfinite(paths.ways[n].cost));
                         EXPECT_TRUE(paths.to(n).empty());
                         continue;
                     }
-                    EXPECT_NEAR(paths.cost[n], expected, 1e-5 * expected + 1e-6);
-                    EXPECT_FALSE(paths.to(n).empty());
-                    highest = std::max(highest, expected);
+                    EXPECT_NEAR(paths.ways[n].cost, expected, 1e-5 * expected + 1e-6);
+                    const std::vector<Node> way = paths.to(n);
+                    ASSERT_FALSE(way.empty());
+                    double length = 0;
+                    for (std::size_t m = 1; m < way.size(); ++m)
+                        length += glm::length(
+                            spacing * glm::dvec3(graph.blockVoxel(way[m]) - graph.blockVoxel(way[m - 1])));
+                    EXPECT_NEAR(paths.ways[n].length, length, 1e-5 * length);
+                    longest = std::max(longest, length);
                 }
-                EXPECT_NEAR(paths.cost[paths.farthest], highest, 1e-5 * highest);
+                EXPECT_NEAR(paths.ways[paths.farthest].length, longest, 1e-5 * longest);
                 // Stopping at an end gives the same cost there.
                 const VoxelPaths stopped =
                     findVoxelPaths(graph, nodeWeights, nodeAt(graph, start), paths.farthest, kNoPoll);
-                EXPECT_EQ(stopped.cost[paths.farthest], paths.cost[paths.farthest]);
+                EXPECT_EQ(stopped.ways[paths.farthest].cost, paths.ways[paths.farthest].cost);
             }
 }
 
@@ -150,7 +156,7 @@ TEST(VoxelPaths, BlocksJoinWhatVoxelsJoin) {
                 graph.forEachVoxel(start, [&](const glm::ivec3& v) { piece = pieces[mask.frame.index(v)]; });
                 for (Node n = 0; n < graph.nodeCount(); ++n)
                     graph.forEachVoxel(n, [&](const glm::ivec3& v) {
-                        EXPECT_EQ(std::isfinite(paths.cost[n]), pieces[mask.frame.index(v)] == piece);
+                        EXPECT_EQ(std::isfinite(paths.ways[n].cost), pieces[mask.frame.index(v)] == piece);
                         voxels += start == 0;
                     });
             }
@@ -165,7 +171,7 @@ TEST(VoxelPaths, OtherLabelsAreOutside) {
     const VoxelGraph graph = graphOf(mask, glm::ivec3(1));
     ASSERT_EQ(graph.nodeCount(), 4u);
     const VoxelPaths paths = findVoxelPaths(graph, {}, 0, VoxelPaths::kNone, kNoPoll);
-    EXPECT_FALSE(std::isfinite(paths.cost[2]));
+    EXPECT_FALSE(std::isfinite(paths.ways[2].cost));
     EXPECT_EQ(paths.farthest, 1u);
 }
 
