@@ -20,7 +20,11 @@ using Points = std::vector<glm::dvec3>;
 constexpr int kRounds = 12;
 constexpr double kSmoothing = 0.6;   // standard deviation of G, in radii
 constexpr double kKeptRadius = 0.7;  // smoothing may take this share of the radius in the middle
-constexpr double kMostCut = 0.125;   // of the length, from each end, twice
+// At the end the line is smoothed alone, over a shorter length: points that were held back, each by its own
+// share, stand out from the others.
+constexpr int kPolishing = 3;
+constexpr double kPolish = 0.3, kPolishKept = 0.5;
+constexpr double kMostCut = 0.125;  // of the length, from each end, twice
 constexpr double kMostWorkPoints = 100000;
 constexpr int kChunk = 64;  // points of a parallel task
 
@@ -132,16 +136,26 @@ Points sharpened(const Points& values, const std::vector<double>& sigmas, Beyond
     return smooth;
 }
 
+// Standard deviations in points: a share of the radius, itself evened along the line, for a sudden change of
+// the kernel would leave a kink. Shorter towards the ends, so that they find the middle too.
+std::vector<double> smoothingAlong(const LumenProbe& probe, const Points& middle, double share,
+                                   double spacing) {
+    Points radii(middle.size());
+    for (std::size_t i = 0; i < middle.size(); ++i) radii[i].x = probe.distance(middle[i]);
+    radii = gaussian(radii, std::vector<double>(middle.size(), 5.0), Beyond::Mirrored);
+    std::vector<double> sigmas(middle.size());
+    for (std::size_t i = 0; i < middle.size(); ++i) {
+        const double most = 1.0 + 0.5 * static_cast<double>(std::min(i, middle.size() - 1 - i));
+        sigmas[i] = std::clamp(share * radii[i].x / spacing, 1.0, most);
+    }
+    return sigmas;
+}
+
 // The points moved to the middle, and smoothed: the line with its ends held, and the moves as they are.
 Points smoothed(const LumenProbe& probe, const Points& points, const Points& middle, double spacing) {
-    std::vector<double> sigmas(points.size());
+    const std::vector<double> sigmas = smoothingAlong(probe, middle, kSmoothing, spacing);
     Points moves(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        // Shorter towards the ends, so that they find the middle too.
-        const double most = 1.0 + 0.5 * static_cast<double>(std::min(i, points.size() - 1 - i));
-        sigmas[i] = std::clamp(kSmoothing * probe.distance(middle[i]) / spacing, 1.0, most);
-        moves[i] = middle[i] - points[i];
-    }
+    for (std::size_t i = 0; i < points.size(); ++i) moves[i] = middle[i] - points[i];
     Points smooth = sharpened(points, sigmas, Beyond::Turned);
     moves = sharpened(moves, sigmas, Beyond::Mirrored);
     for (std::size_t i = 0; i < points.size(); ++i) smooth[i] += moves[i];
@@ -150,9 +164,11 @@ Points smoothed(const LumenProbe& probe, const Points& points, const Points& mid
 
 // Moves the points towards `targets` one after the other, each as far as both lines that end in it stay
 // inside.
-void moveInside(const LumenProbe& probe, Points& points, const Points& targets, const Points& middle) {
+// kept: the share of the distance to the wall at `middle` that must be left, unless less was there before.
+void moveInside(const LumenProbe& probe, Points& points, const Points& targets, const Points& middle,
+                double kept) {
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const double enough = std::min(probe.distance(points[i]), kKeptRadius * probe.distance(middle[i]));
+        const double enough = std::min(probe.distance(points[i]), kept * probe.distance(middle[i]));
         for (const double share : {1.0, 0.5, 0.25}) {
             const glm::dvec3 to = glm::mix(points[i], targets[i], share);
             if (!(probe.distance(to) >= enough)) continue;
@@ -214,8 +230,14 @@ Points refineCentreline(const LumenProbe& probe, Points rough, const std::functi
     for (int round = 0; round < kRounds; ++round) {
         poll();
         const Points middle = centredAll(probe, points, spacing);
-        moveInside(probe, points, smoothed(probe, points, middle, spacing), middle);
+        moveInside(probe, points, smoothed(probe, points, middle, spacing), middle, kKeptRadius);
         if (round == kRounds / 2) points = withoutEnds(probe, points);
+        points = evened(probe, points, spacing);
+    }
+    for (int round = 0; round < kPolishing; ++round) {
+        const Points middle = points;
+        const std::vector<double> sigmas = smoothingAlong(probe, middle, kPolish, spacing);
+        moveInside(probe, points, sharpened(middle, sigmas, Beyond::Turned), middle, kPolishKept);
         points = evened(probe, points, spacing);
     }
     return points;

@@ -6,7 +6,6 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <vector>
 
 #include "colon/centreline.h"
@@ -54,43 +53,6 @@ inline LumenField lumenOfVoxels(const std::vector<glm::ivec3>& voxels, const glm
         return 1.0;
     };
     return lumenOf(shape, glm::dvec3(0.0), glm::dvec3(size - 1) * spacing - 1e-12, spacing);
-}
-
-// Distances to the outside voxels' centres and beyond the faces, as distanceToOutside gives them.
-inline DistanceVolume distancesOf(const MaskVolume& mask) {
-    const VolumeFrame& frame = mask.frame;
-    std::vector<float> d(frame.count());
-    for (std::size_t n = 0; n < d.size(); ++n) d[n] = mask.values[n] ? 1e30f : 0.0f;
-    const std::size_t strides[] = {1, std::size_t(frame.size.x), std::size_t(frame.size.x) * frame.size.y};
-    std::vector<float> row;
-    for (int axis = 0; axis < 3; ++axis) {
-        const int n = frame.size[axis];
-        row.resize(n + 2);
-        for (std::size_t start = 0; start < d.size(); ++start) {
-            if (start / strides[axis] % n) continue;
-            row.front() = row.back() = 0;
-            for (int i = 0; i < n; ++i) row[i + 1] = d[start + i * strides[axis]];
-            for (int i = 0; i < n; ++i) {
-                float best = row[i + 1];
-                for (int side : {-1, 1})
-                    for (int j = 1; i + 1 + side * j >= 0 && i + 1 + side * j <= n + 1; ++j) {
-                        const float away = static_cast<float>(j * frame.spacing[axis]);
-                        if (away * away >= best) break;
-                        best = std::min(best, row[i + 1 + side * j] + away * away);
-                    }
-                d[start + i * strides[axis]] = best;
-            }
-        }
-    }
-    DistanceVolume distance;
-    distance.frame = frame;
-    distance.values = LazyArray<std::uint16_t>(frame.count());
-    distance.unit = std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z}) / 64;
-    for (std::size_t n = 0; n < d.size(); ++n)
-        if (d[n] > 0)
-            distance.values[n] =
-                static_cast<std::uint16_t>(std::min(65534.0, std::floor(std::sqrt(d[n]) / distance.unit)));
-    return distance;
 }
 
 }  // namespace stereonav::test

@@ -13,7 +13,6 @@
 namespace stereonav {
 namespace {
 
-using test::distancesOf;
 using test::lumenOf;
 using test::lumenOfVoxels;
 using test::Shape;
@@ -23,7 +22,7 @@ constexpr double kPi = std::numbers::pi;
 
 Centreline lineOf(const LumenField& lumen, const CentrelineSetting& setting = {}) {
     Progress progress;
-    return findCentreline(lumen, distancesOf(lumen.lumen), setting, progress);
+    return findCentreline(lumen, distanceToOutside(lumen.lumen), setting, progress);
 }
 
 double valueAt(const LumenField& lumen, const glm::dvec3& world) {
@@ -292,7 +291,7 @@ TEST(Centreline, OfALumenOneVoxelWideFollowsItsCorners) {
     CentrelineSetting setting;
     setting.spacing = 0.0005;
     Progress progress;
-    const Centreline line = findCentreline(lumen, distancesOf(lumen.lumen), setting, progress);
+    const Centreline line = findCentreline(lumen, distanceToOutside(lumen.lumen), setting, progress);
     expectSound(lumen, line, 0.0005);
     EXPECT_GT(line.length(), 0.011);
     EXPECT_LE(line.length(), 0.0181);
@@ -368,25 +367,25 @@ std::string errorOf(const LumenField& lumen, const DistanceVolume& distance, dou
 
 TEST(Centreline, RefusesWhatHasNone) {
     const LumenField empty = lumenOfVoxels({}, glm::ivec3(4));
-    EXPECT_THAT(errorOf(empty, distancesOf(empty.lumen), 0.001), HasSubstr("the lumen is empty"));
+    EXPECT_THAT(errorOf(empty, distanceToOutside(empty.lumen), 0.001), HasSubstr("the lumen is empty"));
     EXPECT_THAT(errorOf(LumenField{}, DistanceVolume{}, 0.001), HasSubstr("the lumen is empty"));
     LumenField hollow = lumenOfVoxels({}, glm::ivec3(4));
     hollow.segments.emplace_back();
-    EXPECT_THAT(errorOf(hollow, distancesOf(hollow.lumen), 0.001),
+    EXPECT_THAT(errorOf(hollow, distanceToOutside(hollow.lumen), 0.001),
                 HasSubstr("segment 1 of the lumen has no voxels"));
     const LumenField good = lumenOfVoxels({{1, 1, 1}, {1, 1, 2}}, glm::ivec3(4));
     EXPECT_THAT(errorOf(good, DistanceVolume{}, 0.001), HasSubstr("distances do not belong"));
     for (const double spacing : {0.0, -1.0, double(NAN), double(INFINITY)})
-        EXPECT_THAT(errorOf(good, distancesOf(good.lumen), spacing),
+        EXPECT_THAT(errorOf(good, distanceToOutside(good.lumen), spacing),
                     HasSubstr("expected metres, more than 0"));
-    EXPECT_THAT(errorOf(good, distancesOf(good.lumen), 1e-11), HasSubstr("more than ten million points"));
+    EXPECT_THAT(errorOf(good, distanceToOutside(good.lumen), 1e-11), HasSubstr("more than ten million points"));
 }
 
 TEST(Centreline, StopsWhenCancelled) {
     const LumenField lumen = lumenOfVoxels({{1, 1, 1}, {1, 1, 2}}, glm::ivec3(4));
     Progress progress;
     progress.cancel();
-    EXPECT_THROW(findCentreline(lumen, distancesOf(lumen.lumen), {}, progress), Cancelled);
+    EXPECT_THROW(findCentreline(lumen, distanceToOutside(lumen.lumen), {}, progress), Cancelled);
 }
 
 TEST(Centreline, IsTheSameOnAnyNumberOfThreads) {
