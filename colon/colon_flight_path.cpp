@@ -20,7 +20,7 @@ constexpr double kSpacing = 0.001;                            // metres between 
 constexpr double kMostSamples = 1e6;                          // of a run; longer ones get wider apart
 constexpr double kLookRadii = 1.5;                            // the view aims so many free distances ahead
 constexpr double kNearestLook = 0.008, kFarthestLook = 0.03;  // metres
-constexpr double kSmoothing = 0.008;                          // metres along the line
+constexpr double kSmoothing = 0.02;                           // metres along the line
 // Cuts lie between the multiples of this, where the frames at all usual rates are.
 constexpr double kFrameGrid = 1.0 / 600, kCut = 0.0005;  // seconds
 
