@@ -1,0 +1,213 @@
+// Free distances against planes and spheres in closed form, and against points found on noisy surfaces.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <vector>
+
+#include "engine/volume/plain_volume_caster.h"
+#include "engine/volume/surface_cells.h"
+#include "test_volumes.h"
+
+namespace stereonav {
+namespace {
+
+using test::greyVolume;
+using test::Random;
+using test::slantedFrame;
+
+SurfaceCells cellsOf(const GreyVolume& volume, float isovalue, const MaskVolume* region = nullptr) {
+    Progress progress;
+    return findSurfaceCells(volume, {isovalue, isovalue, isovalue, region}, progress);
+}
+
+double faceDistance(const VolumeFrame& frame, const glm::dvec3& voxel) {
+    const glm::dvec3 d = glm::min(voxel, glm::dvec3(frame.size - 1) - voxel) * frame.spacing;
+    return std::min({d.x, d.y, d.z});
+}
+
+TEST(SurfaceDistance, OfAPlane) {
+    // Exactly linear: the isosurface is a plane.
+    const glm::dvec3 slope(30, -20, 25);
+    const GreyVolume volume =
+        greyVolume(slantedFrame({40, 44, 36}), [&](const glm::dvec3& v) { return glm::dot(slope, v) - 500; });
+    const SurfaceCells cells = cellsOf(volume, 100.5f);
+    const glm::dvec3 gradient = slope / volume.frame.spacing;  // a metre
+    Random random(1);
+    int compared = 0;
+    for (int n = 0; n < 3000; ++n) {
+        const glm::dvec3 voxel = random.inBox(glm::dvec3(0), glm::dvec3(volume.frame.size - 1));
+        const glm::dvec3 world = volume.frame.worldFromVoxel(voxel);
+        const double truth = (600.5 - glm::dot(slope, voxel)) / glm::length(gradient);
+        const double upTo = random.between(1e-3, 8e-3), tolerance = random.between(1e-5, 1e-3);
+        const double free = freeDistance(cells, world, upTo, tolerance);
+        const double faces = faceDistance(volume.frame, voxel);
+        if (truth <= 0) {
+            const bool known = -truth < std::min(upTo, faces) - 2e-3;
+            EXPECT_EQ(free, known ? 0.0 : free) << n;
+            continue;
+        }
+        ASSERT_LE(free, std::min({truth, upTo, faces}) + 1e-12) << n;
+        // The foot of the perpendicular must lie in the volume for the closed form to hold.
+        const glm::dvec3 foot = voxel + gradient / glm::length(gradient) * truth / volume.frame.spacing;
+        if (faceDistance(volume.frame, foot) < 0) continue;
+        ASSERT_GT(free, std::min({truth, upTo, faces}) - tolerance - 1e-12) << n;
+        ++compared;
+    }
+    EXPECT_GT(compared, 500);
+}
+
+TEST(SurfaceDistance, InAHollowSphere) {
+    const VolumeFrame frame = slantedFrame({64, 70, 50});
+    const glm::dvec3 middle(31.5, 34.5, 24.5);
+    const double radius = 0.018;
+    const GreyVolume volume = greyVolume(frame, [&](const glm::dvec3& v) {
+        return std::clamp(1e6 * (glm::length((v - middle) * frame.spacing) - radius), -30000.0, 30000.0);
+    });
+    const SurfaceCells cells = cellsOf(volume, 0.0f);
+    Random random(2);
+    // The trilinear surface leaves the sphere by at most h^2 / (8 r) an axis: 0.026 mm for these spacings.
+    constexpr double kOff = 0.03e-3;
+    for (int n = 0; n < 500; ++n) {
+        const double r = random.between(0, 0.0175);
+        const glm::dvec3 voxel = middle + random.direction() * r / frame.spacing;
+        const double free = freeDistance(cells, frame.worldFromVoxel(voxel), 1.0, 0.02e-3);
+        ASSERT_LE(free, radius - r + kOff) << n;
+        ASSERT_GT(free, radius - r - kOff - 0.02e-3) << n;
+        const glm::dvec3 behind = middle + random.direction() * (radius + 0.1e-3) / frame.spacing;
+        ASSERT_EQ(freeDistance(cells, frame.worldFromVoxel(behind), 1.0, 0.02e-3), 0.0) << n;
+    }
+}
+
+// Distance to the nearest of the points where the surface cuts an edge between voxels: finds specks that rays
+// miss.
+double edgeDistance(const GreyVolume& volume, double isovalue, const glm::dvec3& eye) {
+    const VolumeFrame& frame = volume.frame;
+    double least = std::numeric_limits<double>::infinity();
+    for (int n = 0; n < static_cast<int>(frame.count()); ++n) {
+        const glm::ivec3 a(n % frame.size.x, n / frame.size.x % frame.size.y,
+                           n / (frame.size.x * frame.size.y));
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::ivec3 b = a;
+            if (++b[axis] >= frame.size[axis]) continue;
+            const double va = volume.at(a) - isovalue, vb = volume.at(b) - isovalue;
+            if ((va < 0) == (vb < 0)) continue;
+            const glm::dvec3 cut = glm::dvec3(a) + glm::dvec3(b - a) * (va / (va - vb));
+            least = std::min(least, glm::length(frame.worldFromVoxel(cut) - eye));
+        }
+    }
+    return least;
+}
+
+// Points of the surface along many rays, by the plain caster.
+std::vector<glm::dvec3> surfacePoints(const GreyVolume& volume, double isovalue, const glm::dvec3& eye,
+                                      int count, Random& random) {
+    std::vector<glm::dvec3> points;
+    for (int n = 0; n < count; ++n) {
+        const PlainRay ray{eye, random.direction(), 0};
+        const PlainHit hit = castPlainVolume(volume, isovalue, ray);
+        if (hit.hit()) points.push_back(volume.frame.worldFromVoxel(hit.voxel()));
+    }
+    return points;
+}
+
+TEST(SurfaceDistance, IsAboveNoPointSeenAndNearlyAttained) {
+    Random random(3);
+    const GreyVolume volume = greyVolume(slantedFrame({20, 22, 18}), [&](const glm::dvec3& v) {
+        return 120 * glm::length(v - glm::dvec3(9.5, 10.5, 8.5)) - 700 + random.between(-400, 400);
+    });
+    const SurfaceCells cells = cellsOf(volume, 0.0f);
+    int compared = 0;
+    for (int n = 0; n < 40; ++n) {
+        const glm::dvec3 voxel = random.inBox({5, 5, 5}, {14, 15, 12});
+        const glm::dvec3 eye = volume.frame.worldFromVoxel(voxel);
+        const double upTo = 0.02, tolerance = 1e-5;
+        const double free = freeDistance(cells, eye, upTo, tolerance);
+        if (plainValue(volume, voxel) >= 0) {
+            ASSERT_EQ(free, 0.0) << n;
+            continue;
+        }
+        ASSERT_GT(free, 0.0) << n;
+        double least = std::min(faceDistance(volume.frame, voxel), edgeDistance(volume, 0, eye));
+        for (const glm::dvec3& p : surfacePoints(volume, 0, eye, 20000, random))
+            least = std::min(least, glm::length(p - eye));
+        ASSERT_LE(free, least + 1e-12) << n;
+        ASSERT_GT(free, least * 0.95 - tolerance) << n;  // the nearest of 20,000 rays is not the nearest
+        ++compared;
+    }
+    EXPECT_GT(compared, 15);
+}
+
+TEST(SurfaceDistance, OutsideTheVolumeAndTheRegionThereIsNone) {
+    const VolumeFrame frame = slantedFrame({40, 20, 20});
+    const GreyVolume volume = greyVolume(frame, [](const glm::dvec3& v) { return 10 * v.x - 300; });
+    MaskVolume region(frame);
+    for (int k = 0; k < 20; ++k)
+        for (int j = 0; j < 20; ++j)
+            for (int i = 5; i < 35; ++i) region.at(i, j, k) = 1;
+    const SurfaceCells cells = cellsOf(volume, 5.0f, &region);
+    const auto free = [&](const glm::dvec3& voxel) {
+        return freeDistance(cells, frame.worldFromVoxel(voxel), 4e-3, 1e-5);
+    };
+    EXPECT_GT(free({20, 10, 10}), 3.9e-3);
+    EXPECT_NEAR(free({28, 10, 10}), 2.5 * 0.8e-3, 1e-5);
+    EXPECT_EQ(free({2.5, 10, 10}), 0.0);   // not in the region
+    EXPECT_EQ(free({-0.1, 10, 10}), 0.0);  // nor in the volume
+    EXPECT_EQ(free({20, 19.1, 10}), 0.0);
+    EXPECT_EQ(free({30.6, 10, 10}), 0.0);
+    EXPECT_EQ(free({std::numeric_limits<double>::quiet_NaN(), 10, 10}), 0.0);
+    EXPECT_EQ(freeDistance(cells, frame.worldFromVoxel({20, 10, 10}), 0.0, 1e-5), 0.0);
+    EXPECT_EQ(freeDistance(SurfaceCells(), {0, 0, 0}, 1.0, 1e-5), 0.0);
+}
+
+TEST(SurfaceDistance, FallsByNoMoreThanTheWay) {
+    Random random(4);
+    const GreyVolume volume = greyVolume(slantedFrame({30, 30, 30}), [&](const glm::dvec3& v) {
+        return 100 * glm::length(v - glm::dvec3(14.5)) - 1000 + random.between(-300, 300);
+    });
+    const SurfaceCells cells = cellsOf(volume, 0.0f);
+    const double tolerance = 1e-5;
+    int compared = 0;
+    for (int n = 0; n < 3000; ++n) {
+        const glm::dvec3 a = volume.frame.worldFromVoxel(random.inBox(glm::dvec3(4), glm::dvec3(25)));
+        if (plainValue(volume, volume.frame.voxelFromWorld(a)) >= 0) continue;
+        const glm::dvec3 b = a + random.direction() * random.between(0, 1e-3);
+        const double way = glm::length(b - a);
+        const double freeA = freeDistance(cells, a, 1, tolerance),
+                     freeB = freeDistance(cells, b, 1, tolerance);
+        ASSERT_LE(freeA - freeB, way + tolerance + 1e-12) << n;
+        ++compared;
+    }
+    EXPECT_GT(compared, 500);
+}
+
+TEST(SurfaceDistance, TakesLittleTime) {
+    const VolumeFrame frame = slantedFrame({110, 120, 90});
+    const glm::dvec3 middle = glm::dvec3(frame.size - 1) * 0.5;
+    const GreyVolume volume = greyVolume(frame, [&](const glm::dvec3& v) {
+        return std::clamp(1e6 * (glm::length((v - middle) * frame.spacing) - 0.035), -30000.0, 30000.0);
+    });
+    const SurfaceCells cells = cellsOf(volume, 0.0f);
+    Random random(5);
+    const auto microseconds = [&](double low, double high, double upTo) {
+        constexpr int kCount = 1000;
+        double sum = 0;
+        const auto start = std::chrono::steady_clock::now();
+        for (int n = 0; n < kCount; ++n) {
+            const glm::dvec3 v = middle + random.direction() * random.between(low, high) / frame.spacing;
+            sum += freeDistance(cells, frame.worldFromVoxel(v), upTo, 0.05e-3);
+        }
+        const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
+        EXPECT_GT(sum, 0);
+        return time.count() / kCount;
+    };
+    const double open = microseconds(0, 0.02, 0.01), wall = microseconds(0.031, 0.0345, 0.01);
+    std::printf("free distance: %.2f us in the open, %.2f near the wall\n", open, wall);
+    EXPECT_LT(open, 500);  // a hundred times what it takes: only a wrong search fails
+    EXPECT_LT(wall, 5000);
+}
+
+}  // namespace
+}  // namespace stereonav
