@@ -30,7 +30,8 @@ struct BuiltInColonSetting {
     glm::ivec3 size{512, 512, 411};
 };
 
-// The same for the same setting, on any number of threads. Kept in the cache folder. Throws Cancelled.
+// The same for the same setting, on any number of threads. Made anew each time: what is found in it is what
+// the cache keeps. Throws Error on a size it can not show, Cancelled.
 BuiltInColon builtInColon(const BuiltInColonSetting& setting, Progress& progress);
 
 }  // namespace stereonav

@@ -85,8 +85,9 @@ TEST(BuiltInColon, PolypsAreFleshOnTheWallBesideTheLumen) {
         EXPECT_GE(polyp.diameter, 0.0039);
         EXPECT_LE(polyp.diameter, 0.0121);
         ++shapes[static_cast<int>(polyp.shape)];
-        if (polyp.diameter >= 0.006 && polyp.shape != PolypShape::Flat)
+        if (polyp.diameter >= 0.006 && polyp.shape != PolypShape::Flat) {
             EXPECT_GT(greyAt(colon.grey, polyp.position), -450) << polyp.along;
+        }
         // Towards the axis there is lumen just beyond the head.
         const glm::dvec3 axis = colon.axis.points[static_cast<std::size_t>(polyp.along * 1000)].position;
         const double apart = glm::length(axis - polyp.position);
