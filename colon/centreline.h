@@ -23,16 +23,21 @@ struct Centreline {
 
 struct CentrelineSetting {
     double spacing = 0.001;  // metres between points
-    bool reversed = false;   // the ends were taken for each other: start at the other one
+    bool reversed = false;   // the ends were taken for each other: the whole line the other way round
 };
 
-// distance: distanceToOutside(lumen.lumen). Every point of a segment lies inside it. Throws Error, Cancelled.
+// distance: distanceToOutside(lumen.lumen). Every point of a segment lies inside it; a segment of one voxel
+// has one point. The rectum is taken to be the lower end of the first segment, or the one further back where
+// both are about level; each further segment starts at its end that is nearer. The ends are drawn back from
+// the wall. 0.7 s for the 7.9 million voxels of a real colon (0.8 mm), most of it on one thread; no more
+// memory than 13 bytes a voxel of the lumen besides what is untouched. Throws Error, Cancelled.
 Centreline findCentreline(const LumenField& lumen, const DistanceVolume& distance,
                           const CentrelineSetting& setting, Progress& progress);
 
 // By extension. .txt: "x y z radius segment" a line, LPS millimetres. .vtp, .vtk: poly data of one polyline a
 // segment with the point array MaximumInscribedSphereRadius, LPS millimetres, as the vascular modelling
-// toolkit and 3D Slicer write it. Written atomically. Throws Error.
+// toolkit and 3D Slicer write it, and the cell array Segment. Written atomically. Throws Error.
+bool isCentrelineFileName(const std::filesystem::path& file);
 void writeCentreline(const std::filesystem::path& file, const Centreline& line);
 Centreline readCentreline(const std::filesystem::path& file);  // .txt and .vtp/.vtk in the forms written here
 

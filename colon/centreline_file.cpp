@@ -45,15 +45,19 @@ Centreline fromText(const std::string& text, const std::string& file) {
     return centrelineFrom(poly, file);
 }
 
-std::string extensionOf(const std::filesystem::path& file) {
+std::string lowerExtension(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     for (char& c : extension)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    if (extension != ".txt" && extension != ".vtp" && extension != ".vtk")
-        throw Error(file.string(), "",
-                    "expected a name ending in .txt, .vtp or .vtk, got \"" + extension + "\"",
-                    "name it centreline.vtp");
     return extension;
+}
+
+std::string extensionOf(const std::filesystem::path& file) {
+    if (!isCentrelineFileName(file))
+        throw Error(file.string(), "",
+                    "expected a name ending in .txt, .vtp or .vtk, got \"" + file.extension().string() + "\"",
+                    "name it centreline.vtp");
+    return lowerExtension(file);
 }
 
 }  // namespace
@@ -143,6 +147,11 @@ Centreline centrelineFrom(const PolyLines& poly, const std::string& file) {
     }
     if (result.points.empty()) throw Error(file, "", "expected points on a line, found none", kAdvice);
     return result;
+}
+
+bool isCentrelineFileName(const std::filesystem::path& file) {
+    const std::string extension = lowerExtension(file);
+    return extension == ".txt" || extension == ".vtp" || extension == ".vtk";
 }
 
 void writeCentreline(const std::filesystem::path& file, const Centreline& line) {

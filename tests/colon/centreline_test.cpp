@@ -80,25 +80,37 @@ TEST(Centreline, OfAStraightTubeIsItsAxis) {
     }
 }
 
-TEST(Centreline, OfATorusArcIsItsCircle) {
-    constexpr double kBend = 0.03, kTube = 0.01;  // three quarters of a circle around y
-    const auto circle = [&](const glm::dvec3& p) {
-        const double angle = std::clamp(std::atan2(p.z, p.x), -kPi / 2, kPi);
-        return glm::dvec3(kBend * std::cos(angle), 0, kBend * std::sin(angle));
-    };
-    const LumenField lumen = lumenOf(
-        [&](const glm::dvec3& p) {
-            const bool gap = p.x < 0 && p.z < 0;
-            const glm::dvec3 ends[] = {{-kBend, 0, 0}, {0, 0, -kBend}};
-            if (gap) return std::min(glm::length(p - ends[0]), glm::length(p - ends[1])) - kTube;
-            return glm::length(p - circle(p)) - kTube;
-        },
-        glm::dvec3(-0.042, -0.0121, -0.042), glm::dvec3(0.042, 0.0121, 0.042), glm::dvec3(9e-4, 8e-4, 1e-3));
+// Three quarters of a circle around y, as a tube with round ends.
+struct Arc {
+    double bend = 0.03, tube = 0.01;
+    glm::dvec3 nearest(const glm::dvec3& p) const {
+        const double angle = std::atan2(p.z, p.x);
+        if (angle < -kPi / 2) return angle < -0.75 * kPi ? glm::dvec3(-bend, 0, 0) : glm::dvec3(0, 0, -bend);
+        return {bend * std::cos(angle), 0, bend * std::sin(angle)};
+    }
+    double away(const glm::dvec3& p) const { return glm::length(p - nearest(p)); }
+};
+
+void expectArc(const glm::dvec3& spacing, std::size_t moreVoxelsThan) {
+    const Arc arc;
+    const LumenField lumen = lumenOf([&](const glm::dvec3& p) { return arc.away(p) - arc.tube; },
+                                     {-0.042, -0.0121, -0.042}, {0.042, 0.0121, 0.042}, spacing);
+    ASSERT_GT(lumen.segments.at(0).voxels, moreVoxelsThan);
     const Centreline line = lineOf(lumen);
     expectSound(lumen, line, 0.001);
-    EXPECT_LT(farthest(line, [&](const glm::dvec3& p) { return glm::length(p - circle(p)); }), 0.001);
-    EXPECT_NEAR(line.length(), 1.5 * kPi * kBend, 0.05 * 1.5 * kPi * kBend);
+    EXPECT_LT(farthest(line, [&](const glm::dvec3& p) { return arc.away(p); }), 0.001);
+    EXPECT_NEAR(line.length(), 1.5 * kPi * arc.bend, 0.05 * 1.5 * kPi * arc.bend);
     EXPECT_LT(line.points.front().position.z, -0.02);  // the lower end first
+}
+
+TEST(Centreline, OfATorusArcIsItsCircle) {
+    expectArc({9e-4, 8e-4, 1e-3}, 10000);
+}
+
+// Large enough to be searched in blocks of voxels first: of 8, and of 4 where one axis is coarser.
+TEST(Centreline, OfATorusArcOfManyVoxelsIsItsCircle) {
+    expectArc(glm::dvec3(4e-4), 500000);
+    expectArc({2.5e-4, 8e-4, 2.5e-4}, 500000);
 }
 
 // A winding axis y = A sin(w z), with bulges of the radius (haustra) where depth is not 0.
@@ -378,7 +390,8 @@ TEST(Centreline, RefusesWhatHasNone) {
     for (const double spacing : {0.0, -1.0, double(NAN), double(INFINITY)})
         EXPECT_THAT(errorOf(good, distanceToOutside(good.lumen), spacing),
                     HasSubstr("expected metres, more than 0"));
-    EXPECT_THAT(errorOf(good, distanceToOutside(good.lumen), 1e-11), HasSubstr("more than ten million points"));
+    EXPECT_THAT(errorOf(good, distanceToOutside(good.lumen), 1e-11),
+                HasSubstr("more than ten million points"));
 }
 
 TEST(Centreline, StopsWhenCancelled) {
