@@ -13,6 +13,22 @@ find_package(nlohmann_json CONFIG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
+
+# ITK reads and writes the files of CT studies. Only the modules needed, and no ITK_USE_FILE, which would
+# register every format there is: colon/study_itk.cpp registers those that are read. The configuration files
+# of GDCM name programs that Debian packs apart and say so in a long notice: kept quiet.
+set(saved_log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
+set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
+find_package(ITK 5.2 CONFIG REQUIRED
+  COMPONENTS ITKCommon ITKIOImageBase ITKIOGDCM ITKIONIFTI ITKIONRRD ITKIOMeta ITKDistanceMap)
+set(CMAKE_MESSAGE_LOG_LEVEL "${saved_log_level}")
+find_package(ZLIB REQUIRED)
+find_path(GDCM_INCLUDE gdcmReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)
+add_library(stereonav_itk INTERFACE)
+list(REMOVE_ITEM ITK_INCLUDE_DIRS /usr/include)  # searched anyway; named, it hides the compiler's own
+target_include_directories(stereonav_itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS} ${GDCM_INCLUDE})
+target_link_libraries(stereonav_itk INTERFACE ${ITK_LIBRARIES} gdcmMSFF gdcmDSED gdcmCommon ZLIB::ZLIB)
+
 if(STEREONAV_TESTS)
   find_package(GTest CONFIG REQUIRED)
   find_package(benchmark CONFIG REQUIRED)
