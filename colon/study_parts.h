@@ -1,0 +1,131 @@
+// The steps of reading a study, shared among colon/study*.cpp only: facts from the header, checked before
+// memory is taken; samples as the file stores them; grey values or a mask from those.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "colon/study.h"
+
+namespace stereonav {
+
+enum class SampleType { UInt8, Int8, UInt16, Int16, UInt32, Int32, UInt64, Int64, Float32, Float64 };
+int bytesOf(SampleType type);
+
+// Samples of a regular grid, i fastest, in this machine's byte order.
+struct RawStudy {
+    VolumeFrame frame;
+    SampleType type = SampleType::Int16;
+    LazyArray<unsigned char> bytes;
+};
+
+// Calls use(pointer to the samples of their own type).
+template <typename Use>
+decltype(auto) withSamples(const RawStudy& raw, Use&& use) {
+    const void* p = raw.bytes.data();
+    switch (raw.type) {
+        case SampleType::UInt8:
+            return use(static_cast<const std::uint8_t*>(p));
+        case SampleType::Int8:
+            return use(static_cast<const std::int8_t*>(p));
+        case SampleType::UInt16:
+            return use(static_cast<const std::uint16_t*>(p));
+        case SampleType::Int16:
+            return use(static_cast<const std::int16_t*>(p));
+        case SampleType::UInt32:
+            return use(static_cast<const std::uint32_t*>(p));
+        case SampleType::Int32:
+            return use(static_cast<const std::int32_t*>(p));
+        case SampleType::UInt64:
+            return use(static_cast<const std::uint64_t*>(p));
+        case SampleType::Int64:
+            return use(static_cast<const std::int64_t*>(p));
+        case SampleType::Float32:
+            return use(static_cast<const float*>(p));
+        default:
+            return use(static_cast<const double*>(p));
+    }
+}
+
+// --- study_check.cpp
+// Throws Error unless there are two or more voxels along each axis and `bytesPerVoxel` a voxel fit into this
+// machine's memory.
+void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, int bytesPerVoxel);
+// "512 x 512 x 20"
+std::string sizeText(const std::vector<std::uint64_t>& size);
+
+// --- study_header.cpp
+// What the text of a header says about where the samples are; found out without ITK, so that the bytes can
+// be counted before anything is decoded, and detached files hashed.
+struct DataPlace {
+    std::vector<std::filesystem::path> files;  // that hold samples: the header's own, or others
+    std::uint64_t offset = 0;                  // of the samples in each
+    bool compressed = false;
+    bool counted = true;  // false: stored as text or in a way that can not be counted
+};
+DataPlace findData(const std::filesystem::path& file);
+// Throws Error when the files hold fewer bytes than the header says (compressed: than they can ever hold).
+void checkBytes(const std::filesystem::path& file, const DataPlace& place, std::uint64_t expected);
+// Bytes that a gzip stream at `offset` of the file holds, up to `limit`.
+std::uint64_t inflatedBytes(const std::filesystem::path& file, std::uint64_t offset, std::uint64_t limit);
+
+// --- study_itk.cpp
+struct VolumeFile {
+    RawStudy raw;
+    std::string format, description;
+    std::vector<std::string> notes;
+};
+// NRRD, NIfTI or MetaImage. Throws Error, Cancelled.
+VolumeFile readVolumeFile(const std::filesystem::path& file, const StudyOptions& options, Progress& progress);
+
+// --- study_dicom.cpp
+struct DicomSlice {
+    std::filesystem::path file;
+    std::string name;  // the file's, for messages
+    std::string uid, description, modality, kernel;
+    int columns = 0, rows = 0, frames = 1, samples = 1;
+    glm::dvec3 position{0.0};   // LPS millimetres, of the first pixel's centre
+    glm::dvec3 along{1, 0, 0};  // unit, LPS: where columns grow
+    glm::dvec3 down{0, 1, 0};   // unit, LPS: where rows grow
+    glm::dvec2 spacing{0.0};    // millimetres between columns, between rows
+    double slope = 1, intercept = 0;
+    bool hasPlace = false, hasSpacing = false, hasPadding = false;
+    std::int64_t padding = 0, paddingLimit = 0;  // stored numbers
+};
+// Images among the files of a folder, by series in the order of their UIDs.
+struct DicomSeries {
+    SeriesInfo info;
+    std::vector<DicomSlice> slices;
+};
+std::vector<DicomSeries> scanFolder(const std::filesystem::path& folder);
+// The one asked for; throws Error that lists them otherwise.
+DicomSeries chooseSeries(const std::filesystem::path& folder, const std::string& wanted);
+VolumeFile readDicom(const std::filesystem::path& folder, const StudyOptions& options, Progress& progress);
+
+// --- study_slices.cpp
+// How slices lie: offsets of each slice's first pixel along the shared in-plane axes and the normal, metres,
+// relative to the first slice; ordered along the normal.
+struct SlicePlaces {
+    VolumeFrame frame;                // spacing.z: the even step; size.z: the slices
+    std::vector<glm::dvec3> offsets;  // along frame.axes
+    bool upright = true;              // nothing to mend
+    double largestGap = 0;            // metres
+    double tilt = 0;                  // radians
+};
+// Sorts along the normal and checks; throws Error that names the slices unless all is even and upright or
+// `resample` is set, which mends gaps, uneven steps and tilt. Repeated slices and mixed sizes never pass.
+SlicePlaces placeSlices(const std::filesystem::path& folder, std::vector<DicomSlice>& slices, bool resample);
+
+// --- study_resample.cpp
+// Onto an even, upright grid over all of the slices, by linear interpolation; places that no slice covers
+// get the least value. Throws Error when the new grid does not fit into memory.
+RawStudy resampleSlices(const RawStudy& raw, const SlicePlaces& places, const std::string& file);
+
+// --- study_values.cpp
+// Fills mask or grey (which have the samples' frame), and the notes. Throws Error about labels and values
+// that are not numbers.
+void takeValues(const RawStudy& raw, const std::string& file, const StudyOptions& options, Study& study);
+
+}  // namespace stereonav
