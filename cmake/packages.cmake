@@ -15,7 +15,7 @@ pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 
 # ITK reads and writes the files of CT studies. Only the modules needed, and no ITK_USE_FILE, which would
-# register every format there is: colon/study_itk.cpp registers those that are read. The configuration files
+# register every format there is: colon/study_itk.cpp makes the readers it needs itself. The configuration files
 # of GDCM name programs that Debian packs apart and say so in a long notice: kept quiet.
 set(saved_log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING)

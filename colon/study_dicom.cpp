@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
@@ -109,6 +110,28 @@ void takeNumbers(const gdcm::DataSet& set, DicomSlice& slice) {
     if (slice.paddingLimit < slice.padding) std::swap(slice.padding, slice.paddingLimit);
 }
 
+// Bytes of pixels that a file which stores them as they are lacks: GDCM would take zeros for them. Looks for
+// the head of the pixels' element (PS3.5 7.1), of known length, in little-endian files.
+std::uint64_t missingBytes(const gdcm::File& read, const DicomSlice& slice) {
+    constexpr std::size_t kLongestHead = 4 << 20;
+    const gdcm::TransferSyntax& syntax = read.GetHeader().GetDataSetTransferSyntax();
+    const bool implicit = syntax == gdcm::TransferSyntax::ImplicitVRLittleEndian;
+    if (!implicit && syntax != gdcm::TransferSyntax::ExplicitVRLittleEndian) return 0;
+    const int bits = static_cast<int>(wordOf(read.GetDataSet(), 0x0028, 0x0100, false).value_or(16));
+    const std::uint64_t pixels = static_cast<std::uint64_t>(slice.columns) * slice.rows * (bits / 8);
+    const auto length = static_cast<std::uint32_t>(pixels + pixels % 2);
+    std::string head("\xe0\x7f\x10\x00", 4);
+    if (!implicit) head += std::string(bits > 8 ? "OW\0" : "OB\0", 4);
+    head.append(reinterpret_cast<const char*>(&length), sizeof length);
+    const std::uint64_t size = fs::file_size(slice.file);
+    std::string text(std::min<std::uint64_t>(size, kLongestHead), '\0');
+    std::ifstream(slice.file, std::ios::binary).read(text.data(), static_cast<std::streamsize>(text.size()));
+    const std::size_t at = text.find(head);
+    if (at == std::string::npos) return 0;
+    const std::uint64_t end = at + head.size() + pixels;
+    return end - std::min(end, size);
+}
+
 // What a file says before its pixels; nothing where it is not a DICOM image.
 std::optional<DicomSlice> readSliceHeader(const fs::path& file) {
     gdcm::Reader reader;
@@ -126,9 +149,11 @@ std::optional<DicomSlice> readSliceHeader(const fs::path& file) {
     slice.description = textOf(set, 0x0008, 0x103e);
     slice.modality = textOf(set, 0x0008, 0x0060);
     slice.kernel = textOf(set, 0x0018, 0x1210);
+    slice.kernel = slice.kernel.substr(0, slice.kernel.find('\\'));  // the first of several
     takeGeometry(set, slice);
     takeNumbers(set, slice);
     if (slice.rows <= 0 || slice.columns <= 0) return {};
+    slice.missingBytes = missingBytes(reader.GetFile(), slice);
     return slice;
 }
 

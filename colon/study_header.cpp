@@ -4,6 +4,8 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -18,6 +20,7 @@ namespace fs = std::filesystem;
 // deflate never makes more than 1032 bytes of one (zlib's technical notes).
 constexpr std::uint64_t kMostInflation = 1032;
 constexpr std::size_t kLongestHeader = 1 << 20;
+constexpr std::uint64_t kNiftiOffset = 352;  // of the samples, at least
 constexpr int kMostFiles = 100000;
 
 std::string trimmed(const std::string& text) {
@@ -126,6 +129,16 @@ DataPlace findNrrdData(const fs::path& file) {
     return place;
 }
 
+void checkMetaSpacing(const fs::path& file, const std::string& value) {
+    const char* at = value.c_str();
+    for (char* end = nullptr; *at; at = end) {
+        const double spacing = std::strtod(at, &end);
+        if (end == at || !(spacing > 0) || !std::isfinite(spacing))
+            throw Error(file.string(), "", "expected a spacing of numbers above 0, found " + value,
+                        "correct it in the header");
+    }
+}
+
 DataPlace findMetaData(const fs::path& file) {
     const std::string text = beginning(file, kLongestHeader);
     DataPlace place;
@@ -138,13 +151,43 @@ DataPlace findMetaData(const fs::path& file) {
         const std::string value = trimmed(line.substr(equal + 1));
         if (key == "compresseddata") place.compressed = lowered(value) == "true";
         if (key == "binarydata" && lowered(value) == "false") place.counted = false;
+        if (key == "elementspacing" || key == "elementsize") checkMetaSpacing(file, value);
         if (key == "headersize" && value != "0") place.counted = false;
         if (key != "elementdatafile") continue;
         nameDataFiles(file, value, text, at, place);
+        place.countStream = place.compressed;
         return place;
     }
     throw Error(file.string(), "", "expected a MetaImage header, which ends with ElementDataFile",
                 "give a volume file (.nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd) or a folder of DICOM");
+}
+
+// The first bytes of a file, inflated where it is compressed.
+std::string plainBeginning(const fs::path& file, std::size_t bytes) {
+    const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
+    std::string text(bytes, '\0');
+    const int count = in ? gzread(in.get(), text.data(), static_cast<unsigned>(bytes)) : 0;
+    text.resize(static_cast<std::size_t>(std::max(count, 0)));
+    return text;
+}
+
+// Looked at here since the library behind ITK prints its complaints about these: the size of the header
+// (348, or 540 for version 2) and the number of axes, in either byte order.
+void checkNiftiHeader(const fs::path& file, const std::string& head) {
+    bool good = head.size() >= 348;
+    if (good) {
+        std::int32_t size;
+        std::int16_t axes;
+        std::memcpy(&size, head.data(), sizeof size);
+        std::memcpy(&axes, head.data() + 40, sizeof axes);
+        const auto swapped = static_cast<std::uint16_t>(axes << 8 | (axes >> 8 & 255));
+        const bool first = size == 348 && axes >= 1 && axes <= 7;
+        const bool turned = size == 0x5c010000 && swapped >= 1 && swapped <= 7;
+        good = first || turned || size == 540 || size == 0x1c020000;
+    }
+    if (!good)
+        throw Error(file.string(), "", "expected a NIfTI file, found no header of one",
+                    "give a volume file (.nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd) or a folder of DICOM");
 }
 
 DataPlace findNiftiData(const fs::path& file) {
@@ -152,8 +195,22 @@ DataPlace findNiftiData(const fs::path& file) {
     place.files = {file};
     const std::string head = beginning(file, 2);
     place.compressed = head.size() == 2 && head[0] == '\x1f' && head[1] == '\x8b';
-    place.offset = place.compressed ? 0 : 352;
+    place.offset = place.compressed ? 0 : kNiftiOffset;
+    place.countStream = place.compressed;
+    place.headerInside = place.compressed ? kNiftiOffset : 0;
+    checkNiftiHeader(file, plainBeginning(file, 348));
     return place;
+}
+
+// Text of data files by their full paths, for a header that lies elsewhere.
+std::string dataFileLines(const fs::path& file, const std::string& value, const std::string& rest) {
+    if (value.rfind("LIST", 0) != 0)
+        return "data file: " + fs::absolute(beside(file, value)).string() + "\n\n";
+    std::string text = "data file: " + value + "\n", line;
+    std::size_t at = 0;
+    while (nextLine(rest, at, line))
+        if (!trimmed(line).empty()) text += fs::absolute(beside(file, trimmed(line))).string() + "\n";
+    return text;
 }
 
 std::uint64_t sizeOf(const fs::path& header, const fs::path& file) {
@@ -167,11 +224,57 @@ std::uint64_t sizeOf(const fs::path& header, const fs::path& file) {
 
 }  // namespace
 
+std::string nrrdWithoutSpace(const fs::path& file) {
+    const std::string text = beginning(file, kLongestHeader);
+    std::string kept, line, dataFile;
+    std::size_t at = 0;
+    int lines = 0;
+    bool space = false, spacings = false;
+    while (nextLine(text, at, line)) {
+        ++lines;
+        if (trimmed(line).empty()) break;
+        const std::size_t colon = line.find(": ");
+        const std::string key =
+            line[0] == '#' || colon == std::string::npos ? "" : lowered(trimmed(line.substr(0, colon)));
+        if (key == "space directions") return "";
+        spacings |= key == "spacings";
+        space |= key == "space";
+        if (key == "space" || key == "space origin" || key == "space units") continue;
+        if (key == "data file" || key == "datafile")
+            dataFile = dataFileLines(file, trimmed(line.substr(colon + 2)), text.substr(at));
+        else
+            kept += trimmed(line) + "\n";
+    }
+    if (!space || !spacings) return "";
+    if (dataFile.empty())
+        dataFile = fmt::format("line skip: {}\ndata file: {}\n\n", lines, fs::absolute(file).string());
+    return kept + dataFile;
+}
+
 DataPlace findData(const fs::path& file) {
     const std::string name = lowered(file.filename().string());
     if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) return findNrrdData(file);
     if (name.ends_with(".mha") || name.ends_with(".mhd")) return findMetaData(file);
     return findNiftiData(file);
+}
+
+// A gzip file ends with the count of its bytes, modulo 2^32 (RFC 1952): where that is right the stream is
+// whole, else it is counted.
+static void checkStream(const fs::path& file, const DataPlace& place, std::uint64_t expected) {
+    const std::uint64_t whole = expected + place.headerInside;
+    std::ifstream in(place.files[0], std::ios::binary);
+    std::uint32_t stated = 0;
+    in.seekg(-4, std::ios::end);
+    in.read(reinterpret_cast<char*>(&stated), 4);
+    if (place.headerInside > 0 && in && stated == static_cast<std::uint32_t>(whole) &&
+        fs::file_size(file) >= whole / kMostInflation)
+        return;
+    const std::uint64_t found = inflatedBytes(place.files[0], place.offset, whole);
+    if (found < whole)
+        throw Error(file.string(), "",
+                    fmt::format("cut off: the header says {} bytes of samples, found {}", expected,
+                                found - std::min(found, place.headerInside)),
+                    "copy the file again");
 }
 
 void checkBytes(const fs::path& file, const DataPlace& place, std::uint64_t expected) {
@@ -183,6 +286,7 @@ void checkBytes(const fs::path& file, const DataPlace& place, std::uint64_t expe
         found += bytes - std::min(bytes, place.offset);
     }
     if (!place.counted) return;
+    if (place.countStream && place.files.size() == 1) return checkStream(file, place, expected);
     const bool enough = place.compressed ? found >= expected / kMostInflation : found >= expected;
     if (!enough)
         throw Error(file.string(), "",

@@ -9,6 +9,8 @@
 #include <nifti1_io.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 #include <mutex>
@@ -199,10 +201,36 @@ void decode(const fs::path& file, itk::ImageIOBase& io, const DataPlace& place, 
     if (!problem.empty()) throw Error(file.string(), "", problem, "copy or save the file again");
 }
 
-void readHeader(const fs::path& file, itk::ImageIOBase& io, const std::string& format) {
+// A header of our own in a folder of its own, for as long as it lives.
+class SpareHeader {
+public:
+    explicit SpareHeader(const std::string& text) {
+        if (text.empty()) return;
+        std::string name = (fs::temp_directory_path() / "stereonav-XXXXXX").string();
+        if (!mkdtemp(name.data()))
+            throw Error(name, "", "can not be made", "free some room in the folder of temporary files");
+        mFolder = name;
+        std::ofstream(file(), std::ios::binary) << text;
+    }
+    ~SpareHeader() {
+        std::error_code ignored;
+        if (!mFolder.empty()) fs::remove_all(mFolder, ignored);
+    }
+    SpareHeader(const SpareHeader&) = delete;
+    SpareHeader& operator=(const SpareHeader&) = delete;
+    bool empty() const { return mFolder.empty(); }
+    fs::path file() const { return mFolder / "header.nhdr"; }
+
+private:
+    fs::path mFolder;
+};
+
+// readable: the file itself, or a spare header for it.
+void readHeader(const fs::path& file, const fs::path& readable, itk::ImageIOBase& io,
+                const std::string& format) {
     std::string reason;
     try {
-        io.SetFileName(file.string());
+        io.SetFileName(readable.string());
         io.ReadImageInformation();
         return;
     } catch (const itk::ExceptionObject& error) {
@@ -222,7 +250,12 @@ VolumeFile readVolumeFile(const fs::path& file, const StudyOptions& options, Pro
     const DataPlace place = findData(file);
     const auto io = makeIo(file, result.format);
     progress.report(0, "reading " + file.filename().string());
-    readHeader(file, *io, result.format);
+    checkBytes(file, place, 0);  // that the data files are there
+    const SpareHeader spare(result.format == "NRRD" ? nrrdWithoutSpace(file) : "");
+    if (!spare.empty())
+        result.notes.push_back(
+            "the header names a space but no directions: its axes are taken for the patient's (LPS)");
+    readHeader(file, spare.empty() ? file : spare.file(), *io, result.format);
     const auto size = sizesOf(file, *io);
     result.raw.type = sampleTypeOf(file, *io);
     checkSize(file.string(), size, bytesOf(result.raw.type) + static_cast<int>(sizeof(std::int16_t)));

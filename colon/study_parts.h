@@ -63,9 +63,14 @@ struct DataPlace {
     std::vector<std::filesystem::path> files;  // that hold samples: the header's own, or others
     std::uint64_t offset = 0;                  // of the samples in each
     bool compressed = false;
-    bool counted = true;  // false: stored as text or in a way that can not be counted
+    bool countStream = false;        // ITK reads on when the compressed stream ends early: count it first
+    std::uint64_t headerInside = 0;  // bytes of header within the compressed stream
+    bool counted = true;             // false: stored as text or in a way that can not be counted
 };
 DataPlace findData(const std::filesystem::path& file);
+// A detached header for a NRRD that names a space but gives no directions in it, which ITK does not read:
+// the same without the space. "" where there is no need.
+std::string nrrdWithoutSpace(const std::filesystem::path& file);
 // Throws Error when the files hold fewer bytes than the header says (compressed: than they can ever hold).
 void checkBytes(const std::filesystem::path& file, const DataPlace& place, std::uint64_t expected);
 // Bytes that a gzip stream at `offset` of the file holds, up to `limit`.
@@ -93,6 +98,7 @@ struct DicomSlice {
     double slope = 1, intercept = 0;
     bool hasPlace = false, hasSpacing = false, hasPadding = false;
     std::int64_t padding = 0, paddingLimit = 0;  // stored numbers
+    std::uint64_t missingBytes = 0;              // of its pixels, at the end of the file
 };
 // Images among the files of a folder, by series in the order of their UIDs.
 struct DicomSeries {

@@ -39,6 +39,10 @@ struct Stack {
 };
 
 void checkOne(const Stack& stack, const DicomSlice& slice) {
+    if (slice.missingBytes > 0)
+        stack.refuse(
+            fmt::format("{} is cut off: {} bytes of its pixels are missing", slice.name, slice.missingBytes),
+            "copy the file again");
     if (slice.frames != 1 || slice.samples != 1)
         stack.refuse(fmt::format("{} holds {} frames of {} numbers a pixel, expected one grey slice",
                                  slice.name, slice.frames, slice.samples),

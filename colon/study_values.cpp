@@ -14,9 +14,10 @@ namespace stereonav {
 namespace {
 
 constexpr int kMostLabels = 256;
-// Of the neighbours along i that are not both 0, at least this share is equal in a map of labels. Measured:
-// see docs of the test on real data.
-constexpr double kLabelEquality = 0.6;
+// Of the neighbours along i that are not both 0, more than this share is equal in a map of labels. Measured:
+// 0.83 in the 42 labels of a trunk at 3 mm; 0.03 in its CT, 0.12 and 0.08 in 8-bit volumes of an engine and
+// of burning fuel.
+constexpr double kLabelEquality = 0.5;
 constexpr int kMostListed = 24;
 
 // One pass over a slice.
