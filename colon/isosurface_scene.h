@@ -1,0 +1,31 @@
+// Any volume as a surface seen from outside: which values it lies between, from where it is seen, and a
+// flight around it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "colon/colon_scene.h"
+
+namespace stereonav {
+
+struct IsovalueChoice {
+    double isovalue = 0;  // of the volume's values (HU for CT)
+    std::string why;      // one clause
+};
+
+// CT in Hounsfield units has values near those of air; other volumes begin at 0 or so.
+bool looksLikeHounsfield(const GreyVolume& grey);
+
+// CT: bone where there is some, else skin. Others: between the two kinds of values that differ most (Otsu
+// 1979).
+IsovalueChoice chooseIsovalue(const GreyVolume& grey);
+
+// Throws Error when nothing or all of the volume reaches the isovalue; Cancelled.
+ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress);
+
+// Another isovalue (of the volume's values) for a scene made by isosurfaceScene, which no one may be
+// rendering meanwhile. Throws as isosurfaceScene, and leaves the scene as it was.
+void setIsovalue(ColonScene& scene, double isovalue, Progress& progress);
+
+}  // namespace stereonav
