@@ -286,7 +286,7 @@ void ColonFlight::State::moveGuided(const FlightInput& wish, double h) {
     for (int k = 0; k < pieces; ++k) pull(piece, sideways / (1.0 * pieces), h / pieces);
     jumpBetweenRuns(wish.forward);
     // The view follows while the user wants to get on.
-    const double look = std::clamp(kLookRadii * line.freeAt(s), kNearestLook, kFarthestLook);
+    const double look = std::clamp(kLookRadii * line.widthAt(s), kNearestLook, kFarthestLook);
     const glm::dvec3 way = line.ahead(stretch(), s + look) - position;
     const double distance = glm::length(way);
     const double share = 1 - std::exp(-h * std::abs(wish.forward) / kViewDamping);

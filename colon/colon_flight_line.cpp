@@ -9,6 +9,9 @@
 namespace stereonav {
 namespace {
 
+// Metres of room beside the line that are told apart; on a real colon, looking 10 mm far in all took 0.07 s
+// and 30 mm far 1.4 s.
+constexpr double kWide = 0.006;
 constexpr double kFinest = 0.00025;   // metres between places in narrow parts, or
 constexpr double kFineShare = 0.125;  // this share of the clearance, if less
 constexpr int kMostBetween = 64;      // places between two points
@@ -18,22 +21,24 @@ bool isFinite(const glm::dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-double freeAtPoint(const FreeDistance& free, const glm::dvec3& p) {
-    const double distance = isFinite(p) ? free(p, FlightLine::kFarthest) : 0.0;
-    return distance > 0 ? std::min(distance, FlightLine::kFarthest) : 0.0;
+double freeAtPoint(const FreeDistance& free, const glm::dvec3& p, double farthest) {
+    const double distance = free(p, farthest);
+    return distance > 0 ? std::min(distance, farthest) : 0.0;
 }
 
 }  // namespace
 
 FlightLine::FlightLine(const Centreline& line, const FreeDistance& freeDistance, double clearance,
-                       double half) {
+                       double half)
+    : mFarthest(clearance / kShare + half + kWide) {
     for (std::size_t k = 0; k < line.points.size(); ++k) {
         const CentrelinePoint& point = line.points[k];
         if (!isFinite(point.position)) {
             if (!mPlaces.empty()) mPlaces.back().endsSegment = true;
             continue;
         }
-        const double free = freeAtPoint(freeDistance, point.position);
+        const double free = freeAtPoint(freeDistance, point.position, mFarthest);
+        const double width = std::isfinite(point.radius) ? std::max(point.radius, free) : free;
         if (!mPlaces.empty()) {
             // Points left out or of another segment: the line is cut.
             const bool cut = mPlaces.back().endsSegment || point.segment != line.points[k - 1].segment;
@@ -43,7 +48,7 @@ FlightLine::FlightLine(const Centreline& line, const FreeDistance& freeDistance,
         const double step = mPlaces.empty() ? 0 : glm::distance(mPlaces.back().position, point.position);
         if (!mPlaces.empty() && !mPlaces.back().endsSegment && step <= 0) continue;
         const double along = mPlaces.empty() ? 0 : mPlaces.back().along + std::max(step, 1e-9);
-        mPlaces.push_back({point.position, along, 0, free, false});
+        mPlaces.push_back({point.position, along, 0, free, width, false});
     }
     if (!mPlaces.empty()) mPlaces.back().endsSegment = true;
     for (std::size_t k = 0; k < mPlaces.size(); ++k) measure(k, clearance, half);
@@ -60,7 +65,8 @@ void FlightLine::addPieces(const glm::dvec3& to, double freeThere, const FreeDis
     const int pieces = static_cast<int>(std::min<double>(std::ceil(length / finest), kMostBetween));
     for (int k = 1; k < pieces; ++k) {
         const glm::dvec3 p = glm::mix(first.position, to, static_cast<double>(k) / pieces);
-        mPlaces.push_back({p, first.along + length * k / pieces, 0, freeAtPoint(free, p), false});
+        mPlaces.push_back(
+            {p, first.along + length * k / pieces, 0, freeAtPoint(free, p, mFarthest), first.width, false});
     }
 }
 

@@ -37,16 +37,15 @@ public:
     glm::dvec3 direction(const FlightRun& run, double s) const;
     // A ball of this radius around at(s) has room everywhere, whatever way the head is turned. > 0 in runs.
     double roomAt(double s) const { return mPlaces[placeAt(s)].room; }
-    // Free distance, no further than kFarthest, at a point nearby; never above the true one.
-    static constexpr double kFarthest = 0.03;  // metres
-    double freeAt(double s) const { return mPlaces[placeAt(s)].free; }
+    // How wide the lumen is there: the line's own radius. For looks, not for keeping clear.
+    double widthAt(double s) const { return mPlaces[placeAt(s)].width; }
     // The s in [from, to] whose point is nearest to p.
     double nearest(const glm::dvec3& p, double from, double to) const;
 
 private:
     struct Place {
         glm::dvec3 position{0.0};
-        double along = 0, room = 0, free = 0;  // metres
+        double along = 0, room = 0, free = 0, width = 0;  // metres
         bool endsSegment = false;
     };
     void addPieces(const glm::dvec3& to, double freeThere, const FreeDistance& free, double clearance,
@@ -56,6 +55,7 @@ private:
     std::size_t placeAt(double s) const;  // the nearest one
     std::size_t pieceAt(double s) const;  // the one before s, not the last
 
+    double mFarthest;  // metres: free distances are known up to here
     std::vector<Place> mPlaces;
     std::vector<FlightRun> mRuns;
     std::vector<NarrowPlace> mNarrow;

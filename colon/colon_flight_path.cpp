@@ -50,7 +50,7 @@ std::vector<Stop> stopsOf(const FlightLine& line, const FlightRun& run, bool bac
     std::vector<Stop> stops;
     for (int k = 0; k <= pieces; ++k) {
         const double s = run.first + length * (backwards ? pieces - k : k) / pieces;
-        const double look = std::clamp(kLookRadii * line.freeAt(s), kNearestLook, kFarthestLook);
+        const double look = std::clamp(kLookRadii * line.widthAt(s), kNearestLook, kFarthestLook);
         const glm::dvec3 position = line.at(s);
         const glm::dvec3 way = line.ahead(run, backwards ? s - look : s + look) - position;
         const double distance = glm::length(way);
