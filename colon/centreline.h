@@ -26,11 +26,12 @@ struct CentrelineSetting {
     bool reversed = false;   // the ends were taken for each other: the whole line the other way round
 };
 
-// distance: distanceToOutside(lumen.lumen). Every point of a segment lies inside it; a segment of one voxel
-// has one point. The rectum is taken to be the lower end of the first segment, or the one further back where
-// both are about level; each further segment starts at its end that is nearer. The ends are drawn back from
-// the wall. 0.6 s and 125 MB for the 7.9 million voxels of a real colon (0.8 mm), most of the time on one
-// thread. Throws Error, Cancelled.
+// distance: distanceToOutside(lumen.lumen). Every point of a segment lies inside it (by the mask alone when
+// lumen.field is empty: find the line before the field is moved away); a segment of one voxel has one point.
+// The rectum is taken to be the lower end of the first segment, or the one further back where both are about
+// level; each further segment starts at its end that is nearer. The ends are drawn back from the wall. 0.6 s
+// and 125 MB for the 7.9 million voxels of a real colon (0.8 mm), most of the time on one thread. Throws
+// Error, Cancelled.
 Centreline findCentreline(const LumenField& lumen, const DistanceVolume& distance,
                           const CentrelineSetting& setting, Progress& progress);
 
