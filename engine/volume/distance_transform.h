@@ -24,8 +24,8 @@ struct DistanceVolume : Volume<std::uint16_t> {
 // Where spacings differ, a distance within one part in 4 million of a whole number may come out one unit
 // less. The work is done inside the bounding box of the mask. Memory: 2 bytes a voxel for the result and 4
 // for the squares, taken only where rows of the box hold mask (in pages of 2 MB), besides a plane a thread
-// and 8 bytes a row. The same on any number of threads and for every target. Throws Error when the unit or a spacing is not positive
-// or this processor does not have the target.
+// and 8 bytes a row. The same on any number of threads and for every target. Throws Error when the unit or a
+// spacing is not positive or this processor does not have the target.
 DistanceVolume distanceToOutside(const MaskVolume& mask, bool outsideIsSeed = true, double unit = 0,
                                  SimdTarget target = SimdTarget::Auto);
 

@@ -82,7 +82,7 @@ STEREONAV_INLINE Root firstRoot(const Cubic& f, M m) {
     if (any(found)) {
         const F below = f.at(from), above = f.at(to);
         s = mulAdd((to - from) * below, approxReciprocal(min(below - above, F(-1e-30f))), from);
-        for (int step = 0; step < 4; ++step) {
+        for (int step = 0; step < 6; ++step) {
             const F value = f.at(s);
             const M under = value < zero;
             from = select(under, s, from);
@@ -125,32 +125,30 @@ STEREONAV_INLINE Crossing crossingOf(const Grid& grid, const Rays& r, const Cell
     return c;
 }
 
-// Walks the active rays to the surface. Rays end without a hit where they leave the volume, or the part of it
-// that is known.
-STEREONAV_INLINE Hits castPacket(const Grid& grid, const Rays& r, Walk w, F nearest) {
-    Hits hits;
-    hits.t = F(__builtin_inff());
-    hits.local = {F(0.0f), F(0.0f), F(0.0f)};
-    hits.word = I(0);
-    hits.hit = maskFromBits(0);
-    while (any(w.active)) {
-        const Parked parked = leap(grid, r, w);
-        if (!any(parked.lanes)) break;
-        const I record = gather(grid.data.cells, parked.index, parked.lanes);
-        const M known = parked.lanes & (I(0) < record);
-        const I word = shiftLeft<4>(record - I(1));
-        const Crossing c = crossingOf(grid, r, w.at, nearest);
-        const Root root = firstRoot(cubicAlong(cornersOf(grid.data, word, known), c.start, c.way), known);
-        hits.t = select(root.found, mulAdd(root.s, c.out - c.in, c.in), hits.t);
-        hits.local = {select(root.found, mulAdd(root.s, c.way.x, c.start.x), hits.local.x),
-                      select(root.found, mulAdd(root.s, c.way.y, c.start.y), hits.local.y),
-                      select(root.found, mulAdd(root.s, c.way.z, c.start.z), hits.local.z)};
-        hits.word = select(root.found, word, hits.word);
-        hits.hit = hits.hit | root.found;
-        w.active = w.active & andNot(known, root.found);
-        stepCell(r, w, w.active);
-    }
-    return hits;
+STEREONAV_INLINE Hits noHits() {
+    const F zero(0.0f);
+    return {F(__builtin_inff()), {zero, zero, zero}, I(0), maskFromBits(0)};
+}
+
+// Walks the active rays on to cells with surface and tries these. Rays end without a hit where they leave the
+// volume, or the part of it that is known.
+STEREONAV_INLINE void advance(const Grid& grid, const Rays& r, F nearest, Walk& w, Hits& hits) {
+    const Parked parked = leap(grid, r, w);
+    if (!any(parked.lanes)) return;
+    const I record = gather(grid.data.cells, parked.index, parked.lanes);
+    const M known = parked.lanes & (I(0) < record);
+    const I word = shiftLeft<4>(record - I(1));
+    const Crossing c = crossingOf(grid, r, w.at, nearest);
+    const Root root = firstRoot(cubicAlong(cornersOf(grid.data, word, known), c.start, c.way), known);
+    hits.t = select(root.found, mulAdd(root.s, c.out - c.in, c.in), hits.t);
+    hits.local = {select(root.found, mulAdd(root.s, c.way.x, c.start.x), hits.local.x),
+                  select(root.found, mulAdd(root.s, c.way.y, c.start.y), hits.local.y),
+                  select(root.found, mulAdd(root.s, c.way.z, c.start.z), hits.local.z)};
+    hits.word = select(root.found, word, hits.word);
+    hits.hit = hits.hit | root.found;
+    const M further = andNot(known, root.found);
+    w.active = andNot(w.active, andNot(parked.lanes, further));
+    stepCell(r, w, further);
 }
 
 }  // namespace stereonav::STEREONAV_ISA

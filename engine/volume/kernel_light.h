@@ -63,7 +63,7 @@ STEREONAV_INLINE F log2(F x) {
     const F exponent = toFloat(shiftRight<23>(bitsOfX) - I(127));
     const F m = asFloat((bitsOfX & I(0x7FFFFF)) | I(0x3F800000));
     // (m - 1) / (m + 1) in the series of the inverse hyperbolic tangent; m in [1, 2).
-    const F u = (m - F(1.0f)) / (m + F(1.0f)), square = u * u;
+    const F u = (m - F(1.0f)) * approxReciprocal(m + F(1.0f)), square = u * u;
     F p = mulAdd(square, F(2.0f / 9), F(2.0f / 7));
     p = mulAdd(p, square, F(2.0f / 5));
     p = mulAdd(p, square, F(2.0f / 3));
@@ -88,8 +88,8 @@ STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const
     const V3 lamp{F(view.head[0]) - t * way.x, F(view.head[1]) - t * way.y, F(view.head[2]) - t * way.z};
     const F square = max(dot(lamp, lamp), F(1e-20f));
     const F inverse = approxRsqrt(square);
-    const F length = approxRsqrt(max(dot(n, n), F(1e-12f)));
-    const F cosine = dot(n, lamp) * inverse * length;
+    const F normalSquare = max(dot(n, n), F(1e-12f));
+    const F cosine = dot(n, lamp) * inverse * approxRsqrt(normalSquare);
     const LightData& light = data.light;
     const F reaches = approxReciprocal(mulAdd(square, F(light.inverseFalloffSquared), F(1.0f)));
     const F diffuse = mulAdd(F(light.diffuse), max(cosine, F(0.0f)), F(light.ambient)) * reaches;
@@ -97,14 +97,17 @@ STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const
     const F toEye = F(0.0f) - r.perMetre;
     const V3 half{mulAdd(lamp.x, inverse, way.x * toEye), mulAdd(lamp.y, inverse, way.y * toEye),
                   mulAdd(lamp.z, inverse, way.z * toEye)};
-    const F aligned = dot(n, half) * length * approxRsqrt(max(dot(half, half), F(1e-12f)));
-    const F power = exp2(log2(clamp(aligned, F(1e-18f), F(1.0f))) * F(light.shininess));
+    // The cosine's square to half the exponent: one reciprocal in place of two square roots.
+    const F along = max(dot(n, half), F(0.0f));
+    const F aligned = along * along * approxReciprocal(normalSquare * max(dot(half, half), F(1e-12f)));
+    const F power = exp2(log2(clamp(aligned, F(1e-30f), F(1.0f))) * F(0.5f * light.shininess));
     return {diffuse, select(cosine > F(0.0f), power * F(light.specular) * reaches, F(0.0f))};
 }
 
 // Linear light in one channel to a packed channel.
 STEREONAV_INLINE I closeLinear(F v) {
-    return truncateToInt(mulAdd(sqrt(clamp(v, F(0.0f), F(1.0f))), F(1023.0f), F(0.5f)));
+    const F light = clamp(v, F(1e-12f), F(1.0f));
+    return truncateToInt(mulAdd(light * approxRsqrt(light), F(1023.0f), F(0.5f)));
 }
 STEREONAV_INLINE I packLight(const Light& c) {
     return closeLinear(c.red) | shiftLeft<10>(closeLinear(c.green)) | shiftLeft<20>(closeLinear(c.blue));

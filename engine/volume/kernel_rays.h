@@ -117,8 +117,10 @@ STEREONAV_INLINE void stepCell(const Rays& r, Walk& w, M m) {
     w.at.z = w.at.z + select(m & (far.z <= next), r.stepZ, I(0));
 }
 
-// Leaps and steps until every active ray stands in an active cell, or has left. Gives the lanes that stand in
-// one and the cells' indices.
+// Leaps and steps until most active rays stand in active cells, or have left: a few that still have far to go
+// do not hold up the others. Gives the lanes that stand in one and the cells' indices.
+constexpr int kStragglers =
+    2;  // rays under way for each that has arrived, at which the others wait no longer
 struct Parked {
     M lanes;
     I index;
@@ -128,7 +130,7 @@ STEREONAV_INLINE Parked leap(const Grid& grid, const Rays& r, Walk& w) {
     M moving = w.active;
     Parked parked{maskFromBits(0), I(0)};
     const F unit(grid.data.leapUnit);
-    while (any(moving)) {
+    while (__builtin_popcount(bits(moving)) * kStragglers > __builtin_popcount(bits(parked.lanes))) {
         const M in = grid.inside(w.at);
         w.active = andNot(w.active, andNot(moving, in));
         moving = moving & in;

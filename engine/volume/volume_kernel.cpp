@@ -78,13 +78,17 @@ struct Packet {
     STEREONAV_INLINE Result cast(F x, F y, F start, M lanes, bool wantNormal) const {
         const Rays r = makeRays(view, x, y);
         const F nearest(view.nearDepth);
-        const Walk w = view.inside ? startAt(grid, r, max(start, nearest), lanes)
-                                   : startOutside(grid, r, max(start, nearest), lanes);
+        Walk w = view.inside ? startAt(grid, r, max(start, nearest), lanes)
+                             : startOutside(grid, r, max(start, nearest), lanes);
         if (data.transfer.extinction) {
             const Composite sum = compositePacket(data, view, grid, r, w);
             return {sum.first, compositeColor(data, sum), I(0)};
         }
-        const Hits hits = castPacket(grid, r, w, nearest);
+        Hits hits = noHits();
+        while (any(w.active)) advance(grid, r, nearest, w, hits);
+        return shaded(r, hits, wantNormal);
+    }
+    STEREONAV_INLINE Result shaded(const Rays& r, const Hits& hits, bool wantNormal) const {
         const Channels n = mixCorners(grid.data.records + 4, hits.word, hits.local, hits.hit);
         Result result{hits.t, surfaceColor(data, view, r, hits.t, directionOf(n), hits.hit), I(0)};
         if (wantNormal) result.normal = closeChannels(n);
@@ -191,68 +195,135 @@ void castRect(const VolumeData& data, const VolumeView& view, const VolumeRect& 
                          y + kLargestSide < rect.y1 ? y + kLargestSide : rect.y1});
 }
 
-// Scattered pixels, a packet of neighbours in the list at a time; one beam around each packet, as many beams
-// side by side as there are lanes.
+// Scattered pixels: each lane takes the next pixel when its own is done, so that a long ray does not hold up
+// the others. One beam around each run of kLanes neighbours in the list, as many beams side by side as there
+// are lanes.
 class PixelCaster {
 public:
     STEREONAV_INLINE PixelCaster(const VolumeData& data, const VolumeView& view, const VolumeTarget& target)
-        : mPacket(data, view), mTarget(target) {}
+        : mPacket(data, view), mTarget(target) {
+        mWalk = {F(0.0f), {I(0), I(0), I(0)}, maskFromBits(0)};
+    }
 
     void cast(const VolumePixel* pixels, int count) {
-        const bool beams = mPacket.view.inside && mPacket.data.cells.leaping;
-        for (int first = 0; first < count; first += kLanes * kLanes) {
-            const int some = count - first < kLanes * kLanes ? count - first : kLanes * kLanes;
-            if (beams) castPacketBeams(pixels + first, some);
-            for (int n = 0; n < some; n += kLanes)
-                castSome(pixels + first + n, some - n < kLanes ? some - n : kLanes,
-                         beams ? mStart[n / kLanes] : 0.0f);
+        mPixels = pixels;
+        mCount = count;
+        if (mPacket.data.transfer.extinction) return castPackets();
+        const F nearest(mPacket.view.nearDepth);
+        for (;;) {
+            const int busy = __builtin_popcount(bits(mWalk.active));
+            const bool more = mNext < mCount;
+            if (busy == 0 || (more && busy <= kLanes / 2)) {
+                finish(andNot(mTaken, mWalk.active));
+                if (!more && busy == 0) return;
+                take(~mWalk.active);
+                continue;
+            }
+            advance(mPacket.grid, mRays, nearest, mWalk, mHits);
         }
     }
 
 private:
-    void castPacketBeams(const VolumePixel* pixels, int count) {
+    // Translucent rays end everywhere at about the same depth: packets will do.
+    void castPackets() {
+        for (; mNext < mCount; mNext += kLanes) {
+            float start[kLanes];
+            const int some = mCount - mNext < kLanes ? mCount - mNext : kLanes;
+            for (int k = 0; k < some; ++k) setLane(k, mNext + k), start[k] = mStart[k];
+            const M lanes = firstLanes(some);
+            store(mPacket.cast(loadF(mX), loadF(mY), loadF(start), lanes, false), lanes);
+        }
+    }
+
+    STEREONAV_INLINE void setLane(int k, int number) {
+        if (number % (kLanes * kLanes) == 0) castBeamsFrom(number);
+        mPixel[k] = mPixels[number];
+        mX[k] = mPixel[k].x;
+        mY[k] = mPixel[k].y;
+        mStart[k] = mBeams[number / kLanes % kLanes];
+    }
+
+    // Gives the next pixels to the lanes m.
+    STEREONAV_INLINE void take(M m) {
+        std::uint32_t fresh = 0;
+        for (std::uint32_t left = bits(m); left != 0 && mNext < mCount; left &= left - 1, ++mNext) {
+            const int k = __builtin_ctz(left);
+            setLane(k, mNext);
+            fresh |= 1u << k;
+        }
+        const M lanes = maskFromBits(fresh);
+        mRays = makeRays(mPacket.view, loadF(mX), loadF(mY));
+        const F start = max(loadF(mStart), F(mPacket.view.nearDepth));
+        const Walk next = mPacket.view.inside ? startAt(mPacket.grid, mRays, start, lanes)
+                                              : startOutside(mPacket.grid, mRays, start, lanes);
+        mWalk.t = select(lanes, next.t, mWalk.t);
+        mWalk.at = {select(lanes, next.at.x, mWalk.at.x), select(lanes, next.at.y, mWalk.at.y),
+                    select(lanes, next.at.z, mWalk.at.z)};
+        mWalk.active = mWalk.active | (next.active & lanes);
+        mTaken = mTaken | lanes;
+        mHits.t = select(lanes, F(__builtin_inff()), mHits.t);
+    }
+
+    // Colours and stores the lanes m, which are done.
+    STEREONAV_INLINE void finish(M m) {
+        if (!any(m)) return;
+        Hits done = mHits;
+        done.hit = done.hit & m;
+        store(mPacket.shaded(mRays, done, mTarget.normal != nullptr), m);
+        mHits.hit = andNot(mHits.hit, m);
+        mTaken = andNot(mTaken, m);
+    }
+
+    STEREONAV_INLINE void store(const Packet::Result& result, M m) const {
+        alignas(64) float depth[kLanes];
+        alignas(64) std::uint32_t color[kLanes], normal[kLanes];
+        STEREONAV_ISA::store(depth, result.depth);
+        STEREONAV_ISA::store(color, result.color);
+        STEREONAV_ISA::store(normal, result.normal);
+        for (std::uint32_t left = bits(m); left != 0; left &= left - 1) {
+            const int k = __builtin_ctz(left);
+            const VolumePixel p = mPixel[k];
+            mTarget.depth[p.y * mTarget.depthStride + p.x] = depth[k];
+            mTarget.color[p.y * mTarget.colorStride + p.x] = color[k];
+            if (mTarget.normal) mTarget.normal[p.y * mTarget.normalStride + p.x] = normal[k];
+        }
+    }
+
+    // Beams around the runs of the next kLanes * kLanes pixels.
+    void castBeamsFrom(int first) {
+        if (!mPacket.view.inside || !mPacket.data.cells.leaping) return;
         alignas(64) float x[kLanes] = {}, y[kLanes] = {}, radius[kLanes] = {};
-        const int packets = (count + kLanes - 1) / kLanes;
-        for (int n = 0; n < packets; ++n) {
-            const int end = (n + 1) * kLanes < count ? (n + 1) * kLanes : count;
+        int beams = 0;
+        for (int begin = first; beams < kLanes && begin < mCount; begin += kLanes, ++beams) {
+            const int end = begin + kLanes < mCount ? begin + kLanes : mCount;
             int low[2] = {65536, 65536}, high[2] = {0, 0};
-            for (int k = n * kLanes; k < end; ++k) {
-                const int at[2] = {pixels[k].x, pixels[k].y};
+            for (int k = begin; k < end; ++k) {
+                const int at[2] = {mPixels[k].x, mPixels[k].y};
                 for (int axis = 0; axis < 2; ++axis) {
                     low[axis] = at[axis] < low[axis] ? at[axis] : low[axis];
                     high[axis] = at[axis] > high[axis] ? at[axis] : high[axis];
                 }
             }
-            x[n] = 0.5f * static_cast<float>(low[0] + high[0]);
-            y[n] = 0.5f * static_cast<float>(low[1] + high[1]);
+            x[beams] = 0.5f * static_cast<float>(low[0] + high[0]);
+            y[beams] = 0.5f * static_cast<float>(low[1] + high[1]);
             const float dx = (0.5f * static_cast<float>(high[0] - low[0]) + 0.01f) * mPacket.view.pixelWidth;
             const float dy = (0.5f * static_cast<float>(high[1] - low[1]) + 0.01f) * mPacket.view.pixelHeight;
-            radius[n] = __builtin_sqrtf(dx * dx + dy * dy);
+            radius[beams] = __builtin_sqrtf(dx * dx + dy * dy);
         }
-        store(mStart,
-              castBeams(mPacket.grid, mPacket.view, loadF(x), loadF(y), loadF(radius), firstLanes(packets)));
-    }
-
-    STEREONAV_INLINE void castSome(const VolumePixel* pixels, int count, float start) {
-        alignas(64) float x[kLanes] = {}, y[kLanes] = {};
-        for (int k = 0; k < count; ++k) x[k] = pixels[k].x, y[k] = pixels[k].y;
-        const Packet::Result result =
-            mPacket.cast(loadF(x), loadF(y), F(start), firstLanes(count), mTarget.normal != nullptr);
-        alignas(64) float depth[kLanes];
-        alignas(64) std::uint32_t color[kLanes], normal[kLanes];
-        store(depth, result.depth);
-        store(color, result.color);
-        store(normal, result.normal);
-        for (int k = 0; k < count; ++k) {
-            mTarget.depth[pixels[k].y * mTarget.depthStride + pixels[k].x] = depth[k];
-            mTarget.color[pixels[k].y * mTarget.colorStride + pixels[k].x] = color[k];
-            if (mTarget.normal) mTarget.normal[pixels[k].y * mTarget.normalStride + pixels[k].x] = normal[k];
-        }
+        STEREONAV_ISA::store(mBeams, castBeams(mPacket.grid, mPacket.view, loadF(x), loadF(y), loadF(radius),
+                                               firstLanes(beams)));
     }
 
     const Packet mPacket;
     const VolumeTarget& mTarget;
-    alignas(64) float mStart[kLanes] = {};
+    const VolumePixel* mPixels = nullptr;
+    int mCount = 0, mNext = 0;
+    Rays mRays;
+    Walk mWalk;
+    Hits mHits = noHits();
+    M mTaken = maskFromBits(0);
+    VolumePixel mPixel[kLanes];
+    alignas(64) float mX[kLanes] = {}, mY[kLanes] = {}, mStart[kLanes] = {}, mBeams[kLanes] = {};
 };
 
 void castPixels(const VolumeData& data, const VolumeView& view, const VolumePixel* pixels, int count,
