@@ -158,12 +158,16 @@ LumenCrop cropAround(const Pieces& pieces, const std::vector<int>& kept, const V
         first = glm::min(first, pieces.parts.list[static_cast<std::size_t>(piece)].first);
         last = glm::max(last, pieces.parts.list[static_cast<std::size_t>(piece)].last);
     }
+    return cropAround(first, last, kLumenMargin, study);
+}
+
+LumenCrop cropAround(glm::ivec3 first, glm::ivec3 last, int margin, const VolumeFrame& study) {
     LumenCrop crop;
     glm::ivec3 end(0);
     for (int a = 0; a < 3; ++a) {
-        crop.first[a] = first[a] == 0 ? -kLumenMargin : std::max(0, first[a] - kLumenMargin);
-        end[a] = last[a] == study.size[a] - 1 ? study.size[a] + kLumenMargin
-                                              : std::min(study.size[a], last[a] + 1 + kLumenMargin);
+        crop.first[a] = first[a] == 0 ? -margin : std::max(0, first[a] - margin);
+        end[a] = last[a] == study.size[a] - 1 ? study.size[a] + margin
+                                              : std::min(study.size[a], last[a] + 1 + margin);
     }
     crop.frame = study.cropped(crop.first, end - crop.first);
     return crop;

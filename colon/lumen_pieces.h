@@ -44,6 +44,7 @@ struct LumenCrop {
 // The box of the pieces and a margin, as far as the study reaches; where a piece touches the study's face
 // the margin goes beyond, so that the lumen is closed there.
 LumenCrop cropAround(const Pieces& pieces, const std::vector<int>& kept, const VolumeFrame& study);
+LumenCrop cropAround(glm::ivec3 first, glm::ivec3 last, int margin, const VolumeFrame& study);
 
 // lumen and segments of a LumenField from pieces in order. `pieces` lies in the frame of `lumen.field`.
 void setSegments(const Pieces& pieces, const std::vector<int>& ordered, LumenField& lumen);
