@@ -47,19 +47,46 @@ double shareFromText(const std::string& text) {
     return number(text.substr(0, slash)) / number(text.substr(slash + 1));
 }
 
+void addVolume(CLI::App& command, VolumeOptions& options) {
+    constexpr const char* kGroup = "Options of CT studies";
+    const auto add = [&](const char* name, auto& value, const char* help) {
+        return command.add_option(name, value, help)->group(kGroup);
+    };
+    const auto flag = [&](const char* name, bool& value, const char* help) {
+        command.add_flag(name, value, help)->group(kGroup);
+    };
+    add("--series", options.series, "of a DICOM folder with several: its number in the list, or its UID");
+    add("--label", options.label, "the label of a mask with several");
+    add("--seed", options.seeds,
+        "x,y,z inside the colon, millimetres to the patient's left, back and head (LPS), as radiology tools "
+        "show them (RAS ones: turn the first two signs); may be given several times")
+        ->allow_extra_args(false);
+    flag("--resample", options.resample, "mend missing, uneven or tilted slices");
+    flag("--isosurface", options.isosurface, "show the volume from outside, without looking for a colon");
+    add("--isovalue", options.isovalue, "the value of that surface");
+    add("--transfer", options.transfer, "a file of colours and opacities by value: translucent");
+    add("--opacity", options.opacity, "a translucent wall that takes this share of light a millimetre, 0..1");
+    flag("--backwards", options.backwards, "fly from the caecum to the rectum");
+    command.add_flag("!--no-cache", options.cache, "neither read nor keep what was computed")->group(kGroup);
+}
+
 void addScene(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.scene,
-                       "a scene (.toml) or an elevation model; left out: the built-in terrain");
+                       "a scene (.toml), an elevation model, a CT study (.nrrd, .nhdr, .nii, .nii.gz, .mha, "
+                       ".mhd, a folder of DICOM slices), or colon, the built-in one; left out: the built-in "
+                       "terrain");
     command.add_option("--vertical-scale", options.verticalScale, "factor on heights")
         ->check(CLI::PositiveNumber);
     command.add_flag("--open-holes", options.openHoles, "leave missing ground open instead of filling it");
     command.add_option("--image", options.image, "colour of the ground");
     command.add_option("--sky", options.sky, "an equirectangular picture or a light probe (.hdr)");
-    command.add_option("--separation", options.separation_m, "of the eyes, in metres");
+    command.add_option("--separation", options.separation_m,
+                       "of the eyes, in metres: 0.001 is a millimetre, and usual in a colon");
     command.add_option("--zero-parallax", options.zeroParallax_m, "distance seen in the screen, in metres");
     command.add_option("--fov", options.fov_deg, "vertical field of view in degrees");
     command.add_option("--threads", options.threads, "threads to use, 0 for all processors");
     command.add_option("--simd", options.simd, "instruction set: auto, plain, avx2, avx512");
+    addVolume(command, options.volume);
 }
 
 // What the subcommands fill, and which of them runs.
@@ -204,7 +231,8 @@ std::string commandIn(const CLI::App& app) {
 }  // namespace
 
 int runCommandLine(int argc, char** argv) {
-    CLI::App app{"Stereo flight through terrain, with the second eye warped and measured", "stereonav"};
+    CLI::App app{"Stereo flight through terrain and the colon, with the second eye warped and measured",
+                 "stereonav"};
     app.set_version_flag("--version", "stereonav 0.1.0");
     app.require_subcommand(0, 1);
     app.footer(

@@ -100,7 +100,7 @@ int runCompare(const CompareOptions& options) {
     setting.methods = methodsOf(options, scene);
     if (options.relativeSeparation > 0.0)
         scene.stereo.separation = scene.stereo.zeroParallax * options.relativeSeparation;
-    const std::vector<Pose> poses = (path ? *path : scene.path).frames(options.frames);
+    const std::vector<Pose> poses = flightOf(scene, path, options.path).frames(options.frames);
     const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
     const auto listener = [&](const ComparedFrame& frame) {
         if (!options.images.empty() && frame.index == shown) writePictures(frame, options.images);

@@ -22,6 +22,9 @@ void checkMeshOptions(const MeshOptions& options) {
         throw Error("--error", "", fmt::format("expected metres, 0 or more, got {:g}", options.error_m),
                     "leave it out for half a sample spacing");
     checkOutputFile("--out", options.out);
+    if (kindOf(options.scene.scene) != SceneKind::Terrain)
+        throw Error(options.scene.scene, "", "expected a terrain, found a CT study",
+                    "render, play and view show it; mesh writes the ground of terrains");
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ int runPlay(const PlayOptions& options) {
     if (!options.path.empty()) path = readPath(options.path);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
-    const std::vector<Pose> poses = posesOf(options, path ? *path : scene.path);
+    const std::vector<Pose> poses = posesOf(options, flightOf(scene, path, options.path));
     FrameSink sink(options, mode);
     StereoFrame frame(scene, method.value_or(scene.defaultMethod()));
     Hash hash;

@@ -133,8 +133,15 @@ private:
         const auto [width, height] = eyeSizeFor(mode, size.x, size.y);
         for (const glm::dvec2& click : clicks) {
             const glm::dvec2 place = placeInEye(infoOf(mode).layout, click) * glm::dvec2(width, height);
-            mSession->click(place.x, place.y);
+            tell(mSession->click(place.x, place.y));
         }
+    }
+
+    // What stays useful after the window is closed.
+    static void tell(const std::string& text) {
+        if (text.empty()) return;
+        std::printf("%s\n", text.c_str());
+        std::fflush(stdout);
     }
 
     // What the session wants that takes longer than a frame.
@@ -200,8 +207,7 @@ private:
     void reportScreenshots() {
         if (const std::string text = mScreenshots.report(); !text.empty()) {
             mSession->notify(text);
-            std::printf("%s\n", text.c_str());
-            std::fflush(stdout);
+            tell(text);
         }
     }
 

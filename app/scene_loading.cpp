@@ -4,10 +4,13 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
+#include "app/colon_loading.h"
 #include "app/terrain_loading.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
@@ -43,6 +46,29 @@ void checkOptions(const SceneOptions& options) {
                     "use the distance to what should lie in the screen");
 }
 
+void refuseVolumeOptions(const SceneOptions& options) {
+    const VolumeOptions& v = options.volume;
+    const std::pair<const char*, bool> given[] = {
+        {"--series", !v.series.empty()},     {"--label", v.label.has_value()},
+        {"--seed", !v.seeds.empty()},        {"--resample", v.resample},
+        {"--isosurface", v.isosurface},      {"--isovalue", v.isovalue.has_value()},
+        {"--transfer", !v.transfer.empty()}, {"--opacity", v.opacity.has_value()},
+        {"--backwards", v.backwards},        {"--no-cache", !v.cache}};
+    for (const auto& [option, is] : given)
+        if (is)
+            throw Error(option, "", "expected with a CT study or the built-in colon, the scene is a terrain",
+                        "leave it out");
+}
+
+void refuseTerrainOptions(const SceneOptions& options) {
+    const std::pair<const char*, bool> given[] = {{"--vertical-scale", options.verticalScale != 0},
+                                                  {"--open-holes", options.openHoles},
+                                                  {"--image", !options.image.empty()},
+                                                  {"--sky", !options.sky.empty()}};
+    for (const auto& [option, is] : given)
+        if (is) throw Error(option, "", "expected with a terrain, the scene is a CT study", "leave it out");
+}
+
 long long memoryBytes() {
     return static_cast<long long>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGE_SIZE);
 }
@@ -62,15 +88,45 @@ void checkSize(const SizeOption& size, int bytesPerPixel) {
                     "choose a smaller size");
 }
 
+SceneKind kindOf(const std::string& name) {
+    constexpr const char* kAdvice =
+        "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png), a CT study (a folder of "
+        "DICOM slices, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), colon, or nothing for the built-in terrain";
+    if (name.empty() || name == "terrain") return SceneKind::Terrain;
+    if (name == "colon") return SceneKind::Volume;
+    std::error_code code;
+    if (!std::filesystem::exists(name, code)) throw Error(name, "", "no such file", kAdvice);
+    if (looksLikeStudy(name)) return SceneKind::Volume;
+    if (std::filesystem::is_directory(name, code))
+        throw Error(name, "", "expected a file or a folder of DICOM slices, found a folder without any",
+                    kAdvice);
+    return SceneKind::Terrain;
+}
+
 LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress) {
     checkSize(size);
     checkOptions(options);
     const SimdTarget simd = simdFromText(options.simd);
     if (options.threads > 0) setThreadCount(options.threads);
-    LoadedScene scene = loadTerrainScene(options, simd, progress);
+    const bool terrain = kindOf(options.scene) == SceneKind::Terrain;
+    if (terrain)
+        refuseVolumeOptions(options);
+    else
+        refuseTerrainOptions(options);
+    LoadedScene scene =
+        terrain ? loadTerrainScene(options, simd, progress) : loadColonScene(options, simd, progress);
     scene.lens.width = size.width;
     scene.lens.height = size.height;
     return scene;
+}
+
+const RecordedPath& flightOf(const LoadedScene& scene, const std::optional<RecordedPath>& path,
+                             const std::string& file) {
+    if (path && scene.colon) checkInLumen(*scene.colon, *path, file);
+    if (path) return *path;
+    if (scene.path.samples().empty())
+        throw Error(scene.name, "", "has no flight of its own", "give a recorded one with --path");
+    return scene.path;
 }
 
 Pose poseFromText(const std::string& text) {
@@ -126,7 +182,8 @@ std::string nameOf(SimdTarget target) {
 FramePlan planScene(const LoadedScene& scene) {
     constexpr int kPosesAlongTheFlight = 4;
     std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};
-    for (const Pose& pose : scene.path.frames(kPosesAlongTheFlight)) views.push_back(scene.viewsAt(pose));
+    if (!scene.path.samples().empty())
+        for (const Pose& pose : scene.path.frames(kPosesAlongTheFlight)) views.push_back(scene.viewsAt(pose));
     return planFrame(*scene.renderer, views);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "colon/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/math/simd_target.h"
@@ -18,8 +19,10 @@
 namespace stereonav {
 
 struct LoadedScene {
-    std::string name;                       // as given, "terrain" for the built-in one
-    std::unique_ptr<TerrainScene> terrain;  // what the rest refers to
+    std::string name;  // as given, "terrain" for the built-in one
+    // What the rest refers to: one of the two.
+    std::unique_ptr<TerrainScene> terrain;
+    std::unique_ptr<ColonScene> colon;
     std::unique_ptr<EyeRenderer> renderer;
     SimdTarget simd = SimdTarget::Auto;  // that the renderer uses
     Lens lens;                           // with the size asked for
@@ -33,8 +36,17 @@ struct LoadedScene {
     RightEyeMethod defaultMethod() const { return defaultMethodFor(*renderer); }
 };
 
+enum class SceneKind { Terrain, Volume };
+// What a scene's name stands for. Throws Error for a name of nothing, with what can be named.
+SceneKind kindOf(const std::string& name);
+
 // Checks options and size, sets the thread count, reads the scene. Throws Error, Cancelled.
 LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress);
+
+// The recorded path read from `file`, or the scene's own. Throws Error where there is none, and where a
+// recorded one leaves the lumen of a colon.
+const RecordedPath& flightOf(const LoadedScene& scene, const std::optional<RecordedPath>& path,
+                             const std::string& file);
 
 // Bytes that a command holds for each pixel of one eye, measured at 2000x2000 and rounded up: both
 // eyes and the composed picture; a video encoder's frames (FFV1); every method with its truths and

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "app/colon_loading.h"
+
 namespace stereonav {
 namespace {
 
@@ -19,6 +21,9 @@ ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progre
     scene.path = loaded->path;
     scene.lens = loaded->lens;
     scene.stereo = loaded->stereo;
+    // A recorded flight is looked at once, with the scene that it was given for.
+    if (measure && !options.path.empty()) flightOf(*loaded, readPath(options.path), options.path);
+    if (loaded->colon) addVolume(*loaded, options.scene, scene);
     scene.method = methodFromText(options.method).value_or(loaded->defaultMethod());
     if (measure && options.method == "auto") {
         progress.report(1.0, "measuring how to make the right eye");

@@ -268,10 +268,11 @@ const Plane<PackedColor>& ViewSession::slicePicture(int width, int height) {
     return mSlices->picture(width, height, pose().position, mScene);
 }
 
-void ViewSession::click(double x, double y) {
-    if (!mSlices) return;
+std::string ViewSession::click(double x, double y) {
+    if (!mSlices) return "";
     const std::string text = mSlices->click(x, y, mSliceWidth, mSliceHeight);
     if (!text.empty()) notify(text);
+    return text;
 }
 
 // --- modes

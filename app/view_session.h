@@ -81,7 +81,8 @@ public:
     // Turns by radians: clockwise seen from above, upwards.
     void look(double yaw, double pitch);
     void turnWheel(double notches);  // each notch a fifth faster; in the slice view, a slice
-    void click(double x, double y);  // in the slice view: pixels of the last slice picture
+    // In the slice view sets a seed; x, y: pixels of the last slice picture. What to tell, "" when nothing.
+    std::string click(double x, double y);
     // dt seconds pass. The input's speed multiplier is applied on top of the session's own.
     void step(const FlightInput& input, double dt);
     // A frame has come: what it shows guides what follows the room.

@@ -1,88 +1,14 @@
 // Starts the program in a window under Xvfb, drives it with keys and mouse, and looks at the pictures
 // it saves and at the window's own pixels. Needs xvfb-run and xdotool; import (ImageMagick) for the pixels.
-#include <gmock/gmock.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <string>
-
-#include "engine/base/file.h"
-#include "engine/image/image_file.h"
 #include "engine/image/stereo_compose.h"
+#include "tests/display/window_test.h"
 
 namespace stereonav {
 namespace {
 
 namespace fs = std::filesystem;
-using Picture = Plane<PackedColor>;
 
-bool installed(const std::string& program) {
-    return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
-}
-
-int byteOf(PackedColor c, int channel) {
-    return srgbByteFromPacked()[c >> (10 * channel) & 1023];
-}
-
-// Mean absolute difference of sRGB bytes over two rectangles of the same size.
-double difference(const Picture& a, int ax, int ay, const Picture& b, int bx, int by, int width, int height) {
-    double sum = 0;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            for (int k = 0; k < 3; ++k)
-                sum += std::abs(byteOf(a.at(ax + x, ay + y), k) - byteOf(b.at(bx + x, by + y), k));
-    return sum / (3.0 * width * height);
-}
-
-double difference(const Picture& a, const Picture& b) {
-    EXPECT_EQ(a.width(), b.width());
-    EXPECT_EQ(a.height(), b.height());
-    if (a.width() != b.width() || a.height() != b.height()) return 0;
-    return difference(a, 0, 0, b, 0, 0, a.width(), a.height());
-}
-
-// Means below this are rounding; above kDifferent the pictures show different things.
-constexpr double kSame = 0.5, kDifferent = 1.5;
-
-class ViewWindow : public testing::Test {
-protected:
-    void SetUp() override {
-        for (const char* program : {"xvfb-run", "xdotool"})
-            if (!installed(program)) GTEST_SKIP() << program << " is not installed";
-        mFolder = fs::path(testing::TempDir()) / ("stereonav_view_" + std::to_string(getpid()));
-        fs::create_directories(mFolder);
-    }
-    void TearDown() override {
-        if (!HasFailure()) fs::remove_all(mFolder);
-    }
-
-    int drive() {
-        const std::string command = "XDG_CACHE_HOME='" + mFolder.string() +
-                                    "/cache' xvfb-run -a -s '-screen 0 1280x1024x24' "
-                                    "'" STEREONAV_SOURCE_DIR
-                                    "/tests/display/drive_view.sh' '" STEREONAV_PROGRAM "' '" +
-                                    mFolder.string() + "'";
-        const int status = std::system(command.c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-    std::string textOf(const std::string& name) const {
-        return fs::exists(mFolder / name) ? readTextFile(mFolder / name) : "";
-    }
-    std::map<std::string, fs::path> steps() const {
-        std::map<std::string, fs::path> steps;
-        std::ifstream in(mFolder / "steps.txt");
-        for (std::string step, file; in >> step >> file;) steps[step] = file;
-        return steps;
-    }
-
-    fs::path mFolder;
-};
+using ViewWindow = WindowTest;
 
 // The middle of the window, where no text lies, against the picture that was saved.
 void expectWindowShows(const fs::path& window, const Picture& saved) {
@@ -94,7 +20,7 @@ void expectWindowShows(const fs::path& window, const Picture& saved) {
 }
 
 TEST_F(ViewWindow, ObeysKeysAndMouse) {
-    ASSERT_EQ(drive(), 0) << textOf("problems.txt") << textOf("log.txt");
+    ASSERT_EQ(drive("drive_view.sh"), 0) << textOf("problems.txt") << textOf("log.txt");
     EXPECT_EQ(textOf("status.txt"), "0\n") << textOf("log.txt");
     std::map<std::string, Picture> shots;
     std::map<std::string, std::string> names;

@@ -1,0 +1,241 @@
+#include "app/colon_loading.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "colon/colon_flight.h"
+#include "engine/base/error.h"
+#include "engine/volume/volume_renderer.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180.0;
+constexpr double kCrossingSeconds = 10.0;           // to cross what a speed is chosen from at normal speed
+constexpr double kAirSeen = -500;                   // a study with smaller values is taken for CT in HU
+constexpr double kCtWidth = 1500, kCtLevel = -200;  // a window that shows air, fat, tissue and bone
+constexpr double kIsovalueSteps = 100;              // from the smallest value to the largest
+constexpr std::size_t kRangeSamples = 4'000'000;    // values looked at for the range
+
+glm::dvec3 seedFromText(const std::string& text) {
+    const Error error("--seed", "", "expected x,y,z in millimetres (LPS), got \"" + text + "\"",
+                      "give three numbers, as in 12.5,-40,310");
+    std::stringstream fields(text);
+    glm::dvec3 seed(0.0);
+    int count = 0;
+    for (std::string field; std::getline(fields, field, ','); ++count) {
+        std::size_t used = 0;
+        if (count == 3) throw error;
+        try {
+            seed[count] = std::stod(field, &used);
+        } catch (const std::exception&) {
+            throw error;
+        }
+        if (used != field.size() || !std::isfinite(seed[count])) throw error;
+    }
+    if (count != 3 || text.back() == ',') throw error;
+    return seed / 1000.0;
+}
+
+void checkVolumeOptions(const SceneOptions& options) {
+    const VolumeOptions& volume = options.volume;
+    const auto refuse = [](bool when, const char* option, const std::string& problem, const char* advice) {
+        if (when) throw Error(option, "", problem, advice);
+    };
+    if (options.scene == "colon") {
+        const char* problem = "expected with a study's files, the built-in colon has none";
+        refuse(!volume.series.empty(), "--series", problem, "leave it out");
+        refuse(volume.label.has_value(), "--label", problem, "leave it out");
+        refuse(volume.resample, "--resample", problem, "leave it out");
+    }
+    if (volume.isosurface) {
+        const char* problem = "does not go with --isosurface, which looks for no colon";
+        refuse(!volume.seeds.empty(), "--seed", problem, "leave one of them out");
+        refuse(volume.backwards, "--backwards", problem, "leave one of them out");
+    }
+    refuse(!volume.transfer.empty() && volume.opacity, "--opacity", "does not go with --transfer",
+           "leave one of them out");
+    refuse(volume.opacity && !(*volume.opacity > 0 && *volume.opacity <= 1), "--opacity",
+           fmt::format("expected more than 0 and at most 1, got {}", volume.opacity.value_or(0)),
+           "0.95 is a wall that is nearly opaque within a millimetre");
+    refuse(volume.isovalue && !std::isfinite(*volume.isovalue), "--isovalue",
+           fmt::format("expected a number, got {}", volume.isovalue.value_or(0)), "300 shows bone in CT");
+}
+
+FreeDistance freeDistanceOf(const ColonScene& colon) {
+    return [&colon](const glm::dvec3& world, double upTo) { return colon.freeDistanceAt(world, upTo); };
+}
+
+// Limits of the eyes' distance: those of a colon's lumen, or such as suit what is seen from outside.
+SeparationControl::Setting separationOf(const LoadedScene& scene) {
+    SeparationControl::Setting setting;
+    const StereoSetting& stereo = scene.stereo;
+    if (!scene.colon->isColon()) {
+        setting.largest = std::max(2 * stereo.separation, setting.smallest);
+        setting.smallest = std::min(setting.smallest, setting.largest);
+    }
+    setting.largest = std::max(setting.largest, stereo.separation);
+    if (stereo.separation > 0) setting.share = stereo.separation / stereo.zeroParallax;
+    return setting;
+}
+
+std::unique_ptr<Flight> flightThrough(const ColonScene& colon, double largestSeparation) {
+    ColonFlightSetting setting;
+    setting.clearance = colon.clearance;
+    setting.speed = colon.extent / kCrossingSeconds;
+    setting.largestSeparation = largestSeparation;
+    return std::make_unique<ColonFlight>(freeDistanceOf(colon), colon.centreline, colon.startPose, setting);
+}
+
+void adjustViews(const SceneOptions& options, LoadedScene& scene) {
+    if (options.separation_m) scene.stereo.separation = *options.separation_m;
+    if (options.zeroParallax_m) scene.stereo.zeroParallax = *options.zeroParallax_m;
+    if (options.fov_deg > 0.0) scene.lens.verticalFov = options.fov_deg * kRadians;
+}
+
+struct Range {
+    double lowest = 0, highest = 0;
+};
+
+// Of every voxel, or of some spread evenly where there are many.
+Range rangeOf(const GreyVolume& grey) {
+    const std::size_t count = grey.frame.count(), step = std::max<std::size_t>(1, count / kRangeSamples);
+    std::int16_t lowest = 0, highest = 0;
+    for (std::size_t n = 0; n < count; n += step) {
+        lowest = n == 0 ? grey.values[n] : std::min(lowest, grey.values[n]);
+        highest = n == 0 ? grey.values[n] : std::max(highest, grey.values[n]);
+    }
+    return {lowest * grey.scale + grey.offset, highest * grey.scale + grey.offset};
+}
+
+GreyVolume greyOf(const MaskVolume& mask) {
+    GreyVolume grey(mask.frame);
+    for (std::size_t n = 0; n < mask.frame.count(); ++n)
+        if (mask.values[n] != 0) grey.values[n] = 1;  // zeros are there already, and cost no memory
+    return grey;
+}
+
+std::shared_ptr<const SliceStudy> readSlices(const ColonOptions& options, Progress& progress) {
+    auto slices = std::make_shared<SliceStudy>();
+    if (options.study.empty()) {
+        slices->grey = builtInColon(options.builtIn, progress).grey;
+    } else {
+        Study study = readStudy(options.study, options.reading, progress);
+        slices->grey = study.isMask ? greyOf(study.mask) : std::move(study.grey);
+    }
+    const Range range = rangeOf(slices->grey);
+    const bool ct = range.lowest <= kAirSeen;
+    slices->windowWidth = ct ? kCtWidth : std::max(range.highest - range.lowest, 1e-9);
+    slices->windowLevel = ct ? kCtLevel : 0.5 * (range.highest + range.lowest);
+    return slices;
+}
+
+// The nearest point of the centreline, by metres from its start.
+PlaceOnLine placeOn(const std::vector<CentrelinePoint>& points, const glm::dvec3& world) {
+    PlaceOnLine place;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        if (n > 0) place.length += glm::length(points[n].position - points[n - 1].position);
+        const double away = glm::length(points[n].position - world);
+        if (away < nearest) {
+            nearest = away;
+            place.along = place.length;
+        }
+    }
+    return place;
+}
+
+}  // namespace
+
+ColonOptions colonOptionsOf(const SceneOptions& options) {
+    checkVolumeOptions(options);
+    const VolumeOptions& volume = options.volume;
+    ColonOptions colon;
+    if (options.scene != "colon") colon.study = options.scene;
+    colon.reading.series = volume.series;
+    colon.reading.label = volume.label;
+    colon.reading.resample = volume.resample;
+    for (const std::string& seed : volume.seeds) colon.segmentation.seeds.push_back(seedFromText(seed));
+    colon.centreline.reversed = volume.backwards;
+    colon.isosurface = volume.isosurface;
+    colon.isovalue = volume.isovalue;
+    colon.transfer = volume.transfer;
+    colon.opacity = volume.opacity;
+    colon.cache = volume.cache;
+    return colon;
+}
+
+LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
+    LoadedScene scene;
+    scene.name = options.scene;
+    scene.colon = std::make_unique<ColonScene>(loadColon(colonOptionsOf(options), progress));
+    const ColonScene& colon = *scene.colon;
+    if (options.volume.isovalue && colon.isColon())
+        throw Error("--isovalue", "", "expected with a volume seen from outside, this one is a colon",
+                    "add --isosurface, or leave it out");
+    VolumeCasting casting;
+    casting.target = simd;
+    auto renderer = std::make_unique<VolumeRenderer>(colon.volume, casting);
+    scene.simd = renderer->target();
+    scene.renderer = std::move(renderer);
+    scene.lens = colon.lens;
+    scene.stereo = colon.stereo;
+    adjustViews(options, scene);
+    scene.startPose = colon.startPose;
+    scene.path = colon.path;
+    scene.methods = methodsFor(*scene.renderer);
+    std::erase(scene.methods, RightEyeMethod::Cubic);
+    const double largest = separationOf(scene).largest;
+    scene.makeFlight = [&colon, largest] { return flightThrough(colon, largest); };
+    return scene;
+}
+
+void checkInLumen(const ColonScene& colon, const RecordedPath& path, const std::string& file) {
+    if (!colon.isColon()) return;
+    for (std::size_t n = 0; n < path.samples().size(); ++n) {
+        const glm::dvec3& p = path.samples()[n].pose.position;
+        if (!(colon.freeDistanceAt(p, colon.clearance) > 0))
+            throw Error(file, fmt::format("pose {}", n + 1),
+                        fmt::format("expected a place inside the colon, got {:.1f}, {:.1f}, {:.1f} mm",
+                                    1000 * p.x, 1000 * p.y, 1000 * p.z),
+                        "play flights that were recorded in this study");
+    }
+}
+
+void addVolume(const LoadedScene& scene, const SceneOptions& options, ViewScene& view) {
+    const ColonScene& colon = *scene.colon;
+    const ColonOptions colonOptions = colonOptionsOf(options);
+    const SeparationControl::Setting separation = separationOf(scene);
+    view.largestSeparation = separation.largest;
+    view.makeFollower = [separation](const StereoSetting& from) -> StereoFollower {
+        SeparationControl control(separation, from.separation, from.zeroParallax);
+        return [control](double free, double depth, double dt) mutable {
+            // As far as a flight looks there is no wall: that tells nothing of what is behind it.
+            if (free >= ColonFlight::kFarthestClearance) free = std::numeric_limits<double>::infinity();
+            control.step(free, depth, dt);
+            return StereoSetting{control.separation(), control.zeroParallax()};
+        };
+    };
+    view.followsAtStart = !options.separation_m && !options.zeroParallax_m;
+    view.canBeTranslucent = true;
+    view.translucent = scene.renderer->translucent();
+    view.seeds = colonOptions.segmentation.seeds;
+    view.readSlices = [colonOptions](Progress& progress) { return readSlices(colonOptions, progress); };
+    if (colon.isColon()) {
+        view.placeOnLine = [&colon](const glm::dvec3& world) {
+            return placeOn(colon.centreline.points, world);
+        };
+        view.lumen = &colon.lumen.lumen;
+    } else {
+        const GreyVolume& field = colon.volume.field;
+        const Range range = rangeOf(field);
+        view.isovalue = colon.volume.cells.isovalue * field.scale + field.offset;
+        view.isovalueStep = (range.highest - range.lowest) / kIsovalueSteps;
+    }
+}
+
+}  // namespace stereonav

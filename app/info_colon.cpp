@@ -1,0 +1,129 @@
+// A CT study as `info` describes it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/info_text.h"
+
+namespace stereonav {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMm = 1000, kMl = 1e6;  // of a metre, of a cubic metre
+
+struct Range {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+};
+
+Range rangeOf(const GreyVolume& grey) {
+    Range range;
+    for (std::size_t n = 0; n < grey.frame.count() && !grey.empty(); ++n) {
+        range.lowest = std::min<double>(range.lowest, grey.values[n]);
+        range.highest = std::max<double>(range.highest, grey.values[n]);
+    }
+    return {range.lowest * grey.scale + grey.offset, range.highest * grey.scale + grey.offset};
+}
+
+std::size_t bytesOf(const ColonScene& colon) {
+    return sizeof(std::int16_t) * colon.volume.field.values.size() + colon.lumen.lumen.values.size() +
+           sizeof(std::uint16_t) * colon.distance.values.size() + colon.volume.cells.bytesHeld();
+}
+
+std::string shapeName(PolypShape shape) {
+    switch (shape) {
+        case PolypShape::Pedunculated:
+            return "pedunculated";
+        case PolypShape::Sessile:
+            return "sessile";
+        case PolypShape::Flat:
+            break;
+    }
+    return "flat";
+}
+
+std::vector<double> mmOf(const glm::dvec3& metres) {
+    return {kMm * metres.x, kMm * metres.y, kMm * metres.z};
+}
+
+double millilitres(const LumenField& lumen) {
+    double sum = 0;
+    for (const LumenSegment& segment : lumen.segments) sum += segment.volume;
+    return kMl * sum;
+}
+
+double isovalueOf(const ColonScene& colon) {
+    return colon.volume.cells.isovalue * colon.volume.field.scale + colon.volume.field.offset;
+}
+
+}  // namespace
+
+Json colonJson(const ColonScene& colon) {
+    const GreyVolume& field = colon.volume.field;
+    const Range range = rangeOf(field);
+    Json json;
+    json["kind"] = colon.isColon() ? "colon" : "isosurface";
+    json["format"] = colon.format;
+    json["size"] = {field.frame.size.x, field.frame.size.y, field.frame.size.z};
+    json["spacing_mm"] = mmOf(field.frame.spacing);
+    json["origin_mm"] = mmOf(field.frame.origin);
+    json["range"] = {range.lowest, range.highest};
+    json["isovalue"] = isovalueOf(colon);
+    json["translucent"] = !colon.volume.look.transfer.empty();
+    json["segments"] = Json::array();
+    for (const LumenSegment& segment : colon.lumen.segments)
+        json["segments"].push_back({{"voxels", segment.voxels}, {"volume_ml", kMl * segment.volume}});
+    json["volume_ml"] = millilitres(colon.lumen);
+    json["centreline_mm"] = colon.isColon() ? kMm * colon.centreline.length() : 0.0;
+    json["polyps"] = Json::array();
+    for (const Polyp& polyp : colon.polyps)
+        json["polyps"].push_back({{"shape", shapeName(polyp.shape)},
+                                  {"diameter_mm", kMm * polyp.diameter},
+                                  {"position_mm", mmOf(polyp.position)},
+                                  {"along_mm", kMm * polyp.along}});
+    json["records"] = colon.volume.cells.records.size();
+    json["bytes"] = bytesOf(colon);
+    json["flight_s"] = colon.path.samples().size() < 2 ? 0.0 : colon.path.duration();
+    json["clearance_mm"] = kMm * colon.clearance;
+    json["notes"] = colon.notes;
+    return json;
+}
+
+std::string colonText(const ColonScene& colon) {
+    const GreyVolume& field = colon.volume.field;
+    const VolumeFrame& frame = field.frame;
+    const Range range = rangeOf(field);
+    std::string text;
+    const auto line = [&](const char* name, const std::string& value) { text += infoLine(name, value); };
+    line("read by", colon.format);
+    line("shown as", colon.isColon() ? "a colon, from inside" : "a surface, from outside");
+    line("voxels", fmt::format("{} x {} x {}", frame.size.x, frame.size.y, frame.size.z));
+    line("spacing", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", kMm * frame.spacing.x, kMm * frame.spacing.y,
+                                kMm * frame.spacing.z));
+    line("values",
+         fmt::format("{:.6g} .. {:.6g}, surface at {:.6g}", range.lowest, range.highest, isovalueOf(colon)));
+    line("wall", colon.volume.look.transfer.empty() ? "opaque" : "translucent");
+    if (colon.isColon()) {
+        line("segments", std::to_string(colon.lumen.segments.size()));
+        for (const LumenSegment& segment : colon.lumen.segments)
+            line("", fmt::format("{:.1f} ml, {} voxels", kMl * segment.volume, segment.voxels));
+        line("volume", fmt::format("{:.1f} ml", millilitres(colon.lumen)));
+        line("centreline", fmt::format("{:.0f} mm", kMm * colon.centreline.length()));
+    }
+    for (const Polyp& polyp : colon.polyps)
+        line(&polyp == colon.polyps.data() ? "polyps" : "",
+             fmt::format("{:.1f} mm {} at {:.0f} mm ({:.1f}, {:.1f}, {:.1f} mm)", kMm * polyp.diameter,
+                         shapeName(polyp.shape), kMm * polyp.along, kMm * polyp.position.x,
+                         kMm * polyp.position.y, kMm * polyp.position.z));
+    if (colon.path.samples().size() > 1)
+        line("flight", fmt::format("{:.4g} s, at least {:.3g} mm from the wall", colon.path.duration(),
+                                   kMm * colon.clearance));
+    line("memory", fmt::format("{:.1f} MB", static_cast<double>(bytesOf(colon)) / 1e6));
+    for (const std::string& note : colon.notes) line("note", note);
+    return text;
+}
+
+}  // namespace stereonav

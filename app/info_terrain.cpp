@@ -1,0 +1,77 @@
+// A terrain as `info` describes it.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/info_text.h"
+#include "terrain/landmark.h"
+
+namespace stereonav {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::size_t bytesOf(const TerrainScene& terrain) {
+    return sizeof(float) * static_cast<std::size_t>(terrain.ground.width()) * terrain.ground.height() +
+           terrain.color.byteCount() + terrain.sky.map().byteCount();
+}
+
+std::string orNone(const std::string& text) {
+    return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+nlohmann::ordered_json terrainJson(const TerrainScene& terrain) {
+    const TerrainReport& report = terrain.report;
+    const Heightfield& ground = terrain.ground;
+    Json json;
+    json["driver"] = report.driver;
+    json["size"] = {ground.width(), ground.height()};
+    json["spacing_m"] = {ground.spacing().x, ground.spacing().y};
+    json["extent_m"] = {ground.spacing().x * (ground.width() - 1),
+                        ground.spacing().y * (ground.height() - 1)};
+    json["height_range_m"] = {ground.minHeight(), ground.maxHeight()};
+    json["crs"] = report.sourceCrs;
+    json["projection"] = report.projection;
+    json["source_offset"] = {report.sourceOffset.x, report.sourceOffset.y};
+    json["missing_samples"] = report.missingSamples;
+    json["filled_samples"] = report.filledSamples;
+    json["open_holes"] = ground.hasHoles();
+    json["color"] = report.colorSource;
+    json["color_size"] = {terrain.color.levelCount() > 0 ? terrain.color.level(0).width() : 0,
+                          terrain.color.levelCount() > 0 ? terrain.color.level(0).height() : 0};
+    json["sky"] = report.skySource;
+    json["landmark_triangles"] = terrain.landmarks ? terrain.landmarks->triangleCount() : 0;
+    json["bytes"] = bytesOf(terrain);
+    json["flight_s"] = terrain.path.duration();
+    json["clearance_m"] = terrain.clearance;
+    return json;
+}
+
+std::string terrainText(const TerrainScene& terrain) {
+    const TerrainReport& report = terrain.report;
+    const Heightfield& ground = terrain.ground;
+    std::string text;
+    const auto line = [&](const char* name, const std::string& value) { text += infoLine(name, value); };
+    line("read by", report.driver);
+    line("samples", fmt::format("{} x {}", ground.width(), ground.height()));
+    line("spacing", fmt::format("{:.6g} x {:.6g} m", ground.spacing().x, ground.spacing().y));
+    line("extent", fmt::format("{:.6g} x {:.6g} m", ground.spacing().x * (ground.width() - 1),
+                               ground.spacing().y * (ground.height() - 1)));
+    line("heights", fmt::format("{:.6g} .. {:.6g} m", ground.minHeight(), ground.maxHeight()));
+    line("crs", orNone(report.sourceCrs));
+    line("projection", orNone(report.projection));
+    line("missing", fmt::format("{} samples, {} of them filled{}", report.missingSamples,
+                                report.filledSamples, ground.hasHoles() ? ", the others left open" : ""));
+    line("colour", orNone(report.colorSource));
+    line("sky", orNone(report.skySource));
+    line("landmarks",
+         terrain.landmarks ? fmt::format("{} triangles", terrain.landmarks->triangleCount()) : "none");
+    line("flight", fmt::format("{:.4g} s, at least {:.4g} m above the ground", terrain.path.duration(),
+                               terrain.clearance));
+    line("memory", fmt::format("{:.1f} MB", static_cast<double>(bytesOf(terrain)) / 1e6));
+    return text;
+}
+
+}  // namespace stereonav

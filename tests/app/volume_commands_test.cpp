@@ -1,0 +1,134 @@
+// The commands on small studies: a colon from a mask, and a volume seen from outside.
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/app/volume_input.h"
+
+namespace stereonav::test {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+class VolumeCommands : public VolumeTest {
+protected:
+    void SetUp() override {
+        VolumeTest::SetUp();
+        setenv("XDG_CACHE_HOME", (mFolder / "cache").c_str(), 1);
+    }
+    Outcome runWell(const std::vector<std::string>& arguments) const {
+        Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        return outcome;
+    }
+    Json info(const std::vector<std::string>& more) const {
+        std::vector<std::string> arguments{"info", "--size", "48x36", "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return Json::parse(runWell(arguments).out);
+    }
+    std::string hashOf(const std::vector<std::string>& more) const {
+        std::vector<std::string> arguments{"play", "--size", "64x48", "--frames", "3", "--hash"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const std::string out = runWell(arguments).out;
+        const std::size_t at = out.find("hash ");
+        return at == std::string::npos ? "" : out.substr(at + 5, 16);
+    }
+};
+
+TEST_F(VolumeCommands, InfoOfAMask) {
+    const Json volume = info({maskedTube()}).at("volume");
+    EXPECT_EQ(volume.at("kind"), "colon");
+    EXPECT_EQ(volume.at("segments").size(), 1u);
+    int voxels = 0;
+    for (int k = 0; k < 24; ++k)
+        for (int j = 0; j < 24; ++j)
+            for (int i = 0; i < 24; ++i) voxels += inTube(i, j, k) ? 1 : 0;
+    EXPECT_EQ(volume.at("segments")[0].at("voxels"), voxels);
+    EXPECT_NEAR(volume.at("volume_ml").get<double>(), voxels * 8e-3, 1e-9);
+    EXPECT_EQ(volume.at("spacing_mm").size(), 3u);
+    for (const Json& spacing : volume.at("spacing_mm")) EXPECT_NEAR(spacing.get<double>(), 2.0, 1e-6);
+    // The tube is 40 mm long; the line keeps away from its ends by less than its radius.
+    EXPECT_GT(volume.at("centreline_mm").get<double>(), 40 - 2 * 8);
+    EXPECT_LT(volume.at("centreline_mm").get<double>(), 44);
+    EXPECT_TRUE(volume.at("polyps").empty());
+    const std::string text = runWell({"info", maskedTube(), "--size", "48x36"}).out;
+    for (const char* word : {"a colon, from inside", "spacing", "segments", "ml", "centreline", "frame plan"})
+        EXPECT_NE(text.find(word), std::string::npos) << word;
+}
+
+TEST_F(VolumeCommands, InfoOfAVolumeSeenFromOutside) {
+    const Json volume = info({ball(), "--isosurface", "--isovalue", "640"}).at("volume");
+    EXPECT_EQ(volume.at("kind"), "isosurface");
+    EXPECT_NEAR(volume.at("isovalue").get<double>(), 640, 0.5);
+    EXPECT_TRUE(volume.at("segments").empty());
+}
+
+TEST_F(VolumeCommands, EveryCommandTakesAStudy) {
+    for (const std::vector<std::string>& scene : {std::vector<std::string>{maskedTube()},
+                                                  {ball(), "--isosurface"},
+                                                  {maskedTube(), "--opacity", "0.9"}}) {
+        SCOPED_TRACE(scene.back());
+        const auto with = [&](std::vector<std::string> arguments) {
+            arguments.insert(arguments.end(), scene.begin(), scene.end());
+            return arguments;
+        };
+        runWell(with({"render", "--size", "60x40", "--out", "pair.png"}));
+        EXPECT_GT(fs::file_size(place() / "pair.png"), 500u);
+        runWell(with({"play", "--size", "32x24", "--frames", "2", "--out", "frames"}));
+        EXPECT_TRUE(fs::exists(place() / "frames/frame_00001.png"));
+        const std::string one = hashOf(with({"--threads", "1"}));
+        EXPECT_EQ(one.size(), 16u);
+        EXPECT_EQ(hashOf(with({"--threads", "2"})), one);
+        runWell(with({"compare", "--size", "48x36", "--frames", "2", "--repeats", "1", "--json", "a.json"}));
+        std::vector<std::string> names;
+        for (const Json& method : Json::parse(contentOf(place() / "a.json")).at("methods"))
+            names.push_back(method.at("name"));
+        const std::vector<std::string> wanted =
+            scene.size() == 3 ? std::vector<std::string>{"full", "depthsplat"}
+                              : std::vector<std::string>{"full", "paper", "linear", "mcmillan", "nofill"};
+        EXPECT_EQ(names, wanted);
+        fs::remove_all(place());
+        fs::create_directory(place());
+    }
+}
+
+// Casting every ray with a jump gives what casting it from the eye gives.
+TEST_F(VolumeCommands, DepthSplattingWorksOnOpaqueScenesToo) {
+    runWell({"compare", maskedTube(), "--methods", "full,depthsplat", "--size", "64x48", "--frames", "3",
+             "--repeats", "1", "--json", "a.json"});
+    const Json methods = Json::parse(contentOf(place() / "a.json")).at("methods");
+    ASSERT_EQ(methods.size(), 2u);
+    EXPECT_EQ(methods[1].at("name"), "depthsplat");
+    EXPECT_GT(methods[1].at("psnr_db").get<double>(), 45.0);
+}
+
+TEST_F(VolumeCommands, TheWayBackIsAnotherFlight) {
+    const std::string there = hashOf({maskedTube()}), back = hashOf({maskedTube(), "--backwards"});
+    EXPECT_EQ(there.size(), 16u);
+    EXPECT_EQ(back.size(), 16u);
+    EXPECT_NE(there, back);
+    EXPECT_EQ(hashOf({maskedTube(), "--backwards"}), back) << "from the cache as well";
+    EXPECT_EQ(hashOf({maskedTube()}), there);
+    EXPECT_EQ(hashOf({maskedTube(), "--no-cache"}), there);
+}
+
+TEST_F(VolumeCommands, AMaskOfSeveralLabelsOpensWithOne) {
+    const std::string mask = nrrd("labels.nrrd", {24, 24, 24, 2, "uchar", ""}, [](int i, int j, int k) {
+        return inTube(i, j, k) ? 5 : i < 3 ? 9 : 0;
+    });
+    const Json volume = info({mask, "--label", "5"}).at("volume");
+    EXPECT_EQ(volume.at("segments").size(), 1u);
+    EXPECT_EQ(volume.at("kind"), "colon");
+}
+
+TEST_F(VolumeCommands, HelpTellsOfStudies) {
+    for (const std::string command : {"info", "render", "play", "compare", "view"}) {
+        const std::string help = runWell({command, "--help"}).out;
+        for (const char* word : {"--seed", "LPS", "--isovalue", "--opacity", "--series", "--backwards"})
+            EXPECT_NE(help.find(word), std::string::npos) << command << ' ' << word;
+    }
+}
+
+}  // namespace
+}  // namespace stereonav::test
