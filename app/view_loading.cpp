@@ -25,7 +25,8 @@ ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progre
     if (measure && !options.path.empty()) flightOf(*loaded, readPath(options.path), options.path);
     if (loaded->colon) addVolume(*loaded, options.scene, scene);
     scene.method = methodFromText(options.method).value_or(loaded->defaultMethod());
-    if (measure && options.method == "auto") {
+    // A study is opened quickly: it gets its default.
+    if (measure && options.method == "auto" && loaded->terrain) {
         progress.report(1.0, "measuring how to make the right eye");
         scene.method = planScene(*loaded).method;
     }
