@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -15,7 +16,8 @@ namespace stereonav {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
-constexpr double kCrossingSeconds = 10.0;           // to cross what a speed is chosen from at normal speed
+// Seconds at normal speed to cross a colon's box, or what is seen from outside.
+constexpr double kColonSeconds = 20.0, kOutsideSeconds = 10.0;
 constexpr double kAirSeen = -500;                   // a study with smaller values is taken for CT in HU
 constexpr double kCtWidth = 1500, kCtLevel = -200;  // a window that shows air, fat, tissue and bone
 constexpr double kIsovalueSteps = 100;              // from the smallest value to the largest
@@ -70,23 +72,23 @@ FreeDistance freeDistanceOf(const ColonScene& colon) {
     return [&colon](const glm::dvec3& world, double upTo) { return colon.freeDistanceAt(world, upTo); };
 }
 
-// Limits of the eyes' distance: those of a colon's lumen, or such as suit what is seen from outside.
+// Limits of the eyes' distance: such as suit the scene; in a lumen no more than its flight is to keep clear
+// of the wall.
 SeparationControl::Setting separationOf(const LoadedScene& scene) {
     SeparationControl::Setting setting;
-    const StereoSetting& stereo = scene.stereo;
-    if (!scene.colon->isColon()) {
-        setting.largest = std::max(2 * stereo.separation, setting.smallest);
-        setting.smallest = std::min(setting.smallest, setting.largest);
-    }
-    setting.largest = std::max(setting.largest, stereo.separation);
-    if (stereo.separation > 0) setting.share = stereo.separation / stereo.zeroParallax;
+    const StereoSetting& own = scene.colon->stereo;
+    const double most = scene.colon->isColon() ? setting.largest : std::numeric_limits<double>::infinity();
+    setting.largest = std::max(std::min(2 * own.separation, most), scene.stereo.separation);
+    setting.largest = std::max(setting.largest, 1e-6);
+    setting.smallest = std::min(setting.smallest, 0.1 * setting.largest);
+    if (own.separation > 0) setting.share = own.separation / own.zeroParallax;
     return setting;
 }
 
 std::unique_ptr<Flight> flightThrough(const ColonScene& colon, double largestSeparation) {
     ColonFlightSetting setting;
     setting.clearance = colon.clearance;
-    setting.speed = colon.extent / kCrossingSeconds;
+    setting.speed = colon.extent / (colon.isColon() ? kColonSeconds : kOutsideSeconds);
     setting.largestSeparation = largestSeparation;
     return std::make_unique<ColonFlight>(freeDistanceOf(colon), colon.centreline, colon.startPose, setting);
 }

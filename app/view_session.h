@@ -86,7 +86,10 @@ public:
     // dt seconds pass. The input's speed multiplier is applied on top of the session's own.
     void step(const FlightInput& input, double dt);
     // A frame has come: what it shows guides what follows the room.
-    void observe(const ViewFrame& frame) { mDepthAhead = frame.depthAhead; }
+    void observe(const ViewFrame& frame) {
+        mDepthAhead = frame.depthAhead;
+        mStereo.observe(frame);
+    }
 
     // The slice view. The study is read by the caller, whom takeStudyWish() tells once.
     bool slicesShown() const { return mSlices.has_value(); }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/view_status.h"
+
 namespace stereonav {
 namespace {
 
@@ -10,7 +12,10 @@ constexpr double kStereoSeconds = 0.35;      // time constant: eyes follow a slo
 constexpr double kSettled = 1e-3;            // relative difference at which a slow change ends
 constexpr double kFirstSeparation = 1e-3;    // of the zero-parallax distance: the step up from none
 constexpr double kLargestSeparation = 0.25;  // of the zero-parallax distance
-constexpr double kFollowed = 1e-5;           // relative change below which following counts as done
+constexpr double kComfortSeconds = 1.0;      // time constant
+constexpr double kComfortShare = 0.95;       // of the parallax that is warned of
+constexpr double kLeastComfort = 0.2;
+constexpr double kFollowed = 1e-5;  // relative change below which following counts as done
 
 // Exponential approach in the logarithm, so that halving and doubling feel alike.
 double approach(double now, double target, double dt) {
@@ -64,10 +69,28 @@ void ViewStereo::scaleZeroParallax(double factor) {
     mTarget.zeroParallax = std::max(mTarget.zeroParallax * factor, mTarget.separation / kLargestSeparation);
 }
 
+void ViewStereo::observe(const ViewFrame& frame) {
+    const double separation = frame.request.stereo.separation;
+    if (!frame.request.twoEyes || !(separation > 0)) return;
+    const double used =
+        std::max({(frame.farParallax - frame.nearParallax) / kParallaxBudget,
+                  frame.nearParallax / kNearestParallax, frame.farParallax / kFarthestParallax});
+    // Parallax grows with the separation, so this does not depend on what the share is now.
+    mComfortable = used > 0 ? kComfortShare * separation / used : 0;
+}
+
+void ViewStereo::limit(StereoSetting& wanted, double dt) {
+    const double target =
+        mComfortable > 0 ? std::clamp(mComfortable / wanted.separation, kLeastComfort, 1.0) : 1.0;
+    if (dt > 0) mComfort = target + (mComfort - target) * std::exp(-dt / kComfortSeconds);
+    wanted.separation *= mComfort;
+}
+
 void ViewStereo::step(double free, double depth, double dt) {
     const StereoSetting before = mNow;
     if (mFollower) {
-        const StereoSetting wanted = mFollower(free, depth, dt);
+        StereoSetting wanted = mFollower(free, depth, dt);
+        limit(wanted, dt);
         const auto differs = [](double a, double b) { return std::abs(a - b) > kFollowed * b; };
         if (differs(wanted.separation, mNow.separation) || differs(wanted.zeroParallax, mNow.zeroParallax))
             mNow = wanted;

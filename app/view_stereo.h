@@ -22,6 +22,8 @@ public:
     bool follows() const { return static_cast<bool>(mFollower); }
     void follow();
 
+    // A frame has come: the parallax that it shows limits what is followed.
+    void observe(const ViewFrame& frame);
     // free: distance around the head; depth: in the middle of the last picture; metres.
     void step(double free, double depth, double dt);
 
@@ -29,10 +31,15 @@ public:
     bool moving() const { return mMoving; }  // since the last step
 
 private:
+    void limit(StereoSetting& wanted, double dt);
+
     StereoSetting mNow, mTarget;  // and where it slowly goes, by hand
     double mLargest;              // metres
     std::function<StereoFollower(const StereoSetting&)> mMakeFollower;
     StereoFollower mFollower;
+    // What the room suits may still be too much for the picture's nearest and farthest things: the share
+    // of it that is comfortable now; and the separation in metres that the last frame would suit, 0: any.
+    double mComfort = 1, mComfortable = 0;
     bool mMoving = false;
 };
 

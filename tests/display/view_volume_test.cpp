@@ -106,6 +106,35 @@ TEST_F(ViewVolume, EyesFollowTheRoomUntilTheyAreSetByHand) {
     EXPECT_DOUBLE_EQ(s.stereo().separation, 0.0005);
 }
 
+TEST_F(ViewVolume, FollowingKeepsTheParallaxComfortable) {
+    ViewSession s = session();
+    // The follower wants a millimetre; the picture's parallax is that of a wall at a fifth of the
+    // zero-parallax distance: -6 % at a millimetre.
+    double before = 0.001;
+    for (int i = 0; i < 600; ++i) {
+        ViewFrame frame = frameOf(0.05);
+        frame.request.stereo = s.stereo();
+        frame.nearParallax = -60 * s.stereo().separation;
+        frame.farParallax = 10 * s.stereo().separation;
+        s.observe(frame);
+        s.step({}, kFrame);
+        EXPECT_LE(s.stereo().separation, before * 1.0000001);
+        EXPECT_GT(s.stereo().separation, before * 0.97) << "no jump";
+        before = s.stereo().separation;
+        EXPECT_TRUE(i < 599 || warningLine(frame).empty());
+    }
+    EXPECT_NEAR(s.stereo().separation, 0.95 * 0.025 / 60, 1e-6);
+    // A wide room again: all that the room suits.
+    for (int i = 0; i < 900; ++i) {
+        ViewFrame frame = frameOf(0.05);
+        frame.request.stereo = s.stereo();
+        frame.nearParallax = -10 * s.stereo().separation;
+        s.observe(frame);
+        s.step({}, kFrame);
+    }
+    EXPECT_NEAR(s.stereo().separation, 0.001, 1e-6);
+}
+
 TEST_F(ViewVolume, EyesThatWereGivenAreNotMoved) {
     mScene->followsAtStart = false;
     ViewSession s = session();
