@@ -96,6 +96,7 @@ struct Parsed {
     PlayOptions play;
     CompareOptions compare;
     MeshOptions mesh;
+    CentrelineOptions centreline;
     ViewOptions view;
     std::string size, relativeSeparation;
     std::function<int()> run = runDefault;
@@ -204,6 +205,18 @@ void addMesh(CLI::App& app, Parsed& parsed) {
     command.callback([&parsed] { parsed.run = [&parsed] { return runMesh(parsed.mesh); }; });
 }
 
+void addCentreline(CLI::App& app, Parsed& parsed) {
+    CentrelineOptions& options = parsed.centreline;
+    CLI::App& command =
+        *app.add_subcommand("centreline", "the way through a colon, with its radii, as a file");
+    addScene(command, options.scene);
+    command
+        .add_option("--out", options.out,
+                    "the line's file, .vtp or .vtk (poly data) or .txt; millimetres, LPS, from the rectum")
+        ->required();
+    command.callback([&parsed] { parsed.run = [&parsed] { return runCentreline(parsed.centreline); }; });
+}
+
 void addView(CLI::App& app, Parsed& parsed) {
     ViewOptions& options = parsed.view;
     CLI::App& command = *app.add_subcommand("view", "fly through the scene in a window");
@@ -243,6 +256,7 @@ int runCommandLine(int argc, char** argv) {
     addPlay(app, parsed);
     addCompare(app, parsed);
     addMesh(app, parsed);
+    addCentreline(app, parsed);
     addView(app, parsed);
     try {
         app.parse(argc, argv);

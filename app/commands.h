@@ -99,6 +99,12 @@ struct MeshOptions {
 };
 int runMesh(const MeshOptions& options);
 
+struct CentrelineOptions {
+    SceneOptions scene;
+    std::string out;  // .vtp, .vtk or .txt
+};
+int runCentreline(const CentrelineOptions& options);
+
 // No command given: fly the built-in terrain where there is a display, else play it to out/ and compare.
 int runDefault();
 

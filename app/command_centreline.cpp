@@ -1,0 +1,49 @@
+// `stereonav centreline`: the way through a colon as a file for other tools.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/output_place.h"
+#include "app/progress_bar.h"
+#include "app/scene_loading.h"
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+void checkCentrelineOptions(const CentrelineOptions& options) {
+    if (!isCentrelineFileName(options.out))
+        throw Error("--out", "", "expected a file named .txt, .vtp or .vtk, got \"" + options.out + "\"",
+                    "name it centreline.vtp");
+    checkOutputFile("--out", options.out);
+    if (kindOf(options.scene.scene) != SceneKind::Volume)
+        throw Error(options.scene.scene.empty() ? "SCENE" : options.scene.scene, "",
+                    "expected a CT study, found a terrain", "name a study, or colon for the built-in one");
+    if (options.scene.volume.isosurface)
+        throw Error("--isosurface", "", "shows a surface, which has no centreline", "leave it out");
+}
+
+}  // namespace
+
+int runCentreline(const CentrelineOptions& options) {
+    checkCentrelineOptions(options);
+    ProgressBar bar;
+    const LoadedScene scene = loadScene(options.scene, SizeOption{}, bar.progress());
+    if (!scene.colon || !scene.colon->isColon())
+        throw Error(options.scene.scene, "", "no colon was found, so there is no centreline",
+                    "give --seed x,y,z inside it");
+    const Centreline& line = scene.colon->centreline;
+    writeCentreline(options.out, line);
+    bar.clear();
+    const auto narrower = [](const CentrelinePoint& a, const CentrelinePoint& b) {
+        return a.radius < b.radius;
+    };
+    const auto [least, most] = std::minmax_element(line.points.begin(), line.points.end(), narrower);
+    std::printf("%s: %zu points along %.1f mm in %zu segment(s), radius %.1f to %.1f mm\n",
+                options.out.c_str(), line.points.size(), line.length() * 1e3,
+                scene.colon->lumen.segments.size(), least->radius * 1e3, most->radius * 1e3);
+    return 0;
+}
+
+}  // namespace stereonav
