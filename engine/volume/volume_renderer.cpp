@@ -141,9 +141,14 @@ struct VolumeRenderer::State {
 
     // Leap code of the cell around a world point, in metres; negative outside the volume.
     static double freeAt(const SurfaceCells& cells, const glm::dvec3& world) {
-        const glm::ivec3 cell(glm::floor(cells.frame.voxelFromWorld(world)));
+        const glm::dvec3 voxel = cells.frame.voxelFromWorld(world);
+        const glm::ivec3 cell(glm::floor(voxel));
         for (int k = 0; k < 3; ++k)
-            if (cell[k] < 0 || cell[k] > cells.frame.size[k] - 2) return -1;
+            if (cell[k] < 0 || cell[k] > cells.frame.size[k] - 2) {  // outside: as far as the volume's box
+                const glm::dvec3 last(cells.frame.size - 1);
+                const glm::dvec3 beside = voxel - glm::clamp(voxel, glm::dvec3(0.0), last);
+                return glm::length(beside * cells.frame.spacing);
+            }
         return (cells.codes[cells.layout.index(cell.x, cell.y, cell.z)] - 1) * cells.leapUnit;
     }
 };
@@ -194,8 +199,12 @@ bool VolumeRenderer::mayHitBeyondEdge(const EyeView& view, PixelRect rect, doubl
         0.5 * std::hypot(rect.width() * view.pixelWidth(), rect.height() * view.pixelHeight());
     const double length = glm::length(axis);
     const SurfaceCells& cells = mScene.cells;
+    // Behind the whole volume nothing is hit; distances along rays are not below their view depths.
+    const glm::dvec3 half = 0.5 * glm::dvec3(cells.frame.size - 1);
+    const double farthest =
+        glm::length(view.eye - cells.frame.worldFromVoxel(half)) + glm::length(half * cells.frame.spacing);
     double t = view.nearDepth;
-    while (t < end) {
+    while (t < std::min(end, farthest)) {
         const double free = State::freeAt(cells, view.eye + t * axis);
         if (free < 0) return true;
         const double ahead = (free - radius * t) / (length + radius) * (1 - 1e-9);
