@@ -17,7 +17,7 @@ struct Pieces {
 
 // The voxel nearest to a seed. Throws Error when it is not finite or lies outside the volume.
 glm::ivec3 seedVoxel(const VolumeFrame& frame, const glm::dvec3& seed);
-// "--seed x,y,z" in metres, as errors name it.
+// "--seed x,y,z" in millimetres, as it is given and as errors name it.
 std::string seedName(const glm::dvec3& seed);
 
 // A piece on a grid of blocks of 8^3 voxels: enough to walk from end to end.
