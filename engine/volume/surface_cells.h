@@ -72,6 +72,7 @@ struct SurfaceSetting {
     const MaskVolume* region = nullptr;
 };
 
+// Rays must start below the isovalue: a volume that is seen from outside has a border of values below it.
 // Throws Error when the volume has fewer than 2 voxels along an axis or too many for 32-bit indices of
 // cells; Cancelled. Runs on all threads, the result does not depend on their number.
 SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress);

@@ -134,7 +134,7 @@ TEST(SegmentColon, TaggedFluidBelongsToTheLumenAndBoneDoesNot) {
 TEST(SegmentColon, SeedsChooseThePieces) {
     const GreyVolume study = test::scanned(filled({120, 110, 120}, 0.001, TubeBody::hu), 0.0007, 20);
     EXPECT_EQ(errorOf(study, {{0.06, 0.050, 0.05}}), "no error");
-    EXPECT_THAT(errorOf(study, {{0.03, 0.055, 0.05}}), HasSubstr("--seed 0.03,0.055,0.05: lies in tissue"));
+    EXPECT_THAT(errorOf(study, {{0.03, 0.055, 0.05}}), HasSubstr("--seed 30,55,50: lies in tissue"));
     EXPECT_THAT(errorOf(study, {{0.03, 0.055, 5}}), HasSubstr("outside the volume"));
     EXPECT_THAT(errorOf(study, {{0.03, std::numeric_limits<double>::quiet_NaN(), 0}}), HasSubstr("finite"));
 }
