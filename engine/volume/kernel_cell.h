@@ -54,6 +54,8 @@ STEREONAV_INLINE Cubic cubicAlong(const Corners& c, const V3& start, const V3& w
             mulAdd(d2, start.z, mulAdd(d1, way.z, q2[0])), d2 * way.z};
 }
 
+constexpr float kCloseEnough = 1e-6f;  // of the way through a cell
+
 struct Root {
     F s;
     M found;
@@ -82,6 +84,7 @@ STEREONAV_INLINE Root firstRoot(const Cubic& f, M m) {
     if (any(found)) {
         const F below = f.at(from), above = f.at(to);
         s = mulAdd((to - from) * below, approxReciprocal(min(below - above, F(-1e-30f))), from);
+        M searching = found;
         for (int step = 0; step < 6; ++step) {
             const F value = f.at(s);
             const M under = value < zero;
@@ -89,7 +92,11 @@ STEREONAV_INLINE Root firstRoot(const Cubic& f, M m) {
             to = select(under, to, s);
             const F next = s - value * approxReciprocal(f.slope(s));
             const M kept = (next >= from) & (next <= to);
-            s = select(kept, next, F(0.5f) * (from + to));
+            const F better = select(kept, next, F(0.5f) * (from + to));
+            const M moves = searching & (abs(better - s) > F(kCloseEnough));
+            s = select(searching, better, s);
+            searching = moves;  // a ray that is done stays as it is, whatever its neighbours need
+            if (!any(searching)) break;
         }
     }
     return {select(atOnce, zero, s), atOnce | found};
