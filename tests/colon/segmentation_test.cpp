@@ -203,7 +203,7 @@ std::uint32_t largestOf(const Pieces& pieces) {
     return static_cast<std::uint32_t>(std::max_element(list.begin(), list.end(), less) - list.begin());
 }
 
-// A body around the real lumen: fluid, bones, lungs with vessels, bubbles.
+// A body around the real lumen: fluid, bones, lungs with vessels.
 GreyVolume realScan(const MaskVolume& mask, const Pieces& low, std::uint32_t pool) {
     VolumeFrame frame = mask.frame;
     frame.size += glm::ivec3(2 * kPad, 2 * kPad, kPadTop);

@@ -68,7 +68,7 @@ TEST(SurfaceDistance, InAHollowSphere) {
     });
     const SurfaceCells cells = cellsOf(volume, 0.0f);
     Random random(2);
-    // The trilinear surface leaves the sphere by at most h^2 / (8 r) an axis: 0.026 mm for these spacings.
+    // The trilinear surface leaves the sphere by at most h^2 / (8 r) an axis, below the limit taken.
     constexpr double kOff = 0.03e-3;
     for (int n = 0; n < 500; ++n) {
         const double r = random.between(0, 0.0175);
@@ -205,7 +205,7 @@ TEST(SurfaceDistance, TakesLittleTime) {
     };
     const double open = microseconds(0, 0.02, 0.01), wall = microseconds(0.031, 0.0345, 0.01);
     std::printf("free distance: %.2f us in the open, %.2f near the wall\n", open, wall);
-    EXPECT_LT(open, 500);  // a hundred times what it takes: only a wrong search fails
+    EXPECT_LT(open, 500);  // microseconds; far above what it takes, so that only a wrong search fails
     EXPECT_LT(wall, 5000);
 }
 
