@@ -1,0 +1,49 @@
+// Light from infinitely far away, given by direction: an equirectangular picture, row 0 at the zenith (+z),
+// column 0 at azimuth -pi (azimuth 0 is +x, growing towards +y). Immutable.
+#pragma once
+
+#include <filesystem>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace stereonav {
+
+class LightProbe {
+public:
+    // width * height pixels of linear radiance, row by row. Throws Error (naming `name`) when a pixel is
+    // negative or not finite, or the picture is empty.
+    LightProbe(int width, int height, std::vector<glm::vec3> radiance, const std::string& name);
+
+    // Piecewise constant: of the pixel the unit direction falls into.
+    glm::vec3 radiance(const glm::vec3& direction) const;
+
+    struct Sample {
+        glm::vec3 direction, radiance;
+        float density;  // per steradian; > 0 unless the probe is black
+    };
+    // By luminance times solid angle. u in [0, 1)^2; a well spread u gives well spread directions.
+    Sample sample(const glm::vec2& u) const;
+    // The density with which sample() gives a direction; 0 for a black probe.
+    float density(const glm::vec3& direction) const;
+
+    // Exact over the pixels: harmonicsCount(order) coefficients a channel.
+    std::vector<glm::vec3> project(int order) const;
+
+    glm::vec3 mean() const;  // over the sphere
+    bool black() const;
+    int width() const { return mWidth; }
+    int height() const { return mHeight; }
+
+private:
+    int mWidth, mHeight;
+    std::vector<glm::vec3> mRadiance;
+    std::vector<float> mRows, mColumns;  // running sums of the densities
+};
+
+// .hdr, or any picture (taken as sRGB). Throws Error.
+LightProbe readLightProbe(const std::filesystem::path& file);
+
+}  // namespace stereonav

@@ -1,0 +1,27 @@
+// What lights a scene for baking, and what its surface does with light: all units linear RGB.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "engine/light/light_probe.h"
+
+namespace stereonav {
+
+struct PointLight {
+    glm::dvec3 position{0.0};   // world, metres
+    glm::vec3 intensity{0.0f};  // W/sr in units of the probe: irradiance at distance d is intensity / d^2
+    // Nearer than this the light counts as being this far away, so that a light on the surface stays finite.
+    double radius = 1e-3;
+};
+
+struct LightSetup {
+    std::shared_ptr<const LightProbe> probe;  // may be null
+    glm::vec3 sky{0.0f};                      // the same radiance from everywhere, beside the probe
+    std::vector<PointLight> lights;           // hard shadows
+    glm::vec3 albedo{0.7f};                   // 0..1, of the diffuse surface
+    int bounces = 2;                          // 0: direct light alone; at most 8
+};
+
+}  // namespace stereonav

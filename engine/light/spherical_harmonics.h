@@ -1,0 +1,41 @@
+// Real spherical harmonics of unit directions (Wyman et al. 2006, appendix, eq. 12). Order n means bands 0 to
+// n - 1, n^2 coefficients, coefficient l (l + 1) + m. Polar axis z, which is up.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace stereonav {
+
+constexpr int kMaxHarmonicsOrder = 6;
+constexpr int kMaxHarmonics = kMaxHarmonicsOrder * kMaxHarmonicsOrder;
+
+constexpr int harmonicsCount(int order) {
+    return order * order;
+}
+
+// order 1..kMaxHarmonicsOrder; direction: unit; values: harmonicsCount(order) of them. Sound at the poles.
+void evaluateHarmonics(const glm::dvec3& direction, int order, double* values);
+void evaluateHarmonics(const glm::vec3& direction, int order, float* values);
+
+// Turns coefficients so that the function they stand for is rotated: (R f)(w) = f(R^-1 w). Matrices band by
+// band by the recursion of Ivanic and Ruedenberg (1996, with the corrections of 1998).
+class HarmonicsRotation {
+public:
+    // rotation: proper and orthogonal.
+    HarmonicsRotation(const glm::dmat3& rotation, int order);
+    int order() const { return mOrder; }
+    // from and to: harmonicsCount(order) values; not the same memory.
+    void apply(const double* from, double* to) const;
+    void apply(const glm::vec3* from, glm::vec3* to) const;
+    // Of band l: (2l + 1)^2 values, rows first.
+    std::span<const double> band(int l) const;
+
+private:
+    int mOrder;
+    std::vector<double> mBands;
+};
+
+}  // namespace stereonav
