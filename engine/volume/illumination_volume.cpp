@@ -1,0 +1,213 @@
+// Packing of texels and the scalar lookups, in double precision: what the kernels' lookups must agree with.
+// Texels may be written by a bake while they are read here, so each is loaded as one atomic word.
+#include "engine/volume/illumination_volume.h"
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+#include <vector>
+
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+constexpr float kLargestHalf = 65504.0f;
+// Kernels count texels with signed 32-bit numbers, and read a few beyond the last.
+constexpr double kMostTexels = 2147483648.0 - 512.0;
+
+// Stored numbers: far below the steps of the data, far above the rounding of places in it.
+constexpr double kEqualValues = 1e-4;
+
+// Round to nearest, ties to even, of 0 <= v <= 65504; without branches, so that loops over it vectorise.
+std::uint32_t halfFromFloat(float v) {
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(v);
+    const std::uint32_t normal = (bits + 0xfffu + (bits >> 13 & 1u) - (112u << 23)) >> 13;
+    // Below 2^-14 halves are multiples of 2^-24, as floats from 0.5 on are: the addition rounds.
+    const std::uint32_t tiny = std::bit_cast<std::uint32_t>(v + 0.5f) - 0x3f000000u;
+    return v < 0x1p-14f ? tiny : normal;
+}
+
+// The sign is left out. What would be infinite or NaN becomes 65536 and more: finite, and never written here.
+float floatFromHalf(std::uint32_t half) {
+    const std::uint32_t bits = half & 0x7fffu;
+    const float tiny = static_cast<float>(static_cast<std::int32_t>(bits)) * 0x1p-24f;
+    const float normal = std::bit_cast<float>((bits << 13) + (112u << 23));
+    return bits < 0x400u ? tiny : normal;
+}
+
+// 0 for NaN, infinities and what is negative.
+float usable(float v, float most) {
+    const float finite = v <= std::numeric_limits<float>::max() ? v : 0.0f;
+    return finite > 0.0f ? std::min(finite, most) : 0.0f;
+}
+
+PackedTexel load(const IlluminationVolume& volume, int i, int j, int k) {
+    auto& word = const_cast<PackedTexel&>(volume.texels[volume.layout.index(i, j, k)]);
+    return std::atomic_ref<PackedTexel>(word).load(std::memory_order_relaxed);
+}
+
+// Texels along one axis that a point lies between, with their weights.
+template <int Count>
+struct Axis {
+    std::array<int, Count> at{};
+    std::array<double, Count> weight{};
+};
+
+// NaN becomes 0.
+double clampToGrid(double x, int size) {
+    return x > 0.0 ? std::min(x, size - 1.0) : 0.0;
+}
+
+Axis<2> linearAxis(double x, int size) {
+    x = clampToGrid(x, size);
+    const int low = std::min(static_cast<int>(x), std::max(size - 2, 0));
+    const double f = x - low;
+    return {{low, std::min(low + 1, size - 1)}, {1 - f, f}};
+}
+
+// Uniform cubic B-spline; beyond the faces the outermost texels count on.
+Axis<4> cubicAxis(double x, int size) {
+    const Axis<2> linear = linearAxis(x, size);
+    const double g = linear.weight[0], f = linear.weight[1];
+    Axis<4> axis;
+    axis.weight = {g * g * g / 6, (4 - 3 * f * f * (2 - f)) / 6, (4 - 3 * g * g * (2 - g)) / 6,
+                   f * f * f / 6};
+    for (int n = 0; n < 4; ++n) axis.at[n] = std::clamp(linear.at[0] + n - 1, 0, size - 1);
+    return axis;
+}
+
+template <int Count>
+IlluminationVolume::Light weighted(const IlluminationVolume& volume, const std::array<Axis<Count>, 3>& axes) {
+    glm::dvec3 sum(0.0);
+    double weight = 0;
+    for (int c = 0; c < Count; ++c)
+        for (int b = 0; b < Count; ++b)
+            for (int a = 0; a < Count; ++a) {
+                const PackedTexel texel = load(volume, axes[0].at[a], axes[1].at[b], axes[2].at[c]);
+                const double w =
+                    texelWeight(texel) * (axes[0].weight[a] * axes[1].weight[b] * axes[2].weight[c]);
+                sum += w * glm::dvec3(texelLight(texel));
+                weight += w;
+            }
+    if (!(weight > 0)) return {};
+    return {glm::vec3(sum / weight), static_cast<float>(std::min(weight, 1.0))};
+}
+
+IlluminationVolume::Light nearest(const IlluminationVolume& volume, const glm::dvec3& p) {
+    glm::ivec3 at;
+    for (int n = 0; n < 3; ++n) at[n] = static_cast<int>(clampToGrid(p[n], volume.frame.size[n]) + 0.5);
+    const PackedTexel texel = load(volume, at.x, at.y, at.z);
+    if (texelWeight(texel) <= 0) return {};
+    return {texelLight(texel), texelWeight(texel)};
+}
+
+double trilinear(const GreyVolume& field, const glm::dvec3& world) {
+    const glm::dvec3 p = field.frame.voxelFromWorld(world);
+    const glm::ivec3 size = field.frame.size;
+    const Axis<2> x = linearAxis(p.x, size.x), y = linearAxis(p.y, size.y), z = linearAxis(p.z, size.z);
+    double sum = 0;
+    for (int n = 0; n < 8; ++n)
+        sum += x.weight[n & 1] * y.weight[n >> 1 & 1] * z.weight[n >> 2] *
+               field.at(x.at[n & 1], y.at[n >> 1 & 1], z.at[n >> 2]);
+    return sum;
+}
+
+}  // namespace
+
+PackedTexel packTexel(const glm::vec3& light, float weight) {
+    const std::uint64_t red = halfFromFloat(usable(light.x, kLargestHalf)),
+                        green = halfFromFloat(usable(light.y, kLargestHalf)),
+                        blue = halfFromFloat(usable(light.z, kLargestHalf)),
+                        known = halfFromFloat(usable(weight, 1.0f));
+    return red | green << 16 | blue << 32 | known << 48;
+}
+
+glm::vec3 texelLight(PackedTexel texel) {
+    const auto channel = [&](int shift) {
+        return floatFromHalf(static_cast<std::uint32_t>(texel >> shift) & 0xffffu);
+    };
+    return {channel(0), channel(16), channel(32)};
+}
+
+float texelWeight(PackedTexel texel) {
+    return floatFromHalf(static_cast<std::uint32_t>(texel >> 48));
+}
+
+std::size_t IlluminationVolume::bytesHeld() const {
+    if (texels.empty()) return 0;
+    constexpr std::size_t kPage = 4096;
+    const std::size_t count = (texels.size() * sizeof(PackedTexel) + kPage - 1) / kPage;
+    std::vector<unsigned char> held(count);
+    void* start = const_cast<PackedTexel*>(texels.data());
+    if (mincore(start, count * kPage, held.data()) != 0) return count * kPage;
+    return kPage * static_cast<std::size_t>(
+                       std::count_if(held.begin(), held.end(), [](unsigned char c) { return c & 1; }));
+}
+
+IlluminationVolume::Light IlluminationVolume::at(const glm::dvec3& world, Lookup lookup) const {
+    if (empty()) return {};
+    const glm::dvec3 p = frame.voxelFromWorld(world);
+    const glm::ivec3 size = frame.size;
+    if (lookup == Lookup::Nearest) return nearest(*this, p);
+    if (lookup == Lookup::Tricubic)
+        return weighted<4>(*this, {cubicAxis(p.x, size.x), cubicAxis(p.y, size.y), cubicAxis(p.z, size.z)});
+    return weighted<2>(*this, {linearAxis(p.x, size.x), linearAxis(p.y, size.y), linearAxis(p.z, size.z)});
+}
+
+IlluminationVolume::Light IlluminationVolume::nearestIsovalue(const glm::dvec3& world,
+                                                              const GreyVolume& field, float isovalue) const {
+    if (empty() || field.empty()) return {};
+    const glm::dvec3 p = frame.voxelFromWorld(world);
+    const Axis<2> x = linearAxis(p.x, frame.size.x), y = linearAxis(p.y, frame.size.y),
+                  z = linearAxis(p.z, frame.size.z);
+    PackedTexel best = 0;
+    double bestAway = std::numeric_limits<double>::infinity(), bestShare = 0;
+    for (int n = 0; n < 8; ++n) {
+        const glm::ivec3 at(x.at[n & 1], y.at[n >> 1 & 1], z.at[n >> 2]);
+        const PackedTexel texel = load(*this, at.x, at.y, at.z);
+        if (texelWeight(texel) <= 0) continue;
+        const double away = std::abs(trilinear(field, frame.worldFromVoxel(glm::dvec3(at))) - isovalue);
+        // Of equal ones the nearer: the surface may run along a grid line.
+        const double share = x.weight[n & 1] * y.weight[n >> 1 & 1] * z.weight[n >> 2];
+        const bool equal = std::abs(away - bestAway) <= kEqualValues;
+        if (equal ? share <= bestShare : away > bestAway) continue;
+        best = texel;
+        bestAway = away;
+        bestShare = share;
+    }
+    if (best == 0) return {};
+    return {texelLight(best), texelWeight(best)};
+}
+
+VolumeFrame texelFrame(const VolumeFrame& volume, double perVoxel) {
+    if (!(perVoxel > 0 && perVoxel <= 64))
+        throw Error("", "resolution",
+                    fmt::format("expected more than 0 and at most 64 texels a voxel, got {}", perVoxel),
+                    "use 0.5, 1 or 2");
+    VolumeFrame frame = volume;
+    frame.spacing = volume.spacing / perVoxel;
+    double bricked = 1;
+    glm::dvec3 texels;
+    for (int n = 0; n < 3; ++n) {
+        // The last texel may lie a rounding error before the last voxel.
+        texels[n] = std::ceil((std::max(volume.size[n], 1) - 1) * perVoxel - 1e-9) + 1;
+        bricked *= 8 * std::ceil(texels[n] / 8);
+    }
+    if (!(bricked <= kMostTexels))
+        throw Error("", "resolution",
+                    fmt::format("{} texels a voxel are {} x {} x {} texels, more than 2^31", perVoxel,
+                                texels.x, texels.y, texels.z),
+                    "choose a lower resolution or a smaller volume");
+    frame.size = glm::ivec3(texels);
+    return frame;
+}
+
+}  // namespace stereonav
