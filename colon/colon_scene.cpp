@@ -13,8 +13,8 @@
 #include "colon/colon_cache.h"
 #include "colon/colon_flight.h"
 #include "colon/isosurface_scene.h"
+#include "colon/saved_lumen.h"
 #include "engine/base/error.h"
-#include "engine/base/file.h"
 #include "engine/base/hash.h"
 
 namespace stereonav {
@@ -43,37 +43,32 @@ GreyVolume greyOf(const MaskVolume& mask) {
     return grey;
 }
 
-// Beside the study, for other programs; in the cache folder where that can not be written.
-std::string saveLumen(const fs::path& study, const MaskVolume& lumen, std::uint64_t key) {
-    fs::path stem = study.filename();
-    while (stem.has_extension()) stem = stem.stem();
-    if (stem.empty()) stem = study.parent_path().filename();
-    const std::string name = stem.string() + "_lumen.nrrd";
-    const std::string comment = fmt::format("stereonav lumen, key {:016x}", key);
-    for (const fs::path& folder : {fs::absolute(study).parent_path(), cacheFolder()}) {
-        try {
-            writeMask(folder / name, lumen, comment);
-            return fmt::format("lumen saved as {}", (folder / name).string());
-        } catch (const Error&) {
-        }
+// The lumen that was kept for this study and setting; found anew, and kept, where there is none.
+LumenField lumenOfGrey(const Study& study, const ColonOptions& options, std::vector<std::string>& notes,
+                       Progress& progress) {
+    const bool keeps = options.cache && !options.study.empty();
+    const std::uint64_t key = savedLumenKey(study.key, options.segmentation);
+    if (keeps) {
+        SavedLumen saved = readSavedLumen(options.study, study.grey, options.segmentation, key, progress);
+        notes.insert(notes.end(), saved.notes.begin(), saved.notes.end());
+        if (saved.lumen) return std::move(*saved.lumen);
     }
-    return "the lumen could not be saved: neither the study's folder nor the cache folder can be written";
+    try {
+        LumenField lumen = segmentColon(study.grey, options.segmentation, progress);
+        if (keeps) notes.push_back(saveLumen(options.study, lumen.lumen, key));
+        return lumen;
+    } catch (const Error& error) {
+        throw Error("", "", error.what(), "--isosurface shows any volume from outside");
+    }
 }
 
-// The colon in a study that was read; `study` is consumed.
-FoundColon findColon(Study& study, const ColonOptions& options, Progress& progress) {
+// The colon in a study that was read.
+FoundColon findColon(const Study& study, const ColonOptions& options, Progress& progress) {
     FoundColon found;
     found.format = study.format;
     found.notes = study.notes;
-    if (study.isMask) {
-        found.lumen = lumenFromMask(study.mask, options.segmentation, progress);
-    } else {
-        try {
-            found.lumen = segmentColon(study.grey, options.segmentation, progress);
-        } catch (const Error& error) {
-            throw Error("", "", error.what(), "--isosurface shows any volume from outside");
-        }
-    }
+    found.lumen = study.isMask ? lumenFromMask(study.mask, options.segmentation, progress)
+                               : lumenOfGrey(study, options, found.notes, progress);
     const DistanceVolume distance = distanceToOutside(found.lumen.lumen);
     found.centreline = findCentreline(found.lumen, distance, options.centreline, progress);
     return found;
@@ -234,7 +229,6 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
     }
     FoundColon found = findColon(study, options, progress);
     found.polyps = std::move(polyps);
-    if (!builtIn && !study.isMask) found.notes.push_back(saveLumen(options.study, found.lumen.lumen, key));
     study = {};
     if (options.cache) writeColonCache(key, found);
     ColonScene scene = sceneOf(std::move(found), options, progress);

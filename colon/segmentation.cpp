@@ -5,8 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 #include "colon/lumen_pieces.h"
@@ -141,10 +144,14 @@ void growMarks(const GreyVolume& field, double wall, MaskVolume& marks) {
     }
 }
 
+std::int16_t walledOff(double wall) {
+    return static_cast<std::int16_t>(std::ceil(wall) + 50);
+}
+
 // Other air that meets the lumen is walled off, so that the lumen ends where it is said to end.
 void wallOff(const MaskVolume& marks, double wall, GreyVolume& field) {
     const glm::ivec3 size = marks.frame.size;
-    const auto above = static_cast<std::int16_t>(std::ceil(wall) + 50);
+    const std::int16_t above = walledOff(wall);
     for (int k = 1; k < size.z - 1; ++k)
         for (int j = 1; j < size.y - 1; ++j)
             for (int i = 1; i < size.x - 1; ++i) {
@@ -188,7 +195,107 @@ std::vector<int> worthKeeping(const Pieces& pieces, const VolumeFrame& frame) {
     return bySize;
 }
 
+// Where a lumen's frame lies in the study's; nothing unless it is a part of the same grid.
+std::optional<LumenCrop> placeIn(const VolumeFrame& lumen, const VolumeFrame& study) {
+    const glm::dvec3 voxel = study.voxelFromWorld(lumen.origin), nearest = glm::round(voxel);
+    for (int a = 0; a < 3; ++a)
+        if (!(std::abs(voxel[a] - nearest[a]) < 1e-3 && std::abs(voxel[a]) < 1e6 &&
+              std::abs(lumen.spacing[a] / study.spacing[a] - 1) < 1e-6 &&
+              glm::length(lumen.axes[a] - study.axes[a]) < 1e-6))
+            return std::nullopt;
+    LumenCrop crop;
+    crop.first = glm::ivec3(nearest);
+    crop.frame = study.cropped(crop.first, lumen.size);
+    return crop;
+}
+
+// Air of the known lumen is the colon's, all other is none of its business.
+AirPieces airInside(const GreyVolume& study, const SegmentationSetting& setting,
+                    const std::function<bool(const glm::ivec3&)>& inside) {
+    AirPieces air;
+    air.pieces.runs = runsBelow(study, storedOf(study, setting.air));
+    air.pieces.parts = connectedComponents(air.pieces.runs);
+    air.kinds.assign(air.pieces.parts.list.size(), AirKind::Outside);
+    const VoxelRuns& runs = air.pieces.runs;
+    for (int k = 0; k < runs.size.z; ++k)
+        for (int j = 0; j < runs.size.y; ++j) {
+            const std::size_t row = runs.rowNumber(j, k);
+            for (std::uint32_t n = runs.rowStart[row]; n < runs.rowStart[row + 1]; ++n)
+                if (inside({runs.runs[n].first, j, k})) air.kinds[air.pieces.parts.ofRun[n]] = AirKind::Colon;
+        }
+    return air;
+}
+
+bool touchesLumen(const MaskVolume& lumen, const glm::ivec3& voxel) {
+    return std::any_of(std::begin(kSteps), std::end(kSteps), [&](const glm::ivec3& step) {
+        return lumen.frame.contains(voxel + step) && lumen.at(voxel + step) != 0;
+    });
+}
+
+// Walls off what else is below the wall beside the lumen. False where the lumen itself is not below it.
+bool closeAround(const MaskVolume& lumen, double wall, GreyVolume& field) {
+    const glm::ivec3 size = lumen.frame.size;
+    std::atomic<bool> fits = true;
+    parallelFor(size.z, [&](int k) {
+        for (int j = 0; j < size.y; ++j)
+            for (int i = 0; i < size.x; ++i) {
+                std::int16_t& value = field.at(i, j, k);
+                if (lumen.at(i, j, k)) {
+                    if (!(value < wall)) fits = false;
+                } else if (value < wall && touchesLumen(lumen, {i, j, k})) {
+                    value = walledOff(wall);
+                }
+            }
+    });
+    return fits;
+}
+
+// Segments from their numbers in the lumen; none where numbers are missing.
+std::vector<LumenSegment> segmentsOf(const MaskVolume& lumen) {
+    const glm::ivec3 size = lumen.frame.size;
+    const glm::dvec3& s = lumen.frame.spacing;
+    std::vector<LumenSegment> segments(255, {0, 0, size, glm::ivec3(-1)});
+    std::size_t count = 0;
+    for (int k = 0; k < size.z; ++k)
+        for (int j = 0; j < size.y; ++j)
+            for (int i = 0; i < size.x; ++i)
+                if (const std::uint8_t number = lumen.at(i, j, k)) {
+                    LumenSegment& segment = segments[number - 1];
+                    ++segment.voxels;
+                    segment.first = glm::min(segment.first, glm::ivec3(i, j, k));
+                    segment.last = glm::max(segment.last, glm::ivec3(i, j, k));
+                    count = std::max<std::size_t>(count, number);
+                }
+    segments.resize(count);
+    for (LumenSegment& segment : segments) {
+        if (segment.voxels == 0) return {};
+        segment.volume = static_cast<double>(segment.voxels) * s.x * s.y * s.z;
+    }
+    return segments;
+}
+
 }  // namespace
+
+std::optional<LumenField> restoreLumen(const GreyVolume& study, MaskVolume lumen,
+                                       const SegmentationSetting& setting) {
+    const std::optional<LumenCrop> crop = placeIn(lumen.frame, study.frame);
+    if (!crop || !(setting.wall < kTissue)) return std::nullopt;
+    const auto inside = [&](const glm::ivec3& voxel) {
+        return lumen.frame.contains(voxel - crop->first) && lumen.at(voxel - crop->first) != 0;
+    };
+    LumenField found;
+    found.segments = segmentsOf(lumen);
+    if (found.segments.empty()) return std::nullopt;
+    const FluidPools fluid = poolsInside(study, setting, airInside(study, setting, inside), inside);
+    found.field = cutField(study, *crop);
+    found.isovalue = setting.wall;
+    MaskVolume marks(crop->frame);
+    cleanseFluid(fluid, setting, crop->first, found.field, marks);
+    if (!closeAround(lumen, setting.wall, found.field)) return std::nullopt;
+    lumen.frame = crop->frame;
+    found.lumen = std::move(lumen);
+    return found;
+}
 
 LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress) {
     checkSetting(setting);

@@ -2,6 +2,7 @@
 // bowel gas and the air around the patient by place, size and shape.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,11 @@ struct LumenField {
 // From grey values. Tagged fluid becomes air in `field`, without a film between it and the air above.
 // Throws Error (no air, all air, seeds outside, nothing like a colon), Cancelled.
 LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress);
+
+// The field and the segments of a lumen (numbered from 1) that was found in this study with this setting and
+// kept: what segmentColon gives, without judging any air again. Nothing where they do not fit together.
+std::optional<LumenField> restoreLumen(const GreyVolume& study, MaskVolume lumen,
+                                       const SegmentationSetting& setting);
 
 // From a ready mask: `field` is the mask smoothed so that the wall shows no stairs, scaled to HU-like
 // numbers. setting: seeds only. Throws Error on an empty or full mask; Cancelled.

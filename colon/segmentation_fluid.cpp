@@ -230,20 +230,48 @@ void bridgeFilm(const FluidPools& fluid, const Pool& pool, const glm::ivec3& fir
 
 }  // namespace
 
-FluidPools findFluid(const GreyVolume& study, const SegmentationSetting& setting, AirPieces& air) {
+namespace {
+FluidPools coresOf(const GreyVolume& study, const SegmentationSetting& setting) {
     FluidPools fluid;
     fluid.cores.runs = eroded(runsAbove(study, storedOf(study, setting.tagged)));
     fluid.cores.parts = connectedComponents(fluid.cores.runs);
     fluid.axis = voxelAxisOf(study.frame, 1);
-    const std::vector<Surface> ways[2] = {surfacesOf(fluid, study, air, -1),
-                                          surfacesOf(fluid, study, air, 1)};
+    return fluid;
+}
+
+// Up is where there is more level surface under the colon's air: patients lie on their back or belly.
+std::vector<Surface> chooseUp(const GreyVolume& study, const AirPieces& air, FluidPools& fluid) {
+    std::vector<Surface> ways[2] = {surfacesOf(fluid, study, air, -1), surfacesOf(fluid, study, air, 1)};
     std::size_t columns[2] = {0, 0};
     for (int n = 0; n < 2; ++n)
         for (const Surface& s : ways[n])
             if (touchesColon(s, air) && isLevel(s, study.frame, fluid.axis)) columns[n] += s.film.size();
     const int way = columns[1] > columns[0];
     fluid.up = way ? 1 : -1;
-    acceptPools(ways[way], seededCores(fluid, study, setting), study, air, fluid);
+    return std::move(ways[way]);
+}
+}  // namespace
+
+FluidPools findFluid(const GreyVolume& study, const SegmentationSetting& setting, AirPieces& air) {
+    FluidPools fluid = coresOf(study, setting);
+    const std::vector<Surface> surfaces = chooseUp(study, air, fluid);
+    acceptPools(surfaces, seededCores(fluid, study, setting), study, air, fluid);
+    return fluid;
+}
+
+FluidPools poolsInside(const GreyVolume& study, const SegmentationSetting& setting, const AirPieces& air,
+                       const std::function<bool(const glm::ivec3&)>& inside) {
+    FluidPools fluid = coresOf(study, setting);
+    std::vector<char> within(fluid.cores.parts.list.size(), 0), seen(within.size(), 0);
+    forVoxels(fluid.cores, [&](std::uint32_t core, const glm::ivec3& voxel) {
+        if (!seen[core]) within[core] = inside(voxel);
+        seen[core] = 1;
+    });
+    if (std::find(within.begin(), within.end(), 1) == within.end()) return fluid;
+    std::vector<Surface> surfaces = chooseUp(study, air, fluid);
+    const std::vector<double> medians = mediansOf(fluid, study);
+    for (std::size_t n = 0; n < within.size(); ++n)
+        if (within[n]) fluid.pools.push_back({n, medians[n], std::move(surfaces[n].film)});
     return fluid;
 }
 

@@ -1,6 +1,7 @@
 // Fluid made bright by a contrast agent: pools with a level surface under the colon's air.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "colon/segmentation_air.h"
@@ -29,6 +30,11 @@ struct FluidPools {
 // Pools that belong to the colon; pieces of air that they touch become Colon in `air`. Of seeds, pools that
 // hold one are taken whatever their surface.
 FluidPools findFluid(const GreyVolume& study, const SegmentationSetting& setting, AirPieces& air);
+
+// The pools that lie in a lumen known from before (a voxel of the study: true inside). The kinds of `air` are
+// known too.
+FluidPools poolsInside(const GreyVolume& study, const SegmentationSetting& setting, const AirPieces& air,
+                       const std::function<bool(const glm::ivec3&)>& inside);
 
 // Turns fluid into air in `field` (HU), which lies at voxel `first` of the study; marks it in `inside`.
 void cleanseFluid(const FluidPools& fluid, const SegmentationSetting& setting, const glm::ivec3& first,

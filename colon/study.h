@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/progress.h"
@@ -47,7 +48,11 @@ std::uint64_t studyKey(const std::filesystem::path& path, const StudyOptions& op
 // against this machine's memory before it is taken.
 Study readStudy(const std::filesystem::path& path, const StudyOptions& options, Progress& progress);
 
+// Names and texts that a NRRD header carries for those who know them ("key:=value").
+using HeaderFields = std::vector<std::pair<std::string, std::string>>;
+
 // A mask as gzip-compressed NRRD in LPS millimetres, written atomically; readStudy reads it back.
-void writeMask(const std::filesystem::path& file, const MaskVolume& mask, const std::string& comment);
+void writeMask(const std::filesystem::path& file, const MaskVolume& mask, const std::string& comment,
+               const HeaderFields& fields = {});
 
 }  // namespace stereonav

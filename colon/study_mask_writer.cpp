@@ -25,14 +25,16 @@ std::string vectorText(const glm::dvec3& v) {
     return fmt::format("({:.17g},{:.17g},{:.17g})", v.x, v.y, v.z);
 }
 
-std::string headerOf(const VolumeFrame& frame, const std::string& comment) {
+std::string headerOf(const VolumeFrame& frame, const std::string& comment, const HeaderFields& fields) {
     const auto step_mm = [&](int axis) { return vectorText(1e3 * frame.spacing[axis] * frame.axes[axis]); };
+    std::string more;
+    for (const auto& [name, value] : fields) more += oneLine(name) + ":=" + oneLine(value) + "\n";
     return fmt::format(
         "NRRD0005\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: {} {} {}\n"
         "space directions: {} {} {}\nkinds: domain domain domain\nencoding: gzip\n"
-        "space units: \"mm\" \"mm\" \"mm\"\nspace origin: {}\ncomment:={}\n\n",
+        "space units: \"mm\" \"mm\" \"mm\"\nspace origin: {}\ncomment:={}\n{}\n",
         frame.size.x, frame.size.y, frame.size.z, step_mm(0), step_mm(1), step_mm(2),
-        vectorText(1e3 * frame.origin), oneLine(comment));
+        vectorText(1e3 * frame.origin), oneLine(comment), more);
 }
 
 void writeGzip(std::ostream& out, const std::uint8_t* data, std::size_t bytes) {
@@ -59,10 +61,11 @@ void writeGzip(std::ostream& out, const std::uint8_t* data, std::size_t bytes) {
 
 }  // namespace
 
-void writeMask(const std::filesystem::path& file, const MaskVolume& mask, const std::string& comment) {
+void writeMask(const std::filesystem::path& file, const MaskVolume& mask, const std::string& comment,
+               const HeaderFields& fields) {
     writeFileAtomically(file, [&](const std::filesystem::path& temporary) {
         std::ofstream out(temporary, std::ios::binary);
-        out << headerOf(mask.frame, comment);
+        out << headerOf(mask.frame, comment, fields);
         writeGzip(out, mask.values.data(), mask.frame.count());
         out.close();
         if (!out)

@@ -20,6 +20,8 @@
 namespace stereonav {
 namespace {
 
+using test::filled;
+using test::TubeBody;
 using testing::HasSubstr;
 
 LumenField segment(const GreyVolume& study, const std::vector<glm::dvec3>& seeds = {}) {
@@ -36,18 +38,6 @@ std::string errorOf(const GreyVolume& study, const std::vector<glm::dvec3>& seed
         return e.what();
     }
     return "no error";
-}
-
-GreyVolume filled(const glm::ivec3& size, double spacing, const std::function<int(glm::dvec3)>& hu) {
-    VolumeFrame frame;
-    frame.size = size;
-    frame.spacing = glm::dvec3(spacing);
-    GreyVolume study(frame);
-    for (int k = 0; k < size.z; ++k)
-        for (int j = 0; j < size.y; ++j)
-            for (int i = 0; i < size.x; ++i)
-                study.at(i, j, k) = static_cast<std::int16_t>(hu(glm::dvec3(i, j, k) * spacing));
-    return study;
 }
 
 struct Overlap {
@@ -96,25 +86,6 @@ void expectContract(const LumenField& lumen) {
     EXPECT_GT(voxels, 0u);
     EXPECT_EQ(wrong, 0u);
 }
-
-// A body with a straight tube of radius 12 mm up the z axis, fluid behind y = 0.058, a bone beside it, lungs
-// on top.
-struct TubeBody {
-    static constexpr double kSpacing = 0.001;
-    static double tube(glm::dvec3 p) {
-        const double ends = std::max(0.02 - p.z, p.z - 0.09);
-        return std::max(glm::length(glm::dvec2(p.x - 0.06, p.y - 0.055)) - 0.012, ends);
-    }
-    static bool bone(glm::dvec3 p) {
-        return glm::length(glm::dvec2(p.x - 0.06, p.y - 0.080)) < 0.010 && p.z > 0.005 && p.z < 0.11;
-    }
-    static int hu(glm::dvec3 p) {
-        const glm::dvec2 d((p.x - 0.06) / 0.055, (p.y - 0.055) / 0.05);
-        if (glm::dot(d, d) > 1) return -1000;
-        if (tube(p) < 0) return p.y > 0.058 ? 400 : -1000;
-        return bone(p) ? 700 : 40;
-    }
-};
 
 TEST(SegmentColon, TaggedFluidBelongsToTheLumenAndBoneDoesNot) {
     const GreyVolume study = test::scanned(filled({120, 110, 120}, 0.001, TubeBody::hu), 0.0007, 20);

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "engine/base/parallel.h"
@@ -12,6 +15,19 @@
 #include "engine/volume/volume.h"
 
 namespace stereonav::test {
+
+// hu(metres from the first voxel), cubic voxels
+inline GreyVolume filled(const glm::ivec3& size, double spacing, const std::function<int(glm::dvec3)>& hu) {
+    VolumeFrame frame;
+    frame.size = size;
+    frame.spacing = glm::dvec3(spacing);
+    GreyVolume study(frame);
+    for (int k = 0; k < size.z; ++k)
+        for (int j = 0; j < size.y; ++j)
+            for (int i = 0; i < size.x; ++i)
+                study.at(i, j, k) = static_cast<std::int16_t>(hu(glm::dvec3(i, j, k) * spacing));
+    return study;
+}
 
 // About normal, mean 0, deviation 1, from a voxel's number: the sum of four even numbers.
 inline double noiseAt(std::uint64_t n) {
@@ -46,5 +62,24 @@ inline GreyVolume scanned(const GreyVolume& truth, double sigma, double noise) {
     });
     return ct;
 }
+
+// A body with a straight tube of radius 12 mm up the z axis, fluid behind y = 0.058, a bone beside it, lungs
+// on top.
+struct TubeBody {
+    static constexpr double kSpacing = 0.001;
+    static double tube(glm::dvec3 p) {
+        const double ends = std::max(0.02 - p.z, p.z - 0.09);
+        return std::max(glm::length(glm::dvec2(p.x - 0.06, p.y - 0.055)) - 0.012, ends);
+    }
+    static bool bone(glm::dvec3 p) {
+        return glm::length(glm::dvec2(p.x - 0.06, p.y - 0.080)) < 0.010 && p.z > 0.005 && p.z < 0.11;
+    }
+    static int hu(glm::dvec3 p) {
+        const glm::dvec2 d((p.x - 0.06) / 0.055, (p.y - 0.055) / 0.05);
+        if (glm::dot(d, d) > 1) return -1000;
+        if (tube(p) < 0) return p.y > 0.058 ? 400 : -1000;
+        return bone(p) ? 700 : 40;
+    }
+};
 
 }  // namespace stereonav::test
