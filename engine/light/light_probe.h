@@ -19,6 +19,12 @@ public:
 
     // Piecewise constant: of the pixel the unit direction falls into.
     glm::vec3 radiance(const glm::vec3& direction) const;
+    // Radiance and density() at once, for the price of one.
+    struct Seen {
+        glm::vec3 radiance;
+        float density;
+    };
+    Seen seen(const glm::vec3& direction) const;
 
     struct Sample {
         glm::vec3 direction, radiance;
@@ -29,18 +35,33 @@ public:
     // The density with which sample() gives a direction; 0 for a black probe.
     float density(const glm::vec3& direction) const;
 
-    // Exact over the pixels: harmonicsCount(order) coefficients a channel.
+    // Throws Error for an order out of 1..kMaxHarmonicsOrder. Exact over the pixels: harmonicsCount(order)
+    // coefficients a channel.
     std::vector<glm::vec3> project(int order) const;
 
-    glm::vec3 mean() const;  // over the sphere
-    bool black() const;
+    glm::vec3 mean() const { return mMean; }  // over the sphere
+    bool black() const { return mBlack; }
     int width() const { return mWidth; }
     int height() const { return mHeight; }
 
 private:
+    struct Pixel {
+        int column, row;
+    };
+    std::size_t index(const Pixel& p) const { return static_cast<std::size_t>(p.row) * mWidth + p.column; }
+    Pixel pixelOf(const glm::vec3& direction) const;
+    glm::vec3 directionIn(const Pixel& pixel, const glm::dvec2& fraction) const;
+    double densityOf(const Pixel& pixel) const;
+    void fillRow(int row);
+
     int mWidth, mHeight;
     std::vector<glm::vec3> mRadiance;
-    std::vector<float> mRows, mColumns;  // running sums of the densities
+    std::vector<double> mEdges;  // cosine of the polar angle at the upper edge of row j; mHeight + 1
+    // Running sums of the chance of a row, and of a column within its row (mWidth + 1 a row): double, because
+    // a dim pixel's chance is the difference of two of them.
+    std::vector<double> mRows, mColumns;
+    glm::vec3 mMean{0.0f};
+    bool mBlack = false;
 };
 
 // .hdr, or any picture (taken as sRGB). Throws Error.
