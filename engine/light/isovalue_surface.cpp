@@ -1,0 +1,57 @@
+// See the header.
+#include "engine/light/isovalue_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/volume/plain_volume_caster.h"
+#include "engine/volume/surface_cells.h"
+
+namespace stereonav {
+namespace {
+
+// Largest difference of values within the 4x4x4 voxels whose gradient is taken.
+double rangeAround(const GreyVolume& volume, const glm::dvec3& voxel) {
+    const glm::ivec3 last = volume.frame.size - 1;
+    const glm::ivec3 corner(glm::floor(glm::clamp(voxel, glm::dvec3(0.0), glm::dvec3(last))));
+    const glm::ivec3 low = glm::max(corner - 1, glm::ivec3(0)), high = glm::min(corner + 2, last);
+    std::int16_t least = 32767, most = -32768;
+    for (int k = low.z; k <= high.z; ++k)
+        for (int j = low.y; j <= high.y; ++j)
+            for (int i = low.x; i <= high.x; ++i) {
+                least = std::min(least, volume.at(i, j, k));
+                most = std::max(most, volume.at(i, j, k));
+            }
+    return double(most) - double(least);
+}
+
+constexpr double kVanishing = 1e-6;  // rounding of the sum of 64 weighted voxels stays far below
+
+}  // namespace
+
+glm::dvec3 surfaceNormal(const GreyVolume& volume, const glm::dvec3& voxel) {
+    const double range = rangeAround(volume, voxel);
+    if (range == 0) return glm::dvec3(0.0);
+    const glm::dvec3 gradient = smoothGradient(volume, voxel);
+    const glm::dvec3 perVoxel = glm::transpose(volume.frame.axes) * gradient * volume.frame.spacing;
+    if (!(glm::length(perVoxel) > kVanishing * range)) return glm::dvec3(0.0);
+    return -glm::normalize(gradient);
+}
+
+glm::dvec3 liftedStart(const GreyVolume& volume, double isovalue, const glm::dvec3& voxel,
+                       const glm::dvec3& normal) {
+    const glm::dvec3 last(volume.frame.size - 1);
+    const glm::dvec3 way = volume.frame.voxelDirection(normal);
+    const double length = glm::length(way);
+    glm::dvec3 start = glm::clamp(voxel, glm::dvec3(0.0), last);
+    if (!(length > 0)) return start;
+    for (const double lift : kLifts) {
+        start = glm::clamp(voxel + way * (lift / length), glm::dvec3(0.0), last);
+        if (plainValue(volume, start) < isovalue) break;
+    }
+    return start;
+}
+
+}  // namespace stereonav

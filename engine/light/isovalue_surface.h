@@ -1,0 +1,37 @@
+// The isosurface through any point of a volume, for any isovalue: where it is traced, its smoothed normals
+// (Y3) and where rays start from it. Double precision; the kernels do the same in vectors.
+//
+// Solid is where the trilinear value is at or above the isovalue; light comes from the side of smaller
+// values.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+
+#include "engine/volume/volume.h"
+
+namespace stereonav {
+
+// The isovalue that is traced for a stored value: the value itself but for the volume's least, at which all
+// would be solid. There it is a little more, so that the surface lies where the values begin to rise.
+constexpr float kAboveLeast = 1.0f / 16;  // stored numbers, which are whole
+inline double tracedIsovalue(double value, double leastOfVolume) {
+    const double least = leastOfVolume + kAboveLeast;
+    return value < least ? least : value;
+}
+
+// Unit, world, towards smaller values; 0 where the smoothed gradient vanishes: it is less than a millionth
+// of what the values within 4x4x4 voxels could give, or these do not differ.
+glm::dvec3 surfaceNormal(const GreyVolume& volume, const glm::dvec3& voxel);
+
+// Voxels along the normal by which rays start above the surface (Y3: the trilinear surface is bumpier than
+// its smoothed normals say): the first of these at which the value is below the isovalue, else the last. A
+// start that still is at or above it lies in what is solid, and every ray from there ends there at once: such
+// places get no light directly, and paths that reach them bounce on the spot.
+constexpr std::array<double, 3> kLifts{0.25, 0.5, 1.0};
+
+// Start of rays from a point of voxel space with a unit world normal, kept within the volume's box.
+glm::dvec3 liftedStart(const GreyVolume& volume, double isovalue, const glm::dvec3& voxel,
+                       const glm::dvec3& normal);
+
+}  // namespace stereonav
