@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "app/commands.h"
+#include "colon/transfer_presets.h"
 #include "engine/base/error.h"
 
 namespace stereonav {
@@ -49,7 +50,7 @@ double shareFromText(const std::string& text) {
 
 void addVolume(CLI::App& command, VolumeOptions& options) {
     constexpr const char* kGroup = "Options of CT studies";
-    const auto add = [&](const char* name, auto& value, const char* help) {
+    const auto add = [&](const char* name, auto& value, const std::string& help) {
         return command.add_option(name, value, help)->group(kGroup);
     };
     const auto flag = [&](const char* name, bool& value, const char* help) {
@@ -64,7 +65,8 @@ void addVolume(CLI::App& command, VolumeOptions& options) {
     flag("--resample", options.resample, "mend missing, uneven or tilted slices");
     flag("--isosurface", options.isosurface, "show the volume from outside, without looking for a colon");
     add("--isovalue", options.isovalue, "the value of that surface");
-    add("--transfer", options.transfer, "a file of colours and opacities by value: translucent");
+    add("--transfer", options.transfer,
+        "colours and opacities by value: translucent; a file, or one of " + transferPresetNames());
     add("--opacity", options.opacity, "a translucent wall that takes this share of light a millimetre, 0..1");
     flag("--backwards", options.backwards, "fly from the caecum to the rectum");
     command.add_flag("!--no-cache", options.cache, "neither read nor keep what was computed")->group(kGroup);

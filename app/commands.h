@@ -17,7 +17,7 @@ struct VolumeOptions {
     bool resample = false;           // mend uneven or tilted slices
     bool isosurface = false;         // seen from outside, without looking for a colon
     std::optional<double> isovalue;
-    std::string transfer;           // a transfer function's file; "": none
+    std::string transfer;           // a transfer function's file or name; "": none
     std::optional<double> opacity;  // of a translucent wall a millimetre, in (0, 1]
     bool backwards = false;         // from the caecum
     bool cache = true;

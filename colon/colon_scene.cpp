@@ -14,6 +14,7 @@
 #include "colon/colon_flight.h"
 #include "colon/isosurface_scene.h"
 #include "colon/saved_lumen.h"
+#include "colon/transfer_presets.h"
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 
@@ -75,7 +76,7 @@ FoundColon findColon(const Study& study, const ColonOptions& options, Progress& 
 }
 
 TransferFunction wallTransfer(const ColonOptions& options, double wall, const glm::vec3& color) {
-    if (!options.transfer.empty()) return readTransferFunction(options.transfer);
+    if (!options.transfer.empty()) return findTransferFunction(options.transfer);
     if (!options.opacity) return {};
     return TransferFunction({{wall - kFlesh, color, 0.0}, {wall + kSolid, color, *options.opacity}}, 0.001,
                             "--opacity");

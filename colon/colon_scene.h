@@ -27,7 +27,7 @@ struct ColonOptions {
     CentrelineSetting centreline;
     bool isosurface = false;         // show any volume from outside, without looking for a colon
     std::optional<double> isovalue;  // of that surface; not given: chosen from the values
-    std::filesystem::path transfer;  // a transfer function: translucent
+    std::filesystem::path transfer;  // a transfer function, by file or name: translucent
     std::optional<double> opacity;   // translucent wall of this opacity a millimetre, in (0, 1]
     double clearance = 0;            // metres; 0: chosen
     bool cache = true;

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 
+#include "colon/transfer_presets.h"
 #include "engine/base/error.h"
 
 namespace stereonav {
@@ -182,7 +183,7 @@ ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progres
     look.ambient = 0.12f;
     look.diffuse = 0.88f;
     look.background = {0.012f, 0.014f, 0.018f};
-    if (!options.transfer.empty()) look.transfer = readTransferFunction(options.transfer);
+    if (!options.transfer.empty()) look.transfer = findTransferFunction(options.transfer);
     if (options.opacity)
         look.transfer = TransferFunction(
             {{isovalue - 1, look.surface, 0.0}, {isovalue + 1, look.surface, *options.opacity}}, 0.001,

@@ -168,16 +168,18 @@ TransferFunction::Range TransferFunction::visibleRange() const {
             last == mPoints.rbegin() ? kInfinity : (last - 1)->value};
 }
 
-TransferFunction readTransferFunction(const std::filesystem::path& file) {
-    const std::string text = readTextFile(file);
-    Parser parser(file.string());
-    std::string_view rest = text;
-    while (!rest.empty()) {
-        const std::size_t end = rest.find('\n');
-        parser.line(rest.substr(0, end));
-        rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+TransferFunction parseTransferFunction(std::string_view text, const std::string& source) {
+    Parser parser(source);
+    while (!text.empty()) {
+        const std::size_t end = text.find('\n');
+        parser.line(text.substr(0, end));
+        text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
     }
     return parser.finish();
+}
+
+TransferFunction readTransferFunction(const std::filesystem::path& file) {
+    return parseTransferFunction(readTextFile(file), file.string());
 }
 
 void writeTransferFunction(const std::filesystem::path& file, const TransferFunction& function) {

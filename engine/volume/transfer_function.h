@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stereonav {
@@ -45,6 +46,7 @@ private:
 
 // Text: "reference_mm L" and one line "value red green blue opacity" a point (sRGB and opacity 0..1), # for
 // comments. Throws Error with file and line.
+TransferFunction parseTransferFunction(std::string_view text, const std::string& source);
 TransferFunction readTransferFunction(const std::filesystem::path& file);
 void writeTransferFunction(const std::filesystem::path& file, const TransferFunction& function);
 

@@ -86,7 +86,8 @@ TEST_F(VolumeBadInput, SeedsThatHitNothing) {
 
 TEST_F(VolumeBadInput, TransferFunctionsThatCanNotBe) {
     const std::string mask = maskedTube();
-    expectSceneRefused(mask, {"nowhere.txt"}, {"--transfer", "nowhere.txt"});
+    expectSceneRefused(mask, {"nowhere.txt", "wall_95"}, {"--transfer", "nowhere.txt"});
+    expectSceneRefused(ball(), {"nowhere.txt", "wall_95"}, {"--isosurface", "--transfer", "nowhere.txt"});
     const std::string unsorted = input("unsorted.txt", "reference_mm 1\n100 1 1 1 0.5\n-100 1 1 1 0.5\n");
     expectSceneRefused(mask, {"unsorted.txt", "3"}, {"--transfer", unsorted});
     const std::string nan = input("nan.txt", "reference_mm 1\n-100 1 1 1 0.5\nnan 1 1 1 0.5\n");

@@ -67,7 +67,7 @@ TEST_F(VolumeCommands, InfoOfAVolumeSeenFromOutside) {
 TEST_F(VolumeCommands, EveryCommandTakesAStudy) {
     for (const std::vector<std::string>& scene : {std::vector<std::string>{maskedTube()},
                                                   {ball(), "--isosurface"},
-                                                  {maskedTube(), "--opacity", "0.9"}}) {
+                                                  {maskedTube(), "--transfer", "wall_95"}}) {
         SCOPED_TRACE(scene.back());
         const auto with = [&](std::vector<std::string> arguments) {
             arguments.insert(arguments.end(), scene.begin(), scene.end());

@@ -1,0 +1,24 @@
+// Transfer functions by name: the files of data/transfer, which are part of the program.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/volume/transfer_function.h"
+
+namespace stereonav {
+
+struct TransferPreset {
+    std::string_view name;  // of the file, without .txt
+    std::string_view text;
+};
+// By name (a generated source, see cmake/transfer.cmake).
+std::span<const TransferPreset> transferPresets();
+std::string transferPresetNames();  // "a, b, c"
+
+// From a file; where there is none of that name, by the name of a preset. Throws Error that lists the names.
+TransferFunction findTransferFunction(const std::filesystem::path& fileOrName);
+
+}  // namespace stereonav
