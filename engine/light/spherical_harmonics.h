@@ -20,18 +20,26 @@ constexpr int harmonicsCount(int order) {
 void evaluateHarmonics(const glm::dvec3& direction, int order, double* values);
 void evaluateHarmonics(const glm::vec3& direction, int order, float* values);
 
+// The rotation nearest to a matrix (its polar factor), to which it should be close. A turn that is dragged on
+// from frame to frame is a product of ever more rounded matrices; band l of a harmonics rotation is of degree
+// l in them, so what they lose in orthogonality it loses l-fold. Throws Error for a matrix that is no
+// rotation at all: not finite, flattened or mirrored.
+glm::dmat3 nearestRotation(const glm::dmat3& almost);
+
 // Turns coefficients so that the function they stand for is rotated: (R f)(w) = f(R^-1 w). Matrices band by
 // band by the recursion of Ivanic and Ruedenberg (1996, with the corrections of 1998).
 class HarmonicsRotation {
 public:
-    // rotation: proper and orthogonal.
+    // rotation: proper and orthogonal; the nearest one is taken. Throws Error where that is none, and for an
+    // order out of 1..kMaxHarmonicsOrder.
     HarmonicsRotation(const glm::dmat3& rotation, int order);
     int order() const { return mOrder; }
     // from and to: harmonicsCount(order) values; not the same memory.
     void apply(const double* from, double* to) const;
     void apply(const glm::vec3* from, glm::vec3* to) const;
     // Of band l: (2l + 1)^2 values, rows first.
-    std::span<const double> band(int l) const;
+    std::span<const double> band(int l) const&;
+    std::span<const double> band(int l) && = delete;  // would outlive its values
 
 private:
     int mOrder;
