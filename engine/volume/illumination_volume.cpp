@@ -8,40 +8,22 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/math/half.h"
 
 namespace stereonav {
 namespace {
 
-constexpr float kLargestHalf = 65504.0f;
 // Kernels count texels with signed 32-bit numbers, and read a few beyond the last.
 constexpr double kMostTexels = 2147483648.0 - 512.0;
 
 // Stored numbers: far below the steps of the data, far above the rounding of places in it.
 constexpr double kEqualValues = 1e-4;
-
-// Round to nearest, ties to even, of 0 <= v <= 65504; without branches, so that loops over it vectorise.
-std::uint32_t halfFromFloat(float v) {
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(v);
-    const std::uint32_t normal = (bits + 0xfffu + (bits >> 13 & 1u) - (112u << 23)) >> 13;
-    // Below 2^-14 halves are multiples of 2^-24, as floats from 0.5 on are: the addition rounds.
-    const std::uint32_t tiny = std::bit_cast<std::uint32_t>(v + 0.5f) - 0x3f000000u;
-    return v < 0x1p-14f ? tiny : normal;
-}
-
-// The sign is left out. What would be infinite or NaN becomes 65536 and more: finite, and never written here.
-float floatFromHalf(std::uint32_t half) {
-    const std::uint32_t bits = half & 0x7fffu;
-    const float tiny = static_cast<float>(static_cast<std::int32_t>(bits)) * 0x1p-24f;
-    const float normal = std::bit_cast<float>((bits << 13) + (112u << 23));
-    return bits < 0x400u ? tiny : normal;
-}
 
 // 0 for NaN, infinities and what is negative.
 float usable(float v, float most) {
@@ -131,14 +113,12 @@ PackedTexel packTexel(const glm::vec3& light, float weight) {
 }
 
 glm::vec3 texelLight(PackedTexel texel) {
-    const auto channel = [&](int shift) {
-        return floatFromHalf(static_cast<std::uint32_t>(texel >> shift) & 0xffffu);
-    };
+    const auto channel = [&](int shift) { return floatFromHalf(static_cast<std::uint16_t>(texel >> shift)); };
     return {channel(0), channel(16), channel(32)};
 }
 
 float texelWeight(PackedTexel texel) {
-    return floatFromHalf(static_cast<std::uint32_t>(texel >> 48));
+    return floatFromHalf(static_cast<std::uint16_t>(texel >> 48));
 }
 
 std::size_t IlluminationVolume::bytesHeld() const {

@@ -1,0 +1,27 @@
+// What the relighting kernels are given: plain numbers only, since they are compiled for several
+// instruction sets.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace stereonav {
+
+// Texels come in groups of so many: the most lanes that a kernel has.
+constexpr int kTransferGroup = 16;
+
+// Transfer of groups of texels: a group is channels * pairs rows of kTransferGroup words, one word a texel,
+// with the halves of coefficients 2 p (low) and 2 p + 1 of a channel.
+struct TransferGroups {
+    const std::uint32_t* words = nullptr;
+    int groups = 0, pairs = 0;
+    int channels = 1;              // 1 or 3
+    const float* light = nullptr;  // 2 * pairs times 3: red, green, blue of a coefficient
+};
+
+struct TransferKernels {
+    // The dot products as packed texels in two halves: red | green << 16, and blue | weight 1 << 16.
+    void (*relight)(const TransferGroups& from, std::uint32_t* redGreen, std::uint32_t* blueWeight);
+};
+
+}  // namespace stereonav
