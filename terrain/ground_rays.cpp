@@ -220,21 +220,28 @@ void GroundRays::intersect(RayPacket& rays, std::uint32_t active) const {
 }
 
 // The direction as a sum of the two mesh edges beside it; the edges at a sample lead east, north, north-west,
-// west, south and south-east.
+// west, south and south-east. A direction along the grid lies in two cells.
 double GroundRays::slopeBeside(int i, int j, const glm::dvec2& direction) const {
     const glm::dvec2 g = direction / mGround.spacing();
-    const double centre = mGround.sample(i, j);
-    const auto rise = [&](int cellI, int cellJ, int ai, int aj, double a, int bi, int bj, double b) {
-        if (!cellKnown(mGround, cellI, cellJ)) return -std::numeric_limits<double>::infinity();
-        return a * (mGround.sample(i + ai, j + aj) - centre) + b * (mGround.sample(i + bi, j + bj) - centre);
+    double slope = -std::numeric_limits<double>::infinity();
+    for (const bool west : {false, true})
+        for (const bool south : {false, true})
+            if ((west ? g.x <= 0 : g.x >= 0) && (south ? g.y <= 0 : g.y >= 0))
+                slope = std::max(slope, slopeInCell(i, j, g, west, south));
+    return slope;
+}
+
+double GroundRays::slopeInCell(int i, int j, const glm::dvec2& g, bool west, bool south) const {
+    if (!cellKnown(mGround, i - west, j - south)) return -std::numeric_limits<double>::infinity();
+    const auto edge = [&](int di, int dj) {
+        return static_cast<double>(mGround.sample(i + di, j + dj)) - mGround.sample(i, j);
     };
-    if (g.x >= 0 && g.y >= 0) return rise(i, j, 1, 0, g.x, 0, 1, g.y);
-    if (g.x <= 0 && g.y <= 0) return rise(i - 1, j - 1, -1, 0, -g.x, 0, -1, -g.y);
-    if (g.x < 0)
-        return g.y >= -g.x ? rise(i - 1, j, 0, 1, g.y + g.x, -1, 1, -g.x)
-                           : rise(i - 1, j, -1, 1, g.y, -1, 0, -g.x - g.y);
-    return -g.y >= g.x ? rise(i, j - 1, 0, -1, -g.y - g.x, 1, -1, g.x)
-                       : rise(i, j - 1, 1, -1, -g.y, 1, 0, g.x + g.y);
+    const double x = std::abs(g.x), y = std::abs(g.y);
+    if (west == south) return x * edge(west ? -1 : 1, 0) + y * edge(0, south ? -1 : 1);
+    // The cell's diagonal starts here.
+    const double diagonal = edge(west ? -1 : 1, south ? -1 : 1);
+    if (y >= x) return x * diagonal + (y - x) * edge(0, south ? -1 : 1);
+    return y * diagonal + (x - y) * edge(west ? -1 : 1, 0);
 }
 
 }  // namespace stereonav

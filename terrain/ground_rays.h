@@ -39,6 +39,9 @@ public:
     double slopeBeside(int i, int j, const glm::dvec2& direction) const;
 
 private:
+    // grid: direction in grid units, within the cell to the sample's west or east, south or north.
+    double slopeInCell(int i, int j, const glm::dvec2& grid, bool west, bool south) const;
+
     struct State;
     const Heightfield& mGround;
     double mCentreHeight, mLift;

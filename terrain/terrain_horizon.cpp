@@ -40,7 +40,8 @@ int levelBelow(double slope) {
 
 glm::dvec2 azimuthDirection(double a, int azimuths) {
     const double angle = a * 2 * std::numbers::pi / azimuths;
-    return {std::cos(angle), std::sin(angle)};
+    const auto exact = [](double x) { return std::abs(x) < 1e-12 ? 0.0 : x; };  // along the grid
+    return {exact(std::cos(angle)), exact(std::sin(angle))};
 }
 
 glm::dvec3 sampleNormal(const Heightfield& ground, int i, int j) {
