@@ -45,7 +45,7 @@ void checkSettings(const TerrainLightSettings& s) {
 void checkMemory(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {
     const double each = s.kind == TerrainLightKind::Openness
                             ? 1.0 + s.azimuths
-                            : 1.0 + s.azimuths + 4 * sizeof(std::int16_t) * harmonicsCount(s.order);
+                            : 1.0 + s.azimuths + 4 * sizeof(std::int16_t) * lightHarmonics(s.order);
     const double needed = each * static_cast<double>(grid.count()) + 40.0 * ground.width() * ground.height();
     const double there =
         static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
@@ -171,7 +171,7 @@ private:
     const TerrainLightSettings mSettings;
     Progress& mProgress;
     const LightGrid mGrid;
-    const int mCount = harmonicsCount(mSettings.order);
+    const int mCount = lightHarmonics(mSettings.order);
     const std::vector<float> mUnit = units();
     TerrainLight mLight;
     TransferField mDirect, mTotal;
@@ -193,9 +193,15 @@ LightGrid::Place LightGrid::place(double grid, int samples, int count) const {
     return {index, static_cast<float>(std::clamp((g - from) / (to - from), 0.0, 1.0))};
 }
 
-double transferUnit(int coefficient) {
+int lightHarmonic(int n) {
     int l = 0;
-    while ((l + 1) * (l + 1) <= coefficient) ++l;
+    while (lightHarmonics(l + 1) <= n) ++l;
+    return l * l + 2 * (n - lightHarmonics(l));  // m = -l, -l + 2, ..., l
+}
+
+double transferUnit(int n) {
+    int l = 0;
+    while (lightHarmonics(l + 1) <= n) ++l;
     return std::sqrt((2 * l + 1) / (4 * std::numbers::pi)) / 32767;
 }
 

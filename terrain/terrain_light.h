@@ -7,7 +7,9 @@
 // taken hard or half set, as low harmonics could not; and (2) two transfer vectors in real harmonics:
 // `full`, which lights the sample by a distant sky and the bounces of that light, and `bounced`, its second
 // part alone, which evaluated towards the sun is the sun's light after bounces. Light comes from above the
-// horizontal only; beyond the terrain's edges there is nothing, neither ground nor light.
+// horizontal only; beyond the terrain's edges there is nothing, neither ground nor light. So what lies below
+// may be anything, and is taken as the mirror image of what lies above: then only harmonics that are even in
+// z count (three fifths of them), and no edge at the horizontal rings.
 // Differs from Wyman et al. 2006 (section 4.1), whose transfer carries direct and bounced light in one.
 #pragma once
 
@@ -28,7 +30,7 @@ enum class TerrainLightKind : std::uint32_t {
 
 struct TerrainLightSettings {
     TerrainLightKind kind = TerrainLightKind::Transfer;
-    int order = 4;        // of the harmonics, 1..6; order 4 leaves ... see docs
+    int order = 4;        // of the harmonics, 1..6
     int bounces = 2;      // 0..4
     int rays = 64;        // a sample and bounce, towards the ground it sees; a multiple of 16
     int azimuths = 32;    // horizons a sample, 8..64, a multiple of 4
@@ -73,7 +75,8 @@ struct TerrainLight {
     // The rest is empty for Openness. Planes of grid.count() values, one after the other.
     // Sine of the horizon's elevation in 1/255, plane a at azimuth a * 2 pi / azimuths from +x towards +y.
     std::vector<std::uint8_t> horizon;
-    // Irradiance / pi for light of each harmonic, in steps of transferUnit(k): order^2 planes each.
+    // Irradiance / pi for light of each even harmonic, in steps of transferUnit(n): lightHarmonics(order)
+    // planes each.
     std::vector<std::int16_t> full, bounced;
 
     std::size_t byteCount() const {
@@ -81,9 +84,16 @@ struct TerrainLight {
     }
 };
 
-// Of coefficient k of band l: sqrt((2 l + 1) / (4 pi)) / 32767. No transfer is larger than the first, since
-// no harmonic is (addition theorem) and all transfers of a sample together take in light once at most.
-double transferUnit(int coefficient);
+// Harmonics of an order that are even in z (l + m is even), and which coefficient (of
+// spherical_harmonics.h) the n-th of them is.
+constexpr int lightHarmonics(int order) {
+    return order * (order + 1) / 2;
+}
+int lightHarmonic(int n);
+
+// Of the n-th, in band l: sqrt((2 l + 1) / (4 pi)) / 32767. No transfer is larger than the first factor,
+// since no harmonic is (addition theorem) and all transfers of a sample together take in light once at most.
+double transferUnit(int n);
 
 // Of heights, spacing and all settings.
 std::uint64_t terrainLightKey(const Heightfield& ground, const TerrainLightSettings& settings);

@@ -75,7 +75,7 @@ Sizes sizesOf(const Header& h) {
     sizes.samples = static_cast<std::size_t>(h.width) * h.height;
     if (h.kind == static_cast<std::uint32_t>(TerrainLightKind::Openness)) return sizes;
     sizes.horizon = sizes.samples * h.azimuths;
-    sizes.transfer = sizes.samples * h.order * h.order;
+    sizes.transfer = sizes.samples * lightHarmonics(static_cast<int>(h.order));
     return sizes;
 }
 

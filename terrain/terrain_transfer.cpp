@@ -31,14 +31,15 @@ Band bandOf(int k) {
     return {l, k - l * (l + 1)};
 }
 
-// Coefficients without their azimuth's factor at sine z.
+// The even coefficients without their azimuth's factor at sine z.
 void polarParts(double z, int order, double* values) {
     double all[kMaxHarmonics];
     const double level = std::sqrt(std::max(0.0, 1 - z * z));
     for (int m = 1 - order; m < order; ++m) {
         const double phi = azimuthOfFullValue(m);
         evaluateHarmonics(glm::dvec3(level * std::cos(phi), level * std::sin(phi), z), order, all);
-        for (int l = std::abs(m); l < order; ++l) values[l * (l + 1) + m] = all[l * (l + 1) + m];
+        for (int n = 0; n < lightHarmonics(order); ++n)
+            if (bandOf(lightHarmonic(n)).m == m) values[n] = all[lightHarmonic(n)];
     }
 }
 
@@ -146,7 +147,7 @@ void SkyWedges::set(const glm::dvec3& normal, const std::uint8_t* horizon, std::
     mOpenness = std::min(mOpenness, 1.0);
 }
 
-SkyTransfer::SkyTransfer(int order, int azimuths) : mCount(harmonicsCount(order)) {
+SkyTransfer::SkyTransfer(int order, int azimuths) : mCount(lightHarmonics(order)) {
     const int steps = azimuths * SkyWedges::kSteps;
     mIntegrals.assign(static_cast<std::size_t>(kEntries + 1) * mCount * 2, 0.0f);
     // Gauss-Legendre of 3 points in each interval, summed from the zenith down.
@@ -167,7 +168,7 @@ SkyTransfer::SkyTransfer(int order, int azimuths) : mCount(harmonicsCount(order)
     }
     for (int a = 0; a < steps; ++a)
         for (int k = 0; k < mCount; ++k) {
-            const int m = bandOf(k).m;
+            const int m = bandOf(lightHarmonic(k)).m;
             const double phi = a * 2 * kPi / steps;
             mAzimuth.push_back(
                 static_cast<float>(2.0 / steps * (m < 0 ? std::sin(-m * phi) : std::cos(m * phi))));

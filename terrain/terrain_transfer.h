@@ -39,7 +39,7 @@ private:
     double mOpenness = 1;
 };
 
-// Integrals of the harmonics from an elevation up to the zenith, by table.
+// Integrals of the even harmonics (terrain_light.h) from an elevation up to the zenith, by table.
 class SkyTransfer {
 public:
     SkyTransfer(int order, int azimuths);
@@ -63,7 +63,7 @@ struct GatherSetting {
     int rays = 64;
     double albedo = 0.3;
     std::uint64_t seed = 1;
-    int count = 16;  // coefficients
+    int count = 10;  // coefficients
 };
 
 // What the ground around sample (i, j) sends it when it sends out `field`: count values added to nothing.

@@ -59,13 +59,18 @@ TEST(TerrainLight, LevelGroundSeesTheWholeSky) {
     // The clamped cosine over pi in zonal harmonics (Ramamoorthi and Hanrahan 2001, eq. 8), over the upper
     // half of the sphere, where it is all of it.
     const double zonal[6] = {1.0, 2.0 / 3, 0.25, 0, -1.0 / 24, 0};
-    for (int l = 0; l < 6; ++l)
-        for (int m = -l; m <= l; ++m) {
-            const double expected = m == 0 ? zonal[l] * std::sqrt((2 * l + 1) / (4 * kPi)) : 0.0;
-            for (int j = 0; j < 17; j += 4)
-                for (int i = 0; i < 21; i += 5)
-                    EXPECT_NEAR(full(light, i, j, l * (l + 1) + m), expected, 4e-5) << l << " " << m;
-        }
+    ASSERT_EQ(light.full.size(), 21u * light.grid.count());
+    int l = 0;
+    for (int n = 0; n < 21; ++n) {
+        if (n == lightHarmonics(l + 1)) ++l;
+        const int m = lightHarmonic(n) - l * (l + 1);
+        ASSERT_LE(std::abs(m), l);
+        EXPECT_EQ((l + m) % 2, 0);
+        const double expected = m == 0 ? zonal[l] * std::sqrt((2 * l + 1) / (4 * kPi)) : 0.0;
+        for (int j = 0; j < 17; j += 4)
+            for (int i = 0; i < 21; i += 5)
+                EXPECT_NEAR(full(light, i, j, n), expected, 4e-5) << l << " " << m;
+    }
 }
 
 TEST(TerrainLight, ATiltedPlaneLosesWhatLiesBelowTheHorizontal) {
