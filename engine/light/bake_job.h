@@ -1,0 +1,46 @@
+// Adds samples to all texels of a bake, in passes that double, until there are enough of them, the error is
+// small enough, the time is up, or someone cancels: what is done is kept in the sums.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "engine/base/progress.h"
+#include "engine/light/bake_sums.h"
+
+namespace stereonav {
+
+// Where samples come from; as the functions of TexelLighter with the same names.
+struct BakeSource {
+    std::function<void(std::span<const glm::ivec3> texels, int count, std::span<TexelSum> sums)>
+        addIrradiance;
+    std::function<void(std::span<const glm::ivec3> texels, int firstSample, int count, int order,
+                       int channels, std::span<float> sums, std::span<std::uint8_t> alive)>
+        addTransfer;
+};
+BakeSource sourceOf(const TexelLighter& lighter);  // which must outlive it
+
+// The first that is reached ends the bake; 0: no such limit.
+struct BakeGoal {
+    int samples = 0;     // of each texel
+    double error = 0;    // estimated relative RMSE
+    double minutes = 0;  // of this run
+};
+
+struct BakeKeeping {
+    std::function<void(const BakeSums&)> keep;  // may be empty; called by one thread while nothing is added
+    double everySeconds = 120;
+};
+
+enum class BakeEnd { Reached, TimeUp, Cancelled };
+
+// Runs on all threads. Sums that already have samples go on from there: the same bytes come out as without
+// the break and for any thread count, where the numbers of samples are multiples of 16. Never throws
+// Cancelled: cancelling is an end like others.
+BakeEnd runBake(BakeSums& sums, const BakeSource& source, const BakeGoal& goal, Progress& progress,
+                const BakeKeeping& keeping = {});
+
+// The end of the batch that sample `first` begins: fixed, so that sums do not depend on breaks.
+std::uint32_t batchEnd(std::uint32_t first);
+
+}  // namespace stereonav
