@@ -1,0 +1,294 @@
+// Cuts the volume into bands of rows, so that what lies between the two steps of the filters stays small and
+// is used again by the next band; deals slices and rows to threads.
+#include "engine/light/occlusion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "engine/light/occlusion_kernel_types.h"
+
+namespace stereonav {
+
+namespace plain {
+void filterOcclusionSlice(const OcclusionBand& band, int k, const OcclusionScratch& scratch);
+void finishOcclusionRow(const OcclusionBand& band, int j, const OcclusionScratch& scratch);
+}  // namespace plain
+namespace avx2 {
+void filterOcclusionSlice(const OcclusionBand& band, int k, const OcclusionScratch& scratch);
+void finishOcclusionRow(const OcclusionBand& band, int j, const OcclusionScratch& scratch);
+}  // namespace avx2
+namespace avx512 {
+void filterOcclusionSlice(const OcclusionBand& band, int k, const OcclusionScratch& scratch);
+void finishOcclusionRow(const OcclusionBand& band, int j, const OcclusionScratch& scratch);
+}  // namespace avx512
+
+namespace {
+
+OcclusionKernels kernelsFor(SimdTarget target) {
+    switch (availableTarget(target)) {
+        case SimdTarget::Avx512:
+            return {avx512::filterOcclusionSlice, avx512::finishOcclusionRow};
+        case SimdTarget::Avx2:
+            return {avx2::filterOcclusionSlice, avx2::finishOcclusionRow};
+        default:
+            return {plain::filterOcclusionSlice, plain::finishOcclusionRow};
+    }
+}
+
+// Cuts pieces off a block of memory; without a block it only counts.
+class Carver {
+public:
+    explicit Carver(std::byte* block) : mBlock(block) {}
+    template <typename T>
+    void take(T*& piece, std::size_t count) {
+        if (mBlock) piece = reinterpret_cast<T*>(mBlock + mUsed);
+        mUsed += (count * sizeof(T) + kAlign - 1) / kAlign * kAlign;
+    }
+    std::size_t used() const { return mUsed; }
+
+private:
+    static constexpr std::size_t kAlign = 64;
+    std::byte* mBlock;
+    std::size_t mUsed = 0;
+};
+
+std::size_t carve(OcclusionScratch& s, std::byte* block, int stride, int window) {
+    const auto n = static_cast<std::size_t>(stride);
+    const std::size_t row = n + 2 * kMostOcclusionRadius + kOcclusionChunk;
+    Carver carver(block);
+    for (std::int16_t** p : {&s.suffixLows, &s.suffixHighs})
+        carver.take(*p, n * static_cast<std::size_t>(window));
+    for (std::int16_t** p : {&s.lows, &s.highs}) carver.take(*p, row);
+    for (std::int16_t** p : {&s.runLows, &s.runHighs}) carver.take(*p, n);
+    for (std::int32_t** p : {&s.sums, &s.value, &s.low, &s.high, &s.out}) carver.take(*p, n);
+    carver.take(s.prefix, row);
+    carver.take(s.squares, n);
+    carver.take(s.squaresPrefix, row);
+    for (double** p : {&s.total, &s.totalSquares}) carver.take(*p, n);
+    return carver.used();
+}
+
+// Working memory for as many threads as ask at a time.
+class ScratchPool {
+public:
+    ScratchPool(int stride, int window) : mStride(stride), mWindow(window) {}
+
+    template <typename Body>
+    void with(const Body& body) {
+        const std::unique_ptr<Piece> piece = get();
+        body(piece->scratch);
+        const std::lock_guard lock(mMutex);
+        mFree.push_back(std::make_unique<Piece>(std::move(*piece)));
+    }
+
+private:
+    struct Piece {
+        LazyArray<std::byte> memory;
+        OcclusionScratch scratch{};
+    };
+    std::unique_ptr<Piece> get() {
+        const std::lock_guard lock(mMutex);
+        if (mFree.empty()) {
+            auto piece = std::make_unique<Piece>();
+            piece->memory = LazyArray<std::byte>(carve(piece->scratch, nullptr, mStride, mWindow));
+            carve(piece->scratch, piece->memory.data(), mStride, mWindow);
+            return piece;
+        }
+        std::unique_ptr<Piece> piece = std::move(mFree.back());
+        mFree.pop_back();
+        return piece;
+    }
+    int mStride, mWindow;
+    std::mutex mMutex;
+    std::vector<std::unique_ptr<Piece>> mFree;
+};
+
+// Boxes of a band: measured best between 32 and 128 MB.
+constexpr std::size_t kBandBytes = std::size_t{96} << 20;
+
+class BoxFilter {
+public:
+    BoxFilter(const GreyVolume& volume, BoxResult result, const glm::ivec3& radius, double perVariance,
+              SimdTarget target)
+        : mKernels(kernelsFor(target)), mTo(volume.frame) {
+        const glm::ivec3 size = volume.frame.size;
+        mBand.values = volume.values.data();
+        mBand.to = mTo.values.data();
+        for (int axis = 0; axis < 3; ++axis) {
+            mBand.size[axis] = size[axis];
+            mBand.radius[axis] = std::min(radius[axis], size[axis] - 1);
+        }
+        mBand.result = result;
+        mBand.turned = volume.scale < 0;
+        mBand.perVariance = static_cast<float>(perVariance);
+        mBand.stride = (size.x + kOcclusionChunk - 1) / kOcclusionChunk * kOcclusionChunk;
+        countColumns();
+        takeMemory();
+    }
+
+    Volume<std::uint8_t> run(Progress& progress) {
+        const int height = mBand.size[1];
+        const int window = 2 * std::max(mBand.radius[1], mBand.radius[2]) + 1;
+        ScratchPool pool(mBand.stride, window);
+        for (int first = 0; first < height; first += mRows) {
+            progress.report(static_cast<double>(first) / height, "occlusion");
+            mBand.first = first;
+            mBand.end = std::min(first + mRows, height);
+            parallelFor(mBand.size[2], [&](int k) {
+                pool.with([&](const OcclusionScratch& s) { mKernels.filterSlice(mBand, k, s); });
+            });
+            parallelFor(mBand.end - mBand.first, [&](int n) {
+                pool.with([&](const OcclusionScratch& s) { mKernels.finishRow(mBand, mBand.first + n, s); });
+            });
+        }
+        progress.report(1, "occlusion");
+        return std::move(mTo);
+    }
+
+private:
+    void countColumns() {
+        mCounts.assign(static_cast<std::size_t>(mBand.stride), 1.0);
+        const int n = mBand.size[0], radius = mBand.radius[0];
+        for (int i = 0; i < n; ++i)
+            mCounts[static_cast<std::size_t>(i)] = std::min(i + radius, n - 1) - std::max(i - radius, 0) + 1;
+        mBand.columnCounts = mCounts.data();
+    }
+
+    // Bands overlap by two radii in what they read, so they are at least as high as that.
+    void takeMemory() {
+        const std::size_t voxels = static_cast<std::size_t>(mBand.stride) * mBand.size[2];
+        const std::size_t bytes = voxels * (mBand.extrema() ? 8 : 12);
+        const int fit = static_cast<int>(std::min<std::size_t>(kBandBytes / bytes, mBand.size[1]));
+        const int most = std::min(std::max({fit, 2 * mBand.radius[1], 1}), mBand.size[1]);
+        const int bands = (mBand.size[1] + most - 1) / most;
+        mRows = (mBand.size[1] + bands - 1) / bands;
+        const std::size_t count = voxels * static_cast<std::size_t>(mRows);
+        take(mSums, mBand.sums, count);
+        if (mBand.extrema()) {
+            take(mLows, mBand.lows, count);
+            take(mHighs, mBand.highs, count);
+        } else {
+            take(mSquares, mBand.squares, count);
+        }
+    }
+    template <typename T>
+    static void take(LazyArray<T>& memory, T*& pointer, std::size_t count) {
+        memory = LazyArray<T>(count);
+        memory.preferLargePages();
+        pointer = memory.data();
+    }
+
+    OcclusionKernels mKernels;
+    Volume<std::uint8_t> mTo;
+    OcclusionBand mBand;
+    int mRows = 1;
+    std::vector<double> mCounts;
+    LazyArray<std::int32_t> mSums;
+    LazyArray<std::int16_t> mLows, mHighs;
+    LazyArray<double> mSquares;
+};
+
+void checkInput(const GreyVolume& volume, const glm::ivec3& radius) {
+    const glm::ivec3 size = volume.frame.size;
+    if (volume.empty() || size.x < 1 || size.y < 1 || size.z < 1)
+        throw Error(
+            "", "occlusion",
+            fmt::format("expected a volume of at least one voxel, got {}x{}x{}", size.x, size.y, size.z),
+            "load a volume first");
+    const bool within = std::min({radius.x, radius.y, radius.z}) >= 0 &&
+                        std::max({radius.x, radius.y, radius.z}) <= kMostOcclusionRadius;
+    if (!within || radius == glm::ivec3(0))
+        throw Error("", "occlusion radius",
+                    fmt::format("expected 0 to {} voxels along each axis and not 0 along all, got {}, {}, {}",
+                                kMostOcclusionRadius, radius.x, radius.y, radius.z),
+                    "choose a radius of 1 to 64 voxels");
+    if (!std::isfinite(volume.scale))
+        throw Error("", "occlusion", fmt::format("expected a finite scale of values, got {}", volume.scale),
+                    "check the volume's header");
+}
+
+void checkPositive(double value, const char* name) {
+    if (!(value > 0 && std::isfinite(value)))
+        throw Error("", name, fmt::format("expected a number above 0, got {}", value), "choose a larger one");
+}
+
+BoxResult resultOf(OcclusionMethod method) {
+    switch (method) {
+        case OcclusionMethod::Gaussian:
+            return BoxResult::Gaussian;
+        case OcclusionMethod::Chebyshev:
+            return BoxResult::Chebyshev;
+        default:
+            return BoxResult::Reconstructed;
+    }
+}
+
+constexpr std::uint8_t kHalfOpen = 128;  // 1/2, rounded as the kernels do
+
+}  // namespace
+
+glm::ivec3 occlusionRadius(const VolumeFrame& frame, double radius) {
+    checkPositive(radius, "occlusion radius");
+    glm::ivec3 voxels(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double exact = radius / frame.spacing[axis];
+        voxels[axis] = static_cast<int>(std::lround(std::min<double>(exact, kMostOcclusionRadius)));
+    }
+    if (voxels == glm::ivec3(0))
+        for (int axis = 0; axis < 3; ++axis)
+            if (frame.spacing[axis] == std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z}))
+                voxels[axis] = 1;
+    return voxels;
+}
+
+OpennessVolume estimateOpenness(const GreyVolume& volume, OcclusionMethod method, const glm::ivec3& radius,
+                                Progress& progress, SimdTarget target) {
+    checkInput(volume, radius);
+    if (volume.scale == 0) {
+        OpennessVolume even(volume.frame);
+        std::fill_n(even.values.data(), even.values.size(), kHalfOpen);
+        return even;
+    }
+    return BoxFilter(volume, resultOf(method), radius, 0, target).run(progress);
+}
+
+Volume<std::uint8_t> varianceModulation(const GreyVolume& volume, const glm::ivec3& radius, double sigmaMax,
+                                        Progress& progress, SimdTarget target) {
+    checkInput(volume, radius);
+    checkPositive(sigmaMax, "sigma of the opacity modulation");
+    const double ratio = volume.scale / sigmaMax;
+    const double most = std::numeric_limits<float>::max();
+    return BoxFilter(volume, BoxResult::Variance, radius, std::min(ratio * ratio, most), target)
+        .run(progress);
+}
+
+Volume<std::uint8_t> gradientModulation(const OpennessVolume& openness, double gradientMax) {
+    checkPositive(gradientMax, "gradient of the opacity modulation");
+    Volume<std::uint8_t> modulation(openness.frame);
+    const glm::ivec3 size = openness.frame.size;
+    parallelFor(size.z, [&](int k) {
+        for (int j = 0; j < size.y; ++j)
+            for (int i = 0; i < size.x; ++i) {
+                const glm::ivec3 voxel(i, j, k);
+                const glm::dvec3 gradient = regressionGradient([&](const glm::ivec3& offset) {
+                    return openness.at(glm::clamp(voxel + offset, glm::ivec3(0), size - 1));
+                });
+                const double share = std::min(glm::length(gradient) / (255 * gradientMax), 1.0);
+                modulation.at(voxel) = static_cast<std::uint8_t>(std::lround(255 * share));
+            }
+    });
+    return modulation;
+}
+
+}  // namespace stereonav
