@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ public:
 
     glm::vec3 mean() const { return mMean; }  // over the sphere
     bool black() const { return mBlack; }
+    std::span<const glm::vec3> pixels() const { return mRadiance; }
     int width() const { return mWidth; }
     int height() const { return mHeight; }
 
