@@ -47,6 +47,21 @@ double smoothMax(double a, double b, double k) {
     return std::max(a, b) + h * h * k * 0.25;
 }
 
+// Of the wall, mm: waves that run in directions which no grid has.
+double unevenness(const glm::dvec3& p) {
+    return 0.13 * std::sin(0.43 * p.x + 0.31 * p.y - 0.22 * p.z) +
+           0.11 * std::sin(-0.27 * p.x + 0.40 * p.y + 0.37 * p.z + 1.3) +
+           0.09 * std::sin(0.19 * p.x - 0.52 * p.y + 0.45 * p.z + 4.1) +
+           0.07 * std::sin(0.61 * p.x + 0.17 * p.y + 0.53 * p.z + 2.2);
+}
+
+// A cubic through two points with their tangents.
+glm::dvec3 placeBetween(const AxisPoint& a, const AxisPoint& b, double t) {
+    const double u = 1 - t;
+    return u * u * (1 + 2 * t) * a.place + t * t * (1 + 2 * u) * b.place +
+           t * u * (u * a.tangent - t * b.tangent);
+}
+
 // Uniform cubic B-spline through space: bends twice as smoothly as an interpolating one, and stays inside.
 Control splineAt(const std::vector<Control>& c, double u) {
     const int i = std::clamp(static_cast<int>(u), 0, static_cast<int>(c.size()) - 4);
@@ -137,7 +152,7 @@ void BuiltInAnatomy::makeAxis(std::uint64_t seed) {
     const int steps = (static_cast<int>(controls.size()) - 3) * 200;
     std::vector<Control> line(steps + 1);
     for (int n = 0; n <= steps; ++n) line[n] = windingAt(controls, n / 200.0);
-    line = evenlySpaced(smoothed(evenlySpaced(line), 9));
+    line = evenlySpaced(smoothed(evenlySpaced(line), 12));
     for (std::size_t n = 0; n < line.size(); ++n) {
         const double along = static_cast<double>(n);
         const double slow = 1 + 0.07 * std::sin(along / 23 + 6 * unitNumber(seed, 2, 0)) +
@@ -184,12 +199,15 @@ void BuiltInAnatomy::makeFrames() {
     }
 }
 
+constexpr double kTightest = 0.75;  // radius of the tube over that of its bend
+
 // Where loops come near to each other, both become narrower until the wall between them is thick enough.
 void BuiltInAnatomy::makeRoom(double gap) {
     const int count = static_cast<int>(mAxis.size());
     std::vector<double> radius(count);
     for (int n = 0; n < count; ++n) {
-        radius[n] = mAxis[n].radius;
+        // No bend is tighter than the tube, or its inner side would fold into itself.
+        radius[n] = std::min(mAxis[n].radius, kTightest / std::max(glm::length(mAxis[n].bend), 1e-9));
         for (int other = 0; other < count; ++other) {
             if (std::abs(other - n) < 95) continue;  // its own bend
             const double apart = glm::length(mAxis[n].place - mAxis[other].place);
@@ -200,12 +218,46 @@ void BuiltInAnatomy::makeRoom(double gap) {
         }
     }
     for (int n = 0; n < count; ++n) {
-        // Narrower neighbours on the line are approached by at most 0.4 mm a mm.
+        // Narrower neighbours on the line are approached by at most 0.3 mm a mm.
         double smallest = radius[n];
         for (int k = -40; k <= 40; ++k)
-            smallest = std::min(smallest, radius[std::clamp(n + k, 0, count - 1)] + 0.4 * std::abs(k));
+            smallest = std::min(smallest, radius[std::clamp(n + k, 0, count - 1)] + 0.3 * std::abs(k));
         mAxis[n].radius = smallest;
     }
+    smoothRadii();
+}
+
+// Without kinks, and nowhere larger: each is a weighted mean of what is the least within the weights' reach.
+void BuiltInAnatomy::smoothRadii() {
+    constexpr int kReach = 16;
+    constexpr double kSigma = 7;
+    const int count = static_cast<int>(mAxis.size());
+    const auto at = [&](int n) { return std::clamp(n, 0, count - 1); };
+    std::vector<double> least(count);
+    for (int n = 0; n < count; ++n) {
+        least[n] = mAxis[n].radius;
+        for (int k = -kReach; k <= kReach; ++k) least[n] = std::min(least[n], mAxis[at(n + k)].radius);
+    }
+    for (int n = 0; n < count; ++n) {
+        double sum = 0, weights = 0;
+        for (int k = -kReach; k <= kReach; ++k) {
+            const double w = std::exp(-0.5 * k * k / (kSigma * kSigma));
+            sum += w * least[at(n + k)];
+            weights += w;
+        }
+        mAxis[n].radius = sum / weights;
+    }
+    for (int n = 0; n < count; ++n)
+        mAxis[n].slope = 0.5 * (mAxis[at(n + 1)].radius - mAxis[at(n - 1)].radius);
+}
+
+// At the inner side of a bend, where the axis' millimetres are short, folds are lower, as they crowd there.
+double BuiltInAnatomy::roomAt(const Fold& fold) const {
+    const AxisPoint& point = mAxis[static_cast<int>(fold.along)];
+    const glm::dvec3 middle = fold.cosine * point.across + fold.sine * point.over;
+    const double bent = glm::dot(middle, point.bend) * point.radius;
+    const double t = std::clamp((0.75 - bent) / 0.45, 0.0, 1.0);
+    return t * t * (3 - 2 * t);
 }
 
 void BuiltInAnatomy::makeFolds(std::uint64_t seed) {
@@ -221,10 +273,10 @@ void BuiltInAnatomy::makeFolds(std::uint64_t seed) {
             const double radius = mAxis[static_cast<int>(along)].radius;
             // The rectum has but few low folds (Houston's valves), the rest high ones.
             const double share = along < 60 ? 0.30 : between(0.34, 0.55, number(1));
-            fold.height = share * radius;
-            fold.thickness = between(2.0, 3.6, number(2));
+            fold.height = share * radius * roomAt(fold);
+            fold.thickness = between(3.6, 5.2, number(2));
             fold.lean = between(-3, 3, number(3));
-            mFolds.push_back(fold);
+            if (fold.height > 2) mFolds.push_back(fold);
             along += (along < 60 ? 1.5 : 1.0) * between(15, 30, number(4));
         }
     }
@@ -237,14 +289,17 @@ void BuiltInAnatomy::makeFolds(std::uint64_t seed) {
     }
 }
 
-// Signed distance to the folds' flesh, negative inside. shrink: how long a mm of the axis is at this side of
-// the bend.
-double BuiltInAnatomy::foldsAt(double along, double cosine, double sine, double shrink, double d,
-                               double radius) const {
+// Signed distance to the folds' flesh, negative inside. to: from the axis' point, in the direction of this
+// cosine and sine.
+double BuiltInAnatomy::foldsAt(const AxisPoint& point, double along, const glm::dvec3& to, double cosine,
+                               double sine, double radius) const {
+    const double d = glm::length(to);
+    // How long a mm of the axis is here.
+    const double shrink = std::max(1 - glm::dot(to, point.bend), 0.3);
     double flesh = 30;
-    const auto [from, to] =
+    const auto [from, end] =
         mNear[std::clamp(static_cast<int>(along + 0.5), 0, static_cast<int>(mAxis.size()) - 1)];
-    for (int n = from; n < to; ++n) {
+    for (int n = from; n < end; ++n) {
         const Fold& fold = mFolds[n];
         const double c = cosine * fold.cosine + sine * fold.sine;
         if (c < 0.1) continue;
@@ -256,7 +311,7 @@ double BuiltInAnatomy::foldsAt(double along, double cosine, double sine, double 
         const double inward = std::max(over, 0.0);
         // Thicker towards the wall.
         const double thick = 0.5 * fold.thickness + 0.12 * std::clamp(-over, 0.0, 6.0);
-        flesh = std::min(flesh, std::sqrt(beside * beside + inward * inward) - thick);
+        flesh = -smoothMax(-flesh, thick - std::sqrt(beside * beside + inward * inward), 2.5);
     }
     return flesh;
 }
@@ -296,30 +351,66 @@ int BuiltInAnatomy::nearest(const glm::dvec3& p, const int* candidates, int coun
     return best;
 }
 
+// mm: from here on the wall is so far that nothing of it is seen; its shape adds or takes 1.5 mm at most.
+constexpr double kFarAway = 6;
+
+// Between two points: places by a cubic through them with their tangents, the rest in proportion.
+AxisPoint BuiltInAnatomy::axisAt(double along) const {
+    const int n = std::clamp(static_cast<int>(along), 0, static_cast<int>(mAxis.size()) - 2);
+    const AxisPoint &a = mAxis[n], &b = mAxis[n + 1];
+    const double t = std::clamp(along - n, 0.0, 1.0), u = 1 - t;
+    AxisPoint point;
+    point.place = placeBetween(a, b, t);
+    point.tangent = u * a.tangent + t * b.tangent;
+    point.across = u * a.across + t * b.across;
+    point.over = u * a.over + t * b.over;
+    point.turn = u * a.turn + t * b.turn;
+    point.bend = u * a.bend + t * b.bend;
+    point.radius =
+        u * u * (1 + 2 * t) * a.radius + t * t * (1 + 2 * u) * b.radius + t * u * (u * a.slope - t * b.slope);
+    point.slope = u * a.slope + t * b.slope;
+    return point;
+}
+
+// Where along the axis the ball of its radius is nearest: the wall is the envelope of these balls. Newton's
+// method from the nearest point; steps are short, so that what is next to each other stays so.
+double BuiltInAnatomy::footOf(const glm::dvec3& p, int nearest) const {
+    const int last = static_cast<int>(mAxis.size()) - 1;
+    double along = nearest;
+    for (int round = 0; round < 3; ++round) {
+        const int n = std::min(static_cast<int>(along), last - 1);
+        const AxisPoint &a = mAxis[n], &b = mAxis[n + 1];
+        const double t = along - n, u = 1 - t;
+        const glm::dvec3 to = p - placeBetween(a, b, t);
+        const double away = std::max(glm::length(to), 1.0);
+        const double ahead = glm::dot(to, u * a.tangent + t * b.tangent) / away;
+        const double curve = std::max(1 - glm::dot(to, u * a.bend + t * b.bend) - ahead * ahead, 0.2);
+        const double step = (ahead + u * a.slope + t * b.slope) * away / curve;
+        along = std::clamp(along + std::clamp(step, -0.7, 0.7), 0.0, static_cast<double>(last));
+        if (std::abs(step) < 0.01) break;
+    }
+    return along;
+}
+
 BuiltInAnatomy::Place BuiltInAnatomy::placeOf(const glm::dvec3& p, const int* candidates, int count) const {
-    const int n = nearest(p, candidates, count);
-    const AxisPoint& point = mAxis[n];
+    const int near = nearest(p, candidates, count);
+    const double coarse = glm::length(p - mAxis[near].place) - mAxis[near].radius;
+    if (coarse > kFarAway) return {coarse, static_cast<double>(near)};
+    const double along = footOf(p, near);
+    const AxisPoint point = axisAt(along);
     const glm::dvec3 to = p - point.place;
-    const double shrink = std::max(1 - glm::dot(to, point.bend), 0.3);
-    const double ahead = std::clamp(glm::dot(to, point.tangent) / shrink, -0.5, 0.5);
-    const double along = n + ahead;
-    const glm::dvec3 off = to - ahead * point.tangent;
-    const double d = glm::length(off);
-    const double x = glm::dot(off, point.across), y = glm::dot(off, point.over);
+    const double d = glm::length(to);
+    const double x = glm::dot(to, point.across), y = glm::dot(to, point.over);
     const double flat = std::max(std::hypot(x, y), 1e-9);
     const double c = x / flat, s = y / flat;
-    // The taeniae draw the wall in between the sectors: a rounded triangle, 3 % of the radius.
+    // The taeniae draw the wall in between the sectors: a rounded triangle, 3 % of the radius; none of it
+    // where the ends close.
     const double c1 = c * point.turn.x + s * point.turn.y;
-    const double triangle = 4 * c1 * c1 * c1 - 3 * c1;
-    const int next = std::clamp(n + (ahead > 0 ? 1 : -1), 0, static_cast<int>(mAxis.size()) - 1);
-    const double radius = (point.radius + std::abs(ahead) * (mAxis[next].radius - point.radius)) *
-                          (1 + 0.035 * triangle * std::min(d / 5, 1.0));
+    const double triangle = 4 * c1 * c1 * c1 - 3 * c1, share = std::min(flat / (0.8 * point.radius), 1.0);
+    const double radius = point.radius * (1 + 0.035 * triangle * share * share * (3 - 2 * share));
     double wall = d - radius;
-    if (std::abs(wall) < 8)
-        wall += 0.2 * std::sin(p.x * 0.83 + p.z * 0.3) * std::sin(p.y * 0.91) +
-                0.1 * std::sin(p.z * 0.77 + p.x * 0.41);
-    if (wall > 8) return {wall, along};
-    wall = smoothMax(wall, -foldsAt(along, c, s, shrink, d, radius), 3.0);
+    if (wall > -8) wall += unevenness(p);
+    wall = smoothMax(wall, -foldsAt(point, along, to, c, s, radius), 3.0);
     wall = smoothMax(wall, -polypsAt(p, along), 1.2);
     return {wall, along};
 }

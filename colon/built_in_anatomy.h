@@ -20,6 +20,7 @@ struct AxisPoint {
     glm::dvec2 turn{1, 0};              // cosine and sine of the taeniae's turn about the axis
     glm::dvec3 bend{0.0};               // the curvature vector, 1/mm
     double radius = 0;                  // of the wall between folds
+    double slope = 0;                   // of the radius, mm a mm
 };
 
 // A crescent in one of three sectors between the taeniae.
@@ -67,14 +68,19 @@ public:
 private:
     void makeAxis(std::uint64_t seed);
     void makeRoom(double gap);
+    void smoothRadii();
     void makeFluid();
     void makeFrames();
     void makeFolds(std::uint64_t seed);
     void makePolyps(std::uint64_t seed);
     void addPolyp(double along, double angle, PolypShape shape, double diameter);
-    double foldsAt(double along, double cosine, double sine, double shrink, double d, double radius) const;
+    double roomAt(const Fold& fold) const;
+    double foldsAt(const AxisPoint& point, double along, const glm::dvec3& to, double cosine, double sine,
+                   double radius) const;
     double polypsAt(const glm::dvec3& p, double along) const;
     int nearest(const glm::dvec3& p, const int* candidates, int count) const;
+    AxisPoint axisAt(double along) const;
+    double footOf(const glm::dvec3& p, int nearest) const;
 
     std::vector<AxisPoint> mAxis;
     std::vector<Fold> mFolds;               // by `along`

@@ -28,7 +28,7 @@ constexpr double kFlesh = 150, kSolid = 100;          // HU before and behind th
 
 std::uint64_t builtInKey(const BuiltInColonSetting& setting) {
     Hash hash;
-    hash.add("the built-in colon 1").add(static_cast<std::int64_t>(setting.seed));
+    hash.add("the built-in colon 2").add(static_cast<std::int64_t>(setting.seed));
     for (int axis = 0; axis < 3; ++axis) hash.add(static_cast<std::int64_t>(setting.size[axis]));
     return hash.value();
 }
