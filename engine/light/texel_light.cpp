@@ -9,9 +9,10 @@
 #include <glm/geometric.hpp>
 
 #include "engine/base/error.h"
+#include "engine/light/isovalue_field.h"
 #include "engine/light/isovalue_surface.h"
 #include "engine/light/path_numbers.h"
-#include "engine/light/path_plain.h"
+#include "engine/light/path_scene.h"
 #include "engine/light/spherical_harmonics.h"
 #include "engine/volume/plain_volume_caster.h"
 
@@ -52,16 +53,24 @@ void checkVolume(const GreyVolume& volume) {
             "a single slice has no surface");
 }
 
-float luminance(const glm::dvec3& c) {
-    return static_cast<float>(0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z);
+float luminance(const glm::vec3& c) {
+    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 
-// Welford's update by one sample.
-void addSample(TexelSum& sum, const glm::dvec3& light) {
-    const float before = luminance(light) - luminance(sum.mean);
-    sum.samples += 1;
-    sum.mean += (glm::vec3(light) - sum.mean) / sum.samples;
-    sum.squares += before * (luminance(light) - luminance(sum.mean));
+// The mean and squares of two sets of samples together (Chan et al. 1979).
+void addMoments(TexelSum& sum, const PathMoments& moments, int count) {
+    const glm::vec3 mean(moments.mean[0], moments.mean[1], moments.mean[2]);
+    const float added = static_cast<float>(count), total = sum.samples + added;
+    const float apart = luminance(mean) - luminance(sum.mean);
+    sum.squares += moments.squares + apart * apart * (sum.samples * (added / total));
+    sum.mean += (mean - sum.mean) * (added / total);
+    sum.samples = total;
+}
+
+// Samples that are traced at once, of about equal pieces of all.
+int pieceOf(int samples) {
+    const int pieces = (samples + PathStore::kPaths - 1) / PathStore::kPaths;
+    return (samples + pieces - 1) / std::max(pieces, 1);
 }
 
 }  // namespace
@@ -69,21 +78,23 @@ void addSample(TexelSum& sum, const glm::dvec3& light) {
 struct TexelLighter::State {
     const GreyVolume& volume;
     VolumeFrame texels;
-    LightSetup setup;
-    LightSetup grey;  // its albedo is the mean of the three
     TexelSampling sampling;
     double least;  // of the volume
-    PlainPaths paths, greyPaths;
+    PathVolume pathVolume;
+    PathLightTables tables, greyTables;  // grey: the albedo is the mean of the three
+    IsovalueFields fields;
+    const PathKernels& kernels;
 
-    State(const GreyVolume& v, const VolumeFrame& t, const LightSetup& s, const TexelSampling& how)
+    State(const GreyVolume& v, const VolumeFrame& t, const LightSetup& setup, const TexelSampling& how)
         : volume(v),
           texels(t),
-          setup(s),
-          grey(greyOf(s)),
           sampling(how),
           least(leastOf(v)),
-          paths(volume, setup, sampling),
-          greyPaths(volume, grey, sampling) {}
+          pathVolume(stereonav::pathVolume(v)),
+          tables(v.frame, setup, how),
+          greyTables(v.frame, greyOf(setup), how),
+          fields(v, how.leaping),
+          kernels(pathKernels(how.simd)) {}
 
     static LightSetup greyOf(LightSetup setup) {
         setup.albedo = glm::vec3((setup.albedo.x + setup.albedo.y + setup.albedo.z) / 3);
@@ -105,14 +116,69 @@ struct TexelLighter::State {
     }
 
     // False where the texel lies on no surface.
-    bool startOf(const glm::ivec3& texel, PlainPaths::Start& start) const {
-        const glm::dvec3 voxel = voxelOf(texel);
-        start.normal = surfaceNormal(volume, voxel);
-        if (start.normal == glm::dvec3(0.0)) return false;
-        start.isovalue = tracedIsovalue(plainValue(volume, voxel), least);
-        start.voxel = liftedStart(volume, start.isovalue, voxel, start.normal);
+    bool startOf(const glm::ivec3& texel, PathStart& start) const {
+        const glm::dvec3 voxel = voxelOf(texel), normal = surfaceNormal(volume, voxel);
+        if (normal == glm::dvec3(0.0)) return false;
+        const double isovalue = tracedIsovalue(plainValue(volume, voxel), least);
+        splitPlace(volume.frame, liftedStart(volume, isovalue, voxel, normal), start.cell, start.local);
+        const glm::dvec3 along = glm::transpose(volume.frame.axes) * normal;
+        for (int k = 0; k < 3; ++k) start.normal[k] = static_cast<float>(along[k]);
+        start.isovalue = static_cast<float>(isovalue);
         start.key = pathKey(sampling.seed, texels.index(texel));
         return true;
+    }
+
+    // Texels with a surface, those together whose rays share a field.
+    struct Batch {
+        std::vector<PathStart> starts;
+        std::vector<std::size_t> texels;  // their numbers in the span
+        std::vector<int> rungs;
+    };
+    template <typename First>  // first sample of a texel; negative: leave it out
+    Batch batchOf(std::span<const glm::ivec3> list, const First& first) const {
+        struct Entry {
+            int rung;
+            std::size_t texel;
+            PathStart start;
+        };
+        std::vector<Entry> entries;
+        entries.reserve(list.size());
+        for (std::size_t n = 0; n < list.size(); ++n) {
+            Entry entry{0, n, {}};
+            if (first(n) < 0 || !startOf(list[n], entry.start)) continue;
+            entry.start.firstSample = static_cast<std::uint32_t>(first(n));
+            entry.rung = fields.rungOf(static_cast<double>(entry.start.isovalue));
+            entries.push_back(entry);
+        }
+        std::stable_sort(entries.begin(), entries.end(),
+                         [](const Entry& a, const Entry& b) { return a.rung < b.rung; });
+        Batch batch;
+        for (const Entry& e : entries) {
+            batch.starts.push_back(e.start);
+            batch.texels.push_back(e.texel);
+            batch.rungs.push_back(e.rung);
+        }
+        return batch;
+    }
+
+    // Calls job(first of the batch, texels, samples) until each has had `count`.
+    template <typename Job>
+    static void eachJob(Batch& batch, int count, const Job& job) {
+        if (count <= 0) return;
+        const int piece = pieceOf(count), together = std::max(PathStore::kPaths / piece, 1);
+        for (std::size_t n = 0; n < batch.starts.size();) {
+            std::size_t end = n + 1;
+            while (end < batch.starts.size() && end < n + static_cast<std::size_t>(together) &&
+                   batch.rungs[end] == batch.rungs[n])
+                ++end;
+            for (int done = 0; done < count; done += piece) {
+                const int samples = std::min(piece, count - done);
+                job(n, static_cast<int>(end - n), samples);
+                for (std::size_t t = n; t < end; ++t)
+                    batch.starts[t].firstSample += static_cast<std::uint32_t>(samples);
+            }
+            n = end;
+        }
     }
 };
 
@@ -132,39 +198,39 @@ TexelLighter::TexelPlace TexelLighter::place(const glm::ivec3& texel) const {
 
 void TexelLighter::addIrradiance(std::span<const glm::ivec3> texels, int count,
                                  std::span<TexelSum> sums) const {
-    for (std::size_t n = 0; n < texels.size(); ++n) {
-        TexelSum& sum = sums[n];
-        if (sum.samples < 0) continue;
-        PlainPaths::Start start;
-        if (!mState->startOf(texels[n], start)) {
-            sum = {glm::vec3(0.0f), -1, 0};
-            continue;
-        }
-        const auto first = static_cast<std::uint32_t>(sum.samples);
-        for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(count); ++s)
-            addSample(sum, mState->paths.irradiance(start, first + s));
-    }
+    const State& s = *mState;
+    State::Batch batch = s.batchOf(texels, [&](std::size_t n) { return sums[n].samples; });
+    std::vector<std::uint8_t> placed(texels.size(), 0);
+    for (const std::size_t n : batch.texels) placed[n] = 1;
+    for (std::size_t n = 0; n < texels.size(); ++n)
+        if (!placed[n]) sums[n] = {glm::vec3(0.0f), -1, 0};
+    const auto store = std::make_unique<PathStore>();
+    std::vector<PathMoments> moments(PathStore::kPaths);
+    State::eachJob(batch, count, [&](std::size_t first, int together, int samples) {
+        s.kernels.irradiance(s.pathVolume, s.fields.field(batch.rungs[first]), s.tables.lights(),
+                             &batch.starts[first], together, samples, *store, moments.data());
+        for (int n = 0; n < together; ++n) addMoments(sums[batch.texels[first + n]], moments[n], samples);
+    });
 }
 
 void TexelLighter::addTransfer(std::span<const glm::ivec3> texels, int firstSample, int count, int order,
                                int channels, std::span<float> sums, std::span<std::uint8_t> alive) const {
-    const int coefficients = harmonicsCount(order);
-    for (std::size_t n = 0; n < texels.size(); ++n) {
-        PlainPaths::Start start;
-        alive[n] = mState->startOf(texels[n], start);
-        if (!alive[n]) continue;
-        float* sum = sums.data() + n * static_cast<std::size_t>(coefficients * channels);
-        for (int s = 0; s < count; ++s) {
-            const PlainPaths& paths = channels == 1 ? mState->greyPaths : mState->paths;
-            const auto escape = paths.escape(start, static_cast<std::uint32_t>(firstSample + s));
-            if (escape.throughput == glm::dvec3(0.0)) continue;
-            double values[kMaxHarmonics];
-            evaluateHarmonics(escape.direction, order, values);
-            for (int c = 0; c < coefficients; ++c)
-                for (int k = 0; k < channels; ++k)
-                    sum[c * channels + k] += static_cast<float>(values[c] * escape.throughput[k]);
-        }
-    }
+    const State& s = *mState;
+    State::Batch batch = s.batchOf(texels, [&](std::size_t) { return firstSample; });
+    std::fill(alive.begin(), alive.end(), std::uint8_t{0});
+    for (const std::size_t n : batch.texels) alive[n] = 1;
+    const auto store = std::make_unique<PathStore>();
+    const std::size_t floats = static_cast<std::size_t>(harmonicsCount(order)) * channels;
+    std::vector<float> found(PathStore::kPaths * floats);
+    const PathLights& lights = (channels == 1 ? s.greyTables : s.tables).lights();
+    State::eachJob(batch, count, [&](std::size_t first, int together, int samples) {
+        std::fill(found.begin(), found.end(), 0.0f);
+        s.kernels.transfer(s.pathVolume, s.fields.field(batch.rungs[first]), lights, &batch.starts[first],
+                           together, samples, order, channels, *store, found.data());
+        for (int n = 0; n < together; ++n)
+            for (std::size_t k = 0; k < floats; ++k)
+                sums[batch.texels[first + n] * floats + k] += found[n * floats + k];
+    });
 }
 
 }  // namespace stereonav

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "engine/light/light_setup.h"
+#include "engine/math/simd_target.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav {
@@ -22,6 +23,7 @@ struct TexelSampling {
     bool roulette = true;   // dim paths end at random
     bool leaping = true;    // over cells that no surface of this isovalue meets
     std::uint64_t seed = 1;
+    SimdTarget simd = SimdTarget::Auto;
 };
 
 // Running mean of a texel's samples.

@@ -227,6 +227,31 @@ STEREONAV_INLINE I gatherByte(const std::uint8_t* base, I index, M m) {
         _mm256_setzero_si256(), reinterpret_cast<const int*>(base), index.v, _mm256_castps_si256(m.v), 1);
     return _mm256_and_si256(four, _mm256_set1_epi32(255));
 }
+// base[index] and base[index + 1] of 16-bit numbers, the first in the low half.
+STEREONAV_INLINE I gatherHalves(const void* base, I index, M m) {
+    return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), static_cast<const int*>(base), index.v,
+                                       _mm256_castps_si256(m.v), 2);
+}
+// Lanes of m to base[index]; indices differ.
+STEREONAV_INLINE void scatter(std::int32_t* base, I index, I a, M m) {
+    alignas(32) std::int32_t values[kLanes], places[kLanes];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(values), a.v);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(places), index.v);
+    for (std::uint32_t left = bits(m); left; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        base[places[k]] = values[k];
+    }
+}
+STEREONAV_INLINE void scatter(float* base, I index, F a, M m) {
+    alignas(32) float values[kLanes];
+    alignas(32) std::int32_t places[kLanes];
+    _mm256_store_ps(values, a.v);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(places), index.v);
+    for (std::uint32_t left = bits(m); left; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        base[places[k]] = values[k];
+    }
+}
 // table[index] for a table of sixteen entries; index in [0, 16).
 STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {
     return _mm256_i32gather_epi32(table, index.v, 4);

@@ -236,6 +236,17 @@ STEREONAV_INLINE I gatherByte(const std::uint8_t* base, I index, M m) {
     const __m512i four = _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m.v, index.v, base, 1);
     return _mm512_and_si512(four, _mm512_set1_epi32(255));
 }
+// base[index] and base[index + 1] of 16-bit numbers, the first in the low half.
+STEREONAV_INLINE I gatherHalves(const void* base, I index, M m) {
+    return _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m.v, index.v, base, 2);
+}
+// Lanes of m to base[index]; indices differ.
+STEREONAV_INLINE void scatter(float* base, I index, F a, M m) {
+    _mm512_mask_i32scatter_ps(base, m.v, index.v, a.v, 4);
+}
+STEREONAV_INLINE void scatter(std::int32_t* base, I index, I a, M m) {
+    _mm512_mask_i32scatter_epi32(base, m.v, index.v, a.v, 4);
+}
 // table[index] for a table of sixteen entries; index in [0, 16).
 STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {
     return _mm512_permutexvar_epi32(index.v, _mm512_loadu_si512(table));

@@ -261,6 +261,23 @@ STEREONAV_INLINE IPair gatherPair(const std::uint32_t* base, I index, M m) {
 STEREONAV_INLINE I gatherByte(const std::uint8_t* base, I index, M m) {
     return mapLanes<std::int32_t>([&](int k) { return (m.v >> k & 1) ? std::int32_t{base[index.v[k]]} : 0; });
 }
+// base[index] and base[index + 1] of 16-bit numbers, the first in the low half.
+STEREONAV_INLINE I gatherHalves(const void* base, I index, M m) {
+    return mapLanes<std::int32_t>([&](int k) {
+        std::int32_t two = 0;
+        if (m.v >> k & 1) std::memcpy(&two, static_cast<const char*>(base) + 2 * std::int64_t{index.v[k]}, 4);
+        return two;
+    });
+}
+// Lanes of m to base[index]; indices differ.
+STEREONAV_INLINE void scatter(float* base, I index, F a, M m) {
+    for (int k = 0; k < kLanes; ++k)
+        if (m.v >> k & 1) base[index.v[k]] = a.v[k];
+}
+STEREONAV_INLINE void scatter(std::int32_t* base, I index, I a, M m) {
+    for (int k = 0; k < kLanes; ++k)
+        if (m.v >> k & 1) base[index.v[k]] = a.v[k];
+}
 // table[index] for a table of sixteen entries; index in [0, 16).
 STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {
     return mapLanes<std::int32_t>([&](int k) { return table[index.v[k]]; });

@@ -1,0 +1,54 @@
+// How far rays may leap towards an isosurface, for every isovalue of a volume: for a ladder of values a field
+// of blocks, each with its distance to the nearest block that holds values at or above the rung, and which of
+// its octants do. A field serves every isovalue from its rung on. Built when first asked for, kept while the
+// ladder lives; any thread may ask.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "engine/base/lazy_array.h"
+#include "engine/light/path_kernel_types.h"
+#include "engine/volume/volume.h"
+
+namespace stereonav {
+
+class IsovalueFields {
+public:
+    // Memory of all fields together, once all are built. More rungs mean shorter walks near other values.
+    static constexpr std::size_t kBudget = std::size_t{256} << 20;
+    static constexpr int kMostRungs = 256;
+
+    // leaping: false gives one field in which every octant is to be looked at.
+    IsovalueFields(const GreyVolume& volume, bool leaping, std::size_t budget = kBudget);
+
+    int rungs() const { return static_cast<int>(mRungs.size()); }
+    // The number of the highest rung that is not above any value that reaches the isovalue.
+    int rungOf(double isovalue) const;
+    double valueOf(int rung) const { return mRungs[rung]; }  // stored numbers
+    PathField field(int rung) const;
+    std::size_t bytesHeld() const;  // of the fields built so far
+    int shift() const { return mShift; }
+
+private:
+    struct Entry {
+        std::once_flag once;
+        LazyArray<std::uint8_t> blocks;
+        std::atomic<bool> built = false;
+    };
+    void chooseRungs(int most);
+    void build(int rung, LazyArray<std::uint8_t>& blocks) const;
+    std::size_t blockCount() const { return static_cast<std::size_t>(mBlocks.x) * mBlocks.y * mBlocks.z; }
+
+    const GreyVolume& mVolume;
+    bool mLeaping;
+    int mShift = 1;  // blocks of 2^shift cells a side
+    glm::ivec3 mBlocks{0};
+    std::vector<int> mRungs;  // ascending
+    std::unique_ptr<Entry[]> mEntries;
+};
+
+}  // namespace stereonav
