@@ -99,6 +99,7 @@ struct Parsed {
     CompareOptions compare;
     MeshOptions mesh;
     CentrelineOptions centreline;
+    BakeOptions bake;
     ViewOptions view;
     std::string size, relativeSeparation;
     std::function<int()> run = runDefault;
@@ -219,6 +220,43 @@ void addCentreline(CLI::App& app, Parsed& parsed) {
     command.callback([&parsed] { parsed.run = [&parsed] { return runCentreline(parsed.centreline); }; });
 }
 
+// The light that is baked has other words than the light that scenes are shown in.
+void addBakedLight(CLI::App& command, BakeOptions& options) {
+    if (CLI::Option* shown = command.get_option_no_throw("--light")) command.remove_option(shown);
+    command
+        .add_option(
+            "--light", options.lights,
+            "a point light: x,y,z in metres and its intensity; or centreline and the lights' distance in "
+            "metres, in a colon; may be given several times")
+        ->allow_extra_args(false);
+    command.add_option("--probe", options.probe, "light from all around: a light probe (.hdr) or a picture");
+    command.add_option("--bounces", options.bounces, "of light between surfaces, 0 to 8");
+    command.add_option("--albedo", options.albedo, "of the surface, 0 to 1: one number, or red,green,blue");
+    command.add_option("--order", options.order, "of transfer's harmonics, 1 to 6");
+}
+
+void addBake(CLI::App& app, Parsed& parsed) {
+    BakeOptions& options = parsed.bake;
+    CLI::App& command = *app.add_subcommand(
+        "bake", "light worked out before, with bounces and soft shadows; Ctrl-C keeps what is done");
+    addScene(command, options.scene);
+    addBakedLight(command, options);
+    command.get_option("--sky")->description(
+        "of a volume: light from everywhere, one number or red,green,blue; of a terrain: its picture");
+    command.add_option("--what", options.what,
+                       "irradiance, transfer (light can be turned later), or openness");
+    command.add_option("--samples", options.samples, "of each texel, 256 when nothing is said");
+    command.add_option("--error", options.error, "go on until the relative error is this, as in 0.02");
+    command.add_option("--minutes", options.minutes, "go on for so long");
+    command.add_option("--resolution", options.resolution,
+                       "texels a voxel along each axis, as in 0.5, 1 or 2");
+    command.add_option("--isovalues", options.isovalues,
+                       "LOW,HIGH: all surfaces between, to choose from later");
+    command.add_flag("--full", options.full, "every texel, for any isovalue");
+    command.add_option("--out", options.out, "the bake's file; left out: in the cache");
+    command.callback([&parsed] { parsed.run = [&parsed] { return runBake(parsed.bake); }; });
+}
+
 void addView(CLI::App& app, Parsed& parsed) {
     ViewOptions& options = parsed.view;
     CLI::App& command = *app.add_subcommand("view", "fly through the scene in a window");
@@ -259,6 +297,7 @@ int runCommandLine(int argc, char** argv) {
     addCompare(app, parsed);
     addMesh(app, parsed);
     addCentreline(app, parsed);
+    addBake(app, parsed);
     addView(app, parsed);
     try {
         app.parse(argc, argv);

@@ -105,6 +105,23 @@ struct CentrelineOptions {
 };
 int runCentreline(const CentrelineOptions& options);
 
+// What is not given is chosen from the scene. A terrain's scene.sky is a picture; a volume's is a colour.
+struct BakeOptions {
+    SceneOptions scene;
+    std::string what;            // irradiance, transfer, openness; "": volumes irradiance, terrains transfer
+    std::optional<int> samples;  // at most one of these three
+    std::optional<double> error, minutes;
+    std::optional<double> resolution;  // texels a voxel, or baked samples a height sample, along each axis
+    std::string probe;                 // a picture all around
+    std::vector<std::string> lights;   // "x,y,z[,intensity]" metres, or "centreline[,spacing]" in a colon
+    std::optional<int> bounces, order;
+    std::string albedo;     // one number or R,G,B
+    std::string isovalues;  // "LOW,HIGH" of the volume's values
+    bool full = false;      // every texel, for any isovalue
+    std::string out;        // "": in the cache
+};
+int runBake(const BakeOptions& options);
+
 // No command given: fly the built-in terrain where there is a display, else play it to out/ and compare.
 int runDefault();
 

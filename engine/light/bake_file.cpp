@@ -26,7 +26,7 @@ constexpr std::array<char, 8> kMagic{'S', 'N', 'L', 'I', 'G', 'H', 'T', '\n'};
 struct Header {
     std::array<char, 8> magic = kMagic;
     std::uint32_t version = kVersion, kind = 0;
-    std::uint64_t key = 0, bytes = 0;
+    std::uint64_t key = 0, content = 0, bytes = 0;
     std::int32_t size[3] = {};
     std::uint32_t order = 0, channels = 0, spare = 0;
     double spacing[3] = {}, origin[3] = {}, axes[9] = {};
@@ -34,7 +34,7 @@ struct Header {
     std::uint64_t bricksHash = 0, sumsHash = 0, aliveHash = 0;
     std::uint64_t headerHash = 0;  // of all before it
 };
-static_assert(sizeof(Header) == 224 && std::is_trivially_copyable_v<Header>);
+static_assert(sizeof(Header) == 232 && std::is_trivially_copyable_v<Header>);
 
 struct BrickRecord {
     std::uint32_t number = 0, samples = 0;
@@ -90,11 +90,12 @@ std::vector<BrickRecord> recordsOf(const BakeSums& sums) {
     return records;
 }
 
-Header headerOf(std::uint64_t key, const BakeSums& sums, std::span<const BrickRecord> records) {
+Header headerOf(const BakeIdentity& identity, const BakeSums& sums, std::span<const BrickRecord> records) {
     Header h;
     const VolumeFrame& frame = sums.frame();
     h.kind = static_cast<std::uint32_t>(sums.shape().kind);
-    h.key = key;
+    h.key = identity.key;
+    h.content = identity.content;
     h.order = static_cast<std::uint32_t>(sums.shape().order);
     h.channels = static_cast<std::uint32_t>(sums.shape().channels);
     for (int n = 0; n < 3; ++n) {
@@ -169,9 +170,10 @@ BakeFile readFrom(std::istream& in, std::uint64_t fileBytes, std::optional<std::
     take(in, records.data(), records.size() * sizeof(BrickRecord));
     if (hashOf(records.data(), records.size() * sizeof(BrickRecord)) != h.bricksHash)
         throw Useless{"is damaged in its bricks"};
-    BakeFile file{h.key, BakeSums(frameOf(h), checkedBricks(h, records),
-                                  {static_cast<BakeKind>(h.kind), static_cast<int>(h.order),
-                                   static_cast<int>(h.channels)})};
+    BakeFile file{
+        {h.key, h.content},
+        BakeSums(frameOf(h), checkedBricks(h, records),
+                 {static_cast<BakeKind>(h.kind), static_cast<int>(h.order), static_cast<int>(h.channels)})};
     for (std::size_t n = 0; n < records.size(); ++n) {
         file.sums.samples[n] = records[n].samples;
         file.sums.estimates[n] = {records[n].variance, records[n].square};
@@ -295,9 +297,9 @@ bool isForeignFile(const fs::path& file) {
     return magic != kMagic;
 }
 
-void writeBakeFile(const fs::path& file, std::uint64_t key, const BakeSums& sums) {
+void writeBakeFile(const fs::path& file, const BakeIdentity& identity, const BakeSums& sums) {
     const std::vector<BrickRecord> records = recordsOf(sums);
-    const Header header = headerOf(key, sums, records);
+    const Header header = headerOf(identity, sums, records);
     writeFileAtomically(file, [&](const fs::path& temporary) {
         std::ofstream out(temporary, std::ios::binary);
         const auto put = [&](const void* data, std::size_t bytes) {

@@ -33,8 +33,13 @@ std::uint64_t contentHashNear(const GreyVolume& volume, const MaskVolume& region
 // In the cache folder.
 std::filesystem::path bakeCacheFile(std::uint64_t key);
 
+struct BakeIdentity {
+    std::uint64_t key = 0;      // bakeKey()
+    std::uint64_t content = 0;  // BakeInputs::content: whether light that someone names is of this volume
+};
+
 struct BakeFile {
-    std::uint64_t key = 0;
+    BakeIdentity identity;
     BakeSums sums;
 };
 
@@ -48,6 +53,6 @@ std::optional<BakeFile> readBakeFile(const std::filesystem::path& file, std::opt
 bool isForeignFile(const std::filesystem::path& file);
 
 // Written beside its place and renamed. Throws Error.
-void writeBakeFile(const std::filesystem::path& file, std::uint64_t key, const BakeSums& sums);
+void writeBakeFile(const std::filesystem::path& file, const BakeIdentity& identity, const BakeSums& sums);
 
 }  // namespace stereonav

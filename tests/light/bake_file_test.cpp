@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 constexpr std::uint64_t kKey = 0x123456789abcdefull;
-constexpr std::size_t kHeaderBytes = 224, kBrickBytes = 88;  // as docs/formats.md says
+constexpr std::size_t kHeaderBytes = 232, kBrickBytes = 88;  // as docs/formats.md says
 
 std::string contentOf(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
@@ -78,13 +78,14 @@ TEST_F(BakeFileTest, GivesBackWhatWasKept) {
     for (const BakeKind kind : {BakeKind::Irradiance, BakeKind::Transfer, BakeKind::Openness})
         for (const int channels : {1, 3}) {
             const BakeSums sums = someSums(kind, channels);
-            writeBakeFile(file(), kKey, sums);
+            writeBakeFile(file(), {kKey, 77}, sums);
             EXPECT_FALSE(isForeignFile(file()));
             std::string problem = "?";
             const auto read = readBakeFile(file(), kKey, problem);
             ASSERT_TRUE(read) << problem;
             EXPECT_EQ(problem, "");
-            EXPECT_EQ(read->key, kKey);
+            EXPECT_EQ(read->identity.key, kKey);
+            EXPECT_EQ(read->identity.content, 77u);
             EXPECT_EQ(read->sums.frame().origin, sums.frame().origin);
             EXPECT_EQ(read->sums.frame().axes, sums.frame().axes);
             EXPECT_EQ(read->sums.frame().spacing, sums.frame().spacing);
@@ -117,7 +118,7 @@ TEST_F(BakeFileTest, NoFileIsNoProblem) {
 // Every byte is covered by a hash or checked itself.
 TEST_F(BakeFileTest, AnyChangedByteIsNoticed) {
     for (const BakeKind kind : {BakeKind::Irradiance, BakeKind::Transfer}) {
-        writeBakeFile(file(), kKey, someSums(kind));
+        writeBakeFile(file(), {kKey, 77}, someSums(kind));
         const std::string whole = contentOf(file());
         ASSERT_EQ(problemOf(whole), "");
         // All of the header, and of what has one hash for all some.
@@ -130,7 +131,7 @@ TEST_F(BakeFileTest, AnyChangedByteIsNoticed) {
 }
 
 TEST_F(BakeFileTest, CutOffAnywhereOrGrownIsNoticed) {
-    writeBakeFile(file(), kKey, someSums(BakeKind::Transfer));
+    writeBakeFile(file(), {kKey, 77}, someSums(BakeKind::Transfer));
     const std::string whole = contentOf(file());
     for (std::size_t n = 0; n < whole.size(); n += 11) {
         const std::string problem = problemOf(whole.substr(0, n));
@@ -141,7 +142,7 @@ TEST_F(BakeFileTest, CutOffAnywhereOrGrownIsNoticed) {
 }
 
 TEST_F(BakeFileTest, SaysWhatIsWrong) {
-    writeBakeFile(file(), kKey, someSums(BakeKind::Irradiance));
+    writeBakeFile(file(), {kKey, 77}, someSums(BakeKind::Irradiance));
     const std::string whole = contentOf(file());
     EXPECT_THAT(problemOf(std::string(300, 'x')), HasSubstr("no bake"));
     const auto changed = [&](std::size_t at) {
@@ -150,7 +151,7 @@ TEST_F(BakeFileTest, SaysWhatIsWrong) {
         return problemOf(bytes);
     };
     EXPECT_THAT(changed(8), HasSubstr("format version 3"));
-    EXPECT_THAT(changed(50), HasSubstr("header"));
+    EXPECT_THAT(changed(58), HasSubstr("header"));
     EXPECT_THAT(changed(kHeaderBytes + 20), HasSubstr("bricks"));
     EXPECT_THAT(changed(whole.size() - 3), HasSubstr("sums"));
     write(whole);
@@ -162,14 +163,14 @@ TEST_F(BakeFileTest, SaysWhatIsWrong) {
 
 // Headers whose hash is right and whose numbers are nonsense: nothing is allocated, nothing crashes.
 TEST_F(BakeFileTest, NonsenseThatHashesRightIsRefused) {
-    writeBakeFile(file(), kKey, someSums(BakeKind::Transfer));
+    writeBakeFile(file(), {kKey, 77}, someSums(BakeKind::Transfer));
     const std::string whole = contentOf(file());
     struct Field {
         const char* name;
         std::size_t at, bytes;
     };
-    const Field fields[] = {{"kind", 12, 4},     {"size x", 32, 4},  {"size z", 40, 4},  {"order", 44, 4},
-                            {"channels", 48, 4}, {"bricks", 176, 8}, {"texels", 184, 8}, {"bytes", 24, 8}};
+    const Field fields[] = {{"kind", 12, 4},     {"size x", 40, 4},  {"size z", 48, 4},  {"order", 52, 4},
+                            {"channels", 56, 4}, {"bricks", 184, 8}, {"texels", 192, 8}, {"bytes", 32, 8}};
     for (const Field& field : fields)
         for (const std::uint64_t value : {0ull, 7ull, 1ull << 20, 1ull << 31, ~0ull, 1ull << 62}) {
             std::string bytes = whole;
@@ -185,13 +186,13 @@ TEST_F(BakeFileTest, NonsenseThatHashesRightIsRefused) {
 }
 
 TEST_F(BakeFileTest, BricksThatHashRightAndCanNotBeAreRefused) {
-    writeBakeFile(file(), kKey, someSums(BakeKind::Irradiance));
+    writeBakeFile(file(), {kKey, 77}, someSums(BakeKind::Irradiance));
     const std::string whole = contentOf(file());
     const auto problemWith = [&](const std::function<void(char*)>& change) {
         std::string bytes = whole;
         change(bytes.data() + kHeaderBytes);
         const std::uint64_t bricks = Hash().add(bytes.data() + kHeaderBytes, 3 * kBrickBytes).value();
-        std::memcpy(bytes.data() + 192, &bricks, 8);
+        std::memcpy(bytes.data() + 200, &bricks, 8);
         const std::uint64_t hash = Hash().add(bytes.data(), kHeaderBytes - 8).value();
         std::memcpy(bytes.data() + kHeaderBytes - 8, &hash, 8);
         return problemOf(bytes);
@@ -215,7 +216,7 @@ TEST_F(BakeFileTest, ForeignFilesAreTold) {
 
 TEST_F(BakeFileTest, WhereItCanNotBeWrittenIsSaid) {
     write("x");
-    EXPECT_THROW(writeBakeFile(file() / "inside.bake", kKey, someSums(BakeKind::Openness)), Error);
+    EXPECT_THROW(writeBakeFile(file() / "inside.bake", {kKey, 77}, someSums(BakeKind::Openness)), Error);
 }
 
 TEST(BakeKey, ChangesWithEverythingThatMatters) {
