@@ -60,7 +60,8 @@ int bakeVolume(const BakeOptions& options) {
     const LoadedScene scene = loadScene(shown, SizeOption{}, bar.progress());
     VolumeBakePlan plan = planVolumeBake(*scene.colon, options, bar.progress());
     const BakeIdentity identity{bakeKey(plan.inputs), plan.inputs.content};
-    const std::filesystem::path file = options.out.empty() ? bakeCacheFile(identity.key) : options.out;
+    const std::filesystem::path file =
+        options.out.empty() ? bakeCacheFile(identity.key) : std::filesystem::path(options.out);
     BakeSums sums = begin(file, identity.key, plan, bar);
     const double before = samplesIn(sums);
     const TexelLighter lighter(scene.colon->volume.field, plan.inputs.texels, plan.inputs.light,
@@ -70,7 +71,7 @@ int bakeVolume(const BakeOptions& options) {
     const Stopwatch watch;
     const BakeEnd end = runBake(sums, sourceOf(lighter), goalOf(options), bar.progress(), keeping);
     const double seconds = watch.elapsed_ms() / 1000, done = samplesIn(sums) - before;
-    if (done > 0) writeBakeFile(file, identity, sums);
+    if (done > 0 || !std::filesystem::exists(file)) writeBakeFile(file, identity, sums);
     bar.clear();
     std::printf("%s: %s of %zu texels, %u samples each, %s\n", scene.name.c_str(),
                 std::string(nameOf(sums.shape().kind)).c_str(), sums.texels(), sums.fewestSamples(),

@@ -94,13 +94,18 @@ private:
 
     void advance(std::size_t brick, std::uint32_t target) {
         const bool transfer = mSums.shape().kind == BakeKind::Transfer;
-        const std::uint32_t countBefore = mSums.samples[brick];
+        std::uint32_t countBefore = mSums.samples[brick];
         std::vector<float> before;
-        if (transfer) before.assign(mSums.transfer(brick).begin(), mSums.transfer(brick).end());
+        const auto remember = [&] {
+            countBefore = mSums.samples[brick];
+            if (transfer) before.assign(mSums.transfer(brick).begin(), mSums.transfer(brick).end());
+        };
+        remember();
         while (mSums.samples[brick] < target && !mStop) {
             const std::uint32_t now = mSums.samples[brick], end = std::min(batchEnd(now), target);
             transfer ? addTransfer(brick, now, end - now) : addIrradiance(brick, end - now);
             mSums.samples[brick] = end;
+            if (now == 0 && end < target) remember();  // so that the first pass tells its error, too
             mDone += static_cast<double>((end - now) * mSums.texelsOf(brick));
             check();
         }
@@ -249,7 +254,7 @@ BakeSource sourceOf(const TexelLighter& lighter) {
 }
 
 std::uint32_t batchEnd(std::uint32_t first) {
-    const std::uint32_t step = first < 128 ? 16 : 64;
+    const std::uint32_t step = first < 16 ? 8 : first < 128 ? 16 : 64;
     return (first / step + 1) * step;
 }
 
