@@ -220,7 +220,7 @@ vec3 litBy(const Site& s, const vec3& normal, const vec3& toSun) {
 
 }  // namespace
 
-Plane<PackedColor> makeBuiltInColor(const Relief& relief, std::uint64_t seed, Progress& progress) {
+Plane<PackedColor> makeBuiltInColor(const Relief& relief, std::uint64_t seed, bool lit, Progress& progress) {
     const Noise cover(seed * 31 + 11), bumps(seed * 31 + 12), grain(seed * 31 + 13);
     const std::vector<Site> sites = surveyed(relief, bakeLight(relief), cover);
     progress.report(0.75, "painting the ground");
@@ -237,8 +237,8 @@ Plane<PackedColor> makeBuiltInColor(const Relief& relief, std::uint64_t seed, Pr
             site.patch += 0.0625f * cover.at(mx / 32, my / 32);
             const Detail detail{mx, my, 1.4f * grain.fractal(mx / 34, my / 34, 2),
                                 texelNormal(site, bumps, mx, my)};
-            color.at(column, row) =
-                packColor(groundCover(site, detail, cover) * litBy(site, detail.normal, toSun));
+            const vec3 ground = groundCover(site, detail, cover);
+            color.at(column, row) = packColor(lit ? ground * litBy(site, detail.normal, toSun) : ground);
         }
     });
     progress.report(1.0, "painting the ground");

@@ -111,13 +111,13 @@ void checkSize(int size) {
 
 }  // namespace
 
-BuiltInTerrain generateBuiltInTerrain(std::uint64_t seed, int size, Progress& progress) {
+BuiltInTerrain generateBuiltInTerrain(std::uint64_t seed, int size, Progress& progress, bool lit) {
     checkSize(size);
     const Relief relief = makeRelief(seed, size, progress);
     BuiltInTerrain terrain;
     terrain.size = size;
     terrain.spacing = static_cast<double>(kBuiltInExtent) / (size - 1);
-    terrain.color = makeBuiltInColor(relief, seed, progress);
+    terrain.color = makeBuiltInColor(relief, seed, lit, progress);
     terrain.heights = relief.heights;
     return terrain;
 }

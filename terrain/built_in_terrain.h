@@ -29,7 +29,7 @@ struct BuiltInTerrain {
 // cache that can not be written is done without. Throws Cancelled.
 BuiltInTerrain builtInTerrain(std::uint64_t seed, int size, Progress& progress);
 
-// The same without the cache.
-BuiltInTerrain generateBuiltInTerrain(std::uint64_t seed, int size, Progress& progress);
+// The same without the cache. lit: false leaves the light out of the colours.
+BuiltInTerrain generateBuiltInTerrain(std::uint64_t seed, int size, Progress& progress, bool lit = true);
 
 }  // namespace stereonav

@@ -18,6 +18,16 @@ ColorTexture::ColorTexture(const Plane<PackedColor>& image, glm::dvec2 gridOrigi
     for (int y = 0; y < mHeight; ++y)
         std::copy_n(image.row(mHeight - 1 - y), mWidth,
                     texels(0) + static_cast<std::ptrdiff_t>(y) * (mWidth + 1));
+    finish();
+}
+
+void ColorTexture::refill(const std::function<void(int y, PackedColor* row)>& fillRow) {
+    parallelFor(mHeight,
+                [&](int y) { fillRow(y, texels(0) + static_cast<std::ptrdiff_t>(y) * (mWidth + 1)); });
+    finish();
+}
+
+void ColorTexture::finish() {
     pad(0);
     for (int k = 1; k < levelCount(); ++k) {
         halve(k);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <vector>
 
@@ -43,6 +44,10 @@ public:
     // coordinates of the outer corner of the south-west texel; gridPerTexel: grid units a texel.
     ColorTexture(const Plane<PackedColor>& image, glm::dvec2 gridOrigin, glm::dvec2 gridPerTexel);
 
+    // Writes all of level 0 anew, row by row from several threads, and averages the other levels from it; the
+    // memory stays where it is. No one may read meanwhile.
+    void refill(const std::function<void(int y, PackedColor* row)>& fillRow);
+
     int levelCount() const { return static_cast<int>(mOffsets.size()); }
     Level level(int k) const { return {mTexels.data() + mOffsets[k], widthOf(k), heightOf(k)}; }
     std::int32_t offset(int k) const { return mOffsets[k]; }
@@ -58,6 +63,7 @@ private:
     PackedColor* texels(int k) { return mTexels.data() + mOffsets[k]; }
     void pad(int k);
     void halve(int k);
+    void finish();
 
     int mWidth = 0, mHeight = 0;
     std::vector<std::int32_t> mOffsets;

@@ -270,6 +270,10 @@ void LandmarkSet::cast(const EyeView& view, int count, const glm::dvec3* directi
     }
 }
 
+void LandmarkSet::setLook(const TerrainLook& look) {
+    mState->shader.setLook(look);
+}
+
 glm::dvec3 LandmarkSet::boundsMin() const {
     return mState->low;
 }

@@ -25,6 +25,9 @@ public:
     void cast(const EyeView& view, int count, const glm::dvec3* direction, float* viewDepth,
               PackedColor* color) const;
 
+    // Light and fog of another look. No cast() may run meanwhile.
+    void setLook(const TerrainLook& look);
+
     // World bounding box of everything.
     glm::dvec3 boundsMin() const;
     glm::dvec3 boundsMax() const;

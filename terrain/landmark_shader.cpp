@@ -47,13 +47,18 @@ float cross2(const glm::vec2& a, const glm::vec2& b) {
 
 }  // namespace
 
-LandmarkShader::LandmarkShader(LandmarkMesh&& mesh, const TerrainLook& look)
-    : mMesh(std::move(mesh)),
-      mSun(std::cos(look.sunElevation) * std::sin(look.sunAzimuth),
-           std::cos(look.sunElevation) * std::cos(look.sunAzimuth), std::sin(look.sunElevation)),
-      mAmbient(look.ambient),
-      mFogPerMetre(look.fogDistance > 0 ? 1 / look.fogDistance : 0),
-      mFogColor(look.fogColor) {}
+LandmarkShader::LandmarkShader(LandmarkMesh&& mesh, const TerrainLook& look) : mMesh(std::move(mesh)) {
+    setLook(look);
+}
+
+void LandmarkShader::setLook(const TerrainLook& look) {
+    const double across = std::cos(look.sunElevation);
+    mSun = {across * std::sin(look.sunAzimuth), across * std::cos(look.sunAzimuth),
+            std::sin(look.sunElevation)};
+    mAmbient = look.ambient;
+    mFogPerMetre = look.fogDistance > 0 ? 1 / look.fogDistance : 0;
+    mFogColor = look.fogColor;
+}
 
 void LandmarkShader::recentre(const glm::dvec3& centre) {
     for (auto& vertex : mMesh.vertices) vertex.position = glm::dvec3(glm::vec3(vertex.position - centre));

@@ -19,6 +19,7 @@ class LandmarkShader {
 public:
     LandmarkShader(LandmarkMesh&& mesh, const TerrainLook& look);
 
+    void setLook(const TerrainLook& look);
     // Positions become relative to `centre` and are rounded to floats, as Embree has them.
     void recentre(const glm::dvec3& centre);
     const LandmarkMesh& mesh() const { return mMesh; }

@@ -17,6 +17,7 @@
 #include "terrain/nodata.h"
 #include "terrain/scene_flight.h"
 #include "terrain/sky_source.h"
+#include "terrain/terrain_illumination.h"
 
 namespace stereonav {
 namespace {
@@ -33,7 +34,9 @@ struct LoadedGround {
 };
 
 LoadedGround loadBuiltIn(const SceneFile& file, TerrainScene& scene, Progress& progress) {
-    BuiltInTerrain built = builtInTerrain(file.seed, file.builtInSize, progress);
+    BuiltInTerrain built = file.light.empty()
+                               ? builtInTerrain(file.seed, file.builtInSize, progress)
+                               : generateBuiltInTerrain(file.seed, file.builtInSize, progress, false);
     if (file.verticalScale != 1.0)
         for (float& h : built.heights) h = static_cast<float>(h * file.verticalScale);
     scene.ground = Heightfield(built.size, built.size, glm::dvec2(built.spacing), std::move(built.heights),
@@ -65,18 +68,33 @@ LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progr
 
 void loadColor(const SceneFile& file, LoadedGround& loaded, TerrainScene& scene, Progress& progress) {
     GroundColor color;
+    TerrainLook look = file.look;
+    if (!file.light.empty()) look.ambient = 1;  // colours alone: light comes later
     if (!file.image.empty()) {
-        color = groundFromImage(file.image, loaded.place, scene.ground, file.look, progress);
+        color = groundFromImage(file.image, loaded.place, scene.ground, look, progress);
     } else if (loaded.ownColor) {
         const Plane<PackedColor>& texels = *loaded.ownColor;
         const glm::dvec2 cells(scene.ground.width() - 1, scene.ground.height() - 1);
         color = {ColorTexture(texels, glm::dvec2(0.0), cells / glm::dvec2(texels.width(), texels.height())),
                  "generated, lit"};
     } else {
-        color = tintedGround(scene.ground, file.look, progress);
+        color = tintedGround(scene.ground, look, progress);
     }
     scene.color = std::move(color.texture);
     scene.report.colorSource = std::move(color.source);
+}
+
+void loadLight(const SceneFile& file, TerrainScene& scene, Progress& progress) {
+    progress.report(0.9, "reading " + file.light.filename().string());
+    TerrainLight light = loadTerrainLight(file.light, &scene.ground);
+    const bool photo = !file.image.empty() && !file.look.shadeImage;
+    const bool transfer = light.settings.kind == TerrainLightKind::Transfer;
+    scene.report.lightSource = fmt::format("{} {}x{}, {}", file.light.filename().string(), light.grid.width,
+                                           light.grid.height, transfer ? "transfer" : "openness");
+    scene.illumination =
+        std::make_unique<TerrainIllumination>(scene.ground, scene.color, scene.sky, std::move(light),
+                                              photo ? TerrainIllumination::kPhotoShare : 1.0f);
+    scene.illumination->apply(scene.look, scene.color);
 }
 
 // The highest ground within a cell of a place, for standing above it where the place is a hole.
@@ -147,6 +165,7 @@ TerrainScene loadTerrain(const SceneFile& file, Progress& progress) {
     SkySource sky = readSky(file.sky);
     scene.sky = std::move(sky.map);
     scene.report.skySource = std::move(sky.source);
+    if (!file.light.empty()) loadLight(file, scene, progress);
     if (!file.landmarks.empty())
         scene.landmarks = std::make_unique<LandmarkSet>(file.landmarks, scene.ground, file.look);
     const glm::dvec2 spacing = scene.ground.spacing();

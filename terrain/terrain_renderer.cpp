@@ -187,6 +187,9 @@ void TerrainRenderer::shadeRows(const EyeView& view, int y0, int y1, EyeImage& i
 ViewDependence TerrainRenderer::viewDependence() const {
     return mState->specular.active() ? ViewDependence::Highlight : ViewDependence::None;
 }
+void TerrainRenderer::sunMoved() {
+    mState->specular = Specular(mScene.look);
+}
 SimdTarget TerrainRenderer::target() const {
     return mState->target;
 }

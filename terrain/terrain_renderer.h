@@ -29,6 +29,9 @@ public:
     // found: the same shading for comparing casters.
     void shadeRows(const EyeView& view, int y0, int y1, EyeImage& image) const;
 
+    // The scene's look has changed (moveSun()): highlights follow. Not while a picture is cast.
+    void sunMoved();
+
     SimdTarget target() const;  // what Auto became
     const TerrainScene& scene() const { return mScene; }
 

@@ -1,6 +1,7 @@
 #include "terrain/terrain_scene.h"
 
 #include "terrain/landmark.h"
+#include "terrain/terrain_illumination.h"
 
 namespace stereonav {
 

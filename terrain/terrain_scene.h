@@ -1,4 +1,5 @@
-// A loaded terrain: all that its ray caster needs, immutable.
+// A loaded terrain: all that its ray caster needs, immutable but for the place of the sun under
+// baked light.
 #pragma once
 
 #include <memory>
@@ -14,7 +15,8 @@
 
 namespace stereonav {
 
-class LandmarkSet;  // terrain/landmark.h: meshes cast with Embree
+class LandmarkSet;          // terrain/landmark.h: meshes cast with Embree
+class TerrainIllumination;  // terrain/terrain_illumination.h: baked light
 
 // What the reader did, for `info`.
 struct TerrainReport {
@@ -26,6 +28,7 @@ struct TerrainReport {
     glm::dvec2 sourceOffset{0.0};  // source x, y of the world's origin (metres in the local projection)
     std::string colorSource;       // "image winter.jpg 457x499", "hypsometric tint", ...
     std::string skySource;
+    std::string lightSource;  // of baked light, "" without
 };
 
 struct TerrainScene {
@@ -39,6 +42,8 @@ struct TerrainScene {
     SkyMap sky;
     TerrainLook look;                        // fog, specular, sun
     std::unique_ptr<LandmarkSet> landmarks;  // null when there are none
+    // Null without baked light. What is lit by it is `color`, which changes when the sun moves.
+    std::unique_ptr<TerrainIllumination> illumination;
     Pose startPose;
     RecordedPath path;  // the scene's own flight
     StereoSetting stereo;

@@ -1,0 +1,56 @@
+// Baked light at work: brightness of every baked sample under the present sun and sky, and from it the
+// ground's lit colours. One pass each, when the sun moves; pictures are then cast as ever, at no cost of
+// their own: the light does not depend on the eye, and is filtered with the colour.
+#pragma once
+
+#include <vector>
+
+#include "engine/math/simd_target.h"
+#include "terrain/color_texture.h"
+#include "terrain/heightfield.h"
+#include "terrain/relight_kernel_types.h"
+#include "terrain/sun_and_sky.h"
+#include "terrain/terrain_light.h"
+
+namespace stereonav {
+
+// Irradiance / pi by baked sample: three planes, red, green, blue.
+struct GroundBrightness {
+    int width = 0, height = 0;
+    std::vector<float> planes;
+
+    std::size_t planeSize() const { return static_cast<std::size_t>(width) * height; }
+    const float* row(int channel, int j) const {
+        return planes.data() + channel * planeSize() + static_cast<std::size_t>(j) * width;
+    }
+    glm::vec3 at(int i, int j) const { return {row(0, j)[i], row(1, j)[i], row(2, j)[i]}; }
+};
+
+class TerrainRelight {
+public:
+    TerrainRelight(const Heightfield& ground, TerrainLight light, SimdTarget target = SimdTarget::Auto);
+
+    // Samples in holes get the mean of those known beside them, or none.
+    void relight(const SunAndSky& now, GroundBrightness& brightness) const;
+
+    struct Display {
+        float exposure = 1;
+        float share = 1;  // of the light's variation that shows: 0 leaves colours as they are
+    };
+    // lit: of the same size and place as albedo; its texels become those of albedo times the light,
+    // 1 + share * (exposure * brightness - 1).
+    void lightTexture(const ColorTexture& albedo, const GroundBrightness& brightness, const Display& display,
+                      ColorTexture& lit) const;
+
+    const TerrainLight& light() const { return mLight; }
+
+private:
+    void closeHoles(GroundBrightness& brightness) const;
+
+    TerrainLight mLight;
+    const RelightKernels* mKernels;
+    std::vector<float> mNormals;        // planes x, y, z of the baked samples
+    std::vector<std::uint32_t> mHoles;  // indices of samples in holes
+};
+
+}  // namespace stereonav
