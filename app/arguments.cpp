@@ -82,6 +82,10 @@ void addScene(CLI::App& command, SceneOptions& options) {
     command.add_flag("--open-holes", options.openHoles, "leave missing ground open instead of filling it");
     command.add_option("--image", options.image, "colour of the ground");
     command.add_option("--sky", options.sky, "an equirectangular picture or a light probe (.hdr)");
+    command.add_option("--light", options.light,
+                       "light baked for a terrain: a file, or auto for the one that bake has put by");
+    command.add_option("--sun", options.sun,
+                       "azimuth,elevation of a terrain's sun in degrees, clockwise from north");
     command.add_option("--separation", options.separation_m,
                        "of the eyes, in metres: 0.001 is a millimetre, and usual in a colon");
     command.add_option("--zero-parallax", options.zeroParallax_m, "distance seen in the screen, in metres");

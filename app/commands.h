@@ -28,6 +28,8 @@ struct SceneOptions {
     double verticalScale = 0;  // 0: as the scene says
     bool openHoles = false;
     std::string image, sky;  // "": as the scene says
+    std::string light;       // baked light of a terrain: a file, or "auto" for the cache's; "": none
+    std::string sun;         // "azimuth,elevation" in degrees; "": as the scene says
     std::optional<double> separation_m, zeroParallax_m;
     double fov_deg = 0;         // vertical; 0: as the scene says
     int threads = 0;            // 0: all

@@ -5,6 +5,7 @@
 
 #include "app/info_text.h"
 #include "terrain/landmark.h"
+#include "terrain/terrain_illumination.h"
 
 namespace stereonav {
 namespace {
@@ -13,7 +14,8 @@ using Json = nlohmann::ordered_json;
 
 std::size_t bytesOf(const TerrainScene& terrain) {
     return sizeof(float) * static_cast<std::size_t>(terrain.ground.width()) * terrain.ground.height() +
-           terrain.color.byteCount() + terrain.sky.map().byteCount();
+           terrain.color.byteCount() + terrain.sky.map().byteCount() +
+           (terrain.illumination ? terrain.illumination->byteCount() : 0);
 }
 
 std::string orNone(const std::string& text) {
@@ -42,6 +44,7 @@ nlohmann::ordered_json terrainJson(const TerrainScene& terrain) {
     json["color_size"] = {terrain.color.levelCount() > 0 ? terrain.color.level(0).width() : 0,
                           terrain.color.levelCount() > 0 ? terrain.color.level(0).height() : 0};
     json["sky"] = report.skySource;
+    json["baked_light"] = report.lightSource;
     json["landmark_triangles"] = terrain.landmarks ? terrain.landmarks->triangleCount() : 0;
     json["bytes"] = bytesOf(terrain);
     json["flight_s"] = terrain.path.duration();
@@ -66,6 +69,7 @@ std::string terrainText(const TerrainScene& terrain) {
                                 report.filledSamples, ground.hasHoles() ? ", the others left open" : ""));
     line("colour", orNone(report.colorSource));
     line("sky", orNone(report.skySource));
+    line("baked light", orNone(report.lightSource));
     line("landmarks",
          terrain.landmarks ? fmt::format("{} triangles", terrain.landmarks->triangleCount()) : "none");
     line("flight", fmt::format("{:.4g} s, at least {:.4g} m above the ground", terrain.path.duration(),

@@ -64,7 +64,9 @@ void refuseTerrainOptions(const SceneOptions& options) {
     const std::pair<const char*, bool> given[] = {{"--vertical-scale", options.verticalScale != 0},
                                                   {"--open-holes", options.openHoles},
                                                   {"--image", !options.image.empty()},
-                                                  {"--sky", !options.sky.empty()}};
+                                                  {"--sky", !options.sky.empty()},
+                                                  {"--light", !options.light.empty()},
+                                                  {"--sun", !options.sun.empty()}};
     for (const auto& [option, is] : given)
         if (is) throw Error(option, "", "expected with a terrain, the scene is a CT study", "leave it out");
 }

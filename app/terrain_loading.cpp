@@ -1,8 +1,11 @@
 #include "app/terrain_loading.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <numbers>
 
+#include "engine/base/error.h"
 #include "engine/nav/navigator.h"
 #include "terrain/terrain_loader.h"
 #include "terrain/terrain_renderer.h"
@@ -13,6 +16,18 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kCrossingSeconds = 45.0;  // to cross the terrain at normal speed
 
+void setSun(const std::string& text, TerrainLook& look) {
+    const Error error("--sun", "", "expected azimuth,elevation in degrees, got \"" + text + "\"",
+                      "as in 315,20: from the north-west, 20 degrees high; elevations are -90 to 90");
+    double azimuth = 0, elevation = 0;
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%lf,%lf%n", &azimuth, &elevation, &used) != 2 ||
+        used != static_cast<int>(text.size()) || !std::isfinite(azimuth) || !(std::abs(elevation) <= 90))
+        throw error;
+    look.sunAzimuth = std::remainder(azimuth, 360.0) * kRadians;
+    look.sunElevation = elevation * kRadians;
+}
+
 // The scene's file with what the options change.
 SceneFile describeTerrain(const SceneOptions& options) {
     SceneFile scene = sceneFileFromName(options.scene);
@@ -20,6 +35,8 @@ SceneFile describeTerrain(const SceneOptions& options) {
     if (options.openHoles) scene.openHoles = true;
     if (!options.image.empty()) scene.image = options.image;
     if (!options.sky.empty()) scene.sky = options.sky;
+    if (!options.light.empty()) scene.light = options.light;
+    if (!options.sun.empty()) setSun(options.sun, scene.look);
     if (options.separation_m) scene.separation = options.separation_m;
     if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;
     if (options.fov_deg > 0.0) scene.verticalFov = options.fov_deg * kRadians;

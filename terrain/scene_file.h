@@ -41,7 +41,7 @@ struct SceneFile {
     bool openHoles = false;       // leave nodata open instead of filling it
     std::filesystem::path image;  // "" for hypsometric tint
     std::filesystem::path sky;    // "" for the built-in gradient
-    std::filesystem::path light;  // baked light; "" for none
+    std::filesystem::path light;  // baked light; "auto": the cache's; "" for none
     TerrainLook look;
     std::vector<LandmarkFile> landmarks;
     std::optional<glm::dvec3> startPosition;  // world metres; z above the ground when startAboveGround

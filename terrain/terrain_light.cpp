@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/light/spherical_harmonics.h"
@@ -67,6 +68,15 @@ void eachRow(int rows, Progress& progress, double from, double to, const char* w
 
 std::int16_t quantized(float value) {
     return static_cast<std::int16_t>(std::lround(std::clamp(value, -32767.0f, 32767.0f)));
+}
+
+Hash hashOf(const Heightfield& ground) {
+    Hash hash;
+    hash.add("terrain light").add(std::int64_t{kVersion});
+    hash.add(std::int64_t{ground.width()}).add(std::int64_t{ground.height()});
+    hash.add(ground.spacing().x).add(ground.spacing().y);
+    hash.add(ground.data(), sizeof(float) * static_cast<std::size_t>(ground.width()) * ground.height());
+    return hash;
 }
 
 class Bake {
@@ -205,12 +215,12 @@ double transferUnit(int n) {
     return std::sqrt((2 * l + 1) / (4 * std::numbers::pi)) / 32767;
 }
 
+std::filesystem::path terrainLightCache(const Heightfield& ground) {
+    return cacheFolder() / fmt::format("terrain_light_{:016x}.light", hashOf(ground).value());
+}
+
 std::uint64_t terrainLightKey(const Heightfield& ground, const TerrainLightSettings& s) {
-    Hash hash;
-    hash.add("terrain light").add(std::int64_t{kVersion});
-    hash.add(std::int64_t{ground.width()}).add(std::int64_t{ground.height()});
-    hash.add(ground.spacing().x).add(ground.spacing().y);
-    hash.add(ground.data(), sizeof(float) * static_cast<std::size_t>(ground.width()) * ground.height());
+    Hash hash = hashOf(ground);
     for (const std::int64_t value : {static_cast<std::int64_t>(s.kind), std::int64_t{s.order},
                                      std::int64_t{s.bounces}, std::int64_t{s.rays}, std::int64_t{s.azimuths},
                                      std::int64_t{s.stride}, static_cast<std::int64_t>(s.seed)})

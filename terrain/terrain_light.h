@@ -98,6 +98,9 @@ double transferUnit(int n);
 // Of heights, spacing and all settings.
 std::uint64_t terrainLightKey(const Heightfield& ground, const TerrainLightSettings& settings);
 
+// Where the light of this ground is kept between runs, whatever its settings: the last one baked.
+std::filesystem::path terrainLightCache(const Heightfield& ground);
+
 // Throws Error for settings outside their ranges and where the memory would not suffice; Cancelled. The
 // result does not depend on the thread count.
 TerrainLight bakeTerrainLight(const Heightfield& ground, const TerrainLightSettings& settings,

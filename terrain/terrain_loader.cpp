@@ -85,11 +85,15 @@ void loadColor(const SceneFile& file, LoadedGround& loaded, TerrainScene& scene,
 }
 
 void loadLight(const SceneFile& file, TerrainScene& scene, Progress& progress) {
-    progress.report(0.9, "reading " + file.light.filename().string());
-    TerrainLight light = loadTerrainLight(file.light, &scene.ground);
+    progress.report(0.9, "reading baked light");
+    const std::filesystem::path place = file.light == "auto" ? terrainLightCache(scene.ground) : file.light;
+    if (file.light == "auto" && !std::filesystem::exists(place))
+        throw Error(file.file.string(), "light", "none was baked for this ground yet",
+                    "bake it with stereonav bake, with the same --vertical-scale and --open-holes");
+    TerrainLight light = loadTerrainLight(place, &scene.ground);
     const bool photo = !file.image.empty() && !file.look.shadeImage;
     const bool transfer = light.settings.kind == TerrainLightKind::Transfer;
-    scene.report.lightSource = fmt::format("{} {}x{}, {}", file.light.filename().string(), light.grid.width,
+    scene.report.lightSource = fmt::format("{} {}x{}, {}", place.filename().string(), light.grid.width,
                                            light.grid.height, transfer ? "transfer" : "openness");
     scene.illumination =
         std::make_unique<TerrainIllumination>(scene.ground, scene.color, scene.sky, std::move(light),
