@@ -54,13 +54,9 @@ LumenField lumenOfGrey(const Study& study, const ColonOptions& options, std::vec
         notes.insert(notes.end(), saved.notes.begin(), saved.notes.end());
         if (saved.lumen) return std::move(*saved.lumen);
     }
-    try {
-        LumenField lumen = segmentColon(study.grey, options.segmentation, progress);
-        if (keeps) notes.push_back(saveLumen(options.study, lumen.lumen, key));
-        return lumen;
-    } catch (const Error& error) {
-        throw Error("", "", error.what(), "--isosurface shows any volume from outside");
-    }
+    LumenField lumen = segmentColon(study.grey, options.segmentation, progress);
+    if (keeps) notes.push_back(saveLumen(options.study, lumen.lumen, key));
+    return lumen;
 }
 
 // The colon in a study that was read.
@@ -68,8 +64,13 @@ FoundColon findColon(const Study& study, const ColonOptions& options, Progress& 
     FoundColon found;
     found.format = study.format;
     found.notes = study.notes;
-    found.lumen = study.isMask ? lumenFromMask(study.mask, options.segmentation, progress)
-                               : lumenOfGrey(study, options, found.notes, progress);
+    try {
+        found.lumen = study.isMask ? lumenFromMask(study.mask, options.segmentation, progress)
+                                   : lumenOfGrey(study, options, found.notes, progress);
+    } catch (const Error& error) {
+        throw Error(options.study.empty() ? "colon" : options.study.string(), "", error.what(),
+                    "--isosurface shows any volume from outside");
+    }
     const DistanceVolume distance = distanceToOutside(found.lumen.lumen);
     found.centreline = findCentreline(found.lumen, distance, options.centreline, progress);
     return found;

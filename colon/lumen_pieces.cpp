@@ -1,13 +1,15 @@
-// Ways through pieces are walked breadth first on coarse blocks: a few thousand for a whole colon.
+// Ways through pieces are walked on coarse blocks (Dijkstra 1959): a few thousand for a whole colon.
 #include "colon/lumen_pieces.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <queue>
 #include <utility>
 
 #include "engine/base/error.h"
@@ -16,14 +18,20 @@
 namespace stereonav {
 namespace {
 
-constexpr int kBlock = 8;  // voxels
+constexpr int kLargestBlock = 8;   // voxels
+constexpr int kBlocksAcross = 16;  // at least, along a piece's longest side, where it has as many voxels
+
+int blockSize(const Component& part) {
+    const glm::ivec3 extent = part.last - part.first + 1;
+    return std::clamp(std::max({extent.x, extent.y, extent.z}) / kBlocksAcross, 1, kLargestBlock);
+}
 
 bool before(const glm::ivec3& a, const glm::ivec3& b) {
     return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
 }
 
 // The blocks that a piece touches, sorted.
-std::vector<glm::ivec3> blocksOf(const Pieces& pieces, int piece) {
+std::vector<glm::ivec3> blocksOf(const Pieces& pieces, int piece, int size) {
     const Component& part = pieces.parts.list[static_cast<std::size_t>(piece)];
     std::vector<glm::ivec3> blocks;
     for (int k = part.first.z; k <= part.last.z; ++k)
@@ -33,8 +41,8 @@ std::vector<glm::ivec3> blocksOf(const Pieces& pieces, int piece) {
             for (std::uint32_t n = first; n < end; ++n) {
                 if (pieces.parts.ofRun[n] != static_cast<std::uint32_t>(piece)) continue;
                 const VoxelRun& run = pieces.runs.runs[n];
-                for (int i = run.first / kBlock; i <= (run.end - 1) / kBlock; ++i)
-                    blocks.push_back({i, j / kBlock, k / kBlock});
+                for (int i = run.first / size; i <= (run.end - 1) / size; ++i)
+                    blocks.push_back({i, j / size, k / size});
             }
         }
     std::sort(blocks.begin(), blocks.end(), before);
@@ -44,12 +52,12 @@ std::vector<glm::ivec3> blocksOf(const Pieces& pieces, int piece) {
 
 class BlockGraph {
 public:
-    BlockGraph(std::vector<glm::ivec3> blocks, const VolumeFrame& frame)
-        : mBlocks(std::move(blocks)), mFrame(frame) {}
+    BlockGraph(std::vector<glm::ivec3> blocks, int blockSize, const VolumeFrame& frame)
+        : mBlocks(std::move(blocks)), mBlockSize(blockSize), mFrame(frame) {}
 
     std::size_t size() const { return mBlocks.size(); }
     glm::dvec3 place(std::size_t n) const {
-        return mFrame.worldFromVoxel(glm::dvec3(mBlocks[n] * kBlock) + glm::dvec3(kBlock / 2 - 0.5));
+        return mFrame.worldFromVoxel(glm::dvec3(mBlocks[n] * mBlockSize) + 0.5 * (mBlockSize - 1));
     }
 
     struct Far {
@@ -58,17 +66,22 @@ public:
     };
     // The block farthest from `start`, in steps to the 26 neighbours.
     Far farthestFrom(std::size_t start) const {
-        std::vector<double> way(mBlocks.size(), -1);
-        std::vector<std::size_t> queue{start};
+        using Open = std::pair<double, std::size_t>;  // way, block
+        std::vector<double> way(mBlocks.size(), std::numeric_limits<double>::infinity());
+        std::priority_queue<Open, std::vector<Open>, std::greater<>> queue;
+        queue.push({0, start});
         way[start] = 0;
         Far far{start, 0};
-        for (std::size_t at = 0; at < queue.size(); ++at) {
-            const std::size_t n = queue[at];
-            if (way[n] > far.way) far = {n, way[n]};
+        while (!queue.empty()) {
+            const auto [walked, n] = queue.top();
+            queue.pop();
+            if (walked > way[n]) continue;
+            if (walked > far.way) far = {n, walked};
             forNeighbours(n, [&](std::size_t next) {
-                if (way[next] >= 0) return;
-                way[next] = way[n] + glm::distance(place(n), place(next));
-                queue.push_back(next);
+                const double there = walked + glm::distance(place(n), place(next));
+                if (there >= way[next]) return;
+                way[next] = there;
+                queue.push({there, next});
             });
         }
         return far;
@@ -85,6 +98,7 @@ private:
         }
     }
     std::vector<glm::ivec3> mBlocks;
+    int mBlockSize;
     VolumeFrame mFrame;
 };
 
@@ -114,7 +128,8 @@ glm::ivec3 seedVoxel(const VolumeFrame& frame, const glm::dvec3& seed) {
 }
 
 PieceWay wayThrough(const Pieces& pieces, int piece, const VolumeFrame& frame) {
-    const BlockGraph graph(blocksOf(pieces, piece), frame);
+    const int size = blockSize(pieces.parts.list[static_cast<std::size_t>(piece)]);
+    const BlockGraph graph(blocksOf(pieces, piece, size), size, frame);
     std::size_t lowest = 0;
     for (std::size_t n = 1; n < graph.size(); ++n)
         if (height(graph.place(n)) < height(graph.place(lowest))) lowest = n;

@@ -20,7 +20,7 @@ glm::ivec3 seedVoxel(const VolumeFrame& frame, const glm::dvec3& seed);
 // "--seed x,y,z" in millimetres, as it is given and as errors name it.
 std::string seedName(const glm::dvec3& seed);
 
-// A piece on a grid of blocks of 8^3 voxels: enough to walk from end to end.
+// A piece on a grid of blocks of at most 8^3 voxels: enough to walk from end to end.
 struct PieceWay {
     glm::dvec3 lowest{0.0};      // world: its lowest place, where the back counts as low too
     glm::dvec3 ends[2];          // world: the two places farthest from each other along the piece

@@ -68,7 +68,7 @@ LumenCrop cropOf(const GreyVolume& study, const AirPieces& air, const FluidPools
         if (air.kinds[n] == AirKind::Colon) add(air.pieces.parts.list[n]);
     for (const Pool& pool : fluid.pools) add(fluid.cores.parts.list[pool.core]);
     if (last.x < 0)
-        throw Error("", "study", "found air but nothing like a colon in it",
+        throw Error("", "", "found air but nothing like a colon in it: " + leftOut(air),
                     "give a place inside the lumen with --seed x,y,z");
     return cropAround(first, last, kLumenMargin + kGrowth, study.frame);
 }

@@ -144,8 +144,8 @@ void dropRoundPieces(const GreyVolume& study, const AirJudge& judge, AirPieces& 
         air.kinds[n] = AirKind::Other;
         const glm::dvec3 at = study.frame.worldFromVoxel(glm::dvec3(list[n].first + list[n].last) * 0.5);
         air.notes.push_back(fmt::format(
-            "left out {:.1f} ml of gas around {:.3f},{:.3f},{:.3f}: round and high up, like a stomach",
-            judge.volumeOf(list[n]) * 1e6, at.x, at.y, at.z));
+            "left out {:.1f} ml of gas around {:.0f},{:.0f},{:.0f} mm: round and high up, like a stomach",
+            judge.volumeOf(list[n]) * 1e6, 1e3 * at.x, 1e3 * at.y, 1e3 * at.z));
     }
 }
 
@@ -159,7 +159,26 @@ void noteCutPieces(const GreyVolume& study, AirPieces& air) {
     }
 }
 
+std::string counted(std::ptrdiff_t count, const char* one, const char* many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
 }  // namespace
+
+std::string leftOut(const AirPieces& air) {
+    constexpr struct {
+        AirKind kind;
+        const char *one, *many;
+    } kNames[] = {{AirKind::Outside, "piece outside a body", "pieces outside a body"},
+                  {AirKind::Lung, "piece of lung", "pieces of lung"},
+                  {AirKind::Other, "round piece high up", "round pieces high up"},
+                  {AirKind::Small, "small piece", "small pieces"}};
+    std::string text;
+    for (const auto& name : kNames)
+        if (const auto count = std::count(air.kinds.begin(), air.kinds.end(), name.kind))
+            text += (text.empty() ? "" : ", ") + counted(count, name.one, name.many);
+    return text;
+}
 
 double huAt(const GreyVolume& study, const glm::ivec3& voxel) {
     return study.at(voxel) * study.scale + study.offset;
@@ -182,10 +201,10 @@ AirPieces findAir(const GreyVolume& study, const SegmentationSetting& setting, P
     const std::size_t voxels = air.pieces.runs.voxelCount();
     if (voxels == 0)
         throw Error("", "study", fmt::format("no air: no voxel lies below {:g} HU", setting.air),
-                    "is this a CT in Hounsfield units? Set --air");
+                    "give a CT in Hounsfield units");
     if (voxels == study.frame.count())
         throw Error("", "study", fmt::format("nothing but air: all voxels lie below {:g} HU", setting.air),
-                    "is this a CT in Hounsfield units? Set --air");
+                    "give a CT in Hounsfield units");
     progress.report(0.2, "telling pieces of air apart");
     air.pieces.parts = connectedComponents(air.pieces.runs);
     const AirJudge judge(study, air);

@@ -18,6 +18,9 @@ struct AirPieces {
     std::vector<std::string> notes;
 };
 
+// What is not the colon's, by kind: "2 pieces of lung, 1 small piece".
+std::string leftOut(const AirPieces& air);
+
 // HU of a voxel, and back to stored numbers.
 double huAt(const GreyVolume& study, const glm::ivec3& voxel);
 double storedOf(const GreyVolume& study, double hu);

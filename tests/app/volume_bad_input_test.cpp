@@ -62,11 +62,14 @@ TEST_F(VolumeBadInput, HeadersThatCanNotBeMeant) {
 }
 
 TEST_F(VolumeBadInput, NothingToFlyThrough) {
-    expectSceneRefused(nrrd("air.nrrd", {}, [](int i, int, int) { return -1000 + i % 2; }), {"--isosurface"});
+    expectSceneRefused(nrrd("air.nrrd", {}, [](int i, int, int) { return -1000 + i % 2; }),
+                       {"air.nrrd", "nothing but air", "--isosurface"});
     // Tissue with one cold corner, so that it counts as CT in HU.
     expectSceneRefused(
         nrrd("tissue.nrrd", {}, [](int i, int j, int k) { return i + j + k == 0 ? -1000 : 40 + i % 2; }),
-        {"--isosurface"});
+        {"tissue.nrrd", "nothing like a colon", "1 piece outside a body", "--seed", "--isosurface"});
+    expectSceneRefused(nrrd("flesh.nrrd", {}, [](int i, int, int) { return i == 0 ? -600 : 40; }),
+                       {"flesh.nrrd", "no air", "--isosurface"});
 }
 
 TEST_F(VolumeBadInput, MasksOfSeveralLabels) {
@@ -79,7 +82,7 @@ TEST_F(VolumeBadInput, MasksOfSeveralLabels) {
 
 TEST_F(VolumeBadInput, SeedsThatHitNothing) {
     const std::string mask = maskedTube();
-    expectSceneRefused(mask, {"--seed"}, {"--seed", "500,0,0"});
+    expectSceneRefused(mask, {"tube.nrrd", "--seed 500,0,0", "outside"}, {"--seed", "500,0,0"});
     for (const std::string seed : {"1,2", "1,2,3,4", "a,b,c", "1,2,", "nan,1,2", "", "1,,2", "1 2 3"})
         expectSceneRefused(mask, {"--seed"}, {"--seed", seed});
 }
