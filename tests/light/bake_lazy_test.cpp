@@ -1,0 +1,329 @@
+// Background light on made-up samples: what is asked for becomes known, coarse first, the present wish before
+// former ones, and nobody waits.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "engine/base/stopwatch.h"
+#include "engine/light/lazy_bake.h"
+#include "tests/volume/test_volumes.h"
+
+namespace stereonav {
+namespace {
+
+std::uint32_t brickOf(const TexelLayout& layout, const glm::ivec3& t) {
+    return static_cast<std::uint32_t>(((t.z >> 3) * layout.bricks.y + (t.y >> 3)) * layout.bricks.x +
+                                      (t.x >> 3));
+}
+bool dead(const glm::ivec3& t) {
+    return (3 * t.x + t.y + t.z) % 11 == 5;
+}
+double truth(const glm::ivec3& t) {
+    return 0.5 + 0.01 * t.x + 0.02 * t.y;
+}
+
+// A ball's surface through 6^3 bricks; the source tells what it was asked, and takes its time.
+struct Background {
+    explicit Background(double pause_ms = 0) : pause(pause_ms) {
+        source.addIrradiance = [this](std::span<const glm::ivec3> texels, int count,
+                                      std::span<TexelSum> sums) {
+            {
+                const std::lock_guard lock(mutex);
+                calls.push_back({brickOf(to.layout, texels[0]), static_cast<int>(texels.size()), count});
+                for (const glm::ivec3& t : texels) EXPECT_EQ(brickOf(to.layout, t), calls.back().brick);
+            }
+            if (pause > 0) std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(pause));
+            add(texels, count, sums);
+        };
+        choice.lowest = choice.highest = 160;
+    }
+    static void add(std::span<const glm::ivec3> texels, int count, std::span<TexelSum> sums) {
+        for (std::size_t n = 0; n < texels.size(); ++n)
+            for (int k = 0; k < count; ++k) {
+                if (dead(texels[n])) {
+                    sums[n].samples = -1;
+                    break;
+                }
+                const double noise = 0.1 * std::sin(12.9898 * sums[n].samples + texels[n].z);
+                const auto value = static_cast<float>(truth(texels[n]) + noise);
+                sums[n].samples += 1;
+                sums[n].mean += (glm::vec3(value) - sums[n].mean) / sums[n].samples;
+            }
+    }
+    std::vector<std::uint32_t> all() const {
+        std::vector<std::uint32_t> bricks;
+        for (std::uint32_t n = 0; n < to.layout.count() / 512; ++n) bricks.push_back(n);
+        return bricks;
+    }
+    std::set<std::uint32_t> holding() const {
+        Progress progress;
+        std::set<std::uint32_t> bricks;
+        for (const TexelBrick& b : wantedBricks(volume, volume.frame, choice, progress))
+            bricks.insert(b.number);
+        return bricks;
+    }
+    PackedTexel at(const glm::ivec3& t) const { return to.texels[to.layout.index(t.x, t.y, t.z)]; }
+
+    struct Call {
+        std::uint32_t brick;
+        int texels, samples;
+    };
+    std::vector<Call> seen() {
+        const std::lock_guard lock(mutex);
+        return calls;
+    }
+
+    GreyVolume volume = test::greyVolume(test::slantedFrame({48, 48, 48}),
+                                         [](const glm::dvec3& v) { return 10 * glm::length(v - 23.3); });
+    TexelChoice choice;
+    IlluminationVolume to{volume.frame};
+    BakeSource source;
+    double pause;
+    std::mutex mutex;
+    std::vector<Call> calls;
+};
+
+TEST(LazyBake, WhatIsAskedForBecomesKnown) {
+    for (const int threads : {1, 2, 4}) {
+        Background b;
+        LazyBake lazy(b.volume, b.choice, b.source, b.to, {32, 32, threads});
+        EXPECT_TRUE(lazy.done());
+        lazy.request(b.all());
+        ASSERT_TRUE(lazy.waitUntilDone(60));
+        EXPECT_TRUE(lazy.done());
+        Progress progress;
+        std::size_t known = 0;
+        for (const TexelBrick& brick : wantedBricks(b.volume, b.volume.frame, b.choice, progress))
+            for (const glm::ivec3& t : texelsIn(b.to.layout, brick)) {
+                ASSERT_EQ(texelWeight(b.at(t)), dead(t) ? 0.0f : 1.0f);
+                ASSERT_NEAR(texelLight(b.at(t)).x, dead(t) ? 0 : truth(t), 0.05);
+                known += !dead(t);
+            }
+        EXPECT_EQ(lazy.texelsLit(), known);
+        EXPECT_GT(lazy.changes(), 0u);
+        std::size_t inVolume = 0;
+        for (std::size_t n = 0; n < b.to.layout.count(); ++n) inVolume += texelWeight(b.to.texels[n]) > 0;
+        EXPECT_EQ(inVolume, known) << "and nothing else";
+    }
+}
+
+TEST(LazyBake, TheSameBytesAsTheWholeBake) {
+    Background b;
+    Progress progress;
+    BakeSums sums(b.volume.frame, wantedBricks(b.volume, b.volume.frame, b.choice, progress), {});
+    runBake(sums, b.source, {100, 0, 0}, progress);
+    const IlluminationVolume whole = illuminationOf(sums);
+    LazyBake lazy(b.volume, b.choice, b.source, b.to, {100, 100, 3});
+    lazy.request(b.all());
+    ASSERT_TRUE(lazy.waitUntilDone(60));
+    for (std::size_t n = 0; n < whole.layout.count(); ++n) ASSERT_EQ(b.to.texels[n], whole.texels[n]) << n;
+}
+
+TEST(LazyBake, OnlyWhatIsAskedFor) {
+    Background b;
+    LazyBake lazy(b.volume, b.choice, b.source, b.to);
+    const std::set<std::uint32_t> holding = b.holding();
+    const std::vector<std::uint32_t> some{*holding.begin(), *std::next(holding.begin(), 7), 99999999u,
+                                          *holding.begin()};
+    lazy.request(some);
+    ASSERT_TRUE(lazy.waitUntilDone(60));
+    const std::vector<Background::Call> calls = b.seen();
+    EXPECT_FALSE(calls.empty());
+    for (const Background::Call& call : calls)
+        ASSERT_TRUE(call.brick == some[0] || call.brick == some[1]) << call.brick;
+    EXPECT_GT(lazy.texelsLit(), 20u);
+    lazy.request({});
+    EXPECT_TRUE(lazy.waitUntilDone(60));
+}
+
+// One texel of a block in every brick, nearest bricks first, before a second one anywhere.
+TEST(LazyBake, CoarseFirst) {
+    Background b;
+    std::vector<std::uint32_t> order = b.all();
+    std::reverse(order.begin(), order.end());
+    {
+        LazyBake lazy(b.volume, b.choice, b.source, b.to, {8, 8, 1});
+        lazy.request(order);
+        ASSERT_TRUE(lazy.waitUntilDone(60));
+    }
+    const std::size_t bricks = b.holding().size();
+    const std::vector<Background::Call> calls = b.seen();
+    ASSERT_GT(calls.size(), 2 * bricks);
+    std::set<std::uint32_t> met;
+    for (std::size_t n = 0; n < bricks; ++n) {
+        ASSERT_LE(calls[n].texels, 8);
+        ASSERT_TRUE(met.insert(calls[n].brick).second) << "one of each before another of any";
+        ASSERT_TRUE(n == 0 || calls[n].brick < calls[n - 1].brick) << "in the order asked for";
+    }
+    for (std::size_t n = bricks; n < 2 * bricks; ++n) ASSERT_LE(calls[n].texels, 64);
+}
+
+// While the coarse texels are all there is, lookups anywhere on the surface find light.
+TEST(LazyBake, UnknownTexelsBorrowFromTheirBlock) {
+    Background b;
+    const std::set<std::uint32_t> holding = b.holding();
+    std::atomic<std::size_t> count = 0;
+    BakeSource source;
+    std::atomic<bool> hold = true;
+    // Lets the first level through, then stands still.
+    source.addIrradiance = [&](std::span<const glm::ivec3> texels, int samples, std::span<TexelSum> sums) {
+        if (++count > holding.size())
+            while (hold) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        Background::add(texels, samples, sums);
+    };
+    LazyBake lazy(b.volume, b.choice, source, b.to, {8, 8, 1});
+    lazy.request(b.all());
+    while (count <= holding.size()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    Progress progress;
+    std::size_t own = 0, borrowed = 0, unknown = 0;
+    for (const TexelBrick& brick : wantedBricks(b.volume, b.volume.frame, b.choice, progress))
+        for (const glm::ivec3& t : texelsIn(b.to.layout, brick)) {
+            const float weight = texelWeight(b.at(t));
+            own += weight == 1;
+            borrowed += weight > 0 && weight < 0.1f;
+            unknown += weight == 0;
+            ASSERT_NEAR(texelLight(b.at(t)).x, weight > 0 ? truth(t) : 0, 0.25);
+        }
+    EXPECT_GT(own, holding.size());
+    EXPECT_GT(borrowed, 5 * own);
+    EXPECT_LT(unknown, (own + borrowed) / 4)
+        << "those on no surface, and blocks whose chosen texel is on none";
+    hold = false;
+}
+
+TEST(LazyBake, AMovedWishIsServedFirst) {
+    for (const int threads : {1, 2}) {
+        Background b(2);
+        LazyBake lazy(b.volume, b.choice, b.source, b.to, {64, 64, threads});
+        const std::set<std::uint32_t> set = b.holding();
+        const std::vector<std::uint32_t> holding(set.begin(), set.end());
+        const std::vector<std::uint32_t> first(holding.begin(), holding.end() - 3),
+            moved(holding.end() - 3, holding.end());
+        lazy.request(first);
+        while (b.seen().size() < 20) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        lazy.request(moved);
+        const std::size_t before = b.seen().size();
+        ASSERT_TRUE(lazy.waitUntilDone(60));
+        const std::vector<Background::Call> calls = b.seen();
+        // What was under way may end: one batch a thread, and one that had been looked for meanwhile.
+        int old = 0;
+        for (std::size_t n = before; n < calls.size(); ++n)
+            old += std::find(moved.begin(), moved.end(), calls[n].brick) == moved.end();
+        EXPECT_LE(old, 2 * threads);
+        EXPECT_GT(calls.size(), before + 5);
+        for (const std::uint32_t n : moved) {
+            const std::vector<Background::Call>::const_iterator found = std::find_if(
+                calls.begin(), calls.end(), [&](const Background::Call& c) { return c.brick == n; });
+            EXPECT_NE(found, calls.end());
+        }
+    }
+}
+
+TEST(LazyBake, WhatWasBegunIsNotBegunAgain) {
+    Background b(1);
+    LazyBake lazy(b.volume, b.choice, b.source, b.to, {64, 64, 1});
+    const std::set<std::uint32_t> holding = b.holding();
+    std::vector<std::uint32_t> some(holding.begin(), std::next(holding.begin(), 4));
+    // A wish that changes all the time, as when one moves.
+    for (int n = 0; n < 60; ++n) {
+        std::rotate(some.begin(), some.begin() + 1, some.end());
+        lazy.request(some);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ASSERT_TRUE(lazy.waitUntilDone(60));
+    long long samples = 0;
+    for (const Background::Call& call : b.seen())
+        samples += static_cast<long long>(call.texels) * call.samples;
+    Progress progress;
+    long long needed = 0;
+    for (const TexelBrick& brick : wantedBricks(b.volume, b.volume.frame, b.choice, progress))
+        if (std::find(some.begin(), some.end(), brick.number) != some.end())
+            for (const glm::ivec3& t : texelsIn(b.to.layout, brick)) needed += dead(t) ? 8 : 64;
+    EXPECT_EQ(samples, needed);
+}
+
+TEST(LazyBake, NobodyWaits) {
+    Background b(30);
+    std::vector<double> times;
+    Stopwatch whole;
+    {
+        LazyBake lazy(b.volume, b.choice, b.source, b.to, {640, 640, 2});
+        std::vector<std::uint32_t> order = b.all();
+        for (int n = 0; n < 41; ++n) {
+            std::rotate(order.begin(), order.begin() + 1, order.end());
+            const Stopwatch watch;
+            lazy.request(order);
+            TexelChoice other = b.choice;
+            other.lowest = other.highest = static_cast<float>(150 + n);
+            lazy.setChoice(other);
+            times.push_back(watch.elapsed_ms());
+            std::this_thread::sleep_for(std::chrono::milliseconds(3));
+        }
+        EXPECT_FALSE(lazy.waitUntilDone(0.01));
+        whole = Stopwatch();
+    }
+    EXPECT_LT(whole.elapsed_ms(), 1000) << "ends after the batch under way";
+    std::sort(times.begin(), times.end());
+    EXPECT_LT(times[times.size() / 2], 5.0) << "batches take 30 ms";
+}
+
+TEST(LazyBake, OtherSurfacesWantOtherTexelsAndKeepWhatIsLit) {
+    Background b;
+    LazyBake lazy(b.volume, b.choice, b.source, b.to, {16, 16, 2});
+    lazy.request(b.all());
+    ASSERT_TRUE(lazy.waitUntilDone(60));
+    const std::uint64_t lit = lazy.texelsLit();
+    std::vector<PackedTexel> before(b.to.texels.data(), b.to.texels.data() + b.to.layout.count());
+    b.choice.lowest = b.choice.highest = 100;
+    lazy.setChoice(b.choice);
+    ASSERT_TRUE(lazy.waitUntilDone(60));
+    EXPECT_GT(lazy.texelsLit(), lit);
+    for (std::size_t n = 0; n < before.size(); ++n)
+        ASSERT_TRUE(texelWeight(before[n]) < 1 || b.to.texels[n] == before[n]) << n;
+    Progress progress;
+    for (const TexelBrick& brick : wantedBricks(b.volume, b.volume.frame, b.choice, progress))
+        for (const glm::ivec3& t : texelsIn(b.to.layout, brick))
+            ASSERT_EQ(texelWeight(b.at(t)), dead(t) ? 0.0f : 1.0f);
+    // And back: nothing is left to do.
+    const std::size_t calls = b.seen().size();
+    b.choice.lowest = b.choice.highest = 160;
+    lazy.setChoice(b.choice);
+    ASSERT_TRUE(lazy.waitUntilDone(60));
+    EXPECT_EQ(b.seen().size(), calls);
+}
+
+TEST(LazyBake, GoesOnToMoreSamples) {
+    Background b;
+    LazyBake lazy(b.volume, b.choice, b.source, b.to, {16, 100, 1});
+    lazy.request(b.all());
+    ASSERT_TRUE(lazy.waitUntilDone(60));
+    std::map<std::uint32_t, long long> samples;
+    for (const Background::Call& call : b.seen())
+        samples[call.brick] += static_cast<long long>(call.texels) * call.samples;
+    Progress progress;
+    for (const TexelBrick& brick : wantedBricks(b.volume, b.volume.frame, b.choice, progress)) {
+        long long needed = 0;
+        for (const glm::ivec3& t : texelsIn(b.to.layout, brick)) needed += dead(t) ? 8 : 100;
+        ASSERT_EQ(samples[brick.number], needed);
+    }
+}
+
+TEST(LazyBake, WhatIsBakedAlreadyStays) {
+    Background b;
+    const std::uint32_t number = *b.holding().begin();
+    const PackedTexel baked = packTexel(glm::vec3(9), 1);
+    for (int t = 0; t < 512; t += 2) b.to.texels[number * 512u + t] = baked;
+    LazyBake lazy(b.volume, b.choice, b.source, b.to);
+    lazy.request({number});
+    ASSERT_TRUE(lazy.waitUntilDone(60));
+    for (int t = 0; t < 512; t += 2) ASSERT_EQ(b.to.texels[number * 512u + t], baked);
+    EXPECT_GT(lazy.texelsLit(), 0u);
+}
+
+}  // namespace
+}  // namespace stereonav
