@@ -64,18 +64,17 @@ private:
 };
 
 std::size_t carve(OcclusionScratch& s, std::byte* block, int stride, int window) {
-    const auto n = static_cast<std::size_t>(stride);
-    const std::size_t row = n + 2 * kMostOcclusionRadius + kOcclusionChunk;
+    constexpr std::size_t kStrip = kOcclusionStrip;
+    const std::size_t row = static_cast<std::size_t>(stride) + 2 * kMostOcclusionRadius + 1;
     Carver carver(block);
     for (std::int16_t** p : {&s.suffixLows, &s.suffixHighs})
-        carver.take(*p, n * static_cast<std::size_t>(window));
+        carver.take(*p, kStrip * static_cast<std::size_t>(window));
+    for (std::int16_t** p : {&s.runLows, &s.runHighs}) carver.take(*p, kStrip);
     for (std::int16_t** p : {&s.lows, &s.highs}) carver.take(*p, row);
-    for (std::int16_t** p : {&s.runLows, &s.runHighs}) carver.take(*p, n);
-    for (std::int32_t** p : {&s.sums, &s.value, &s.low, &s.high, &s.out}) carver.take(*p, n);
     carver.take(s.prefix, row);
-    carver.take(s.squares, n);
     carver.take(s.squaresPrefix, row);
-    for (double** p : {&s.total, &s.totalSquares}) carver.take(*p, n);
+    for (double** p : {&s.total, &s.totalSquares}) carver.take(*p, kStrip);
+    for (std::int32_t** p : {&s.value, &s.low, &s.high, &s.out}) carver.take(*p, kStrip);
     return carver.used();
 }
 
@@ -114,8 +113,9 @@ private:
     std::vector<std::unique_ptr<Piece>> mFree;
 };
 
-// Boxes of a band: measured best between 32 and 128 MB.
-constexpr std::size_t kBandBytes = std::size_t{96} << 20;
+// Memory for the boxes of a band.
+constexpr std::size_t kBandBytes = std::size_t{16} << 20;
+constexpr int kLeastBandRows = 8;
 
 class BoxFilter {
 public:
@@ -124,6 +124,7 @@ public:
         : mKernels(kernelsFor(target)), mTo(volume.frame) {
         const glm::ivec3 size = volume.frame.size;
         mBand.values = volume.values.data();
+        mTo.values.preferLargePages();
         mBand.to = mTo.values.data();
         for (int axis = 0; axis < 3; ++axis) {
             mBand.size[axis] = size[axis];
@@ -132,7 +133,7 @@ public:
         mBand.result = result;
         mBand.turned = volume.scale < 0;
         mBand.perVariance = static_cast<float>(perVariance);
-        mBand.stride = (size.x + kOcclusionChunk - 1) / kOcclusionChunk * kOcclusionChunk;
+        mBand.stride = (size.x + kOcclusionStrip - 1) / kOcclusionStrip * kOcclusionStrip;
         countColumns();
         takeMemory();
     }
@@ -165,21 +166,23 @@ private:
         mBand.columnCounts = mCounts.data();
     }
 
-    // Bands overlap by two radii in what they read, so they are at least as high as that.
+    int bandRows(std::size_t bytes) const {
+        const auto fit = static_cast<int>(std::min<std::size_t>(kBandBytes / bytes, 1u << 20));
+        return std::min(std::max(fit, kLeastBandRows), mBand.size[1]);
+    }
+
     void takeMemory() {
         const std::size_t voxels = static_cast<std::size_t>(mBand.stride) * mBand.size[2];
-        const std::size_t bytes = voxels * (mBand.extrema() ? 8 : 12);
-        const int fit = static_cast<int>(std::min<std::size_t>(kBandBytes / bytes, mBand.size[1]));
-        const int most = std::min(std::max({fit, 2 * mBand.radius[1], 1}), mBand.size[1]);
-        const int bands = (mBand.size[1] + most - 1) / most;
-        mRows = (mBand.size[1] + bands - 1) / bands;
+        mRows = bandRows(voxels * (mBand.extrema() ? 8 : 12));
         const std::size_t count = voxels * static_cast<std::size_t>(mRows);
         take(mSums, mBand.sums, count);
+        take(mLastSums, mBand.lastSums, voxels);
         if (mBand.extrema()) {
             take(mLows, mBand.lows, count);
             take(mHighs, mBand.highs, count);
         } else {
             take(mSquares, mBand.squares, count);
+            take(mLastSquares, mBand.lastSquares, voxels);
         }
     }
     template <typename T>
@@ -194,9 +197,10 @@ private:
     OcclusionBand mBand;
     int mRows = 1;
     std::vector<double> mCounts;
-    LazyArray<std::int32_t> mSums;
+    LazyArray<std::int32_t> mSums, mLastSums;
     LazyArray<std::int16_t> mLows, mHighs;
     LazyArray<double> mSquares;
+    LazyArray<std::int64_t> mLastSquares;
 };
 
 void checkInput(const GreyVolume& volume, const glm::ivec3& radius) {

@@ -31,81 +31,106 @@ struct Extrema {
     Int16 *low, *high;
 };
 
-void setNone(Extrema to, int n) {
-    for (int i = 0; i < n; ++i) to.low[i] = kNoLow;
-    for (int i = 0; i < n; ++i) to.high[i] = kNoHigh;
+// Loops over `n` columns; kFixed != 0 promises that n is that.
+template <int kFixed>
+STEREONAV_INLINE int columns(int n) {
+    return kFixed ? kFixed : n;
 }
 
-// to = a with b; b may be one row of values or a pair of rows.
-void combine(const Int16* __restrict aLow, const Int16* __restrict aHigh, const Int16* bLow,
-             const Int16* bHigh, Extrema to, int n) {
-    Int16* __restrict low = to.low, * __restrict high = to.high;
-    for (int i = 0; i < n; ++i) low[i] = aLow[i] < bLow[i] ? aLow[i] : bLow[i];
-    for (int i = 0; i < n; ++i) high[i] = aHigh[i] > bHigh[i] ? aHigh[i] : bHigh[i];
+template <int kFixed>
+STEREONAV_INLINE void setNone(Extrema to, int n) {
+    for (int i = 0; i < columns<kFixed>(n); ++i) to.low[i] = kNoLow;
+    for (int i = 0; i < columns<kFixed>(n); ++i) to.high[i] = kNoHigh;
 }
 
-void widen(Extrema run, const Int16* __restrict bLow, const Int16* __restrict bHigh, int n) {
-    Int16* __restrict low = run.low, * __restrict high = run.high;
-    for (int i = 0; i < n; ++i) low[i] = low[i] < bLow[i] ? low[i] : bLow[i];
-    for (int i = 0; i < n; ++i) high[i] = high[i] > bHigh[i] ? high[i] : bHigh[i];
+// to = a with b; `to` may be a.
+template <int kFixed>
+STEREONAV_INLINE void combine(Extrema a, const Int16* bLow, const Int16* bHigh, Extrema to, int n) {
+    const Int16 *aLow = a.low, *aHigh = a.high;
+    Int16 *low = to.low, *high = to.high;
+    if constexpr (kFixed > 0) {
+        // Through memory of its own, which the compiler keeps in registers and knows to be apart.
+        constexpr int kPart = 32;
+        for (int at = 0; at < kFixed; at += kPart) {
+            Int16 lowPart[kPart], highPart[kPart];
+            for (int i = 0; i < kPart; ++i)
+                lowPart[i] = aLow[at + i] < bLow[at + i] ? aLow[at + i] : bLow[at + i];
+            for (int i = 0; i < kPart; ++i)
+                highPart[i] = aHigh[at + i] > bHigh[at + i] ? aHigh[at + i] : bHigh[at + i];
+            for (int i = 0; i < kPart; ++i) low[at + i] = lowPart[i];
+            for (int i = 0; i < kPart; ++i) high[at + i] = highPart[i];
+        }
+    } else {
+#pragma GCC ivdep
+        for (int i = 0; i < n; ++i) low[i] = aLow[i] < bLow[i] ? aLow[i] : bLow[i];
+#pragma GCC ivdep
+        for (int i = 0; i < n; ++i) high[i] = aHigh[i] > bHigh[i] ? aHigh[i] : bHigh[i];
+    }
 }
 
-// Rows of an image: low and high of row j at low + j * pitch; both are the same for plain values.
+// Columns of an image: low and high of row j at low + j * pitch; both are the same for plain values.
 struct Rows {
     const Int16 *low, *high;
     std::ptrdiff_t pitch;
     int count;  // rows outside [0, count) hold nothing
 };
 
-// Extrema of rows j - radius .. j + radius, for rising j. Blocks of a window's length start at the first
-// row's window; a window is the suffix of one block and the prefix of the next.
+// Extrema of rows j - radius .. j + radius for j = first .. end - 1, one after another. Blocks of a window's
+// length start at the first row's window; a window is the suffix of one block and the prefix of the next.
+template <int kFixed>
 class SlidingExtrema {
 public:
-    SlidingExtrema(const Rows& rows, int radius, int first, int n, const OcclusionScratch& scratch)
-        : mRows(rows), mWindow(2 * radius + 1), mStart(first - radius), mN(n), mScratch(scratch) {
-        startBlock();
-    }
+    SlidingExtrema(const Rows& rows, int radius, int first, int end, int n, const OcclusionScratch& scratch)
+        : mRows(rows),
+          mWindow(2 * radius + 1),
+          mStart(first - radius),
+          mLeft(end - first),
+          mN(n),
+          mRun{scratch.runLows, scratch.runHighs},
+          mSuffixes{scratch.suffixLows, scratch.suffixHighs} {}
 
     // The next row's.
     STEREONAV_INLINE void next(Extrema to) {
-        if (mAt == mWindow) {
-            mStart += mWindow;
-            startBlock();
-        }
-        const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(mAt) * mN;
-        if (mAt > 0) {
-            const int entering = mStart + mWindow + mAt - 1;
-            if (entering >= 0 && entering < mRows.count)
-                widen(run(), mRows.low + entering * mRows.pitch, mRows.high + entering * mRows.pitch, mN);
-        }
-        combine(mScratch.suffixLows + at, mScratch.suffixHighs + at, mScratch.runLows, mScratch.runHighs, to,
-                mN);
-        ++mAt;
+        if (mAt == 0) startBlock();
+        if (mAt > 0) widenBy(mStart + mWindow + mAt - 1);
+        combine<kFixed>(suffixAt(mAt), mRun.low, mRun.high, to, mN);
+        --mLeft;
+        if (++mAt < mWindow) return;
+        mAt = 0;
+        mStart += mWindow;
     }
 
 private:
-    STEREONAV_INLINE Extrema run() const { return {mScratch.runLows, mScratch.runHighs}; }
-    STEREONAV_INLINE Extrema suffix(int at) const {
-        return {mScratch.suffixLows + static_cast<std::ptrdiff_t>(at) * mN,
-                mScratch.suffixHighs + static_cast<std::ptrdiff_t>(at) * mN};
+    STEREONAV_INLINE Extrema suffixAt(int at) const {
+        const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(at) * kOcclusionStrip;
+        return {mSuffixes.low + offset, mSuffixes.high + offset};
+    }
+    STEREONAV_INLINE bool holds(int row) const { return row >= 0 && row < mRows.count; }
+    STEREONAV_INLINE void widenBy(int row) {
+        const std::ptrdiff_t offset = row * mRows.pitch;
+        if (holds(row)) combine<kFixed>(mRun, mRows.low + offset, mRows.high + offset, mRun, mN);
     }
 
+    // Suffixes that no row is left for are not kept.
     void startBlock() {
-        mAt = 0;
-        setNone(run(), mN);
-        for (int at = mWindow - 1; at >= 0; --at) {
+        const int kept = least(mWindow, mLeft);
+        setNone<kFixed>(mRun, mN);
+        for (int at = mWindow - 1; at >= kept; --at) widenBy(mStart + at);
+        for (int at = kept - 1; at >= 0; --at) {
+            const Extrema behind = at + 1 < kept ? suffixAt(at + 1) : mRun;
             const int row = mStart + at;
-            const bool inside = row >= 0 && row < mRows.count;
-            const Extrema behind = at + 1 < mWindow ? suffix(at + 1) : run();
             const std::ptrdiff_t offset = row * mRows.pitch;
-            combine(behind.low, behind.high, inside ? mRows.low + offset : behind.low,
-                    inside ? mRows.high + offset : behind.high, suffix(at), mN);
+            if (holds(row))
+                combine<kFixed>(behind, mRows.low + offset, mRows.high + offset, suffixAt(at), mN);
+            else
+                combine<kFixed>(behind, behind.low, behind.high, suffixAt(at), mN);
         }
+        setNone<kFixed>(mRun, mN);
     }
 
     Rows mRows;
-    int mWindow, mStart, mN, mAt = 0;
-    const OcclusionScratch& mScratch;
+    int mWindow, mStart, mLeft, mN, mAt = 0;
+    Extrema mRun, mSuffixes;
 };
 
 // a[i] = least of a[i] .. a[i + window - 1], for i < n; a has n + window - 1 numbers.
@@ -308,80 +333,117 @@ void toBytes(const std::int32_t* __restrict from, std::uint8_t* __restrict to, i
     for (int i = 0; i < n; ++i) to[i] = static_cast<std::uint8_t>(from[i]);
 }
 
-// The row (j, k) of results; s holds its boxes.
-void finish(const OcclusionBand& band, const OcclusionScratch& s, int j, int k, double rows) {
-    const std::ptrdiff_t at = (static_cast<std::ptrdiff_t>(k) * band.size[1] + j) * band.size[0];
-    toInt32(band.values + at, s.value, band.size[0]);
+// A strip's results of row (j, k), from column i on; s holds its boxes.
+void finishStrip(const OcclusionBand& band, const OcclusionScratch& s, int i, int j, int k, double rows) {
+    const std::ptrdiff_t at = (static_cast<std::ptrdiff_t>(k) * band.size[1] + j) * band.size[0] + i;
+    const int n = least(band.size[0] - i, kOcclusionStrip);
+    toInt32(band.values + at, s.value, n);
     if (band.extrema()) {
-        toInt32(s.lows, s.low, band.size[0]);
-        toInt32(s.highs, s.high, band.size[0]);
+        toInt32(s.lows, s.low, kOcclusionStrip);
+        toInt32(s.highs, s.high, kOcclusionStrip);
     }
-    for (int i = 0; i < band.stride; i += kLanes)
-        store(s.out + i, inBytes(resultOf(band, s, i, loadD(band.columnCounts + i) * D(rows))));
-    toBytes(s.out, band.to + at, band.size[0]);
+    for (int c = 0; c < kOcclusionStrip; c += kLanes)
+        store(s.out + c, inBytes(resultOf(band, s, c, loadD(band.columnCounts + i + c) * D(rows))));
+    toBytes(s.out, band.to + at, n);
 }
 
 STEREONAV_INLINE int clippedWindow(int at, int radius, int size) {
     return least(at + radius, size - 1) - most(at - radius, 0) + 1;
 }
 
-}  // namespace
+// ---- the band's steps
 
-void filterOcclusionSlice(const OcclusionBand& band, int k, const OcclusionScratch& s) {
-    const int n = band.size[0], height = band.size[1], radius = band.radius[1];
-    const Int16* slice = band.values + static_cast<std::ptrdiff_t>(k) * height * n;
-    const auto row = [&](int j) { return slice + static_cast<std::ptrdiff_t>(j) * n; };
-    for (int i = 0; i < n; ++i) s.sums[i] = 0;
-    for (int i = 0; i < n; ++i) s.squares[i] = 0;
-    const bool extrema = band.extrema();
-    for (int j = most(band.first - radius, 0); j < least(band.first + radius, height); ++j) {
-        addRow(s.sums, row(j), n);
-        if (!extrema) addSquares(s.squares, row(j), n);
-    }
-    const int reach = band.radius[0], window = 2 * reach + 1;
-    const Extrema ends[2] = {{s.lows, s.highs}, {s.lows + reach + n, s.highs + reach + n}};
-    const Extrema middle{s.lows + reach, s.highs + reach};
-    // Only made where it is used: it begins with work.
-    SlidingExtrema sliding({slice, slice, n, extrema ? height : 0}, extrema ? radius : 0, band.first, n, s);
+// Extrema along j of a slice's strip of n columns from i on, into the band's boxes.
+template <int kFixed>
+void extremaAlongJ(const OcclusionBand& band, int i, int k, int n, const OcclusionScratch& s) {
+    const Int16* from = band.values + static_cast<std::ptrdiff_t>(k) * band.size[1] * band.size[0] + i;
+    SlidingExtrema<kFixed> sliding({from, from, band.size[0], band.size[1]}, band.radius[1], band.first,
+                                   band.end, n, s);
     for (int j = band.first; j < band.end; ++j) {
-        const std::ptrdiff_t to = band.boxRow(j, k);
-        const int in = j + radius, out = j - radius - 1;
-        const bool enters = in < height, leaves = out >= 0 && j > band.first;
-        if (enters && leaves)
-            exchangeRow(s.sums, row(in), row(out), n);
-        else if (enters)
-            addRow(s.sums, row(in), n);
-        else if (leaves)
-            dropRow(s.sums, row(out), n);
-        windowSums(s.sums, s.prefix, band.sums + to, n, reach);
-        if (extrema) {
-            sliding.next(middle);
-            for (const Extrema& end : ends) setNone(end, reach);
-            leastOfWindows(s.lows, band.lows + to, n, window);
-            mostOfWindows(s.highs, band.highs + to, n, window);
-        } else {
-            if (enters) addSquares(s.squares, row(in), n);
-            if (leaves) dropSquares(s.squares, row(out), n);
-            windowSquares(s.squares, s.squaresPrefix, band.squares + to, n, reach);
-        }
+        const std::ptrdiff_t to = band.boxRow(j, k) + i;
+        sliding.next({band.lows + to, band.highs + to});
     }
 }
 
-void finishOcclusionRow(const OcclusionBand& band, int j, const OcclusionScratch& s) {
-    const int n = band.stride, depth = band.size[2], radius = band.radius[2];
+// Extrema along i of a row of boxes, in place.
+void extremaAlongI(const OcclusionBand& band, Int16* lows, Int16* highs, const OcclusionScratch& s) {
+    const int n = band.size[0], reach = band.radius[0];
+    setNone<0>({s.lows, s.highs}, reach);
+    setNone<0>({s.lows + reach + n, s.highs + reach + n}, reach);
+    __builtin_memcpy(s.lows + reach, lows, static_cast<std::size_t>(n) * sizeof(Int16));
+    __builtin_memcpy(s.highs + reach, highs, static_cast<std::size_t>(n) * sizeof(Int16));
+    leastOfWindows(s.lows, lows, n, 2 * reach + 1);
+    mostOfWindows(s.highs, highs, n, 2 * reach + 1);
+}
+
+void filterExtrema(const OcclusionBand& band, int k, const OcclusionScratch& s) {
+    const int n = band.size[0];
+    int i = 0;
+    for (; i + kOcclusionStrip <= n; i += kOcclusionStrip)
+        extremaAlongJ<kOcclusionStrip>(band, i, k, kOcclusionStrip, s);
+    if (i < n) extremaAlongJ<0>(band, i, k, n - i, s);
+    for (int j = band.first; j < band.end; ++j) {
+        const std::ptrdiff_t at = band.boxRow(j, k);
+        extremaAlongI(band, band.lows + at, band.highs + at, s);
+    }
+}
+
+// A slice's rows, and where its sums along j are kept.
+struct Slice {
+    const Int16* values;
+    int width, height, radius;
+    STEREONAV_INLINE const Int16* row(int j) const { return values + static_cast<std::ptrdiff_t>(j) * width; }
+    STEREONAV_INLINE bool enters(int j) const { return j + radius < height; }
+    STEREONAV_INLINE bool leaves(int j) const { return j > radius; }
+    STEREONAV_INLINE const Int16* entering(int j) const { return row(j + radius); }
+    STEREONAV_INLINE const Int16* leaving(int j) const { return row(j - radius - 1); }
+};
+
+void filterSums(const OcclusionBand& band, const Slice& slice, int k, const OcclusionScratch& s) {
+    const int n = slice.width;
+    std::int32_t* sums = band.lastSums + static_cast<std::ptrdiff_t>(k) * band.stride;
+    if (band.first == 0)
+        for (int j = 0; j < slice.radius; ++j) addRow(sums, slice.row(j), n);
+    for (int j = band.first; j < band.end; ++j) {
+        const bool enters = slice.enters(j), leaves = slice.leaves(j);
+        if (enters && leaves)
+            exchangeRow(sums, slice.entering(j), slice.leaving(j), n);
+        else if (enters)
+            addRow(sums, slice.entering(j), n);
+        else if (leaves)
+            dropRow(sums, slice.leaving(j), n);
+        windowSums(sums, s.prefix, band.sums + band.boxRow(j, k), n, band.radius[0]);
+    }
+}
+
+void filterSquares(const OcclusionBand& band, const Slice& slice, int k, const OcclusionScratch& s) {
+    const int n = slice.width;
+    std::int64_t* sums = band.lastSquares + static_cast<std::ptrdiff_t>(k) * band.stride;
+    if (band.first == 0)
+        for (int j = 0; j < slice.radius; ++j) addSquares(sums, slice.row(j), n);
+    for (int j = band.first; j < band.end; ++j) {
+        if (slice.enters(j)) addSquares(sums, slice.entering(j), n);
+        if (slice.leaves(j)) dropSquares(sums, slice.leaving(j), n);
+        windowSquares(sums, s.squaresPrefix, band.squares + band.boxRow(j, k), n, band.radius[0]);
+    }
+}
+
+// Boxes of a strip of row j, along k.
+void finishColumns(const OcclusionBand& band, int i, int j, const OcclusionScratch& s) {
+    constexpr int n = kOcclusionStrip;
+    const int depth = band.size[2], radius = band.radius[2];
     const bool extrema = band.extrema();
-    const auto sums = [&](int k) { return band.sums + band.boxRow(j, k); };
-    const auto squares = [&](int k) { return band.squares + band.boxRow(j, k); };
-    for (int i = 0; i < n; ++i) s.total[i] = 0;
-    for (int i = 0; i < n; ++i) s.totalSquares[i] = 0;
-    for (int k = 0; k < least(radius, depth); ++k) {
+    const auto sums = [&](int k) { return band.sums + band.boxRow(j, k) + i; };
+    const auto squares = [&](int k) { return band.squares + band.boxRow(j, k) + i; };
+    for (int c = 0; c < n; ++c) s.total[c] = 0;
+    for (int c = 0; c < n; ++c) s.totalSquares[c] = 0;
+    for (int k = 0; k < radius; ++k) {
         exchange(s.total, sums(k), nullptr, n);
         if (!extrema) exchange(s.totalSquares, squares(k), nullptr, n);
     }
-    const std::ptrdiff_t start = band.boxRow(j, 0);
-    SlidingExtrema sliding({extrema ? band.lows + start : nullptr, extrema ? band.highs + start : nullptr, n,
-                            extrema ? depth : 0},
-                           extrema ? radius : 0, 0, n, s);
+    const std::ptrdiff_t start = extrema ? band.boxRow(j, 0) + i : 0;
+    SlidingExtrema<n> sliding({band.lows + start, band.highs + start, band.stride, depth}, radius, 0, depth,
+                              n, s);
     const int rows = clippedWindow(j, band.radius[1], band.size[1]);
     for (int k = 0; k < depth; ++k) {
         const int in = k + radius, out = k - radius - 1;
@@ -391,8 +453,25 @@ void finishOcclusionRow(const OcclusionBand& band, int j, const OcclusionScratch
             sliding.next({s.lows, s.highs});
         else
             exchange(s.totalSquares, enters ? squares(in) : nullptr, leaves ? squares(out) : nullptr, n);
-        finish(band, s, j, k, static_cast<double>(rows) * clippedWindow(k, radius, depth));
+        finishStrip(band, s, i, j, k, static_cast<double>(rows) * clippedWindow(k, radius, depth));
     }
+}
+
+}  // namespace
+
+void filterOcclusionSlice(const OcclusionBand& band, int k, const OcclusionScratch& scratch) {
+    const int width = band.size[0], height = band.size[1];
+    const Slice slice{band.values + static_cast<std::ptrdiff_t>(k) * height * width, width, height,
+                      band.radius[1]};
+    filterSums(band, slice, k, scratch);
+    if (band.extrema())
+        filterExtrema(band, k, scratch);
+    else
+        filterSquares(band, slice, k, scratch);
+}
+
+void finishOcclusionRow(const OcclusionBand& band, int j, const OcclusionScratch& scratch) {
+    for (int i = 0; i < band.stride; i += kOcclusionStrip) finishColumns(band, i, j, scratch);
 }
 
 }  // namespace stereonav::STEREONAV_ISA

@@ -12,8 +12,9 @@ namespace stereonav {
 
 enum class BoxResult { Reconstructed, Gaussian, Chebyshev, Variance };
 
-// Rows of boxes are padded to whole chunks: the most lanes that a kernel has.
-constexpr int kOcclusionChunk = 16;
+// Columns that extrema are sought for at a time, so that a window of them stays in the nearest cache; rows of
+// boxes are padded to whole strips. A multiple of the lanes of every kernel.
+constexpr int kOcclusionStrip = 64;
 
 struct OcclusionBand {
     const std::int16_t* values = nullptr;  // the volume, i fastest
@@ -34,23 +35,25 @@ struct OcclusionBand {
 
     const double* columnCounts = nullptr;  // stride: voxels of the box along i
 
+    // Sums along j of the band's last row, by slice, from which the next band goes on: rows of `stride`.
+    std::int32_t* lastSums = nullptr;
+    std::int64_t* lastSquares = nullptr;
+
     std::ptrdiff_t boxRow(int j, int k) const {
         return (static_cast<std::ptrdiff_t>(j - first) * size[2] + k) * stride;
     }
     bool extrema() const { return result == BoxResult::Reconstructed; }
 };
 
-// Working memory of one thread; `row` is the padded row: stride + 2 * 64 + kOcclusionChunk numbers.
+// Working memory of one thread; a padded row has stride + 2 * kMostOcclusionRadius + 1 numbers.
 struct OcclusionScratch {
-    std::int16_t *suffixLows, *suffixHighs;  // largest window * stride
-    std::int16_t *lows, *highs;              // row
-    std::int16_t *runLows, *runHighs;        // stride
-    std::int32_t* sums;                      // stride
-    std::uint32_t* prefix;                   // row
-    std::int64_t* squares;                   // stride
-    std::uint64_t* squaresPrefix;            // row
-    double *total, *totalSquares;            // stride
-    std::int32_t *value, *low, *high, *out;  // stride
+    std::int16_t *suffixLows, *suffixHighs;  // largest window * strip
+    std::int16_t *runLows, *runHighs;        // strip
+    std::int16_t *lows, *highs;              // padded row
+    std::uint32_t* prefix;                   // padded row
+    std::uint64_t* squaresPrefix;            // padded row
+    double *total, *totalSquares;            // strip
+    std::int32_t *value, *low, *high, *out;  // strip
 };
 
 struct OcclusionKernels {
