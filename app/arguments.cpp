@@ -249,7 +249,8 @@ void addBake(CLI::App& app, Parsed& parsed) {
         "of a volume: light from everywhere, one number or red,green,blue; of a terrain: its picture");
     command.add_option("--what", options.what,
                        "irradiance, transfer (light can be turned later), or openness");
-    command.add_option("--samples", options.samples, "of each texel, 256 when nothing is said");
+    command.add_option("--samples", options.samples,
+                       "of each texel, 256 when nothing is said; of a terrain 64, each bounce");
     command.add_option("--error", options.error, "go on until the relative error is this, as in 0.02");
     command.add_option("--minutes", options.minutes, "go on for so long");
     command.add_option("--resolution", options.resolution,

@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <utility>
 
 #include "app/output_place.h"
 #include "app/progress_bar.h"
@@ -26,45 +28,74 @@ TerrainLightKind kindFromText(const std::string& what) {
 }
 
 int strideFromResolution(double resolution) {
-    if (resolution == 0) return 1;
     const double stride = 1 / resolution;
     if (!(resolution > 0) || !(stride >= 1 - 1e-9) || !(stride <= 1000))
-        throw Error("--resolution", "", fmt::format("expected 0.001 to 1, got {:g}", resolution),
+        throw Error("--resolution", "",
+                    fmt::format("expected 0.001 to 1 for a terrain, got {:g}", resolution),
                     "1 bakes every height sample, 0.5 every second one each way");
     return static_cast<int>(std::lround(stride));
 }
 
-TerrainLightSettings settingsOf(const TerrainBakeOptions& options) {
+double albedoFromText(const std::string& text) {
+    char* end = nullptr;
+    const double albedo = std::strtod(text.c_str(), &end);
+    if (end == text.c_str() || *end != '\0' || !(albedo >= 0 && albedo <= 1))
+        throw Error("--albedo", "", "expected one number from 0 to 1 for a terrain, got \"" + text + "\"",
+                    "rock and grass send back 0.2 to 0.3 of the light");
+    return albedo;
+}
+
+int wholeIn(const char* option, int value, int low, int high) {
+    if (value < low || value > high)
+        throw Error(option, "", fmt::format("expected {} to {} for a terrain, got {}", low, high, value),
+                    "leave it out for the default");
+    return value;
+}
+
+TerrainLightSettings settingsOf(const BakeOptions& options) {
     TerrainLightSettings settings;
     settings.kind = kindFromText(options.what);
-    settings.stride = strideFromResolution(options.resolution);
-    if (options.samples < 0 || options.samples > 65536)
-        throw Error("--samples", "", fmt::format("expected 16 to 65536, got {}", options.samples),
-                    "64 is the default for terrain");
+    if (options.resolution) settings.stride = strideFromResolution(*options.resolution);
     // Rays go in packets.
-    if (options.samples > 0)
-        settings.rays = (options.samples + RayPacket::kSize - 1) / RayPacket::kSize * RayPacket::kSize;
-    if (options.order > 0) settings.order = options.order;
-    if (options.bounces >= 0) settings.bounces = options.bounces;
-    if (options.albedo >= 0) settings.albedo = options.albedo;
+    constexpr int kPacket = RayPacket::kSize;
+    if (options.samples)
+        settings.rays = (wholeIn("--samples", *options.samples, 1, 65536) + kPacket - 1) / kPacket * kPacket;
+    if (options.order) settings.order = wholeIn("--order", *options.order, 1, 6);
+    if (options.bounces) settings.bounces = wholeIn("--bounces", *options.bounces, 0, 4);
+    if (!options.albedo.empty()) settings.albedo = albedoFromText(options.albedo);
     return settings;
+}
+
+void refuseOtherOptions(const BakeOptions& options) {
+    const std::pair<const char*, bool> given[] = {
+        {"--error", options.error.has_value()},      {"--minutes", options.minutes.has_value()},
+        {"--probe", !options.probe.empty()},         {"--light", !options.lights.empty()},
+        {"--isovalues", !options.isovalues.empty()}, {"--full", options.full}};
+    for (const auto& [option, is] : given)
+        if (is)
+            throw Error(option, "", "expected with a CT study, the scene is a terrain",
+                        "a terrain's sun and sky are chosen when it is shown: --sun, --sky");
 }
 
 // Whether the file holds the same bake already.
 bool holds(const std::filesystem::path& file, const Heightfield& ground,
            const TerrainLightSettings& settings) {
     if (!std::filesystem::exists(file)) return false;
+    if (!isTerrainLight(file))
+        throw Error(file.string(), "", "there is something else than a terrain's light in this place",
+                    "choose another with --out");
     try {
-        return loadTerrainLight(file, &ground).key == terrainLightKey(ground, settings);
+        return loadTerrainLight(file, nullptr).key == terrainLightKey(ground, settings);
     } catch (const Error& error) {
-        std::fprintf(stderr, "stereonav: %s\n", error.what());
-        return false;  // baked anew
+        std::fprintf(stderr, "stereonav: %s: made anew\n", error.what());
+        return false;
     }
 }
 
 }  // namespace
 
-int bakeTerrain(const TerrainBakeOptions& options) {
+int bakeTerrain(const BakeOptions& options) {
+    refuseOtherOptions(options);
     const TerrainLightSettings settings = settingsOf(options);
     if (!options.out.empty()) checkOutputFile("--out", options.out);
     ProgressBar bar;

@@ -5,17 +5,8 @@
 
 namespace stereonav {
 
-// What is 0 or empty is the default.
-struct TerrainBakeOptions {
-    SceneOptions scene;
-    std::string what;       // "transfer", "openness"; "": transfer
-    int samples = 0;        // rays a baked sample and bounce
-    double resolution = 0;  // baked samples a height sample each way, 1 / n; 1 or less
-    int order = 0;          // of the harmonics
-    int bounces = -1;       // < 0: default
-    double albedo = -1;
-    std::string out;  // "": in the cache, where `--light auto` looks
-};
-int bakeTerrain(const TerrainBakeOptions& options);
+// Into the cache, where `--light auto` looks for the light of the same ground, or into options.out. What is
+// done is not kept when it is stopped: all of it takes seconds to minutes. Throws Error, Cancelled.
+int bakeTerrain(const BakeOptions& options);
 
 }  // namespace stereonav

@@ -1,7 +1,7 @@
 // `stereonav bake`: light worked out before it is looked at. Each kind of scene has its own.
+#include "app/bake_terrain.h"
 #include "app/bake_volume.h"
 #include "app/scene_loading.h"
-#include "engine/base/error.h"
 
 namespace stereonav {
 
@@ -10,10 +10,9 @@ int runBake(const BakeOptions& options) {
         case SceneKind::Volume:
             return bakeVolume(options);
         case SceneKind::Terrain:
-            break;
+            return bakeTerrain(options);
     }
-    throw Error(options.scene.scene.empty() ? "SCENE" : options.scene.scene, "",
-                "expected a CT study, found a terrain", "name a study, or colon for the built-in one");
+    return 1;
 }
 
 }  // namespace stereonav

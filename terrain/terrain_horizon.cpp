@@ -16,16 +16,24 @@ double between(int b) {
     return (b + 0.5) / kLevels;
 }
 
-// What sixteen samples know of their horizons: the ray between low and low + 1 is blocked (low = -1: none
-// need be), the one between high and high + 1 is free.
+// What is known of one sample's horizon: the ray between low and low + 1 is blocked, or low is -1; the one
+// between high and high + 1 is free, or high is kLevels. The search starts at the horizon of the azimuth
+// before and steps away from it, ever further, until it lies between; then it bisects.
 struct Bounds {
-    int low[RayPacket::kSize], high[RayPacket::kSize];
+    int low, high, guess;
+    int step = 1;
+    bool blockedSeen = false, freeSeen = false;
 
-    std::uint32_t open(int count) const {
-        std::uint32_t bits = 0;
-        for (int k = 0; k < count; ++k)
-            if (high[k] - low[k] > 1) bits |= 1u << k;
-        return bits;
+    bool open() const { return high - low > 1; }
+    int middle() const {
+        if (blockedSeen && freeSeen) return (low + high) / 2;
+        const int at = freeSeen ? high - step : blockedSeen ? low + step : guess;
+        return std::clamp(at, low + 1, high - 1);
+    }
+    void take(int level, bool blocked) {
+        (blocked ? low : high) = level;
+        (blocked ? blockedSeen : freeSeen) = true;
+        step *= 3;
     }
 };
 
@@ -50,52 +58,83 @@ glm::dvec3 sampleNormal(const Heightfield& ground, int i, int j) {
     return std::isfinite(length) ? glm::dvec3(-gradient, 1.0) / length : glm::dvec3(0, 0, 1);
 }
 
+namespace {
+
+// Up to sixteen neighbours in a row of baked samples.
+class HorizonPacket {
+public:
+    HorizonPacket(const GroundRays& rays, const LightGrid& grid, int row, int first)
+        : mRays(rays), mGrid(grid), mRow(grid.row(row)), mFirst(first) {
+        mCount = std::min(RayPacket::kSize, grid.width - first);
+        const Heightfield& ground = rays.ground();
+        for (int k = 0; k < RayPacket::kSize; ++k) {
+            const int i = grid.column(first + std::min(k, mCount - 1));
+            const glm::dvec2 world = ground.worldFromGrid({i, mRow});
+            const double height = ground.sample(i, mRow);
+            const bool known = std::isfinite(height);
+            if (k < mCount && known) mKnown |= 1u << k;
+            mPacket.originX[k] = static_cast<float>(world.x);
+            mPacket.originY[k] = static_cast<float>(world.y);
+            mPacket.originZ[k] =
+                known ? static_cast<float>(height - rays.centreHeight() + rays.lift()) : 0.0f;
+        }
+    }
+
+    // Writes the horizons of one azimuth; `horizon` is the first sample's.
+    void find(const glm::dvec2& direction, std::uint8_t* horizon) {
+        Bounds bounds[RayPacket::kSize];
+        std::uint32_t open = 0;
+        for (int k = 0; k < mCount; ++k) {
+            bounds[k] = {-1, 0, 0};
+            if (!(mKnown >> k & 1)) continue;
+            const int i = mGrid.column(mFirst + k);
+            bounds[k] = {levelBelow(mRays.slopeBeside(i, mRow, direction)), kLevels, mBefore[k]};
+            if (bounds[k].open()) open |= 1u << k;
+        }
+        while (open) open = narrow(direction, open, bounds);
+        for (int k = 0; k < mCount; ++k) {
+            mBefore[k] = bounds[k].high;
+            horizon[k] = static_cast<std::uint8_t>(bounds[k].high);
+        }
+    }
+
+private:
+    std::uint32_t narrow(const glm::dvec2& direction, std::uint32_t open, Bounds* bounds) {
+        int level[RayPacket::kSize];
+        for (int k = 0; k < mCount; ++k) {
+            level[k] = bounds[k].open() ? bounds[k].middle() : 0;
+            const double z = between(level[k]), across = std::sqrt(1 - z * z);
+            mPacket.directionX[k] = static_cast<float>(direction.x * across);
+            mPacket.directionY[k] = static_cast<float>(direction.y * across);
+            mPacket.directionZ[k] = static_cast<float>(z);
+        }
+        const std::uint32_t blocked = mRays.occluded(mPacket, open);
+        std::uint32_t left = 0;
+        for (int k = 0; k < mCount; ++k) {
+            if (!(open >> k & 1)) continue;
+            bounds[k].take(level[k], blocked >> k & 1);
+            if (bounds[k].open()) left |= 1u << k;
+        }
+        return left;
+    }
+
+    const GroundRays& mRays;
+    const LightGrid& mGrid;
+    const int mRow, mFirst;
+    int mCount = 0;
+    std::uint32_t mKnown = 0;
+    int mBefore[RayPacket::kSize] = {};
+    RayPacket mPacket{};
+};
+
+}  // namespace
+
 void bakeHorizonRow(const GroundRays& rays, const LightGrid& grid, int row, int azimuths,
                     std::uint8_t* horizon, std::size_t planeSize) {
-    const Heightfield& ground = rays.ground();
-    const int j = grid.row(row);
-    RayPacket packet{};
-    Bounds bounds;
     for (int first = 0; first < grid.width; first += RayPacket::kSize) {
-        const int count = std::min(RayPacket::kSize, grid.width - first);
-        std::uint32_t known = 0;
-        for (int k = 0; k < RayPacket::kSize; ++k) {
-            const int i = grid.column(first + std::min(k, count - 1));
-            const glm::dvec2 world = ground.worldFromGrid({i, j});
-            const double height = ground.sample(i, j);
-            if (k < count && std::isfinite(height)) known |= 1u << k;
-            packet.originX[k] = static_cast<float>(world.x);
-            packet.originY[k] = static_cast<float>(world.y);
-            packet.originZ[k] =
-                static_cast<float>(std::isfinite(height) ? height - rays.centreHeight() + rays.lift() : 0);
-        }
-        for (int a = 0; a < azimuths; ++a) {
-            const glm::dvec2 d = azimuthDirection(a, azimuths);
-            for (int k = 0; k < count; ++k) {
-                const bool is = known >> k & 1;
-                bounds.low[k] = is ? levelBelow(rays.slopeBeside(grid.column(first + k), j, d)) : -1;
-                bounds.high[k] = is ? kLevels : 0;
-            }
-            for (std::uint32_t open = bounds.open(count); open; open = bounds.open(count)) {
-                int middle[RayPacket::kSize];
-                for (int k = 0; k < count; ++k) {
-                    // The first try is right above the low bound: much ground sees a level horizon.
-                    middle[k] = bounds.high[k] == kLevels ? bounds.low[k] + (kLevels - bounds.low[k]) / 8 + 1
-                                                          : (bounds.low[k] + bounds.high[k]) / 2;
-                    if (middle[k] >= bounds.high[k]) middle[k] = bounds.high[k] - 1;
-                    const double z = between(middle[k]);
-                    const double level = std::sqrt(1 - z * z);
-                    packet.directionX[k] = static_cast<float>(d.x * level);
-                    packet.directionY[k] = static_cast<float>(d.y * level);
-                    packet.directionZ[k] = static_cast<float>(z);
-                }
-                const std::uint32_t blocked = rays.occluded(packet, open);
-                for (int k = 0; k < count; ++k)
-                    if (open >> k & 1) (blocked >> k & 1 ? bounds.low : bounds.high)[k] = middle[k];
-            }
-            for (int k = 0; k < count; ++k)
-                horizon[a * planeSize + first + k] = static_cast<std::uint8_t>(bounds.high[k]);
-        }
+        HorizonPacket packet(rays, grid, row, first);
+        for (int a = 0; a < azimuths; ++a)
+            packet.find(azimuthDirection(a, azimuths), horizon + a * planeSize + first);
     }
 }
 

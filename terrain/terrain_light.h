@@ -108,6 +108,9 @@ TerrainLight bakeTerrainLight(const Heightfield& ground, const TerrainLightSetti
 
 // Written beside and renamed. Throws Error.
 void saveTerrainLight(const std::filesystem::path& file, const TerrainLight& light);
+// Whether the file is there and begins as baked terrain light does.
+bool isTerrainLight(const std::filesystem::path& file);
+
 // Throws Error naming the file: cut off, damaged, of another kind or version, or (where `ground` is given)
 // baked from other ground.
 TerrainLight loadTerrainLight(const std::filesystem::path& file, const Heightfield* ground);

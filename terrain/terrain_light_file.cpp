@@ -169,6 +169,13 @@ void saveTerrainLight(const std::filesystem::path& file, const TerrainLight& lig
     });
 }
 
+bool isTerrainLight(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    char magic[sizeof kMagic] = {};
+    in.read(magic, sizeof magic);
+    return in && std::memcmp(magic, kMagic, sizeof kMagic) == 0;
+}
+
 TerrainLight loadTerrainLight(const std::filesystem::path& file, const Heightfield* ground) {
     const std::string name = file.string();
     std::error_code code;
