@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+
+#include "engine/base/parallel.h"
 
 namespace stereonav {
 namespace {
@@ -17,37 +18,32 @@ glm::ivec3 blocksFor(const glm::ivec3& cells, int shift) {
     return (cells + ((1 << shift) - 1)) >> glm::ivec3(shift);
 }
 
-// One octant row's flags, from the voxels around it.
-class OctantRow {
-public:
-    OctantRow(const GreyVolume& volume, int rung, int side)
-        : mVolume(volume), mRung(rung), mSide(side), mAny(static_cast<std::size_t>(volume.frame.size.x)) {}
-
-    // Octants (.., y, z): flags of `count` octants; those beyond the volume are 0.
-    void find(int y, int z, int count, std::uint8_t* flags) {
-        const glm::ivec3 size = mVolume.frame.size;
-        std::fill(flags, flags + count, std::uint8_t{0});
-        if (y * mSide >= size.y - 1 || z * mSide >= size.z - 1) return;
-        std::fill(mAny.begin(), mAny.end(), std::uint8_t{0});
-        for (int k = z * mSide; k <= std::min((z + 1) * mSide, size.z - 1); ++k)
-            for (int j = y * mSide; j <= std::min((y + 1) * mSide, size.y - 1); ++j) addRow(j, k);
-        for (int x = 0; x < count; ++x)
-            for (int i = x * mSide; i <= std::min((x + 1) * mSide, size.x - 1); ++i) flags[x] |= mAny[i];
-        // The last voxel alone makes no cell.
-        for (int x = (size.x - 2) / mSide + 1; x < count; ++x) flags[x] = 0;
-    }
-
-private:
-    void addRow(int j, int k) {
-        const std::int16_t* row = mVolume.values.data() + mVolume.frame.index(0, j, k);
-        std::uint8_t* any = mAny.data();
-        for (int i = 0; i < mVolume.frame.size.x; ++i) any[i] |= row[i] >= mRung ? 1 : 0;
-    }
-
-    const GreyVolume& mVolume;
-    int mRung, mSide;
-    std::vector<std::uint8_t> mAny;
-};
+// The largest value of each octant, the eight of a block together (x + 2 y + 4 z); below all values where an
+// octant lies beyond the volume.
+void findOctants(const GreyVolume& volume, const glm::ivec3& blocks, int side,
+                 LazyArray<std::int16_t>& most) {
+    const glm::ivec3 size = volume.frame.size;
+    parallelFor(2 * blocks.z, [&](int z) {
+        std::vector<std::int16_t> row(static_cast<std::size_t>(size.x));
+        for (int y = 0; y < 2 * blocks.y; ++y) {
+            std::int16_t* out = &most[8 * (static_cast<std::size_t>(z / 2) * blocks.y + y / 2) * blocks.x] +
+                                (2 * (y & 1) + 4 * (z & 1));
+            const bool beyond = y * side >= size.y - 1 || z * side >= size.z - 1;
+            std::fill(row.begin(), row.end(), std::int16_t{-32768});
+            for (int k = z * side; !beyond && k <= std::min((z + 1) * side, size.z - 1); ++k)
+                for (int j = y * side; j <= std::min((y + 1) * side, size.y - 1); ++j) {
+                    const std::int16_t* values = volume.values.data() + volume.frame.index(0, j, k);
+                    for (int i = 0; i < size.x; ++i) row[i] = std::max(row[i], values[i]);
+                }
+            for (int x = 0; x < 2 * blocks.x; ++x) {
+                std::int16_t& octant = out[8 * (x / 2) + (x & 1)] = -32768;
+                if (x * side >= size.x - 1) continue;
+                for (int i = x * side; i <= std::min((x + 1) * side, size.x - 1); ++i)
+                    octant = std::max(octant, row[i]);
+            }
+        }
+    });
+}
 
 // Distances by the largest difference along an axis, in two passes over the blocks (Rosenfeld and Pfaltz
 // 1968, in three dimensions): exact for this metric. Between borders of kFarthest.
@@ -68,32 +64,29 @@ public:
         for (int z = 0; z < mBlocks.z; ++z)
             for (int y = 0; y < mBlocks.y; ++y) {
                 std::uint8_t* r = row(y, z);
-                take(r, {r - mRow, r - mSlice - mRow, r - mSlice, r - mSlice + mRow});
+                take(r, r - mRow, r - mSlice - mRow, r - mSlice, r - mSlice + mRow);
                 for (int x = 0; x < mBlocks.x; ++x) r[x] = nearer(r[x], r[x - 1]);
             }
         for (int z = mBlocks.z - 1; z >= 0; --z)
             for (int y = mBlocks.y - 1; y >= 0; --y) {
                 std::uint8_t* r = row(y, z);
-                take(r, {r + mRow, r + mSlice - mRow, r + mSlice, r + mSlice + mRow});
+                take(r, r + mRow, r + mSlice - mRow, r + mSlice, r + mSlice + mRow);
                 for (int x = mBlocks.x - 1; x >= 0; --x) r[x] = nearer(r[x], r[x + 1]);
             }
     }
 
 private:
     static std::uint8_t nearer(std::uint8_t own, std::uint8_t other) {
-        return std::min(own, static_cast<std::uint8_t>(std::min<int>(other, kFarthest - 1) + 1));
+        return std::min(own, static_cast<std::uint8_t>(other + (other < kFarthest ? 1 : 0)));
     }
-    void take(std::uint8_t* r, const std::uint8_t* const (&others)[4]) {
-        std::uint8_t* least = mLeast.data() + 1;
-        for (int x = -1; x <= mBlocks.x; ++x)
-            least[x] = std::min(std::min(others[0][x], others[1][x]), std::min(others[2][x], others[3][x]));
-        for (int x = 0; x < mBlocks.x; ++x)
+    // One more than the least of four rows and their neighbours in x.
+    void take(std::uint8_t* __restrict r, const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c,
+              const std::uint8_t* d) {
+        std::uint8_t* __restrict least = mLeast.data() + 1;
+        const int count = mBlocks.x;
+        for (int x = -1; x <= count; ++x) least[x] = std::min(std::min(a[x], b[x]), std::min(c[x], d[x]));
+        for (int x = 0; x < count; ++x)
             r[x] = nearer(r[x], std::min(least[x], std::min(least[x - 1], least[x + 1])));
-    }
-    void take(std::uint8_t* r, std::initializer_list<const std::uint8_t*> four) {
-        const std::uint8_t* others[4];
-        std::copy(four.begin(), four.end(), others);
-        take(r, others);
     }
 
     glm::ivec3 mBlocks;
@@ -111,6 +104,10 @@ IsovalueFields::IsovalueFields(const GreyVolume& volume, bool leaping, std::size
         mBlocks = blocksFor(cells, ++mShift);
     const auto fits = static_cast<int>(std::min<std::size_t>(budget / (2 * blockCount()), kMostRungs));
     chooseRungs(leaping ? std::max(fits, 2) : 1);
+    if (leaping) {
+        mOctants = LazyArray<std::int16_t>(8 * blockCount());
+        findOctants(volume, mBlocks, 1 << (mShift - 1), mOctants);
+    }
     mEntries = std::make_unique<Entry[]>(mRungs.size());
 }
 
@@ -148,20 +145,18 @@ void IsovalueFields::build(int rung, LazyArray<std::uint8_t>& blocks) const {
         return;
     }
     BlockDistances distances(mBlocks);
-    OctantRow octants(mVolume, mRungs[rung], 1 << (mShift - 1));
-    std::vector<std::uint8_t> flags(static_cast<std::size_t>(mBlocks.x) * 2);
+    const auto least = static_cast<std::int16_t>(std::min(mRungs[rung], 32767));
     for (int z = 0; z < mBlocks.z; ++z)
         for (int y = 0; y < mBlocks.y; ++y) {
-            std::uint8_t* out = &blocks[2 * ((static_cast<std::size_t>(z) * mBlocks.y + y) * mBlocks.x)];
-            for (int part = 0; part < 4; ++part) {
-                octants.find(2 * y + (part & 1), 2 * z + (part >> 1), 2 * mBlocks.x, flags.data());
-                for (int x = 0; x < mBlocks.x; ++x)
-                    out[2 * x + 1] |=
-                        static_cast<std::uint8_t>((flags[2 * x] | flags[2 * x + 1] << 1) << (2 * part));
+            const std::size_t first = (static_cast<std::size_t>(z) * mBlocks.y + y) * mBlocks.x;
+            const std::int16_t* most = mOctants.data() + 8 * first;
+            std::uint8_t *out = &blocks[2 * first], *away = distances.row(y, z);
+            for (int x = 0; x < mBlocks.x; ++x) {
+                int mask = 0;
+                for (int n = 0; n < 8; ++n) mask |= (most[8 * x + n] >= least ? 1 : 0) << n;
+                out[2 * x + 1] = static_cast<std::uint8_t>(mask);
+                away[x] = mask ? 0 : kFarthest;
             }
-            std::uint8_t* away = distances.row(y, z);
-            for (int x = 0; x < mBlocks.x; ++x)
-                if (out[2 * x + 1]) away[x] = 0;
         }
     distances.spread();
     for (int z = 0; z < mBlocks.z; ++z)

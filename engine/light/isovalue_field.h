@@ -47,7 +47,8 @@ private:
     bool mLeaping;
     int mShift = 1;  // blocks of 2^shift cells a side
     glm::ivec3 mBlocks{0};
-    std::vector<int> mRungs;  // ascending
+    std::vector<int> mRungs;           // ascending
+    LazyArray<std::int16_t> mOctants;  // largest values, eight a block
     std::unique_ptr<Entry[]> mEntries;
 };
 
