@@ -11,7 +11,7 @@ namespace stereonav {
 namespace {
 
 constexpr int kLargestShift = 3;
-constexpr int kWantedRungs = 64;  // larger blocks where the budget gives fewer
+constexpr int kWantedRungs = 48;  // larger blocks where the budget gives fewer
 constexpr int kFarthest = 255;    // blocks
 
 glm::ivec3 blocksFor(const glm::ivec3& cells, int shift) {

@@ -1,24 +1,115 @@
-// Precomputed light: how long a bake takes. With --marks "name value" lines alone.
+// Precomputed light: how long bakes take (Wyman et al. 2006, Table 1) and what each way of choosing paths
+// gains at equal error. With --marks "name value" lines alone. Times of whole volumes are rates measured on a
+// random part of the texels and scaled, as the lines beside them say.
 #include <cstdio>
 #include <cstring>
+#include <functional>
 
-#include "tests/bench/bench_light_bake.h"
+#include "engine/base/error.h"
+#include "tests/bench/bench_light_gain.h"
 
-using namespace stereonav;
-using namespace stereonav::bench;
+namespace stereonav::bench {
+namespace {
 
-int main(int, char**) {
-    const LightSubject subject = lightSubject();
-    std::printf("%s, %d threads\n", subject.name.c_str(), threadCount());
-    const double fields = fields_s(subject.volume);
-    std::printf("fields %.2f s\n", fields);
-    const TexelLighter lighter(subject.volume, subject.volume.frame, subject.setup, {});
-    const auto bricks = shuffledBricks(subject.volume.frame.size);
-    irradianceRate(lighter, bricks, 1, 6);
-    const BakeRate r = irradianceRate(lighter, bricks, 100, 8);
-    std::printf("irradiance 100: all %.1f s (cpu %.1f), part %.3f, on surface %.3f, %.3f M samples/s\n",
-                r.all_s, r.processor_s, r.part, r.onSurface, r.samples_s / 1e6);
-    const BakeRate t = transferRate(lighter, bricks, 100, 5, 1, 8);
-    std::printf("transfer 100: all %.1f s (cpu %.1f), part %.3f, on surface %.3f, %.3f M samples/s\n",
-                t.all_s, t.processor_s, t.part, t.onSurface, t.samples_s / 1e6);
+constexpr int kOrder = 5, kChannels = 1;
+constexpr int kNaiveSamples = 2500;
+
+struct Marks {
+    LightSubject subject = lightSubject();
+    std::vector<Brick> bricks = shuffledBricks(subject.volume.frame.size);
+    double found_s = fields_s(subject.volume);
+
+    TexelLighter lighter(const TexelSampling& sampling = {}) const {
+        return TexelLighter(subject.volume, subject.volume.frame, subject.setup, sampling);
+    }
+    // With the fields found, which fields_s counts.
+    double irradiance_s(int samples, double seconds, BakeRate* rate = nullptr) const {
+        const TexelLighter light = lighter();
+        irradianceRate(light, bricks, 1, 1.5);
+        const BakeRate r = irradianceRate(light, bricks, samples, seconds);
+        if (rate) *rate = r;
+        return found_s + r.all_s;
+    }
+    double transfer_s(int samples, double seconds, BakeRate* rate = nullptr) const {
+        const TexelLighter light = lighter();
+        irradianceRate(light, bricks, 1, 1.5);
+        const BakeRate r = transferRate(light, bricks, samples, kOrder, kChannels, seconds);
+        if (rate) *rate = r;
+        return found_s + r.all_s;
+    }
+    std::vector<Brick> someBricks(std::size_t count) const {
+        return {bricks.begin(), bricks.begin() + static_cast<std::ptrdiff_t>(std::min(count, bricks.size()))};
+    }
+    // Processor time of naive sampling for that of ours at the error that it reaches with kNaiveSamples. Both
+    // leap: the difference is the sampling alone.
+    double equalErrorSpeedup() const {
+        const std::vector<Brick> some = someBricks(12);
+        TexelSampling naive;
+        naive.naive = true;
+        const GainPoint slow = measureError(subject, naive, some, kNaiveSamples / 10, 8);
+        std::vector<GainPoint> ours;
+        for (const int samples : {1, 2, 4, 8, 16, 32})
+            ours.push_back(measureError(subject, {}, some, samples, 8));
+        return 10 * slow.processor_s / timeFor(slow.error / std::sqrt(10.0), ours);
+    }
+};
+
+void printBakes(const Marks& marks) {
+    std::printf("%-12s %8s %10s %22s %10s %10s\n", "bake", "samples", "minutes", "M samples/s a thread",
+                "measured", "surface");
+    BakeRate rate;
+    const auto line = [&](const char* name, int samples, double seconds) {
+        std::printf("%-12s %8d %10.2f %22.3f %9.1f%% %9.1f%%\n", name, samples, seconds / 60,
+                    rate.samples_s / 1e6, 100 * rate.part, 100 * rate.onSurface);
+    };
+    for (const int samples : {100, 625, 2500, 10000})
+        line("irradiance", samples, marks.irradiance_s(samples, 8, &rate));
+    for (const int samples : {100, 625, 2500, 10000})
+        line("transfer", samples, marks.transfer_s(samples, 8, &rate));
+}
+
+void printGains(const Marks& marks) {
+    const std::vector<Brick> some = marks.someBricks(12);
+    std::printf("\n%-26s %10s %10s %10s   times of naive sampling for the error of 250 of its samples\n",
+                "sampling", "error 16", "error 64", "error 256");
+    double naive = 0;
+    double target = 0;
+    for (const NamedSampling& s : samplings()) {
+        std::vector<GainPoint> points;
+        for (const int samples : {1, 4, 16, 64, 256})
+            points.push_back(measureError(marks.subject, s.sampling, some, samples, 8));
+        if (naive == 0) {
+            naive = points[4].processor_s * 250 / 256;
+            target = points[4].error * std::sqrt(256.0 / 250);
+        }
+        std::printf("%-26s %10.5f %10.5f %10.5f   %.1f\n", s.name.c_str(), points[2].error, points[3].error,
+                    points[4].error, naive / timeFor(target, points));
+    }
+}
+
+int run(bool marksOnly) {
+    const Marks marks;
+    if (marksOnly) {
+        std::printf("irradiance100_s %.1f\n", marks.irradiance_s(100, 10));
+        std::printf("transfer100_s %.1f\n", marks.transfer_s(100, 8));
+        std::printf("equal_error_speedup %.1f\n", marks.equalErrorSpeedup());
+        return 0;
+    }
+    std::printf("%s, %d bounces, %d threads, fields of all isovalues found in %.2f s\n",
+                marks.subject.name.c_str(), marks.subject.setup.bounces, threadCount(), marks.found_s);
+    printBakes(marks);
+    printGains(marks);
+    return 0;
+}
+
+}  // namespace
+}  // namespace stereonav::bench
+
+int main(int count, char** arguments) {
+    try {
+        return stereonav::bench::run(count > 1 && std::strcmp(arguments[1], "--marks") == 0);
+    } catch (const stereonav::Error& e) {
+        std::fprintf(stderr, "%s\n", e.what());
+        return 1;
+    }
 }

@@ -87,7 +87,7 @@ BakeRate bakeRate(const std::vector<Brick>& bricks, double seconds, int samples,
     rate.texels = static_cast<double>(done) / took;
     rate.all_s = static_cast<double>(all) / rate.texels;
     rate.onSurface = static_cast<double>(lit) / static_cast<double>(done);
-    rate.samples_s = static_cast<double>(lit) * samples / took;
+    rate.samples_s = static_cast<double>(lit) * samples / used;
     return rate;
 }
 
