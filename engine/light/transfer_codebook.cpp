@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/vec2.hpp>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,10 @@ namespace {
 
 constexpr int kMostNumbers = 3 * kMaxHarmonics;
 constexpr int kMostClusters = 256;
+// Of the clusters, the nearest to a vector by their means, that are tried in full. Trying all of 256 leaves
+// 0.9 to 1.5 % less error and takes three times as long to train (an engine block's transfer, 4 to 12
+// components).
+constexpr int kNearestTried = 16;
 
 void require(bool fits, const std::string& what) {
     if (!fits) throw Error("", "transfer codebook", "expected " + what, "bake it again");
@@ -100,7 +105,8 @@ void TransferCodebook::weightsIn(int c, const float* vector, float* weights) con
     }
 }
 
-// The error is what is left of the distance from the mean when the components have taken their part.
+// The error is what is left of the distance from the mean when the components have taken their part. Looked
+// for among the clusters of the nearest means.
 int TransferCodebook::bestCluster(const float* vector) const {
     const int size = mParts.shape.size(), k = mParts.clusters, m = mParts.components;
     std::array<float, kMostClusters> distance{};
@@ -108,10 +114,17 @@ int TransferCodebook::bestCluster(const float* vector) const {
         const float* means = &mMeans[static_cast<std::size_t>(i) * k];
         for (int c = 0; c < k; ++c) distance[c] += (vector[i] - means[c]) * (vector[i] - means[c]);
     }
+    std::array<int, kMostClusters> order;
+    std::iota(order.begin(), order.begin() + k, 0);
+    const int tried = std::min(k, m > 0 ? kNearestTried : 1);
+    std::partial_sort(order.begin(), order.begin() + tried, order.begin() + k, [&](int a, int b) {
+        return distance[a] != distance[b] ? distance[a] < distance[b] : a < b;
+    });
     int best = 0;
     float least = INFINITY;
     std::array<float, kMostNumbers> weights;
-    for (int c = 0; c < k; ++c) {
+    for (int n = 0; n < tried; ++n) {
+        const int c = order[n];
         weightsIn(c, vector, weights.data());
         float left = distance[c];
         for (int j = 0; j < m; ++j) left -= weights[j] * weights[j];

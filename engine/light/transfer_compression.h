@@ -28,11 +28,11 @@ struct TransferShape {
 struct TransferCompression {
     enum class Weights { Half, Byte };
 
-    int clusters = 64;   // 1..256; 0: no clusters, every number a half float
-    int components = 8;  // of a cluster; 0..vector size
+    int clusters = 128;   // 1..256; 0: no clusters, every number a half float
+    int components = 12;  // of a cluster; 0..vector size
     Weights weights = Weights::Byte;
     // Clusters are found on so many of the vectors, spread evenly (Sloan et al. take all), in so many rounds.
-    int trainingVectors = 1 << 15;
+    int trainingVectors = 1 << 16;
     int rounds = 8;
 };
 

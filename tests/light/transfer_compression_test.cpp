@@ -175,20 +175,22 @@ TEST(TransferCompression, MoreComponentsAndClustersServeBetter) {
     EXPECT_LT(error(16, 4), error(1, 4));
 }
 
-// What the defaults come to on lobes whose seven parameters (normal, horizon, ball) are all drawn at random,
-// harder than any scene's: measured 0.071, and 0.086 for vectors not trained on.
-TEST(TransferCompression, DefaultsInNineBytesATexel) {
+// What the defaults come to on lobes whose seven parameters (normal, horizon, ball) are all drawn at random:
+// measured 0.026, and 0.063 for vectors not trained on (8,000 are few for 128 clusters).
+TEST(TransferCompression, DefaultsInThirteenBytesATexel) {
     const auto vectors = occludedCosines(8000, 5, 1, 7);
     const auto compressed = compressTransfer(vectors, {5, 1}, {});
-    EXPECT_EQ(compressed.codebook.recordBytes(), 9u);
+    EXPECT_EQ(compressed.codebook.recordBytes(), 13u);
     const double error = relativeError(compressed, vectors);
     RecordProperty("relative_error", std::to_string(error));
-    EXPECT_LT(error, 0.08);
+    EXPECT_LT(error, 0.03);
     // Others of the kind, not trained on.
     const auto others = occludedCosines(2000, 5, 1, 8);
-    CompressedTransfer unseen{compressed.codebook, std::vector<std::uint8_t>(2000 * 9)};
-    for (int n = 0; n < 2000; ++n) unseen.codebook.encode(&others[n * 25], &unseen.records[n * 9]);
-    EXPECT_LT(relativeError(unseen, others), 0.095);
+    CompressedTransfer unseen{compressed.codebook, std::vector<std::uint8_t>(2000 * 13)};
+    for (int n = 0; n < 2000; ++n) unseen.codebook.encode(&others[n * 25], &unseen.records[n * 13]);
+    const double unseenError = relativeError(unseen, others);
+    RecordProperty("unseen_error", std::to_string(unseenError));
+    EXPECT_LT(unseenError, 0.07);
 }
 
 TEST(TransferCompression, PartOfTheVectorsTrainsNearlyAsWell) {
