@@ -1,9 +1,11 @@
 // Ambient occlusion by distribution as Ruiz et al. 2010 measure it: times by radius and method on a volume of
-// their size (their Table 1; R6). --marks: two lines "name value".
+// their size (their Table 1; R6), and how far every method is from ray-traced obscurance on real data (R4).
+// --times, --errors: one of them. --marks: two lines "name value".
 #include <cstdio>
 #include <cstring>
 
 #include "bench_light_occlusion.h"
+#include "occlusion_errors.h"
 
 using namespace stereonav;
 
@@ -25,14 +27,109 @@ void printTimes() {
     }
 }
 
+struct Sample {
+    TracedOpenness truth;
+    double vicinity = 0, obscurance42 = 0, box = 0;
+};
+
+// The share of the box's voxels that are not above the middle one: what the estimates estimate.
+double shareOfBox(const GreyVolume& volume, const glm::ivec3& voxel, const glm::ivec3& radius) {
+    const glm::ivec3 first = glm::max(voxel - radius, 0),
+                     last = glm::min(voxel + radius, volume.frame.size - 1);
+    const std::int16_t own = volume.at(voxel);
+    int below = 0, count = 0;
+    for (int k = first.z; k <= last.z; ++k)
+        for (int j = first.y; j <= last.y; ++j)
+            for (int i = first.x; i <= last.x; ++i, ++count) below += volume.at(i, j, k) <= own;
+    return static_cast<double>(below) / count;
+}
+
+void printRow(const char* name, const bench::Numbers& values, const std::vector<Sample>& samples) {
+    bench::Numbers obscurance, visible, sphere;
+    for (const Sample& s : samples) {
+        obscurance.push_back(s.truth.obscurance);
+        visible.push_back(s.truth.visible);
+        sphere.push_back(s.truth.sphere);
+    }
+    const double gain = bench::bestGain(values, obscurance);
+    std::printf("  %-22s %6.3f %6.3f %6.3f (k %4.2f)   %6.3f %6.3f %6.3f\n", name,
+                bench::rootMeanSquare(values, 1, obscurance), bench::rootMeanSquare(values, 2, obscurance),
+                bench::rootMeanSquare(values, gain, obscurance), gain,
+                bench::rankCorrelation(values, obscurance), bench::rankCorrelation(values, visible),
+                bench::rankCorrelation(values, sphere));
+}
+
+std::vector<Sample> sampleTruth(const GreyVolume& volume, std::vector<glm::ivec3>& texels, double radius,
+                                const glm::ivec3& box) {
+    std::vector<Sample> samples(texels.size());
+    parallelFor(static_cast<int>(texels.size()), [&](int n) {
+        Sample& s = samples[static_cast<std::size_t>(n)];
+        const glm::ivec3 texel = texels[static_cast<std::size_t>(n)];
+        s.truth = traceOpenness(volume, texel, radius, 128);
+        s.vicinity = opennessByDirections(volume, texel, DirectionMethod::Vicinity, radius);
+        s.obscurance42 = opennessByDirections(volume, texel, DirectionMethod::Obscurance, radius);
+        s.box = shareOfBox(volume, texel, box);
+    });
+    return samples;
+}
+
+void printErrors(const char* name, const GreyVolume& volume, double isovalue, int radius) {
+    if (volume.empty()) return void(std::printf("%s: not found\n", name));
+    const glm::dvec3 spacing = volume.frame.spacing;
+    const double metres = radius * std::min({spacing.x, spacing.y, spacing.z});
+    const glm::ivec3 box = occlusionRadius(volume.frame, metres);
+    std::vector<glm::ivec3> texels = bench::surfaceTexels(volume, isovalue, 1500);
+    const std::vector<Sample> samples = sampleTruth(volume, texels, metres, box);
+    std::printf("%s, surface at %g, radius %d (box %d %d %d), %zu texels\n", name, isovalue, radius, box.x,
+                box.y, box.z, texels.size());
+    const auto row = [&](const char* method, const auto& value) {
+        bench::Numbers values;
+        for (std::size_t n = 0; n < texels.size(); ++n) values.push_back(value(n));
+        printRow(method, values, samples);
+    };
+    const auto estimate = [&](const char* method, OcclusionMethod which) {
+        Progress progress;
+        const OpennessVolume openness = estimateOpenness(volume, which, box, progress);
+        row(method, [&](std::size_t n) { return openness.at(texels[n]) / 255.0; });
+    };
+    estimate("CDF reconstruction", OcclusionMethod::Reconstructed);
+    estimate("Gaussian CDF", OcclusionMethod::Gaussian);
+    estimate("Chebyshev (Penner)", OcclusionMethod::Chebyshev);
+    row("vicinity (Stewart)", [&](std::size_t n) { return samples[n].vicinity; });
+    row("obscurance, 42 (Ruiz)", [&](std::size_t n) { return samples[n].obscurance42; });
+    row("box, counted", [&](std::size_t n) { return samples[n].box; });
+    row("tangent sphere", [&](std::size_t n) { return samples[n].truth.sphere; });
+    row("visible within R", [&](std::size_t n) { return samples[n].truth.visible; });
+    row("1 for all", [&](std::size_t) { return 1.0; });
+}
+
+void printAllErrors() {
+    std::printf(
+        "root mean square error of O, min(2 O, 1), min(k O, 1) with the best k from ray-traced\n"
+        "obscurance; rank correlation with it, with what is visible within R, with the tangent sphere\n");
+    const GreyVolume head = bench::readGrey("ct/headsq/quarter.nhdr");
+    const GreyVolume bonsai = bench::readGrey("ct/bonsai.nii.gz");
+    const GreyVolume trunk = bench::readGrey("ct/trunk_ct_3mm.nii.gz");
+    for (const int radius : {5, 10}) {
+        printErrors("headsq, skin", head, 500, radius);
+        printErrors("headsq, bone", head, 1150, radius);
+        printErrors("bonsai", bonsai, 40, radius);
+        printErrors("trunk, skin", trunk, -300, radius);
+        printErrors("trunk, bone", trunk, 250, radius);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    const auto asked = [&](const char* name) { return argc > 1 && std::strcmp(argv[1], name) == 0; };
     try {
-        if (argc > 1 && std::strcmp(argv[1], "--marks") == 0)
+        if (asked("--marks")) {
             bench::printOcclusionMarks();
-        else
-            printTimes();
+            return 0;
+        }
+        if (!asked("--errors")) printTimes();
+        if (!asked("--times")) printAllErrors();
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;
