@@ -101,13 +101,14 @@ public:
     // Fills met (and where, with `Places`) of all rays of the queue.
     template <bool Places>
     STEREONAV_INLINE void run() {
-        Rays3 r = empty();
+        Rays3 a = empty(), b = empty();
         for (;;) {
-            const M idle = ~(r.walking | r.parked);
-            if (mNext < mQueue.count && lanesIn(idle) >= kRefill) load(r, idle);
-            if (!any(r.walking | r.parked)) return;
-            walk(r);
-            if (any(r.parked)) tryCells<Places>(r);
+            refill(a);
+            refill(b);
+            if (!any(a.walking | a.parked | b.walking | b.parked)) return;
+            walk(a, b);
+            if (any(a.parked)) tryCells<Places>(a);
+            if (any(b.parked)) tryCells<Places>(b);
         }
     }
 
@@ -117,6 +118,11 @@ private:
         const Rail rail{zero, one, one, zero, I(0), I(0), I(0)};
         const M none = maskFromBits(0);
         return {rail, rail, rail, zero, zero, zero, I(0), none, none};
+    }
+
+    STEREONAV_INLINE void refill(Rays3& r) {
+        const M idle = ~(r.walking | r.parked);
+        if (mNext < mQueue.count && lanesIn(idle) >= kRefill) load(r, idle);
     }
 
     STEREONAV_INLINE void load(Rays3& r, M idle) {
@@ -160,34 +166,41 @@ private:
         a.at = select(m, select(left, plane + a.back, ahead), a.at);
     }
 
-    STEREONAV_INLINE void walk(Rays3& r) const {
-        const I none(0), one(1), shift(mField.shift), less(mField.shift - 1);
-        M moving = r.walking;
+    // Two packets at a time: while one waits for its blocks the other computes.
+    STEREONAV_INLINE void walk(Rays3& a, Rays3& b) const {
+        M movingA = a.walking, movingB = b.walking;
         const M waits = mNext < mQueue.count ? maskFromBits(~0u) : maskFromBits(0);
-        while (lanesIn(moving) * kWorthWaiting > lanesIn(r.parked | andNot(waits, r.walking))) {
-            const M in = inside(r);
-            r.walking = andNot(r.walking, andNot(moving, in));
-            moving = moving & in;
-            // Octants, and with one bit less blocks.
-            const I3 octant{shiftRight(r.x.at, less), shiftRight(r.y.at, less), shiftRight(r.z.at, less)};
-            const I3 block{shiftRight<1>(octant.x), shiftRight<1>(octant.y), shiftRight<1>(octant.z)};
-            const I index = (block.z * I(mField.across[1]) + block.y) * I(mField.across[0]) + block.x;
-            const I word = gatherHalves(mField.blocks, index, moving);
-            const I code = word & I(255);
-            const M leaps = none < code;
-            const I bit = (octant.x & one) | shiftLeft<1>(octant.y & one) | shiftLeft<2>(octant.z & one);
-            const M full = none < (shiftRight(word, bit + I(8)) & one);
-            const M here = andNot(moving & full, leaps);
-            r.parked = r.parked | here;
-            r.walking = andNot(r.walking, here);
-            moving = andNot(moving, here);
-            if (!any(moving)) break;
-            const I count = max(code, one), level = select(leaps, shift, less);
-            const I planeX = farPlane(r.x, select(leaps, block.x, octant.x), count, level);
-            const I planeY = farPlane(r.y, select(leaps, block.y, octant.y), count, level);
-            const I planeZ = farPlane(r.z, select(leaps, block.z, octant.z), count, level);
-            step(r, planeX, planeY, planeZ, moving);
+        const auto waiting = [&](const Rays3& r) { return lanesIn(r.parked | andNot(waits, r.walking)); };
+        while ((lanesIn(movingA) + lanesIn(movingB)) * kWorthWaiting > waiting(a) + waiting(b)) {
+            walkOn(a, movingA);
+            walkOn(b, movingB);
         }
+    }
+
+    // One leap or step of the moving lanes; those that end or arrive in a full octant move no more.
+    STEREONAV_INLINE void walkOn(Rays3& r, M& moving) const {
+        const I none(0), one(1), shift(mField.shift), less(mField.shift - 1);
+        const M in = inside(r);
+        r.walking = andNot(r.walking, andNot(moving, in));
+        moving = moving & in;
+        // Octants, and with one bit less blocks.
+        const I3 octant{shiftRight(r.x.at, less), shiftRight(r.y.at, less), shiftRight(r.z.at, less)};
+        const I3 block{shiftRight<1>(octant.x), shiftRight<1>(octant.y), shiftRight<1>(octant.z)};
+        const I index = (block.z * I(mField.across[1]) + block.y) * I(mField.across[0]) + block.x;
+        const I word = gatherHalves(mField.blocks, index, moving);
+        const I code = word & I(255);
+        const M leaps = none < code;
+        const I bit = (octant.x & one) | shiftLeft<1>(octant.y & one) | shiftLeft<2>(octant.z & one);
+        const M full = none < (shiftRight(word, bit + I(8)) & one);
+        const M here = andNot(moving & full, leaps);
+        r.parked = r.parked | here;
+        r.walking = andNot(r.walking, here);
+        moving = andNot(moving, here);
+        const I count = max(code, one), level = select(leaps, shift, less);
+        const I planeX = farPlane(r.x, select(leaps, block.x, octant.x), count, level);
+        const I planeY = farPlane(r.y, select(leaps, block.y, octant.y), count, level);
+        const I planeZ = farPlane(r.z, select(leaps, block.z, octant.z), count, level);
+        step(r, planeX, planeY, planeZ, moving);
     }
 
     STEREONAV_INLINE static void step(Rays3& r, I planeX, I planeY, I planeZ, M m) {
