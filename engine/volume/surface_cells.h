@@ -84,9 +84,10 @@ glm::dvec3 smoothGradient(const GreyVolume& volume, const glm::dvec3& voxel);
 
 // A distance that is free of surface around a world point: no point of the surface is nearer, and the
 // true distance is more than it by less than `tolerance` (metres). Looks no further than `upTo` metres,
-// which is then the answer. 0 at and behind the surface (further behind than upTo only where the region ends)
-// and outside the volume's region. The volume's faces count as surface, since beyond them it is 0. Tolerances
-// below a millionth of the smallest spacing count as that.
+// which is then the answer. More than 0 before the surface, however coarse the tolerance; 0 at and behind it
+// (further behind than upTo only where the region ends) and outside the volume's region. The volume's faces
+// count as surface, since beyond them it is 0. Tolerances below a millionth of the smallest spacing count as
+// that.
 double freeDistance(const SurfaceCells& cells, const glm::dvec3& world, double upTo, double tolerance);
 
 }  // namespace stereonav
