@@ -25,7 +25,9 @@ inline double tracedIsovalue(double value, double leastOfVolume) {
 glm::dvec3 surfaceNormal(const GreyVolume& volume, const glm::dvec3& voxel);
 
 // Voxels along the normal by which rays start above the surface (Y3: the trilinear surface is bumpier than
-// its smoothed normals say): the first of these at which the value is below the isovalue, else the last. A
+// its smoothed normals say): the first of these at which the value is below the isovalue, else the last. From
+// a quarter up, planes and balls with edges 1 to 2 voxels wide and noise of 2 % hide at most 0.05 % of their
+// own sky from themselves; from a sixteenth it was 0.3 %. A
 // start that still is at or above it lies in what is solid, and every ray from there ends there at once: such
 // places get no light directly, and paths that reach them bounce on the spot.
 constexpr std::array<double, 3> kLifts{0.25, 0.5, 1.0};

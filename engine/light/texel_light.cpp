@@ -20,6 +20,7 @@ namespace stereonav {
 namespace {
 
 constexpr int kMostBounces = 8;
+constexpr float kMost = 1e15f;  // of light: squares of its samples stay finite
 
 void require(bool holds, const std::string& place, const std::string& problem, const std::string& advice) {
     if (!holds) throw Error("", place, problem, advice);
@@ -30,16 +31,14 @@ bool withinChannels(const glm::vec3& v, float low, float high) {
 }
 
 void checkSetup(const LightSetup& setup) {
-    constexpr float kMost = 3.0e38f;
     require(setup.bounces >= 0 && setup.bounces <= kMostBounces, "bounces",
             fmt::format("expected 0 to {}, got {}", kMostBounces, setup.bounces), "choose fewer");
     require(withinChannels(setup.albedo, 0, 1), "albedo", "expected numbers from 0 to 1",
             "a surface that sends out more light than it gets never comes to rest");
-    require(withinChannels(setup.sky, 0, kMost), "sky", "expected numbers that are not negative",
-            "give linear RGB");
+    require(withinChannels(setup.sky, 0, kMost), "sky", "expected numbers from 0 to 1e15", "give linear RGB");
     for (const PointLight& light : setup.lights) {
         require(withinChannels(light.intensity, 0, kMost), "point light",
-                "expected an intensity that is not negative", "give linear RGB");
+                "expected an intensity from 0 to 1e15", "give linear RGB");
         const double sum = light.position.x + light.position.y + light.position.z;
         require(std::isfinite(sum) && light.radius > 0, "point light",
                 "expected a position in metres and a radius above 0", "correct the light");
@@ -57,12 +56,15 @@ float luminance(const glm::vec3& c) {
     return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 
+constexpr float kMostSquares = 1e38f;
+
 // The mean and squares of two sets of samples together (Chan et al. 1979).
 void addMoments(TexelSum& sum, const PathMoments& moments, int count) {
     const glm::vec3 mean(moments.mean[0], moments.mean[1], moments.mean[2]);
     const float added = static_cast<float>(count), total = sum.samples + added;
     const float apart = luminance(mean) - luminance(sum.mean);
-    sum.squares += moments.squares + apart * apart * (sum.samples * (added / total));
+    const float squares = sum.squares + moments.squares + apart * apart * (sum.samples * (added / total));
+    sum.squares = squares < kMostSquares ? squares : kMostSquares;  // however bright the light
     sum.mean += (mean - sum.mean) * (added / total);
     sum.samples = total;
 }
@@ -224,7 +226,7 @@ void TexelLighter::addTransfer(std::span<const glm::ivec3> texels, int firstSamp
     std::vector<float> found(PathStore::kPaths * floats);
     const PathLights& lights = (channels == 1 ? s.greyTables : s.tables).lights();
     State::eachJob(batch, count, [&](std::size_t first, int together, int samples) {
-        std::fill(found.begin(), found.end(), 0.0f);
+        std::fill_n(found.begin(), static_cast<std::size_t>(together) * floats, 0.0f);
         s.kernels.transfer(s.pathVolume, s.fields.field(batch.rungs[first]), lights, &batch.starts[first],
                            together, samples, order, channels, *store, found.data());
         for (int n = 0; n < together; ++n)
