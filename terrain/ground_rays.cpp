@@ -219,6 +219,18 @@ void GroundRays::intersect(RayPacket& rays, std::uint32_t active) const {
     intersectBy<4, RTCRayHit4>(scene, rays, active, rtcIntersect4);
 }
 
+double GroundRays::heightAt(const glm::dvec2& world) const {
+    const glm::dvec2 grid = mGround.gridFromWorld(world);
+    const double x = std::clamp(grid.x, 0.0, mGround.width() - 1.0);
+    const double y = std::clamp(grid.y, 0.0, mGround.height() - 1.0);
+    const int i = std::min(static_cast<int>(x), mGround.width() - 2);
+    const int j = std::min(static_cast<int>(y), mGround.height() - 2);
+    const double u = x - i, v = y - j;
+    const double east = mGround.sample(i + 1, j), north = mGround.sample(i, j + 1);
+    if (u + v <= 1) return (1 - u - v) * mGround.sample(i, j) + u * east + v * north;
+    return (u + v - 1) * mGround.sample(i + 1, j + 1) + (1 - u) * north + (1 - v) * east;
+}
+
 // The direction as a sum of the two mesh edges beside it; the edges at a sample lead east, north, north-west,
 // west, south and south-east. A direction along the grid lies in two cells.
 double GroundRays::slopeBeside(int i, int j, const glm::dvec2& direction) const {

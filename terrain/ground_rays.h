@@ -34,6 +34,9 @@ public:
     double lift() const { return mLift; }
     const Heightfield& ground() const { return mGround; }
 
+    // Height of the mesh at a world position (clamped to the ground): not quite that of the bilinear surface.
+    double heightAt(const glm::dvec2& world) const;
+
     // Rise over run of the mesh beside sample (i, j) towards a horizontal unit direction (metres): what
     // hides the sky before any other cell does. Minus infinity where the cell is open or outside.
     double slopeBeside(int i, int j, const glm::dvec2& direction) const;

@@ -55,7 +55,7 @@ public:
 private:
     void settle(int k, const glm::dvec2& place) {
         const Heightfield& ground = mRays.ground();
-        mPlace[k] = glm::dvec3(place, ground.heightAt(place) - mRays.centreHeight() + mRays.lift());
+        mPlace[k] = glm::dvec3(place, mRays.heightAt(place) - mRays.centreHeight() + mRays.lift());
         mNormal[k] = ground.normalAt(place);
     }
 

@@ -38,8 +38,9 @@ RelightRow lightOf(const SunAndSky& now, const TerrainLight& light) {
     evaluateHarmonics(now.toSun, light.settings.order, towards);
     for (int n = 0; n < row.harmonics; ++n) {
         const double unit = transferUnit(n);
-        // Twice, as the transfer's mirror image below the horizontal adds the same.
-        row.sunHarmonics[n] = static_cast<float>(2 * unit * towards[lightHarmonic(n)] * row.sunUp);
+        // The sun is a radiance of pi * row.sun in all, from one direction; twice, as its mirror image below
+        // the horizontal adds the same to the coefficients.
+        row.sunHarmonics[n] = static_cast<float>(2 * kPi * unit * towards[lightHarmonic(n)] * row.sunUp);
         for (int c = 0; c < 3; ++c) row.sky[n][c] = static_cast<float>(unit * now.sky.harmonics[n][c]);
     }
     return row;

@@ -193,7 +193,7 @@ double raysPerSecond() {
             const double z = std::sqrt(1 - share(0.8191725134)), phi = 6.283185307 * share(0.6710436067);
             p.originX[k] = static_cast<float>(world.x);
             p.originY[k] = static_cast<float>(world.y);
-            p.originZ[k] = static_cast<float>(ground().heightAt(world) - rays.centreHeight() + rays.lift());
+            p.originZ[k] = static_cast<float>(rays.heightAt(world) - rays.centreHeight() + rays.lift());
             p.directionX[k] = static_cast<float>(std::sqrt(1 - z * z) * std::cos(phi));
             p.directionY[k] = static_cast<float>(std::sqrt(1 - z * z) * std::sin(phi));
             p.directionZ[k] = static_cast<float>(z);
