@@ -109,6 +109,7 @@ void TransferCodebook::weightsIn(int c, const float* vector, float* weights) con
 // for among the clusters of the nearest means.
 int TransferCodebook::bestCluster(const float* vector) const {
     const int size = mParts.shape.size(), k = mParts.clusters, m = mParts.components;
+    if (k == 0) return 0;
     std::array<float, kMostClusters> distance{};
     for (int i = 0; i < size; ++i) {
         const float* means = &mMeans[static_cast<std::size_t>(i) * k];
