@@ -32,16 +32,21 @@ std::string errorText(double error) {
 class BakeRun {
 public:
     BakeRun(BakeSums& sums, const BakeSource& source, const BakeGoal& goal, Progress& progress,
-            const BakeKeeping& keeping)
-        : mSums(sums), mSource(source), mGoal(goal), mProgress(progress), mKeeping(keeping) {}
+            const BakeKeeping& keeping, const BakeShare& share)
+        : mSums(sums), mSource(source), mGoal(goal), mProgress(progress), mKeeping(keeping), mShare(share) {}
 
     BakeEnd run() {
         mError = mSums.error();
+        for (std::size_t n = mShare.index; n < mSums.bricks().size(); n += mShare.count) {
+            count(mSums.estimates[n], 1);
+            mOwnTexels += static_cast<double>(mSums.texelsOf(n));
+        }
         report(true);
         while (mEnd == BakeEnd::Reached) {
             const std::uint32_t next = nextTarget();
             if (next == 0) break;
             runPass(next);
+            if (mShare.meet) mEnd = mShare.meet(mSums, mEnd);
             mError = mSums.error();
         }
         return mEnd;
@@ -75,7 +80,7 @@ private:
     void runPass(std::uint32_t target) {
         for (;;) {
             std::vector<std::size_t> todo;
-            for (std::size_t n = 0; n < mSums.bricks().size(); ++n)
+            for (std::size_t n = mShare.index; n < mSums.bricks().size(); n += mShare.count)
                 if (mSums.samples[n] < target) todo.push_back(n);
             if (todo.empty()) return;
             countWork(target);
@@ -110,9 +115,11 @@ private:
             check();
         }
         if (mSums.samples[brick] < target && transfer) return;
+        count(mSums.estimates[brick], -1);
         mSums.estimates[brick] =
             transfer ? estimateOf(before, countBefore, mSums.transfer(brick), mSums.samples[brick])
                      : estimateOf(mSums.light(brick));
+        count(mSums.estimates[brick], 1);
     }
 
     // Texels on no surface are left out: they are known after the first batch.
@@ -160,6 +167,17 @@ private:
         }
     }
 
+    // For what is told on the way: the error of the bricks where it is known.
+    void count(const BrickEstimate& estimate, int sign) {
+        if (!std::isfinite(estimate.variance)) return;
+        mVariance += sign * estimate.variance;
+        mSquare += sign * estimate.square;
+    }
+    double presentError() const {
+        const double variance = std::max(mVariance.load(), 0.0), square = mSquare;
+        return square > 0 ? std::sqrt(variance / square) : mError.load();
+    }
+
     // After each batch, on any thread.
     void check() {
         if (mProgress.cancelled()) end(BakeEnd::Cancelled);
@@ -193,9 +211,9 @@ private:
             last = mGoal.samples > 0 ? std::min(last, foreseen) : foreseen;
         }
         double done = 0;
-        for (std::size_t n = 0; n < mSums.bricks().size(); ++n)
+        for (std::size_t n = mShare.index; n < mSums.bricks().size(); n += mShare.count)
             done += static_cast<double>(mSums.samples[n]) * static_cast<double>(mSums.texelsOf(n));
-        mAll = last * static_cast<double>(mSums.texels());
+        mAll = last * mOwnTexels;
         mDone = done;
         if (!mCounted) mDoneBefore = done;
         mCounted = true;
@@ -218,10 +236,11 @@ private:
     }
 
     std::string text() const {
-        const double each = mDone / std::max<double>(1, static_cast<double>(mSums.texels()));
+        const double each = mDone / std::max(1.0, mOwnTexels);
         const double left = secondsLeft();
         return fmt::format("{}: {:.0f} samples a texel, {}{}", nameOf(mSums.shape().kind), each,
-                           errorText(mError), std::isfinite(left) ? ", " + timeText(left) + " left" : "");
+                           errorText(presentError()),
+                           std::isfinite(left) ? ", " + timeText(left) + " left" : "");
     }
 
     BakeSums& mSums;
@@ -229,11 +248,14 @@ private:
     const BakeGoal mGoal;
     Progress& mProgress;
     const BakeKeeping& mKeeping;
+    const BakeShare& mShare;
     const Stopwatch mSinceStart;
     Stopwatch mSinceKept;
     std::atomic<bool> mStop = false, mPause = false;
     std::atomic<BakeEnd> mEnd = BakeEnd::Reached;
     std::atomic<double> mError = 0, mDone = 0, mNextReport_ms = 0;
+    std::atomic<double> mVariance = 0, mSquare = 0;
+    double mOwnTexels = 0;
     double mAll = 0, mDoneBefore = 0;
     bool mCounted = false;
 };
@@ -259,8 +281,8 @@ std::uint32_t batchEnd(std::uint32_t first) {
 }
 
 BakeEnd runBake(BakeSums& sums, const BakeSource& source, const BakeGoal& goal, Progress& progress,
-                const BakeKeeping& keeping) {
-    return BakeRun(sums, source, goal, progress, keeping).run();
+                const BakeKeeping& keeping, const BakeShare& share) {
+    return BakeRun(sums, source, goal, progress, keeping, share).run();
 }
 
 }  // namespace stereonav

@@ -34,11 +34,20 @@ struct BakeKeeping {
 
 enum class BakeEnd { Reached, TimeUp, Cancelled };
 
+// Several processes at one bake: this one has bricks index, index + count, ... of the sums.
+struct BakeShare {
+    std::size_t index = 0, count = 1;
+    // After each pass, by all: gives everyone the samples and estimates of all bricks (their sums stay where
+    // they are), and how the pass ended: Reached unless it ended otherwise for one of them. Empty for one
+    // process. So all agree on the next pass, which is that of a single process.
+    std::function<BakeEnd(BakeSums& sums, BakeEnd own)> meet;
+};
+
 // Runs on all threads. Sums that already have samples go on from there: the same bytes come out as without
 // the break and for any thread count, where the numbers of samples are multiples of 16. Never throws
 // Cancelled: cancelling is an end like others.
 BakeEnd runBake(BakeSums& sums, const BakeSource& source, const BakeGoal& goal, Progress& progress,
-                const BakeKeeping& keeping = {});
+                const BakeKeeping& keeping = {}, const BakeShare& share = {});
 
 // The end of the batch that sample `first` begins: fixed, so that sums do not depend on breaks.
 std::uint32_t batchEnd(std::uint32_t first);

@@ -36,10 +36,12 @@ double luminance(const glm::vec3& c) {
 
 template <typename T>
 std::span<T> part(LazyArray<T>& array, std::size_t first, std::size_t count) {
+    if (array.empty()) return {};
     return {array.data() + first, count};
 }
 template <typename T>
 std::span<const T> part(const LazyArray<T>& array, std::size_t first, std::size_t count) {
+    if (array.empty()) return {};
     return {array.data() + first, count};
 }
 
@@ -82,10 +84,10 @@ BakeSums::BakeSums(const VolumeFrame& texels, std::vector<TexelBrick> bricks, co
 }
 
 std::span<TexelSum> BakeSums::light(std::size_t brick) {
-    return part(mLight, mFirst[brick], mLight.empty() ? 0 : texelsOf(brick));
+    return part(mLight, mFirst[brick], texelsOf(brick));
 }
 std::span<const TexelSum> BakeSums::light(std::size_t brick) const {
-    return part(mLight, mFirst[brick], mLight.empty() ? 0 : texelsOf(brick));
+    return part(mLight, mFirst[brick], texelsOf(brick));
 }
 std::span<float> BakeSums::transfer(std::size_t brick) {
     const auto each = static_cast<std::size_t>(mShape.numbersPerTexel());
@@ -96,10 +98,10 @@ std::span<const float> BakeSums::transfer(std::size_t brick) const {
     return part(mTransfer, mFirst[brick] * each, texelsOf(brick) * each);
 }
 std::span<std::uint8_t> BakeSums::alive(std::size_t brick) {
-    return part(mAlive, mFirst[brick], mAlive.empty() ? 0 : texelsOf(brick));
+    return part(mAlive, mFirst[brick], texelsOf(brick));
 }
 std::span<const std::uint8_t> BakeSums::alive(std::size_t brick) const {
-    return part(mAlive, mFirst[brick], mAlive.empty() ? 0 : texelsOf(brick));
+    return part(mAlive, mFirst[brick], texelsOf(brick));
 }
 
 std::uint32_t BakeSums::fewestSamples() const {

@@ -5,9 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <barrier>
 #include <cmath>
-#include <cstring>
 #include <mutex>
+#include <thread>
 
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
@@ -255,6 +256,49 @@ TEST_P(EveryKind, NothingWantedIsDoneAtOnce) {
 INSTANTIATE_TEST_SUITE_P(BakeJob, EveryKind,
                          testing::Values(BakeKind::Irradiance, BakeKind::Transfer, BakeKind::Openness),
                          [](const auto& kind) { return std::string(nameOf(kind.param)); });
+
+// Threads that stand for processes: each has sums of its own and meets the others after each pass.
+TEST_P(EveryKind, SharedBakesGiveTheBytesOfOneProcess) {
+    for (const BakeGoal& goal : {BakeGoal{100, 0, 0}, BakeGoal{0, 0.02, 0}}) {
+        BakeSums whole = emptySums(GetParam());
+        bake(whole, goal);
+        constexpr std::size_t kPeers = 3;
+        std::vector<BakeSums> sums;
+        for (std::size_t p = 0; p < kPeers; ++p) sums.push_back(emptySums(GetParam()));
+        std::barrier meeting(kPeers);
+        const auto peer = [&](std::size_t own) {
+            BakeShare share{own, kPeers, {}};
+            share.meet = [&](BakeSums& mine, BakeEnd end) {
+                meeting.arrive_and_wait();
+                for (std::size_t n = 0; n < mine.bricks().size(); ++n) {
+                    const BakeSums& from = sums[n % kPeers];
+                    if (n % kPeers == own) continue;
+                    mine.samples[n] = from.samples[n];
+                    mine.estimates[n] = from.estimates[n];
+                }
+                meeting.arrive_and_wait();
+                return end;
+            };
+            Progress progress;
+            EXPECT_EQ(runBake(sums[own], madeUp(), goal, progress, {}, share), BakeEnd::Reached);
+        };
+        std::vector<std::thread> threads;
+        for (std::size_t p = 0; p < kPeers; ++p) threads.emplace_back(peer, p);
+        for (std::thread& thread : threads) thread.join();
+        for (std::size_t n = 0; n < whole.bricks().size(); ++n) {
+            BakeSums& from = sums[n % kPeers];
+            ASSERT_EQ(from.samples[n], whole.samples[n]);
+            ASSERT_EQ(from.estimates[n].variance, whole.estimates[n].variance);
+            const auto bytes = [](const auto& span) {
+                return std::string(reinterpret_cast<const char*>(span.data()), span.size_bytes());
+            };
+            ASSERT_EQ(bytes(from.light(n)), bytes(whole.light(n)));
+            ASSERT_EQ(bytes(from.transfer(n)), bytes(whole.transfer(n)));
+            ASSERT_EQ(bytes(from.alive(n)), bytes(whole.alive(n)));
+        }
+        EXPECT_EQ(sums[0].error(), whole.error());
+    }
+}
 
 TEST(BakeJob, TellsWhatItDoes) {
     BakeSums sums = emptySums(BakeKind::Irradiance);
