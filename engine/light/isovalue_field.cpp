@@ -109,6 +109,7 @@ IsovalueFields::IsovalueFields(const GreyVolume& volume, bool leaping, std::size
         findOctants(volume, mBlocks, 1 << (mShift - 1), mOctants);
     }
     mEntries = std::make_unique<Entry[]>(mRungs.size());
+    mFields = LazyArray<std::uint8_t>(2 * blockCount() * mRungs.size());
 }
 
 // Every value above the least where there are few, else about as many voxels from each rung to the next.
@@ -138,8 +139,7 @@ int IsovalueFields::rungOf(double isovalue) const {
     return std::max(static_cast<int>(above - mRungs.begin()) - 1, 0);
 }
 
-void IsovalueFields::build(int rung, LazyArray<std::uint8_t>& blocks) const {
-    blocks = LazyArray<std::uint8_t>(2 * blockCount());
+void IsovalueFields::build(int rung, std::uint8_t* blocks) const {
     if (!mLeaping) {
         for (std::size_t n = 0; n < blockCount(); ++n) blocks[2 * n + 1] = 255;
         return;
@@ -167,14 +167,23 @@ void IsovalueFields::build(int rung, LazyArray<std::uint8_t>& blocks) const {
         }
 }
 
-PathField IsovalueFields::field(int rung) const {
+std::int32_t IsovalueFields::offset(int rung) const {
+    const std::size_t first = blockCount() * static_cast<std::size_t>(rung);
     Entry& entry = mEntries[rung];
     std::call_once(entry.once, [&] {
-        build(rung, entry.blocks);
+        build(rung, mFields.data() + 2 * first);
         entry.built = true;
     });
+    return static_cast<std::int32_t>(first);
+}
+
+PathField IsovalueFields::field(int rung) const {
+    return fieldAt(static_cast<std::size_t>(offset(rung)));
+}
+
+PathField IsovalueFields::fieldAt(std::size_t firstBlock) const {
     PathField field;
-    field.blocks = entry.blocks.data();
+    field.blocks = mFields.data() + 2 * firstBlock;
     field.across[0] = mBlocks.x;
     field.across[1] = mBlocks.y;
     field.shift = mShift;

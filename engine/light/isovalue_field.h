@@ -30,18 +30,21 @@ public:
     // The number of the highest rung that is not above any value that reaches the isovalue.
     int rungOf(double isovalue) const;
     double valueOf(int rung) const { return mRungs[rung]; }  // stored numbers
+    // The field of a rung alone, or all of them: that of a rung begins offset(rung) blocks on.
     PathField field(int rung) const;
+    PathField all() const { return fieldAt(0); }
+    std::int32_t offset(int rung) const;
     std::size_t bytesHeld() const;  // of the fields built so far
     int shift() const { return mShift; }
 
 private:
     struct Entry {
         std::once_flag once;
-        LazyArray<std::uint8_t> blocks;
         std::atomic<bool> built = false;
     };
+    PathField fieldAt(std::size_t firstBlock) const;
     void chooseRungs(int most);
-    void build(int rung, LazyArray<std::uint8_t>& blocks) const;
+    void build(int rung, std::uint8_t* blocks) const;
     std::size_t blockCount() const { return static_cast<std::size_t>(mBlocks.x) * mBlocks.y * mBlocks.z; }
 
     const GreyVolume& mVolume;
@@ -51,6 +54,7 @@ private:
     std::vector<int> mRungs;           // ascending
     LazyArray<std::int16_t> mOctants;  // largest values, eight a block
     std::unique_ptr<Entry[]> mEntries;
+    mutable LazyArray<std::uint8_t> mFields;  // one after the other, each written once by whoever asks first
 };
 
 }  // namespace stereonav

@@ -50,6 +50,7 @@ private:
             mStore.light[k][path] = 0;
         }
         mStore.isovalue[path] = start.isovalue;
+        mStore.field[path] = start.field;
         mStore.key[path] = static_cast<std::int32_t>(start.key);
         mStore.sample[path] = static_cast<std::int32_t>(start.firstSample) + sample;
         mStore.alive[path] = path;

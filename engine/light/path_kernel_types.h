@@ -54,6 +54,7 @@ struct PathStart {
     std::int32_t cell[3] = {};
     float local[3] = {}, normal[3] = {};
     float isovalue = 0;
+    std::int32_t field = 0;  // blocks from the first of all fields to the one that serves the isovalue
     std::uint32_t key = 0, firstSample = 0;
 };
 
@@ -72,7 +73,7 @@ struct alignas(64) PathStore {
     // By path: where it is
     Row<std::int32_t> cell[3];
     Row<float> local[3], normal[3], isovalue;
-    Row<std::int32_t> key, sample;
+    Row<std::int32_t> field, key, sample;
     Row<float> throughput[3], light[3];
     // Ways that are traced from there, and what they meet
     Row<float> way[3], shadowWay[3], shadowLight[3], shadowLimit;

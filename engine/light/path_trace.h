@@ -84,7 +84,7 @@ struct RayQueue {
 struct Rays3 {
     Rail x, y, z;
     F t, limit, isovalue;
-    I path;
+    I path, field;
     M walking, parked;
 };
 
@@ -117,7 +117,7 @@ private:
         const F zero(0.0f), one(1.0f);
         const Rail rail{zero, one, one, zero, I(0), I(0), I(0)};
         const M none = maskFromBits(0);
-        return {rail, rail, rail, zero, zero, zero, I(0), none, none};
+        return {rail, rail, rail, zero, zero, zero, I(0), I(0), none, none};
     }
 
     STEREONAV_INLINE void refill(Rays3& r) {
@@ -144,6 +144,7 @@ private:
         r.limit = select(m, mQueue.limit ? gatherRow(mQueue.limit, path, m) : F(__builtin_inff()), r.limit);
         r.t = select(m, F(0.0f), r.t);
         r.path = select(m, path, r.path);
+        r.field = select(m, gatherRow(mStore.field, path, m), r.field);
         r.walking = r.walking | m;
         scatter(mStore.met, path, F(__builtin_inff()), m);
     }
@@ -187,7 +188,7 @@ private:
         const I3 octant{shiftRight(r.x.at, less), shiftRight(r.y.at, less), shiftRight(r.z.at, less)};
         const I3 block{shiftRight<1>(octant.x), shiftRight<1>(octant.y), shiftRight<1>(octant.z)};
         const I index = (block.z * I(mField.across[1]) + block.y) * I(mField.across[0]) + block.x;
-        const I word = gatherHalves(mField.blocks, index, moving);
+        const I word = gatherHalves(mField.blocks, index + r.field, moving);
         const I code = word & I(255);
         const M leaps = none < code;
         const I bit = (octant.x & one) | shiftLeft<1>(octant.y & one) | shiftLeft<2>(octant.z & one);

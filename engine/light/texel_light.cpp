@@ -130,35 +130,32 @@ struct TexelLighter::State {
         return true;
     }
 
-    // Texels with a surface, those together whose rays share a field.
+    // Texels with a surface, in the order of their fields, which so are read while they are near.
     struct Batch {
         std::vector<PathStart> starts;
         std::vector<std::size_t> texels;  // their numbers in the span
-        std::vector<int> rungs;
     };
     template <typename First>  // first sample of a texel; negative: leave it out
     Batch batchOf(std::span<const glm::ivec3> list, const First& first) const {
         struct Entry {
-            int rung;
             std::size_t texel;
             PathStart start;
         };
         std::vector<Entry> entries;
         entries.reserve(list.size());
         for (std::size_t n = 0; n < list.size(); ++n) {
-            Entry entry{0, n, {}};
+            Entry entry{n, {}};
             if (first(n) < 0 || !startOf(list[n], entry.start)) continue;
             entry.start.firstSample = static_cast<std::uint32_t>(first(n));
-            entry.rung = fields.rungOf(static_cast<double>(entry.start.isovalue));
+            entry.start.field = fields.offset(fields.rungOf(static_cast<double>(entry.start.isovalue)));
             entries.push_back(entry);
         }
         std::stable_sort(entries.begin(), entries.end(),
-                         [](const Entry& a, const Entry& b) { return a.rung < b.rung; });
+                         [](const Entry& a, const Entry& b) { return a.start.field < b.start.field; });
         Batch batch;
         for (const Entry& e : entries) {
             batch.starts.push_back(e.start);
             batch.texels.push_back(e.texel);
-            batch.rungs.push_back(e.rung);
         }
         return batch;
     }
@@ -167,19 +164,16 @@ struct TexelLighter::State {
     template <typename Job>
     static void eachJob(Batch& batch, int count, const Job& job) {
         if (count <= 0) return;
-        const int piece = pieceOf(count), together = std::max(PathStore::kPaths / piece, 1);
-        for (std::size_t n = 0; n < batch.starts.size();) {
-            std::size_t end = n + 1;
-            while (end < batch.starts.size() && end < n + static_cast<std::size_t>(together) &&
-                   batch.rungs[end] == batch.rungs[n])
-                ++end;
+        const int piece = pieceOf(count);
+        const auto together = static_cast<std::size_t>(PathStore::kPaths / piece);
+        for (std::size_t n = 0; n < batch.starts.size(); n += together) {
+            const std::size_t end = std::min(n + together, batch.starts.size());
             for (int done = 0; done < count; done += piece) {
                 const int samples = std::min(piece, count - done);
                 job(n, static_cast<int>(end - n), samples);
                 for (std::size_t t = n; t < end; ++t)
                     batch.starts[t].firstSample += static_cast<std::uint32_t>(samples);
             }
-            n = end;
         }
     }
 };
@@ -209,8 +203,8 @@ void TexelLighter::addIrradiance(std::span<const glm::ivec3> texels, int count,
     const auto store = std::make_unique<PathStore>();
     std::vector<PathMoments> moments(PathStore::kPaths);
     State::eachJob(batch, count, [&](std::size_t first, int together, int samples) {
-        s.kernels.irradiance(s.pathVolume, s.fields.field(batch.rungs[first]), s.tables.lights(),
-                             &batch.starts[first], together, samples, *store, moments.data());
+        s.kernels.irradiance(s.pathVolume, s.fields.all(), s.tables.lights(), &batch.starts[first], together,
+                             samples, *store, moments.data());
         for (int n = 0; n < together; ++n) addMoments(sums[batch.texels[first + n]], moments[n], samples);
     });
 }
@@ -227,8 +221,8 @@ void TexelLighter::addTransfer(std::span<const glm::ivec3> texels, int firstSamp
     const PathLights& lights = (channels == 1 ? s.greyTables : s.tables).lights();
     State::eachJob(batch, count, [&](std::size_t first, int together, int samples) {
         std::fill_n(found.begin(), static_cast<std::size_t>(together) * floats, 0.0f);
-        s.kernels.transfer(s.pathVolume, s.fields.field(batch.rungs[first]), lights, &batch.starts[first],
-                           together, samples, order, channels, *store, found.data());
+        s.kernels.transfer(s.pathVolume, s.fields.all(), lights, &batch.starts[first], together, samples,
+                           order, channels, *store, found.data());
         for (int n = 0; n < together; ++n)
             for (std::size_t k = 0; k < floats; ++k)
                 sums[batch.texels[first + n] * floats + k] += found[n * floats + k];

@@ -51,6 +51,7 @@ inline std::vector<TestHit> castRays(const GreyVolume& volume, const PathField& 
                 store->way[k][n] = static_cast<float>(ray.direction[k]);
             }
             store->isovalue[n] = static_cast<float>(ray.isovalue);
+            store->field[n] = 0;
             store->shadowLimit[n] = static_cast<float>(ray.limit / unit);
         }
         pathKernels(target).cast(v, field, count, *store);
