@@ -23,6 +23,8 @@
 #include "colon/colon_flight_room.h"
 #include "colon/colon_flight_view.h"
 #include "engine/base/error.h"
+#include "engine/nav/damping.h"
+#include "engine/nav/flight_input.h"
 
 namespace stereonav {
 namespace {
@@ -46,29 +48,6 @@ constexpr double kAtEnd = 1e-6;                               // metres along th
 constexpr double kTurnPiece = 0.25;  // of the clearance that an eye moves between two looks while turning
 constexpr int kMostTurnPieces = 64;
 constexpr double kFarthestPlace = 0.5;  // metres within which setPose looks for room
-
-double clamped(double value, double low, double high) {
-    return std::isnan(value) ? 0.0 : std::clamp(value, low, high);
-}
-
-FlightInput cleaned(const FlightInput& in) {
-    return {clamped(in.forward, -1, 1),
-            clamped(in.right, -1, 1),
-            clamped(in.up, -1, 1),
-            clamped(in.yawRate, -kFastestTurn, kFastestTurn),
-            clamped(in.pitchRate, -kFastestTurn, kFastestTurn),
-            clamped(in.rollRate, -kFastestTurn, kFastestTurn),
-            clamped(in.speedMultiplier, 0, ColonFlight::kMostMultiplier)};
-}
-
-// `rate` goes to `wanted` exponentially; returns what it adds up to over dt.
-template <typename T>
-T damped(T& rate, const T& wanted, double time, double dt) {
-    const double left = std::exp(-dt / time);
-    const T sum = wanted * dt + (rate - wanted) * (time * (1 - left));
-    rate = wanted + (rate - wanted) * left;
-    return sum;
-}
 
 void checkPose(const Pose& pose) {
     const glm::dvec3& p = pose.position;
@@ -398,7 +377,7 @@ ColonFlight::~ColonFlight() = default;
 
 void ColonFlight::step(const FlightInput& input, double dt) {
     if (!(dt > 0)) return;
-    const FlightInput wish = cleaned(input);
+    const FlightInput wish = cleaned(input, kFastestTurn, kMostMultiplier);
     const double time = std::min(dt, kLongestStep);
     const int count = std::max(1, static_cast<int>(std::ceil(time / kLongestSubstep - 1e-9)));
     for (int k = 0; k < count; ++k) mState->substep(wish, time / count);
@@ -406,8 +385,8 @@ void ColonFlight::step(const FlightInput& input, double dt) {
 
 void ColonFlight::turnBy(double yaw, double pitch) {
     FlightView wanted = mState->view;
-    wanted.yaw += clamped(yaw, -2 * pi, 2 * pi);
-    wanted.pitch = std::clamp(wanted.pitch + clamped(pitch, -pi, pi), -pi / 2, pi / 2);
+    wanted.yaw += clampedInput(yaw, -2 * pi, 2 * pi);
+    wanted.pitch = std::clamp(wanted.pitch + clampedInput(pitch, -pi, pi), -pi / 2, pi / 2);
     mState->turnTo(wanted);
 }
 

@@ -14,7 +14,7 @@ struct TransferPreset {
     std::string_view name;  // of the file, without .txt
     std::string_view text;
 };
-// By name (a generated source, see cmake/transfer.cmake).
+// By name (a generated source, see cmake/embed.cmake).
 std::span<const TransferPreset> transferPresets();
 std::string transferPresetNames();  // "a, b, c"
 

@@ -13,7 +13,7 @@ struct ShaderSource {
     std::string_view name;  // file name in shaders/
     std::string_view text;
 };
-// Every file of shaders/ (a generated source, see cmake/shaders.cmake).
+// Every file of shaders/ (a generated source, see cmake/embed.cmake).
 std::span<const ShaderSource> shaderSources();
 
 class ShaderProgram {

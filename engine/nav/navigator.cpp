@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/nav/damping.h"
+#include "engine/nav/flight_input.h"
 
 namespace stereonav {
 namespace {
@@ -28,28 +30,6 @@ constexpr double kHighestFollow = 1e9;         // metres
 constexpr double kFastestTurn = 20.0;          // radians a second
 constexpr double kMostMultiplier = 1e6;        // of the speed
 constexpr double kLongestSubstep = 1.0 / 120;  // seconds: turning and moving are composed
-
-double clamped(double value, double low, double high) {
-    return std::isnan(value) ? 0.0 : std::clamp(value, low, high);
-}
-
-FlightInput cleaned(const FlightInput& in) {
-    return {clamped(in.forward, -1, 1),
-            clamped(in.right, -1, 1),
-            clamped(in.up, -1, 1),
-            clamped(in.yawRate, -kFastestTurn, kFastestTurn),
-            clamped(in.pitchRate, -kFastestTurn, kFastestTurn),
-            clamped(in.rollRate, -kFastestTurn, kFastestTurn),
-            clamped(in.speedMultiplier, 0, kMostMultiplier)};
-}
-
-// `rate` goes to `wanted` exponentially; returns what it adds up to over dt.
-double damped(double& rate, double wanted, double time, double dt) {
-    const double left = std::exp(-dt / time);
-    const double sum = wanted * dt + (rate - wanted) * time * (1 - left);
-    rate = wanted + (rate - wanted) * left;
-    return sum;
-}
 
 void checkPositive(const char* name, double value, const char* advice) {
     if (!(value > 0 && std::isfinite(value)))
@@ -121,8 +101,8 @@ std::string_view Navigator::modeName(int mode) const {
 }
 
 void Navigator::turnBy(double yaw, double pitch) {
-    mHeading = std::remainder(mHeading + clamped(yaw, -2 * pi, 2 * pi), 2 * pi);
-    mPitch = std::clamp(mPitch + clamped(pitch, -pi, pi), -pi / 2, pi / 2);
+    mHeading = std::remainder(mHeading + clampedInput(yaw, -2 * pi, 2 * pi), 2 * pi);
+    mPitch = std::clamp(mPitch + clampedInput(pitch, -pi, pi), -pi / 2, pi / 2);
 }
 
 void Navigator::turn(const FlightInput& input, double dt) {
@@ -173,7 +153,7 @@ void Navigator::move(const FlightInput& input, double dt) {
 
 void Navigator::step(const FlightInput& input, double dt) {
     if (!(dt > 0)) return;
-    const FlightInput wish = cleaned(input);
+    const FlightInput wish = cleaned(input, kFastestTurn, kMostMultiplier);
     double left = std::min(dt, kLongestStep);
     while (left > 0) {
         // No longer than to the next look at the ground, at the faster of present and wanted speed.

@@ -1,6 +1,7 @@
 // Times the distance transform, and beside it ITK's Maurer filter on the same threads where ITK is there, on
 // a winding tube in 512x512x411 and, where it is found, on the mask of a real colon (raw bytes behind a
-// gzip'd NRRD header: STEREONAV_TEST_DATA or ../shared/data). Prints times and the largest difference.
+// gzip'd NRRD header: STEREONAV_TEST_DATA or ../shared/data). Prints times, the memory taken at the peak (the
+// result's own too), and the largest difference.
 #include <zlib.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/volume/distance_transform.h"
+#include "tests/bench/peak_memory.h"
 
 #if STEREONAV_COMPARE_ITK
 #include <itkImage.h>
@@ -113,6 +115,7 @@ double compareWithItk(const MaskVolume& mask, const DistanceVolume& ours) {
     for (std::size_t n = 0; n < frame.count(); ++n) image->GetBufferPointer()[n] = mask.values[n] ? 0 : 1;
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(static_cast<unsigned>(threadCount()));
     Filter::Pointer filter;
+    const PeakMemory peak;
     const double time = leastTime_ms(2, [&] {
         filter = Filter::New();
         filter->SetInput(image);
@@ -122,12 +125,14 @@ double compareWithItk(const MaskVolume& mask, const DistanceVolume& ours) {
         filter->SetNumberOfWorkUnits(static_cast<unsigned>(threadCount()));
         filter->Update();
     });
+    const double more = peak.more();
     const float* theirs = filter->GetOutput()->GetBufferPointer();
     double most = 0;
     for (std::size_t n = 0; n < frame.count(); ++n)
         if (mask.values[n])
             most = std::max(most, std::abs(static_cast<double>(theirs[n]) - ours.values[n] * ours.unit));
-    std::printf("  ITK's Maurer filter: %.1f ms; largest difference %.3f units\n", time, most / ours.unit);
+    std::printf("  ITK's Maurer filter: %.1f ms, %.0f MB more; largest difference %.3f units\n", time, more,
+                most / ours.unit);
     return time;
 }
 #endif
@@ -139,9 +144,16 @@ void measure(const char* name, const MaskVolume& mask) {
     }
     std::size_t set = 0;
     for (std::size_t n = 0; n < mask.values.size(); ++n) set += mask.values[n] != 0;
+    double more = 0;
+    {
+        const PeakMemory peak;
+        distanceToOutside(mask, false);
+        more = peak.more();
+    }
     const double time = leastTime_ms(5, [&] { distanceToOutside(mask, false); });
-    std::printf("%s: %dx%dx%d, %.1f million set, %d threads: %.1f ms\n", name, mask.frame.size.x,
-                mask.frame.size.y, mask.frame.size.z, static_cast<double>(set) / 1e6, threadCount(), time);
+    std::printf("%s: %dx%dx%d, %.1f million set, %d threads: %.1f ms, %.0f MB more at its peak\n", name,
+                mask.frame.size.x, mask.frame.size.y, mask.frame.size.z, static_cast<double>(set) / 1e6,
+                threadCount(), time, more);
 #if STEREONAV_COMPARE_ITK
     const double theirs = compareWithItk(mask, distanceToOutside(mask, false));
     std::printf("  edt_vs_itk: %.1f times as fast\n", theirs / time);

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "../camera/temporary_folder.h"
+#include "../support/read_study.h"
 #include "../support/volume_files.h"
 #include "colon/study.h"
 
@@ -19,27 +20,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using namespace test;
-
-Study read(const fs::path& file, const StudyOptions& options = {}) {
-    Progress progress;
-    return readStudy(file, options, progress);
-}
-
-std::string errorOf(const fs::path& file, const StudyOptions& options = {}) {
-    try {
-        read(file, options);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
-
-void expectError(const fs::path& folder, const std::vector<std::string>& parts,
-                 const StudyOptions& options = {}) {
-    const std::string message = errorOf(folder, options);
-    EXPECT_THAT(message, AllOf(HasSubstr(folder.string()), Not(HasSubstr("\n"))));
-    for (const std::string& part : parts) EXPECT_THAT(message, HasSubstr(part));
-}
 
 StudyOptions resampling() {
     StudyOptions options;

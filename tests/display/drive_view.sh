@@ -3,59 +3,10 @@
 #   drive_view.sh PROGRAM FOLDER
 # Leaves pictures (one for each step, named in steps.txt), the window's own pixels, the log and the
 # exit status in FOLDER; view_window_test.cpp judges them.
-set -u
-program=$1
-out=$2
-shots=$out/shots
-mkdir -p "$shots"
-"$program" view terrain --size 320x240 --mode sbsl --method cubic --shots "$shots" >"$out/log.txt" 2>&1 &
-pid=$!
-fail() {
-    echo "$*" >>"$out/problems.txt"
-    kill "$pid" 2>/dev/null
-    exit 1
-}
-
-window=
-for _ in $(seq 300); do
-    window=$(xdotool search --onlyvisible --name '^stereonav' 2>/dev/null | head -n 1)
-    [ -n "$window" ] && break
-    kill -0 "$pid" 2>/dev/null || fail "the program ended before its window opened"
-    sleep 0.1
-done
-[ -n "$window" ] || fail "no window within 30 seconds"
-xdotool windowfocus --sync "$window"
-
-pictures() { find "$shots" -name 'stereonav_*.png' | wc -l; }
-
-# The picture after everything pressed so far. The first one waits for the scene to load.
-shot() {
-    local before tries
-    before=$(pictures)
-    xdotool key --clearmodifiers "${2:-p}"
-    for tries in $(seq 600); do
-        [ "$(pictures)" -gt "$before" ] && break
-        kill -0 "$pid" 2>/dev/null || fail "the program ended before the picture of step $1"
-        sleep 0.05
-    done
-    [ "$(pictures)" -gt "$before" ] || fail "no picture for step $1"
-    echo "$1 $(find "$shots" -name 'stereonav_*.png' | sort | tail -n 1)" >>"$out/steps.txt"
-}
-keys() { xdotool key --clearmodifiers "$@"; }
-hold() {
-    xdotool keydown "$1"
-    sleep "$2"
-    xdotool keyup "$1"
-}
+. "$(dirname "$0")/drive_window.sh"
 rest() { sleep 2.5; }
 
-# Keys that come while the scene loads are dropped: ask until the first picture is there.
-for _ in $(seq 120); do
-    keys p
-    sleep 0.5
-    [ "$(pictures)" -gt 0 ] && break
-    kill -0 "$pid" 2>/dev/null || fail "the program ended while it loaded"
-done
+open_window terrain --method cubic
 sleep 1
 shot start
 keys x
@@ -108,11 +59,4 @@ sleep 1
 shot resized
 keys F1
 sleep 0.5
-keys Escape
-for _ in $(seq 200); do
-    kill -0 "$pid" 2>/dev/null || break
-    sleep 0.05
-done
-if kill -0 "$pid" 2>/dev/null; then fail "Escape did not end the program"; fi
-wait "$pid"
-echo $? >"$out/status.txt"
+close_window

@@ -1,0 +1,27 @@
+// A pilot's wish brought within its range, as every flight takes it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/nav/flight.h"
+
+namespace stereonav {
+
+// NaN counts as 0.
+inline double clampedInput(double value, double low, double high) {
+    return std::isnan(value) ? 0.0 : std::clamp(value, low, high);
+}
+
+// fastestTurn: radians a second, both ways.
+inline FlightInput cleaned(const FlightInput& in, double fastestTurn, double mostMultiplier) {
+    return {clampedInput(in.forward, -1, 1),
+            clampedInput(in.right, -1, 1),
+            clampedInput(in.up, -1, 1),
+            clampedInput(in.yawRate, -fastestTurn, fastestTurn),
+            clampedInput(in.pitchRate, -fastestTurn, fastestTurn),
+            clampedInput(in.rollRate, -fastestTurn, fastestTurn),
+            clampedInput(in.speedMultiplier, 0, mostMultiplier)};
+}
+
+}  // namespace stereonav
