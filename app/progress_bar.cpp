@@ -37,8 +37,9 @@ std::string progressLine(double fraction, const std::string& what, int barWidth)
     return fmt::format("[{}] {:3d} % {}", bar, static_cast<int>(fraction * 100.0), what);
 }
 
-ProgressBar::ProgressBar()
-    : mTerminal(isatty(STDERR_FILENO) != 0),
+ProgressBar::ProgressBar(bool shown)
+    : mShown(shown),
+      mTerminal(isatty(STDERR_FILENO) != 0),
       mProgress([this](double fraction, const std::string& what) { show(fraction, what); }) {
     mNext_ms = mTerminal ? 0.0 : kLineInterval_ms;
     interrupted = 0;
@@ -54,6 +55,7 @@ ProgressBar::~ProgressBar() {
 
 void ProgressBar::show(double fraction, const std::string& what) {
     if (interrupted != 0) mProgress.cancel();
+    if (!mShown) return;
     const std::lock_guard lock(mMutex);
     const double now = mSinceStart.elapsed_ms();
     if (now < mNext_ms) return;

@@ -14,7 +14,8 @@ namespace stereonav {
 
 class ProgressBar {
 public:
-    ProgressBar();
+    // shown: else it only listens for Ctrl-C.
+    explicit ProgressBar(bool shown = true);
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
@@ -29,7 +30,7 @@ private:
     std::mutex mMutex;  // reports come from any thread
     Stopwatch mSinceStart;
     double mNext_ms;
-    bool mTerminal, mDrawn = false;
+    bool mShown, mTerminal, mDrawn = false;
     struct sigaction mFormerInterrupt = {}, mFormerTerminate = {};
     Progress mProgress;
 };
