@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -92,16 +93,19 @@ inline double opennessTime_ms(const GreyVolume& volume, OcclusionMethod method, 
     return leastTime_ms(runs, [&] { estimateOpenness(volume, method, glm::ivec3(radius), progress); });
 }
 
-// "name value" lines: R1 at the radius that takes longest, and its time at radius 40 over that at radius 5.
+// "name value" lines: R1 at the radius that takes longest, and its time at radius 40 over that at radius 5;
+// least of some rounds, the radii taken in turn so that what else the machine does meets all of them.
 inline void printOcclusionMarks() {
     const GreyVolume body = occlusionBody();
-    const auto time = [&](int radius) {
-        return opennessTime_ms(body, OcclusionMethod::Reconstructed, radius);
-    };
-    const double at5 = time(5), at40 = time(40);
-    double worst = std::max(at5, at40);
-    for (const int radius : {1, 10, 20, 64}) worst = std::max(worst, time(radius));
-    std::printf("ao_r1_ms %.1f\nao_radius_ratio %.3f\n", worst, at40 / at5);
+    constexpr std::array kRadii{1, 5, 10, 40, 64};
+    std::array<double, kRadii.size()> least{};
+    least.fill(1e30);
+    for (int round = 0; round < 7; ++round)
+        for (std::size_t n = 0; n < kRadii.size(); ++n)
+            least[n] =
+                std::min(least[n], opennessTime_ms(body, OcclusionMethod::Reconstructed, kRadii[n], 1));
+    std::printf("ao_r1_ms %.1f\nao_radius_ratio %.3f\n", *std::max_element(least.begin(), least.end()),
+                least[3] / least[1]);
 }
 
 }  // namespace stereonav::bench
