@@ -89,8 +89,8 @@ TEST(OcclusionExtreme, SpacingOf1To1To20) {
 TEST(OcclusionExtreme, LongLinesAndFlatSlices) {
     for (const glm::ivec3& size : {glm::ivec3(60000, 1, 1), glm::ivec3(1, 20000, 1), glm::ivec3(1, 1, 20000),
                                    glm::ivec3(300, 200, 1), glm::ivec3(2, 2, 2)}) {
-        const GreyVolume volume = fill(
-            size, [](const glm::ivec3& v) { return (v.x * 7919 + v.y * 104729 + v.z * 1299709) % 30011; });
+        const GreyVolume volume =
+            fill(size, [](const glm::ivec3& v) { return (v.x * 7919 + v.y * 10007 + v.z * 13007) % 30011; });
         for (const OcclusionMethod method : kMethods) {
             const OpennessVolume openness = estimate(volume, method, glm::ivec3(64));
             for (int n = 0; n < 50; ++n) {
