@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -275,24 +273,6 @@ Volume<std::uint8_t> varianceModulation(const GreyVolume& volume, const glm::ive
     const double most = std::numeric_limits<float>::max();
     return BoxFilter(volume, BoxResult::Variance, radius, std::min(ratio * ratio, most), target)
         .run(progress);
-}
-
-Volume<std::uint8_t> gradientModulation(const OpennessVolume& openness, double gradientMax) {
-    checkPositive(gradientMax, "gradient of the opacity modulation");
-    Volume<std::uint8_t> modulation(openness.frame);
-    const glm::ivec3 size = openness.frame.size;
-    parallelFor(size.z, [&](int k) {
-        for (int j = 0; j < size.y; ++j)
-            for (int i = 0; i < size.x; ++i) {
-                const glm::ivec3 voxel(i, j, k);
-                const glm::dvec3 gradient = regressionGradient([&](const glm::ivec3& offset) {
-                    return openness.at(glm::clamp(voxel + offset, glm::ivec3(0), size - 1));
-                });
-                const double share = std::min(glm::length(gradient) / (255 * gradientMax), 1.0);
-                modulation.at(voxel) = static_cast<std::uint8_t>(std::lround(255 * share));
-            }
-    });
-    return modulation;
 }
 
 }  // namespace stereonav

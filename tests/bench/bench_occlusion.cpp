@@ -25,6 +25,12 @@ void printTimes() {
                     bench::opennessTime_ms(body, OcclusionMethod::Reconstructed, radius),
                     bench::opennessTime_ms(body, OcclusionMethod::Gaussian, radius), variance);
     }
+    Progress progress;
+    const OpennessVolume openness =
+        estimateOpenness(body, OcclusionMethod::Reconstructed, glm::ivec3(10), progress);
+    std::printf("gradient of the openness by regression: %.1f; ambient light around one surface: %.1f\n",
+                bench::leastTime_ms(3, [&] { gradientModulation(openness, 0.1); }),
+                bench::leastTime_ms(3, [&] { ambientLight(body, openness, 250, 250); }));
 }
 
 struct Sample {

@@ -147,6 +147,25 @@ TEST(OcclusionUse, GradientModulates) {
     EXPECT_THROW(gradientModulation(one, 0), Error);
 }
 
+TEST(OcclusionUse, GradientModulationIsTheRegressionAtEveryVoxel) {
+    std::mt19937 engine(6);
+    for (const glm::ivec3& size : {glm::ivec3(13, 7, 9), glm::ivec3(1, 1, 12), glm::ivec3(2, 1, 1)}) {
+        OpennessVolume openness(VolumeFrame{size, glm::dvec3(1e-3)});
+        for (std::size_t n = 0; n < openness.values.size(); ++n)
+            openness.values[n] = static_cast<std::uint8_t>(engine() >> 24);
+        const auto modulation = gradientModulation(openness, 0.4);
+        for (int k = 0; k < size.z; ++k)
+            for (int j = 0; j < size.y; ++j)
+                for (int i = 0; i < size.x; ++i) {
+                    const glm::dvec3 gradient = regressionGradient([&](const glm::ivec3& o) {
+                        return openness.at(glm::clamp(glm::ivec3(i, j, k) + o, glm::ivec3(0), size - 1));
+                    });
+                    const double share = std::min(glm::length(gradient) / 255 / 0.4, 1.0);
+                    ASSERT_LE(test::bytesAway(modulation.at(i, j, k), share), 0.5001);
+                }
+    }
+}
+
 TEST(OcclusionUse, RadiusInMetresMakesACubeInSpace) {
     VolumeFrame frame;
     frame.spacing = {1e-3, 1e-3, 20e-3};
