@@ -31,6 +31,11 @@ void printTimes() {
     std::printf("gradient of the openness by regression: %.1f; ambient light around one surface: %.1f\n",
                 bench::leastTime_ms(3, [&] { gradientModulation(openness, 0.1); }),
                 bench::leastTime_ms(3, [&] { ambientLight(body, openness, 250, 250); }));
+    const GreyVolume part = bench::resampled(body, {64, 64, 64});
+    const double radius = 10 * std::min({part.frame.spacing.x, part.frame.spacing.y, part.frame.spacing.z});
+    std::printf("vicinity, 42 directions, radius 10, %zu voxels: %.0f\n", part.values.size(),
+                bench::leastTime_ms(
+                    1, [&] { opennessByDirections(part, DirectionMethod::Vicinity, radius, progress); }));
 }
 
 struct Sample {
@@ -79,6 +84,18 @@ std::vector<Sample> sampleTruth(const GreyVolume& volume, std::vector<glm::ivec3
     return samples;
 }
 
+// Texels whose value is an end of their box's: there the reconstruction is 0 or 1 whatever the rest.
+void printEnds(const OpennessVolume& openness, const std::vector<glm::ivec3>& texels) {
+    double least = 0, most = 0;
+    for (const glm::ivec3& texel : texels) {
+        least += openness.at(texel) == 0;
+        most += openness.at(texel) == 255;
+    }
+    const double percent = 100.0 / static_cast<double>(texels.size());
+    std::printf("  %.1f %% of the texels reconstructed as 0, %.1f %% as 1\n", percent * least,
+                percent * most);
+}
+
 void printErrors(const char* name, const GreyVolume& volume, double isovalue, int radius) {
     if (volume.empty()) return void(std::printf("%s: not found\n", name));
     const glm::dvec3 spacing = volume.frame.spacing;
@@ -96,6 +113,7 @@ void printErrors(const char* name, const GreyVolume& volume, double isovalue, in
     const auto estimate = [&](const char* method, OcclusionMethod which) {
         Progress progress;
         const OpennessVolume openness = estimateOpenness(volume, which, box, progress);
+        if (which == OcclusionMethod::Reconstructed) printEnds(openness, texels);
         row(method, [&](std::size_t n) { return openness.at(texels[n]) / 255.0; });
     };
     estimate("CDF reconstruction", OcclusionMethod::Reconstructed);
