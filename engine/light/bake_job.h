@@ -43,13 +43,14 @@ struct BakeShare {
     std::function<BakeEnd(BakeSums& sums, BakeEnd own)> meet;
 };
 
-// Runs on all threads. Sums that already have samples go on from there: the same bytes come out as without
-// the break and for any thread count, where the numbers of samples are multiples of 16. Never throws
-// Cancelled: cancelling is an end like others.
+// Runs on all threads; the result does not depend on their number. Sums that already have samples go on from
+// there: a bake to a number of samples that was broken off gives the same bytes as one that was not, and so
+// does one that went on from another multiple of 128. Never throws Cancelled: cancelling is an end like
+// others.
 BakeEnd runBake(BakeSums& sums, const BakeSource& source, const BakeGoal& goal, Progress& progress,
                 const BakeKeeping& keeping = {}, const BakeShare& share = {});
 
-// The end of the batch that sample `first` begins: fixed, so that sums do not depend on breaks.
+// The end of the batch that sample `first` is in: fixed, so that sums do not depend on breaks.
 std::uint32_t batchEnd(std::uint32_t first);
 
 }  // namespace stereonav

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kTexels = 512;
 constexpr int kAllLevel = 2;  // the first of all texels
-// Texels at once: with a batch of 16 samples some milliseconds' work, after which wishes are looked at.
+// Texels at once: with 64 samples some milliseconds' work, after which wishes are looked at.
 constexpr std::size_t kAtOnce = 64;
 constexpr float kBorrowed[] = {1.0f / 64, 1.0f / 8};         // weights by level
 constexpr float kGiven = std::numeric_limits<float>::max();  // "samples" of texels that came from elsewhere

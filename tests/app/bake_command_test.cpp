@@ -65,8 +65,8 @@ TEST_F(BakeCommand, SameBytesInOneRunOrSeveralOnAnyThreadCount) {
                 options.push_back(samples);
                 return options;
             };
-            ASSERT_EQ(bake(scene, with(threads == "1" ? "16" : "48")).status, 0);
-            ASSERT_EQ(bake(scene, with("48")).status, 0);
+            ASSERT_EQ(bake(scene, with(threads == "1" ? "128" : "200")).status, 0);
+            ASSERT_EQ(bake(scene, with("200")).status, 0);
             // Of transfer the estimate depends on the parts: of it the sums alone are compared.
             contents.push_back(contentOf(file));
         }
