@@ -250,7 +250,7 @@ void addBake(CLI::App& app, Parsed& parsed) {
     command.add_option("--what", options.what,
                        "irradiance, transfer (light can be turned later), or openness");
     command.add_option("--samples", options.samples,
-                       "of each texel, 256 when nothing is said; of a terrain 64, each bounce");
+                       "of each texel, 256 when nothing is said; of a terrain 32, each bounce");
     command.add_option("--error", options.error, "go on until the relative error is this, as in 0.02");
     command.add_option("--minutes", options.minutes, "go on for so long");
     command.add_option("--resolution", options.resolution,

@@ -31,6 +31,8 @@ struct LoadedScene {
     RecordedPath path;                    // the scene's own flight
     std::vector<RightEyeMethod> methods;  // that compare runs when none are named
     std::function<std::unique_ptr<Flight>()> makeFlight;
+    // Of a terrain under baked light: turns its sun, radians. Not while a picture is cast.
+    std::function<void(double azimuth, double elevation)> moveSun;
 
     StereoViews viewsAt(const Pose& head) const { return makeStereoViews(head, lens, stereo); }
     RightEyeMethod defaultMethod() const { return defaultMethodFor(*renderer); }

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/nav/navigator.h"
+#include "terrain/terrain_illumination.h"
 #include "terrain/terrain_loader.h"
 #include "terrain/terrain_renderer.h"
 
@@ -64,6 +65,12 @@ LoadedScene loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progr
     const TerrainScene& terrain = *scene.terrain;
     auto renderer = std::make_unique<TerrainRenderer>(terrain, simd);
     scene.simd = renderer->target();
+    if (terrain.illumination)
+        scene.moveSun = [terrain = scene.terrain.get(), renderer = renderer.get()](double azimuth,
+                                                                                   double elevation) {
+            moveSun(*terrain, azimuth, elevation);
+            renderer->sunMoved();
+        };
     scene.renderer = std::move(renderer);
     scene.lens = terrain.lens;
     scene.stereo = terrain.stereo;

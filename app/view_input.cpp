@@ -77,6 +77,14 @@ std::optional<ViewCommand> repeatableOfLetter(char letter) {
             return ViewCommand::LowerIsovalue;
         case '.':
             return ViewCommand::HigherIsovalue;
+        case 'h':
+            return ViewCommand::LowerSun;
+        case 'u':
+            return ViewCommand::HigherSun;
+        case 'j':
+            return ViewCommand::SunAnticlockwise;
+        case 'k':
+            return ViewCommand::SunClockwise;
         default:
             return std::nullopt;
     }
@@ -167,6 +175,7 @@ const std::vector<std::pair<std::string, std::string>>& viewHelp() {
         {"N", "next way of making the right eye"},
         {"L", "anaglyphs in linear light, or on encoded values"},
         {"z Z", "record the flight, play it"},
+        {"U H J K", "sun higher, lower, round (terrain with --light)"},
         {"T", "translucent wall, or opaque (volumes)"},
         {"V", "slices (volumes): clicks set seeds, Enter looks again"},
         {"P F12", "save a picture"},

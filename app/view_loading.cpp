@@ -24,6 +24,15 @@ ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progre
     // A recorded flight is looked at once, with the scene that it was given for.
     if (measure && !options.path.empty()) flightOf(*loaded, readPath(options.path), options.path);
     if (loaded->colon) addVolume(*loaded, options.scene, scene);
+    if (loaded->moveSun) {
+        const TerrainLook& look = loaded->terrain->look;
+        scene.sun = {look.sunAzimuth, look.sunElevation};
+        scene.moveSun = [owner = loaded.get()](const SunPlace& sun) {
+            const TerrainLook& now = owner->terrain->look;
+            if (sun.azimuth != now.sunAzimuth || sun.elevation != now.sunElevation)
+                owner->moveSun(sun.azimuth, sun.elevation);
+        };
+    }
     scene.method = methodFromText(options.method).value_or(loaded->defaultMethod());
     // A study is opened quickly: it gets its default.
     if (measure && options.method == "auto" && loaded->terrain) {

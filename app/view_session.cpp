@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "app/view_status.h"
@@ -33,7 +34,7 @@ bool samePose(const Pose& a, const Pose& b) {
 bool sameFrame(const FrameRequest& a, const FrameRequest& b) {
     return samePose(a.pose, b.pose) && a.lens.width == b.lens.width && a.lens.height == b.lens.height &&
            a.stereo.separation == b.stereo.separation && a.stereo.zeroParallax == b.stereo.zeroParallax &&
-           a.warp.method == b.warp.method && a.twoEyes == b.twoEyes && a.mode == b.mode;
+           a.warp.method == b.warp.method && a.twoEyes == b.twoEyes && a.mode == b.mode && a.sun == b.sun;
 }
 
 bool asksForMotion(const FlightInput& input) {
@@ -53,6 +54,7 @@ ViewSession::ViewSession(std::shared_ptr<const ViewScene> scene, const Options& 
       mPath(options.path ? *options.path : mScene->path),
       mOwnPath(!options.path),
       mStereo(*mScene),
+      mSun(mScene->sun),
       mIsovalue(mScene->isovalue),
       mTranslucent(mScene->translucent),
       mMode(options.mode),
@@ -70,6 +72,7 @@ void ViewSession::replaceScene(std::shared_ptr<const ViewScene> scene) {
     mScene = std::move(scene);
     if (mOwnPath) mPath = mScene->path;
     mStereo.replaceScene(*mScene);
+    mSun = mScene->sun;
     mMethod = mScene->method;
     forgetSceneChange();
     mResting = false;
@@ -89,8 +92,8 @@ void ViewSession::forgetSceneChange() {
 
 void ViewSession::act(const ViewAction& action) {
     mResting = false;
-    if (actOnSlices(action.command) || actOnVolume(action.command) || actOnEyes(action.command) ||
-        actOnStereo(action))
+    if (actOnSlices(action.command) || actOnVolume(action.command) || actOnSun(action.command) ||
+        actOnEyes(action.command) || actOnStereo(action))
         return;
     switch (action.command) {
         case ViewCommand::Quit:
@@ -189,6 +192,35 @@ bool ViewSession::actOnVolume(ViewCommand command) {
         default:
             return false;
     }
+}
+
+bool ViewSession::actOnSun(ViewCommand command) {
+    constexpr double kDegree = std::numbers::pi / 180;
+    switch (command) {
+        case ViewCommand::LowerSun:
+            turnSun(0, -kDegree);
+            return true;
+        case ViewCommand::HigherSun:
+            turnSun(0, kDegree);
+            return true;
+        case ViewCommand::SunAnticlockwise:
+            turnSun(-3 * kDegree, 0);
+            return true;
+        case ViewCommand::SunClockwise:
+            turnSun(3 * kDegree, 0);
+            return true;
+        default:
+            return false;
+    }
+}
+
+void ViewSession::turnSun(double azimuth, double elevation) {
+    if (!mScene->moveSun) return notify("the sun moves over terrain whose light is baked");
+    constexpr double kTurn = 2 * std::numbers::pi;
+    mSun.azimuth = std::fmod(mSun.azimuth + azimuth + kTurn, kTurn);
+    mSun.elevation = std::clamp(mSun.elevation + elevation, -0.15, 0.5 * std::numbers::pi);
+    notify(fmt::format("sun at {:.0f} degrees, {:.0f} high", mSun.azimuth * 360 / kTurn,
+                       mSun.elevation * 360 / kTurn));
 }
 
 void ViewSession::moveIsovalue(double steps) {
@@ -405,6 +437,7 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
     wanted.lens.height = eyeHeight;
     wanted.stereo = mStereo.now();
     wanted.warp.method = mMethod;
+    wanted.sun = mSun;
     wanted.twoEyes = mStereoOn;
     wanted.mode = compose().mode;
     wanted.version = mRequest.version;

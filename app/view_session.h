@@ -47,6 +47,10 @@ enum class ViewCommand {
     PreviousSlice,
     RemoveSeed,
     FindAgain,
+    LowerSun,
+    HigherSun,
+    SunAnticlockwise,
+    SunClockwise,
 };
 
 struct ViewAction {
@@ -127,6 +131,8 @@ private:
     bool actOnStereo(const ViewAction& action);
     bool actOnEyes(ViewCommand command);
     bool actOnVolume(ViewCommand command);
+    bool actOnSun(ViewCommand command);
+    void turnSun(double azimuth, double elevation);
     bool actOnSlices(ViewCommand command);
     void actOnFlight(ViewCommand command);
     void moveIsovalue(double steps);
@@ -153,6 +159,7 @@ private:
     bool mOwnPath = false;  // mPath is the scene's own
     ViewStereo mStereo;
     double mDepthAhead = 0;  // metres
+    SunPlace mSun;
     std::optional<double> mIsovalue;
     bool mTranslucent = false;
     std::optional<SceneChange> mChange;

@@ -43,6 +43,7 @@ double depthAhead(const Plane<float>& depth) {
 void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& rightEye, ViewFrame& frame) {
     const EyeRenderer& renderer = *scene.renderer;
     frame.request = request;
+    if (scene.moveSun) scene.moveSun(request.sun);
     frame.rightTimings = {};
     frame.nearParallax = frame.farParallax = 0;
     frame.depthAhead = kMissDepth;

@@ -34,6 +34,12 @@ struct SliceStudy {
 // depth: view depth in the middle of the picture; metres.
 using StereoFollower = std::function<StereoSetting(double free, double depth, double dt)>;
 
+// Where the sun stands, radians: clockwise from north, above the horizon.
+struct SunPlace {
+    double azimuth = 0, elevation = 0;
+    bool operator==(const SunPlace&) const = default;
+};
+
 struct PlaceOnLine {
     double along = 0, length = 0;  // metres
 };
@@ -47,6 +53,11 @@ struct ViewScene {
     Lens lens;
     StereoSetting stereo;
     RightEyeMethod method = kDefaultRightEyeMethod;
+
+    // Of terrain under baked light: turns the sun before a frame, on the thread that makes frames. Cheap
+    // where it stands there already.
+    std::function<void(const SunPlace&)> moveSun;
+    SunPlace sun;
 
     // Of volumes; empty where they make no sense.
     double largestSeparation = std::numeric_limits<double>::infinity();     // metres, by hand
@@ -69,6 +80,7 @@ struct FrameRequest {
     Lens lens;
     StereoSetting stereo;
     WarpSetting warp;
+    SunPlace sun;                        // where it can be moved
     bool twoEyes = true;                 // false: one eye, from the head itself
     OutputMode mode = OutputMode::Left;  // that the eyes' size was chosen for
 };

@@ -28,11 +28,16 @@ enum class TerrainLightKind : std::uint32_t {
     Transfer = 2,  // openness, horizons and harmonics
 };
 
+// Measured against path tracing over the built-in terrain (bench_terrain_light), whole light between samples
+// 94 m apart: order 1, 3, 4 and 6 leave an rms error of 4.9, 2.8, 2.8 and 2.8 % with the sun 45 degrees high
+// and of 20, 15, 15 and 15 % at 10 degrees, most of it at the edges of shadows. 16 rays do not differ from
+// 256 by more than 0.0001; 64 azimuths make the 15 % 14, 16 azimuths 15.3. Order 4 is for skies with more
+// shape.
 struct TerrainLightSettings {
     TerrainLightKind kind = TerrainLightKind::Transfer;
     int order = 4;        // of the harmonics, 1..6
     int bounces = 2;      // 0..4
-    int rays = 64;        // a sample and bounce, towards the ground it sees; a multiple of 16
+    int rays = 32;        // a sample and bounce, towards the ground it sees; a multiple of 16
     int azimuths = 32;    // horizons a sample, 8..64, a multiple of 4
     int stride = 1;       // every so many-th sample of the heightfield each way
     double albedo = 0.3;  // 0..1, of the ground that light bounces from

@@ -60,7 +60,7 @@ private:
 using TransferField = std::vector<std::int16_t>;
 
 struct GatherSetting {
-    int rays = 64;
+    int rays = 32;
     double albedo = 0.3;
     std::uint64_t seed = 1;
     int count = 10;  // coefficients

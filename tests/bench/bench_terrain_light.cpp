@@ -154,7 +154,7 @@ Json errors() {
             one["rms_order_" + std::to_string(order)] = d.rms;
             if (order == 4) one["bias_order_4"] = d.bias;
         }
-        for (const int count : {16, 64}) {
+        for (const int count : {16, 32}) {
             TerrainLightSettings fewer = settings;
             fewer.order = 4;
             fewer.rays = count;

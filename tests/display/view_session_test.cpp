@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <set>
 
 #include "app/view_status.h"
@@ -216,6 +217,27 @@ TEST_F(ViewSessionTest, ScreenshotsAreWishedOnceEach) {
     EXPECT_FALSE(s.quit());
     s.act({ViewCommand::Quit});
     EXPECT_TRUE(s.quit());
+}
+
+TEST_F(ViewSessionTest, TheSunMovesWhereLightIsBaked) {
+    ViewSession without = session();
+    const long long before = without.requestFor(640, 360).version;
+    without.act({ViewCommand::HigherSun});
+    EXPECT_EQ(without.requestFor(640, 360).version, before) << "nothing to light";
+    EXPECT_THAT(without.notice(), testing::HasSubstr("baked"));
+    mScene->moveSun = [](const SunPlace&) {};
+    mScene->sun = {0.02, 1.5};
+    ViewSession moving = session();
+    const FrameRequest first = moving.requestFor(640, 360);
+    EXPECT_EQ(first.sun, mScene->sun);
+    moving.act({ViewCommand::SunAnticlockwise});
+    const FrameRequest turned = moving.requestFor(640, 360);
+    EXPECT_GT(turned.version, first.version);
+    EXPECT_NEAR(turned.sun.azimuth, 0.02 + 2 * std::numbers::pi - 3 * std::numbers::pi / 180, 1e-9);
+    for (int k = 0; k < 300; ++k) moving.act({ViewCommand::HigherSun});
+    EXPECT_NEAR(moving.requestFor(640, 360).sun.elevation, std::numbers::pi / 2, 1e-9);
+    for (int k = 0; k < 300; ++k) moving.act({ViewCommand::LowerSun});
+    EXPECT_NEAR(moving.requestFor(640, 360).sun.elevation, -0.15, 1e-9);
 }
 
 }  // namespace
