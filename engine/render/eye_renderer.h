@@ -38,6 +38,10 @@ public:
     virtual void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
                               EyeImage& image) const = 0;
 
+    // Whether renderPixels wants to find, in the viewDepth of each pixel it casts, a depth before which the
+    // ray meets nothing (0: unknown), as far as the other eye saw (W9). Neighbours' depths mean nothing then.
+    virtual bool startsAtKnownDepth() const { return false; }
+
     // False only if no ray through the rectangle hits anything before its view depth
     // maxDepth(x) = parallaxScale / (column - x) for x the pixel's right edge (infinite where
     // x >= column): the part of the ray that lies outside the other eye's window edge (region V of

@@ -137,10 +137,10 @@ STEREONAV_INLINE Hits noHits() {
     return {F(__builtin_inff()), {zero, zero, zero}, I(0), maskFromBits(0)};
 }
 
-// Walks the active rays on to cells with surface and tries these. Rays end without a hit where they leave the
-// volume, or the part of it that is known.
-STEREONAV_INLINE void advance(const Grid& grid, const Rays& r, F nearest, Walk& w, Hits& hits) {
-    const Parked parked = leap(grid, r, w);
+// Tries the cells in which rays stand and walks on those that meet nothing there. Rays end without a hit where
+// they leave the volume, or the part of it that is known.
+STEREONAV_INLINE void tryCells(const Grid& grid, const Rays& r, F nearest, const Parked& parked, Walk& w,
+                               Hits& hits) {
     if (!any(parked.lanes)) return;
     const I record = gather(grid.data.cells, parked.index, parked.lanes);
     const M known = parked.lanes & (I(0) < record);
@@ -156,6 +156,25 @@ STEREONAV_INLINE void advance(const Grid& grid, const Rays& r, F nearest, Walk& 
     const M further = andNot(known, root.found);
     w.active = andNot(w.active, andNot(parked.lanes, further));
     stepCell(r, w, further);
+}
+
+// Walks the active rays on to cells with surface and tries these.
+STEREONAV_INLINE void advance(const Grid& grid, const Rays& r, F nearest, Walk& w, Hits& hits) {
+    const Parked parked = leap(grid, r, w);
+    tryCells(grid, r, nearest, parked, w, hits);
+}
+
+// Two packets at once: while one waits for memory the other goes on.
+STEREONAV_INLINE void advancePair(const Grid& grid, const Rays (&r)[2], F nearest, Walk (&w)[2], Hits (&hits)[2]) {
+    Leaper first(grid, r[0], w[0]), second(grid, r[1], w[1]);
+    while (first.goesOn() && second.goesOn()) {
+        first.step();
+        second.step();
+    }
+    while (first.goesOn()) first.step();
+    while (second.goesOn()) second.step();
+    tryCells(grid, r[0], nearest, first.parked(), w[0], hits[0]);
+    tryCells(grid, r[1], nearest, second.parked(), w[1], hits[1]);
 }
 
 }  // namespace stereonav::STEREONAV_ISA

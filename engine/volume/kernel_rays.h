@@ -125,32 +125,51 @@ struct Parked {
     M lanes;
     I index;
 };
-STEREONAV_INLINE Parked leap(const Grid& grid, const Rays& r, Walk& w) {
-    const I none(0), nearby(1);
-    M moving = w.active;
-    Parked parked{maskFromBits(0), I(0)};
-    const F unit(grid.data.leapUnit);
-    while (__builtin_popcount(bits(moving)) * kStragglers > __builtin_popcount(bits(parked.lanes))) {
-        const M in = grid.inside(w.at);
-        w.active = andNot(w.active, andNot(moving, in));
-        moving = moving & in;
-        const I index = grid.index(w.at);
-        const I code = gatherByte(grid.data.codes, index, moving);
-        const M here = moving & (code == none);
-        parked.index = select(here, index, parked.index);
-        parked.lanes = parked.lanes | here;
-        moving = andNot(moving, here);
-        const M wide = grid.data.leaping ? moving & (nearby < code) : maskFromBits(0);
-        const M walk = andNot(moving, wide);
-        if (any(wide)) {
-            const F ahead = mulAdd(toFloat(code - nearby) * unit, r.perMetre, w.t);
-            w.t = select(wide, ahead, w.t);
-            const Cells c = grid.cellsAt(r.direction, w.t);
-            w.at = {select(wide, c.x, w.at.x), select(wide, c.y, w.at.y), select(wide, c.z, w.at.z)};
-        }
-        if (any(walk)) stepCell(r, w, walk);
+// A packet while it leaps.
+class Leaper {
+public:
+    STEREONAV_INLINE Leaper(const Grid& grid, const Rays& rays, Walk& walk)
+        : mGrid(grid), mRays(rays), mWalk(walk), mMoving(walk.active), mParked{maskFromBits(0), I(0)} {}
+
+    STEREONAV_INLINE bool goesOn() const {
+        return __builtin_popcount(bits(mMoving)) * kStragglers > __builtin_popcount(bits(mParked.lanes));
     }
-    return parked;
+    STEREONAV_INLINE void step() {
+        const I none(0), nearby(1);
+        const M in = mGrid.inside(mWalk.at);
+        mWalk.active = andNot(mWalk.active, andNot(mMoving, in));
+        mMoving = mMoving & in;
+        const I index = mGrid.index(mWalk.at);
+        const I code = gatherByte(mGrid.data.codes, index, mMoving);
+        const M here = mMoving & (code == none);
+        mParked.index = select(here, index, mParked.index);
+        mParked.lanes = mParked.lanes | here;
+        mMoving = andNot(mMoving, here);
+        const M wide = mGrid.data.leaping ? mMoving & (nearby < code) : maskFromBits(0);
+        const M walk = andNot(mMoving, wide);
+        if (any(wide)) {
+            const F ahead = mulAdd(toFloat(code - nearby) * F(mGrid.data.leapUnit), mRays.perMetre, mWalk.t);
+            mWalk.t = select(wide, ahead, mWalk.t);
+            const Cells c = mGrid.cellsAt(mRays.direction, mWalk.t);
+            mWalk.at = {select(wide, c.x, mWalk.at.x), select(wide, c.y, mWalk.at.y),
+                        select(wide, c.z, mWalk.at.z)};
+        }
+        stepCell(mRays, mWalk, walk);
+    }
+    STEREONAV_INLINE Parked parked() const { return mParked; }
+
+private:
+    const Grid& mGrid;
+    const Rays& mRays;
+    Walk& mWalk;
+    M mMoving;
+    Parked mParked;
+};
+
+STEREONAV_INLINE Parked leap(const Grid& grid, const Rays& r, Walk& w) {
+    Leaper leaper(grid, r, w);
+    while (leaper.goesOn()) leaper.step();
+    return leaper.parked();
 }
 
 }  // namespace stereonav::STEREONAV_ISA

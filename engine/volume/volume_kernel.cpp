@@ -88,6 +88,19 @@ struct Packet {
         while (any(w.active)) advance(grid, r, nearest, w, hits);
         return shaded(r, hits, wantNormal);
     }
+    // Opaque surfaces, two packets at once.
+    STEREONAV_INLINE void castPair(const F (&x)[2], const F (&y)[2], const F (&start)[2], const M (&lanes)[2],
+                                   bool wantNormal, Result (&result)[2]) const {
+        const Rays r[2] = {makeRays(view, x[0], y[0]), makeRays(view, x[1], y[1])};
+        const F nearest(view.nearDepth);
+        Walk w[2];
+        for (int k = 0; k < 2; ++k)
+            w[k] = view.inside ? startAt(grid, r[k], max(start[k], nearest), lanes[k])
+                               : startOutside(grid, r[k], max(start[k], nearest), lanes[k]);
+        Hits hits[2] = {noHits(), noHits()};
+        while (any(w[0].active | w[1].active)) advancePair(grid, r, nearest, w, hits);
+        for (int k = 0; k < 2; ++k) result[k] = shaded(r[k], hits[k], wantNormal);
+    }
     STEREONAV_INLINE Result shaded(const Rays& r, const Hits& hits, bool wantNormal) const {
         const Channels n = mixCorners(grid.data.records + 4, hits.word, hits.local, hits.hit);
         Result result{hits.t, surfaceColor(data, view, r, hits.t, directionOf(n), hits.hit), I(0)};
@@ -106,6 +119,7 @@ public:
     void cast(const VolumeRect& rect) {
         const bool beams = mPacket.view.inside && mPacket.data.cells.leaping && !mFromDepth;
         if (beams) castBlockBeams(rect);
+        if (!mPacket.data.transfer.extinction && !mFromDepth) return castPairs(rect, beams);
         for (int y = rect.y0; y < rect.y1; y += kPacketY)
             for (int x = rect.x0; x < rect.x1; x += kPacketX) {
                 const int block = (y - rect.y0) / kBlock * kBlocks + (x - rect.x0) / kBlock;
@@ -115,6 +129,26 @@ public:
 
 private:
     static constexpr int kBlocks = kLargestSide / kBlock;
+
+    // Packets side by side; in an odd column the last one's second packet is empty.
+    void castPairs(const VolumeRect& rect, bool beams) {
+        for (int y = rect.y0; y < rect.y1; y += kPacketY)
+            for (int x = rect.x0; x < rect.x1; x += 2 * kPacketX) castPairAt(x, y, rect, beams);
+    }
+    void castPairAt(int x, int y, const VolumeRect& rect, bool beams) {
+        const I lane = laneIndex();
+        const I across = lane & I(3), down = shiftRight<2>(lane);
+        const int block = (y - rect.y0) / kBlock * kBlocks + (x - rect.x0) / kBlock;
+        const M rows = down < I(rect.y1 - y);
+        const F px[2] = {toFloat(across + I(x)), toFloat(across + I(x + kPacketX))};
+        const F row = toFloat(down + I(y)), py[2] = {row, row};
+        const F start[2] = {F(beams ? mStart[block] : 0.0f), F(beams ? mStart[block + 1] : 0.0f)};
+        const M lanes[2] = {rows & (across < I(rect.x1 - x)), rows & (across < I(rect.x1 - x - kPacketX))};
+        Packet::Result result[2];
+        mPacket.castPair(px, py, start, lanes, mTarget.normal != nullptr, result);
+        put(x, y, rect, result[0]);
+        if (x + kPacketX < rect.x1) put(x + kPacketX, y, rect, result[1]);
+    }
 
     void castBlockBeams(const VolumeRect& rect) {
         const int rows = (rect.y1 - rect.y0 + kBlock - 1) / kBlock;
@@ -183,7 +217,7 @@ private:
     const Packet mPacket;
     const VolumeTarget& mTarget;
     const bool mFromDepth;
-    alignas(64) float mStart[kBlocks * kBlocks];
+    alignas(64) float mStart[kBlocks * kBlocks + 1];
 };
 
 void castRect(const VolumeData& data, const VolumeView& view, const VolumeRect& rect,
@@ -195,6 +229,7 @@ void castRect(const VolumeData& data, const VolumeView& view, const VolumeRect& 
                          y + kLargestSide < rect.y1 ? y + kLargestSide : rect.y1});
 }
 
+constexpr int kRefill = 8;
 // Scattered pixels: each lane takes the next pixel when its own is done, so that a long ray does not hold up
 // the others. One beam around each run of kLanes neighbours in the list, as many beams side by side as there
 // are lanes.
@@ -213,7 +248,7 @@ public:
         for (;;) {
             const int busy = __builtin_popcount(bits(mWalk.active));
             const bool more = mNext < mCount;
-            if (busy == 0 || (more && busy <= kLanes / 2)) {
+            if (busy == 0 || (more && busy <= kRefill)) {
                 finish(andNot(mTaken, mWalk.active));
                 if (!more && busy == 0) return;
                 take(~mWalk.active);
@@ -236,11 +271,11 @@ private:
     }
 
     STEREONAV_INLINE void setLane(int k, int number) {
-        if (number % (kLanes * kLanes) == 0) castBeamsFrom(number);
         mPixel[k] = mPixels[number];
         mX[k] = mPixel[k].x;
         mY[k] = mPixel[k].y;
-        mStart[k] = mBeams[number / kLanes % kLanes];
+        const float known = mTarget.depth[mPixel[k].y * mTarget.depthStride + mPixel[k].x];
+        mStart[k] = known > 0 ? known : beamOf(number);
     }
 
     // Gives the next pixels to the lanes m.
@@ -289,6 +324,12 @@ private:
         }
     }
 
+    float beamOf(int number) {
+        const int group = number / (kLanes * kLanes);
+        if (group != mBeamGroup) castBeamsFrom((mBeamGroup = group) * kLanes * kLanes);
+        return mBeams[number / kLanes % kLanes];
+    }
+
     // Beams around the runs of the next kLanes * kLanes pixels.
     void castBeamsFrom(int first) {
         if (!mPacket.view.inside || !mPacket.data.cells.leaping) return;
@@ -317,7 +358,7 @@ private:
     const Packet mPacket;
     const VolumeTarget& mTarget;
     const VolumePixel* mPixels = nullptr;
-    int mCount = 0, mNext = 0;
+    int mCount = 0, mNext = 0, mBeamGroup = -1;
     Rays mRays;
     Walk mWalk;
     Hits mHits = noHits();
