@@ -186,10 +186,10 @@ void blackenHoles(const WarpJob& job, int y) {
     for (int p = 0; p < job.width(); ++p) color[p] = holes[p] ? 0u : color[p];
 }
 
-// The depth before which the ray of a hole meets nothing. The right ray of column p crosses the left rays from
-// the right, that of column x at the depth scale / (x + shift - p). What the left eye saw at the hole's right
-// end, the pixel b, survived: nothing that it saw further right lies in front of the ray. So the ray is free up
-// to where it crosses the left ray of b; one pixel of margin stands for what lies between left rays.
+// The depth before which the ray of a hole meets nothing. The right ray of column p crosses the left rays
+// from the right, that of column x at the depth scale / (x + shift - p). What the left eye saw at the hole's
+// right end, the pixel b, survived: nothing that it saw further right lies in front of the ray. So the ray is
+// free up to where it crosses the left ray of b; one pixel of margin stands for what lies between left rays.
 void startHoles(const WarpJob& job, int y) {
     constexpr float kMargin = 1.0f;
     const std::uint8_t* holes = job.mask.row(y);
@@ -202,7 +202,8 @@ void startHoles(const WarpJob& job, int y) {
         if (word == 0) continue;
         for (int p = std::min(first + 7, job.width() - 1); p >= first; --p) {
             if (!holes[p] || p + 1 == job.width()) continue;
-            const float inverse = holes[p + 1] ? 1.0f / depth[p + 1] : 1.0f / depth[p + 1] + kMargin * perPixel;
+            const float inverse =
+                holes[p + 1] ? 1.0f / depth[p + 1] : 1.0f / depth[p + 1] + kMargin * perPixel;
             depth[p] = 1.0f / (inverse + perPixel);
         }
     }

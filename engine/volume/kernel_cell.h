@@ -55,6 +55,8 @@ STEREONAV_INLINE Cubic cubicAlong(const Corners& c, const V3& start, const V3& w
 }
 
 constexpr float kCloseEnough = 1e-6f;  // of the way through a cell
+// After a step of Newton's as short as this the next would be of the order of its square.
+constexpr float kQuadratic = 1e-4f;
 
 struct Root {
     F s;
@@ -93,7 +95,8 @@ STEREONAV_INLINE Root firstRoot(const Cubic& f, M m) {
             const F next = s - value * approxReciprocal(f.slope(s));
             const M kept = (next >= from) & (next <= to);
             const F better = select(kept, next, F(0.5f) * (from + to));
-            const M moves = searching & (abs(better - s) > F(kCloseEnough));
+            const F move = abs(better - s);
+            const M moves = searching & (move > select(kept, F(kQuadratic), F(kCloseEnough)));
             s = select(searching, better, s);
             searching = moves;  // a ray that is done stays as it is, whatever its neighbours need
             if (!any(searching)) break;
@@ -137,8 +140,8 @@ STEREONAV_INLINE Hits noHits() {
     return {F(__builtin_inff()), {zero, zero, zero}, I(0), maskFromBits(0)};
 }
 
-// Tries the cells in which rays stand and walks on those that meet nothing there. Rays end without a hit where
-// they leave the volume, or the part of it that is known.
+// Tries the cells in which rays stand and walks on those that meet nothing there. Rays end without a hit
+// where they leave the volume, or the part of it that is known.
 STEREONAV_INLINE void tryCells(const Grid& grid, const Rays& r, F nearest, const Parked& parked, Walk& w,
                                Hits& hits) {
     if (!any(parked.lanes)) return;
@@ -165,7 +168,8 @@ STEREONAV_INLINE void advance(const Grid& grid, const Rays& r, F nearest, Walk& 
 }
 
 // Two packets at once: while one waits for memory the other goes on.
-STEREONAV_INLINE void advancePair(const Grid& grid, const Rays (&r)[2], F nearest, Walk (&w)[2], Hits (&hits)[2]) {
+STEREONAV_INLINE void advancePair(const Grid& grid, const Rays (&r)[2], F nearest, Walk (&w)[2],
+                                  Hits (&hits)[2]) {
     Leaper first(grid, r[0], w[0]), second(grid, r[1], w[1]);
     while (first.goesOn() && second.goesOn()) {
         first.step();

@@ -229,110 +229,88 @@ void castRect(const VolumeData& data, const VolumeView& view, const VolumeRect& 
                          y + kLargestSide < rect.y1 ? y + kLargestSide : rect.y1});
 }
 
-constexpr int kRefill = 8;
-// Scattered pixels: each lane takes the next pixel when its own is done, so that a long ray does not hold up
-// the others. One beam around each run of kLanes neighbours in the list, as many beams side by side as there
-// are lanes.
+// Scattered pixels, in packets of neighbours in the list. A ray starts at the depth that is known to be free,
+// or else where the beam around its packet ends; as many beams are cast side by side as there are lanes.
 class PixelCaster {
 public:
-    STEREONAV_INLINE PixelCaster(const VolumeData& data, const VolumeView& view, const VolumeTarget& target)
-        : mPacket(data, view), mTarget(target) {
-        mWalk = {F(0.0f), {I(0), I(0), I(0)}, maskFromBits(0)};
-    }
+    STEREONAV_INLINE PixelCaster(const VolumeData& data, const VolumeView& view, const VolumeTarget& target,
+                                 const VolumePixel* pixels, int count)
+        : mPacket(data, view), mTarget(target), mPixels(pixels), mCount(count) {}
 
-    void cast(const VolumePixel* pixels, int count) {
-        mPixels = pixels;
-        mCount = count;
-        if (mPacket.data.transfer.extinction) return castPackets();
-        const F nearest(mPacket.view.nearDepth);
-        for (;;) {
-            const int busy = __builtin_popcount(bits(mWalk.active));
-            const bool more = mNext < mCount;
-            if (busy == 0 || (more && busy <= kRefill)) {
-                finish(andNot(mTaken, mWalk.active));
-                if (!more && busy == 0) return;
-                take(~mWalk.active);
-                continue;
+    void cast() {
+        const bool opaque = !mPacket.data.transfer.extinction;
+        for (int first = 0; first < mCount; first += 2 * kLanes)
+            if (opaque && first + kLanes < mCount) {
+                castPair(first);
+            } else {
+                castOne(first);
+                if (first + kLanes < mCount) castOne(first + kLanes);
             }
-            advance(mPacket.grid, mRays, nearest, mWalk, mHits);
-        }
     }
 
 private:
-    // Translucent rays end everywhere at about the same depth: packets will do.
-    void castPackets() {
-        for (; mNext < mCount; mNext += kLanes) {
-            float start[kLanes];
-            const int some = mCount - mNext < kLanes ? mCount - mNext : kLanes;
-            for (int k = 0; k < some; ++k) setLane(k, mNext + k), start[k] = mStart[k];
-            const M lanes = firstLanes(some);
-            store(mPacket.cast(loadF(mX), loadF(mY), loadF(start), lanes, false), lanes);
+    struct Some {
+        F x, y, start;
+        M lanes;
+    };
+
+    STEREONAV_INLINE int lanesFrom(int first) const {
+        return mCount - first < kLanes ? mCount - first : kLanes;
+    }
+
+    STEREONAV_INLINE Some takeFrom(int first) {
+        alignas(64) float x[kLanes] = {}, y[kLanes] = {}, start[kLanes] = {};
+        const int some = lanesFrom(first);
+        bool known = true;
+        for (int k = 0; k < some; ++k) {
+            const VolumePixel p = mPixels[first + k];
+            x[k] = p.x;
+            y[k] = p.y;
+            start[k] = mTarget.depth[p.y * mTarget.depthStride + p.x];
+            known = known && start[k] > 0;
         }
+        return {loadF(x), loadF(y), max(loadF(start), F(known ? 0.0f : beamOf(first))), firstLanes(some)};
     }
 
-    STEREONAV_INLINE void setLane(int k, int number) {
-        mPixel[k] = mPixels[number];
-        mX[k] = mPixel[k].x;
-        mY[k] = mPixel[k].y;
-        const float known = mTarget.depth[mPixel[k].y * mTarget.depthStride + mPixel[k].x];
-        mStart[k] = known > 0 ? known : beamOf(number);
+    void castOne(int first) {
+        const Some s = takeFrom(first);
+        store(first, mPacket.cast(s.x, s.y, s.start, s.lanes, mTarget.normal != nullptr));
     }
 
-    // Gives the next pixels to the lanes m.
-    STEREONAV_INLINE void take(M m) {
-        std::uint32_t fresh = 0;
-        for (std::uint32_t left = bits(m); left != 0 && mNext < mCount; left &= left - 1, ++mNext) {
-            const int k = __builtin_ctz(left);
-            setLane(k, mNext);
-            fresh |= 1u << k;
-        }
-        const M lanes = maskFromBits(fresh);
-        mRays = makeRays(mPacket.view, loadF(mX), loadF(mY));
-        const F start = max(loadF(mStart), F(mPacket.view.nearDepth));
-        const Walk next = mPacket.view.inside ? startAt(mPacket.grid, mRays, start, lanes)
-                                              : startOutside(mPacket.grid, mRays, start, lanes);
-        mWalk.t = select(lanes, next.t, mWalk.t);
-        mWalk.at = {select(lanes, next.at.x, mWalk.at.x), select(lanes, next.at.y, mWalk.at.y),
-                    select(lanes, next.at.z, mWalk.at.z)};
-        mWalk.active = mWalk.active | (next.active & lanes);
-        mTaken = mTaken | lanes;
-        mHits.t = select(lanes, F(__builtin_inff()), mHits.t);
+    void castPair(int first) {
+        const Some a = takeFrom(first), b = takeFrom(first + kLanes);
+        const F x[2] = {a.x, b.x}, y[2] = {a.y, b.y}, start[2] = {a.start, b.start};
+        const M lanes[2] = {a.lanes, b.lanes};
+        Packet::Result result[2];
+        mPacket.castPair(x, y, start, lanes, mTarget.normal != nullptr, result);
+        store(first, result[0]);
+        store(first + kLanes, result[1]);
     }
 
-    // Colours and stores the lanes m, which are done.
-    STEREONAV_INLINE void finish(M m) {
-        if (!any(m)) return;
-        Hits done = mHits;
-        done.hit = done.hit & m;
-        store(mPacket.shaded(mRays, done, mTarget.normal != nullptr), m);
-        mHits.hit = andNot(mHits.hit, m);
-        mTaken = andNot(mTaken, m);
-    }
-
-    STEREONAV_INLINE void store(const Packet::Result& result, M m) const {
+    STEREONAV_INLINE void store(int first, const Packet::Result& result) const {
         alignas(64) float depth[kLanes];
         alignas(64) std::uint32_t color[kLanes], normal[kLanes];
         STEREONAV_ISA::store(depth, result.depth);
         STEREONAV_ISA::store(color, result.color);
         STEREONAV_ISA::store(normal, result.normal);
-        for (std::uint32_t left = bits(m); left != 0; left &= left - 1) {
-            const int k = __builtin_ctz(left);
-            const VolumePixel p = mPixel[k];
+        for (int k = 0; k < lanesFrom(first); ++k) {
+            const VolumePixel p = mPixels[first + k];
             mTarget.depth[p.y * mTarget.depthStride + p.x] = depth[k];
             mTarget.color[p.y * mTarget.colorStride + p.x] = color[k];
             if (mTarget.normal) mTarget.normal[p.y * mTarget.normalStride + p.x] = normal[k];
         }
     }
 
-    float beamOf(int number) {
-        const int group = number / (kLanes * kLanes);
+    // Of the packet that starts with pixel `first`; 0 where there are none.
+    float beamOf(int first) {
+        if (!mPacket.view.inside || !mPacket.data.cells.leaping) return 0.0f;
+        const int group = first / (kLanes * kLanes);
         if (group != mBeamGroup) castBeamsFrom((mBeamGroup = group) * kLanes * kLanes);
-        return mBeams[number / kLanes % kLanes];
+        return mBeams[first / kLanes % kLanes];
     }
 
-    // Beams around the runs of the next kLanes * kLanes pixels.
+    // Beams around the next kLanes packets.
     void castBeamsFrom(int first) {
-        if (!mPacket.view.inside || !mPacket.data.cells.leaping) return;
         alignas(64) float x[kLanes] = {}, y[kLanes] = {}, radius[kLanes] = {};
         int beams = 0;
         for (int begin = first; beams < kLanes && begin < mCount; begin += kLanes, ++beams) {
@@ -357,19 +335,15 @@ private:
 
     const Packet mPacket;
     const VolumeTarget& mTarget;
-    const VolumePixel* mPixels = nullptr;
-    int mCount = 0, mNext = 0, mBeamGroup = -1;
-    Rays mRays;
-    Walk mWalk;
-    Hits mHits = noHits();
-    M mTaken = maskFromBits(0);
-    VolumePixel mPixel[kLanes];
-    alignas(64) float mX[kLanes] = {}, mY[kLanes] = {}, mStart[kLanes] = {}, mBeams[kLanes] = {};
+    const VolumePixel* const mPixels;
+    const int mCount;
+    int mBeamGroup = -1;
+    alignas(64) float mBeams[kLanes] = {};
 };
 
 void castPixels(const VolumeData& data, const VolumeView& view, const VolumePixel* pixels, int count,
                 const VolumeTarget& target) {
-    PixelCaster(data, view, target).cast(pixels, count);
+    PixelCaster(data, view, target, pixels, count).cast();
 }
 
 void shadeRow(const VolumeData& data, const VolumeView& view, int y, int x0, int x1,
