@@ -18,7 +18,8 @@ using Json = nlohmann::ordered_json;
 std::vector<std::string> planesOf(const FramePlan& plan) {
     std::vector<std::string> planes{"color", "depth"};
     if (plan.dependence == ViewDependence::Highlight) planes.push_back("base color");
-    if (plan.dependence != ViewDependence::None) planes.push_back("normal");
+    if (plan.viewDependent) planes.push_back("normal");
+    if (plan.dependence == ViewDependence::Depths) planes.push_back("depth spread");
     planes.push_back("hole mask");
     return planes;
 }

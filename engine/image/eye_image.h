@@ -14,7 +14,8 @@ namespace stereonav {
 enum class ViewDependence {
     None,       // not at all
     Highlight,  // a part is added to baseColor; the normal is needed for it
-    Normal      // all of it follows from normal and depth: no baseColor
+    Normal,     // all of it follows from normal and depth: no baseColor
+    Depths      // it is gathered from several depths, that shift apart: how far is kept
 };
 
 constexpr float kMissDepth = std::numeric_limits<float>::infinity();
@@ -29,16 +30,22 @@ struct EyeImage {
     // like a colour's (10 bits each, x lowest, 0..1023 for -1..1), so that it is resampled like one.
     Plane<PackedColor> baseColor;
     Plane<std::uint32_t> normal;
+    // Only with Depths: how far behind viewDepth a pixel's light comes from, in metres: the root of the mean
+    // square by shares of light; 0 where it comes from nowhere.
+    Plane<float> depthSpread;
 
     int width() const { return color.width(); }
     int height() const { return color.height(); }
 
     void resize(int width, int height, ViewDependence dependence = ViewDependence::None) {
-        const bool base = dependence == ViewDependence::Highlight, any = dependence != ViewDependence::None;
+        const bool base = dependence == ViewDependence::Highlight;
+        const bool any = base || dependence == ViewDependence::Normal;
+        const bool depths = dependence == ViewDependence::Depths;
         color.resize(width, height);
         viewDepth.resize(width, height);
         baseColor.resize(base ? width : 0, base ? height : 0);
         normal.resize(any ? width : 0, any ? height : 0);
+        depthSpread.resize(depths ? width : 0, depths ? height : 0);
     }
 };
 

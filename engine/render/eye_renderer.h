@@ -52,7 +52,10 @@ public:
     // Whether, and from what, colours have to be evaluated again for the other eye. Images that carry
     // those planes get them written by the calls above.
     virtual ViewDependence viewDependence() const { return ViewDependence::None; }
-    bool viewDependent() const { return viewDependence() != ViewDependence::None; }
+    // Whether colours are evaluated again by shadeAgain.
+    bool viewDependent() const {
+        return viewDependence() == ViewDependence::Highlight || viewDependence() == ViewDependence::Normal;
+    }
     // Replaces `color` in row y, columns x0 .. x1 - 1 as seen by `view`, from baseColor, normal and
     // viewDepth, or from normal and viewDepth alone. Called only where viewDependent(). With Highlight
     // the run is all surface. With Normal it is a whole row: pixels that met nothing (kMissDepth) get the

@@ -75,13 +75,14 @@ std::string reasonFor(const FramePlan& plan, RightEyeMethod warp) {
 }  // namespace
 
 std::size_t frameBytes(int width, int height, ViewDependence dependence) {
-    // stride as Plane has it; colour and depth, and what is shaded again
+    // stride as Plane has it; colour and depth, what is shaded again, and what the left eye alone keeps
     const std::size_t stride = (static_cast<std::size_t>(width) + Plane<float>::kPadding + 15) / 16 * 16;
     const std::size_t pixels = stride * static_cast<std::size_t>(height);
-    const std::size_t again = dependence == ViewDependence::None     ? 0
-                              : dependence == ViewDependence::Normal ? 4
-                                                                     : 8;
-    return pixels * (2 * (8 + again) + 1);
+    const std::size_t again = dependence == ViewDependence::Highlight ? 8
+                              : dependence == ViewDependence::Normal  ? 4
+                                                                      : 0;
+    const std::size_t left = dependence == ViewDependence::Depths ? 4 : 0;
+    return pixels * (2 * (8 + again) + left + 1);
 }
 
 FramePlan planFromCosts(const FrameCosts& costs, int width, int height, ViewDependence dependence,
@@ -91,7 +92,7 @@ FramePlan planFromCosts(const FrameCosts& costs, int width, int height, ViewDepe
     plan.width = width;
     plan.height = height;
     plan.dependence = dependence;
-    plan.viewDependent = dependence != ViewDependence::None;
+    plan.viewDependent = dependence == ViewDependence::Highlight || dependence == ViewDependence::Normal;
     plan.costs = costs;
     plan.castRight_ms = costs.cast_ns * pixels * 1e-6;
     plan.warpRight_ms = (costs.warp_ns + costs.holeShare * costs.hole_ns) * pixels * 1e-6;

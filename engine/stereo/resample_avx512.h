@@ -59,7 +59,7 @@ inline void findLinks(const ResampleRow& row) {
     const int blocks = (row.width + kLanes - 1) / kLanes;
     __m512 next = infinity;      // the block to the right
     __m512 leftmost = infinity;  // of all blocks to the right, in every lane
-    unsigned nextSurvivors = 0, nextMet = 0;
+    unsigned nextSurvivors = 0, nextMet = 0, nextWide = 0;
     _mm512_storeu_ps(row.column + blocks * kLanes, infinity);
     row.survivors[blocks] = row.links[blocks] = 0;
     for (int b = blocks - 1; b >= 0; --b) {
@@ -80,6 +80,13 @@ inline void findLinks(const ResampleRow& row) {
             const unsigned met = _mm512_cmp_ps_mask(depth, infinity, _CMP_LT_OQ);
             both &= ~(met ^ (met >> 1 | nextMet << 15));
             nextMet = met;
+        }
+        if (row.leftSpread) {
+            const __m512 spread = _mm512_maskz_loadu_ps(inside, row.leftSpread + i);
+            const __m512 most = _mm512_mul_ps(_mm512_mul_ps(_mm512_set1_ps(row.mostSpread), depth), depth);
+            const unsigned wide = _mm512_cmp_ps_mask(_mm512_mul_ps(scale, spread), most, _CMP_GT_OQ);
+            both &= ~(wide | wide >> 1 | nextWide << 15);
+            nextWide = wide;
         }
         row.survivors[b] = static_cast<std::uint16_t>(survivors);
         row.links[b] = static_cast<std::uint16_t>(both & even);

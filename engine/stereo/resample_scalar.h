@@ -71,13 +71,18 @@ inline void findSurvivors(const ResampleRow& row) {
     }
 }
 
+inline bool wide(const ResampleRow& row, int i) {
+    const float depth = row.leftDepth[i];
+    return row.leftSpread && row.scale * row.leftSpread[i] > (row.mostSpread * depth) * depth;
+}
+
 inline void findLinks(const ResampleRow& row) {
     for (int i = 0; i + 1 < row.width; ++i) {
         const float gap = row.column[i + 1] - row.column[i];
         const bool alike = (row.leftDepth[i] < kInfinity) == (row.leftDepth[i + 1] < kInfinity);
-        row.links[i] =
-            static_cast<std::uint16_t>(row.survivors[i] & row.survivors[i + 1] & (gap >= row.minStretch) &
-                                       (gap <= row.maxStretch) & (alike | !row.surface));
+        row.links[i] = static_cast<std::uint16_t>(row.survivors[i] & row.survivors[i + 1] &
+                                                  (gap >= row.minStretch) & (gap <= row.maxStretch) &
+                                                  (alike | !row.surface) & !wide(row, i) & !wide(row, i + 1));
     }
     row.links[row.width - 1] = 0;
 }

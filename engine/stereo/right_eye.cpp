@@ -43,7 +43,7 @@ struct Scratch {
 
 bool isInverse(RightEyeMethod method) {
     return method == RightEyeMethod::Linear || method == RightEyeMethod::Cubic ||
-           method == RightEyeMethod::NoFill;
+           method == RightEyeMethod::NoFill || method == RightEyeMethod::Selective;
 }
 
 struct WarpJob {
@@ -87,6 +87,10 @@ ResampleRow resampleRowOf(const WarpJob& job, Scratch& scratch, int y) {
     row.survivors = scratch.survivors.data();
     row.links = scratch.links.data();
     row.surface = job.movesNormals();
+    if (job.setting.method == RightEyeMethod::Selective && !job.left.depthSpread.empty()) {
+        row.leftSpread = job.left.depthSpread.row(y);
+        row.mostSpread = job.setting.mostSpread;
+    }
     return row;
 }
 
@@ -247,6 +251,8 @@ void warpRow(const EyeRenderer& renderer, const WarpJob& job, ResampleFunction r
 // What can be shaded again: images without the planes for it are warped as they are.
 ViewDependence dependenceOf(const EyeRenderer& renderer, const EyeImage& left) {
     const ViewDependence dependence = renderer.viewDependence();
+    if (dependence == ViewDependence::Depths)
+        return left.depthSpread.empty() ? ViewDependence::None : dependence;
     const bool base = dependence != ViewDependence::Highlight || !left.baseColor.empty();
     return base && !left.normal.empty() ? dependence : ViewDependence::None;
 }
@@ -306,7 +312,7 @@ void RightEye::State::copy(const WarpJob& job) {
     copyPlane(job.left.color, job.right.color);
     std::memcpy(job.right.viewDepth.row(0), job.left.viewDepth.row(0), job.left.viewDepth.byteCount());
     if (job.dependence == ViewDependence::Highlight) copyPlane(job.left.baseColor, job.right.baseColor);
-    if (job.dependence != ViewDependence::None) copyPlane(job.left.normal, job.right.normal);
+    copyPlane(job.left.normal, job.right.normal);
     fillMask(mask, 0);
 }
 
@@ -334,7 +340,8 @@ RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews&
     checkSizes(views, left);
     const int width = left.width(), height = left.height();
     const ViewDependence dependence = dependenceOf(renderer, left);
-    right.resize(width, height, dependence);
+    // Of several depths nothing is asked of the right eye.
+    right.resize(width, height, dependence == ViewDependence::Depths ? ViewDependence::None : dependence);
     mState->resize(width, height, setting.method == RightEyeMethod::Paper);
     const WarpJob job{views, left, setting, right, mState->mask, dependence};
 
@@ -366,15 +373,17 @@ const Plane<std::uint8_t>& RightEye::holeMask() const {
 }
 
 RightEyeMethod defaultMethodFor(const EyeRenderer& renderer) {
-    return renderer.translucent() ? RightEyeMethod::DepthSplat : kDefaultRightEyeMethod;
+    return renderer.translucent() ? RightEyeMethod::Selective : kDefaultRightEyeMethod;
 }
 
 std::vector<RightEyeMethod> methodsFor(const EyeRenderer& renderer) {
     if (renderer.translucent())
-        return {RightEyeMethod::Full, RightEyeMethod::Linear, RightEyeMethod::DepthSplat};
+        return {RightEyeMethod::Full, RightEyeMethod::Linear, RightEyeMethod::Selective,
+                RightEyeMethod::DepthSplat};
     std::vector<RightEyeMethod> methods;
     for (const NamedMethod& named : kRightEyeMethods)
-        if (named.method != RightEyeMethod::DepthSplat) methods.push_back(named.method);
+        if (named.method != RightEyeMethod::DepthSplat && named.method != RightEyeMethod::Selective)
+            methods.push_back(named.method);
     return methods;
 }
 

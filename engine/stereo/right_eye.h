@@ -21,6 +21,7 @@ enum class RightEyeMethod {
     Cubic,       // the same, four taps (Catmull-Rom)
     McMillan,    // W14: back-to-front forward warp without holes filled or clipping fixed
     NoFill,      // the default's warp, holes left black: what filling is worth
+    Selective,   // as Linear, but pixels whose depths shift apart are cast: for translucent scenes
     DepthSplat,  // W12: depths splatted, every ray cast from there with one jump; for translucent scenes
 };
 constexpr RightEyeMethod kDefaultRightEyeMethod = RightEyeMethod::Linear;
@@ -29,21 +30,22 @@ struct NamedMethod {
     std::string_view name;
     RightEyeMethod method;
 };
-constexpr std::array<NamedMethod, 7> kRightEyeMethods{{{"full", RightEyeMethod::Full},
+constexpr std::array<NamedMethod, 8> kRightEyeMethods{{{"full", RightEyeMethod::Full},
                                                        {"paper", RightEyeMethod::Paper},
                                                        {"linear", RightEyeMethod::Linear},
                                                        {"cubic", RightEyeMethod::Cubic},
                                                        {"mcmillan", RightEyeMethod::McMillan},
                                                        {"nofill", RightEyeMethod::NoFill},
+                                                       {"selective", RightEyeMethod::Selective},
                                                        {"depthsplat", RightEyeMethod::DepthSplat}}};
 
-// DepthSplat for translucent scenes, else kDefaultRightEyeMethod.
+// Selective for translucent scenes, else kDefaultRightEyeMethod.
 RightEyeMethod defaultMethodFor(const EyeRenderer& renderer);
-// The methods that are worth comparing, in the order of their names above: full, linear and depthsplat for
-// a translucent scene, all but depthsplat for others. The others work too; depthsplat on an opaque scene
-// casts every pixel, with a jump. A warp of a translucent scene moves each pixel as if all its colour came
-// from where its ray first met something: near the truth for dense walls, wrong where layers are seen
-// through each other.
+// The methods that are worth comparing, in the order of their names above: full, linear, selective and
+// depthsplat for a translucent scene, all but the last two for others. The others work too; depthsplat on an
+// opaque scene casts every pixel, with a jump, and selective is linear there. A warp of a translucent scene
+// moves each pixel as if all its colour came from where its ray first met something: near the truth for dense
+// walls, wrong where layers are seen through each other, which is where selective casts.
 std::vector<RightEyeMethod> methodsFor(const EyeRenderer& renderer);
 
 struct WarpSetting {
@@ -55,6 +57,9 @@ struct WarpSetting {
     float minStretch = 0.5f;
     // Paper: a pixel whose accumulated splat weight is below this share of full cover is a hole.
     float weightThreshold = 0.5f;
+    // Selective: pixels whose light comes from depths that shift apart by more than this many right pixels
+    // (the root of their mean square) are cast.
+    float mostSpread = 0.7f;
     // DepthSplat: rays start before the depth found by this share of it, and by this share of its difference
     // from the pixels beside it: what lies between the left eye's samples may be a little nearer.
     float depthMargin = 0.01f;

@@ -27,12 +27,18 @@ std::vector<bool> findSurvivors(const ResampleRow& row) {
     return survives;
 }
 
+bool isWide(const ResampleRow& row, int i) {
+    const float depth = row.leftDepth[i];
+    return row.leftSpread && row.scale * row.leftSpread[i] > (row.mostSpread * depth) * depth;
+}
+
 std::vector<bool> findLinks(const ResampleRow& row, const std::vector<bool>& survives) {
     std::vector<bool> links(row.width, false);
     for (int i = 0; i + 1 < row.width; ++i) {
         const float gap = row.column[i + 1] - row.column[i];
         links[i] = survives[i] && survives[i + 1] && gap >= row.minStretch && gap <= row.maxStretch;
         if (row.surface && std::isinf(row.leftDepth[i]) != std::isinf(row.leftDepth[i + 1])) links[i] = false;
+        if (isWide(row, i) || isWide(row, i + 1)) links[i] = false;
     }
     return links;
 }

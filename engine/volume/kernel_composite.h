@@ -13,6 +13,7 @@ struct Composite {
     F red, green, blue;
     F through;  // of what lies behind
     F first;    // view depth of the first sample that is not transparent; infinite: none
+    F square;   // of the samples' distances behind the first, sum by light sent
 };
 
 STEREONAV_INLINE F valueAt(const Corners& c, const V3& p) {
@@ -52,6 +53,8 @@ STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, 
     sum.blue = mulAdd(share, mulAdd(lit.diffuse, channelAt(color, 20), lit.highlight), sum.blue);
     sum.through = sum.through - share;
     sum.first = select(seen, min(sum.first, w.t), sum.first);
+    const F behind = select(seen, w.t - sum.first, F(0.0f));
+    sum.square = mulAdd(share * behind, behind, sum.square);
 }
 
 // To the first sample behind t, and the cell there.
@@ -66,7 +69,7 @@ STEREONAV_INLINE void toSample(const VolumeData& data, const Grid& grid, const R
 // w stands anywhere before the first sample.
 STEREONAV_INLINE Composite compositePacket(const VolumeData& data, const VolumeView& view, const Grid& grid,
                                            const Rays& r, Walk w) {
-    Composite sum{F(0.0f), F(0.0f), F(0.0f), F(1.0f), F(__builtin_inff())};
+    Composite sum{F(0.0f), F(0.0f), F(0.0f), F(1.0f), F(__builtin_inff()), F(0.0f)};
     toSample(data, grid, r, w, w.t, w.active);
     const F unit(grid.data.leapUnit);
     while (any(w.active)) {
@@ -87,6 +90,11 @@ STEREONAV_INLINE Composite compositePacket(const VolumeData& data, const VolumeV
         toSample(data, grid, r, w, w.t + way, w.active);
     }
     return sum;
+}
+
+// Root of the mean square distance behind the first sample that light comes from.
+STEREONAV_INLINE F spreadOf(const Composite& sum) {
+    return sqrt(sum.square * approxReciprocal(max(F(1.0f) - sum.through, F(1e-6f))));
 }
 
 STEREONAV_INLINE I compositeColor(const VolumeData& data, const Composite& sum) {

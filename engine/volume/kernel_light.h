@@ -71,6 +71,16 @@ STEREONAV_INLINE F log2(F x) {
     return mulAdd(u * p, F(1.44269504f), exponent);
 }
 
+// x^n by squaring; n > 0.
+STEREONAV_INLINE F wholePower(F x, int n) {
+    F result(1.0f);
+    for (F square = x;; square = square * square) {
+        if (n & 1) result = result * square;
+        n >>= 1;
+        if (n == 0) return result;
+    }
+}
+
 struct Light {
     F red, green, blue;
 };
@@ -100,7 +110,9 @@ STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const
     // The cosine's square to half the exponent: one reciprocal in place of two square roots.
     const F along = max(dot(n, half), F(0.0f));
     const F aligned = along * along * approxReciprocal(normalSquare * max(dot(half, half), F(1e-12f)));
-    const F power = exp2(log2(clamp(aligned, F(1e-30f), F(1.0f))) * F(0.5f * light.shininess));
+    const F bounded = clamp(aligned, F(1e-30f), F(1.0f));
+    const F power = light.wholeHalf > 0 ? wholePower(bounded, light.wholeHalf)
+                                        : exp2(log2(bounded) * F(0.5f * light.shininess));
     return {diffuse, select(cosine > F(0.0f), power * F(light.specular) * reaches, F(0.0f))};
 }
 

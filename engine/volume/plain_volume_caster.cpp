@@ -243,6 +243,7 @@ PlainComposite compositePlain(const GreyVolume& volume, const VolumeLook& look, 
     const double step = stepVoxels * std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z});
     const double dt = step / glm::length(worldRay.direction);
     const auto tAt = [&](double k) { return worldRay.nearDepth + k * dt; };
+    double square = 0;
     double k = std::ceil((ray.begin - worldRay.nearDepth) / dt);
     for (; result.left >= kLeastLeft && tAt(k) <= ray.end; ++k) {
         const glm::dvec3 voxel = glm::clamp(ray.at(tAt(k)), glm::dvec3(0.0), glm::dvec3(frame.size - 1));
@@ -255,8 +256,11 @@ PlainComposite compositePlain(const GreyVolume& volume, const VolumeLook& look, 
         const glm::dvec3 albedo(look.transfer.at(value).color);
         result.color += result.left * opacity *
                         shadePlain(look, position, plainNormal(volume, voxel), head, worldRay.eye, albedo);
+        const double behind = tAt(k) - result.firstDepth;
+        square += result.left * opacity * behind * behind;
         result.left *= 1 - opacity;
     }
+    if (result.left < 1) result.spread = std::sqrt(square / (1 - result.left));
     return result;
 }
 

@@ -49,7 +49,8 @@ struct PlainComposite {
     glm::dvec3 color{0.0};  // linear RGB, background not included
     double left = 1;        // share of the background that is still seen
     double firstDepth = std::numeric_limits<double>::infinity();  // t of the first sample that is not clear
-    int samples = 0;                                              // taken within the volume
+    double spread = 0;  // root of the mean square distance (in t) behind firstDepth that light comes from
+    int samples = 0;    // taken within the volume
 };
 
 // Front to back along samples at path lengths k * stepVoxels * (smallest spacing), k = 0, 1, ..., from

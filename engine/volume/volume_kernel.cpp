@@ -74,6 +74,7 @@ struct Packet {
     struct Result {
         F depth;
         I color, normal;
+        F spread;  // translucent alone
     };
     STEREONAV_INLINE Result cast(F x, F y, F start, M lanes, bool wantNormal) const {
         const Rays r = makeRays(view, x, y);
@@ -82,7 +83,7 @@ struct Packet {
                              : startOutside(grid, r, max(start, nearest), lanes);
         if (data.transfer.extinction) {
             const Composite sum = compositePacket(data, view, grid, r, w);
-            return {sum.first, compositeColor(data, sum), I(0)};
+            return {sum.first, compositeColor(data, sum), I(0), spreadOf(sum)};
         }
         Hits hits = noHits();
         while (any(w.active)) advance(grid, r, nearest, w, hits);
@@ -103,7 +104,7 @@ struct Packet {
     }
     STEREONAV_INLINE Result shaded(const Rays& r, const Hits& hits, bool wantNormal) const {
         const Channels n = mixCorners(grid.data.records + 4, hits.word, hits.local, hits.hit);
-        Result result{hits.t, surfaceColor(data, view, r, hits.t, directionOf(n), hits.hit), I(0)};
+        Result result{hits.t, surfaceColor(data, view, r, hits.t, directionOf(n), hits.hit), I(0), F(0.0f)};
         if (wantNormal) result.normal = closeChannels(n);
         return result;
     }
@@ -190,11 +191,12 @@ private:
     }
 
     STEREONAV_INLINE void put(int x, int y, const VolumeRect& rect, const Packet::Result& result) {
-        alignas(64) float depth[kLanes];
+        alignas(64) float depth[kLanes], spread[kLanes];
         alignas(64) std::uint32_t color[kLanes], normal[kLanes];
         store(depth, result.depth);
         store(color, result.color);
         store(normal, result.normal);
+        store(spread, result.spread);
         const int columns = rect.x1 - x < kPacketX ? rect.x1 - x : kPacketX;
         const int rows = rect.y1 - y < kPacketY ? rect.y1 - y : kPacketY;
         for (int j = 0; j < rows; ++j) {
@@ -202,6 +204,9 @@ private:
             copyRow(mTarget.color + (y + j) * mTarget.colorStride + x, color + j * kPacketX, columns);
             if (mTarget.normal)
                 copyRow(mTarget.normal + (y + j) * mTarget.normalStride + x, normal + j * kPacketX, columns);
+            if (mTarget.depthSpread)
+                copyRow(mTarget.depthSpread + (y + j) * mTarget.depthStride + x, spread + j * kPacketX,
+                        columns);
         }
     }
 

@@ -22,6 +22,7 @@ struct CellData {
 struct LightData {
     float albedo[3] = {}, background[3] = {};
     float ambient = 0, diffuse = 0, specular = 0, shininess = 1;
+    int wholeHalf = 0;                // half the shininess where that is a whole number: cheaper; else 0
     float inverseFalloffSquared = 0;  // 1 / metres^2
 };
 
@@ -58,6 +59,7 @@ struct VolumeTarget {
     std::uint32_t* color = nullptr;
     float* depth = nullptr;
     std::uint32_t* normal = nullptr;  // null: not wanted
+    float* depthSpread = nullptr;     // of rectangles, translucent; as depth; null: not wanted
     std::int64_t colorStride = 0, depthStride = 0, normalStride = 0;
 };
 

@@ -45,6 +45,8 @@ LightData lightDataOf(const VolumeLook& look) {
     d.diffuse = look.diffuse;
     d.specular = look.specular;
     d.shininess = look.shininess;
+    const float half = 0.5f * look.shininess;
+    d.wholeHalf = half >= 1 && half <= 1024 && half == std::floor(half) ? static_cast<int>(half) : 0;
     d.inverseFalloffSquared = look.falloff > 0 ? 1 / (look.falloff * look.falloff) : 0.0f;
     return d;
 }
@@ -59,9 +61,13 @@ VolumeRect tileRect(const EyeView& view, int tile) {
 }
 
 VolumeTarget targetOf(EyeImage& image) {
-    return {
-        image.color.row(0),   image.viewDepth.row(0),   image.normal.empty() ? nullptr : image.normal.row(0),
-        image.color.stride(), image.viewDepth.stride(), image.normal.stride()};
+    return {image.color.row(0),
+            image.viewDepth.row(0),
+            image.normal.empty() ? nullptr : image.normal.row(0),
+            image.depthSpread.empty() ? nullptr : image.depthSpread.row(0),
+            image.color.stride(),
+            image.viewDepth.stride(),
+            image.normal.stride()};
 }
 
 VolumeView makeVolumeView(const EyeView& view, const VolumeFrame& frame) {
@@ -215,7 +221,8 @@ bool VolumeRenderer::mayHitBeyondEdge(const EyeView& view, PixelRect rect, doubl
 }
 
 ViewDependence VolumeRenderer::viewDependence() const {
-    const bool again = mState->shadeAgain && !translucent() && mScene.look.specular > 0;
+    if (translucent()) return ViewDependence::Depths;
+    const bool again = mState->shadeAgain && mScene.look.specular > 0;
     return again ? ViewDependence::Normal : ViewDependence::None;
 }
 

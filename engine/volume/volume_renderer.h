@@ -26,7 +26,7 @@ public:
     void renderTile(const EyeView& view, int tile, EyeImage& image) const override;
     void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
                       EyeImage& image) const override;
-    bool startsAtKnownDepth() const override { return true; }
+    bool startsAtKnownDepth() const override { return !translucent(); }
     bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
                           double parallaxScale) const override;
     ViewDependence viewDependence() const override;

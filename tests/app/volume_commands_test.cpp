@@ -85,7 +85,7 @@ TEST_F(VolumeCommands, EveryCommandTakesAStudy) {
         const Json json = Json::parse(contentOf(place() / "a.json"));
         for (const Json& method : json.at("methods")) names.push_back(method.at("name"));
         const std::vector<std::string> wanted =
-            scene.size() == 3 ? std::vector<std::string>{"full", "linear", "depthsplat"}
+            scene.size() == 3 ? std::vector<std::string>{"full", "linear", "selective", "depthsplat"}
                               : std::vector<std::string>{"full", "paper", "linear", "mcmillan", "nofill"};
         EXPECT_EQ(names, wanted);
         fs::remove_all(place());

@@ -169,7 +169,7 @@ int run(bool marksOnly, const std::string& study) {
 
     options.opacity = 0.95;
     const ColonScene glass = loadColon(options, progress);
-    marks["right_vs_full_translucent"] = rightShare(glass, RightEyeMethod::DepthSplat);
+    marks["right_vs_full_translucent"] = rightShare(glass, RightEyeMethod::Selective);
     if (marksOnly) {
         std::printf("%s\n", marks.dump().c_str());
         return 0;
@@ -182,8 +182,8 @@ int run(bool marksOnly, const std::string& study) {
         left.shaded_ms);
     std::printf("distance transform of %dx%dx%d, %d threads: %.0f ms\n", full.frame.size.x, full.frame.size.y,
                 full.frame.size.z, threads, edt_ms);
-    std::printf("translucent right eye by linear: %.3f of a full cast\n",
-                rightShare(glass, RightEyeMethod::Linear));
+    std::printf("translucent right eye: by linear %.3f of a full cast, by depthsplat %.3f\n",
+                rightShare(glass, RightEyeMethod::Linear), rightShare(glass, RightEyeMethod::DepthSplat));
     std::printf("%s\n", marks.dump(2).c_str());
     return 0;
 }

@@ -80,7 +80,11 @@ TEST(FramePlan, MeasuresThatASlowSceneIsWarpedAndAnInstantOneCast) {
 TEST(FramePlan, ATranslucentSceneIsWeighedByItsOwnMethod) {
     const std::vector<StereoViews> views(2, viewsOf(160, 120));
     const test::GlassScene scene({test::sphere({0, 6, 0}, 1.0)}, test::plane({0, 20, 0}, {0, -1, 0}));
-    const FramePlan plan = planFrame(scene, views);
+    const FramePlan usual = planFrame(scene, views);
+    EXPECT_NE(usual.reason.find("selective takes"), std::string::npos) << usual.reason;
+    EXPECT_LT(usual.costs.holeShare, 1.0);
+    EXPECT_EQ(usual.bytes, frameBytes(160, 120, ViewDependence::Depths));
+    const FramePlan plan = planFrame(scene, views, RightEyeMethod::DepthSplat);
     EXPECT_NE(plan.reason.find("depthsplat takes"), std::string::npos) << plan.reason;
     EXPECT_EQ(plan.costs.holeShare, 1.0) << "every pixel is cast";
     EXPECT_NEAR(plan.warpRight_ms, (plan.costs.warp_ns + plan.costs.hole_ns) * 160 * 120 * 1e-6, 1e-9);

@@ -213,15 +213,44 @@ TEST(DepthSplat, warpingColorsServesDenseGlassOnly) {
     EXPECT_EQ(errorOf(0.35, RightEyeMethod::DepthSplat), 0);
 }
 
-TEST(DepthSplat, isTheDefaultOfTranslucentScenes) {
-    EXPECT_EQ(defaultMethodFor(shellBeforeWall()), RightEyeMethod::DepthSplat);
+// Where layers are seen through each other every ray is cast, and is right; the rest is warped.
+TEST(Selective, castsWhereDepthsShiftApart) {
+    const StereoViews views = viewsOf(320, 240, 0.3);
+    const GlassScene scene({sphere({-0.6, 0.3, -5}, 1.2), sphereFromInside({-0.6, 0.3, -5}, 1.2)},
+                           plane({0, 0, -12}, {0.2, 0.3, 1}), 3.0, 0.35);
+    const EyeImage left = castEye(scene, views.left), full = castEye(scene, views.right);
+    const auto render = [&](RightEyeMethod method, float most) {
+        WarpSetting setting;
+        setting.method = method;
+        setting.mostSpread = most;
+        EyeImage right;
+        RightEye eye;
+        const RightEyeTimings timings = eye.render(scene, views, left, setting, right);
+        return std::pair{meanSquare(right, full), timings.holePixels};
+    };
+    const auto [linearError, linearRays] = render(RightEyeMethod::Linear, 0);
+    const auto [error, rays] = render(RightEyeMethod::Selective, 0.7f);
+    EXPECT_LT(error, linearError / 20);
+    EXPECT_GT(rays, linearRays);
+    EXPECT_LT(rays, 320 * 240 / 3);  // the sphere covers about a quarter
+    // No spread counts: linear. Any counts: at the sphere nothing is warped.
+    EXPECT_EQ(render(RightEyeMethod::Selective, 1e9f).first, linearError);
+    EXPECT_LE(render(RightEyeMethod::Selective, 0).first, error);
+}
+
+TEST(Selective, isTheDefaultOfTranslucentScenes) {
+    EXPECT_EQ(defaultMethodFor(shellBeforeWall()), RightEyeMethod::Selective);
     EXPECT_EQ(methodsFor(shellBeforeWall()),
-              (std::vector{RightEyeMethod::Full, RightEyeMethod::Linear, RightEyeMethod::DepthSplat}));
+              (std::vector{RightEyeMethod::Full, RightEyeMethod::Linear, RightEyeMethod::Selective,
+                           RightEyeMethod::DepthSplat}));
     const AnalyticScene opaque({});
     EXPECT_EQ(defaultMethodFor(opaque), kDefaultRightEyeMethod);
     const std::vector<RightEyeMethod> methods = methodsFor(opaque);
-    EXPECT_EQ(methods.size(), kRightEyeMethods.size() - 1);
-    for (const RightEyeMethod method : methods) EXPECT_NE(method, RightEyeMethod::DepthSplat);
+    EXPECT_EQ(methods.size(), kRightEyeMethods.size() - 2);
+    for (const RightEyeMethod method : methods) {
+        EXPECT_NE(method, RightEyeMethod::DepthSplat);
+        EXPECT_NE(method, RightEyeMethod::Selective);
+    }
 }
 
 std::vector<float> shortened(std::vector<float> depth, float share, float rangeShare) {

@@ -27,7 +27,7 @@ std::uint32_t gray(int level) {
 // Everything a row needs, owned.
 struct RowBuffers {
     explicit RowBuffers(int w)
-        : width(w), leftColor(w, 1), color(w, 1), leftDepth(w, 1), depth(w, 1), holes(w, 1) {
+        : width(w), leftColor(w, 1), color(w, 1), leftDepth(w, 1), depth(w, 1), spread(w, 1), holes(w, 1) {
         for (auto* floats : {&column, &inverse}) floats->assign(w + kRowPadding, 0.0f);
         source.assign(w + kRowPadding, 0);
         survivors.assign(w + kRowPadding, 0);
@@ -78,7 +78,7 @@ struct RowBuffers {
 
     int width;
     Plane<std::uint32_t> leftColor, color;
-    Plane<float> leftDepth, depth;
+    Plane<float> leftDepth, depth, spread;
     Plane<std::uint8_t> holes;
     std::vector<float> column, inverse, accumulators;
     std::vector<std::int32_t> source;
@@ -98,6 +98,7 @@ void fillRandomly(RowBuffers& row, std::mt19937& random, double skyShare) {
         const bool spike = unit(random) < 0.01;
         row.leftDepth.at(i, 0) = sky ? kSky : static_cast<float>(spike ? 1.0 : depth);
         row.leftColor.at(i, 0) = static_cast<std::uint32_t>(random()) & 0x3fffffffu;
+        row.spread.at(i, 0) = unit(random) < 0.3 ? static_cast<float>(unit(random) * depth) : 0.0f;
     }
 }
 
@@ -134,14 +135,19 @@ void compareWithOracle(const NamedResampler& kernel) {
     std::mt19937 random(1);
     long long warped = 0, holes = 0;
     for (const KernelCase& c : kernelCases())
-        for (int mode = 0; mode < 12; ++mode) {
-            const bool cubic = mode % 2 == 1, surface = mode >= 6;
+        for (int mode = 0; mode < 18; ++mode) {
+            const bool cubic = mode % 2 == 1, surface = mode / 6 == 1, spreads = mode / 6 == 2;
             const int reach = cubic ? 2 : mode / 2 % 3;
             RowBuffers oracle(c.width);
             fillRandomly(oracle, random, c.skyShare);
             RowBuffers actual = oracle;
-            resampleRowOracle(oracle.resample(c.shift, c.scale, cubic, reach, surface));
-            kernel.function(actual.resample(c.shift, c.scale, cubic, reach, surface));
+            const auto rowOf = [&](RowBuffers& buffers) {
+                ResampleRow row = buffers.resample(c.shift, c.scale, cubic, reach, surface);
+                if (spreads) row.leftSpread = buffers.spread.row(0), row.mostSpread = 0.5f;
+                return row;
+            };
+            resampleRowOracle(rowOf(oracle));
+            kernel.function(rowOf(actual));
             for (int p = 0; p < c.width; ++p) ++(oracle.hole(p) ? holes : warped);
             expectSameRow(oracle, actual,
                           "width " + std::to_string(c.width) + " scale " + std::to_string(c.scale));

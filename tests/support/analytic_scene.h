@@ -263,6 +263,7 @@ public:
           mOpacity(opacity) {}
 
     bool translucent() const override { return true; }
+    ViewDependence viewDependence() const override { return ViewDependence::Depths; }
 
     void renderTileFromDepth(const EyeView& view, int tile, EyeImage& image) const override {
         for (int x = 0; x < view.width; ++x) {
@@ -298,13 +299,18 @@ private:
         std::sort(layers.begin(), layers.end(),
                   [](const SurfacePoint& a, const SurfacePoint& b) { return a.depth < b.depth; });
         glm::dvec3 color(0.0);
-        double through = 1;
+        double through = 1, square = 0;
         for (const SurfacePoint& layer : layers) {
             const double slope = std::abs(glm::dot(layer.normal, glm::normalize(direction)));
             const double share = layer.shape == wall ? 1.0 : 1 - std::pow(1 - mOpacity, 1 / (0.1 + slope));
             color += through * share * baseColor(view, x + 0.5, y + 0.5, layer);
+            const double behind = layer.depth - layers.front().depth;
+            square += through * share * behind * behind;
             through *= 1 - share;
         }
+        if (!image.depthSpread.empty())
+            image.depthSpread.at(x, y) =
+                through < 1 ? static_cast<float>(std::sqrt(square / (1 - through))) : 0.0f;
         color += through * baseColor(view, x + 0.5, y + 0.5, SurfacePoint{});
         image.color.at(x, y) = packColor(glm::vec3(color));
         image.viewDepth.at(x, y) = layers.empty() ? kMissDepth : static_cast<float>(layers.front().depth);

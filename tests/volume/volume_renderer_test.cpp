@@ -329,6 +329,9 @@ TEST(VolumeRenderer, CompositesAsThePlainCompositor) {
                         channelDifference(image.color.at(x, y), packColor(glm::vec3(truth.color)));
                     sum += difference;
                     large += difference > 12;
+                    // A sample more or less at the end, of less than 1/1024 of the light.
+                    EXPECT_NEAR(image.depthSpread.at(x, y), truth.spread, 0.02 * truth.spread + 1e-5)
+                        << opacity << " " << x << " " << y;
                 }
             std::printf("opacity %g: mean difference %g steps of 1023, %d above 12\n", opacity, sum / 1440.0,
                         large);
