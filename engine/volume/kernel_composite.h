@@ -45,12 +45,12 @@ STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, 
     if (!any(seen)) return;
     const I color = gather(transfer.color, entry, seen);
     const V3 n = directionOf(mixCorners(grid.data.records + 4, word, local, seen));
-    const Lit lit = litBy(data, view, r, w.t, n);
+    const Falling lit = fallingOn(data, view, r, w.t, n, F(1.0f), seen);
     const F passes = exp2(density * F(-1.44269504f * transfer.step));
     const F share = select(seen, sum.through * (F(1.0f) - passes), F(0.0f));
-    sum.red = mulAdd(share, mulAdd(lit.diffuse, channelAt(color, 0), lit.highlight), sum.red);
-    sum.green = mulAdd(share, mulAdd(lit.diffuse, channelAt(color, 10), lit.highlight), sum.green);
-    sum.blue = mulAdd(share, mulAdd(lit.diffuse, channelAt(color, 20), lit.highlight), sum.blue);
+    sum.red = mulAdd(share, mulAdd(lit.diffuse.red, channelAt(color, 0), lit.highlight), sum.red);
+    sum.green = mulAdd(share, mulAdd(lit.diffuse.green, channelAt(color, 10), lit.highlight), sum.green);
+    sum.blue = mulAdd(share, mulAdd(lit.diffuse.blue, channelAt(color, 20), lit.highlight), sum.blue);
     sum.through = sum.through - share;
     sum.first = select(seen, min(sum.first, w.t), sum.first);
     const F behind = select(seen, w.t - sum.first, F(0.0f));

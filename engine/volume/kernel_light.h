@@ -1,6 +1,7 @@
 // Normals from the corners of cells, and Blinn-Phong under a lamp at the head. Included by kernels only.
 #pragma once
 
+#include "engine/volume/kernel_baked.h"
 #include "engine/volume/kernel_cell.h"
 
 namespace stereonav::STEREONAV_ISA {
@@ -86,11 +87,11 @@ struct Light {
 };
 
 // The lamp's share that reaches a point and what the surface sends to the eye: factor * (albedo * diffuse
-// part + highlight). t: view depth; normals of any length but 0.
+// part + highlight). t: view depth; normals of any length but 0; lit: share of the lamp that is seen.
 struct Lit {
     F diffuse, highlight;
 };
-STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const Rays& r, F t, V3 n) {
+STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const Rays& r, F t, V3 n, F lit) {
     const auto world = [&](int k) {
         return mulAdd(r.windowX, F(view.right[k]), mulAdd(r.windowY, F(view.up[k]), F(view.forward[k])));
     };
@@ -102,7 +103,9 @@ STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const
     const F cosine = dot(n, lamp) * inverse * approxRsqrt(normalSquare);
     const LightData& light = data.light;
     const F reaches = approxReciprocal(mulAdd(square, F(light.inverseFalloffSquared), F(1.0f)));
-    const F diffuse = mulAdd(F(light.diffuse), max(cosine, F(0.0f)), F(light.ambient)) * reaches;
+    const F up = n.z * approxRsqrt(normalSquare) * F(light.varyingAmbient);
+    const F ambient = mulAdd(F(light.ambient), up, F(light.ambient));
+    const F diffuse = mulAdd(F(light.diffuse), max(cosine, F(0.0f)) * lit, ambient) * reaches;
     if (!(light.specular > 0)) return {diffuse, F(0.0f)};
     const F toEye = F(0.0f) - r.perMetre;
     const V3 half{mulAdd(lamp.x, inverse, way.x * toEye), mulAdd(lamp.y, inverse, way.y * toEye),
@@ -113,7 +116,7 @@ STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const
     const F bounded = clamp(aligned, F(1e-30f), F(1.0f));
     const F power = light.wholeHalf > 0 ? wholePower(bounded, light.wholeHalf)
                                         : exp2(log2(bounded) * F(0.5f * light.shininess));
-    return {diffuse, select(cosine > F(0.0f), power * F(light.specular) * reaches, F(0.0f))};
+    return {diffuse, select(cosine > F(0.0f), power * F(light.specular) * reaches * lit, F(0.0f))};
 }
 
 // Linear light in one channel to a packed channel.
@@ -129,14 +132,52 @@ STEREONAV_INLINE Light backgroundOf(const LightData& light) {
     return {F(light.background[0]), F(light.background[1]), F(light.background[2])};
 }
 
-STEREONAV_INLINE I surfaceColor(const VolumeData& data, const VolumeView& view, const Rays& r, F t,
-                                const V3& n, M hit) {
+// What falls onto a surface, of each colour, and the highlight on it.
+struct Falling {
+    Light diffuse;
+    F highlight;
+};
+STEREONAV_INLINE Falling fallingOn(const VolumeData& data, const VolumeView& view, const Rays& r, F t,
+                                   const V3& n, F lit, M m) {
+    if (!data.baked.texels) {
+        const Lit lamp = litBy(data, view, r, t, n, lit);
+        return {{lamp.diffuse, lamp.diffuse, lamp.diffuse}, lamp.highlight};
+    }
+    const auto voxel = [&](int k, F direction) {
+        return mulAdd(t, direction, F(view.eye[k])) + F(static_cast<float>(view.base[k]));
+    };
+    const BakedLight baked =
+        bakedAt(data.baked, {voxel(0, r.direction.x), voxel(1, r.direction.y), voxel(2, r.direction.z)}, m);
+    const M known = m & (baked.known > F(0.0f));
+    if (data.baked.openness) {
+        const Lit lamp = litBy(data, view, r, t, n, lit);
+        const F open = select(known, baked.red, F(1.0f)), light = lamp.diffuse * open;
+        return {{light, light, light}, lamp.highlight * open};
+    }
+    if (!(data.baked.lampShare > 0) && !any(andNot(m, known)))
+        return {{baked.red, baked.green, baked.blue}, F(0.0f)};
+    const Lit lamp = litBy(data, view, r, t, n, lit);
+    const F share = select(known, F(data.baked.lampShare), F(1.0f)), zero(0.0f);
+    const auto both = [&](F light) { return mulAdd(share, lamp.diffuse, select(known, light, zero)); };
+    return {{both(baked.red), both(baked.green), both(baked.blue)}, share * lamp.highlight};
+}
+
+// lit: share of the lamp that a hit sees.
+STEREONAV_INLINE I surfaceColor(const VolumeData& data, const VolumeView& view, const Rays& r, F depth,
+                                const V3& n, F lit, M hit) {
     const LightData& light = data.light;
-    const Lit lit = litBy(data, view, r, select(hit, t, F(1.0f)), n);
-    const I color = packLight({mulAdd(lit.diffuse, F(light.albedo[0]), lit.highlight),
-                               mulAdd(lit.diffuse, F(light.albedo[1]), lit.highlight),
-                               mulAdd(lit.diffuse, F(light.albedo[2]), lit.highlight)});
-    return select(hit, color, packLight(backgroundOf(light)));
+    const F t = select(hit, depth, F(1.0f));
+    const Falling falling = fallingOn(data, view, r, t, n, lit, hit);
+    Light sent{mulAdd(falling.diffuse.red, F(light.albedo[0]), falling.highlight),
+               mulAdd(falling.diffuse.green, F(light.albedo[1]), falling.highlight),
+               mulAdd(falling.diffuse.blue, F(light.albedo[2]), falling.highlight)};
+    const Light behind = backgroundOf(light);
+    if (light.inverseFog > 0) {
+        const F through = exp2(t * approxReciprocal(r.perMetre) * F(-1.44269504f * light.inverseFog));
+        sent = {lerp(behind.red, sent.red, through), lerp(behind.green, sent.green, through),
+                lerp(behind.blue, sent.blue, through)};
+    }
+    return select(hit, packLight(sent), packLight(behind));
 }
 
 }  // namespace stereonav::STEREONAV_ISA

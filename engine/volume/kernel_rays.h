@@ -33,27 +33,31 @@ STEREONAV_INLINE F awayFromZero(F d) {
     return select(abs(d) < tiny, select(d < F(0.0f), F(-1e-12f), tiny), d);
 }
 
+// All that follows from the direction; eye: where the rays start, in its cell.
+STEREONAV_INLINE void setDirection(Rays& r, const V3& direction, const float* eye) {
+    const F zero(0.0f), one(1.0f);
+    r.direction = direction;
+    r.inverse = {one / direction.x, one / direction.y, one / direction.z};
+    const auto forward = [&](F d) { return d > zero; };
+    r.stepX = select(forward(direction.x), I(1), I(-1));
+    r.stepY = select(forward(direction.y), I(1), I(-1));
+    r.stepZ = select(forward(direction.z), I(1), I(-1));
+    const auto plane = [&](F d, F inverse, float start) {
+        return (select(forward(d), one, zero) - F(start)) * inverse;
+    };
+    r.farAtEye = {plane(direction.x, r.inverse.x, eye[0]), plane(direction.y, r.inverse.y, eye[1]),
+                  plane(direction.z, r.inverse.z, eye[2])};
+}
+
 // x, y: pixels, whose centres the rays go through.
 STEREONAV_INLINE Rays makeRays(const VolumeView& view, F x, F y) {
     Rays r;
-    const F zero(0.0f), one(1.0f);
     const auto along = [&](int k) {
         return awayFromZero(
             mulAdd(x, F(static_cast<float>(view.perX[k])),
                    mulAdd(y, F(static_cast<float>(view.perY[k])), F(static_cast<float>(view.direction[k])))));
     };
-    r.direction = {along(0), along(1), along(2)};
-    r.inverse = {one / r.direction.x, one / r.direction.y, one / r.direction.z};
-    const auto forward = [&](F d) { return d > zero; };
-    r.stepX = select(forward(r.direction.x), I(1), I(-1));
-    r.stepY = select(forward(r.direction.y), I(1), I(-1));
-    r.stepZ = select(forward(r.direction.z), I(1), I(-1));
-    const auto plane = [&](F d, F inverse, float eye) {
-        return (select(forward(d), one, zero) - F(eye)) * inverse;
-    };
-    r.farAtEye = {plane(r.direction.x, r.inverse.x, view.eye[0]),
-                  plane(r.direction.y, r.inverse.y, view.eye[1]),
-                  plane(r.direction.z, r.inverse.z, view.eye[2])};
+    setDirection(r, {along(0), along(1), along(2)}, view.eye);
     r.windowX = mulAdd(x + F(0.5f), F(view.pixelWidth), F(view.xMin));
     r.windowY = mulAdd(y + F(0.5f), F(-view.pixelHeight), F(view.yMax));
     r.perMetre = approxRsqrt(mulAdd(r.windowX, r.windowX, mulAdd(r.windowY, r.windowY, F(1.0f))));
@@ -64,14 +68,15 @@ struct Grid {
     const CellData& data;
     F eyeX, eyeY, eyeZ;
     I baseX, baseY, baseZ, lastX, lastY, lastZ;
-    STEREONAV_INLINE Grid(const CellData& cells, const VolumeView& view)
+    STEREONAV_INLINE Grid(const CellData& cells, const VolumeView& view) : Grid(cells, view.base, view.eye) {}
+    STEREONAV_INLINE Grid(const CellData& cells, const std::int32_t* base, const float* eye)
         : data(cells),
-          eyeX(view.eye[0]),
-          eyeY(view.eye[1]),
-          eyeZ(view.eye[2]),
-          baseX(view.base[0]),
-          baseY(view.base[1]),
-          baseZ(view.base[2]),
+          eyeX(eye[0]),
+          eyeY(eye[1]),
+          eyeZ(eye[2]),
+          baseX(base[0]),
+          baseY(base[1]),
+          baseZ(base[2]),
           lastX(cells.last[0]),
           lastY(cells.last[1]),
           lastZ(cells.last[2]) {}

@@ -10,6 +10,7 @@ namespace {
 constexpr int kBlock = 4;  // pixels a side of a beam
 constexpr int kPacketX = 4, kPacketY = kLanes / 4;
 constexpr int kLargestSide = 64;          // of a rectangle that is cast at once
+constexpr float kLifted = 1.0f;           // voxels: a shadow's end before the surface
 constexpr float kInFront = 1.0f - 4e-6f;  // for the rounding of a beam's end
 
 STEREONAV_INLINE Walk startAt(const Grid& grid, const Rays& r, F t, M lanes) {
@@ -102,9 +103,38 @@ struct Packet {
         while (any(w[0].active | w[1].active)) advancePair(grid, r, nearest, w, hits);
         for (int k = 0; k < 2; ++k) result[k] = shaded(r[k], hits[k], wantNormal);
     }
+    // 0 where something lies between a hit and the lamp. Rays go from the lamp, which they share, and end a
+    // little before the hit, so that the surface does not shade itself.
+    F litShare(const Rays& r, const Hits& hits) const {
+        if (!data.light.shadows) return F(1.0f);
+        const auto place = [&](int k, F direction) {
+            const F offset = F(static_cast<float>(view.base[k] - view.lampBase[k])) - F(view.lampEye[k]);
+            return awayFromZero(mulAdd(select(hits.hit, hits.t, F(1.0f)), direction, F(view.eye[k])) +
+                                offset);
+        };
+        Rays from;
+        setDirection(from, {place(0, r.direction.x), place(1, r.direction.y), place(2, r.direction.z)},
+                     view.lampEye);
+        // t is the share of the way here.
+        const F voxels = sqrt(dot(from.direction, from.direction));
+        const F end = F(1.0f) - F(kLifted) * approxReciprocal(voxels);
+        // Metres are the smallest of what they can be along the axes: leaps stay short enough.
+        from.perMetre = approxReciprocal(voxels * F(data.light.largestSpacing));
+        const Grid lamp(data.cells, view.lampBase, view.lampEye);
+        Walk w = view.lampInside ? startAt(lamp, from, F(0.0f), hits.hit)
+                                 : startOutside(lamp, from, F(0.0f), hits.hit);
+        Hits shade = noHits();
+        while (any(w.active)) {
+            advance(lamp, from, F(0.0f), w, shade);
+            w.active = w.active & (w.t < end);
+        }
+        return select(shade.t < end, F(0.0f), F(1.0f));
+    }
     STEREONAV_INLINE Result shaded(const Rays& r, const Hits& hits, bool wantNormal) const {
         const Channels n = mixCorners(grid.data.records + 4, hits.word, hits.local, hits.hit);
-        Result result{hits.t, surfaceColor(data, view, r, hits.t, directionOf(n), hits.hit), I(0), F(0.0f)};
+        Result result{hits.t,
+                      surfaceColor(data, view, r, hits.t, directionOf(n), litShare(r, hits), hits.hit), I(0),
+                      F(0.0f)};
         if (wantNormal) result.normal = closeChannels(n);
         return result;
     }
@@ -362,7 +392,7 @@ void shadeRow(const VolumeData& data, const VolumeView& view, int y, int x0, int
         const M lanes = firstLanes(x1 - x) & (t > F(0.0f));
         const V3 n = directionOf(openChannels(loadI(normal + x)));
         const M hit = lanes & (t < F(__builtin_inff()));
-        store(color + x, surfaceColor(data, view, r, t, n, hit), lanes);
+        store(color + x, surfaceColor(data, view, r, t, n, F(1.0f), hit), lanes);
     }
 }
 

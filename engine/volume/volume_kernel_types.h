@@ -18,12 +18,25 @@ struct CellData {
     bool leaping = true;
 };
 
+// An illumination volume; places in voxels of the scene's grid.
+struct BakedData {
+    const std::uint32_t* texels = nullptr;  // two words each; null: none
+    std::int32_t brickStride[3] = {};       // texels from a brick to the next along each axis
+    std::int32_t last[3] = {};              // the last texel
+    float offset[3] = {}, perVoxel[3] = {};
+    bool openness = false;
+    float lampShare = 0;
+};
+
 // Linear RGB; see volume_look.h.
 struct LightData {
     float albedo[3] = {}, background[3] = {};
     float ambient = 0, diffuse = 0, specular = 0, shininess = 1;
     int wholeHalf = 0;                // half the shininess where that is a whole number: cheaper; else 0
     float inverseFalloffSquared = 0;  // 1 / metres^2
+    bool shadows = false;
+    float largestSpacing = 0;                  // metres
+    float varyingAmbient = 0, inverseFog = 0;  // 1 / metres
 };
 
 // Colour and density by value: entry (value - first) * scale, linear between entries.
@@ -38,6 +51,7 @@ struct TransferData {
 struct VolumeData {
     CellData cells;
     LightData light;
+    BakedData baked;
     TransferData transfer;  // extinction null: the surface alone
 };
 
@@ -51,6 +65,10 @@ struct VolumeView {
     float forward[3] = {}, right[3] = {}, up[3] = {};  // world
     float xMin = 0, yMax = 0, pixelWidth = 0, pixelHeight = 0;  // window at unit depth
     float head[3] = {};                                         // world, from the eye: where the lamp is
+    // The lamp where it casts shadows: as base and eye.
+    std::int32_t lampBase[3] = {};
+    float lampEye[3] = {};
+    bool lampInside = false;
     float nearDepth = 0;
     bool inside = false;  // the eye lies in the volume
 };

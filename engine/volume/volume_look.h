@@ -3,10 +3,26 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
 
+#include "engine/volume/illumination_volume.h"
 #include "engine/volume/transfer_function.h"
 
 namespace stereonav {
+
+// Light that was computed beforehand, and what it stands for. Where no texel around a point is known the lamp
+// shows it, as if nothing were baked.
+struct BakedLook {
+    enum class Use {
+        Irradiance,  // all the light there is, beside lampShare of the lamp
+        Openness     // weakens the lamp: its light, ambient and direct, times the openness
+    };
+    std::shared_ptr<const IlluminationVolume> light;  // null: none
+    Use use = Use::Irradiance;
+    float lampShare = 0;  // of the lamp that is added to irradiance
+    IlluminationVolume::Lookup lookup = IlluminationVolume::Lookup::Trilinear;  // others: slow, to compare
+};
 
 struct VolumeLook {
     glm::vec3 surface{0.75f, 0.42f, 0.34f};  // linear RGB albedo
@@ -16,6 +32,11 @@ struct VolumeLook {
     float specular = 0.18f, shininess = 24.0f;  // Blinn-Phong
     // The lamp's light falls off as 1 / (1 + (d / falloff)^2); 0: does not fall off. Metres.
     float falloff = 0.06f;
+    std::optional<glm::dvec3> lampAt;  // world; none: at the head
+    bool shadows = false;              // hard, of a lamp at lampAt; of opaque surfaces
+    float varyingAmbient = 0;          // ambient light grows by this share towards +z and falls towards -z
+    float fog = 0;                     // metres in which all but 1/e is lost in the background; 0: no fog
+    BakedLook baked;
     TransferFunction transfer;  // empty: the opaque surface alone
 };
 

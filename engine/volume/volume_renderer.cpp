@@ -35,7 +35,26 @@ CellData cellDataOf(const SurfaceCells& cells, bool leaping) {
     return d;
 }
 
-LightData lightDataOf(const VolumeLook& look) {
+BakedData bakedDataOf(const BakedLook& look, const VolumeFrame& frame) {
+    BakedData d;
+    if (!look.light || look.light->empty()) return d;
+    const IlluminationVolume& light = *look.light;
+    d.texels = reinterpret_cast<const std::uint32_t*>(light.texels.data());
+    const glm::dvec3 offset = frame.voxelFromWorld(light.frame.origin);
+    const glm::ivec3 bricks = light.layout.bricks;
+    const int strides[3] = {512, 512 * bricks.x, 512 * bricks.x * bricks.y};
+    for (int k = 0; k < 3; ++k) {
+        d.brickStride[k] = strides[k];
+        d.last[k] = light.frame.size[k] - 1;
+        d.offset[k] = static_cast<float>(offset[k]);
+        d.perVoxel[k] = static_cast<float>(frame.spacing[k] / light.frame.spacing[k]);
+    }
+    d.openness = look.use == BakedLook::Use::Openness;
+    d.lampShare = look.lampShare;
+    return d;
+}
+
+LightData lightDataOf(const VolumeLook& look, const VolumeFrame& frame) {
     LightData d;
     for (int k = 0; k < 3; ++k) {
         d.albedo[k] = look.surface[k];
@@ -47,6 +66,10 @@ LightData lightDataOf(const VolumeLook& look) {
     d.shininess = look.shininess;
     const float half = 0.5f * look.shininess;
     d.wholeHalf = half >= 1 && half <= 1024 && half == std::floor(half) ? static_cast<int>(half) : 0;
+    d.shadows = look.shadows && look.lampAt;
+    d.largestSpacing = static_cast<float>(std::max({frame.spacing.x, frame.spacing.y, frame.spacing.z}));
+    d.varyingAmbient = look.varyingAmbient;
+    d.inverseFog = look.fog > 0 ? 1 / look.fog : 0.0f;
     d.inverseFalloffSquared = look.falloff > 0 ? 1 / (look.falloff * look.falloff) : 0.0f;
     return d;
 }
@@ -70,14 +93,27 @@ VolumeTarget targetOf(EyeImage& image) {
             image.normal.stride()};
 }
 
-VolumeView makeVolumeView(const EyeView& view, const VolumeFrame& frame) {
+void setLamp(VolumeView& v, const glm::dvec3& world, const VolumeFrame& frame) {
+    const glm::dvec3 lamp = frame.voxelFromWorld(world);
+    const glm::dvec3 cell = glm::clamp(glm::floor(lamp), glm::dvec3(-1e6), glm::dvec3(1e6));
+    v.lampInside = true;
+    for (int k = 0; k < 3; ++k) {
+        v.lampBase[k] = static_cast<std::int32_t>(cell[k]);
+        v.lampEye[k] = static_cast<float>(lamp[k] - cell[k]);
+        v.lampInside = v.lampInside && lamp[k] >= 0 && lamp[k] <= frame.size[k] - 1;
+    }
+}
+
+VolumeView makeVolumeView(const EyeView& view, const VolumeScene& scene) {
+    const VolumeFrame& frame = scene.cells.frame;
     VolumeView v;
     const glm::dvec3 eye = frame.voxelFromWorld(view.eye);
     const glm::dvec3 cell = glm::clamp(glm::floor(eye), glm::dvec3(-1e6), glm::dvec3(1e6));
     const glm::dvec3 corner = frame.voxelDirection(view.rayDirection(0.5, 0.5));
     const glm::dvec3 across = frame.voxelDirection(view.right * view.pixelWidth());
     const glm::dvec3 down = frame.voxelDirection(-view.up * view.pixelHeight());
-    const glm::dvec3 head = view.head - view.eye;
+    const glm::dvec3 head = scene.look.lampAt.value_or(view.head) - view.eye;
+    if (scene.look.lampAt) setLamp(v, *scene.look.lampAt, frame);
     v.inside = true;
     for (int k = 0; k < 3; ++k) {
         v.base[k] = static_cast<std::int32_t>(cell[k]);
@@ -143,7 +179,8 @@ struct VolumeRenderer::State {
           kernels(&kernelsFor(target)),
           shadeAgain(casting.shadeAgain),
           transfer(scene.look.transfer, scene.field, casting.stepVoxels * smallestSpacing(scene.cells.frame)),
-          data{cellDataOf(scene.cells, casting.leaping), lightDataOf(scene.look), transfer.data} {}
+          data{cellDataOf(scene.cells, casting.leaping), lightDataOf(scene.look, scene.cells.frame),
+               bakedDataOf(scene.look.baked, scene.cells.frame), transfer.data} {}
 
     // Leap code of the cell around a world point, in metres; negative outside the volume.
     static double freeAt(const SurfaceCells& cells, const glm::dvec3& world) {
@@ -168,13 +205,33 @@ int VolumeRenderer::tileCount(const EyeView& view) const {
 }
 
 void VolumeRenderer::renderTile(const EyeView& view, int tile, EyeImage& image) const {
-    mState->kernels->castRect(mState->data, makeVolumeView(view, mScene.cells.frame), tileRect(view, tile),
+    mState->kernels->castRect(mState->data, makeVolumeView(view, mScene), tileRect(view, tile),
                               targetOf(image), false);
+    const VolumeRect rect = tileRect(view, tile);
+    lookUpAgain(view, {rect.x0, rect.y0, rect.x1, rect.y1}, image);
 }
 
 void VolumeRenderer::renderTileFromDepth(const EyeView& view, int tile, EyeImage& image) const {
-    mState->kernels->castRect(mState->data, makeVolumeView(view, mScene.cells.frame), tileRect(view, tile),
+    mState->kernels->castRect(mState->data, makeVolumeView(view, mScene), tileRect(view, tile),
                               targetOf(image), true);
+}
+
+// Lookups that the kernels do not have, which are there to be compared: one pixel at a time.
+void VolumeRenderer::lookUpAgain(const EyeView& view, PixelRect rect, EyeImage& image) const {
+    using Lookup = IlluminationVolume::Lookup;
+    const BakedLook& baked = mScene.look.baked;
+    if (!mState->data.baked.texels || baked.lookup == Lookup::Trilinear || translucent()) return;
+    for (int y = rect.y0; y < rect.y1; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x) {
+            const double depth = image.viewDepth.at(x, y);
+            if (!(depth < kMissDepth)) continue;
+            const glm::dvec3 world = view.eye + depth * view.rayDirection(x + 0.5, y + 0.5);
+            const IlluminationVolume::Light light =
+                baked.lookup == Lookup::NearestIsovalue
+                    ? baked.light->nearestIsovalue(world, mScene.field, mScene.cells.isovalue)
+                    : baked.light->at(world, baked.lookup);
+            if (light.weight > 0) image.color.at(x, y) = packColor(mScene.look.surface * light.value);
+        }
 }
 
 // Lists go row by row through a band of columns; packets of pixels from a narrower band are closer to each
@@ -182,7 +239,7 @@ void VolumeRenderer::renderTileFromDepth(const EyeView& view, int tile, EyeImage
 void VolumeRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
                                   EyeImage& image) const {
     constexpr int kNarrow = 8, kMost = 1024;
-    const VolumeView volumeView = makeVolumeView(view, mScene.cells.frame);
+    const VolumeView volumeView = makeVolumeView(view, mScene);
     const VolumeTarget target = targetOf(image);
     VolumePixel sorted[kMost];
     for (std::size_t first = 0; first < pixels.size(); first += kMost) {
@@ -192,6 +249,8 @@ void VolumeRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::sp
             for (const PixelIndex p : some)
                 if (p.x >= x0 && p.x < x0 + kNarrow) sorted[count++] = {p.x, p.y};
         mState->kernels->castPixels(mState->data, volumeView, sorted, count, target);
+        for (int n = 0; n < count; ++n)
+            lookUpAgain(view, {sorted[n].x, sorted[n].y, sorted[n].x + 1, sorted[n].y + 1}, image);
     }
 }
 
@@ -222,13 +281,16 @@ bool VolumeRenderer::mayHitBeyondEdge(const EyeView& view, PixelRect rect, doubl
 
 ViewDependence VolumeRenderer::viewDependence() const {
     if (translucent()) return ViewDependence::Depths;
-    const bool again = mState->shadeAgain && mScene.look.specular > 0;
+    const VolumeLook& look = mScene.look;
+    // Light that does not move with the eyes leaves nothing to shade again; what lies in shadow is not kept.
+    const bool still = look.shadows || (mState->data.baked.texels && !mState->data.baked.openness &&
+                                        !(look.baked.lampShare > 0));
+    const bool again = mState->shadeAgain && look.specular > 0 && !still;
     return again ? ViewDependence::Normal : ViewDependence::None;
 }
 
 void VolumeRenderer::shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const {
-    mState->kernels->shadeRow(mState->data, makeVolumeView(view, mScene.cells.frame), y, x0, x1,
-                              targetOf(image));
+    mState->kernels->shadeRow(mState->data, makeVolumeView(view, mScene), y, x0, x1, targetOf(image));
 }
 
 bool VolumeRenderer::translucent() const {

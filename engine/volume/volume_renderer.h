@@ -38,6 +38,8 @@ public:
     const VolumeScene& scene() const { return mScene; }
 
 private:
+    void lookUpAgain(const EyeView& view, PixelRect rect, EyeImage& image) const;
+
     struct State;
     const VolumeScene& mScene;
     std::unique_ptr<State> mState;
