@@ -235,6 +235,17 @@ LightSetup setupOf(const ColonScene& scene, const BakeOptions& options, BakeKind
     return setup;
 }
 
+// Light from outside never gets into a closed colon.
+void refuseOutsideLight(const ColonScene& scene, const BakeOptions& options, BakeKind kind) {
+    if (!scene.isColon()) return;
+    const char* advice = "bake irradiance with --light, as in --light centreline";
+    require(kind == BakeKind::Irradiance, "--what",
+            fmt::format("{} is 0 everywhere inside a colon, which is closed", nameOf(kind)), advice);
+    require(!options.lights.empty() || (options.probe.empty() && options.scene.sky.empty()),
+            options.probe.empty() ? "--sky" : "--probe",
+            "nothing of it is seen inside a colon, which is closed", advice);
+}
+
 }  // namespace
 
 BakeKind bakeKindFromText(const std::string& what) {
@@ -269,6 +280,7 @@ VolumeBakePlan planVolumeBake(const ColonScene& scene, const BakeOptions& option
     VolumeBakePlan plan;
     BakeInputs& in = plan.inputs;
     in.shape.kind = bakeKindFromText(options.what);
+    refuseOutsideLight(scene, options, in.shape.kind);
     in.light = setupOf(scene, options, in.shape.kind, plan.notes);
     in.shape.order = options.order.value_or(in.shape.order);
     const glm::vec3 a = in.light.albedo;

@@ -138,6 +138,9 @@ TEST_F(BakeCommand, OfAColonOnlyTheWallLitAlongTheCentreline) {
     const int texels = std::stoi(outcome.out.substr(outcome.out.find(" of ") + 4));
     EXPECT_GT(texels, 100);
     EXPECT_LT(texels, 24 * 24 * 24 / 2);
+    for (const std::string what : {"openness", "transfer"})
+        expectBakeRefused(maskedTube(), {"--what", what}, {"--what", what, "closed"});
+    expectBakeRefused(maskedTube(), {"--sky", "1"}, {"--sky", "closed"});
     expectBakeRefused(maskedTube(), {"--full"}, {"--full", "colon"});
     expectBakeRefused(maskedTube(), {"--isovalues", "1,2"}, {"--isovalues", "colon"});
     expectBakeRefused(maskedTube(), {"--light", "centreline,5"}, {"--light", "smaller distance"});
