@@ -164,9 +164,10 @@ private:
         mBand.columnCounts = mCounts.data();
     }
 
+    // Extrema along j begin anew with each band, by looking at a whole window: not too often, then.
     int bandRows(std::size_t bytes) const {
         const auto fit = static_cast<int>(std::min<std::size_t>(kBandBytes / bytes, 1u << 20));
-        return std::min(std::max(fit, kLeastBandRows), mBand.size[1]);
+        return std::min(std::max({fit, kLeastBandRows, mBand.radius[1] / 2}), mBand.size[1]);
     }
 
     void takeMemory() {
