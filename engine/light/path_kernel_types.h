@@ -66,7 +66,7 @@ struct PathMoments {
 
 // Working memory of one thread.
 struct alignas(64) PathStore {
-    static constexpr int kPaths = 512;
+    static constexpr int kPaths = 1024;
     static constexpr int kRoom = kPaths + 16;  // whole vectors may be written at the end
     template <typename T>
     using Row = T[kRoom];

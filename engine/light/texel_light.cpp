@@ -200,7 +200,7 @@ void TexelLighter::addIrradiance(std::span<const glm::ivec3> texels, int count,
     for (const std::size_t n : batch.texels) placed[n] = 1;
     for (std::size_t n = 0; n < texels.size(); ++n)
         if (!placed[n]) sums[n] = {glm::vec3(0.0f), -1, 0};
-    const auto store = std::make_unique<PathStore>();
+    const auto store = std::make_unique_for_overwrite<PathStore>();
     std::vector<PathMoments> moments(PathStore::kPaths);
     State::eachJob(batch, count, [&](std::size_t first, int together, int samples) {
         s.kernels.irradiance(s.pathVolume, s.fields.all(), s.tables.lights(), &batch.starts[first], together,
@@ -215,7 +215,7 @@ void TexelLighter::addTransfer(std::span<const glm::ivec3> texels, int firstSamp
     State::Batch batch = s.batchOf(texels, [&](std::size_t) { return firstSample; });
     std::fill(alive.begin(), alive.end(), std::uint8_t{0});
     for (const std::size_t n : batch.texels) alive[n] = 1;
-    const auto store = std::make_unique<PathStore>();
+    const auto store = std::make_unique_for_overwrite<PathStore>();
     const std::size_t floats = static_cast<std::size_t>(harmonicsCount(order)) * channels;
     std::vector<float> found(PathStore::kPaths * floats);
     const PathLights& lights = (channels == 1 ? s.greyTables : s.tables).lights();
