@@ -1,6 +1,7 @@
 // Precomputed light: how long bakes take (Wyman et al. 2006, Table 1) and what each way of choosing paths
 // gains at equal error. With --marks "name value" lines alone. Times of whole volumes are rates measured on a
-// random part of the texels and scaled, as the lines beside them say.
+// random part of the texels and scaled; processor times, of all threads together, say what they would be on a
+// machine that does nothing else.
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -90,8 +91,11 @@ void printGains(const Marks& marks) {
 int run(bool marksOnly) {
     const Marks marks;
     if (marksOnly) {
-        std::printf("irradiance100_s %.1f\n", marks.irradiance_s(100, 10));
-        std::printf("transfer100_s %.1f\n", marks.transfer_s(100, 8));
+        BakeRate rate;
+        std::printf("irradiance100_s %.1f\n", marks.irradiance_s(100, 8, &rate));
+        std::printf("irradiance100_processor_s %.1f\n", rate.processor_s);
+        std::printf("transfer100_s %.1f\n", marks.transfer_s(100, 7, &rate));
+        std::printf("transfer100_processor_s %.1f\n", rate.processor_s);
         std::printf("equal_error_speedup %.1f\n", marks.equalErrorSpeedup());
         return 0;
     }
