@@ -113,6 +113,33 @@ TEST_F(VolumeCommands, TheWayBackIsAnotherFlight) {
     EXPECT_EQ(hashOf({maskedTube(), "--no-cache"}), there);
 }
 
+// Grey values: the lumen is written beside the study, read back when the cache is gone, found again when the
+// file is damaged; what the commands make of it stays the same.
+TEST_F(VolumeCommands, TheLumenOfACtIsKeptBesideIt) {
+    const std::string study =
+        nrrd("ct.nrrd", {}, [](int i, int j, int k) { return inTube(i, j, k) ? -1000 : 40; });
+    const fs::path lumen = mFolder / "ct_lumen.nrrd";
+    const auto openedSaying = [&](const std::string& words) {
+        fs::remove_all(mFolder / "cache");
+        const Json volume = info({study}).at("volume");
+        EXPECT_EQ(volume.at("kind"), "colon");
+        std::string notes;
+        for (const Json& note : volume.at("notes")) notes += note.get<std::string>() + "\n";
+        EXPECT_NE(notes.find(words), std::string::npos) << notes;
+        return volume.at("segments").dump() + volume.at("centreline_mm").dump();
+    };
+    const std::string first = openedSaying("lumen saved as " + lumen.string());
+    ASSERT_TRUE(fs::exists(lumen));
+    EXPECT_EQ(openedSaying("lumen read back from " + lumen.string()), first);
+    const std::string whole = contentOf(lumen);
+    std::ofstream(lumen, std::ios::binary) << whole.substr(0, whole.size() - 9);
+    EXPECT_EQ(openedSaying(lumen.string() + " is damaged"), first);
+    EXPECT_EQ(contentOf(lumen), whole);
+    EXPECT_EQ(info({lumen.string()}).at("volume").at("segments")[0].at("voxels"),
+              Json::parse(first.substr(0, first.find(']') + 1))[0].at("voxels"))
+        << "other programs, and this one, read it as a mask";
+}
+
 TEST_F(VolumeCommands, AMaskOfSeveralLabelsOpensWithOne) {
     const std::string mask = nrrd("labels.nrrd", {24, 24, 24, 2, "uchar", ""}, [](int i, int j, int k) {
         return inTube(i, j, k) ? 5 : i < 3 ? 9 : 0;
