@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "app/commands.h"
+#include "app/volume_light.h"
 #include "colon/transfer_presets.h"
 #include "engine/base/error.h"
 
@@ -68,6 +69,10 @@ void addVolume(CLI::App& command, VolumeOptions& options) {
     add("--transfer", options.transfer,
         "colours and opacities by value: translucent; a file, or one of " + transferPresetNames());
     add("--opacity", options.opacity, "a translucent wall that takes this share of light a millimetre, 0..1");
+    add("--shading", options.shading, "to compare: " + shadingNames());
+    add("--exposure", options.exposure, "factor on baked light; left out: by its mean");
+    add("--turn", options.turn_deg,
+        "degrees by which the sky over baked transfer is turned about the vertical");
     flag("--backwards", options.backwards, "fly from the caecum to the rectum");
     command.add_flag("!--no-cache", options.cache, "neither read nor keep what was computed")->group(kGroup);
 }
@@ -83,7 +88,7 @@ void addScene(CLI::App& command, SceneOptions& options) {
     command.add_option("--image", options.image, "colour of the ground");
     command.add_option("--sky", options.sky, "an equirectangular picture or a light probe (.hdr)");
     command.add_option("--light", options.light,
-                       "light baked for a terrain: a file, or auto for the one that bake has put by");
+                       "baked light: a file; of a terrain also auto, for the one that bake has put by");
     command.add_option("--sun", options.sun,
                        "azimuth,elevation of a terrain's sun in degrees, clockwise from north");
     command.add_option("--separation", options.separation_m,

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "app/volume_light.h"
 #include "colon/colon_flight.h"
 #include "engine/base/error.h"
 #include "engine/volume/volume_renderer.h"
@@ -175,6 +176,7 @@ LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progres
     LoadedScene scene;
     scene.name = options.scene;
     scene.colon = std::make_unique<ColonScene>(loadColon(colonOptionsOf(options), progress));
+    applyVolumeLight(options, *scene.colon, progress);
     const ColonScene& colon = *scene.colon;
     if (options.volume.isovalue && colon.isColon())
         throw Error("--isovalue", "", "expected with a volume seen from outside, this one is a colon",

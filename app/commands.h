@@ -17,9 +17,12 @@ struct VolumeOptions {
     bool resample = false;           // mend uneven or tilted slices
     bool isosurface = false;         // seen from outside, without looking for a colon
     std::optional<double> isovalue;
-    std::string transfer;           // a transfer function's file or name; "": none
-    std::optional<double> opacity;  // of a translucent wall a millimetre, in (0, 1]
-    bool backwards = false;         // from the caecum
+    std::string transfer;            // a transfer function's file or name; "": none
+    std::optional<double> opacity;   // of a translucent wall a millimetre, in (0, 1]
+    bool backwards = false;          // from the caecum
+    std::string shading;             // a lighting model by name; "": a lamp at the head
+    std::optional<double> exposure;  // factor on baked light; none: by its mean
+    double turn_deg = 0;             // of the sky about the vertical, with baked transfer
     bool cache = true;
 };
 
@@ -28,7 +31,7 @@ struct SceneOptions {
     double verticalScale = 0;  // 0: as the scene says
     bool openHoles = false;
     std::string image, sky;  // "": as the scene says
-    std::string light;       // baked light of a terrain: a file, or "auto" for the cache's; "": none
+    std::string light;       // baked light: a file; of a terrain also "auto", for the cache's; "": none
     std::string sun;         // "azimuth,elevation" in degrees; "": as the scene says
     std::optional<double> separation_m, zeroParallax_m;
     double fov_deg = 0;         // vertical; 0: as the scene says

@@ -53,7 +53,9 @@ void refuseVolumeOptions(const SceneOptions& options) {
         {"--seed", !v.seeds.empty()},        {"--resample", v.resample},
         {"--isosurface", v.isosurface},      {"--isovalue", v.isovalue.has_value()},
         {"--transfer", !v.transfer.empty()}, {"--opacity", v.opacity.has_value()},
-        {"--backwards", v.backwards},        {"--no-cache", !v.cache}};
+        {"--backwards", v.backwards},        {"--no-cache", !v.cache},
+        {"--shading", !v.shading.empty()},   {"--exposure", v.exposure.has_value()},
+        {"--turn", v.turn_deg != 0}};
     for (const auto& [option, is] : given)
         if (is)
             throw Error(option, "", "expected with a CT study or the built-in colon, the scene is a terrain",
@@ -64,8 +66,6 @@ void refuseTerrainOptions(const SceneOptions& options) {
     const std::pair<const char*, bool> given[] = {{"--vertical-scale", options.verticalScale != 0},
                                                   {"--open-holes", options.openHoles},
                                                   {"--image", !options.image.empty()},
-                                                  {"--sky", !options.sky.empty()},
-                                                  {"--light", !options.light.empty()},
                                                   {"--sun", !options.sun.empty()}};
     for (const auto& [option, is] : given)
         if (is) throw Error(option, "", "expected with a terrain, the scene is a CT study", "leave it out");

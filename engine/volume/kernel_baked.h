@@ -7,7 +7,7 @@
 namespace stereonav::STEREONAV_ISA {
 
 struct BakedLight {
-    F red, green, blue;  // irradiance / pi, of the texels that are known
+    F red, green, blue;  // irradiance / pi times the exposure, of the texels that are known
     F known;             // their weight, 0..1
 };
 
@@ -56,7 +56,7 @@ STEREONAV_INLINE BakedLight bakedAt(const BakedData& data, const V3& voxel, M m)
         sum.blue = mulAdd(weight, lowHalf(texel.second), sum.blue);
         sum.known = sum.known + weight;
     }
-    const F scale = approxReciprocal(max(sum.known, F(1e-6f))) * F(kHalfScale);
+    const F scale = approxReciprocal(max(sum.known, F(1e-6f))) * F(kHalfScale) * F(data.exposure);
     return {sum.red * scale, sum.green * scale, sum.blue * scale, sum.known};
 }
 

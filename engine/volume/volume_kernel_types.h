@@ -25,7 +25,7 @@ struct BakedData {
     std::int32_t last[3] = {};              // the last texel
     float offset[3] = {}, perVoxel[3] = {};
     bool openness = false;
-    float lampShare = 0;
+    float exposure = 1, lampShare = 0;
 };
 
 // Linear RGB; see volume_look.h.

@@ -20,6 +20,7 @@ struct BakedLook {
     };
     std::shared_ptr<const IlluminationVolume> light;  // null: none
     Use use = Use::Irradiance;
+    float exposure = 1;   // factor on irradiance
     float lampShare = 0;  // of the lamp that is added to irradiance
     IlluminationVolume::Lookup lookup = IlluminationVolume::Lookup::Trilinear;  // others: slow, to compare
 };

@@ -50,6 +50,7 @@ BakedData bakedDataOf(const BakedLook& look, const VolumeFrame& frame) {
         d.perVoxel[k] = static_cast<float>(frame.spacing[k] / light.frame.spacing[k]);
     }
     d.openness = look.use == BakedLook::Use::Openness;
+    if (!d.openness) d.exposure = look.exposure;
     d.lampShare = look.lampShare;
     return d;
 }
@@ -230,7 +231,8 @@ void VolumeRenderer::lookUpAgain(const EyeView& view, PixelRect rect, EyeImage& 
                 baked.lookup == Lookup::NearestIsovalue
                     ? baked.light->nearestIsovalue(world, mScene.field, mScene.cells.isovalue)
                     : baked.light->at(world, baked.lookup);
-            if (light.weight > 0) image.color.at(x, y) = packColor(mScene.look.surface * light.value);
+            if (light.weight > 0)
+                image.color.at(x, y) = packColor(mScene.look.surface * light.value * baked.exposure);
         }
 }
 

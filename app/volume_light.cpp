@@ -1,0 +1,142 @@
+// Baked light is read and, if it is transfer, dotted with the sky. The other models are those of Wyman et al.
+// 2006, fig. 9: Lambert and Phong under one lamp beside the start pose, with and without hard shadows,
+// ambient light that varies with the normal, fog.
+#include "app/volume_light.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "app/light_loading.h"
+#include "engine/base/error.h"
+#include "engine/light/sky_probe.h"
+#include "engine/light/spherical_harmonics.h"
+
+namespace stereonav {
+namespace {
+
+constexpr float kMeanShown =
+    0.45f;  // radiance of white at the mean of the known texels, where nothing is said
+
+// Of white, over the texels that are known; 0 where none is.
+double meanLight(const IlluminationVolume& light) {
+    double sum = 0, weight = 0;
+    const glm::ivec3 size = light.frame.size;
+    for (int k = 0; k < size.z; ++k)
+        for (int j = 0; j < size.y; ++j)
+            for (int i = 0; i < size.x; ++i) {
+                const PackedTexel texel = light.texels[light.layout.index(i, j, k)];
+                if (texel == 0) continue;
+                const double w = texelWeight(texel);
+                sum += w * glm::dot(glm::dvec3(texelLight(texel)), glm::dvec3(0.2126, 0.7152, 0.0722));
+                weight += w;
+            }
+    return weight > 0 ? sum / weight : 0.0;
+}
+
+std::vector<glm::vec3> skyOf(const SceneOptions& options, int order) {
+    const LightProbe probe = options.sky.empty() ? overcastSkyProbe() : readLightProbe(options.sky);
+    const std::vector<glm::vec3> straight = probe.project(order);
+    const double turn = options.volume.turn_deg * std::numbers::pi / 180;
+    const glm::dmat3 about(glm::dvec3(std::cos(turn), std::sin(turn), 0),
+                           glm::dvec3(-std::sin(turn), std::cos(turn), 0), glm::dvec3(0, 0, 1));
+    std::vector<glm::vec3> turned(straight.size());
+    HarmonicsRotation(about, order).apply(straight.data(), turned.data());
+    return turned;
+}
+
+void applyBaked(const SceneOptions& options, ColonScene& scene, Progress& progress) {
+    BakedLight baked = loadBakedLight(options.light, scene, progress);
+    BakedLook& look = scene.volume.look.baked;
+    const bool transfer = baked.kind == BakeKind::Transfer;
+    if (!transfer && (!options.sky.empty() || options.volume.turn_deg != 0))
+        throw Error(options.light, "",
+                    "expected baked transfer, to be lit by a sky, got light that stands still",
+                    "bake with --what transfer, or leave out --sky and --turn");
+    auto light = std::make_shared<IlluminationVolume>(transfer ? IlluminationVolume(baked.transfer.frame())
+                                                               : std::move(baked.irradiance));
+    if (transfer) baked.transfer.relightAll(skyOf(options, baked.transfer.order()), *light);
+    if (baked.kind == BakeKind::Openness) {
+        look.use = BakedLook::Use::Openness;
+    } else {
+        const double mean = meanLight(*light);
+        look.exposure =
+            static_cast<float>(options.volume.exposure.value_or(mean > 0 ? kMeanShown / mean : 1.0));
+    }
+    look.light = std::move(light);
+}
+
+// Up and to the left behind the one who looks, as far away as what is looked at is large.
+void putLampAside(ColonScene& scene) {
+    const VolumeFrame& frame = scene.volume.cells.frame;
+    const glm::dvec3 extent = glm::dvec3(frame.size - 1) * frame.spacing;
+    const glm::dvec3 middle = frame.worldFromVoxel(0.5 * glm::dvec3(frame.size - 1));
+    const glm::dmat3 head(glm::mat3_cast(scene.startPose.orientation));
+    VolumeLook& look = scene.volume.look;
+    look.lampAt = middle + head * (glm::dvec3(-0.6, 0.8, 1.0) * glm::length(extent));
+    look.falloff = 0;
+}
+
+struct Shading {
+    const char* name;
+    std::function<void(ColonScene&)> apply;
+};
+
+const std::array<Shading, 7>& shadings() {
+    static const std::array<Shading, 7> all{{
+        {"lamp", [](ColonScene&) {}},
+        {"lambert", [](ColonScene& s) { putLampAside(s), s.volume.look.specular = 0; }},
+        {"lambert-shadows",
+         [](ColonScene& s) { putLampAside(s), s.volume.look.specular = 0, s.volume.look.shadows = true; }},
+        {"phong", [](ColonScene& s) { putLampAside(s); }},
+        {"phong-shadows", [](ColonScene& s) { putLampAside(s), s.volume.look.shadows = true; }},
+        {"varying",
+         [](ColonScene& s) {
+             putLampAside(s);
+             s.volume.look.specular = 0, s.volume.look.ambient = 0.3f, s.volume.look.varyingAmbient = 0.8f;
+         }},
+        {"fog",
+         [](ColonScene& s) {
+             putLampAside(s);
+             const VolumeFrame& frame = s.volume.cells.frame;
+             s.volume.look.specular = 0;
+             s.volume.look.fog = static_cast<float>(glm::length(glm::dvec3(frame.size - 1) * frame.spacing));
+         }},
+    }};
+    return all;
+}
+
+void applyShading(const std::string& name, ColonScene& scene) {
+    for (const Shading& shading : shadings())
+        if (name == shading.name) return shading.apply(scene);
+    throw Error("--shading", "", fmt::format("\"{}\" is not known", name),
+                "expected one of " + shadingNames());
+}
+
+}  // namespace
+
+std::string shadingNames() {
+    std::string names;
+    for (const Shading& shading : shadings())
+        names += (names.empty() ? "" : ", ") + std::string(shading.name);
+    return names;
+}
+
+void applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& progress) {
+    const VolumeOptions& volume = options.volume;
+    if (volume.exposure && !(*volume.exposure > 0 && *volume.exposure < 1e6))
+        throw Error("--exposure", "", fmt::format("expected a number above 0, got {}", *volume.exposure),
+                    "1 shows a white sky of 1 as white");
+    if (options.light.empty() && (!options.sky.empty() || volume.turn_deg != 0 || volume.exposure))
+        throw Error("--sky, --turn, --exposure", "", "expected with light that was baked",
+                    "name it with --light, or leave them out");
+    if (!volume.shading.empty()) applyShading(volume.shading, scene);
+    if (!options.light.empty()) applyBaked(options, scene, progress);
+}
+
+}  // namespace stereonav
