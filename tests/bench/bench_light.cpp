@@ -8,6 +8,8 @@
 
 #include "engine/base/error.h"
 #include "tests/bench/bench_light_gain.h"
+#include "tests/bench/bench_light_lookup.h"
+#include "tests/bench/bench_light_occlusion.h"
 
 namespace stereonav::bench {
 namespace {
@@ -97,12 +99,15 @@ int run(bool marksOnly) {
         std::printf("transfer100_s %.1f\n", marks.transfer_s(100, 7, &rate));
         std::printf("transfer100_processor_s %.1f\n", rate.processor_s);
         std::printf("equal_error_speedup %.1f\n", marks.equalErrorSpeedup());
+        printLookup(measureLookup(marks.subject, kOrder, 40), true);
+        printOcclusionMarks();
         return 0;
     }
     std::printf("%s, %d bounces, %d threads, fields of all isovalues found in %.2f s\n",
                 marks.subject.name.c_str(), marks.subject.setup.bounces, threadCount(), marks.found_s);
     printBakes(marks);
     printGains(marks);
+    printLookup(measureLookup(marks.subject, kOrder, 40), false);
     return 0;
 }
 
