@@ -1,0 +1,70 @@
+// Volumes under baked light and under the lighting models that it is compared with, through the real program.
+#include <nlohmann/json.hpp>
+
+#include "tests/app/volume_input.h"
+
+namespace stereonav::test {
+namespace {
+namespace fs = std::filesystem;
+
+class VolumeLight : public VolumeTest {
+protected:
+    void SetUp() override {
+        VolumeTest::SetUp();
+        setenv("XDG_CACHE_HOME", (mFolder / "cache").c_str(), 1);
+    }
+    std::string baked(const std::string& scene, const std::string& what) const {
+        const std::string file = (mFolder / (what + ".bake")).string();
+        const Outcome done = run({"bake", scene, "--what", what, "--samples", "16", "--out", file});
+        EXPECT_EQ(done.status, 0) << done.err;
+        return file;
+    }
+    // The picture's bytes.
+    std::string picture(const std::string& scene, std::vector<std::string> options) const {
+        const std::string file = (mFolder / "picture.png").string();
+        options.insert(options.begin(), {"render", scene, "--size", "64x48", "--out", file});
+        const Outcome done = run(options);
+        EXPECT_EQ(done.status, 0) << done.err;
+        return contentOf(file);
+    }
+};
+
+TEST_F(VolumeLight, BakedLightOfEveryKindIsSeen) {
+    const std::string scene = ball();
+    const std::string lamp = picture(scene, {});
+    const std::string irradiance = baked(scene, "irradiance"), transfer = baked(scene, "transfer");
+    const std::string still = picture(scene, {"--light", irradiance});
+    EXPECT_TRUE(still != lamp);
+    EXPECT_TRUE(picture(scene, {"--light", irradiance, "--exposure", "2"}) != still);
+    EXPECT_TRUE(picture(scene, {"--light", transfer}) != lamp);
+    // A ball is open everywhere: nothing is taken from the lamp.
+    EXPECT_TRUE(picture(scene, {"--light", baked(scene, "openness")}) == lamp);
+}
+
+TEST_F(VolumeLight, EachModelLooksDifferent) {
+    const std::string scene = ball();
+    std::vector<std::string> pictures;
+    for (const std::string name : {"lamp", "lambert", "phong", "varying", "fog"}) {
+        pictures.push_back(picture(scene, {"--shading", name}));
+        for (std::size_t n = 0; n + 1 < pictures.size(); ++n)
+            EXPECT_TRUE(pictures[n] != pictures.back()) << name;
+    }
+    // A convex thing casts no shadow on what the lamp lights.
+    EXPECT_TRUE(picture(scene, {"--shading", "lambert-shadows"}) == pictures[1]);
+}
+
+TEST_F(VolumeLight, RefusesWhatDoesNotFit) {
+    const std::string scene = ball();
+    const std::string light = baked(scene, "irradiance");
+    expectRefused({"render", scene, "--shading", "dark", "--out", "a.png"}, {"--shading", "dark", "lambert"});
+    expectRefused({"render", scene, "--turn", "30", "--out", "a.png"}, {"--turn", "--light"});
+    expectRefused({"render", scene, "--light", light, "--exposure", "-1", "--out", "a.png"},
+                  {"--exposure", "above 0"});
+    expectRefused({"render", scene, "--light", light, "--turn", "30", "--out", "a.png"},
+                  {"transfer", "stands still"});
+    expectRefused({"render", scene, "--light", "none.bake", "--out", "a.png"}, {"none.bake", "bake"});
+    expectRefused({"render", "terrain", "--shading", "phong", "--out", "a.png"}, {"--shading", "terrain"});
+}
+
+}  // namespace
+}  // namespace stereonav::test
