@@ -70,6 +70,8 @@ void addVolume(CLI::App& command, VolumeOptions& options) {
         "colours and opacities by value: translucent; a file, or one of " + transferPresetNames());
     add("--opacity", options.opacity, "a translucent wall that takes this share of light a millimetre, 0..1");
     add("--shading", options.shading, "to compare: " + shadingNames());
+    add("--ambient", options.ambient_mm,
+        "how far ambient occlusion looks around, in millimetres (Ruiz et al. 2010); not with --light");
     add("--exposure", options.exposure, "factor on baked light; left out: by its mean");
     add("--turn", options.turn_deg,
         "degrees by which the sky over baked transfer is turned about the vertical");

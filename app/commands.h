@@ -17,12 +17,13 @@ struct VolumeOptions {
     bool resample = false;           // mend uneven or tilted slices
     bool isosurface = false;         // seen from outside, without looking for a colon
     std::optional<double> isovalue;
-    std::string transfer;            // a transfer function's file or name; "": none
-    std::optional<double> opacity;   // of a translucent wall a millimetre, in (0, 1]
-    bool backwards = false;          // from the caecum
-    std::string shading;             // a lighting model by name; "": a lamp at the head
-    std::optional<double> exposure;  // factor on baked light; none: by its mean
-    double turn_deg = 0;             // of the sky about the vertical, with baked transfer
+    std::string transfer;              // a transfer function's file or name; "": none
+    std::optional<double> opacity;     // of a translucent wall a millimetre, in (0, 1]
+    bool backwards = false;            // from the caecum
+    std::string shading;               // a lighting model by name; "": a lamp at the head
+    std::optional<double> exposure;    // factor on baked light; none: by its mean
+    std::optional<double> ambient_mm;  // radius of ambient occlusion; none: without
+    double turn_deg = 0;               // of the sky about the vertical, with baked transfer
     bool cache = true;
 };
 

@@ -48,14 +48,20 @@ void checkOptions(const SceneOptions& options) {
 
 void refuseVolumeOptions(const SceneOptions& options) {
     const VolumeOptions& v = options.volume;
-    const std::pair<const char*, bool> given[] = {
-        {"--series", !v.series.empty()},     {"--label", v.label.has_value()},
-        {"--seed", !v.seeds.empty()},        {"--resample", v.resample},
-        {"--isosurface", v.isosurface},      {"--isovalue", v.isovalue.has_value()},
-        {"--transfer", !v.transfer.empty()}, {"--opacity", v.opacity.has_value()},
-        {"--backwards", v.backwards},        {"--no-cache", !v.cache},
-        {"--shading", !v.shading.empty()},   {"--exposure", v.exposure.has_value()},
-        {"--turn", v.turn_deg != 0}};
+    const std::pair<const char*, bool> given[] = {{"--series", !v.series.empty()},
+                                                  {"--label", v.label.has_value()},
+                                                  {"--seed", !v.seeds.empty()},
+                                                  {"--resample", v.resample},
+                                                  {"--isosurface", v.isosurface},
+                                                  {"--isovalue", v.isovalue.has_value()},
+                                                  {"--transfer", !v.transfer.empty()},
+                                                  {"--opacity", v.opacity.has_value()},
+                                                  {"--backwards", v.backwards},
+                                                  {"--no-cache", !v.cache},
+                                                  {"--ambient", v.ambient_mm.has_value()},
+                                                  {"--shading", !v.shading.empty()},
+                                                  {"--exposure", v.exposure.has_value()},
+                                                  {"--turn", v.turn_deg != 0}};
     for (const auto& [option, is] : given)
         if (is)
             throw Error(option, "", "expected with a CT study or the built-in colon, the scene is a terrain",

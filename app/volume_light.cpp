@@ -14,6 +14,7 @@
 
 #include "app/light_loading.h"
 #include "engine/base/error.h"
+#include "engine/light/occlusion_light.h"
 #include "engine/light/sky_probe.h"
 #include "engine/light/spherical_harmonics.h"
 
@@ -69,6 +70,24 @@ void applyBaked(const SceneOptions& options, ColonScene& scene, Progress& progre
             static_cast<float>(options.volume.exposure.value_or(mean > 0 ? kMeanShown / mean : 1.0));
     }
     look.light = std::move(light);
+}
+
+// The lamp's light times the openness of a box around each voxel: the whole light that a lamp at the head
+// gives weakens in folds, as its ambient part alone would hardly show there.
+void applyAmbient(double radius_mm, ColonScene& scene, Progress& progress) {
+    if (!(radius_mm > 0 && radius_mm <= 1e6))
+        throw Error("--ambient", "", fmt::format("expected millimetres above 0, got {}", radius_mm),
+                    "try ten voxels' worth");
+    if (scene.isColon())
+        throw Error("--ambient", "", "expected with a volume seen from outside, this one is a colon",
+                    "add --isosurface, or leave it out");
+    const GreyVolume& field = scene.volume.field;
+    const double isovalue = scene.volume.cells.isovalue * field.scale + field.offset;
+    const glm::ivec3 radius = occlusionRadius(field.frame, radius_mm / 1000);
+    const OpennessVolume openness = estimateOpenness(field, OcclusionMethod::Gaussian, radius, progress);
+    BakedLook& look = scene.volume.look.baked;
+    look.light = std::make_shared<IlluminationVolume>(ambientLight(field, openness, isovalue, isovalue));
+    look.use = BakedLook::Use::Openness;
 }
 
 // Up and to the left behind the one who looks, as far away as what is looked at is large.
@@ -136,7 +155,11 @@ void applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& 
         throw Error("--sky, --turn, --exposure", "", "expected with light that was baked",
                     "name it with --light, or leave them out");
     if (!volume.shading.empty()) applyShading(volume.shading, scene);
+    if (!options.light.empty() && volume.ambient_mm)
+        throw Error("--ambient", "", "expected without baked light, --light was given too",
+                    "leave one of them out");
     if (!options.light.empty()) applyBaked(options, scene, progress);
+    if (volume.ambient_mm) applyAmbient(*volume.ambient_mm, scene, progress);
 }
 
 }  // namespace stereonav

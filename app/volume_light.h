@@ -9,7 +9,7 @@
 
 namespace stereonav {
 
-// --light, --sky, --turn, --exposure and --shading into the scene's look. Throws Error, Cancelled.
+// --light, --sky, --turn, --exposure, --ambient and --shading into the scene's look. Throws Error, Cancelled.
 void applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& progress);
 
 // Names for --shading, separated by commas.
