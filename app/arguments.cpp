@@ -90,7 +90,8 @@ void addScene(CLI::App& command, SceneOptions& options) {
     command.add_option("--image", options.image, "colour of the ground");
     command.add_option("--sky", options.sky, "an equirectangular picture or a light probe (.hdr)");
     command.add_option("--light", options.light,
-                       "baked light: a file; of a terrain also auto, for the one that bake has put by");
+                       "baked light: a file; of a terrain also auto, for the one that bake has put by; of a "
+                       "volume in view also lazy, worked out while one flies");
     command.add_option("--sun", options.sun,
                        "azimuth,elevation of a terrain's sun in degrees, clockwise from north");
     command.add_option("--separation", options.separation_m,

@@ -173,10 +173,13 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
 }
 
 LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
+    checkVolumeLight(options);
     LoadedScene scene;
     scene.name = options.scene;
     scene.colon = std::make_unique<ColonScene>(loadColon(colonOptionsOf(options), progress));
     applyVolumeLight(options, *scene.colon, progress);
+    if (options.light == kLazyLight)
+        scene.lazyLight = std::make_shared<LazyLight>(options, *scene.colon, progress);
     const ColonScene& colon = *scene.colon;
     if (options.volume.isovalue && colon.isColon())
         throw Error("--isovalue", "", "expected with a volume seen from outside, this one is a colon",
@@ -224,6 +227,12 @@ void addVolume(const LoadedScene& scene, const SceneOptions& options, ViewScene&
             return StereoSetting{control.separation(), control.zeroParallax()};
         };
     };
+    if (scene.lazyLight) {
+        view.seen = [light = scene.lazyLight.get()](const EyeView& eye, const EyeImage& image) {
+            light->seen(eye, image);
+        };
+        view.lightChanges = [light = scene.lazyLight.get()] { return light->changes(); };
+    }
     view.followsAtStart = !options.separation_m && !options.zeroParallax_m;
     view.canBeTranslucent = true;
     view.translucent = scene.renderer->translucent();

@@ -90,6 +90,7 @@ ComparisonReport describe(const CompareOptions& options, const LoadedScene& scen
 }  // namespace
 
 int runCompare(const CompareOptions& options) {
+    refuseLazyLight(options.scene);
     checkOptions(options);
     ComparisonSetting setting;
     setting.repeats = options.repeats;

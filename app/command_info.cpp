@@ -68,6 +68,7 @@ std::string infoLine(const char* name, const std::string& value) {
 }
 
 int runInfo(const InfoOptions& options) {
+    refuseLazyLight(options.scene);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
     bar.progress().report(0.95, "measuring");

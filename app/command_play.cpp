@@ -76,6 +76,7 @@ double medianOf(std::vector<double> values) {
 }  // namespace
 
 int runPlay(const PlayOptions& options) {
+    refuseLazyLight(options.scene);
     checkOptions(options);
     const OutputMode mode = modeFromText(options.mode);
     const std::optional<RightEyeMethod> method = methodFromText(options.method);

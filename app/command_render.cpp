@@ -5,6 +5,7 @@
 #include "app/progress_bar.h"
 #include "app/stereo_frame.h"
 #include "engine/base/error.h"
+#include "engine/base/stopwatch.h"
 #include "engine/image/image_file.h"
 
 namespace stereonav {
@@ -20,7 +21,17 @@ int runRender(const RenderOptions& options) {
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
     StereoFrame frame(scene, method.value_or(scene.defaultMethod()));
     bar.progress().report(0.9, "casting");
-    frame.render(pose ? *pose : scene.startPose);
+    const Pose head = pose ? *pose : scene.startPose;
+    frame.render(head);
+    if (scene.lazyLight) {
+        bar.progress().report(0.95, "lighting what is seen");
+        const Stopwatch watch;
+        scene.lazyLight->seen(scene.viewsAt(head).left, frame.left());
+        scene.lazyLight->waitUntilDone();
+        frame.render(head);
+        bar.clear();
+        std::printf("lit in %.2f s\n", watch.elapsed_ms() / 1000);
+    }
     const Plane<PackedColor> picture = frame.compose(mode);
     writeColorImage(options.out, picture);
     bar.clear();

@@ -32,8 +32,10 @@ struct SceneOptions {
     double verticalScale = 0;  // 0: as the scene says
     bool openHoles = false;
     std::string image, sky;  // "": as the scene says
-    std::string light;       // baked light: a file; of a terrain also "auto", for the cache's; "": none
-    std::string sun;         // "azimuth,elevation" in degrees; "": as the scene says
+    // Baked light: a file; of a terrain also "auto", for the cache's; of a volume in a window also "lazy",
+    // worked out while one flies; "": none.
+    std::string light;
+    std::string sun;  // "azimuth,elevation" in degrees; "": as the scene says
     std::optional<double> separation_m, zeroParallax_m;
     double fov_deg = 0;         // vertical; 0: as the scene says
     int threads = 0;            // 0: all

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/lazy_light.h"
 #include "colon/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/image/stereo_compose.h"
@@ -23,6 +24,7 @@ struct LoadedScene {
     // What the rest refers to: one of the two.
     std::unique_ptr<TerrainScene> terrain;
     std::unique_ptr<ColonScene> colon;
+    std::shared_ptr<LazyLight> lazyLight;  // of a volume lit while it is shown; else null
     std::unique_ptr<EyeRenderer> renderer;
     SimdTarget simd = SimdTarget::Auto;  // that the renderer uses
     Lens lens;                           // with the size asked for

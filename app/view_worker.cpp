@@ -2,6 +2,7 @@
 #include "app/view_worker.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 #include <vector>
 
@@ -50,8 +51,10 @@ void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& 
     frame.left.resize(request.lens.width, request.lens.height, renderer.viewDependence());
     const Stopwatch watch;
     if (!request.twoEyes) {
-        renderEye(renderer, makeEyeView(request.pose, request.lens), frame.left);
+        const EyeView view = makeEyeView(request.pose, request.lens);
+        renderEye(renderer, view, frame.left);
         frame.left_ms = watch.elapsed_ms();
+        if (scene.seen) scene.seen(view, frame.left);
         frame.right = {};
         frame.depthAhead = depthAhead(frame.left.viewDepth);
         return;
@@ -59,6 +62,7 @@ void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& 
     const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
     renderEye(renderer, views.left, frame.left);
     frame.left_ms = watch.elapsed_ms();
+    if (scene.seen) scene.seen(views.left, frame.left);
     frame.rightTimings = rightEye.render(renderer, views, frame.left, request.warp, frame.right);
     measureParallax(views, frame);
     frame.depthAhead = depthAhead(frame.left.viewDepth);
@@ -184,8 +188,12 @@ std::shared_ptr<const ViewScene> ViewWorker::scene() const {
 
 void ViewWorker::renderFrames() {
     RightEye rightEye;
+    std::optional<Job> last;
+    std::uint64_t changes = 0;
     try {
-        while (const std::optional<Job> job = nextJob()) {
+        while (std::optional<Job> job = nextJob(last, changes)) {
+            last = job;
+            if (job->scene->lightChanges) changes = job->scene->lightChanges();
             auto frame = mPool->take();
             renderFrame(*job->scene, job->request, rightEye, *frame);
             auto shared = mPool->share(std::move(frame));
@@ -200,9 +208,17 @@ void ViewWorker::renderFrames() {
     }
 }
 
-std::optional<ViewWorker::Job> ViewWorker::nextJob() {
+std::optional<ViewWorker::Job> ViewWorker::nextJob(const std::optional<Job>& last, std::uint64_t changes) {
+    constexpr std::chrono::milliseconds kLookAtLight{100};
     std::unique_lock lock(mMutex);
-    mAsked.wait(lock, [this] { return mStop || (mRequest && mScene); });
+    const auto asked = [this] { return mStop || (mRequest && mScene); };
+    while (!asked()) {
+        if (!last || !last->scene->lightChanges)
+            mAsked.wait(lock, asked);
+        else if (!mAsked.wait_for(lock, kLookAtLight, asked) && last->scene == mScene &&
+                 mScene->lightChanges() != changes)
+            return last;
+    }
     if (mStop) return std::nullopt;
     return Job{*std::exchange(mRequest, std::nullopt), mScene};
 }

@@ -59,6 +59,11 @@ struct ViewScene {
     std::function<void(const SunPlace&)> moveSun;
     SunPlace sun;
 
+    // Of light that is worked out while one flies: told what each frame saw; counts changes, after which the
+    // last frame is drawn again. Both called on the thread that makes frames.
+    std::function<void(const EyeView& view, const EyeImage& image)> seen;
+    std::function<std::uint64_t()> lightChanges;
+
     // Of volumes; empty where they make no sense.
     double largestSeparation = std::numeric_limits<double>::infinity();     // metres, by hand
     std::function<StereoFollower(const StereoSetting& from)> makeFollower;  // to let eyes suit the room
@@ -133,7 +138,8 @@ private:
     std::optional<Load> nextLoad();
     void loadOne(const Load& load);
     void renderFrames();
-    std::optional<Job> nextJob();
+    // last: what was drawn last, under the light of that many changes.
+    std::optional<Job> nextJob(const std::optional<Job>& last, std::uint64_t changes);
     void fail(std::exception_ptr failure);
 
     std::function<void()> mWake;

@@ -75,9 +75,6 @@ void applyBaked(const SceneOptions& options, ColonScene& scene, Progress& progre
 // The lamp's light times the openness of a box around each voxel: the whole light that a lamp at the head
 // gives weakens in folds, as its ambient part alone would hardly show there.
 void applyAmbient(double radius_mm, ColonScene& scene, Progress& progress) {
-    if (!(radius_mm > 0 && radius_mm <= 1e6))
-        throw Error("--ambient", "", fmt::format("expected millimetres above 0, got {}", radius_mm),
-                    "try ten voxels' worth");
     if (scene.isColon())
         throw Error("--ambient", "", "expected with a volume seen from outside, this one is a colon",
                     "add --isosurface, or leave it out");
@@ -130,9 +127,9 @@ const std::array<Shading, 7>& shadings() {
     return all;
 }
 
-void applyShading(const std::string& name, ColonScene& scene) {
+const Shading& shadingOf(const std::string& name) {
     for (const Shading& shading : shadings())
-        if (name == shading.name) return shading.apply(scene);
+        if (name == shading.name) return shading;
     throw Error("--shading", "", fmt::format("\"{}\" is not known", name),
                 "expected one of " + shadingNames());
 }
@@ -146,19 +143,31 @@ std::string shadingNames() {
     return names;
 }
 
-void applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& progress) {
+void checkVolumeLight(const SceneOptions& options) {
     const VolumeOptions& volume = options.volume;
+    const bool lazy = options.light == kLazyLight;
     if (volume.exposure && !(*volume.exposure > 0 && *volume.exposure < 1e6))
         throw Error("--exposure", "", fmt::format("expected a number above 0, got {}", *volume.exposure),
                     "1 shows a white sky of 1 as white");
+    if (volume.ambient_mm && !(*volume.ambient_mm > 0 && *volume.ambient_mm <= 1e6))
+        throw Error("--ambient", "", fmt::format("expected millimetres above 0, got {}", *volume.ambient_mm),
+                    "try ten voxels' worth");
+    if (lazy && (volume.turn_deg != 0 || !volume.transfer.empty() || volume.opacity))
+        throw Error("--light", "", "lazy expects an opaque surface under a sky that stands still",
+                    "leave out --turn, --transfer and --opacity");
     if (options.light.empty() && (!options.sky.empty() || volume.turn_deg != 0 || volume.exposure))
-        throw Error("--sky, --turn, --exposure", "", "expected with light that was baked",
+        throw Error("--sky, --turn, --exposure", "", "expected with light that was baked for a CT study",
                     "name it with --light, or leave them out");
-    if (!volume.shading.empty()) applyShading(volume.shading, scene);
     if (!options.light.empty() && volume.ambient_mm)
         throw Error("--ambient", "", "expected without baked light, --light was given too",
                     "leave one of them out");
-    if (!options.light.empty()) applyBaked(options, scene, progress);
+    if (!volume.shading.empty()) shadingOf(volume.shading);
+}
+
+void applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& progress) {
+    const VolumeOptions& volume = options.volume;
+    if (!volume.shading.empty()) shadingOf(volume.shading).apply(scene);
+    if (!options.light.empty() && options.light != kLazyLight) applyBaked(options, scene, progress);
     if (volume.ambient_mm) applyAmbient(*volume.ambient_mm, scene, progress);
 }
 

@@ -9,8 +9,14 @@
 
 namespace stereonav {
 
+// What can be checked without the volume. Throws Error.
+void checkVolumeLight(const SceneOptions& options);
+
 // --light, --sky, --turn, --exposure, --ambient and --shading into the scene's look. Throws Error, Cancelled.
 void applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& progress);
+
+// As --light: light that is worked out while one looks.
+constexpr const char* kLazyLight = "lazy";
 
 // Names for --shading, separated by commas.
 std::string shadingNames();

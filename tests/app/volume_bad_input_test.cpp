@@ -125,8 +125,9 @@ TEST_F(VolumeBadInput, OptionsOfAnotherKindOfScene) {
     for (const std::vector<std::string>& option : {std::vector<std::string>{"--vertical-scale", "2"},
                                                    {"--open-holes"},
                                                    {"--image", "x.png"},
-                                                   {"--sky", "x.png"}})
+                                                   {"--sun", "90,30"}})
         expectSceneRefused("colon", {option.front(), "study"}, option);
+    expectSceneRefused("colon", {"--sky", "--light"}, {"--sky", "x.png"});
     expectSceneRefused("colon", {"--series"}, {"--series", "1"});
     expectSceneRefused("colon", {"--label"}, {"--label", "1"});
     expectSceneRefused("colon", {"--isosurface"}, {"--isosurface", "--seed", "1,2,3"});

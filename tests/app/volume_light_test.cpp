@@ -41,6 +41,15 @@ TEST_F(VolumeLight, BakedLightOfEveryKindIsSeen) {
     EXPECT_TRUE(picture(scene, {"--light", baked(scene, "openness")}) == lamp);
 }
 
+TEST_F(VolumeLight, IsWorkedOutWhileOneLooks) {
+    const std::string scene = ball();
+    const std::string lazy = picture(scene, {"--light", "lazy"});
+    EXPECT_TRUE(lazy != picture(scene, {}));
+    EXPECT_TRUE(lazy == picture(scene, {"--light", "lazy", "--threads", "1"}));
+    expectRefused({"compare", scene, "--light", "lazy", "--size", "32x24"}, {"lazy", "view"});
+    expectRefused({"render", scene, "--light", "lazy", "--turn", "3", "--out", "a.png"}, {"lazy", "--turn"});
+}
+
 TEST_F(VolumeLight, EachModelLooksDifferent) {
     const std::string scene = ball();
     std::vector<std::string> pictures;

@@ -140,6 +140,28 @@ TEST(ViewWorker, TheCallerNeverWaitsAndTheNewestRequestWins) {
     EXPECT_LE(frames, 3) << "requests in between are left out";
 }
 
+// Light that is worked out meanwhile: the frame is drawn again without being asked for, until nothing
+// changes.
+TEST(ViewWorker, DrawsAgainWhenTheLightHasChanged) {
+    std::atomic<std::uint64_t> changes{0};
+    std::atomic<int> seen{0};
+    ViewWorker worker(
+        [&](Progress&) {
+            ViewScene scene = sceneOf(std::make_shared<Wall>());
+            scene.seen = [&](const EyeView& view, const EyeImage& image) {
+                EXPECT_EQ(image.width(), view.width);
+                if (++seen < 4) ++changes;
+            };
+            scene.lightChanges = [&] { return changes.load(); };
+            return scene;
+        },
+        [] {});
+    worker.request(requestAt(1, 7));
+    EXPECT_TRUE(within(10s, [&] { return seen == 4; }));
+    std::this_thread::sleep_for(400ms);
+    EXPECT_EQ(seen, 4) << "nothing has changed since";
+}
+
 TEST(ViewWorker, FramesThatAreHeldStayAsTheyAre) {
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
     std::vector<std::shared_ptr<const ViewFrame>> held;

@@ -1,0 +1,19 @@
+// Which bricks of texels a picture looks up: what a background bake is asked for.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/camera/eye_view.h"
+#include "engine/image/eye_image.h"
+#include "engine/volume/illumination_volume.h"
+
+namespace stereonav {
+
+// Numbers of the bricks (x + bricks.x (y + bricks.y z)) around the texels that the surfaces seen through
+// every `every`-th pixel lie between, those of most pixels first, without repeats. Pixels that met nothing do
+// not count. every >= 1.
+std::vector<std::uint32_t> bricksSeen(const EyeView& view, const EyeImage& image,
+                                      const IlluminationVolume& light, int every = 4);
+
+}  // namespace stereonav
