@@ -5,12 +5,13 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/light/spherical_harmonics.h"
-#include "engine/math/half.h"
+#include "engine/math/half_float.h"
 
 namespace stereonav {
 
@@ -25,6 +26,11 @@ void relight(const TransferGroups&, std::uint32_t*, std::uint32_t*);
 }
 
 namespace {
+
+// 0 for what is not finite.
+std::uint16_t storedHalf(float v) {
+    return halfFromFloat(std::abs(v) <= std::numeric_limits<float>::max() ? v : 0.0f);
+}
 
 constexpr int kBrickTexels = 512;
 
@@ -91,7 +97,7 @@ void TransferVolume::setBrick(std::size_t n, std::span<const float> numbers) {
         for (int c = 0; c < mOrder * mOrder; ++c)
             for (int channel = 0; channel < mChannels; ++channel) {
                 const std::size_t from = slot * each + static_cast<std::size_t>(c * mChannels + channel);
-                const std::uint32_t half = halfFromFloat(from < numbers.size() ? numbers[from] : 0.0f);
+                const std::uint32_t half = storedHalf(from < numbers.size() ? numbers[from] : 0.0f);
                 std::uint32_t& to = mWords[word(n, slot, c, channel)];
                 to = c & 1 ? (to & 0xffffu) | half << 16 : (to & 0xffff0000u) | half;
             }

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/math/half.h"
+#include "engine/math/half_float.h"
 
 namespace stereonav {
 namespace {
