@@ -1,0 +1,28 @@
+// The sweep of docs/volume_light.md in GLSL: one pass to the eyes and one to the light a slab (Kniss et al.
+// 2003, sections 3 and 4). Needs a current OpenGL 4.5 context, the same for its whole life.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "engine/medium/medium_picture.h"
+#include "engine/medium/sweep_geometry.h"
+
+namespace stereonav {
+
+class MediumGpu {
+public:
+    // Uploads the medium. Throws Error where a texture would not fit.
+    explicit MediumGpu(const Medium& medium);
+    ~MediumGpu();
+
+    // As MediumSweep::render; the pictures are read back. Waits until the GPU is done.
+    void render(const MediumLook& look, const SweepSetting& setting, std::span<const EyeView> eyes,
+                const glm::dvec3& head, double time, std::span<MediumPicture> pictures);
+
+private:
+    struct State;
+    std::unique_ptr<State> mState;
+};
+
+}  // namespace stereonav

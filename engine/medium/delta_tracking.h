@@ -1,0 +1,31 @@
+// The truth for volume light: a path tracer through the medium itself (delta tracking of Woodcock et al.
+// 1965, ratio tracking for shadow rays), every order of scattering, the same phase functions. No slices, no
+// cone, no blur.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/camera/eye_view.h"
+#include "engine/medium/medium.h"
+#include "engine/medium/medium_look.h"
+#include "engine/medium/medium_picture.h"
+
+namespace stereonav {
+
+struct TrackingSetting {
+    int samples = 64;       // paths a pixel
+    int mostScatters = 64;  // 1: single scattering, what the model calls direct light; paths end there
+    std::uint32_t seed = 1;
+};
+
+struct TrackedPicture {
+    Plane<glm::vec4> light;     // as MediumPicture::light
+    Plane<glm::vec3> variance;  // of the mean of each pixel's samples
+};
+
+// Does not depend on the thread count. The surface weight S, Blinn-Phong and baked light have no counterpart
+// here: the medium's S must be 0. Light enters as radiance * 4 pi across its way (see MediumLight::radiance).
+TrackedPicture trackPicture(const Medium& medium, const MediumLook& look, const EyeView& view,
+                            const TrackingSetting& setting, double time = 0);
+
+}  // namespace stereonav

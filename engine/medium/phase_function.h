@@ -1,0 +1,50 @@
+// How much of the light that goes one way is sent another way, by the cosine of the angle between the two
+// (Kniss et al. 2003, section 3.2): 1 is straight on, -1 straight back. Unlike the paper's, the tables are
+// scaled: the mean over the sphere is 1 in each colour (4 pi times a normalised phase function), so that 1
+// everywhere is the isotropic one and the model's direct light is single scattering exactly.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stereonav {
+
+class PhaseFunction {
+public:
+    static constexpr int kEntries =
+        1024;  // intervals; evenly spaced in the angle, linear between: see indexOf
+
+    PhaseFunction();  // 1 for every angle
+    // Throws Error unless every |g| < 0.999.
+    static PhaseFunction henyeyGreenstein(const glm::vec3& g);
+    // Angle in degrees (0: straight on), and the weight of each colour; strictly increasing from 0 to 180,
+    // weights finite and >= 0, not all 0; scaled here to the mean 1. Throws Error.
+    struct Point {
+        double angle_deg;
+        glm::vec3 weight;
+    };
+    static PhaseFunction table(const std::vector<Point>& points, const std::string& source);
+
+    bool isotropic() const { return mIsotropic; }
+    glm::vec3 at(float cosine) const;  // by lookup; cosines beyond -1..1 count as the ends
+    // The mean cosine g of each colour, of the table.
+    glm::vec3 meanCosine() const;
+    // kEntries + 1 weights; entry i stands for the angle i * pi / kEntries.
+    const std::vector<glm::vec3>& entries() const { return mEntries; }
+
+    // For a path: the cosine of a new direction by one colour's table (0 red .. 2 blue), u in [0, 1).
+    float sampleCosine(int channel, float u) const;
+
+private:
+    std::vector<glm::vec3> mEntries;
+    std::vector<glm::vec3> mCumulative;  // of the tables, for sampling
+    bool mIsotropic = true;
+};
+
+// "none", "hg G" or "hg G_RED G_GREEN G_BLUE", a preset's name, or a file: lines "angle_deg red green blue".
+// Throws.
+PhaseFunction findPhaseFunction(const std::string& text);
+
+}  // namespace stereonav

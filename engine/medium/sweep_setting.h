@@ -1,0 +1,18 @@
+// How finely a medium is swept: what is traded against time.
+#pragma once
+
+namespace stereonav {
+
+struct SweepSetting {
+    int slices = 256;        // across the medium along the sweep's axis; 1 to 65536
+    int lightSize = 256;     // texels a side of the light's buffer; 8 to 4096
+    double coneAngle = 0.6;  // theta of eq. 9, radians, full angle; 0: scattered light stays on its way
+    // Metres of way at which the blur is the paper's offset d tan(theta / 2) (d: their slice distance).
+    // Offsets are sqrt(step * blurLength) tan(theta / 2), so that the light spreads as much in many thin
+    // steps as in few thick ones; the paper's spread less and less as slices are added. 0: 1/64 of the
+    // medium's longest side.
+    double blurLength = 0;
+    bool singleTarget = true;  // GPU: one target split by viewports (K8), or one a buffer
+};
+
+}  // namespace stereonav
