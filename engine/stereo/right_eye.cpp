@@ -80,7 +80,7 @@ ResampleRow resampleRowOf(const WarpJob& job, Scratch& scratch, int y) {
     // Four taps must not cross a silhouette. Two can not, but a near thing's last pixel before a gap is
     // cut anywhere within it: cast, it gains more than it costs (compare on real terrain: 0.2 to 3.8 dB for
     // 0.4 to 0.6 % more rays).
-    row.reach = row.cubic ? 2 : getenv("REACH") ? atoi(getenv("REACH")) : 1;
+    row.reach = row.cubic ? 2 : 1;
     row.column = scratch.column.data();
     row.inverse = scratch.inverse.data();
     row.source = scratch.source.data();
