@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
-#include <unordered_map>
+#include <utility>
 
 namespace stereonav {
 
 std::vector<std::uint32_t> bricksSeen(const EyeView& view, const EyeImage& image,
                                       const IlluminationVolume& light, int every) {
-    std::unordered_map<std::uint32_t, int> pixels;
     const glm::ivec3 last = light.frame.size - 1, bricks = light.layout.bricks;
+    std::vector<int> pixels(static_cast<std::size_t>(bricks.x) * bricks.y * bricks.z);
     const auto count = [&](const glm::dvec3& texel) {
         const glm::ivec3 cell(glm::floor(texel));
         const glm::ivec3 low = glm::clamp(cell - 1, glm::ivec3(0), last) / 8;
@@ -18,7 +18,7 @@ std::vector<std::uint32_t> bricksSeen(const EyeView& view, const EyeImage& image
         for (int k = low.z; k <= high.z; ++k)
             for (int j = low.y; j <= high.y; ++j)
                 for (int i = low.x; i <= high.x; ++i)
-                    ++pixels[static_cast<std::uint32_t>((k * bricks.y + j) * bricks.x + i)];
+                    ++pixels[(static_cast<std::size_t>(k) * bricks.y + j) * bricks.x + i];
     };
     for (int y = every / 2; y < image.height(); y += every)
         for (int x = every / 2; x < image.width(); x += every) {
@@ -27,7 +27,8 @@ std::vector<std::uint32_t> bricksSeen(const EyeView& view, const EyeImage& image
                 count(light.frame.voxelFromWorld(view.eye + depth * view.rayDirection(x + 0.5, y + 0.5)));
         }
     std::vector<std::pair<int, std::uint32_t>> sorted;
-    for (const auto& [number, seen] : pixels) sorted.emplace_back(-seen, number);
+    for (std::size_t n = 0; n < pixels.size(); ++n)
+        if (pixels[n] > 0) sorted.emplace_back(-pixels[n], static_cast<std::uint32_t>(n));
     std::sort(sorted.begin(), sorted.end());
     std::vector<std::uint32_t> numbers;
     for (const auto& [seen, number] : sorted) numbers.push_back(number);

@@ -13,9 +13,10 @@
 namespace stereonav::STEREONAV_ISA {
 namespace {
 
-// The half in the upper 16 bits: its exponent lands where a float's is, 112 too small.
+// The half in the upper 16 bits: its exponent lands where a float's is, 112 too small. Sums are scaled, not
+// each of their terms: half of it in the light that comes here, half at the end.
 STEREONAV_INLINE F upperHalf(I word) {
-    return asFloat(shiftRight<3>(word) & I(static_cast<int>(0x8fffe000u))) * F(0x1p112f);
+    return asFloat(shiftRight<3>(word) & I(static_cast<int>(0x8fffe000u)));
 }
 
 STEREONAV_INLINE I packHalf(F value) {
@@ -71,8 +72,9 @@ void relight(const TransferGroups& from, std::uint32_t* redGreen, std::uint32_t*
         for (int lane = 0; lane < kTransferGroup; lane += kLanes) {
             const Sums s = dot(from, from.words + g * step + lane);
             const std::ptrdiff_t to = static_cast<std::ptrdiff_t>(g) * kTransferGroup + lane;
-            store(redGreen + to, packHalf(s.red) | shiftLeft<16>(packHalf(s.green)));
-            store(blueWeight + to, packHalf(s.blue) | I(kOne << 16));
+            const F scale(kTransferLightScale);
+            store(redGreen + to, packHalf(s.red * scale) | shiftLeft<16>(packHalf(s.green * scale)));
+            store(blueWeight + to, packHalf(s.blue * scale) | I(kOne << 16));
         }
 }
 

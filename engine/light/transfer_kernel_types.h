@@ -10,13 +10,16 @@ namespace stereonav {
 // Texels come in groups of so many: the most lanes that a kernel has.
 constexpr int kTransferGroup = 16;
 
+constexpr float kTransferLightScale = 0x1p56f;  // what a half's bits lack as a float's, 2^112, in two parts
+
 // Transfer of groups of texels: a group is channels * pairs rows of kTransferGroup words, one word a texel,
 // with the halves of coefficients 2 p (low) and 2 p + 1 of a channel.
 struct TransferGroups {
     const std::uint32_t* words = nullptr;
     int groups = 0, pairs = 0;
-    int channels = 1;              // 1 or 3
-    const float* light = nullptr;  // 2 * pairs times 3: red, green, blue of a coefficient
+    int channels = 1;  // 1 or 3
+    // 2 * pairs times 3: red, green, blue of a coefficient, times kTransferLightScale.
+    const float* light = nullptr;
 };
 
 struct TransferKernels {

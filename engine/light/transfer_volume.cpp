@@ -151,7 +151,8 @@ void TransferVolume::relight(std::span<const glm::vec3> light, std::span<const s
     const std::size_t count = std::min(light.size(), static_cast<std::size_t>(mOrder * mOrder));
     for (std::size_t c = 0; c < count; ++c)
         for (int channel = 0; channel < 3; ++channel)
-            if (std::isfinite(light[c][channel])) prepared.values[c * 3 + channel] = light[c][channel];
+            if (std::isfinite(light[c][channel]))
+                prepared.values[c * 3 + channel] = light[c][channel] * kTransferLightScale;
     // Handing out single bricks would cost as much as small ones take.
     constexpr int kBricksAtOnce = 16;
     const int count32 = static_cast<int>(which.size());
@@ -159,6 +160,19 @@ void TransferVolume::relight(std::span<const glm::vec3> light, std::span<const s
         for (int n = part * kBricksAtOnce; n < std::min((part + 1) * kBricksAtOnce, count32); ++n)
             relightBrick(which[n], prepared, to);
     });
+}
+
+std::vector<std::uint32_t> TransferVolume::heldAmong(std::span<const std::uint32_t> numbers) const {
+    std::vector<std::uint32_t> held;
+    held.reserve(numbers.size());
+    for (const std::uint32_t number : numbers) {
+        const auto found =
+            std::lower_bound(mBricks.begin(), mBricks.end(), number,
+                             [](const TexelBrick& b, std::uint32_t m) { return b.number < m; });
+        if (found != mBricks.end() && found->number == number)
+            held.push_back(static_cast<std::uint32_t>(found - mBricks.begin()));
+    }
+    return held;
 }
 
 void TransferVolume::relightAll(std::span<const glm::vec3> light, IlluminationVolume& to,

@@ -42,6 +42,8 @@ public:
     // in which they are done; all: relightAll. Not finite light counts as none.
     void relight(std::span<const glm::vec3> light, std::span<const std::uint32_t> which,
                  IlluminationVolume& to, SimdTarget target = SimdTarget::Auto) const;
+    // Of bricks(): those whose numbers are named (bricksSeen), in that order; others are not held.
+    std::vector<std::uint32_t> heldAmong(std::span<const std::uint32_t> numbers) const;
     void relightAll(std::span<const glm::vec3> light, IlluminationVolume& to,
                     SimdTarget target = SimdTarget::Auto) const;
 
