@@ -284,11 +284,13 @@ bool VolumeRenderer::mayHitBeyondEdge(const EyeView& view, PixelRect rect, doubl
 ViewDependence VolumeRenderer::viewDependence() const {
     if (translucent()) return ViewDependence::Depths;
     const VolumeLook& look = mScene.look;
-    // Light that does not move with the eyes leaves nothing to shade again; what lies in shadow is not kept.
-    const bool still = look.shadows || (mState->data.baked.texels && !mState->data.baked.openness &&
-                                        !(look.baked.lampShare > 0));
-    const bool again = mState->shadeAgain && look.specular > 0 && !still;
-    return again ? ViewDependence::Normal : ViewDependence::None;
+    // Baked light does not move with the eyes, but has grain of a texel's size that warped colours blur:
+    // looked up again it is as near to a full cast as light of the lamp is. What lies in shadow is not kept,
+    // and rows know the trilinear lookup alone.
+    const bool baked = mState->data.baked.texels != nullptr;
+    if (baked && look.baked.lookup != IlluminationVolume::Lookup::Trilinear) return ViewDependence::None;
+    const bool changes = look.specular > 0 || baked;
+    return mState->shadeAgain && changes && !look.shadows ? ViewDependence::Normal : ViewDependence::None;
 }
 
 void VolumeRenderer::shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const {
