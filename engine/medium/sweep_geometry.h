@@ -35,17 +35,27 @@ struct RayFan {
     glm::dvec3 direction(double x, double y) const;  // unit length
     // Buffer coordinates of a point; behind a perspective origin: NaN.
     glm::dvec2 project(const glm::dvec3& place) const;
+    // Distance of the place from the origin along forward, and the width of a pixel there: metres.
+    double depthOf(const glm::dvec3& place) const;
+    double pixelSize(const glm::dvec3& place) const;
 };
 
+// Rays with a smaller cosine to the axis, or that go against their sweep, cross no slab.
+constexpr double kLeastCosine = 1e-4;
+
 struct SweepGeometry {
-    glm::dvec3 anchor{0.0};    // world
+    glm::dvec3 anchor{0.0};    // world: the place of the medium's box that is nearest to the head
     glm::dvec3 axis{0, 0, 1};  // unit
     bool forward = true;
     // Slab k lies between faces[k] and faces[k + 1], sampled at their mean. Ascending, at least two, or none
-    // where there is nothing to see.
+    // where there is nothing to see. Even over the medium's whole box, so that they stay where they are as
+    // one flies, with more faces at eyes and lamp where these are inside: a slab is wholly before or behind
+    // them. Slabs that no eye sees, nor light crosses on its way to one that is seen, are left out.
     std::vector<double> faces;
     std::vector<RayFan> eyes;
-    RayFan light;              // of the light's buffer; width 0: the model needs none
+    // Of the light's buffer, which holds the box; width 0: the model needs none, but the light's place and
+    // way are still origin and forward.
+    RayFan light;
     double lightStart = 0;     // t before which a lamp lights nothing (-infinity for parallel light)
     glm::vec3 radiance{1.0f};  // of the light
     double falloff = 0;
@@ -58,7 +68,8 @@ struct SweepGeometry {
 // direction (turned round where their dot product is negative), a = clamp((beta + light's half angle - eyes'
 // half angle) / 2, 0, beta) from the view towards the light; the paper's half angle where both half angles
 // are equal. Eye rays then stay below 85 degrees from the axis for frusta up to 100 degrees across the
-// corners.
+// corners; for wide lamps a is lowered to that, though not below (beta - eyes' half angle) / 2. Throws Error
+// for settings and lights out of range.
 SweepGeometry makeSweepGeometry(const Medium& medium, const MediumLook& look, const SweepSetting& setting,
                                 std::span<const EyeView> eyes, const glm::dvec3& head);
 
