@@ -151,9 +151,17 @@ LightProbe::Sample LightProbe::sample(const glm::vec2& u) const {
     return {direction, mRadiance[index(pixel)], static_cast<float>(densityOf(pixel))};
 }
 
+// A panorama runs clockwise as seen from above, columns of a probe the other way; the picture's middle is a
+// quarter turn from azimuth 0.
 LightProbe readLightProbe(const std::filesystem::path& file) {
-    LinearImage image = readLinearImage(file);
-    return LightProbe(image.width, image.height, std::move(image.pixels), file.string());
+    const LinearImage image = readLinearImage(file);
+    const int w = image.width, quarter = (w + 2) / 4;
+    std::vector<glm::vec3> pixels(image.pixels.size());
+    for (std::size_t row = 0; row < pixels.size(); row += static_cast<std::size_t>(std::max(w, 1)))
+        for (int column = 0; column < w; ++column)
+            pixels[row + static_cast<std::size_t>(column)] =
+                image.pixels[row + static_cast<std::size_t>((w + quarter - 1 - column) % w)];
+    return LightProbe(w, image.height, std::move(pixels), file.string());
 }
 
 }  // namespace stereonav

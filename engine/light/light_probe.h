@@ -66,7 +66,9 @@ private:
     bool mBlack = false;
 };
 
-// .hdr, or any picture (taken as sRGB). Throws Error.
+// .hdr, or any picture (taken as sRGB), as one stands in it: its middle is seen towards +y, what lies right
+// of it towards +x, as a terrain's sky. A width not divisible by 4 is turned by up to half a column. Throws
+// Error.
 LightProbe readLightProbe(const std::filesystem::path& file);
 
 }  // namespace stereonav

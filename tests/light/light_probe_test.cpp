@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <limits>
 
 #include "engine/base/error.h"
@@ -290,6 +294,28 @@ TEST(LightProbe, Uffizi) {
     ASSERT_EQ(probe.height(), 128);
     expectSamplesAgreeWithLookups(probe, 11, 100000);
     expectMeanBySampling(probe, 24);
+}
+
+// A panorama as one sees it from inside: ahead (+y) in its middle, +x to the right of it, -x to the left.
+TEST(LightProbe, APictureIsSeenFromInside) {
+    const auto file = std::filesystem::temp_directory_path() / "stereonav_probe_sides.hdr";
+    std::ofstream out(file, std::ios::binary);
+    out << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
+    const std::array<std::array<unsigned char, 4>, 4> columns{
+        {{128, 0, 0, 129}, {0, 128, 0, 129}, {0, 0, 128, 129}, {128, 128, 128, 129}}};
+    for (int row = 0; row < 2; ++row)
+        for (const auto& c : columns) out.write(reinterpret_cast<const char*>(c.data()), 4);
+    out.close();
+    const LightProbe probe = readLightProbe(file);
+    const auto at = [&](double heading_deg) {  // clockwise from +y
+        const double h = glm::radians(heading_deg);
+        return probe.radiance(glm::normalize(glm::vec3(std::sin(h), std::cos(h), 0.1)));
+    };
+    EXPECT_EQ(at(-135), glm::vec3(1, 0, 0));
+    EXPECT_EQ(at(-45), glm::vec3(0, 1, 0));
+    EXPECT_EQ(at(45), glm::vec3(0, 0, 1));
+    EXPECT_EQ(at(135), glm::vec3(1, 1, 1));
+    std::filesystem::remove(file);
 }
 
 TEST(LightProbe, AFileThatIsMissing) {
