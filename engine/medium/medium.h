@@ -30,8 +30,9 @@ public:
 
     // footprint: metres a sample stands for, for mip levels; 0: the finest. time: seconds, of the noise.
     OpticalProperties at(const glm::dvec3& world, double time = 0, double footprint = 0) const;
-    // Of the grid's value at the displaced place, by central differences of one voxel: value units a metre,
-    // world axes; 0 outside. Of layers: the upward normal of the nearest one.
+    // Of the grid's value at the displaced place, by central differences of one voxel to both sides: value
+    // units a metre, world axes; 0 outside; at the faces the outermost voxels count on. Of layers: the upward
+    // normal of the nearest one.
     glm::dvec3 gradientAt(const glm::dvec3& world, double time = 0) const;
 
     const GreyVolume* field() const { return mField.get(); }  // null: layers alone
@@ -45,6 +46,10 @@ public:
     double largestExtinction() const { return mLargestExtinction; }  // anywhere
 
 private:
+    void usePerturbation(Perturbation perturbation);
+    glm::dvec3 displaced(const glm::dvec3& world, double time) const;
+    OpticalProperties unperturbed(const glm::dvec3& place, double footprint) const;
+
     std::shared_ptr<const GreyVolume> mField;
     MediumTable mTable;
     std::vector<HeightLayer> mLayers;

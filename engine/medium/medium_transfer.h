@@ -28,8 +28,10 @@ struct MediumPoint {
 };
 // Weight 1 inside, falling linearly to 0 over the outer parts: a trapezoid in each of both.
 struct MediumRegion {
-    double value[4] = {};     // ascending: 0, 1, 1, 0 there
-    double gradient[4] = {};  // value units a metre; the last may be infinite
+    double value[4] = {};  // A < B <= C < D: the weight is 0, 1, 1, 0 there
+    // The same of the gradient magnitude, value units a metre; A = B = 0: from 0 on; the last may be
+    // infinite.
+    double gradient[4] = {};
     MediumMaterial material;
 };
 
@@ -44,25 +46,35 @@ public:
     MediumTransfer(std::vector<MediumRegion> regions, double referenceLength, const std::string& source);
 
     bool empty() const { return mPoints.empty() && mRegions.empty(); }
-    bool usesGradient() const { return !mRegions.empty(); }
+    bool usesGradient() const { return !mRegions.empty() || hasSurfaceRamp(); }
     double referenceLength() const { return mReferenceLength; }
     const std::vector<MediumPoint>& points() const { return mPoints; }
     const std::vector<MediumRegion>& regions() const { return mRegions; }
 
+    // Every surface weight is multiplied by a share that rises from 0 at gradient magnitude `low` to 1 at
+    // `high` (value units a metre): smooth insides keep their volume light. Throws Error unless 0 <= low <
+    // high.
+    void setSurfaceRamp(double low, double high, const std::string& source);
+    bool hasSurfaceRamp() const { return mSurfaceHigh > 0; }
+    double surfaceLow() const { return mSurfaceLow; }
+    double surfaceHigh() const { return mSurfaceHigh; }
+
     // Extinctions are added (and linear between points) as opacities' logarithms; colours mixed by
-    // extinction.
+    // extinction. Where the opacity is 0 nothing is left of the rest either: all 0.
     OpticalProperties at(double value, double gradient) const;
     // Values outside are transparent for every gradient; lowest > highest where all is; ends may be infinite.
     struct Range {
         double lowest, highest;
     };
     Range visibleRange() const;
+    Range changingRange() const;     // of values; outside nothing changes any more
     double largestGradient() const;  // beyond it nothing changes any more; 0 in one dimension
 
 private:
     std::vector<MediumPoint> mPoints;
     std::vector<MediumRegion> mRegions;
     double mReferenceLength = 0.001;
+    double mSurfaceLow = 0, mSurfaceHigh = 0;  // both 0: no ramp
 };
 
 // The text format is in docs/formats.md. Throws Error with file and line.

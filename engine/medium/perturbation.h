@@ -20,7 +20,8 @@ class NoiseVolume {
 public:
     static constexpr int kSize = 32;
     explicit NoiseVolume(std::uint32_t seed = 1);
-    // Trilinear, in -1..1; place in texels, any finite numbers: the texture repeats.
+    // Trilinear, in -1..1; place in texels, any finite numbers: the texture repeats. Texel n lies at the
+    // place n (a texture unit's coordinate is (place + 0.5) / kSize).
     glm::vec4 at(const glm::dvec3& texel) const;
     const std::vector<std::uint8_t>& bytes() const { return mBytes; }  // RGBA, x fastest
 
@@ -44,7 +45,18 @@ struct Perturbation {
 
     bool any() const { return !scales.empty(); }
     double largestDisplacement() const;  // metres along any axis, over all scales
+    double largestExtinctionFactor() const;
 };
+// How far a scale's noise has moved, metres, less whole repeats: exact however late it is.
+glm::dvec3 noiseOffset(const NoiseScale& scale, double time);
+// Where a scale reads the noise: (world - noiseOffset) * kSize / size.
+glm::dvec3 noiseTexel(const NoiseScale& scale, const glm::dvec3& world, double time);
+// What is added to the place at which data are read: the sum over all scales, each read at `world` itself.
+glm::dvec3 displacementAt(const Perturbation& perturbation, const NoiseVolume& noise, const glm::dvec3& world,
+                          double time);
+// Changes properties: factors are 1 + the sum over all scales, read at `world` itself (not displaced).
+void perturb(const Perturbation& perturbation, const NoiseVolume& noise, const glm::dvec3& world, double time,
+             OpticalProperties& properties);
 // Throws Error: too many scales, sizes not above 0, numbers that are not finite.
 void checkPerturbation(const Perturbation& perturbation, const std::string& source);
 

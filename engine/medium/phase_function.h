@@ -13,8 +13,7 @@ namespace stereonav {
 
 class PhaseFunction {
 public:
-    static constexpr int kEntries =
-        1024;  // intervals; evenly spaced in the angle, linear between: see indexOf
+    static constexpr int kEntries = 1024;  // intervals; evenly spaced in the angle, linear between
 
     PhaseFunction();  // 1 for every angle
     // Throws Error unless every |g| < 0.999.
@@ -38,8 +37,11 @@ public:
     float sampleCosine(int channel, float u) const;
 
 private:
+    explicit PhaseFunction(const std::vector<glm::dvec3>& weights);  // kEntries + 1, not scaled
+    void accumulate();
+
     std::vector<glm::vec3> mEntries;
-    std::vector<glm::vec3> mCumulative;  // of the tables, for sampling
+    std::vector<glm::dvec3> mCumulative;  // share of the light up to each angle
     bool mIsotropic = true;
 };
 

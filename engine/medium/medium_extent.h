@@ -1,0 +1,23 @@
+// Where a grid is not empty: what bounds a medium.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "engine/volume/volume.h"
+
+namespace stereonav {
+
+struct GreyRange {
+    double lowest = 0, highest = 0;
+};
+// Least and greatest value (not stored number) of a grid that is not empty.
+GreyRange valueRange(const GreyVolume& field);
+
+struct CellBox {
+    glm::ivec3 first{0}, last{-1};  // voxels, the corners of the cells that were found
+    bool empty() const { return last.x < first.x; }
+};
+// The cells of eight voxels in which the trilinear value comes strictly between the two.
+CellBox cellsBetween(const GreyVolume& field, double lowest, double highest);
+
+}  // namespace stereonav
