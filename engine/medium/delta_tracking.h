@@ -16,15 +16,21 @@ struct TrackingSetting {
     int samples = 64;       // paths a pixel
     int mostScatters = 64;  // 1: single scattering, what the model calls direct light; paths end there
     std::uint32_t seed = 1;
+    // 0: bounds of extinction cell by cell. Above, at least 1: one bound for the whole medium, this times the
+    // greatest; the mean is the same, the time is not. For tests.
+    float majorantFactor = 0;
 };
 
 struct TrackedPicture {
     Plane<glm::vec4> light;     // as MediumPicture::light
-    Plane<glm::vec3> variance;  // of the mean of each pixel's samples
+    Plane<glm::vec3> variance;  // of the mean of each pixel's samples; of one sample: infinite
 };
 
-// Does not depend on the thread count. The surface weight S, Blinn-Phong and baked light have no counterpart
-// here: the medium's S must be 0. Light enters as radiance * 4 pi across its way (see MediumLight::radiance).
+// Rays go through the pixels' centres, as those of the sweeps. Does not depend on the thread count. The
+// surface weight S, Blinn-Phong and baked light have no counterpart here: throws Error unless the medium's S
+// is 0, for that model, and unless samples and mostScatters are at least 1. With model Direct paths end at
+// the first scatter. Light that was scattered more than once counts times indirectShare, so 1 is the truth.
+// Light enters as radiance * 4 pi across its way (see MediumLight::radiance).
 TrackedPicture trackPicture(const Medium& medium, const MediumLook& look, const EyeView& view,
                             const TrackingSetting& setting, double time = 0);
 
