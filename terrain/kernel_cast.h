@@ -251,8 +251,9 @@ STEREONAV_INLINE Walk startWalk(const Eye& eye, const Rays& rays, F start, I lev
     w.rays = rays;
     w.inverseX = approxReciprocal(divisible(rays.x));
     w.inverseY = approxReciprocal(divisible(rays.y));
-    w.eastward = rays.x > F(0.0f);
-    w.northward = rays.y > F(0.0f);
+    // By the sign of what is divided by: a direction of exactly 0 has the positive one.
+    w.eastward = w.inverseX > F(0.0f);
+    w.northward = w.inverseY > F(0.0f);
     w.downward = rays.z < F(0.0f);
     const F west = (toFloat(I(-eye.baseI)) - eye.relativeX) * w.inverseX;
     const F east = (toFloat(eye.lastI + I(1 - eye.baseI)) - eye.relativeX) * w.inverseX;
