@@ -63,11 +63,13 @@ glm::dvec3 turnedAway(const glm::dvec3& w, double cosine, double turn) {
 
 class PathTracker {
 public:
-    PathTracker(const TrackedMedium& medium, const MediumLook& look, const EyeView& view, int mostScatters)
+    PathTracker(const TrackedMedium& medium, const MediumLook& look, const EyeView& view,
+                const TrackingSetting& setting)
         : mMedium(medium),
           mLook(look),
           mLight(look.light, view),
-          mMostScatters(look.model == MediumModel::Indirect ? mostScatters : 1) {}
+          mMostScatters(look.model == MediumModel::Indirect ? setting.mostScatters : 1),
+          mOnlyForward(setting.onlyForward) {}
 
     // Light that comes back along the ray.
     glm::vec3 follow(WorldRay ray, double first, PathRandom& random) const {
@@ -81,6 +83,7 @@ public:
             carried *= met->properties.color;
             ray = {met->place, scattered(ray.direction, carried, random)};
             first = 0;
+            if (mOnlyForward && glm::dot(ray.direction, mLight.at(met->place).direction) > 0) return gathered;
             if (!survives(carried, scatters, random)) return gathered;
         }
     }
@@ -127,6 +130,7 @@ private:
     const MediumLook& mLook;
     TrackedLight mLight;
     int mMostScatters;
+    bool mOnlyForward;
 };
 
 // Sums of a pixel's samples. The background's share has its own, less noisy estimate than the paths that
@@ -177,7 +181,7 @@ TrackedPicture trackPicture(const Medium& medium, const MediumLook& look, const 
     ExtinctionBounds bounds = makeExtinctionBounds(medium);
     if (setting.majorantFactor > 0) bounds = coarseBounds(bounds, setting.majorantFactor);
     const TrackedMedium tracked{medium, bounds, time};
-    const PathTracker paths(tracked, look, view, setting.mostScatters);
+    const PathTracker paths(tracked, look, view, setting);
     TrackedPicture picture{Plane<glm::vec4>(view.width, view.height),
                            Plane<glm::vec3>(view.width, view.height)};
     parallelFor(view.height, [&](int y) {

@@ -19,6 +19,9 @@ struct TrackingSetting {
     // 0: bounds of extinction cell by cell. Above, at least 1: one bound for the whole medium, this times the
     // greatest; the mean is the same, the time is not. For tests.
     float majorantFactor = 0;
+    // Only light that between its scatters never travels against the light's own way: all that half-angle
+    // slicing could carry. What is missing is what it misses in principle.
+    bool onlyForward = false;
 };
 
 struct TrackedPicture {

@@ -104,6 +104,25 @@ TEST(DeltaTrackingOrders, HalfSpaceReflectsAsChandrasekharSays) {
     }
 }
 
+// The second order of an isotropic half space, light and eye along its normal: with E1 the exponential
+// integral, R a^2 / 2 integral of exp(-t - u) E1(|t - u|) = R a^2 ln(2) / 2; the half of it comes from light
+// that went on downwards, the other half from light that had turned back.
+TEST(DeltaTrackingOrders, HalfOfTheSecondOrderTurnsBack) {
+    const double albedo = 0.8;
+    const Medium slab = homogeneousSlab(50, 1, glm::vec3(0.8f));
+    const MediumLook look = litLook(kDown, MediumModel::Indirect);
+    TrackingSetting setting;
+    setting.samples = 1500;
+    setting.mostScatters = 2;
+    for (const bool onlyForward : {false, true}) {
+        setting.onlyForward = onlyForward;
+        const Estimate seen = meanOf(trackPicture(slab, look, narrowView(kDown), setting));
+        const double second = albedo * albedo * std::log(2.0) / (onlyForward ? 4 : 2);
+        EXPECT_LT(std::abs(seen.z(0, albedo / 2 + second)), kStated_z) << onlyForward;
+        EXPECT_LT(seen.error.x, 0.05 * second) << onlyForward;
+    }
+}
+
 // Three colours that are scattered each in its own way, in one picture and each alone.
 TEST(DeltaTrackingOrders, ColoursOfOnePathAreEachRight) {
     const glm::vec3 g{0.8f, 0.0f, -0.5f}, color{0.95f, 0.8f, 0.99f};
