@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/medium/medium_check.h"
 
 namespace stereonav {
 namespace {
@@ -43,16 +44,17 @@ std::string problemOf(const MediumMaterial& m) {
     return "";
 }
 
-// `previous` null: the first point.
+std::string fourNumbers(const double (&t)[4]) {
+    return fmt::format("{} {} {} {}", t[0], t[1], t[2], t[3]);
+}
+
+}  // namespace
+
 std::string problemOf(const MediumPoint& point, const MediumPoint* previous) {
     if (!std::isfinite(point.value)) return fmt::format("expected a finite value, got {}", point.value);
     if (previous && !(point.value > previous->value))
         return fmt::format("expected a value above {}, got {}", previous->value, point.value);
     return problemOf(point.material);
-}
-
-std::string fourNumbers(const double (&t)[4]) {
-    return fmt::format("{} {} {} {}", t[0], t[1], t[2], t[3]);
 }
 
 // Ramps have a width: a table of evenly spaced entries has no room for a jump.
@@ -71,12 +73,19 @@ std::string problemOf(const MediumRegion& region) {
     return problemOf(region.material);
 }
 
-void checkLength(double metres, const std::string& source) {
-    if (!(metres >= kShortest && metres <= kLongest))
-        throw Error(
-            source, "reference length",
-            fmt::format("expected {} to {} mm, got {} mm", kShortest * 1e3, kLongest * 1e3, metres * 1e3),
-            "give the thickness of the layer that opacities are for, \"reference_mm 1\"");
+std::string problemOfReference(double metres) {
+    if (metres >= kShortest && metres <= kLongest) return "";
+    return fmt::format("expected a reference length of {} to {} mm, got {}", kShortest * 1e3, kLongest * 1e3,
+                       metres * 1e3);
+}
+
+namespace {
+
+void checkReference(double metres, const std::string& source) {
+    const std::string problem = problemOfReference(metres);
+    if (!problem.empty())
+        throw Error(source, "", problem,
+                    "give the thickness of the layer that opacities are for, in millimetres");
 }
 
 // 0 <= x: 0 at or outside of t[0] and t[3], 1 between t[1] and t[2]. No ramp where both ends are the same.
@@ -138,7 +147,7 @@ void mixPoints(const std::vector<MediumPoint>& points, double value, Mixture& mi
 MediumTransfer::MediumTransfer(std::vector<MediumPoint> points, double referenceLength,
                                const std::string& source)
     : mPoints(std::move(points)), mReferenceLength(referenceLength) {
-    checkLength(referenceLength, source);
+    checkReference(referenceLength, source);
     for (std::size_t n = 0; n < mPoints.size(); ++n) {
         const std::string problem = problemOf(mPoints[n], n > 0 ? &mPoints[n - 1] : nullptr);
         if (!problem.empty()) throw Error(source, "point " + std::to_string(n + 1), problem, kAdvice);
@@ -148,7 +157,7 @@ MediumTransfer::MediumTransfer(std::vector<MediumPoint> points, double reference
 MediumTransfer::MediumTransfer(std::vector<MediumRegion> regions, double referenceLength,
                                const std::string& source)
     : mRegions(std::move(regions)), mReferenceLength(referenceLength) {
-    checkLength(referenceLength, source);
+    checkReference(referenceLength, source);
     for (std::size_t n = 0; n < mRegions.size(); ++n) {
         const std::string problem = problemOf(mRegions[n]);
         if (!problem.empty()) throw Error(source, "region " + std::to_string(n + 1), problem, kAdvice);

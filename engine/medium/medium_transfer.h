@@ -77,6 +77,10 @@ private:
     double mSurfaceLow = 0, mSurfaceHigh = 0;  // both 0: no ramp
 };
 
+// The transport colour that diffusion gives a material of this colour and opacity (docs/formats.md), for
+// files that name none.
+glm::vec3 diffuseTransport(const glm::vec3& color, double opacity);
+
 // The text format is in docs/formats.md. Throws Error with file and line.
 MediumTransfer parseMediumTransfer(std::string_view text, const std::string& source);
 MediumTransfer readMediumTransfer(const std::filesystem::path& file);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,14 @@ private:
     std::vector<glm::dvec3> mCumulative;  // share of the light up to each angle
     bool mIsotropic = true;
 };
+
+// The files of data/phase, which are part of the program.
+struct PhasePreset {
+    std::string_view name;
+    std::string_view text;
+};
+std::span<const PhasePreset> phasePresets();
+std::string phasePresetNames();  // "a, b, c"
 
 // "none", "hg G" or "hg G_RED G_GREEN G_BLUE", a preset's name, or a file: lines "angle_deg red green blue".
 // Throws.
