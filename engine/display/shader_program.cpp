@@ -50,9 +50,13 @@ ShaderProgram::ShaderProgram(std::string_view vertexName, std::string_view fragm
     glLinkProgram(mProgram.name());
     GLint ok = GL_FALSE;
     glGetProgramiv(mProgram.name(), GL_LINK_STATUS, &ok);
-    if (!ok)
-        throw Error("shaders/" + std::string(fragmentName), "", "the graphics driver does not link it",
-                    "update the driver; OpenGL 3.3 is needed");
+    if (ok) return;
+    std::string log(1024, '\0');
+    GLsizei size = 0;
+    glGetProgramInfoLog(mProgram.name(), static_cast<GLsizei>(log.size()), &size, log.data());
+    log.resize(static_cast<std::size_t>(size));
+    throw Error("shaders/" + std::string(fragmentName), "", "the graphics driver does not link it: " + log,
+                "update the driver; OpenGL 3.3 is needed");
 }
 
 }  // namespace stereonav

@@ -1,0 +1,17 @@
+// The part of an eye's picture in which a slice of the medium's box can be seen: what is drawn of a slab.
+#pragma once
+
+#include "engine/medium/sweep_geometry.h"
+
+namespace stereonav {
+
+struct PixelRect {
+    int x = 0, y = 0, width = 0, height = 0;
+    bool empty() const { return width <= 0 || height <= 0; }
+};
+
+// Holds every pixel whose ray meets the plane t within the box (world); all pixels where a part of the slice
+// lies behind the eye.
+PixelRect coveredBySlice(const WorldBox& box, const SweepGeometry& geometry, double t, const RayFan& fan);
+
+}  // namespace stereonav

@@ -1,0 +1,271 @@
+// Uploads, and the affine maps from places to texture coordinates, worked out in double precision.
+#include "engine/display/medium_gpu_textures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat4x3.hpp>
+#include <glm/vec2.hpp>
+
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kColumns = MediumTable::kValues + 1;
+constexpr int kPhaseSteps = 4096;
+constexpr double kRootOf2 = 1.4142135623730951;
+
+void expectAtMost(GLenum limit, int size, const char* what) {
+    GLint most = 0;
+    glGetIntegerv(limit, &most);
+    if (size > most)
+        throw Error("", what,
+                    fmt::format("expected at most {} a side on this graphics card, got {}", most, size),
+                    "use the CPU");
+}
+
+void expectUploaded(const char* what) {
+    if (glGetError() != GL_NO_ERROR)
+        throw Error("", what, "the graphics driver does not take it", "use the CPU");
+}
+
+void setFilter(GLenum kind, GLint filter, GLint wrap) {
+    glTexParameteri(kind, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(kind, GL_TEXTURE_MAG_FILTER, filter);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        if (kind != GL_TEXTURE_1D || axis == GL_TEXTURE_WRAP_S) glTexParameteri(kind, axis, wrap);
+}
+
+void bindTo(GLuint unit, GLenum kind, const GlTexture& texture) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(kind, texture.name());
+}
+
+// The three texels of an entry, see medium_sample.glsl.
+std::array<glm::vec4, 3> texelsOf(const OpticalProperties& p) {
+    return {glm::vec4(p.color, p.extinction), glm::vec4(p.indirectExtinction, p.surface),
+            glm::vec4(p.glow, 0.0f)};
+}
+
+void uploadTable(const MediumTable& table, int firstLayer, int rows) {
+    std::vector<glm::vec4> texels(static_cast<std::size_t>(kColumns) * rows);
+    for (std::size_t part = 0; part < 3; ++part) {
+        for (std::size_t n = 0; n < texels.size(); ++n)
+            texels[n] = n < table.entries.size() ? texelsOf(table.entries[n])[part] : glm::vec4(0.0f);
+        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, firstLayer + static_cast<int>(part), kColumns, rows, 1,
+                        GL_RGBA, GL_FLOAT, texels.data());
+    }
+}
+
+}  // namespace
+
+MediumTextures::MediumTextures(const Medium& medium) : mMedium(medium) {
+    glGetError();  // an old one is not ours
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    uploadField();
+    if (medium.layers().size() > kMostLayers)
+        throw Error("", "height layers",
+                    fmt::format("expected at most {} on a graphics card, got {}", kMostLayers,
+                                medium.layers().size()),
+                    "use the CPU");
+    for (const HeightLayer& layer : medium.layers()) uploadLayer(layer);
+    uploadTables();
+    uploadNoise();
+    mDefines = fmt::format(
+        "#define FIELD {}\n#define LAYERS {}\n#define NOISE {}\n#define GRADIENT {}\n#define LEVELS {}\n",
+        medium.field() ? 1 : 0, medium.layers().size(),
+        medium.noise() ? medium.perturbation().scales.size() : 0,
+        medium.field() && medium.table().usesGradient() ? 1 : 0, kMostLevels);
+}
+
+void MediumTextures::uploadField() {
+    const GreyVolume* field = mMedium.field();
+    if (!field) return;
+    const glm::ivec3 size = field->frame.size;
+    expectAtMost(GL_MAX_3D_TEXTURE_SIZE, std::max({size.x, size.y, size.z}), "volume");
+    glBindTexture(GL_TEXTURE_3D, mField.name());
+    glTexStorage3D(GL_TEXTURE_3D, 1, GL_R32F, size.x, size.y, size.z);
+    setFilter(GL_TEXTURE_3D, GL_LINEAR, GL_CLAMP_TO_EDGE);
+    expectUploaded("volume");
+    std::vector<float> slice(static_cast<std::size_t>(size.x) * size.y);
+    for (int k = 0; k < size.z; ++k) {
+        std::copy_n(&field->values[field->frame.index(0, 0, k)], slice.size(), slice.begin());
+        glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, k, size.x, size.y, 1, GL_RED, GL_FLOAT, slice.data());
+    }
+    expectUploaded("volume");
+}
+
+// The finest level, and right of it the others, one above another.
+void MediumTextures::uploadLayer(const HeightLayer& layer) {
+    Heights& heights = mHeights.emplace_back();
+    glm::ivec2 size(0), at(0);
+    for (const Plane<float>& level : layer.levels) {
+        if (heights.levels.size() == kMostLevels) break;
+        heights.levels.emplace_back(at, level.width(), level.height());
+        size = glm::max(size, at + glm::ivec2(level.width(), level.height()));
+        at = {layer.levels[0].width(), heights.levels.size() == 1 ? 0 : at.y + level.height()};
+    }
+    if (heights.levels.empty()) heights.levels.emplace_back(0);
+    expectAtMost(GL_MAX_TEXTURE_SIZE, std::max(size.x, size.y), "height layer");
+    glBindTexture(GL_TEXTURE_2D, heights.texture.name());
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_R32F, std::max(size.x, 1), std::max(size.y, 1));
+    setFilter(GL_TEXTURE_2D, GL_NEAREST, GL_CLAMP_TO_EDGE);
+    for (std::size_t n = 0; n < std::min(layer.levels.size(), heights.levels.size()); ++n) {
+        const Plane<float>& level = layer.levels[n];
+        if (level.empty()) continue;
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, level.stride());
+        glTexSubImage2D(GL_TEXTURE_2D, 0, heights.levels[n].x, heights.levels[n].y, level.width(),
+                        level.height(), GL_RED, GL_FLOAT, level.row(0));
+    }
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    expectUploaded("height layer");
+}
+
+void MediumTextures::addTable(const MediumTable& table) {
+    for (const OpticalProperties& p : table.entries) {
+        mHasGlow = mHasGlow || p.glow != glm::vec3(0.0f);
+        mHasSurface = mHasSurface || p.surface > 0;
+    }
+}
+
+void MediumTextures::uploadTables() {
+    std::vector<const MediumTable*> tables;
+    if (mMedium.field()) tables.push_back(&mMedium.table());
+    for (const HeightLayer& layer : mMedium.layers()) tables.push_back(&layer.table);
+    mTableSize = {kColumns, mMedium.field() ? mMedium.table().rows : 1};
+    glBindTexture(GL_TEXTURE_2D_ARRAY, mTables.name());
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA32F, mTableSize.x, mTableSize.y,
+                   3 * std::max(static_cast<int>(tables.size()), 1));
+    setFilter(GL_TEXTURE_2D_ARRAY, GL_LINEAR, GL_CLAMP_TO_EDGE);
+    for (std::size_t n = 0; n < tables.size(); ++n) {
+        addTable(*tables[n]);
+        uploadTable(*tables[n], static_cast<int>(3 * n), mTableSize.y);
+    }
+    expectUploaded("transfer function");
+}
+
+void MediumTextures::uploadNoise() {
+    if (!mMedium.noise()) return;
+    const std::vector<std::uint8_t>& bytes = mMedium.noise()->bytes();
+    // As floats: the byte formats are filtered in 8 bits by some drivers, which shows where places are moved.
+    std::vector<float> values(bytes.size());
+    std::transform(bytes.begin(), bytes.end(), values.begin(),
+                   [](std::uint8_t b) { return static_cast<float>(b) / 127.5f - 1.0f; });
+    glBindTexture(GL_TEXTURE_3D, mNoise.name());
+    constexpr int n = NoiseVolume::kSize;
+    glTexStorage3D(GL_TEXTURE_3D, 1, GL_RGBA32F, n, n, n);
+    setFilter(GL_TEXTURE_3D, GL_LINEAR, GL_REPEAT);
+    glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, n, n, n, GL_RGBA, GL_FLOAT, values.data());
+    expectUploaded("noise");
+}
+
+void MediumTextures::bind() const {
+    if (mMedium.field()) bindTo(GlUnit::kField, GL_TEXTURE_3D, mField);
+    bindTo(GlUnit::kTable, GL_TEXTURE_2D_ARRAY, mTables);
+    for (std::size_t n = 0; n < mHeights.size(); ++n)
+        bindTo(GlUnit::kHeights + static_cast<GLuint>(n), GL_TEXTURE_2D, mHeights[n].texture);
+    if (mMedium.noise()) bindTo(GlUnit::kNoise, GL_TEXTURE_3D, mNoise);
+    glActiveTexture(GL_TEXTURE0);
+}
+
+void MediumTextures::setUniforms(const ShaderProgram& program, const glm::dvec3& anchor, double time) const {
+    glUniform2f(program.location("uPerTable"), 1.0f / static_cast<float>(mTableSize.x),
+                1.0f / static_cast<float>(mTableSize.y));
+    if (mMedium.field()) setFieldUniforms(program, anchor);
+    setLayerUniforms(program, anchor);
+    if (mMedium.noise()) setNoiseUniforms(program, anchor, time);
+}
+
+void MediumTextures::setFieldUniforms(const ShaderProgram& program, const glm::dvec3& anchor) const {
+    const GreyVolume& field = *mMedium.field();
+    const VolumeFrame& frame = field.frame;
+    const glm::dmat3 turn = glm::transpose(frame.axes);
+    glm::mat4x3 voxelFromPlace;
+    for (int axis = 0; axis < 3; ++axis) voxelFromPlace[axis] = glm::vec3(turn[axis] / frame.spacing);
+    voxelFromPlace[3] = glm::vec3(frame.voxelFromWorld(anchor));
+    glm::mat3 worldFromGradient;
+    for (int axis = 0; axis < 3; ++axis)
+        worldFromGradient[axis] = glm::vec3(frame.axes[axis] * (field.scale / (2 * frame.spacing[axis])));
+    const glm::vec3 size(frame.size), last = size - 1.0f, per = 1.0f / size;
+    const MediumTable& table = mMedium.table();
+    glUniformMatrix4x3fv(program.location("uVoxelFromPlace"), 1, GL_FALSE, glm::value_ptr(voxelFromPlace));
+    glUniformMatrix3fv(program.location("uWorldFromGradient"), 1, GL_FALSE,
+                       glm::value_ptr(worldFromGradient));
+    glUniform3fv(program.location("uLastVoxel"), 1, glm::value_ptr(last));
+    glUniform3fv(program.location("uPerField"), 1, glm::value_ptr(per));
+    glUniform3f(program.location("uTableScale"), static_cast<float>(field.scale * table.perValue),
+                static_cast<float>((field.offset - table.firstValue) * table.perValue),
+                static_cast<float>(table.perGradient));
+}
+
+void MediumTextures::setLayerUniforms(const ShaderProgram& program, const glm::dvec3& anchor) const {
+    for (std::size_t n = 0; n < mHeights.size(); ++n) {
+        const HeightLayer& layer = mMedium.layers()[n];
+        const auto at = [&](const char* name, std::size_t k) {
+            return program.location(fmt::format("{}[{}]", name, k));
+        };
+        const auto f = [](double v) { return static_cast<float>(v); };
+        const std::vector<glm::ivec4>& levels = mHeights[n].levels;
+        glUniform1i(at("uHeights", n), static_cast<GLint>(GlUnit::kHeights + n));
+        glUniform4iv(at("uHeightLevels", n * kMostLevels), static_cast<GLsizei>(levels.size()),
+                     glm::value_ptr(levels[0]));
+        glUniform4f(at("uHeightFrame", n), f(1 / layer.spacing),
+                    f((anchor.x - layer.originX) / layer.spacing),
+                    f((anchor.y - layer.originY) / layer.spacing), f(static_cast<double>(levels.size()) - 1));
+        glUniform4f(at("uHeightReach", n), f(layer.below), f(layer.above),
+                    layer.taper > 0 ? f(std::min(1 / layer.taper, 1e30)) : 1e30f, f(anchor.z));
+        const MediumTable& table = layer.table;
+        glUniform2f(at("uHeightTable", n), f(table.perValue), f(-table.firstValue * table.perValue));
+    }
+}
+
+void MediumTextures::setNoiseUniforms(const ShaderProgram& program, const glm::dvec3& anchor,
+                                      double time) const {
+    int n = 0;
+    for (const NoiseScale& scale : mMedium.perturbation().scales) {
+        const auto at = [&](const char* name) { return program.location(fmt::format("{}[{}]", name, n)); };
+        // Repeats are whole: only the fraction counts, and it alone keeps its digits in floats.
+        const glm::dvec3 repeats = (anchor - noiseOffset(scale, time)) / scale.size;
+        const glm::vec3 origin(repeats - glm::floor(repeats) + 0.5 / NoiseVolume::kSize);
+        glUniform3fv(at("uNoiseOrigin"), 1, glm::value_ptr(origin));
+        glUniform1f(at("uNoiseRepeats"), static_cast<float>(1 / scale.size));
+        glUniform1f(at("uNoiseMove"), static_cast<float>(scale.displacement));
+        glUniform1f(at("uNoiseExtinction"), scale.extinction);
+        glUniform3fv(at("uNoiseColor"), 1, glm::value_ptr(scale.color));
+        glUniform3fv(at("uNoiseIndirect"), 1, glm::value_ptr(scale.indirect));
+        ++n;
+    }
+}
+
+void PhaseTexture::set(const PhaseFunction& phase) {
+    if (phase.entries() == mEntries) return;
+    mEntries = phase.entries();
+    std::vector<glm::vec3> texels(kPhaseSteps + 1);
+    for (int i = 0; i <= kPhaseSteps; ++i) {
+        const double x = kRootOf2 * i / kPhaseSteps, back = kRootOf2 - x;
+        const double cosine = 2 * i <= kPhaseSteps ? 1 - 2 * x * x : 2 * back * back - 1;
+        texels[static_cast<std::size_t>(i)] = phase.at(static_cast<float>(cosine));
+    }
+    glBindTexture(GL_TEXTURE_1D, mTexture.name());
+    glTexImage1D(GL_TEXTURE_1D, 0, GL_RGB32F, kPhaseSteps + 1, 0, GL_RGB, GL_FLOAT, texels.data());
+    setFilter(GL_TEXTURE_1D, GL_LINEAR, GL_CLAMP_TO_EDGE);
+}
+
+void PhaseTexture::bind() const {
+    bindTo(GlUnit::kPhase, GL_TEXTURE_1D, mTexture);
+    glActiveTexture(GL_TEXTURE0);
+}
+
+glm::vec2 PhaseTexture::scale() {
+    constexpr double texels = kPhaseSteps + 1;
+    return {static_cast<float>(kPhaseSteps / kRootOf2 / texels), static_cast<float>(0.5 / texels)};
+}
+
+}  // namespace stereonav

@@ -1,0 +1,75 @@
+// A medium as textures and the uniforms of shaders/medium_sample.glsl. Units of textures are fixed here and
+// named in the shaders by their binding.
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/display/gl_object.h"
+#include "engine/display/shader_program.h"
+#include "engine/medium/medium.h"
+#include "engine/medium/medium_look.h"
+
+namespace stereonav {
+
+struct GlUnit {
+    static constexpr GLuint kField = 0, kTable = 1, kNoise = 2, kPhase = 3, kBefore = 4, kBaked = 5,
+                            kHeights = 8;  // one a layer from there on
+};
+
+class MediumTextures {
+public:
+    static constexpr int kMostLayers = 8, kMostLevels = 16;
+
+    // medium must outlive it. Throws Error where a texture would be larger than the driver allows.
+    explicit MediumTextures(const Medium& medium);
+
+    // Lines that tell the shaders what there is. Not of the look.
+    const std::string& defines() const { return mDefines; }
+    bool hasGlow() const { return mHasGlow; }
+    bool hasSurface() const { return mHasSurface; }
+
+    // Uniforms of the medium, places being relative to the anchor; the program is in use.
+    void setUniforms(const ShaderProgram& program, const glm::dvec3& anchor, double time) const;
+    void bind() const;
+
+private:
+    void uploadField();
+    void uploadTables();
+    void uploadNoise();
+    void uploadLayer(const HeightLayer& layer);
+    void addTable(const MediumTable& table);
+    void setFieldUniforms(const ShaderProgram& program, const glm::dvec3& anchor) const;
+    void setLayerUniforms(const ShaderProgram& program, const glm::dvec3& anchor) const;
+    void setNoiseUniforms(const ShaderProgram& program, const glm::dvec3& anchor, double time) const;
+
+    const Medium& mMedium;
+    GlTexture mField;  // R32F: stored values are 16 bit whole numbers, which it holds exactly
+    GlTexture mTables;
+    GlTexture mNoise;
+    glm::ivec2 mTableSize{0};
+    // Mip levels of a layer side by side, and where each lies: corner and size.
+    struct Heights {
+        GlTexture texture;  // R32F
+        std::vector<glm::ivec4> levels;
+    };
+    std::vector<Heights> mHeights;
+    bool mHasGlow = false, mHasSurface = false;
+    std::string mDefines;
+};
+
+// By the half angle's sine up to the right angle, beyond it by sqrt(2) - its cosine: even steps of about the
+// same angle, no trigonometry in the shader.
+class PhaseTexture {
+public:
+    void set(const PhaseFunction& phase);  // uploads where it differs from what was set last
+    void bind() const;
+    static glm::vec2 scale();  // texture coordinate = x * that + y
+
+private:
+    GlTexture mTexture;
+    std::vector<glm::vec3> mEntries;  // of what was set
+};
+
+}  // namespace stereonav
