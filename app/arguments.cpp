@@ -265,6 +265,10 @@ void addBake(CLI::App& app, Parsed& parsed) {
                        "texels a voxel along each axis, as in 0.5, 1 or 2");
     command.add_option("--isovalues", options.isovalues,
                        "LOW,HIGH: all surfaces between, to choose from later");
+    command.add_option(
+        "--reach", options.reach_mm,
+        "millimetres that rays look for light from outside: what meets nothing within them is open; "
+        "left out: no limit, in a colon its mean radius for openness");
     command.add_flag("--full", options.full, "every texel, for any isovalue");
     command.add_option("--out", options.out, "the bake's file; left out: in the cache");
     command.callback([&parsed] { parsed.run = [&parsed] { return runBake(parsed.bake); }; });

@@ -70,7 +70,8 @@ void refuseOtherOptions(const BakeOptions& options) {
     const std::pair<const char*, bool> given[] = {
         {"--error", options.error.has_value()},      {"--minutes", options.minutes.has_value()},
         {"--probe", !options.probe.empty()},         {"--light", !options.lights.empty()},
-        {"--isovalues", !options.isovalues.empty()}, {"--full", options.full}};
+        {"--isovalues", !options.isovalues.empty()}, {"--full", options.full},
+        {"--reach", options.reach_mm.has_value()}};
     for (const auto& [option, is] : given)
         if (is)
             throw Error(option, "", "expected with a CT study, the scene is a terrain",

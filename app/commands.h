@@ -125,7 +125,8 @@ struct BakeOptions {
     std::optional<int> bounces, order;
     std::string albedo;     // one number or R,G,B
     std::string isovalues;  // "LOW,HIGH" of the volume's values
-    bool full = false;      // every texel, for any isovalue
+    std::optional<double> reach_mm;  // how far rays look for distant light; none: a colon's mean radius
+    bool full = false;               // every texel, for any isovalue
     std::string out;        // "": in the cache
 };
 int runBake(const BakeOptions& options);

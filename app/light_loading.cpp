@@ -111,6 +111,9 @@ void checkNumbers(const BakeOptions& o) {
             fmt::format("expected 0 to 8, got {}", o.bounces.value_or(0)), "2 shows most of it");
     require(!o.order || (*o.order >= 1 && *o.order <= kMaxHarmonicsOrder), "--order",
             fmt::format("expected 1 to {}, got {}", kMaxHarmonicsOrder, o.order.value_or(0)), "5 is usual");
+    require(!o.reach_mm || (*o.reach_mm > 0 && *o.reach_mm < kLargestNumber), "--reach",
+            fmt::format("expected more than 0 mm, got {}", o.reach_mm.value_or(0)),
+            "leave it out for no limit");
     if (!o.albedo.empty()) colorFromText("--albedo", o.albedo, 1, "0.7 is a bright wall");
     if (!o.scene.sky.empty()) colorFromText("--sky", o.scene.sky, kLargestNumber, "as in 1 or 0.3,0.4,0.6");
     if (!o.isovalues.empty()) isovaluesFromText(o.isovalues);
@@ -166,14 +169,19 @@ TexelChoice choiceOf(const ColonScene& scene, const BakeOptions& options) {
     return choice;
 }
 
+double meanRadius(const std::vector<CentrelinePoint>& points) {
+    double radius = 0;
+    for (const CentrelinePoint& point : points) radius += point.radius / static_cast<double>(points.size());
+    return radius;
+}
+
 // Lights that make a wall as far away as the lumen is wide on average as bright as a sky of 1 would.
 void addCentreline(const ColonScene& scene, double spacing, LightSetup& setup) {
     require(scene.isColon(), "--light",
             "expected a colon for lights along the centreline, this volume is none",
             "give their places as x,y,z");
     const std::vector<CentrelinePoint>& points = scene.centreline.points;
-    double radius = 0;
-    for (const CentrelinePoint& point : points) radius += point.radius / static_cast<double>(points.size());
+    const double radius = meanRadius(points);
     const auto intensity = static_cast<float>(std::numbers::pi * radius * radius);
     double along = 0.5 * spacing;  // since the last light
     for (std::size_t n = 0; n < points.size(); ++n) {
@@ -214,9 +222,16 @@ LightSetup setupOf(const ColonScene& scene, const BakeOptions& options, BakeKind
     LightSetup setup;
     if (!options.albedo.empty()) setup.albedo = colorFromText("--albedo", options.albedo, 1, "");
     if (options.bounces) setup.bounces = *options.bounces;
+    setup.reach = options.reach_mm.value_or(0) * 1e-3;
     if (kind == BakeKind::Openness) {
         setup.sky = glm::vec3(1);
         setup.bounces = 0;
+        if (scene.isColon() && !options.reach_mm && !scene.centreline.points.empty()) {
+            // A plain tube is open then, and folds and the foot of a polyp are not.
+            setup.reach = meanRadius(scene.centreline.points);
+            notes.push_back(fmt::format("open is what meets no wall within {:.1f} mm, the mean radius",
+                                        1e3 * setup.reach));
+        }
         return setup;
     }
     if (kind == BakeKind::Transfer) return setup;
@@ -235,13 +250,14 @@ LightSetup setupOf(const ColonScene& scene, const BakeOptions& options, BakeKind
     return setup;
 }
 
-// Light from outside never gets into a closed colon.
+// Light from outside never gets into a closed colon, unless rays are asked no further than so far.
 void refuseOutsideLight(const ColonScene& scene, const BakeOptions& options, BakeKind kind) {
-    if (!scene.isColon()) return;
-    const char* advice = "bake irradiance with --light, as in --light centreline";
-    require(kind == BakeKind::Irradiance, "--what",
+    if (!scene.isColon() || options.reach_mm) return;
+    const char* advice = "bake irradiance with --light, as in --light centreline, or add --reach";
+    require(kind != BakeKind::Transfer, "--what",
             fmt::format("{} is 0 everywhere inside a colon, which is closed", nameOf(kind)), advice);
-    require(!options.lights.empty() || (options.probe.empty() && options.scene.sky.empty()),
+    require(kind == BakeKind::Openness || !options.lights.empty() ||
+                (options.probe.empty() && options.scene.sky.empty()),
             options.probe.empty() ? "--sky" : "--probe",
             "nothing of it is seen inside a colon, which is closed", advice);
 }

@@ -225,6 +225,8 @@ std::uint64_t bakeKey(const BakeInputs& in) {
         addColor(hash, in.light.albedo);
         whole(in.light.bounces);
     }
+    // Only where there is one, so that keys of before stay.
+    if (in.light.reach > 0) hash.add(double{in.light.reach});
     if (in.shape.kind == BakeKind::Transfer) {
         whole(in.shape.order);
         whole(in.shape.channels);

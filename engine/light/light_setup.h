@@ -21,6 +21,9 @@ struct LightSetup {
     glm::vec3 sky{0.0f};                      // the same radiance from everywhere, beside the probe
     std::vector<PointLight> lights;           // hard shadows
     glm::vec3 albedo{0.7f};                   // 0..1, of the diffuse surface
+    // Metres: distant light (probe and sky) comes from here on, a ray that met nothing by then sees it, so that
+    // closed cavities have open places too. 0: from infinitely far away.
+    double reach = 0;
     int bounces = 2;                          // 0: direct light alone; at most 8
 };
 

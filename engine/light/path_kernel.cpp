@@ -62,7 +62,7 @@ private:
         for (int vertex = 0; mAlive > 0; ++vertex) {
             atVertex(vertex);
             eachPacket(mStore.alive, mAlive, [&](I path, M m) { chooseWays(path, vertex, m); });
-            const RayQueue queue{mStore.alive, mAlive, mStore.way, nullptr};
+            const RayQueue queue{mStore.alive, mAlive, mStore.way, reachOf(mStore.alive, mAlive)};
             const bool last = vertex == mLights.bounces;
             if (last)
                 traceRays<false>(mVolume, mField, mStore, queue);
@@ -72,6 +72,14 @@ private:
             if (last) return;
             goOn(vertex);
         }
+    }
+
+    // Limits of rays that look for distant light, in the row that shadow rays have done with.
+    const float* reachOf(const std::int32_t* paths, int count) {
+        if (!(mLights.reach > 0)) return nullptr;
+        eachPacket(paths, count,
+                   [&](I path, M m) { scatter(mStore.shadowLimit, path, F(mLights.reach), m); });
+        return mStore.shadowLimit;
     }
 
     template <typename Visit>
@@ -163,7 +171,8 @@ private:
     }
 
     void addUnshadowed(int count, bool limited) {
-        const RayQueue queue{mStore.shadows, count, mStore.shadowWay, limited ? mStore.shadowLimit : nullptr};
+        const RayQueue queue{mStore.shadows, count, mStore.shadowWay,
+                             limited ? mStore.shadowLimit : reachOf(mStore.shadows, count)};
         traceRays<false>(mVolume, mField, mStore, queue);
         eachPacket(mStore.shadows, count, [&](I path, M m) {
             const M free = m & escaped(path, m);

@@ -46,7 +46,8 @@ struct PathLights {
     std::int32_t pointCount = 0;
     float sky[3] = {}, albedo[3] = {};
     std::int32_t bounces = 0;
-    float dim = 0;  // roulette below this throughput; 0: none
+    float reach = 0;  // units, of rays that look for distant light; 0: endless
+    float dim = 0;    // roulette below this throughput; 0: none
     bool lowDiscrepancy = true, cosine = true, nextEvent = true;
 };
 

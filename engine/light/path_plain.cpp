@@ -44,6 +44,7 @@ PlainPaths::PlainPaths(const GreyVolume& volume, const LightSetup& setup, const 
     if (mSampling.naive)
         mSampling.lowDiscrepancy = mSampling.cosine = mSampling.nextEvent = mSampling.roulette = false;
     mProbeSampled = mSampling.nextEvent && setup.probe && !setup.probe->black();
+    mReach = setup.reach > 0 ? setup.reach : std::numeric_limits<double>::infinity();
 }
 
 glm::dvec2 PlainPaths::numbers(const Start& start, std::uint32_t pair, std::uint32_t sample) const {
@@ -95,7 +96,7 @@ glm::dvec3 PlainPaths::sampledProbe(double isovalue, const Vertex& at, const glm
     const glm::dvec3 direction(sample.direction);
     const double cosine = glm::dot(direction, at.normal), density = sample.density;
     if (!(cosine > 0) || !(density > 0)) return glm::dvec3(0.0);
-    if (blocked(isovalue, at, direction, std::numeric_limits<double>::infinity())) return glm::dvec3(0.0);
+    if (blocked(isovalue, at, direction, mReach)) return glm::dvec3(0.0);
     const double ratio = directionDensity(cosine) / density;
     return glm::dvec3(sample.radiance) * (cosine / (kPi * density * (1 + ratio * ratio)));
 }
@@ -123,7 +124,7 @@ PlainPaths::Escape PlainPaths::walk(const Start& start, std::uint32_t sample, St
         last = chooseDirection(at.normal, numbers(start, pairNumber(vertex, PathPair::Direction), sample));
         throughput *= last.weight;
         const PlainHit hit = castPlainVolume(mVolume, start.isovalue, {at.world, last.direction, 0.0});
-        if (!hit.hit()) return {last.direction, throughput};
+        if (!hit.hit() || !(hit.t < mReach)) return {last.direction, throughput};
         if (vertex == mSetup.bounces) return {};
         throughput *= glm::dvec3(mSetup.albedo);
         const double survival = std::min(largest(throughput) / kDim, 1.0);

@@ -61,6 +61,7 @@ private:
     const LightSetup& mSetup;
     TexelSampling mSampling;
     bool mProbeSampled;
+    double mReach;  // metres, infinite where there is no limit
 };
 
 }  // namespace stereonav

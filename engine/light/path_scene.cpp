@@ -74,6 +74,7 @@ PathLightTables::PathLightTables(const VolumeFrame& frame, const LightSetup& set
         mLights.albedo[k] = setup.albedo[k];
     }
     mLights.bounces = setup.bounces;
+    mLights.reach = static_cast<float>(setup.reach / pathUnit(frame));
     mLights.lowDiscrepancy = sampling.lowDiscrepancy && !sampling.naive;
     mLights.cosine = sampling.cosine && !sampling.naive;
     mLights.dim = sampling.roulette && !sampling.naive ? kDim : 0.0f;

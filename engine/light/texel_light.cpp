@@ -36,6 +36,8 @@ void checkSetup(const LightSetup& setup) {
     require(withinChannels(setup.albedo, 0, 1), "albedo", "expected numbers from 0 to 1",
             "a surface that sends out more light than it gets never comes to rest");
     require(withinChannels(setup.sky, 0, kMost), "sky", "expected numbers from 0 to 1e15", "give linear RGB");
+    require(setup.reach >= 0 && std::isfinite(setup.reach), "reach", "expected 0 or more metres",
+            "0 is without a limit");
     for (const PointLight& light : setup.lights) {
         require(withinChannels(light.intensity, 0, kMost), "point light",
                 "expected an intensity from 0 to 1e15", "give linear RGB");

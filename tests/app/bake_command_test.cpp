@@ -138,8 +138,11 @@ TEST_F(BakeCommand, OfAColonOnlyTheWallLitAlongTheCentreline) {
     const int texels = std::stoi(outcome.out.substr(outcome.out.find(" of ") + 4));
     EXPECT_GT(texels, 100);
     EXPECT_LT(texels, 24 * 24 * 24 / 2);
-    for (const std::string what : {"openness", "transfer"})
-        expectBakeRefused(maskedTube(), {"--what", what}, {"--what", what, "closed"});
+    expectBakeRefused(maskedTube(), {"--what", "transfer"}, {"--what", "transfer", "closed"});
+    expectBakeRefused(maskedTube(), {"--reach", "0"}, {"--reach", "more than 0 mm"});
+    const Outcome open = bake(maskedTube(), {"--what", "openness", "--samples", "8"});
+    EXPECT_EQ(open.status, 0) << open.err;
+    EXPECT_TRUE(has(open.out, "no wall within ")) << open.out;
     expectBakeRefused(maskedTube(), {"--sky", "1"}, {"--sky", "closed"});
     expectBakeRefused(maskedTube(), {"--full"}, {"--full", "colon"});
     expectBakeRefused(maskedTube(), {"--isovalues", "1,2"}, {"--isovalues", "colon"});

@@ -296,6 +296,7 @@ TEST(TexelKernel, SamplesAreThoseOfThePlainPaths) {
     for (TexelSampling sampling : {TexelSampling{}, naive, plainNumbers})
         for (const SimdTarget target : simdTargets()) {
             sampling.simd = target;
+            setup.reach = sampling.lowDiscrepancy ? 0 : 9e-3;  // a part of the bowl, once
             const TexelLighter lighter(volume, volume.frame, setup, sampling);
             const PlainPaths paths(volume, setup, sampling);
             const glm::ivec3 texel(18, 14, 6);

@@ -111,6 +111,26 @@ TEST(TexelTruth, AClosedCavityKeepsItsLight) {
         }
 }
 
+// From a point of a sphere of radius R the wall is 2 R c away in a direction with the cosine c to the normal,
+// so within a reach d less than 2 R it is met but for 1 - (d / 2 R)^2 of the light.
+TEST(TexelTruth, WithinAReachACavityIsOpen) {
+    const glm::dvec3 centre(20, 20, 20);
+    const double radius = 14;
+    const GreyVolume volume =
+        solidVolume(cubeFrame(41), [&](const glm::dvec3& v) { return glm::length(v - centre) - radius; });
+    const glm::ivec3 texel(20, 20, 6);
+    for (const double share : {0.1, 0.3, 0.7, 0.95, 1.2}) {
+        LightSetup setup = skySetup(0, 0.5f);
+        setup.reach = share * 2 * radius * 1e-3;
+        const TexelSum sum = irradianceAt(TexelLighter(volume, volume.frame, setup, {}), texel, 1024);
+        EXPECT_NEAR(sum.mean.x, std::max(1 - share * share, 0.0), 0.03) << share;
+    }
+    LightSetup endless = skySetup(0, 0.5f);
+    EXPECT_EQ(irradianceAt(TexelLighter(volume, volume.frame, endless, {}), texel, 256).mean.x, 0);
+    endless.reach = -1;
+    EXPECT_THROW(TexelLighter(volume, volume.frame, endless, {}), Error);
+}
+
 TEST(TexelTruth, PointLightsFallOffBySquareAndCosineAndCastHardShadows) {
     const glm::dvec3 centre(16, 16, 16);
     const GreyVolume volume = ballVolume(33, centre, 8);
