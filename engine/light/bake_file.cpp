@@ -13,6 +13,7 @@
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/light/light_probe.h"
+#include "engine/light/path_plain.h"
 #include "engine/light/spherical_harmonics.h"
 
 namespace stereonav {
@@ -225,7 +226,8 @@ std::uint64_t bakeKey(const BakeInputs& in) {
         addColor(hash, in.light.albedo);
         whole(in.light.bounces);
     }
-    // Only where there is one, so that keys of before stay.
+    // Only where there is one, so that keys of before stay: lights chosen by chance, a reach.
+    if (in.shape.kind == BakeKind::Irradiance && choosesLights(in.light, in.sampling)) whole(1);
     if (in.light.reach > 0) hash.add(double{in.light.reach});
     if (in.shape.kind == BakeKind::Transfer) {
         whole(in.shape.order);

@@ -120,11 +120,17 @@ private:
     }
 
     void addDirect(int vertex) {
-        for (int n = 0; n < mLights.pointCount; ++n) {
+        if (mLights.oneByChance) {
             int count = 0;
-            eachPacket(mStore.alive, mAlive,
-                       [&](I path, M m) { aimAtPoint(mLights.points[n], path, m, count); });
+            eachPacket(mStore.alive, mAlive, [&](I path, M m) { aimAtOnePoint(path, vertex, m, count); });
             addUnshadowed(count, true);
+        } else {
+            for (int n = 0; n < mLights.pointCount; ++n) {
+                int count = 0;
+                eachPacket(mStore.alive, mAlive,
+                           [&](I path, M m) { aimAtPoint(mLights.points[n], path, m, count); });
+                addUnshadowed(count, true);
+            }
         }
         if (!mLights.nextEvent) return;
         int count = 0;
@@ -139,23 +145,73 @@ private:
         append(mStore.shadows, count, path, m);
     }
 
-    STEREONAV_INLINE void aimAtPoint(const PathPoint& point, I path, M m, int& count) {
-        const V3 local = gatherRows(mStore.local, path, m), normal = gatherRows(mStore.normal, path, m);
-        const I3 cell = gatherRows(mStore.cell, path, m);
-        const auto apart = [&](int k, I at, F place) {
-            return (F(point.voxel[k]) - toFloat(at) - place) / F(mVolume.step[k]);
+    struct Standing {
+        V3 local, normal;
+        I3 cell;
+    };
+    STEREONAV_INLINE Standing standingOf(I path, M m) const {
+        return {gatherRows(mStore.local, path, m), gatherRows(mStore.normal, path, m),
+                gatherRows(mStore.cell, path, m)};
+    }
+
+    // A point light as seen unshadowed: its share is the cosine over the square of the distance.
+    struct PointSight {
+        V3 way;
+        F distance, share;  // share: 0 or below where the light is behind
+    };
+    STEREONAV_INLINE PointSight sightOf(const PathPoint& point, const Standing& at) const {
+        const auto apart = [&](int k, I cell, F place) {
+            return (F(point.voxel[k]) - toFloat(cell) - place) / F(mVolume.step[k]);
         };
-        V3 way{apart(0, cell.x, local.x), apart(1, cell.y, local.y), apart(2, cell.z, local.z)};
+        V3 way{apart(0, at.cell.x, at.local.x), apart(1, at.cell.y, at.local.y),
+               apart(2, at.cell.z, at.local.z)};
         const F distance = sqrt(dot(way, way));
         const M apartAtAll = F(1e-12f) < distance;
         const F inverse = F(1.0f) / select(apartAtAll, distance, F(1.0f));
-        way = {select(apartAtAll, way.x * inverse, normal.x), select(apartAtAll, way.y * inverse, normal.y),
-               select(apartAtAll, way.z * inverse, normal.z)};
-        const F cosine = dot(way, normal), d = max(distance, F(point.radius)), share = cosine / (d * d);
-        const M seen = m & (F(0.0f) < cosine);
+        way = {select(apartAtAll, way.x * inverse, at.normal.x),
+               select(apartAtAll, way.y * inverse, at.normal.y),
+               select(apartAtAll, way.z * inverse, at.normal.z)};
+        const F d = max(distance, F(point.radius));
+        return {way, distance, dot(way, at.normal) / (d * d)};
+    }
+
+    STEREONAV_INLINE void aimAtPoint(const PathPoint& point, I path, M m, int& count) {
+        const PointSight sight = sightOf(point, standingOf(path, m));
+        const M seen = m & (F(0.0f) < sight.share);
+        scatter(mStore.shadowLimit, path, sight.distance, seen);
+        const auto light = [&](int k) { return sight.share * F(point.intensity[k]); };
+        aim(path, sight.way, {light(0), light(1), light(2)}, seen, count);
+    }
+
+    // One point light of many, by chance: each as likely as what it would bring is of what all would, so that
+    // what it brings is all their light in its colour.
+    STEREONAV_INLINE void aimAtOnePoint(I path, int vertex, M m, int& count) {
+        const Standing at = standingOf(path, m);
+        F all(0.0f);
+        for (int n = 0; n < mLights.pointCount; ++n)
+            all = all + max(sightOf(mLights.points[n], at).share, F(0.0f)) * F(mLights.points[n].weight);
+        const F sought = numbers(path, vertex, kRoulettePair, m).y * all;
+        M open = m & (F(0.0f) < all);
+        F sum(0.0f), distance(0.0f), red(0.0f), green(0.0f), blue(0.0f);
+        V3 way{F(0.0f), F(0.0f), F(0.0f)};
+        for (int n = 0; n < mLights.pointCount && any(open); ++n) {
+            const PathPoint& point = mLights.points[n];
+            const PointSight sight = sightOf(point, at);
+            sum = sum + max(sight.share, F(0.0f)) * F(point.weight);
+            // Rounding may leave the last one short of what is sought: the latest that is seen stands.
+            const M take = open & (F(0.0f) < sight.share);
+            way = {select(take, sight.way.x, way.x), select(take, sight.way.y, way.y),
+                   select(take, sight.way.z, way.z)};
+            distance = select(take, sight.distance, distance);
+            const auto light = [&](int k) { return F(point.intensity[k] / point.weight) * all; };
+            red = select(take, light(0), red);
+            green = select(take, light(1), green);
+            blue = select(take, light(2), blue);
+            open = andNot(open, take & (sought < sum));
+        }
+        const M seen = m & (F(0.0f) < all);
         scatter(mStore.shadowLimit, path, distance, seen);
-        const auto light = [&](int k) { return share * F(point.intensity[k]); };
-        aim(path, way, {light(0), light(1), light(2)}, seen, count);
+        aim(path, way, {red, green, blue}, seen, count);
     }
 
     // Weighted by the power heuristic (Veach and Guibas 1995).

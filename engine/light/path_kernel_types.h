@@ -36,6 +36,7 @@ struct PathProbe {
 struct PathPoint {
     float voxel[3] = {};      // position, voxel space
     float intensity[3] = {};  // over pi and the square of the unit: divided by squared units it is light
+    float weight = 0;         // luminance of the intensity, above 0
     float radius = 0;         // units
 };
 
@@ -44,6 +45,7 @@ struct PathLights {
     PathProbe probe;
     const PathPoint* points = nullptr;
     std::int32_t pointCount = 0;
+    bool oneByChance = false;  // of the points, by what each would bring unshadowed; else all
     float sky[3] = {}, albedo[3] = {};
     std::int32_t bounces = 0;
     float reach = 0;  // units, of rays that look for distant light; 0: endless

@@ -39,11 +39,19 @@ double largest(const glm::dvec3& v) {
 
 }  // namespace
 
+bool choosesLights(const LightSetup& setup, const TexelSampling& sampling) {
+    constexpr int kFew = 4;
+    return !sampling.naive &&
+           std::count_if(setup.lights.begin(), setup.lights.end(),
+                         [](const PointLight& light) { return lightWeight(light) > 0; }) > kFew;
+}
+
 PlainPaths::PlainPaths(const GreyVolume& volume, const LightSetup& setup, const TexelSampling& sampling)
     : mVolume(volume), mSetup(setup), mSampling(sampling) {
     if (mSampling.naive)
         mSampling.lowDiscrepancy = mSampling.cosine = mSampling.nextEvent = mSampling.roulette = false;
     mProbeSampled = mSampling.nextEvent && setup.probe && !setup.probe->black();
+    mOneLight = choosesLights(setup, mSampling);
     mReach = setup.reach > 0 ? setup.reach : std::numeric_limits<double>::infinity();
 }
 
@@ -76,18 +84,35 @@ bool PlainPaths::blocked(double isovalue, const Vertex& at, const glm::dvec3& di
     return castPlainVolume(mVolume, isovalue, {at.world, direction, 0.0}).t < distance;
 }
 
+PlainPaths::PointSight PlainPaths::sightOf(const PointLight& light, const Vertex& at) {
+    const glm::dvec3 way = light.position - at.world;
+    const double distance = glm::length(way), d = std::max(distance, light.radius);
+    const glm::dvec3 direction = distance > 0 ? way / distance : at.normal;
+    return {direction, distance, std::max(glm::dot(direction, at.normal), 0.0) / (kPi * d * d)};
+}
+
 // What a white surface sends out by the point lights, which cast hard shadows.
 glm::dvec3 PlainPaths::pointLights(double isovalue, const Vertex& at) const {
     glm::dvec3 sum(0.0);
     for (const PointLight& light : mSetup.lights) {
-        const glm::dvec3 way = light.position - at.world;
-        const double distance = glm::length(way);
-        const glm::dvec3 direction = distance > 0 ? way / distance : at.normal;
-        const double cosine = glm::dot(direction, at.normal), d = std::max(distance, light.radius);
-        if (!(cosine > 0) || blocked(isovalue, at, direction, distance)) continue;
-        sum += glm::dvec3(light.intensity) * (cosine / (kPi * d * d));
+        const PointSight sight = sightOf(light, at);
+        if (sight.share > 0 && !blocked(isovalue, at, sight.direction, sight.distance))
+            sum += glm::dvec3(light.intensity) * sight.share;
     }
     return sum;
+}
+
+glm::dvec3 PlainPaths::onePointLight(double isovalue, const Vertex& at, double u) const {
+    double all = 0, sum = 0;
+    for (const PointLight& light : mSetup.lights) all += sightOf(light, at).share * lightWeight(light);
+    for (const PointLight& light : mSetup.lights) {
+        const PointSight sight = sightOf(light, at);
+        sum += sight.share * lightWeight(light);
+        if (!(u * all < sum)) continue;
+        if (blocked(isovalue, at, sight.direction, sight.distance)) break;
+        return glm::dvec3(light.intensity) * (all / lightWeight(light));
+    }
+    return glm::dvec3(0.0);
 }
 
 // One sample of the probe by its brightness, weighted by the power heuristic (Veach and Guibas 1995).
@@ -145,7 +170,10 @@ glm::dvec3 PlainPaths::irradiance(const Start& start, std::uint32_t sample) cons
     Step last;
     const Escape escape =
         walk(start, sample, last, [&](const Vertex& at, int vertex, const glm::dvec3& throughput) {
-            glm::dvec3 direct = pointLights(start.isovalue, at);
+            glm::dvec3 direct =
+                mOneLight ? onePointLight(start.isovalue, at,
+                                          numbers(start, pairNumber(vertex, PathPair::Roulette), sample).y)
+                          : pointLights(start.isovalue, at);
             if (mProbeSampled)
                 direct += sampledProbe(start.isovalue, at,
                                        numbers(start, pairNumber(vertex, PathPair::Probe), sample));

@@ -17,6 +17,10 @@ namespace stereonav {
 // is their share of it.
 constexpr float kDim = 0.25f;
 
+// More point lights than a few are sampled one at a time, by what each would bring unshadowed; the naive way
+// takes all.
+bool choosesLights(const LightSetup& setup, const TexelSampling& sampling);
+
 class PlainPaths {
 public:
     PlainPaths(const GreyVolume& volume, const LightSetup& setup, const TexelSampling& sampling);
@@ -50,7 +54,13 @@ private:
     Vertex vertexAt(const glm::dvec3& voxel, const glm::dvec3& normal) const;
     Step chooseDirection(const glm::dvec3& normal, const glm::dvec2& u) const;
     bool blocked(double isovalue, const Vertex& at, const glm::dvec3& direction, double distance) const;
+    struct PointSight {
+        glm::dvec3 direction;
+        double distance, share;
+    };
+    static PointSight sightOf(const PointLight& light, const Vertex& at);
     glm::dvec3 pointLights(double isovalue, const Vertex& at) const;
+    glm::dvec3 onePointLight(double isovalue, const Vertex& at, double u) const;
     glm::dvec3 sampledProbe(double isovalue, const Vertex& at, const glm::dvec2& u) const;
     glm::dvec3 distantLight(const Step& step) const;
     double directionDensity(double cosine) const;
@@ -60,7 +70,7 @@ private:
     const GreyVolume& mVolume;
     const LightSetup& mSetup;
     TexelSampling mSampling;
-    bool mProbeSampled;
+    bool mProbeSampled, mOneLight;
     double mReach;  // metres, infinite where there is no limit
 };
 

@@ -82,6 +82,7 @@ PathLightTables::PathLightTables(const VolumeFrame& frame, const LightSetup& set
     mLights.nextEvent = sampling.nextEvent && !sampling.naive && shines;
     if (shines) tabulate(*setup.probe);
     addPoints(frame, setup.lights);
+    mLights.oneByChance = choosesLights(setup, sampling);
 }
 
 void PathLightTables::tabulate(const LightProbe& probe) {
@@ -113,8 +114,10 @@ void PathLightTables::tabulate(const LightProbe& probe) {
 void PathLightTables::addPoints(const VolumeFrame& frame, const std::vector<PointLight>& points) {
     const double unit = pathUnit(frame);
     for (const PointLight& light : points) {
+        if (!(lightWeight(light) > 0)) continue;
         const glm::dvec3 voxel = frame.voxelFromWorld(light.position);
         PathPoint point;
+        point.weight = static_cast<float>(lightWeight(light) / (kPi * unit * unit));
         for (int k = 0; k < 3; ++k) {
             point.voxel[k] = static_cast<float>(voxel[k]);
             point.intensity[k] = static_cast<float>(light.intensity[k] / (kPi * unit * unit));

@@ -111,6 +111,25 @@ TEST(TexelTruth, AClosedCavityKeepsItsLight) {
         }
 }
 
+// One light of many by chance brings in the mean what all bring.
+TEST(TexelTruth, OneOfManyLightsStandsForAll) {
+    const GreyVolume volume = bowlVolume(33, glm::dvec3(16, 16, 18), 12, 16);
+    LightSetup setup = skySetup(1, 0.6f);
+    setup.sky = glm::vec3(0);
+    for (int n = 0; n < 12; ++n)
+        setup.lights.push_back({glm::dvec3(2e-3 * n, 30e-3 - 2e-3 * n, (n % 3 ? 12e-3 : 30e-3)),
+                                glm::vec3(1e-5f * float(1 + n % 4)), 1e-3});
+    TexelSampling all;
+    all.naive = true;
+    for (const glm::ivec3 texel : {glm::ivec3(16, 16, 6), glm::ivec3(24, 16, 10)}) {
+        const TexelSum wanted = irradianceAt(TexelLighter(volume, volume.frame, setup, all), texel, 8192);
+        const TexelSum chosen = irradianceAt(TexelLighter(volume, volume.frame, setup, {}), texel, 8192);
+        EXPECT_GT(wanted.mean.x, 0.01f);
+        EXPECT_NEAR(chosen.mean.x, wanted.mean.x,
+                    4 * std::hypot(standardError(chosen), standardError(wanted)));
+    }
+}
+
 // From a point of a sphere of radius R the wall is 2 R c away in a direction with the cosine c to the normal,
 // so within a reach d less than 2 R it is met but for 1 - (d / 2 R)^2 of the light.
 TEST(TexelTruth, WithinAReachACavityIsOpen) {
