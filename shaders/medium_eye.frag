@@ -87,7 +87,7 @@ void main() {
     Properties p = propertiesAt(place, uEyePixel[uEye] * k);
     if (!(p.extinction > 0.0)) discard;
     float x = min(p.extinction * uSlab.y / cosine, 1e30);
-    sent = vec4(scattered(p, place, ray / far, x), exp(-x));
+    sent = vec4(scattered(p, place, ray / far, x), through(x));
 #if GLOW
     sent.rgb += p.glow * (1.0 - sent.a);
 #endif

@@ -65,7 +65,7 @@ void main() {
     if (!(dot(uAxis, way) > kLeastCosine) || !(texelWidth > 0.0)) return;
     float slabLength = uSlab.y / dot(uAxis, way);
     Properties p = propertiesAt(place, texelWidth);
-    behind.a *= exp(-p.extinction * slabLength);
+    behind.a *= through(p.extinction * slabLength);
 #if MODEL == 3
     behind.rgb = blurred(texel, behind.rgb, uSpread * sqrt(slabLength) / texelWidth) *
                  exp(-p.indirectExtinction * slabLength);

@@ -68,11 +68,11 @@ Properties unperturbed(vec3 place, float footprint) {
     return p;
 }
 #elif LAYERS > 0
-layout(binding = 8) uniform sampler2D uHeights[LAYERS];  // mip levels side by side, metres
+layout(binding = 8) uniform sampler2D uHeights[LAYERS];  // mip levels side by side, metres over its lowest
 uniform ivec4 uHeightLevels[LAYERS * LEVELS];            // corner and size of each
 uniform vec4 uHeightFrame[LAYERS];  // samples a metre, the anchor's place in samples (u, v), coarsest level
-uniform vec4 uHeightReach[LAYERS];  // below, above, 1 / taper (1e30: none), the anchor's z: metres
-uniform vec2 uHeightTable[LAYERS];  // columns a metre, column of height 0
+uniform vec4 uHeightReach[LAYERS];  // below, above, 1 / taper (1e30: none), the anchor's height: metres
+uniform vec2 uHeightTable[LAYERS];  // columns a metre, column of the lowest
 
 float heightIn(int layer, int level, vec2 at) {
     ivec4 part = uHeightLevels[layer * LEVELS + level];

@@ -15,14 +15,15 @@ uniform float uPerFalloff;   // 1 / metres, 0 without
 uniform vec3 uRadiance;      // linear
 
 // (1 - exp(-z)) / z: by its series where the difference would lose digits.
-float meanShare(float z) {
-    float series = 1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0)));
-    return z < 0.05 ? series : (1.0 - exp(-z)) / max(z, 0.05);
-}
+float meanSeries(float z) { return 1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0))); }
+vec3 meanSeries(vec3 z) { return 1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0))); }
+float meanShare(float z) { return z < 0.05 ? meanSeries(z) : (1.0 - exp(-z)) / max(z, 0.05); }
 vec3 meanShare(vec3 z) {
-    vec3 series = 1.0 - z * (0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0)));
-    return mix((1.0 - exp(-z)) / max(z, 0.05), series, lessThan(z, vec3(0.05)));
+    return mix((1.0 - exp(-z)) / max(z, 0.05), meanSeries(z), lessThan(z, vec3(0.05)));
 }
+
+// exp(-z). llvmpipe's is below 1 for tiny z, which hundreds of slabs add up.
+float through(float z) { return z < 0.05 ? 1.0 - z * meanSeries(z) : exp(-z); }
 
 // slabShare: of optical depths of the slab along the eye's ray and the light's, up to 1e30 each.
 #if FORWARD

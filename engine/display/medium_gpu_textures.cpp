@@ -63,6 +63,17 @@ void uploadTable(const MediumTable& table, int firstLayer, int rows) {
     }
 }
 
+// Over `lowest`, so that floats near it have their digits for what counts.
+void uploadHeights(const Plane<float>& level, double lowest, const glm::ivec4& place) {
+    std::vector<float> row(static_cast<std::size_t>(level.width()));
+    for (int y = 0; y < level.height(); ++y) {
+        std::transform(level.row(y), level.row(y) + level.width(), row.begin(),
+                       [&](float height) { return static_cast<float>(height - lowest); });
+        glTexSubImage2D(GL_TEXTURE_2D, 0, place.x, place.y + y, level.width(), 1, GL_RED, GL_FLOAT,
+                        row.data());
+    }
+}
+
 }  // namespace
 
 MediumTextures::MediumTextures(const Medium& medium) : mMedium(medium) {
@@ -120,11 +131,8 @@ void MediumTextures::uploadLayer(const HeightLayer& layer) {
     for (std::size_t n = 0; n < std::min(layer.levels.size(), heights.levels.size()); ++n) {
         const Plane<float>& level = layer.levels[n];
         if (level.empty()) continue;
-        glPixelStorei(GL_UNPACK_ROW_LENGTH, level.stride());
-        glTexSubImage2D(GL_TEXTURE_2D, 0, heights.levels[n].x, heights.levels[n].y, level.width(),
-                        level.height(), GL_RED, GL_FLOAT, level.row(0));
+        uploadHeights(level, layer.lowest, heights.levels[n]);
     }
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     expectUploaded("height layer");
 }
 
@@ -220,9 +228,10 @@ void MediumTextures::setLayerUniforms(const ShaderProgram& program, const glm::d
                     f((anchor.x - layer.originX) / layer.spacing),
                     f((anchor.y - layer.originY) / layer.spacing), f(static_cast<double>(levels.size()) - 1));
         glUniform4f(at("uHeightReach", n), f(layer.below), f(layer.above),
-                    layer.taper > 0 ? f(std::min(1 / layer.taper, 1e30)) : 1e30f, f(anchor.z));
+                    layer.taper > 0 ? f(std::min(1 / layer.taper, 1e30)) : 1e30f, f(anchor.z - layer.lowest));
         const MediumTable& table = layer.table;
-        glUniform2f(at("uHeightTable", n), f(table.perValue), f(-table.firstValue * table.perValue));
+        glUniform2f(at("uHeightTable", n), f(table.perValue),
+                    f((layer.lowest - table.firstValue) * table.perValue));
     }
 }
 

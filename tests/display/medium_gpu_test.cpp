@@ -107,6 +107,13 @@ Difference differenceOf(const MediumPicture& a, const MediumPicture& b) {
     return d;
 }
 
+// A medium and what has compiled its shaders, which takes longer than to use them.
+struct Subject {
+    explicit Subject(Medium m) : medium(std::move(m)) {}
+    Medium medium;
+    MediumGpu gpu{medium};
+};
+
 class MediumGpuTest : public testing::Test {
 protected:
     void SetUp() override {
@@ -116,12 +123,12 @@ protected:
 
     // Forward sweeps go on up to 16 slabs behind where a ray has less than 1/1024 left: that is the most that
     // they differ by, beside the rounding of floats.
-    static void expectAsByTheBook(const Medium& medium, const MediumLook& look,
-                                  const std::vector<EyeView>& eyes, const SweepSetting& setting,
-                                  double time = 0, double most = 2e-3) {
+    static void expectAsByTheBook(Subject& subject, const MediumLook& look, const std::vector<EyeView>& eyes,
+                                  const SweepSetting& setting, double time = 0, double most = 2e-3) {
         const glm::dvec3 head = eyes[0].head;
         std::vector<MediumPicture> got(eyes.size());
-        MediumGpu(medium).render(look, setting, eyes, head, time, got);
+        subject.gpu.render(look, setting, eyes, head, time, got);
+        const Medium& medium = subject.medium;
         const SweepGeometry geometry = makeSweepGeometry(medium, look, setting, eyes, head);
         const std::vector<MediumPicture> expected = plainSweep(medium, look, setting, geometry, time);
         for (std::size_t n = 0; n < eyes.size(); ++n) {
@@ -141,13 +148,262 @@ const glm::dvec3 kEye = kMiddle + glm::dvec3(0.4, -2.0, 0.5);
 const glm::dvec3 kWithView{0.2, 1, -0.4}, kAgainstView{0.3, -1, -0.5}, kBeside{1, 0.1, -0.1};
 
 TEST_F(MediumGpuTest, EveryModelForwardAndBackward) {
-    const Medium medium(blobs(), transfer());
+    Subject subject(Medium(blobs(), transfer()));
     for (const MediumModel model :
          {MediumModel::Emission, MediumModel::Surface, MediumModel::Direct, MediumModel::Indirect})
         for (const glm::dvec3& direction : {kWithView, kAgainstView, kBeside}) {
             SCOPED_TRACE(nameOf(model));
-            expectAsByTheBook(medium, lookOf(model, direction), {viewFrom(kEye, kMiddle)}, smallSetting());
+            expectAsByTheBook(subject, lookOf(model, direction), {viewFrom(kEye, kMiddle)}, smallSetting());
         }
+}
+
+TEST_F(MediumGpuTest, SurfaceWeightHighlightGlowAndColouredPhase) {
+    Subject subject(Medium(blobs(), transfer(0.8, 0.3f)));
+    for (const MediumModel model : {MediumModel::Emission, MediumModel::Surface, MediumModel::Indirect})
+        for (const glm::dvec3& direction : {kWithView, kAgainstView}) {
+            MediumLook look = lookOf(model, direction);
+            look.phase = PhaseFunction::henyeyGreenstein({0.7f, -0.3f, 0.2f});
+            look.indirectShare = 0.6f;
+            look.specular = 1.5f;
+            expectAsByTheBook(subject, look, {viewFrom(kEye, kMiddle)}, smallSetting());
+        }
+}
+
+TEST_F(MediumGpuTest, LampsBeforeBesideAndInTheMedium) {
+    Subject subject(Medium(blobs(), transfer()));
+    for (const glm::dvec3& place :
+         {glm::dvec3(-1, -2, 1), glm::dvec3(1.5, 1.5, 0.3), glm::dvec3(0.1, -0.1, 0.2)})
+        for (const double cone : {2.0, 0.6}) {
+            MediumLook look = lookOf(MediumModel::Indirect, -place);
+            look.light.kind = MediumLight::Kind::Lamp;
+            look.light.position = kMiddle + place;
+            look.light.coneAngle = cone;
+            look.light.falloff = 1.5;
+            expectAsByTheBook(subject, look, {viewFrom(kEye, kMiddle)}, smallSetting());
+        }
+}
+
+TEST_F(MediumGpuTest, TheHeadsLampAndAnEyeInside) {
+    Subject subject(Medium(blobs(), transfer(0.5)));
+    MediumLook look = lookOf(MediumModel::Indirect, {0, 0, -1});
+    look.light.kind = MediumLight::Kind::Lamp;
+    look.light.atHead = true;
+    expectAsByTheBook(subject, look, {viewFrom(kEye, kMiddle)}, smallSetting());
+    const glm::dvec3 inside = kMiddle + glm::dvec3(0.3, -0.3, -0.2);
+    expectAsByTheBook(subject, look, {viewFrom(inside, kMiddle)}, smallSetting());
+    for (const glm::dvec3& direction : {kWithView, kAgainstView})
+        expectAsByTheBook(subject, lookOf(MediumModel::Indirect, direction), {viewFrom(inside, kMiddle)},
+                          smallSetting());
+}
+
+// Two regions over value and gradient magnitude.
+MediumTransfer steepTransfer() {
+    MediumRegion body, edge;
+    std::copy_n(std::initializer_list<double>{200, 400, 2000, 2001}.begin(), 4, body.value);
+    std::copy_n(std::initializer_list<double>{0, 0, 800, 2000}.begin(), 4, body.gradient);
+    body.material = {{0.4f, 0.7f, 0.9f}, 0.4, {0.5f, 0.7f, 0.9f}, 0.1, {}};
+    std::copy_n(std::initializer_list<double>{100, 300, 800, 1200}.begin(), 4, edge.value);
+    std::copy_n(std::initializer_list<double>{900, 1800, 1e5, 2e5}.begin(), 4, edge.gradient);
+    edge.material = {{0.9f, 0.5f, 0.2f}, 0.8, {0.9f, 0.6f, 0.5f}, 0.9, {}};
+    return {{body, edge}, 0.2, "test"};
+}
+
+TEST_F(MediumGpuTest, TheGradientChoosesToo) {
+    Subject subject(Medium(blobs(), steepTransfer()));
+    ASSERT_TRUE(subject.medium.table().usesGradient());
+    for (const glm::dvec3& direction : {kWithView, kAgainstView})
+        expectAsByTheBook(subject, lookOf(MediumModel::Indirect, direction), {viewFrom(kEye, kMiddle)},
+                          smallSetting());
+}
+
+TEST_F(MediumGpuTest, StoredValuesAreScaledAndShifted) {
+    Subject subject(Medium(blobs(0.02, 500), transfer()));
+    expectAsByTheBook(subject, lookOf(MediumModel::Direct, kWithView), {viewFrom(kEye, kMiddle)},
+                      smallSetting());
+}
+
+// Values that 16 bits hold exactly at both ends: formats that are normalised lose -32768.
+TEST_F(MediumGpuTest, TheLeastAndTheLargestValueAreTold) {
+    VolumeFrame frame;
+    frame.size = {2, 2, 2};
+    frame.origin = glm::dvec3(-0.5);
+    auto field = std::make_shared<GreyVolume>(frame);
+    for (int k = 0; k < 2; ++k)
+        for (int j = 0; j < 2; ++j)
+            for (int i = 0; i < 2; ++i) field->at(i, j, k) = k == 0 ? -32768 : 32767;
+    Subject subject(Medium(field, transfer()));
+    expectAsByTheBook(subject, lookOf(MediumModel::Emission, kWithView),
+                      {viewFrom({0.1, -2, 0.2}, glm::dvec3(0.0))}, smallSetting());
+}
+
+Perturbation twoScales() {
+    Perturbation noise;
+    noise.scales.resize(2);
+    noise.scales[0] = {1.2, 0.06, 0.5f, {0.2f, -0.3f, 0.1f}, {0.3f, 0.2f, -0.4f}, {0.1, 0, -0.2}};
+    noise.scales[1] = {0.5, 0.03, -0.7f, {-0.1f, 0.2f, 0.1f}, {0.1f, 0.1f, 0.1f}, {0, 0.3, 0}};
+    return noise;
+}
+
+TEST_F(MediumGpuTest, NoiseMovesPlacesAndChangesProperties) {
+    Subject subject(Medium(blobs(), transfer(0.4), twoScales()));
+    const MediumLook look = lookOf(MediumModel::Indirect, kWithView);
+    for (const double time : {0.0, 1.7, 86400.25})
+        expectAsByTheBook(subject, look, {viewFrom(kEye, kMiddle)}, smallSetting(), time);
+}
+
+// Hills and a sheet of mist above them; a sample is not known.
+std::vector<HeightLayer> hillsUnderMist() {
+    std::vector<HeightLayer> layers(2);
+    for (int n = 0; n < 2; ++n) {
+        HeightLayer& layer = layers[n];
+        layer.spacing = n == 0 ? 0.08 : 0.11;
+        layer.originX = kMiddle.x - 1;
+        layer.originY = kMiddle.y - 0.9;
+        Plane<float>& heights = layer.levels.emplace_back(25, 19 + n);
+        for (int y = 0; y < heights.height(); ++y)
+            for (int x = 0; x < heights.width(); ++x)
+                heights.at(x, y) =
+                    static_cast<float>(kMiddle.z + (n == 0 ? 0.2 * std::sin(0.6 * x) * std::cos(0.5 * y)
+                                                           : 0.35 + 0.05 * std::sin(0.9 * x + y)));
+        layer.below = n == 0 ? 0.3 : 0.1;
+        layer.above = 0.1;
+        layer.taper = n == 0 ? 0 : 0.07;
+        std::vector<MediumPoint> points(2);
+        points[0].value = kMiddle.z - 1;
+        points[0].material = {
+            {0.3f, 0.6f, 0.2f}, n == 0 ? 0.95 : 0.2, {0.5f, 0.6f, 0.7f}, n == 0 ? 0.8 : 0.0, {}};
+        points[1] = points[0];
+        points[1].value = kMiddle.z + 1;
+        points[1].material.color = {0.9f, 0.8f, 0.7f};
+        layer.table = makeMediumTable(MediumTransfer(points, 0.2, "test"), kMiddle.z - 1, kMiddle.z + 1);
+        if (n == 0) heights.at(3, 4) = std::nanf("");
+        makeMipLevels(layer);
+    }
+    return layers;
+}
+
+TEST_F(MediumGpuTest, LayersOverHeightFields) {
+    const glm::dvec3 eye = kMiddle + glm::dvec3(0.3, -1.6, 1.1);
+    for (const bool noisy : {false, true}) {
+        Subject subject(Medium(hillsUnderMist(), noisy ? twoScales() : Perturbation{}));
+        for (const glm::dvec3& direction : {kWithView, kAgainstView})
+            // Wide pixels: coarse mip levels are read.
+            expectAsByTheBook(subject, lookOf(MediumModel::Indirect, direction),
+                              {viewFrom(eye, kMiddle, 12, 10)}, smallSetting(), 0.5);
+    }
+}
+
+bool equal(const MediumPicture& a, const MediumPicture& b, double most = 0) {
+    if (a.light.width() != b.light.width() || a.light.height() != b.light.height()) return false;
+    const Difference d = differenceOf(a, b);
+    return d.worst <= most && d.depths == 0;
+}
+
+TEST_F(MediumGpuTest, TwoEyesInOneSweepIntoOneTargetOrSeveral) {
+    Subject subject(Medium(blobs(), transfer()));
+    EyeView left = viewFrom(kEye, kMiddle), right = left;
+    left.eye -= 0.1 * left.right;
+    right.eye += 0.1 * right.right;
+    right.height = 18;  // they need not be alike
+    const std::vector<EyeView> eyes{left, right};
+    for (const glm::dvec3& direction : {kWithView, kAgainstView}) {
+        const MediumLook look = lookOf(MediumModel::Indirect, direction);
+        expectAsByTheBook(subject, look, eyes, smallSetting(true));
+        MediumGpu& gpu = subject.gpu;
+        std::vector<MediumPicture> one(2), several(2);
+        gpu.render(look, smallSetting(true), eyes, left.head, 0, one);
+        gpu.render(look, smallSetting(false), eyes, left.head, 0, several);
+        // Texture coordinates of the light's buffer are rounded otherwise in a larger texture.
+        for (int eye = 0; eye < 2; ++eye) EXPECT_TRUE(equal(one[eye], several[eye], 1e-5)) << eye;
+    }
+}
+
+TEST_F(MediumGpuTest, TheSameAgainAfterOtherFrames) {
+    Subject subject(Medium(blobs(), transfer(0.3)));
+    const std::vector<EyeView> eyes{viewFrom(kEye, kMiddle)};
+    const MediumLook look = lookOf(MediumModel::Indirect, kWithView);
+    MediumGpu& gpu = subject.gpu;
+    std::vector<MediumPicture> first(1), other(1), again(1);
+    gpu.render(look, smallSetting(), eyes, eyes[0].head, 0, first);
+    MediumLook lamp = lookOf(MediumModel::Direct, kAgainstView);
+    lamp.light.kind = MediumLight::Kind::Lamp;
+    lamp.light.position = kMiddle + glm::dvec3(0, 2, 1);
+    lamp.phase = PhaseFunction::henyeyGreenstein(glm::vec3(0.5f));
+    gpu.render(lamp, smallSetting(false), {{viewFrom(kEye, kMiddle, 31, 9)}}, eyes[0].head, 0, other);
+    EXPECT_FALSE(equal(first[0], other[0]));
+    gpu.render(look, smallSetting(), eyes, eyes[0].head, 0, again);
+    EXPECT_TRUE(equal(first[0], again[0]));
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    for (const GLenum what : {GL_BLEND, GL_SCISSOR_TEST, GL_DEPTH_TEST}) EXPECT_FALSE(glIsEnabled(what));
+    GLint bound = -1;
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
+    EXPECT_EQ(bound, 0);
+}
+
+TEST_F(MediumGpuTest, EmptySpaceShowsWhatLiesBehind) {
+    const MediumTransfer none(std::vector<MediumPoint>{{0, {}}, {1000, {}}}, 0.2, "test");
+    for (const Medium& medium : {Medium(), Medium(blobs(), none)}) {
+        std::vector<MediumPicture> got(1);
+        const std::vector<EyeView> eyes{viewFrom(kEye, kMiddle)};
+        MediumGpu(medium).render(lookOf(MediumModel::Indirect, kWithView), smallSetting(), eyes, kEye, 0,
+                                 got);
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 24; ++x) {
+                ASSERT_EQ(got[0].light.at(x, y), glm::vec4(0, 0, 0, 1));
+                ASSERT_EQ(got[0].viewDepth.at(x, y), kMissDepth);
+            }
+    }
+}
+
+// A cube of one value, 2 m wide, `depth` deep optically along y; seen along y by nearly parallel rays.
+Medium cubeOf(double depth) {
+    VolumeFrame frame;
+    frame.size = {2, 2, 2};
+    frame.spacing = glm::dvec3(2.0);
+    frame.origin = glm::dvec3(-1.0);
+    auto field = std::make_shared<GreyVolume>(frame);
+    for (int k = 0; k < 2; ++k)
+        for (int j = 0; j < 2; ++j)
+            for (int i = 0; i < 2; ++i) field->at(i, j, k) = 500;
+    // Opacity of a layer of the reference length 2 m / depth: 1 - 1 / e.
+    MediumMaterial material{glm::vec3(1.0f), 1 - std::exp(-1.0), glm::vec3(1.0f), 0, {}};
+    return Medium(
+        field, MediumTransfer(std::vector<MediumPoint>{{0, material}, {1000, material}}, 2 / depth, "test"));
+}
+
+// What a cube sends of light scattered once on its way along the view, for any number of slabs.
+TEST_F(MediumGpuTest, ClosedFormsOfACubeFromThinToDense) {
+    EyeView view = viewFrom({0, -1e4, 0}, glm::dvec3(0.0), 3, 3);
+    view.xMin = view.yMin = -1e-5;
+    view.xMax = view.yMax = 1e-5;
+    for (const double depth : {1e-6, 0.1, 5.0, 1e6}) {
+        Subject subject(cubeOf(depth));
+        for (const int slices : {1, 7, 300})
+            for (const bool forward : {true, false}) {
+                MediumLook look = lookOf(MediumModel::Direct, {0, forward ? 1 : -1, 0});
+                look.light.radiance = glm::vec3(1.0f);
+                SweepSetting setting = smallSetting();
+                setting.slices = slices;
+                std::vector<MediumPicture> got(1);
+                subject.gpu.render(look, setting, {{view}}, view.eye, 0, got);
+                const double expected = forward ? -std::expm1(-2 * depth) / 2 : depth * std::exp(-depth);
+                const glm::vec4 seen = got[0].light.at(1, 1);
+                SCOPED_TRACE(testing::Message() << depth << ' ' << slices << ' ' << forward);
+                EXPECT_NEAR(seen.g, expected, 1e-4 * expected + 1e-9);
+                EXPECT_NEAR(seen.a, std::exp(-depth), depth > 6 ? 1.0 / 1024 : 2e-5);  // 300 roundings
+                EXPECT_LE(seen.r, 1.0f);
+            }
+    }
+}
+
+TEST_F(MediumGpuTest, MoreEyesThanItHoldsAreRefused) {
+    Subject subject(Medium(blobs(), transfer()));
+    const std::vector<EyeView> eyes(5, viewFrom(kEye, kMiddle));
+    std::vector<MediumPicture> pictures(5);
+    EXPECT_THROW(subject.gpu.render(MediumLook(), smallSetting(), eyes, kEye, 0, pictures), Error);
+    pictures.resize(1);
+    EXPECT_THROW(subject.gpu.render(MediumLook(), smallSetting(), {eyes.data(), 2}, kEye, 0, pictures),
+                 Error);
 }
 
 }  // namespace
