@@ -4,7 +4,7 @@
 // In: the light's buffer before the slab, as medium_light.frag leaves it. Out: linear light in rgb and the
 // share seen through in a, for blending (forward: behind what is there, backward: before it); the view depth
 // of the slab's sample in metres, of which the least is kept. Pixel (x, y) of an eye, y downwards.
-// Defined by the program, beside what the files before it need: PHASE, EYES.
+// Defined by the program, beside what the files before it need: PHASE, EYES, BAKED, OPENNESS.
 uniform int uEye;
 uniform ivec2 uEyeAt;           // corner of its region in the target
 uniform vec3 uEyeOrigin[EYES];
@@ -21,6 +21,11 @@ layout(binding = 3) uniform sampler1D uPhase;  // by half the angle, see PhaseTe
 uniform vec2 uPhaseScale;
 uniform float uIndirectShare;
 uniform vec4 uShading;  // ambient, diffuse, specular, shininess
+#if BAKED
+layout(binding = 5) uniform sampler3D uBaked;  // linear light times weight, and the weight
+uniform mat4x3 uBakedFromPlace;                // to texture coordinates
+uniform vec2 uBakedShares;                     // exposure, share of the lamp beside it
+#endif
 layout(location = 0) out vec4 sent;
 layout(location = 1) out float viewDepth;
 
@@ -51,6 +56,23 @@ float shading(vec3 gradient, vec3 way, vec3 view) {
     return toLight * toEye > 0.0 && long2 > 0.0 ? sum + uShading.z * pow(min(shine, 1.0), uShading.w) : sum;
 }
 
+// f_s of V3.
+vec3 surfaceLight(Properties p, vec3 place, vec3 way, vec3 view) {
+    vec3 shaded = vec3(shading(p.gradient, way, view));
+#if BAKED
+    vec4 sum = textureLod(uBaked, uBakedFromPlace * vec4(place, 1.0), 0.0);
+    if (!(sum.a > 0.0)) return shaded;
+    vec3 known = sum.rgb / sum.a;
+#if OPENNESS
+    return shaded * known.r;
+#else
+    return known * uBakedShares.x + uBakedShares.y * shaded;
+#endif
+#else
+    return shaded;
+#endif
+}
+
 // Light that the slab sends on from the light's way to the eye's; x: its optical depth along the eye's ray.
 vec3 scattered(Properties p, vec3 place, vec3 view, float x) {
 #if MODEL == 0
@@ -59,7 +81,7 @@ vec3 scattered(Properties p, vec3 place, vec3 view, float x) {
     Arriving light = arrivingAt(place);
     vec3 color = p.color * light.radiance;
 #if SURFACE
-    if (p.surface > 0.0) color *= 1.0 - p.surface + p.surface * shading(p.gradient, light.way, view);
+    if (p.surface > 0.0) color *= 1.0 - p.surface + p.surface * surfaceLight(p, place, light.way, view);
 #endif
 #if MODEL == 1
     return color * share(x, 0.0);

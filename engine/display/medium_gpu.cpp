@@ -14,6 +14,7 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/display/medium_gpu_look.h"
 #include "engine/display/medium_gpu_region.h"
 #include "engine/display/medium_gpu_targets.h"
 #include "engine/display/medium_gpu_textures.h"
@@ -87,6 +88,7 @@ struct MediumGpu::State {
     const Medium& medium;
     MediumTextures textures;
     PhaseTexture phase;
+    BakedTexture baked;
     GlVertexArray vertices;
     std::map<std::string, Programs> programs;  // by what was defined
     std::optional<ShaderProgram> ender;
@@ -125,10 +127,12 @@ std::string MediumGpu::State::definesOf(const MediumLook& look) const {
     return textures.defines() +
            fmt::format(
                "#define MODEL {}\n#define FORWARD {}\n#define LAMP {}\n#define PHASE {}\n"
-               "#define SURFACE {}\n#define GLOW {}\n#define EYES {}\n#define INDIRECT {}\n",
+               "#define SURFACE {}\n#define GLOW {}\n#define EYES {}\n#define INDIRECT {}\n#define BAKED "
+               "{}\n#define OPENNESS {}\n",
                static_cast<int>(look.model), flag(geometry->forward),
                flag(look.light.kind == MediumLight::Kind::Lamp), flag(!look.phase.isotropic()), flag(surface),
-               flag(textures.hasGlow()), kMostEyes, flag(look.model == MediumModel::Indirect));
+               flag(textures.hasGlow()), kMostEyes, flag(look.model == MediumModel::Indirect),
+               flag(surface && baked.any()), flag(look.baked.use == BakedLook::Use::Openness));
 }
 
 const Programs& MediumGpu::State::programsFor(const MediumLook& look) {
@@ -181,6 +185,7 @@ void MediumGpu::State::setEye(const MediumLook& look) const {
     const glm::mat4x3 buffer = bufferFromPlace(geometry->light);
     glUniformMatrix4x3fv(program.location("uLightFromPlace"), 1, GL_FALSE, glm::value_ptr(buffer));
     glUniform2fv(program.location("uPhaseScale"), 1, glm::value_ptr(PhaseTexture::scale()));
+    baked.setUniforms(program, look.baked, geometry->anchor);
     set(program, "uIndirectShare", look.indirectShare);
     glUniform4f(program.location("uShading"), look.ambient, look.diffuse, look.specular, look.shininess);
 }
@@ -199,9 +204,11 @@ void MediumGpu::State::setLight(const SweepSetting& setting) const {
 }
 
 void MediumGpu::State::setFrame(const MediumLook& look, const SweepSetting& setting, double time) {
-    used = &programsFor(look);
     makeTargets(setting.singleTarget);
     phase.set(look.phase);
+    const bool wantsBaked = textures.hasSurface() && look.model != MediumModel::Emission;
+    baked.set(wantsBaked ? look.baked.light : nullptr);
+    used = &programsFor(look);
     for (const ShaderProgram* program : {&used->eye, &used->light}) {
         program->use();
         textures.setUniforms(*program, geometry->anchor, time);
@@ -213,6 +220,7 @@ void MediumGpu::State::setFrame(const MediumLook& look, const SweepSetting& sett
     }
     textures.bind();
     phase.bind();
+    baked.bind();
     glBindVertexArray(vertices.name());
 }
 

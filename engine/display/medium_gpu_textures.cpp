@@ -13,39 +13,12 @@
 #include <glm/vec2.hpp>
 
 #include "engine/base/error.h"
+#include "engine/display/texture_upload.h"
 
 namespace stereonav {
 namespace {
 
 constexpr int kColumns = MediumTable::kValues + 1;
-constexpr int kPhaseSteps = 4096;
-constexpr double kRootOf2 = 1.4142135623730951;
-
-void expectAtMost(GLenum limit, int size, const char* what) {
-    GLint most = 0;
-    glGetIntegerv(limit, &most);
-    if (size > most)
-        throw Error("", what,
-                    fmt::format("expected at most {} a side on this graphics card, got {}", most, size),
-                    "use the CPU");
-}
-
-void expectUploaded(const char* what) {
-    if (glGetError() != GL_NO_ERROR)
-        throw Error("", what, "the graphics driver does not take it", "use the CPU");
-}
-
-void setFilter(GLenum kind, GLint filter, GLint wrap) {
-    glTexParameteri(kind, GL_TEXTURE_MIN_FILTER, filter);
-    glTexParameteri(kind, GL_TEXTURE_MAG_FILTER, filter);
-    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-        if (kind != GL_TEXTURE_1D || axis == GL_TEXTURE_WRAP_S) glTexParameteri(kind, axis, wrap);
-}
-
-void bindTo(GLuint unit, GLenum kind, const GlTexture& texture) {
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(kind, texture.name());
-}
 
 // The three texels of an entry, see medium_sample.glsl.
 std::array<glm::vec4, 3> texelsOf(const OpticalProperties& p) {
@@ -251,30 +224,6 @@ void MediumTextures::setNoiseUniforms(const ShaderProgram& program, const glm::d
         glUniform3fv(at("uNoiseIndirect"), 1, glm::value_ptr(scale.indirect));
         ++n;
     }
-}
-
-void PhaseTexture::set(const PhaseFunction& phase) {
-    if (phase.entries() == mEntries) return;
-    mEntries = phase.entries();
-    std::vector<glm::vec3> texels(kPhaseSteps + 1);
-    for (int i = 0; i <= kPhaseSteps; ++i) {
-        const double x = kRootOf2 * i / kPhaseSteps, back = kRootOf2 - x;
-        const double cosine = 2 * i <= kPhaseSteps ? 1 - 2 * x * x : 2 * back * back - 1;
-        texels[static_cast<std::size_t>(i)] = phase.at(static_cast<float>(cosine));
-    }
-    glBindTexture(GL_TEXTURE_1D, mTexture.name());
-    glTexImage1D(GL_TEXTURE_1D, 0, GL_RGB32F, kPhaseSteps + 1, 0, GL_RGB, GL_FLOAT, texels.data());
-    setFilter(GL_TEXTURE_1D, GL_LINEAR, GL_CLAMP_TO_EDGE);
-}
-
-void PhaseTexture::bind() const {
-    bindTo(GlUnit::kPhase, GL_TEXTURE_1D, mTexture);
-    glActiveTexture(GL_TEXTURE0);
-}
-
-glm::vec2 PhaseTexture::scale() {
-    constexpr double texels = kPhaseSteps + 1;
-    return {static_cast<float>(kPhaseSteps / kRootOf2 / texels), static_cast<float>(0.5 / texels)};
 }
 
 }  // namespace stereonav

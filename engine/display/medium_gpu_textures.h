@@ -9,10 +9,10 @@
 #include "engine/display/gl_object.h"
 #include "engine/display/shader_program.h"
 #include "engine/medium/medium.h"
-#include "engine/medium/medium_look.h"
 
 namespace stereonav {
 
+// Of textures; the shaders name them by their binding.
 struct GlUnit {
     static constexpr GLuint kField = 0, kTable = 1, kNoise = 2, kPhase = 3, kBefore = 4, kBaked = 5,
                             kHeights = 8;  // one a layer from there on
@@ -57,19 +57,6 @@ private:
     std::vector<Heights> mHeights;
     bool mHasGlow = false, mHasSurface = false;
     std::string mDefines;
-};
-
-// By the half angle's sine up to the right angle, beyond it by sqrt(2) - its cosine: even steps of about the
-// same angle, no trigonometry in the shader.
-class PhaseTexture {
-public:
-    void set(const PhaseFunction& phase);  // uploads where it differs from what was set last
-    void bind() const;
-    static glm::vec2 scale();  // texture coordinate = x * that + y
-
-private:
-    GlTexture mTexture;
-    std::vector<glm::vec3> mEntries;  // of what was set
 };
 
 }  // namespace stereonav

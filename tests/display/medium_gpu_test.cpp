@@ -169,6 +169,42 @@ TEST_F(MediumGpuTest, SurfaceWeightHighlightGlowAndColouredPhase) {
         }
 }
 
+// Some texels are not known, and not all count alike.
+std::shared_ptr<IlluminationVolume> bakedLight() {
+    VolumeFrame frame = blobs()->frame;
+    frame.size = {9, 8, 10};
+    frame.spacing *= 1.9;
+    auto light = std::make_shared<IlluminationVolume>(frame);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> number(0, 1);
+    for (int k = 0; k < 10; ++k)
+        for (int j = 0; j < 8; ++j)
+            for (int i = 0; i < 9; ++i) {
+                const glm::vec3 value(number(random), number(random), 2 * number(random));
+                if (number(random) < 0.7f || k > 6)
+                    light->texels[light->layout.index(i, j, k)] =
+                        packTexel(k > 7 ? glm::vec3(0) : value, k > 7 ? 0 : 0.5f + 0.5f * value.x);
+            }
+    return light;
+}
+
+TEST_F(MediumGpuTest, BakedLightOnSurfaces) {
+    Subject subject(Medium(blobs(), transfer(0.9)));
+    MediumLook look = lookOf(MediumModel::Indirect, kWithView);
+    look.baked.light = bakedLight();
+    look.baked.exposure = 1.3f;
+    look.baked.lampShare = 0.4f;
+    // Its texels are half floats here, times their weights.
+    expectAsByTheBook(subject, look, {viewFrom(kEye, kMiddle)}, smallSetting());
+    look.baked.use = BakedLook::Use::Openness;
+    expectAsByTheBook(subject, look, {viewFrom(kEye, kMiddle)}, smallSetting());
+    std::vector<MediumPicture> with(1), without(1);
+    subject.gpu.render(look, smallSetting(), {{viewFrom(kEye, kMiddle)}}, kEye, 0, with);
+    look.baked.light = nullptr;
+    subject.gpu.render(look, smallSetting(), {{viewFrom(kEye, kMiddle)}}, kEye, 0, without);
+    EXPECT_GT(differenceOf(with[0], without[0]).worst, 0.05);
+}
+
 TEST_F(MediumGpuTest, LampsBeforeBesideAndInTheMedium) {
     Subject subject(Medium(blobs(), transfer()));
     for (const glm::dvec3& place :

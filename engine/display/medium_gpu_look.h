@@ -1,0 +1,45 @@
+// A look's textures: its phase function, and baked light for surfaces.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <memory>
+#include <vector>
+
+#include "engine/display/gl_object.h"
+#include "engine/display/shader_program.h"
+#include "engine/medium/medium_look.h"
+
+namespace stereonav {
+
+// By the half angle's sine up to the right angle, beyond it by sqrt(2) - its cosine: even steps of about the
+// same angle, no trigonometry in the shader.
+class PhaseTexture {
+public:
+    void set(const PhaseFunction& phase);  // uploads where it differs from what was set last
+    void bind() const;
+    static glm::vec2 scale();  // texture coordinate = x * that + y
+
+private:
+    GlTexture mTexture;               // RGB32F
+    std::vector<glm::vec3> mEntries;  // of what was set
+};
+
+// Light times weight in rgb, the weight in a: what a trilinear filter adds up is the weighted mean, times the
+// sum of the weights. Texels are those of the time when a volume is first set.
+class BakedTexture {
+public:
+    // Throws Error where it does not fit. Null: none.
+    void set(const std::shared_ptr<const IlluminationVolume>& light);
+    bool any() const { return mLight != nullptr; }
+    void bind() const;
+    // The program is in use; places are relative to the anchor.
+    void setUniforms(const ShaderProgram& program, const BakedLook& look, const glm::dvec3& anchor) const;
+
+private:
+    void upload();
+
+    std::unique_ptr<GlTexture> mTexture;  // RGBA16F
+    std::shared_ptr<const IlluminationVolume> mLight;
+};
+
+}  // namespace stereonav
