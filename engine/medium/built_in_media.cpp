@@ -94,7 +94,8 @@ std::shared_ptr<GreyVolume> makeCloudField() {
 Perturbation cloudPerturbation() {
     Perturbation p;
     p.seed = 7;
-    NoiseScale billows{2600, 190, 0, {}, {}, {3, 1, 0.5}};
+    // Scattered light is lost a little more in red here, in blue there: the iridescence of fig. 10.
+    NoiseScale billows{2600, 190, 0, {}, {0.35f, 0, -0.35f}, {3, 1, 0.5}};
     NoiseScale heads{900, 75, 0, {}, {}, {-2, 1.5, 1}};
     NoiseScale wisps{310, 28, 0.35f, {}, {}, {1, -2, 1}};
     NoiseScale tufts{110, 10, 0.35f, {}, {}, {0.5, 1, -1}};
