@@ -77,6 +77,7 @@ inline bool CellWalk::clip(const glm::dvec3& start, double first, double last) {
             continue;
         }
         const double low = -start[a] / mWay[a], high = (size - start[a]) / mWay[a];
+        if (std::isnan(low) || std::isnan(high)) return false;
         mBegin = std::max(mBegin, std::min(low, high));
         mLast = std::min(mLast, std::max(low, high));
     }

@@ -370,6 +370,14 @@ TEST(DeltaTracking, EmptyMediumShowsTheBackground) {
     EXPECT_EQ(seen.seen, 1);
 }
 
+TEST(DeltaTracking, ViewsFromNowhereSeeNothing) {
+    EyeView view = narrowView(kDown);
+    view.eye.y = std::numeric_limits<double>::quiet_NaN();
+    const Estimate seen = track(homogeneousSlab(1, 1, glm::vec3(1.0f)), litLook(kDown), view, 2);
+    EXPECT_EQ(seen.light, glm::dvec3(0.0));
+    EXPECT_EQ(seen.seen, 1);
+}
+
 TEST(DeltaTracking, OneSampleHasNoKnownVariance) {
     EXPECT_TRUE(std::isinf(track(Medium(), litLook(kDown), narrowView(kDown), 1).error.x));
 }
