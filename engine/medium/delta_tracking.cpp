@@ -178,7 +178,7 @@ void checkSetting(const Medium& medium, const MediumLook& look, const TrackingSe
 TrackedPicture trackPicture(const Medium& medium, const MediumLook& look, const EyeView& view,
                             const TrackingSetting& setting, double time) {
     checkSetting(medium, look, setting);
-    ExtinctionBounds bounds = makeExtinctionBounds(medium);
+    ExtinctionBounds bounds = makeExtinctionBounds(medium, time);
     if (setting.majorantFactor > 0) bounds = coarseBounds(bounds, setting.majorantFactor);
     const TrackedMedium tracked{medium, bounds, time};
     const PathTracker paths(tracked, look, view, setting);

@@ -2,12 +2,16 @@
 // columns; both widened by what the perturbation may move and change.
 #include "engine/medium/delta_tracking_bounds.h"
 
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
 #include "engine/base/parallel.h"
+#include "engine/medium/delta_tracking_noise.h"
 
 namespace stereonav {
 namespace {
 
-constexpr int kCellsAlongLongest = 40;      // cells cost a few ns a step, a reading 50 ns and more
+constexpr int kCellsAlongLongest = 64;      // cells cost a few ns a step, a reading 50 ns and more
 constexpr float kRounding = 1e-5f;          // readings and tables round differently: far above float's
 constexpr int kColumns = 48, kLevels = 24;  // of cells over layers
 
@@ -41,23 +45,9 @@ float leastExtinction(const MediumTable& table, const ValueRange& values) {
     return least;
 }
 
-// Noise multiplies extinction, each scale by 1 plus at most its share; Bernoulli's inequality covers both
-// products and sums of scales.
-struct NoiseFactor {
-    float least = 1, most = 1;
-};
-NoiseFactor noiseFactor(const Perturbation& perturbation) {
-    NoiseFactor factor;
-    for (const NoiseScale& scale : perturbation.scales) {
-        factor.least -= std::abs(scale.extinction);
-        factor.most *= 1 + std::abs(scale.extinction);
-    }
-    factor.least = std::max(factor.least, 0.0f);
-    return factor;
-}
-
-ExtinctionRange widened(const ExtinctionRange& range, const NoiseFactor& factor) {
-    return {range.least * factor.least * (1 - kRounding), range.most * factor.most * (1 + kRounding)};
+ExtinctionRange widened(const ExtinctionRange& range, const NoiseBounds& noise) {
+    return {range.least * static_cast<float>(noise.leastFactor) * (1 - kRounding),
+            range.most * static_cast<float>(noise.mostFactor) * (1 + kRounding)};
 }
 
 // Ranges of the values of blocks of voxels, faces shared with the next block included.
@@ -108,54 +98,76 @@ private:
     std::vector<ValueRange> mRanges;
 };
 
-// How far a displacement may move a place, in voxels along each of the grid's axes.
-glm::dvec3 reachInVoxels(const VolumeFrame& frame, double displacement) {
-    glm::dvec3 reach{0.0};
+// Voxel coordinates that a box of the world spans along each of the grid's axes.
+struct VoxelBox {
+    glm::dvec3 low, high;
+};
+VoxelBox spanned(const VolumeFrame& frame, const glm::dvec3& low, const glm::dvec3& high) {
+    VoxelBox box{glm::dvec3(0.0), glm::dvec3(0.0)};
     for (int a = 0; a < 3; ++a)
-        for (int world = 0; world < 3; ++world)
-            reach[a] += std::abs(frame.axes[a][world]) * displacement / frame.spacing[a];
-    return reach;
+        for (int world = 0; world < 3; ++world) {
+            const double each = frame.axes[a][world] / frame.spacing[a];
+            box.low[a] += std::min(each * low[world], each * high[world]);
+            box.high[a] += std::max(each * low[world], each * high[world]);
+        }
+    return box;
 }
 
-void fillFromField(const Medium& medium, const BlockValues& blocks, int block, const glm::dvec3& reach,
-                   ExtinctionBounds& bounds) {
-    const glm::dvec3 farthest = glm::dvec3(medium.field()->frame.size - 1);
-    const glm::dvec3 edge(static_cast<double>(block));
-    const NoiseFactor factor = noiseFactor(medium.perturbation());
-    parallelFor(bounds.size.z, [&](int k) {
-        for (int j = 0; j < bounds.size.y; ++j)
-            for (int i = 0; i < bounds.size.x; ++i) {
-                const glm::dvec3 first = edge * glm::dvec3(i, j, k) - reach;
-                const glm::dvec3 low = first - reach, high = glm::min(first + edge, farthest + reach) + reach;
-                const ValueRange values = blocks.between(low, high);
-                ExtinctionRange range{leastExtinction(medium.table(), values),
-                                      medium.table().largestExtinction(values.low, values.high)};
-                if (!(low.x >= 0 && low.y >= 0 && low.z >= 0 && high.x <= farthest.x &&
-                      high.y <= farthest.y && high.z <= farthest.z))
-                    range.least = 0;
-                bounds.cells[(static_cast<std::size_t>(k) * bounds.size.y + j) * bounds.size.x + i] =
-                    widened(range, factor);
-            }
-    });
+// The world's box around a box of voxel coordinates.
+WorldBox worldBoxOf(const VolumeFrame& frame, const VoxelBox& voxels) {
+    const glm::dvec3 middle = frame.worldFromVoxel(0.5 * (voxels.low + voxels.high));
+    glm::dvec3 half{0.0};
+    for (int a = 0; a < 3; ++a)
+        half += glm::abs(frame.axes[a]) * (0.5 * frame.spacing[a] * (voxels.high[a] - voxels.low[a]));
+    return {middle - half, middle + half};
 }
 
-ExtinctionBounds boundsOfField(const Medium& medium) {
+// Extinction over the places of a box of voxel coordinates, before they are displaced.
+ExtinctionRange rangeWithin(const Medium& medium, const BlockValues& blocks, const VoxelBox& cell,
+                            double time) {
+    const VolumeFrame& frame = medium.field()->frame;
+    const NoiseBounds noise =
+        boundNoise(medium.perturbation(), medium.noise(), worldBoxOf(frame, cell), time);
+    const VoxelBox moved = spanned(frame, noise.low, noise.high);
+    const glm::dvec3 low = cell.low + moved.low, high = cell.high + moved.high;
+    const glm::dvec3 farthest = glm::dvec3(frame.size - 1);
+    if (glm::any(glm::greaterThan(low, farthest)) || glm::any(glm::lessThan(high, glm::dvec3(0.0))))
+        return {};
+    const ValueRange values = blocks.between(low, high);
+    ExtinctionRange range{leastExtinction(medium.table(), values),
+                          medium.table().largestExtinction(values.low, values.high)};
+    if (glm::any(glm::lessThan(low, glm::dvec3(0.0))) || glm::any(glm::greaterThan(high, farthest)))
+        range.least = 0;
+    return widened(range, noise);
+}
+
+ExtinctionBounds boundsOfField(const Medium& medium, double time) {
     const GreyVolume& field = *medium.field();
     const VolumeFrame& frame = field.frame;
     const int longest = std::max({frame.size.x, frame.size.y, frame.size.z}) - 1;
     const int block = std::max(1, (longest + kCellsAlongLongest - 1) / kCellsAlongLongest);
-    const glm::dvec3 reach = reachInVoxels(frame, medium.perturbation().largestDisplacement());
+    const double displacement = medium.perturbation().largestDisplacement();
+    const glm::dvec3 reach = spanned(frame, glm::dvec3(-displacement), glm::dvec3(displacement)).high;
+    const glm::dvec3 edge(static_cast<double>(block)), farthest = glm::dvec3(frame.size - 1) + reach;
     ExtinctionBounds bounds;
-    bounds.extent = (glm::dvec3(frame.size - 1) + 2.0 * reach) / static_cast<double>(block);
+    bounds.extent = (farthest + reach) / edge;
     bounds.size = glm::max(glm::ivec3(glm::ceil(bounds.extent)), glm::ivec3(1));
     bounds.origin = frame.worldFromVoxel(-reach);
     for (int column = 0; column < 3; ++column) {
         glm::dvec3 unit{0.0};
         unit[column] = 1;
-        bounds.cellsFromWay[column] = frame.voxelDirection(unit) / static_cast<double>(block);
+        bounds.cellsFromWay[column] = frame.voxelDirection(unit) / edge;
     }
     bounds.cells.resize(static_cast<std::size_t>(bounds.size.x) * bounds.size.y * bounds.size.z);
-    fillFromField(medium, BlockValues(field, block), block, reach, bounds);
+    const BlockValues blocks(field, block);
+    parallelFor(bounds.size.z, [&](int k) {
+        for (int j = 0; j < bounds.size.y; ++j)
+            for (int i = 0; i < bounds.size.x; ++i) {
+                const glm::dvec3 low = edge * glm::dvec3(i, j, k) - reach;
+                bounds.cells[bounds.index({i, j, k})] =
+                    rangeWithin(medium, blocks, {low, glm::min(low + edge, farthest)}, time);
+            }
+    });
     return bounds;
 }
 
@@ -176,48 +188,45 @@ ValueRange heightsBetween(const HeightLayer& layer, const glm::dvec3& low, const
     return range;
 }
 
-// One column of cells, the extinction of each layer added where its heights let it reach.
-void fillColumn(const Medium& medium, int i, int j, ExtinctionBounds& bounds) {
-    const glm::dvec3 cell{1 / bounds.cellsFromWay[0][0], 1 / bounds.cellsFromWay[1][1],
-                          1 / bounds.cellsFromWay[2][2]};
-    const double reach = medium.perturbation().largestDisplacement();
-    const NoiseFactor factor = noiseFactor(medium.perturbation());
-    const glm::dvec3 foot = bounds.origin + cell * glm::dvec3(i, j, 0);
+// Extinctions of all layers whose heights let them reach the box, added.
+ExtinctionRange rangeWithin(const Medium& medium, const WorldBox& box, double time) {
+    const NoiseBounds noise = boundNoise(medium.perturbation(), medium.noise(), box, time);
+    const glm::dvec3 low = box.low + noise.low, high = box.high + noise.high;
+    ExtinctionRange sum;
     for (const HeightLayer& layer : medium.layers()) {
         if (layer.levels.empty() || layer.levels.front().empty()) continue;
-        const ValueRange heights = heightsBetween(layer, foot - reach, foot + cell + reach);
-        if (heights.empty()) continue;
-        const float most =
-            layer.table.largestExtinction(heights.low, heights.high) * factor.most * (1 + kRounding);
-        for (int k = 0; k < bounds.size.z; ++k) {
-            const double z = foot.z + k * cell.z;
-            if (z + cell.z + reach < heights.low - layer.below || z - reach > heights.high + layer.above)
-                continue;
-            bounds.cells[(static_cast<std::size_t>(k) * bounds.size.y + j) * bounds.size.x + i].most += most;
-        }
+        const ValueRange heights = heightsBetween(layer, low, high);
+        if (heights.empty() || high.z < heights.low - layer.below || low.z > heights.high + layer.above)
+            continue;
+        sum.most += layer.table.largestExtinction(heights.low, heights.high);
     }
+    return widened(sum, noise);
 }
 
-ExtinctionBounds boundsOfLayers(const Medium& medium) {
+ExtinctionBounds boundsOfLayers(const Medium& medium, double time) {
     ExtinctionBounds bounds;
     bounds.size = glm::ivec3(kColumns, kColumns, kLevels);
     bounds.extent = glm::dvec3(bounds.size);
     bounds.origin = medium.bounds().low;
-    const glm::dvec3 extent = medium.bounds().high - medium.bounds().low;
-    for (int a = 0; a < 3; ++a) bounds.cellsFromWay[a] = glm::dvec3(0.0);
-    for (int a = 0; a < 3; ++a) bounds.cellsFromWay[a][a] = bounds.size[a] / extent[a];
+    const glm::dvec3 cell = (medium.bounds().high - medium.bounds().low) / bounds.extent;
+    bounds.cellsFromWay = glm::dmat3(0.0);
+    for (int a = 0; a < 3; ++a) bounds.cellsFromWay[a][a] = 1 / cell[a];
     bounds.cells.resize(static_cast<std::size_t>(bounds.size.x) * bounds.size.y * bounds.size.z);
-    parallelFor(bounds.size.y, [&](int j) {
-        for (int i = 0; i < bounds.size.x; ++i) fillColumn(medium, i, j, bounds);
+    parallelFor(bounds.size.z, [&](int k) {
+        for (int j = 0; j < bounds.size.y; ++j)
+            for (int i = 0; i < bounds.size.x; ++i) {
+                const glm::dvec3 low = bounds.origin + cell * glm::dvec3(i, j, k);
+                bounds.cells[bounds.index({i, j, k})] = rangeWithin(medium, {low, low + cell}, time);
+            }
     });
     return bounds;
 }
 
 }  // namespace
 
-ExtinctionBounds makeExtinctionBounds(const Medium& medium) {
+ExtinctionBounds makeExtinctionBounds(const Medium& medium, double time) {
     if (medium.bounds().empty()) return {};
-    return medium.field() ? boundsOfField(medium) : boundsOfLayers(medium);
+    return medium.field() ? boundsOfField(medium, time) : boundsOfLayers(medium, time);
 }
 
 ExtinctionBounds coarseBounds(const ExtinctionBounds& bounds, float factor) {

@@ -26,14 +26,15 @@ struct ExtinctionBounds {
     std::vector<ExtinctionRange> cells;
 
     glm::dvec3 cellsFromWorld(const glm::dvec3& world) const { return cellsFromWay * (world - origin); }
-    const ExtinctionRange& at(const glm::ivec3& c) const {
-        return cells[(static_cast<std::size_t>(c.z) * size.y + c.y) * size.x + c.x];
+    std::size_t index(const glm::ivec3& c) const {
+        return (static_cast<std::size_t>(c.z) * size.y + c.y) * size.x + c.x;
     }
+    const ExtinctionRange& at(const glm::ivec3& c) const { return cells[index(c)]; }
 };
 
-// Of every point of the medium at any time. Cells follow the voxels of a grid, or the world's axes for
+// Of every point of the medium at that time. Cells follow the voxels of a grid, or the world's axes for
 // layers.
-ExtinctionBounds makeExtinctionBounds(const Medium& medium);
+ExtinctionBounds makeExtinctionBounds(const Medium& medium, double time);
 
 // The same, each `least` 0 and each `most` the greatest of all times `factor`: what is tracked through it has
 // the same mean. For tests, and to see what the cells save.

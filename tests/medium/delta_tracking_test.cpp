@@ -244,15 +244,16 @@ TEST(DeltaTracking, AgreesWithMarchingThroughNoise) {
     expectMarched(randomMedium(someNoise()), wideView(), 12.5, 7);
 }
 
-// Extinction at random places and times against the bounds of their cells.
+// Extinction at random places against the bounds of their cells.
 void expectWithinBounds(const Medium& medium, int least) {
-    const ExtinctionBounds bounds = makeExtinctionBounds(medium);
+    const double time = 345.6;
+    const ExtinctionBounds bounds = makeExtinctionBounds(medium, time);
     PathRandom random(1, 2, 3);
     int inside = 0;
     for (int n = 0; n < 20000; ++n) {
         const glm::dvec3 u{random.uniform(), random.uniform(), random.uniform()};
         const glm::dvec3 place = glm::mix(medium.bounds().low, medium.bounds().high, u);
-        const float extinction = medium.at(place, 0.37 * n).extinction;
+        const float extinction = medium.at(place, time).extinction;
         const glm::ivec3 cell(glm::floor(bounds.cellsFromWorld(place)));
         if (glm::any(glm::lessThan(cell, glm::ivec3(0))) ||
             glm::any(glm::greaterThanEqual(cell, bounds.size))) {
@@ -314,7 +315,7 @@ TEST(DeltaTracking, BoundsFollowTheField) {
         field->values[n] = static_cast<std::int16_t>(10 * (n / 4));
     const MediumTransfer transfer({{0, materialOf(0, {1, 1, 1})}, {1000, materialOf(10, {1, 1, 1})}},
                                   kReference, "ramp");
-    const ExtinctionBounds bounds = makeExtinctionBounds(Medium(field, transfer));
+    const ExtinctionBounds bounds = makeExtinctionBounds(Medium(field, transfer), 0);
     ASSERT_GT(bounds.size.z, 20);
     const double each = 100.0 / bounds.extent.z;  // extinction is z / 10
     for (int k = 0; k < bounds.size.z; ++k) {
