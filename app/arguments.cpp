@@ -109,6 +109,7 @@ struct Parsed {
     RenderOptions render;
     PlayOptions play;
     CompareOptions compare;
+    ReportOptions report;
     MeshOptions mesh;
     CentrelineOptions centreline;
     BakeOptions bake;
@@ -206,6 +207,32 @@ void addCompare(CLI::App& app, Parsed& parsed) {
             return runCompare(parsed.compare);
         };
     });
+}
+
+void addReport(CLI::App& app, Parsed& parsed) {
+    ReportOptions& options = parsed.report;
+    CLI::App& command = *app.add_subcommand(
+        "report", "a page of error against time for every shortcut the program takes; up to 10 minutes");
+    command.add_option("--out", options.out,
+                       "folder for index.html, report.json, report.csv; report when left out");
+    command.add_flag("--quick", options.quick, "within a minute: fewer frames and repeats");
+    command
+        .add_option("--scene", options.scenes, "a scene beside the built-in ones; may be given several times")
+        ->allow_extra_args(false);
+    command.add_option(
+        "--compare", options.compare,
+        "an earlier run's report.json: shows what moved, exit status 1 where something got worse");
+    command.add_option("--stability", options.stability,
+                       "rows that the stability tests wrote, as JSON lines");
+    command.add_option("--threads", options.threads, "threads to use, 0 for all processors")
+        ->check(CLI::Range(0, 256));
+    command.add_option("--seed", options.seed, "of everything random");
+    command.add_option("--minutes", options.minutes, "for all of it: about 9 when left out, 1 with --quick")
+        ->check(CLI::Range(0.0, 1440.0));
+    command.add_option("--parts", options.parts, "some of it, as in right-eye,light; left out: all")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.callback([&parsed] { parsed.run = [&parsed] { return runReport(parsed.report); }; });
 }
 
 void addMesh(CLI::App& app, Parsed& parsed) {
@@ -312,6 +339,7 @@ int runCommandLine(int argc, char** argv) {
     addRender(app, parsed);
     addPlay(app, parsed);
     addCompare(app, parsed);
+    addReport(app, parsed);
     addMesh(app, parsed);
     addCentreline(app, parsed);
     addBake(app, parsed);

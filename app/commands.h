@@ -90,6 +90,20 @@ struct CompareOptions {
 };
 int runCompare(const CompareOptions& options);
 
+struct ReportOptions {
+    std::string out = "report";       // folder
+    bool quick = false;               // within a minute, with fewer frames and repeats
+    std::vector<std::string> scenes;  // beside the built-in ones
+    std::string compare;              // an earlier run's report.json; "": none
+    std::string stability;            // rows that the stability tests wrote; "": those of this build, if any
+    int threads = 0;                  // 0: all
+    std::uint64_t seed = 1;           // of everything random
+    std::optional<double> minutes;    // for all of it
+    std::vector<std::string> parts;   // sections by id; empty: all
+};
+// Exit status 1 where a figure got worse than in the earlier run.
+int runReport(const ReportOptions& options);
+
 struct ViewOptions {
     SceneOptions scene;
     SizeOption size;

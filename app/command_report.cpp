@@ -1,0 +1,100 @@
+// `stereonav report`: one page that says what the program's shortcuts cost and save.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+#include "app/output_place.h"
+#include "app/progress_bar.h"
+#include "app/report_json.h"
+#include "app/report_machine.h"
+#include "app/report_page.h"
+#include "app/report_run.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/parallel.h"
+
+namespace stereonav {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Part {
+    const char* id;  // of its section
+    void (*measure)(ReportRun& run, double seconds);
+    double weight;  // of the time
+};
+constexpr Part kParts[] = {{"right-eye", reportRightEye, 1.0}};
+
+std::vector<Part> partsOf(const ReportOptions& options) {
+    std::string names;
+    for (const Part& part : kParts) names += (names.empty() ? "" : ", ") + std::string(part.id);
+    for (const std::string& id : options.parts)
+        if (std::none_of(std::begin(kParts), std::end(kParts), [&](const Part& p) { return id == p.id; }))
+            throw Error("--parts", "", "there is no part \"" + id + "\"", "the parts are " + names);
+    std::vector<Part> parts;
+    for (const Part& part : kParts)
+        if (options.parts.empty() ||
+            std::find(options.parts.begin(), options.parts.end(), part.id) != options.parts.end())
+            parts.push_back(part);
+    return parts;
+}
+
+void measureAll(ReportRun& run, const std::vector<Part>& parts) {
+    double left = 0;
+    for (const Part& part : parts) left += part.weight;
+    for (const Part& part : parts) {
+        part.measure(run, run.share_s(part.weight, left));
+        left -= part.weight;
+    }
+}
+
+void describeRun(ReportRun& run) {
+    Report& report = run.report();
+    report.machine = machineFacts();
+    report.machine.emplace_back("kind of run", run.quick() ? "quick: fewer frames and repeats" : "full");
+    report.machine.emplace_back("seed", std::to_string(run.options().seed));
+    const std::string noise =
+        noiseWarning(loadAverage(), static_cast<int>(std::thread::hardware_concurrency()));
+    if (!noise.empty()) report.warnings.push_back(noise);
+}
+
+// All at the end, each in one go: a report that is stopped leaves nothing.
+void writeReport(const Report& report, const fs::path& folder) {
+    writeTextFile(folder / "report.csv", figuresCsv(report));
+    writeTextFile(folder / "report.json", figuresJson(report));
+    writeTextFile(folder / "index.html", pageOf(report));
+}
+
+}  // namespace
+
+int runReport(const ReportOptions& options) {
+    checkOutputFolder("--out", options.out);
+    std::optional<EarlierReport> earlier;
+    if (!options.compare.empty()) earlier = readEarlierReport(options.compare);
+    for (const std::string& name : options.scenes) kindOf(name);
+    const std::vector<Part> parts = partsOf(options);
+    ProgressBar bar;
+    ReportRun run(options, bar.progress());
+    if (options.threads > 0) setThreadCount(options.threads);
+    describeRun(run);
+    loadReportScenes(run);
+    measureAll(run, parts);
+    Report& report = run.report();
+    bool worse = false;
+    if (earlier) {
+        const ReportComparison comparison = compareReports(*earlier, report);
+        worse = comparison.worse();
+        report.sections.insert(report.sections.begin(),
+                               comparisonSection(comparison, *earlier, options.compare));
+    }
+    run.tell("writing");
+    writeReport(report, options.out);
+    bar.clear();
+    std::printf("%s\n", (fs::path(options.out) / "index.html").c_str());
+    if (earlier) std::printf("%s\n", report.sections.front().text.c_str());
+    return worse ? 1 : 0;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,62 @@
+// One run of `report`: its scenes, its time, and what it has found so far. Each part of the report is a
+// function that measures within its share of the time and adds a section.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/report_model.h"
+#include "app/scene_loading.h"
+#include "engine/base/progress.h"
+#include "engine/base/stopwatch.h"
+
+namespace stereonav {
+
+struct ReportScene {
+    std::string id, title;  // the id is part of figures' ids
+    SceneOptions options;
+    LoadedScene loaded;
+    double load_ms = 0;
+};
+
+// The whole time of a run: full 10 minutes, quick 60 s, less what writing and a slow end may take.
+constexpr double kFullReport_s = 540, kQuickReport_s = 50;
+
+class ReportRun {
+public:
+    ReportRun(const ReportOptions& options, Progress& progress);
+
+    const ReportOptions& options() const { return mOptions; }
+    bool quick() const { return mOptions.quick; }
+    Report& report() { return mReport; }
+    std::vector<ReportScene>& scenes() { return mScenes; }
+
+    // quick ? a : b
+    int pick(int whenQuick, int whenFull) const { return quick() ? whenQuick : whenFull; }
+
+    // Seconds that the next part may take: `weight` of what is left, `weights` being that of this part and
+    // all after it.
+    double share_s(double weight, double weights) const;
+    // Tells what is done now. Throws Cancelled.
+    void tell(const std::string& what);
+
+    // "500x400, 2 threads": what all figures of that size share.
+    std::string settingOf(int width, int height) const;
+
+private:
+    double whole_s() const;
+
+    const ReportOptions& mOptions;
+    Progress& mProgress;
+    Stopwatch mWatch;
+    Report mReport;
+    std::vector<ReportScene> mScenes;
+};
+
+// The built-in scenes and those that were named, each with its colon's wall opaque and translucent.
+void loadReportScenes(ReportRun& run);
+
+// The parts, in the order of the page.
+void reportRightEye(ReportRun& run, double seconds);
+
+}  // namespace stereonav

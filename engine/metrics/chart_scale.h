@@ -1,0 +1,38 @@
+// The axis of a chart: from values to a place along it, and its ticks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace stereonav {
+
+class ChartScale {
+public:
+    enum class Kind {
+        Linear,       // from zero, or from below it
+        Logarithmic,  // zeros have no place on it
+        Automatic     // logarithmic where all values are above 0 and the largest is 6 times the least
+    };
+
+    // Room for all values that have a place; those that are not finite are left out. None, one or equal
+    // values get a scale around them.
+    ChartScale(const std::vector<double>& values, Kind kind);
+
+    bool logarithmic() const { return mLogarithmic; }
+    // 0 at the low end, 1 at the high end; values beyond the ends are put there, NaN at the low end.
+    double place(double value) const;
+
+    struct Tick {
+        double value;
+        std::string text;
+    };
+    // Two to about seven, all within the scale.
+    std::vector<Tick> ticks() const;
+
+private:
+    void choose(double least, double most);
+    double mLow = 0, mHigh = 1;  // of the values, or of their logarithms to base 10
+    bool mLogarithmic = false;
+};
+
+}  // namespace stereonav

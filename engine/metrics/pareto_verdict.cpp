@@ -1,0 +1,86 @@
+#include "engine/metrics/pareto_verdict.h"
+
+#include <fmt/format.h>
+
+#include "engine/metrics/error_plot.h"
+
+namespace stereonav {
+namespace {
+
+bool beats(const Way& a, const Way& b) {
+    return a.time.count > 0 && a.time.low <= b.time.low && a.error <= b.error &&
+           (a.time.low < b.time.low || a.error < b.error);
+}
+
+// By more than what repeats of the same thing usually differ by.
+bool clearlyBeats(const Way& a, const Way& b) {
+    return beats(a, b) && (a.time.median < b.time.low || a.error < b.error * (1 - kSameError));
+}
+
+double shareSaved(double from, double to) {
+    return from > 0 ? 1 - to / from : 0.0;
+}
+
+std::string verdictText(const Way& way, const ParetoVerdict& verdict) {
+    if (verdict.onFront) return fmt::format("The default, {}, is on the front.", way.name);
+    if (way.time.count == 0) return fmt::format("The default, {}, was not measured.", way.name);
+    const std::string by =
+        verdict.faster == verdict.better
+            ? fmt::format("{} takes {:.1f} % less time with {:.1f} % less error", verdict.faster,
+                          100 * verdict.timeSaved, 100 * verdict.errorSaved)
+            : fmt::format(
+                  "{} takes {:.1f} % less time without more error, {} has {:.1f} % less error in no more "
+                  "time",
+                  verdict.faster, 100 * verdict.timeSaved, verdict.better, 100 * verdict.errorSaved);
+    return verdict.withinNoise
+               ? fmt::format("The default, {}, is on the front within the spread of repeats: {}.", way.name,
+                             by)
+               : fmt::format("The default, {}, is not on the front: {}.", way.name, by);
+}
+
+}  // namespace
+
+std::vector<std::size_t> frontOf(const std::vector<Way>& ways) {
+    std::vector<PlotPoint> points;
+    std::vector<std::size_t> measured;
+    for (std::size_t n = 0; n < ways.size(); ++n)
+        if (ways[n].time.count > 0) {
+            points.push_back({ways[n].name, ways[n].time.low, ways[n].error});
+            measured.push_back(n);
+        }
+    std::vector<std::size_t> front = paretoFront(points);
+    for (std::size_t& n : front) n = measured[n];
+    return front;
+}
+
+ParetoVerdict verdictOf(const std::vector<Way>& ways, std::size_t which) {
+    const Way& way = ways[which];
+    ParetoVerdict verdict;
+    if (way.time.count == 0) return verdict;
+    bool beaten = false, clearly = false;
+    double leastTime = way.time.low, leastError = way.error;
+    for (const Way& other : ways) {
+        if (!beats(other, way)) continue;
+        clearly |= clearlyBeats(other, way);
+        if (!beaten || other.time.low < leastTime) verdict.faster = other.name, leastTime = other.time.low;
+        if (!beaten || other.error < leastError) verdict.better = other.name, leastError = other.error;
+        beaten = true;
+    }
+    verdict.onFront = !beaten;
+    verdict.withinNoise = beaten && !clearly;
+    verdict.timeSaved = shareSaved(way.time.low, leastTime);
+    verdict.errorSaved = shareSaved(way.error, leastError);
+    return verdict;
+}
+
+std::string frontText(const std::vector<Way>& ways) {
+    std::string names;
+    for (const std::size_t n : frontOf(ways)) names += (names.empty() ? "" : ", ") + ways[n].name;
+    if (names.empty()) return "Nothing was measured.";
+    std::string text = "On the Pareto front, from the fastest: " + names + ".";
+    for (std::size_t n = 0; n < ways.size(); ++n)
+        if (ways[n].isDefault) text += " " + verdictText(ways[n], verdictOf(ways, n));
+    return text;
+}
+
+}  // namespace stereonav
