@@ -255,6 +255,10 @@ STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {
 STEREONAV_INLINE I lerpHalves(I a, I b, I t) {
     return _mm512_add_epi16(a.v, _mm512_mulhrs_epi16(_mm512_sub_epi16(b.v, a.v), t.v));
 }
+// Sums of the products of sixteen-bit halves.
+STEREONAV_INLINE I dotHalves(I a, I b) {
+    return _mm512_madd_epi16(a.v, b.v);
+}
 
 struct D {
     __m512d low, high;

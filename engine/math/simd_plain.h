@@ -297,6 +297,13 @@ STEREONAV_INLINE I lerpHalves(I a, I b, I t) {
                                          (static_cast<std::uint32_t>(low) & 0xffffu));
     });
 }
+// Sums of the products of sixteen-bit halves.
+STEREONAV_INLINE I dotHalves(I a, I b) {
+    return mapLanes<std::int32_t>([&](int k) {
+        return static_cast<std::int16_t>(a.v[k]) * static_cast<std::int16_t>(b.v[k]) +
+               (a.v[k] >> 16) * (b.v[k] >> 16);
+    });
+}
 
 STEREONAV_INLINE D operator+(D a, D b) {
     return mapLanes<double>([&](int k) { return a.v[k] + b.v[k]; });

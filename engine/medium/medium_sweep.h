@@ -14,7 +14,8 @@ namespace stereonav {
 
 struct SweepTimings {
     double light_ms = 0, eye_ms = 0;
-    long long lightTexels = 0, eyeSamples = 0;  // computed, empty ones skipped
+    // Looked at: those of tiles and slabs that were not left out as empty, as passed or as dark.
+    long long lightTexels = 0, eyeSamples = 0;
 };
 
 class MediumSweep {
@@ -24,9 +25,15 @@ public:
     ~MediumSweep();
 
     // pictures: one for each eye, resized. startDepths: empty, or one plane an eye: a view depth before which
-    // nothing is expected (0: unknown), as a depth splat gives it (W12).
+    // nothing is expected (0: unknown; infinite: nothing at all), as a depth splat gives it (W12); what lies
+    // more than a slab before it is left out.
     SweepTimings render(const MediumLook& look, const SweepSetting& setting, std::span<const EyeView> eyes,
                         const glm::dvec3& head, double time, std::span<MediumPicture> pictures,
+                        std::span<const Plane<float>> startDepths = {});
+
+    // The same with slices that were made elsewhere.
+    SweepTimings render(const MediumLook& look, const SweepSetting& setting, const SweepGeometry& geometry,
+                        double time, std::span<MediumPicture> pictures,
                         std::span<const Plane<float>> startDepths = {});
 
     SimdTarget target() const;

@@ -1,0 +1,224 @@
+// A tile of an eye's pixels seen through a chunk of slabs: each packet of rays walks the slabs and keeps what
+// it gathers in registers (V7 of docs/volume_light.md). Included by kernels only.
+#pragma once
+
+#include "engine/medium/kernel_arriving.h"
+
+namespace stereonav::STEREONAV_ISA {
+
+constexpr float kLongest = 1e4f;  // 1 / kLeastCosine
+constexpr float kLeastLeft = 1.0f / 1024;
+constexpr float kNothing = 1e-20f;  // below it numbers become 0 before they get denormal and slow
+constexpr int kEmission = 0, kSurface = 1, kDirect = 2, kIndirect = 3;
+
+// Rays by the distance along the axis from the chunk's reference: place = at + t way.
+struct EyeRays {
+    V3 at, way;
+    F length;           // of way
+    F depth, perDepth;  // view depth = depth + t perDepth
+    M valid;
+};
+STEREONAV_INLINE EyeRays eyeRays(const SweepEye& eye, double reference, F x, F y) {
+    const D wx = D(eye.xMin) + toDouble(x) * D(eye.perX), wy = D(eye.yMax) - toDouble(y) * D(eye.perY);
+    const D c = D(eye.axis[2]) + D(eye.axis[0]) * wx + D(eye.axis[1]) * wy;
+    const D rough = toDouble(F(1.0f) / awayFromZero(toFloat(c)));
+    const D per = rough * (D(2.0) - c * rough), depth = per * D(reference - eye.start);
+    EyeRays r;
+    F at[3], way[3];
+    for (int k = 0; k < 3; ++k) {
+        const D direction = D(eye.ahead[k]) + D(eye.right[k]) * wx + D(eye.up[k]) * wy;
+        at[k] = toFloat(D(eye.origin[k]) + direction * depth);
+        way[k] = toFloat(direction * per);
+    }
+    r.at = {at[0], at[1], at[2]};
+    r.way = {way[0], way[1], way[2]};
+    r.length = lengthOf(r.way);
+    r.depth = toFloat(depth);
+    r.perDepth = toFloat(per);
+    const F zero(0.0f);
+    r.valid = (r.length < F(kLongest)) & (eye.forward ? r.perDepth > zero : r.perDepth < zero);
+    return r;
+}
+
+struct Gathered {
+    F light[3], left, depth;
+};
+STEREONAV_INLINE Gathered loadGathered(const EyeTile& tile, const float* from) {
+    if (tile.fresh) return {{F(0.0f), F(0.0f), F(0.0f)}, F(1.0f), F(__builtin_inff())};
+    return {{loadF(from), loadF(from + kLanes), loadF(from + 2 * kLanes)},
+            loadF(from + 3 * kLanes),
+            loadF(from + 4 * kLanes)};
+}
+STEREONAV_INLINE void storeGathered(const Gathered& g, float* to) {
+    for (int k = 0; k < 3; ++k) store(to + k * kLanes, g.light[k]);
+    store(to + 3 * kLanes, g.left);
+    store(to + 4 * kLanes, g.depth);
+}
+
+template <int kModel, bool kGridAlone>
+struct EyePacket {
+    const SweepScene& scene;
+    const SweepEye& eye;
+    const SweepChunk& chunk;
+    EyeRays rays;
+    V3 voxel, voxelWay;  // kGridAlone: the rays among the voxels
+    Colors phase;        // of parallel light
+    V3 toEye;
+
+    STEREONAV_INLINE EyePacket(const SweepScene& s, const SweepEye& e, const SweepChunk& c, F x, F y)
+        : scene(s), eye(e), chunk(c), rays(eyeRays(e, c.reference, x, y)) {
+        if constexpr (kGridAlone) {
+            voxel = voxelOf(s.grid, rays.at);
+            const SweepGrid& g = s.grid;
+            voxelWay = {dotWith(rays.way, g.fromPlace[0]), dotWith(rays.way, g.fromPlace[1]),
+                        dotWith(rays.way, g.fromPlace[2])};
+        }
+        const F back = (e.forward ? F(-1.0f) : F(1.0f)) / rays.length;
+        toEye = {rays.way.x * back, rays.way.y * back, rays.way.z * back};
+        if constexpr (kModel >= kDirect)
+            if (s.light.parallel) phase = phaseAt(s.look, dotWith(toEye, s.light.forward), rays.valid);
+    }
+
+    STEREONAV_INLINE V3 placeAt(F t) const {
+        return {mulAdd(t, rays.way.x, rays.at.x), mulAdd(t, rays.way.y, rays.at.y),
+                mulAdd(t, rays.way.z, rays.at.z)};
+    }
+
+    // What a slab sends to the eye, of lanes m; x: its optical depth along the rays.
+    STEREONAV_INLINE Colors scattered(const Properties& p, int n, const V3& place, const V3& there, F x,
+                                      const Decay& own, M m) const {
+        const SweepLight& light = scene.light;
+        const F zero(0.0f);
+        const F along = F(chunk.middle[n]) + F(static_cast<float>(chunk.reference));
+        const Arriving a = light.parallel ? sunAt(light, place, m) : lampAt(light, place, along, m);
+        Colors sent{{zero, zero, zero}};
+        if (!any(a.lit)) return sent;
+        if constexpr (kModel == kSurface) {
+            sent.c[0] = sent.c[1] = sent.c[2] = x * own.mean * a.share;
+        } else {
+            const F way = F(chunk.thickness[n]) * a.length;
+            const Buffered b = readBuffer<kModel == kIndirect>(light, n, a.u, a.v, a.lit);
+            const Colors p1 = light.parallel ? phase : phaseAt(scene.look, dot(toEye, a.way), a.lit);
+            const F direct = b.direct * slabShareOf(x, p.extinction * way, eye.forward) * a.share;
+            for (int k = 0; k < 3; ++k) sent.c[k] = direct * p1.c[k];
+            if constexpr (kModel == kIndirect) {
+                const F share = a.share * F(scene.look.indirectShare);
+                for (int k = 0; k < 3; ++k)
+                    sent.c[k] = mulAdd(share * b.indirect[k],
+                                       slabShareOf(x, p.indirect[k] * way, eye.forward), sent.c[k]);
+            }
+        }
+        const M shaded = a.lit & (p.surface > zero);
+        Colors factor{{F(1.0f), F(1.0f), F(1.0f)}};
+        if (any(shaded)) factor = surfaceFactor(scene, p.surface, place, there, a.way, toEye, shaded);
+        for (int k = 0; k < 3; ++k) {
+            const F c = p.color[k] * F(scene.look.radiance[k]) * sent.c[k];
+            sent.c[k] = select(a.lit, select(shaded, c * factor.c[k], c), zero);
+        }
+        return sent;
+    }
+
+    // Slab n of the chunk, of lanes m.
+    STEREONAV_INLINE void see(int n, M m, F start, Gathered& g) const {
+        const F t(chunk.middle[n]), zero(0.0f);
+        const F depth = mulAdd(t, rays.perDepth, rays.depth);
+        // A depth that is handed in was found by other slices: it counts from a slab before.
+        m = m & (depth > zero) & (depth + abs(rays.perDepth) * F(chunk.thickness[n]) >= start);
+        Properties p;
+        V3 place, there;
+        Column at;
+        const SweepTable& table = scene.grid.table;
+        if constexpr (kGridAlone) {
+            const V3 v{mulAdd(t, voxelWay.x, voxel.x), mulAdd(t, voxelWay.y, voxel.y),
+                       mulAdd(t, voxelWay.z, voxel.z)};
+            m = m & insideGrid(scene.grid, v);
+            if (!any(m)) return;
+            at = columnOf(table, gridValue(scene.grid, v, m));
+            p.extinction = entryOf(table.extinction, at.entry, at.share, m);
+        } else {
+            if (!any(m)) return;
+            place = placeAt(t);
+            there = sampleAny(scene, place, depth * F(eye.footprint), m, p);
+        }
+        const M seen = m & (p.extinction > zero);
+        if (!any(seen)) return;
+        if constexpr (kGridAlone) {
+            readColors(table, at, seen, p);
+            if constexpr (kModel == kIndirect) readIndirect(table, at, seen, p);
+            place = there = placeAt(t);
+        }
+        const F x = select(seen, p.extinction * F(chunk.thickness[n]) * rays.length, zero);
+        const Decay own = decayOf(x);
+        const F opacity = x * own.mean;
+        Colors sent;
+        if constexpr (kModel == kEmission)
+            sent = {{p.color[0] * opacity, p.color[1] * opacity, p.color[2] * opacity}};
+        else
+            sent = scattered(p, n, place, there, x, own, seen);
+        for (int k = 0; k < 3; ++k) sent.c[k] = mulAdd(p.glow[k], opacity, sent.c[k]);
+        collect(sent, own.passes, depth, seen, g);
+    }
+    STEREONAV_INLINE void collect(const Colors& sent, F passes, F depth, M seen, Gathered& g) const {
+        const F zero(0.0f), tiny(kNothing);
+        if (eye.forward) {
+            for (int k = 0; k < 3; ++k)
+                g.light[k] = mulAdd(select(seen, g.left, zero), sent.c[k], g.light[k]);
+            g.depth = select(seen, min(g.depth, depth), g.depth);
+        } else {
+            for (int k = 0; k < 3; ++k)
+                g.light[k] = select(seen, mulAdd(passes, g.light[k], sent.c[k]), g.light[k]);
+            g.depth = select(seen, depth, g.depth);
+        }
+        const F left = g.left * passes;
+        g.left = select(seen, select(left < tiny, zero, left), g.left);
+    }
+};
+
+template <int kModel, bool kGridAlone>
+bool seeTile(const SweepScene& scene, const SweepEye& eye, const SweepChunk& chunk, const EyeTile& tile) {
+    constexpr int kRows = kLanes / 4;
+    const I lane = laneIndex();
+    const F across = toFloat(lane & I(3)), down = toFloat(shiftRight<2>(lane));
+    bool goesOn = false;
+    float* state = tile.state;
+    for (int y = 0; y < EyeTile::kSide; y += kRows)
+        for (int x = 0; x < EyeTile::kSide; x += 4, state += EyeTile::kMembers * kLanes) {
+            const F column = across + F(static_cast<float>(tile.x0 + x)),
+                    row = down + F(static_cast<float>(tile.y0 + y));
+            Gathered g = loadGathered(tile, state);
+            M active =
+                (column < F(static_cast<float>(eye.width))) & (row < F(static_cast<float>(eye.height)));
+            if (eye.forward) active = active & (g.left >= F(kLeastLeft));
+            F start(0.0f);
+            if (tile.starts && any(active))
+                start = gather(tile.starts,
+                               (shiftRight<2>(lane) + I(y)) * I(tile.startStride) + (lane & I(3)) + I(x),
+                               active, start);
+            if (any(active)) {
+                const EyePacket<kModel, kGridAlone> packet(scene, eye, chunk, column + F(0.5f),
+                                                           row + F(0.5f));
+                active = active & packet.rays.valid;
+                for (std::uint32_t left = tile.slabs; left && any(active); left &= left - 1) {
+                    packet.see(__builtin_ctz(left), active, start, g);
+                    if (eye.forward) active = active & (g.left >= F(kLeastLeft));
+                }
+                goesOn = goesOn || any(active);
+            }
+            storeGathered(g, state);
+        }
+    return goesOn;
+}
+
+inline void readTile(const float* state, const PictureTile& tile) {
+    constexpr int kRows = kLanes / 4, kAcross = EyeTile::kSide / 4;
+    for (int y = 0; y < tile.height; ++y)
+        for (int x = 0; x < tile.width; ++x) {
+            const int packet = y / kRows * kAcross + x / 4, lane = y % kRows * 4 + x % 4;
+            const float* from = state + packet * EyeTile::kMembers * kLanes + lane;
+            float* light = tile.light + y * tile.lightStride + 4 * x;
+            for (int k = 0; k < 4; ++k) light[k] = from[k * kLanes];
+            tile.depth[y * tile.depthStride + x] = from[4 * kLanes];
+        }
+}
+
+}  // namespace stereonav::STEREONAV_ISA

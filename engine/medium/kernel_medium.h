@@ -1,0 +1,355 @@
+// Packets of places in a medium: what Medium::at says, in float. A grid under a one-dimensional table is the
+// short way; noise, layers and gradients take the long one. Included by kernels only.
+#pragma once
+
+#include "engine/medium/sweep_kernel_types.h"
+#include "engine/volume/kernel_light.h"
+
+namespace stereonav::STEREONAV_ISA {
+
+// Parts that are seldom needed are functions of their own: inlined everywhere they take minutes to compile.
+struct Properties {
+    F extinction;
+    F indirect[3], color[3], glow[3];
+    F surface;
+};
+
+// Where a table is read: an entry, how far to the next, and the same of rows.
+struct Column {
+    I entry;
+    F share;
+    I row;  // first entry of the lower row
+    F rowShare;
+};
+
+STEREONAV_INLINE F entryOf(const float* member, I index, F share, M m) {
+    const FPair both = gatherPair(member, index, m);
+    return lerp(both.first, both.second, share);
+}
+STEREONAV_INLINE F memberAt(const SweepTable& table, const float* member, const Column& at, M m) {
+    if (table.rows == 1) return entryOf(member, at.entry, at.share, m);
+    const I index = at.row + at.entry;
+    return lerp(entryOf(member, index, at.share, m),
+                entryOf(member + SweepTable::kColumns, index, at.share, m), at.rowShare);
+}
+STEREONAV_INLINE Column columnOf(const SweepTable& table, F value) {
+    const F at = clamp(mulAdd(value, F(table.perValue), F(table.zero)), F(0.0f), F(1024.0f));
+    const I entry = min(truncateToInt(at), I(SweepTable::kColumns - 2));
+    return {entry, at - toFloat(entry), I(0), F(0.0f)};
+}
+STEREONAV_INLINE void setRow(const SweepTable& table, F gradient, Column& at) {
+    const F row = clamp(gradient * F(table.perGradient), F(0.0f), F(static_cast<float>(table.rows - 1)));
+    const I low = min(truncateToInt(row), I(table.rows - 2));
+    at.row = low * I(SweepTable::kColumns);
+    at.rowShare = row - toFloat(low);
+}
+// All but the extinction, of lanes m.
+STEREONAV_INLINE void readColors(const SweepTable& table, const Column& at, M m, Properties& p) {
+    const F zero(0.0f);
+    for (int k = 0; k < 3; ++k) p.color[k] = memberAt(table, table.color[k], at, m);
+    p.surface = table.surface ? memberAt(table, table.surface, at, m) : zero;
+    for (int k = 0; k < 3; ++k) p.glow[k] = table.glow[k] ? memberAt(table, table.glow[k], at, m) : zero;
+}
+STEREONAV_INLINE void readIndirect(const SweepTable& table, const Column& at, M m, Properties& p) {
+    for (int k = 0; k < 3; ++k) p.indirect[k] = memberAt(table, table.indirect[k], at, m);
+}
+
+STEREONAV_INLINE M insideGrid(const SweepGrid& grid, const V3& v) {
+    const F zero(0.0f);
+    return (v.x >= zero) & (v.y >= zero) & (v.z >= zero) & (v.x <= F(grid.last[0])) &
+           (v.y <= F(grid.last[1])) & (v.z <= F(grid.last[2]));
+}
+STEREONAV_INLINE V3 voxelOf(const SweepGrid& grid, const V3& place) {
+    const auto row = [&](int k) {
+        return mulAdd(place.x, F(grid.fromPlace[k][0]),
+                      mulAdd(place.y, F(grid.fromPlace[k][1]),
+                             mulAdd(place.z, F(grid.fromPlace[k][2]), F(grid.zero[k]))));
+    };
+    return {row(0), row(1), row(2)};
+}
+
+// Trilinear, of places inside the grid. Two neighbours along x are one word; their weights have 14 bits.
+STEREONAV_INLINE F gridValue(const SweepGrid& grid, const V3& v, M m) {
+    const I x = min(truncateToInt(v.x), I(grid.lastCell[0])),
+            y = min(truncateToInt(v.y), I(grid.lastCell[1])),
+            z = min(truncateToInt(v.z), I(grid.lastCell[2]));
+    const I high = truncateToInt(mulAdd(v.x - toFloat(x), F(16384.0f), F(0.5f)));
+    const I weights = shiftLeft<16>(high) + (I(16384) - high);
+    const F fy = v.y - toFloat(y), fz = v.z - toFloat(z);
+    const I word = z * I(grid.strideZ) + y * I(grid.strideY) + x;
+    const auto pair = [&](std::int64_t offset) {
+        return toFloat(dotHalves(gatherHalves(grid.values + offset, word, m), weights));
+    };
+    const F near = lerp(pair(0), pair(grid.strideY), fy);
+    const std::int64_t next = grid.strideZ;
+    const F far = lerp(pair(next), pair(next + grid.strideY), fy);
+    return lerp(near, far, fz) * F(1.0f / 16384);
+}
+// Value units a metre, along the grid's own axes.
+[[gnu::noinline]] inline V3 gridGradient(const SweepGrid& grid, const V3& v, M m) {
+    const F zero(0.0f), one(1.0f);
+    const auto along = [&](int axis) {
+        V3 before = v, after = v;
+        F& low = axis == 0 ? before.x : axis == 1 ? before.y : before.z;
+        F& high = axis == 0 ? after.x : axis == 1 ? after.y : after.z;
+        low = max(low - one, zero);
+        high = min(high + one, F(grid.last[axis]));
+        return (gridValue(grid, after, m) - gridValue(grid, before, m)) * F(grid.slope[axis]);
+    };
+    return {along(0), along(1), along(2)};
+}
+STEREONAV_INLINE F lengthOf(const V3& v) {
+    return sqrt(dot(v, v));
+}
+
+// Four channels in -1..1.
+struct NoiseValue {
+    F red, green, blue, alpha;
+};
+// Bytes of a word as 15-bit halves: red and blue, green and alpha.
+struct NoiseWords {
+    I even, odd;
+};
+STEREONAV_INLINE NoiseWords openNoise(I word) {
+    const I bytes(0x00FF00FF);
+    return {shiftLeft<7>(word & bytes), shiftLeft<7>(shiftRight<8>(word) & bytes)};
+}
+STEREONAV_INLINE NoiseWords mixNoise(const NoiseWords& a, const NoiseWords& b, I t) {
+    return {lerpHalves(a.even, b.even, t), lerpHalves(a.odd, b.odd, t)};
+}
+STEREONAV_INLINE F noiseChannel(I half) {
+    return mulAdd(toFloat(half & I(0xFFFF)), F(1.0f / (127.5f * 128)), F(-1.0f));
+}
+[[gnu::noinline]] inline NoiseValue noiseAt(const SweepNoise& noise, const SweepNoise::Scale& scale,
+                                            const V3& place, M m) {
+    const F perMetre(scale.perMetre);
+    const F u = mulAdd(place.x, perMetre, F(scale.zero[0])), v = mulAdd(place.y, perMetre, F(scale.zero[1])),
+            w = mulAdd(place.z, perMetre, F(scale.zero[2]));
+    const I x = floorToInt(u), y = floorToInt(v), z = floorToInt(w), wrap(31), one(1);
+    const I tx = weightOf(u - toFloat(x)), ty = weightOf(v - toFloat(y)), tz = weightOf(w - toFloat(z));
+    const I x0 = x & wrap, x1 = (x + one) & wrap;
+    const auto row = [&](I yy, I zz) {
+        const I first = shiftLeft<10>(zz & wrap) + shiftLeft<5>(yy & wrap);
+        return mixNoise(openNoise(gather(noise.texels, first + x0, m)),
+                        openNoise(gather(noise.texels, first + x1, m)), tx);
+    };
+    const NoiseWords sum = mixNoise(mixNoise(row(y, z), row(y + one, z), ty),
+                                    mixNoise(row(y, z + one), row(y + one, z + one), ty), tz);
+    return {noiseChannel(sum.even), noiseChannel(sum.odd), noiseChannel(shiftRight<16>(sum.even)),
+            noiseChannel(shiftRight<16>(sum.odd))};
+}
+
+// What the noise of all scales does at a place.
+struct Disturbance {
+    V3 way;  // metres
+    F extinction, color[3], indirect[3];
+};
+STEREONAV_INLINE Disturbance disturbanceAt(const SweepNoise& noise, const V3& place, M m) {
+    const F zero(0.0f), one(1.0f);
+    Disturbance d{{zero, zero, zero}, one, {one, one, one}, {one, one, one}};
+    for (int n = 0; n < noise.scales; ++n) {
+        const SweepNoise::Scale& scale = noise.scale[n];
+        const NoiseValue value = noiseAt(noise, scale, place, m);
+        d.way.x = mulAdd(F(scale.displacement), value.red, d.way.x);
+        d.way.y = mulAdd(F(scale.displacement), value.green, d.way.y);
+        d.way.z = mulAdd(F(scale.displacement), value.blue, d.way.z);
+        d.extinction = mulAdd(F(scale.extinction), value.alpha, d.extinction);
+        for (int k = 0; k < 3; ++k) {
+            d.color[k] = mulAdd(F(scale.color[k]), value.red, d.color[k]);
+            d.indirect[k] = mulAdd(F(scale.indirect[k]), value.green, d.indirect[k]);
+        }
+    }
+    return d;
+}
+
+// Height above the layer's base; NaN where unknown. A sample of weight 0 does not count.
+[[gnu::noinline]] inline F heightIn(const SweepLayer& layer, F u, F v, I level, M m) {
+    const F zero(0.0f), one(1.0f), half(0.5f);
+    const F perSize = asFloat(shiftLeft<23>(I(127) - level));
+    const I width = gather(layer.width, level, m), height = gather(layer.height, level, m);
+    const F x = clamp(mulAdd(u + half, perSize, -half), zero, toFloat(width - I(1)));
+    const F y = clamp(mulAdd(v + half, perSize, -half), zero, toFloat(height - I(1)));
+    const I i = truncateToInt(x), j = truncateToInt(y);
+    const F s = x - toFloat(i), t = y - toFloat(j);
+    const I first = gather(layer.start, level, m) + j * width + i;
+    F sum = zero;
+    for (int corner = 0; corner < 4; ++corner) {
+        const F weight = (corner & 1 ? s : one - s) * (corner & 2 ? t : one - t);
+        const M counts = m & (weight > zero);
+        const I index = first + (corner & 1 ? I(1) : I(0)) + (corner & 2 ? width : I(0));
+        sum = sum + select(counts, weight * gather(layer.heights, index, counts, zero), zero);
+    }
+    return sum;
+}
+[[gnu::noinline]] inline F heightAt(const SweepLayer& layer, const V3& place, F footprint, M m) {
+    const F zero(0.0f);
+    const F u = mulAdd(place.x, F(layer.perMetre), F(layer.zero[0])),
+            v = mulAdd(place.y, F(layer.perMetre), F(layer.zero[1]));
+    const M in = m & (u >= zero) & (v >= zero) & (u <= F(static_cast<float>(layer.width[0]) - 1)) &
+                 (v <= F(static_cast<float>(layer.height[0]) - 1));
+    const F size = footprint * F(layer.perMetre), coarsest(static_cast<float>(layer.levels - 1));
+    const F level = select(size > F(1.0f), min(log2(max(size, F(1.0f))), coarsest), zero);
+    const I fine = truncateToInt(level);
+    const F share = level - toFloat(fine);
+    F height = heightIn(layer, u, v, fine, in);
+    const M between = in & (share > zero);
+    if (any(between))
+        height = select(between, lerp(height, heightIn(layer, u, v, fine + I(1), between), share), height);
+    return select(in, height, F(__builtin_nanf("")));
+}
+
+// Adds a layer to what is there; extinctions add up, the rest by its share of them.
+[[gnu::noinline]] inline void addLayer(const SweepLayer& layer, const V3& place, F footprint, M m,
+                                       Properties& sum) {
+    const F zero(0.0f), one(1.0f);
+    const M near = m & (place.z >= F(layer.lowest)) & (place.z <= F(layer.highest));
+    if (!any(near)) return;
+    const F height = heightAt(layer, place, footprint, near);
+    const F above = (place.z - F(layer.base)) - height;
+    const F inside = min(above + F(layer.below), F(layer.above) - above);
+    const M in = near & (inside >= zero);
+    if (!any(in)) return;
+    const F weight = layer.perTaper > 0 ? min(inside * F(layer.perTaper), one) : one;
+    const Column at = columnOf(layer.table, select(in, height, zero));
+    Properties p;
+    p.extinction = select(in, weight * entryOf(layer.table.extinction, at.entry, at.share, in), zero);
+    const M counts = in & (p.extinction > zero);
+    if (!any(counts)) return;
+    readColors(layer.table, at, counts, p);
+    readIndirect(layer.table, at, counts, p);
+    const F share = select(counts, p.extinction / max(sum.extinction + p.extinction, F(1e-30f)), zero);
+    sum.extinction = sum.extinction + p.extinction;
+    for (int k = 0; k < 3; ++k) {
+        sum.indirect[k] = mulAdd(select(counts, weight, zero), p.indirect[k], sum.indirect[k]);
+        sum.color[k] = lerp(sum.color[k], p.color[k], share);
+        sum.glow[k] = lerp(sum.glow[k], p.glow[k], share);
+    }
+    sum.surface = lerp(sum.surface, p.surface, share);
+}
+
+// The long way: noise, layers, gradients. Gives the displaced place.
+[[gnu::noinline]] inline V3 sampleAny(const SweepScene& scene, const V3& place, F footprint, M m,
+                                      Properties& p) {
+    const F zero(0.0f), one(1.0f);
+    p = {zero, {zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero}, zero};
+    Disturbance d;
+    V3 there = place;
+    if (scene.noise.texels) {
+        d = disturbanceAt(scene.noise, place, m);
+        there = {place.x + d.way.x, place.y + d.way.y, place.z + d.way.z};
+    }
+    if (scene.grid.values) {
+        const V3 voxel = voxelOf(scene.grid, there);
+        const M in = m & insideGrid(scene.grid, voxel);
+        const SweepTable& table = scene.grid.table;
+        Column at = columnOf(table, gridValue(scene.grid, voxel, in));
+        if (table.rows > 1) setRow(table, lengthOf(gridGradient(scene.grid, voxel, in)), at);
+        p.extinction = memberAt(table, table.extinction, at, in);
+        const M seen = in & (p.extinction > zero);
+        if (any(seen)) {
+            readColors(table, at, seen, p);
+            readIndirect(table, at, seen, p);
+        }
+    }
+    for (int n = 0; n < scene.layerCount; ++n) addLayer(scene.layers[n], there, footprint, m, p);
+    if (scene.noise.texels) {
+        p.extinction = p.extinction * max(d.extinction, zero);
+        for (int k = 0; k < 3; ++k) {
+            p.color[k] = clamp(p.color[k] * d.color[k], zero, one);
+            p.indirect[k] = p.indirect[k] * max(d.indirect[k], zero);
+        }
+    }
+    return there;
+}
+
+// The upward normal of the layer nearest to a place; 0 where there is none.
+[[gnu::noinline]] inline V3 layerNormal(const SweepScene& scene, const V3& place, M m) {
+    const F zero(0.0f);
+    V3 normal{zero, zero, zero};
+    F least(__builtin_inff());
+    for (int n = 0; n < scene.layerCount; ++n) {
+        const SweepLayer& layer = scene.layers[n];
+        const F d(1.0f / layer.perMetre);
+        const auto height = [&](F dx, F dy) {
+            return heightAt(layer, {place.x + dx, place.y + dy, place.z}, zero, m);
+        };
+        const F away = abs(place.z - F(layer.base) - height(zero, zero));
+        const M nearer = m & (away < least);
+        const F scale(-0.5f * layer.perMetre);
+        const F x = (height(d, zero) - height(zero - d, zero)) * scale,
+                y = (height(zero, d) - height(zero, zero - d)) * scale;
+        const F tilt = select(abs(x) < F(1e30f), x, zero), lean = select(abs(y) < F(1e30f), y, zero);
+        least = select(nearer, away, least);
+        normal = {select(nearer, tilt, normal.x), select(nearer, lean, normal.y),
+                  select(nearer, F(1.0f), normal.z)};
+    }
+    return normal;
+}
+// Along world axes, any length; place: displaced.
+[[gnu::noinline]] inline V3 gradientAt(const SweepScene& scene, const V3& place, M m) {
+    if (!scene.grid.values) return layerNormal(scene, place, m);
+    const V3 voxel = voxelOf(scene.grid, place);
+    const M in = m & insideGrid(scene.grid, voxel);
+    const V3 g = gridGradient(scene.grid, voxel, in);
+    const auto row = [&](int k) {
+        const float(&a)[3] = scene.grid.axes[k];
+        return select(in, mulAdd(g.x, F(a[0]), mulAdd(g.y, F(a[1]), g.z * F(a[2]))), F(0.0f));
+    };
+    return {row(0), row(1), row(2)};
+}
+
+// (1 - exp(-z)) / z and exp(-z), z >= 0. A series where z is small: the difference would lose digits, and it
+// costs less. Its first term left out is below 2e-7 at the limit.
+struct Decay {
+    F mean, passes;
+};
+STEREONAV_INLINE Decay decayOf(F z) {
+    const F limit(0.5f), one(1.0f);
+    const F s = min(z, limit);
+    F mean = mulAdd(s, F(1.0f / 5040), F(-1.0f / 720));
+    mean = mulAdd(mean, s, F(1.0f / 120));
+    mean = mulAdd(mean, s, F(-1.0f / 24));
+    mean = mulAdd(mean, s, F(1.0f / 6));
+    mean = mulAdd(mean, s, F(-0.5f));
+    mean = mulAdd(mean, s, one);
+    F passes = one - s * mean;
+    const M thick = z > limit;
+    if (any(thick)) {
+        const F left = exp2(z * F(-1.44269504f));
+        passes = select(thick, left, passes);
+        mean = select(thick, (one - left) * approxReciprocal(min(max(z, limit), F(1e30f))), mean);
+    }
+    return {mean, passes};
+}
+// V5 and V6; x: of the eye's ray.
+STEREONAV_INLINE F slabShareOf(F x, F y, bool forward) {
+    if (forward) return x * decayOf(x + y).mean;
+    return x * decayOf(min(x, y)).passes * decayOf(abs(x - y)).mean;
+}
+
+// Angles by Abramowitz and Stegun 4.4.46, error below 2e-8 and the rounding.
+STEREONAV_INLINE F arcCosine(F cosine) {
+    const F a = min(abs(cosine), F(1.0f));
+    F p = mulAdd(a, F(-0.0012624911f), F(0.0066700901f));
+    p = mulAdd(p, a, F(-0.0170881256f));
+    p = mulAdd(p, a, F(0.0308918810f));
+    p = mulAdd(p, a, F(-0.0501743046f));
+    p = mulAdd(p, a, F(0.0889789874f));
+    p = mulAdd(p, a, F(-0.2145988016f));
+    p = mulAdd(p, a, F(1.5707963050f));
+    const F angle = p * sqrt(F(1.0f) - a);
+    return select(cosine < F(0.0f), F(3.14159265f) - angle, angle);
+}
+struct Colors {
+    F c[3];
+};
+STEREONAV_INLINE Colors phaseAt(const SweepLook& look, F cosine, M m) {
+    if (!look.phase[0]) return {{F(1.0f), F(1.0f), F(1.0f)}};
+    const F at = clamp(arcCosine(cosine) * F(1024.0f / 3.14159265f), F(0.0f), F(1024.0f));
+    const I entry = min(truncateToInt(at), I(1023));
+    const F share = at - toFloat(entry);
+    return {{entryOf(look.phase[0], entry, share, m), entryOf(look.phase[1], entry, share, m),
+             entryOf(look.phase[2], entry, share, m)}};
+}
+
+}  // namespace stereonav::STEREONAV_ISA

@@ -1,0 +1,292 @@
+// Light and eyes in lock step, a chunk of slabs at a time: the light passes the chunk's slabs one after the
+// other and leaves behind what eyes read of it; then each tile of the eyes walks the chunk with what it has
+// gathered in registers. Tiles and slabs where the medium's cells are empty are left out.
+#include "engine/medium/medium_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "engine/base/stopwatch.h"
+#include "engine/medium/sweep_data.h"
+#include "engine/medium/sweep_light.h"
+#include "engine/medium/sweep_space.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kSide = EyeTile::kSide;
+constexpr std::size_t kTileNumbers = EyeTile::kMembers * kSide * kSide;
+
+const SweepKernels& kernelsFor(SimdTarget target) {
+    if (target == SimdTarget::Avx512) return avx512::kSweepKernels;
+    return target == SimdTarget::Avx2 ? avx2::kSweepKernels : plain::kSweepKernels;
+}
+
+void checkSpans(const SweepGeometry& geometry, std::span<MediumPicture> pictures,
+                std::span<const Plane<float>> starts) {
+    const std::size_t eyes = geometry.eyes.size();
+    if (pictures.size() != eyes || (!starts.empty() && starts.size() != eyes))
+        throw Error(
+            "", "sweep",
+            fmt::format("{} eyes need as many pictures, got {}, and as many planes of depths or none, got {}",
+                        eyes, pictures.size(), starts.size()),
+            "hand in one for each eye");
+    for (std::size_t n = 0; n < starts.size(); ++n)
+        if (starts[n].width() != geometry.eyes[n].width || starts[n].height() != geometry.eyes[n].height)
+            throw Error(
+                "", "sweep",
+                fmt::format("depths of eye {} are {} x {}, its picture {} x {}", n + 1, starts[n].width(),
+                            starts[n].height(), geometry.eyes[n].width, geometry.eyes[n].height),
+                "hand in depths of the picture's size");
+}
+
+// Where the corner of a tile is among the cells: at + t way, t along the axis from the anchor on.
+struct CornerRay {
+    glm::dvec3 at{0.0}, way{0.0};
+    bool valid = false;
+};
+
+// One eye's tiles, from frame to frame.
+struct EyeBuffers {
+    int across = 0, down = 0;
+    std::vector<float> states;
+    std::vector<std::uint8_t> fresh, done;
+    std::vector<CornerRay> corners;  // (across + 1) x (down + 1)
+
+    void start(const RayFan& fan) {
+        across = (fan.width + kSide - 1) / kSide;
+        down = (fan.height + kSide - 1) / kSide;
+        const std::size_t tiles = static_cast<std::size_t>(across) * down;
+        if (states.size() < tiles * kTileNumbers) states.resize(tiles * kTileNumbers);
+        fresh.assign(tiles, 1);
+        done.assign(tiles, 0);
+    }
+    int tiles() const { return across * down; }
+};
+
+}  // namespace
+
+struct MediumSweep::State {
+    explicit State(const Medium& m, SimdTarget t)
+        : medium(m), target(availableTarget(t)), kernels(kernelsFor(target)), data(m), space(m) {}
+
+    // What a frame is made of.
+    struct Frame {
+        const SweepGeometry& geometry;
+        SweepScene scene;
+        std::vector<SweepEye> eyes;
+        std::span<const Plane<float>> starts;
+        bool skips = true;
+    };
+
+    void setCorners(const Frame& frame, std::size_t eye);
+    std::uint32_t slabsOf(const Frame& frame, std::size_t eye, int tile, int first, int count) const;
+    void seeChunk(Frame& frame, const SweepChunk& chunk, int first, int count, SweepTimings& timings);
+    void readPicture(std::size_t eye, MediumPicture& picture) const;
+    bool countsAll(const SweepGeometry& geometry) const;
+
+    const Medium& medium;
+    SimdTarget target;
+    const SweepKernels& kernels;
+    SweepData data;
+    SweepSpace space;
+    SweepLightBuffers light;
+    std::vector<EyeBuffers> eyes;
+};
+
+void MediumSweep::State::setCorners(const Frame& frame, std::size_t eye) {
+    const SweepGeometry& g = frame.geometry;
+    const RayFan& fan = g.eyes[eye];
+    EyeBuffers& b = eyes[eye];
+    b.corners.resize(static_cast<std::size_t>(b.across + 1) * (b.down + 1));
+    const double start = glm::dot(fan.origin, g.axis);
+    for (int y = 0; y <= b.down; ++y)
+        for (int x = 0; x <= b.across; ++x) {
+            const glm::dvec3 way = fan.direction(x * kSide, y * kSide);
+            const double along = glm::dot(way, g.axis);
+            CornerRay& corner = b.corners[static_cast<std::size_t>(y) * (b.across + 1) + x];
+            corner.valid = (g.forward ? along : -along) > kLeastCosine;
+            if (!corner.valid) continue;
+            corner.way = space.cellDirection(way / along);
+            corner.at = space.cellFromWorld(g.anchor + fan.origin) - start * corner.way;
+        }
+}
+
+// Those slabs of a chunk in which a tile may see something.
+std::uint32_t MediumSweep::State::slabsOf(const Frame& frame, std::size_t eye, int tile, int first,
+                                          int count) const {
+    const EyeBuffers& b = eyes[eye];
+    const SweepGeometry& g = frame.geometry;
+    const double start = frame.eyes[eye].start;
+    const int x = tile % b.across, y = tile / b.across;
+    const CornerRay* corners[4];
+    bool all = !frame.skips;
+    for (int n = 0; n < 4; ++n) {
+        corners[n] = &b.corners[static_cast<std::size_t>(y + n / 2) * (b.across + 1) + x + n % 2];
+        all = all || !corners[n]->valid;
+    }
+    const auto anyBetween = [&](double t0, double t1) {
+        glm::dvec3 low(1e300), high(-1e300);
+        for (const CornerRay* c : corners) {
+            const glm::dvec3 p = c->at + t0 * c->way, q = c->at + t1 * c->way;
+            low = glm::min(low, glm::min(p, q));
+            high = glm::max(high, glm::max(p, q));
+        }
+        return space.any(low, high);
+    };
+    if (!all && !anyBetween(g.faces[first], g.faces[first + count])) return 0;
+    std::uint32_t slabs = 0;
+    for (int n = 0; n < count; ++n) {
+        const double t = 0.5 * (g.faces[first + n] + g.faces[first + n + 1]);
+        if (!(g.forward ? t > start : t < start)) continue;
+        if (all || anyBetween(t, t)) slabs |= 1u << n;
+    }
+    return slabs;
+}
+
+void MediumSweep::State::seeChunk(Frame& frame, const SweepChunk& chunk, int first, int count,
+                                  SweepTimings& timings) {
+    int total = 0;
+    for (const EyeBuffers& b : eyes) total += b.tiles();
+    std::atomic<long long> samples = 0;
+    parallelFor(total, [&](int n) {
+        std::size_t eye = 0;
+        for (; n >= eyes[eye].tiles(); ++eye) n -= eyes[eye].tiles();
+        EyeBuffers& b = eyes[eye];
+        if (b.done[n]) return;
+        EyeTile tile;
+        tile.slabs = slabsOf(frame, eye, n, first, count);
+        if (tile.slabs == 0) return;
+        tile.x0 = n % b.across * kSide;
+        tile.y0 = n / b.across * kSide;
+        tile.fresh = b.fresh[n];
+        tile.state = b.states.data() + n * kTileNumbers;
+        if (!frame.starts.empty()) {
+            tile.starts = frame.starts[eye].row(tile.y0) + tile.x0;
+            tile.startStride = frame.starts[eye].stride();
+        }
+        b.done[n] = !kernels.seeTile(frame.scene, frame.eyes[eye], chunk, tile);
+        b.fresh[n] = 0;
+        samples += static_cast<long long>(std::popcount(tile.slabs)) * kSide * kSide;
+    });
+    timings.eyeSamples += samples;
+}
+
+void MediumSweep::State::readPicture(std::size_t eye, MediumPicture& picture) const {
+    const EyeBuffers& b = eyes[eye];
+    parallelFor(b.tiles(), [&](int n) {
+        const int x0 = n % b.across * kSide, y0 = n / b.across * kSide;
+        PictureTile tile;
+        tile.light = &picture.light.row(y0)[x0].x;
+        tile.depth = picture.viewDepth.row(y0) + x0;
+        tile.lightStride = 4 * static_cast<std::int64_t>(picture.light.stride());
+        tile.depthStride = picture.viewDepth.stride();
+        tile.width = std::min(kSide, picture.light.width() - x0);
+        tile.height = std::min(kSide, picture.light.height() - y0);
+        if (!b.fresh[n]) {
+            kernels.readTile(b.states.data() + n * kTileNumbers, tile);
+            return;
+        }
+        for (int y = 0; y < tile.height; ++y)
+            for (int x = 0; x < tile.width; ++x) {
+                picture.light.at(x0 + x, y0 + y) = glm::vec4(0, 0, 0, 1);
+                picture.viewDepth.at(x0 + x, y0 + y) = kMissDepth;
+            }
+    });
+}
+
+// Whether footprints are small enough for what is said to be empty to be so.
+bool MediumSweep::State::countsAll(const SweepGeometry& geometry) const {
+    const WorldBox& box = medium.bounds();
+    double largest = 0;
+    const auto add = [&](const RayFan& fan) {
+        for (int n = 0; n < 8; ++n)
+            largest = std::max(largest, fan.pixelSize(glm::dvec3(n & 1 ? box.high.x : box.low.x,
+                                                                 n & 2 ? box.high.y : box.low.y,
+                                                                 n & 4 ? box.high.z : box.low.z) -
+                                                      geometry.anchor));
+    };
+    for (const RayFan& eye : geometry.eyes) add(eye);
+    if (geometry.light.width > 0) add(geometry.light);
+    return largest <= space.mostFootprint();
+}
+
+MediumSweep::MediumSweep(const Medium& medium, SimdTarget target)
+    : mState(std::make_unique<State>(medium, target)) {}
+
+MediumSweep::~MediumSweep() = default;
+
+SweepTimings MediumSweep::render(const MediumLook& look, const SweepSetting& setting,
+                                 std::span<const EyeView> eyes, const glm::dvec3& head, double time,
+                                 std::span<MediumPicture> pictures,
+                                 std::span<const Plane<float>> startDepths) {
+    return render(look, setting, makeSweepGeometry(mState->medium, look, setting, eyes, head), time, pictures,
+                  startDepths);
+}
+
+SweepTimings MediumSweep::render(const MediumLook& look, const SweepSetting& setting,
+                                 const SweepGeometry& geometry, double time,
+                                 std::span<MediumPicture> pictures,
+                                 std::span<const Plane<float>> startDepths) {
+    checkSpans(geometry, pictures, startDepths);
+    State& s = *mState;
+    State::Frame frame{geometry, s.data.sceneFor(look, setting, geometry, time), {}, startDepths, true};
+    frame.skips = s.countsAll(geometry);
+    s.eyes.resize(geometry.eyes.size());
+    for (std::size_t eye = 0; eye < geometry.eyes.size(); ++eye) {
+        s.eyes[eye].start(geometry.eyes[eye]);
+        frame.eyes.push_back(sweepEye(geometry.eyes[eye], geometry));
+        s.setCorners(frame, eye);
+    }
+    SweepTimings timings;
+    Stopwatch watch;
+    const bool usesLight = geometry.light.width > 0 && geometry.slabs() > 0;
+    int most = SweepChunk::kMost;
+    if (usesLight) most = s.light.start(frame.scene.light);
+    for (int first = 0; first < geometry.slabs(); first += most) {
+        const int count = std::min(most, geometry.slabs() - first);
+        SweepChunk chunk;
+        chunk.reference = 0.5 * (geometry.faces[first] + geometry.faces[first + count]);
+        for (int n = 0; n < count; ++n) {
+            const double low = geometry.faces[first + n], high = geometry.faces[first + n + 1];
+            chunk.middle[n] = static_cast<float>(0.5 * (low + high) - chunk.reference);
+            chunk.thickness[n] = static_cast<float>(high - low);
+        }
+        watch.lap_ms();
+        if (usesLight)
+            for (int n = 0; n < count; ++n)
+                timings.lightTexels += s.light.pass(frame.scene, geometry, first + n, n,
+                                                    frame.skips ? &s.space : nullptr, s.kernels);
+        timings.light_ms += watch.lap_ms();
+        s.seeChunk(frame, chunk, first, count, timings);
+        timings.eye_ms += watch.lap_ms();
+    }
+    for (std::size_t eye = 0; eye < geometry.eyes.size(); ++eye) {
+        pictures[eye].light.resize(geometry.eyes[eye].width, geometry.eyes[eye].height);
+        pictures[eye].viewDepth.resize(geometry.eyes[eye].width, geometry.eyes[eye].height);
+        s.readPicture(eye, pictures[eye]);
+    }
+    timings.eye_ms += watch.lap_ms();
+    return timings;
+}
+
+SimdTarget MediumSweep::target() const {
+    return mState->target;
+}
+
+std::size_t MediumSweep::heldBytes() const {
+    std::size_t bytes = mState->data.heldBytes() + mState->space.heldBytes() + mState->light.heldBytes();
+    for (const EyeBuffers& b : mState->eyes)
+        bytes += b.states.size() * sizeof(float) + b.corners.size() * sizeof(CornerRay);
+    return bytes;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,263 @@
+// Doubles and world coordinates become floats relative to the anchor here, and nowhere else.
+#include "engine/medium/sweep_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+constexpr std::size_t kReadAhead = 16;  // numbers behind the last that vector code may read
+
+void setVector(float (&to)[3], const glm::dvec3& from) {
+    for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
+}
+void setVector(double (&to)[3], const glm::dvec3& from) {
+    for (int k = 0; k < 3; ++k) to[k] = from[k];
+}
+
+BakedData bakedDataOf(const BakedLook& look, const VolumeFrame& frame) {
+    BakedData d;
+    if (!look.light || look.light->empty()) return d;
+    const IlluminationVolume& light = *look.light;
+    d.texels = reinterpret_cast<const std::uint32_t*>(light.texels.data());
+    const glm::dvec3 offset = frame.voxelFromWorld(light.frame.origin);
+    const glm::ivec3 bricks = light.layout.bricks;
+    const int strides[3] = {512, 512 * bricks.x, 512 * bricks.x * bricks.y};
+    for (int k = 0; k < 3; ++k) {
+        d.brickStride[k] = strides[k];
+        d.last[k] = light.frame.size[k] - 1;
+        d.offset[k] = static_cast<float>(offset[k]);
+        d.perVoxel[k] = static_cast<float>(frame.spacing[k] / light.frame.spacing[k]);
+    }
+    d.openness = look.use == BakedLook::Use::Openness;
+    if (!d.openness) {
+        d.exposure = look.exposure;
+        d.lampShare = look.lampShare;
+    }
+    return d;
+}
+
+SweepLight lightOf(const SweepGeometry& g, double blurLength, double coneAngle) {
+    const RayFan& fan = g.light;
+    SweepLight light;
+    light.parallel = fan.parallel;
+    setVector(light.origin, fan.origin);
+    setVector(light.right, fan.right);
+    setVector(light.up, fan.up);
+    setVector(light.forward, fan.forward);
+    setVector(light.axis,
+              {glm::dot(fan.right, g.axis), glm::dot(fan.up, g.axis), glm::dot(fan.forward, g.axis)});
+    light.xMin = static_cast<float>(fan.xMin);
+    light.yMax = static_cast<float>(fan.yMax);
+    light.perX = static_cast<float>(fan.perX);
+    light.perY = static_cast<float>(fan.perY);
+    light.width = fan.width;
+    light.height = fan.height;
+    light.length = static_cast<float>(1 / std::max(glm::dot(fan.forward, g.axis), kLeastCosine));
+    light.start = fan.parallel ? 0.0f : static_cast<float>(g.lightStart);
+    light.inverseFalloffSquared = g.falloff > 0 ? static_cast<float>(1 / (g.falloff * g.falloff)) : 0.0f;
+    light.lampCosine = static_cast<float>(g.lampCosine);
+    light.blur = static_cast<float>(std::sqrt(blurLength) * std::tan(0.5 * coneAngle));
+    return light;
+}
+
+}  // namespace
+
+SweepData::SweepData(const Medium& medium) : mMedium(medium) {
+    if (const GreyVolume* field = medium.field()) {
+        if (field->frame.count() >= 0x7fffffffu)
+            throw Error("", "volume", fmt::format("{} voxels are more than 2^31", field->frame.count()),
+                        "crop it or take every second voxel");
+        takeTable(medium.table(), field->scale, field->offset, mGridTable);
+    }
+    mBase = medium.bounds().center().z;
+    mLayerTables.resize(medium.layers().size());
+    for (const HeightLayer& layer : medium.layers())
+        if (!layer.levels.empty() && !layer.levels[0].empty()) takeLayer(layer);
+}
+
+// Of values stored as (value - offset) / scale.
+void SweepData::takeTable(const MediumTable& table, double scale, double offset, Table& to) {
+    const std::size_t count = table.entries.size();
+    for (auto& member : to.members) member.assign(count + kReadAhead, 0.0f);
+    bool surface = false, glow = false;
+    for (std::size_t n = 0; n < count; ++n) {
+        const OpticalProperties& p = table.entries[n];
+        const float values[12] = {p.extinction,
+                                  p.indirectExtinction.x,
+                                  p.indirectExtinction.y,
+                                  p.indirectExtinction.z,
+                                  p.color.x,
+                                  p.color.y,
+                                  p.color.z,
+                                  p.surface,
+                                  p.glow.x,
+                                  p.glow.y,
+                                  p.glow.z,
+                                  0};
+        for (int k = 0; k < 12; ++k) to.members[k][n] = values[k];
+        surface = surface || p.surface > 0;
+        glow = glow || p.glow.x > 0 || p.glow.y > 0 || p.glow.z > 0;
+    }
+    SweepTable& d = to.data;
+    d.extinction = to.members[0].data();
+    for (int k = 0; k < 3; ++k) {
+        d.indirect[k] = to.members[1 + k].data();
+        d.color[k] = to.members[4 + k].data();
+        d.glow[k] = glow ? to.members[8 + k].data() : nullptr;
+    }
+    d.surface = surface ? to.members[7].data() : nullptr;
+    d.perValue = static_cast<float>(scale * table.perValue);
+    d.zero = static_cast<float>((offset - table.firstValue) * table.perValue);
+    d.perGradient = static_cast<float>(table.perGradient);
+    d.rows = table.rows;
+}
+
+void SweepData::takeLayer(const HeightLayer& layer) {
+    const std::size_t n = mLayers.size();
+    takeTable(layer.table, 1, mBase, mLayerTables[n]);
+    SweepLayer d;
+    std::vector<float> heights;
+    for (const Plane<float>& level : layer.levels) {
+        if (d.levels == SweepLayer::kMostLevels) break;
+        d.start[d.levels] = static_cast<std::uint32_t>(heights.size());
+        d.width[d.levels] = static_cast<std::uint32_t>(level.width());
+        d.height[d.levels] = static_cast<std::uint32_t>(level.height());
+        ++d.levels;
+        for (int y = 0; y < level.height(); ++y)
+            for (int x = 0; x < level.width(); ++x)
+                heights.push_back(static_cast<float>(level.at(x, y) - mBase));
+    }
+    heights.resize(heights.size() + kReadAhead);
+    mHeights.push_back(std::move(heights));
+    d.heights = mHeights.back().data();
+    d.table = mLayerTables[n].data;
+    d.perMetre = static_cast<float>(1 / layer.spacing);
+    d.below = static_cast<float>(layer.below);
+    d.above = static_cast<float>(layer.above);
+    d.perTaper = layer.taper > 0 ? static_cast<float>(1 / layer.taper) : 0.0f;
+    mLayers.push_back(d);
+}
+
+void SweepData::setGrid(SweepGrid& grid, const glm::dvec3& anchor) const {
+    const GreyVolume* field = mMedium.field();
+    if (!field) return;
+    const VolumeFrame& frame = field->frame;
+    const glm::dvec3 zero = frame.voxelFromWorld(anchor);
+    grid.values = field->values.data();
+    grid.strideY = frame.size.x;
+    grid.strideZ = frame.size.x * frame.size.y;
+    for (int k = 0; k < 3; ++k) {
+        grid.lastCell[k] = std::max(frame.size[k] - 2, 0);
+        grid.last[k] = static_cast<float>(frame.size[k] - 1);
+        setVector(grid.fromPlace[k], frame.axes[k] / frame.spacing[k]);
+        grid.zero[k] = static_cast<float>(zero[k]);
+        grid.slope[k] = static_cast<float>(field->scale / (2 * frame.spacing[k]));
+        setVector(grid.axes[k], {frame.axes[0][k], frame.axes[1][k], frame.axes[2][k]});
+    }
+    grid.table = mGridTable.data;
+}
+
+void SweepData::setLayers(const glm::dvec3& anchor) {
+    std::size_t n = 0;
+    for (const HeightLayer& layer : mMedium.layers()) {
+        if (layer.levels.empty() || layer.levels[0].empty()) continue;
+        SweepLayer& d = mLayers[n++];
+        d.zero[0] = static_cast<float>((anchor.x - layer.originX) / layer.spacing);
+        d.zero[1] = static_cast<float>((anchor.y - layer.originY) / layer.spacing);
+        d.base = static_cast<float>(mBase - anchor.z);
+        d.lowest = static_cast<float>(layer.lowest - anchor.z);
+        d.highest = static_cast<float>(layer.highest - anchor.z);
+    }
+}
+
+void SweepData::setNoise(SweepNoise& noise, const glm::dvec3& anchor, double time) const {
+    if (!mMedium.noise()) return;
+    noise.texels = reinterpret_cast<const std::uint32_t*>(mMedium.noise()->bytes().data());
+    for (const NoiseScale& s : mMedium.perturbation().scales) {
+        SweepNoise::Scale& d = noise.scale[noise.scales++];
+        const glm::dvec3 texel = noiseTexel(s, anchor, time);
+        const double size = NoiseVolume::kSize;
+        d.perMetre = static_cast<float>(size / s.size);
+        setVector(d.zero, texel - size * glm::floor(texel / size));
+        d.displacement = static_cast<float>(s.displacement);
+        d.extinction = s.extinction;
+        setVector(d.color, s.color);
+        setVector(d.indirect, s.indirect);
+    }
+}
+
+void SweepData::setLook(SweepLook& to, const MediumLook& look) {
+    to.model = static_cast<int>(look.model);
+    to.indirectShare = look.indirectShare;
+    to.ambient = look.ambient;
+    to.diffuse = look.diffuse;
+    to.specular = look.specular;
+    to.shininess = look.shininess;
+    if (mMedium.field()) to.baked = bakedDataOf(look.baked, mMedium.field()->frame);
+    if (look.phase.isotropic()) return;
+    const auto& entries = look.phase.entries();
+    for (int k = 0; k < 3; ++k) {
+        mPhase[k].assign(entries.size() + kReadAhead, 0.0f);
+        for (std::size_t n = 0; n < entries.size(); ++n) mPhase[k][n] = entries[n][k];
+        to.phase[k] = mPhase[k].data();
+    }
+}
+
+SweepScene SweepData::sceneFor(const MediumLook& look, const SweepSetting& setting,
+                               const SweepGeometry& geometry, double time) {
+    SweepScene scene;
+    setGrid(scene.grid, geometry.anchor);
+    setLayers(geometry.anchor);
+    scene.layers = mLayers.data();
+    scene.layerCount = static_cast<int>(mLayers.size());
+    setNoise(scene.noise, geometry.anchor, time);
+    setLook(scene.look, look);
+    setVector(scene.look.radiance, geometry.radiance);
+    const glm::dvec3 size = mMedium.bounds().high - mMedium.bounds().low;
+    const double length =
+        setting.blurLength > 0 ? setting.blurLength : std::max({size.x, size.y, size.z}) / 64;
+    scene.light = lightOf(geometry, length, setting.coneAngle);
+    return scene;
+}
+
+std::size_t SweepData::heldBytes() const {
+    std::size_t numbers = mPhase[0].size() * 3;
+    const auto count = [&](const Table& t) {
+        for (const auto& member : t.members) numbers += member.size();
+    };
+    count(mGridTable);
+    for (const Table& t : mLayerTables) count(t);
+    for (const auto& h : mHeights) numbers += h.size();
+    return numbers * sizeof(float);
+}
+
+SweepEye sweepEye(const RayFan& fan, const SweepGeometry& geometry) {
+    SweepEye eye;
+    eye.forward = geometry.forward;
+    setVector(eye.origin, fan.origin);
+    setVector(eye.right, fan.right);
+    setVector(eye.up, fan.up);
+    setVector(eye.ahead, fan.forward);
+    setVector(eye.axis, {glm::dot(fan.right, geometry.axis), glm::dot(fan.up, geometry.axis),
+                         glm::dot(fan.forward, geometry.axis)});
+    eye.start = glm::dot(fan.origin, geometry.axis);
+    eye.xMin = fan.xMin;
+    eye.yMax = fan.yMax;
+    eye.perX = fan.perX;
+    eye.perY = fan.perY;
+    eye.width = fan.width;
+    eye.height = fan.height;
+    eye.footprint = static_cast<float>(fan.perX);
+    return eye;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,42 @@
+// The kernels of a sweep, one of each model, for grids alone and for all media. Compiled once for each
+// instruction set.
+#include "engine/medium/kernel_pass.h"
+
+namespace stereonav::STEREONAV_ISA {
+namespace {
+
+bool gridAlone(const SweepScene& scene) {
+    return scene.grid.values && scene.layerCount == 0 && !scene.noise.texels && scene.grid.table.rows == 1;
+}
+
+bool see(const SweepScene& scene, const SweepEye& eye, const SweepChunk& chunk, const EyeTile& tile) {
+    const bool grid = gridAlone(scene);
+    switch (scene.look.model) {
+        case kEmission:
+            return grid ? seeTile<kEmission, true>(scene, eye, chunk, tile)
+                        : seeTile<kEmission, false>(scene, eye, chunk, tile);
+        case kSurface:
+            return grid ? seeTile<kSurface, true>(scene, eye, chunk, tile)
+                        : seeTile<kSurface, false>(scene, eye, chunk, tile);
+        case kDirect:
+            return grid ? seeTile<kDirect, true>(scene, eye, chunk, tile)
+                        : seeTile<kDirect, false>(scene, eye, chunk, tile);
+        default:
+            return grid ? seeTile<kIndirect, true>(scene, eye, chunk, tile)
+                        : seeTile<kIndirect, false>(scene, eye, chunk, tile);
+    }
+}
+
+bool pass(const SweepScene& scene, const LightPass& lightPass, const LightTile& tile) {
+    if (scene.look.model == kDirect)
+        return gridAlone(scene) ? passTile<false, true>(scene, lightPass, tile)
+                                : passTile<false, false>(scene, lightPass, tile);
+    return gridAlone(scene) ? passTile<true, true>(scene, lightPass, tile)
+                            : passTile<true, false>(scene, lightPass, tile);
+}
+
+}  // namespace
+
+const SweepKernels kSweepKernels{kName, kLanes, see, pass, readTile};
+
+}  // namespace stereonav::STEREONAV_ISA

@@ -1,0 +1,168 @@
+// What the kernels of a sweep read: plain structs and pointers only, since kernels are compiled for wider
+// instruction sets and must not share inline code with the rest (see cmake/rooms.cmake). Places are relative
+// to the sweep's anchor, metres.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/volume/volume_kernel_types.h"
+
+namespace stereonav {
+
+// The members of a MediumTable apart, rows of kColumns each.
+struct SweepTable {
+    static constexpr int kColumns = 1025;
+    const float* extinction = nullptr;
+    const float* indirect[3] = {};
+    const float* color[3] = {};
+    const float* surface = nullptr;  // null: none
+    const float* glow[3] = {};       // null: none
+    float perValue = 0, zero = 0;    // column = value * perValue + zero; value: as stored, or relative height
+    float perGradient = 0;           // row
+    int rows = 1;
+};
+
+struct SweepGrid {
+    const std::int16_t* values = nullptr;  // null: layers alone
+    std::int32_t strideY = 0, strideZ = 0, lastCell[3] = {};
+    float last[3] = {};                        // the last voxel along each axis
+    float fromPlace[3][3] = {}, zero[3] = {};  // voxel = fromPlace[row] . place + zero
+    float slope[3] = {};                       // value units a metre, of a difference over two voxels
+    float axes[3][3] = {};                     // world = axes[row] . voxel direction
+    SweepTable table;
+};
+
+struct SweepLayer {
+    static constexpr int kMostLevels = 32;
+    const float* heights = nullptr;  // all levels; metres above `base`
+    std::uint32_t start[kMostLevels] = {}, width[kMostLevels] = {}, height[kMostLevels] = {};
+    int levels = 0;
+    float perMetre = 0, zero[2] = {};          // sample = place * perMetre + zero
+    float base = 0;                            // of the heights, relative to the anchor: metres
+    float below = 0, above = 0, perTaper = 0;  // perTaper 0: none
+    float lowest = 0, highest = 0;             // relative to the anchor
+    SweepTable table;
+};
+
+struct SweepNoise {
+    static constexpr int kMostScales = 4;
+    const std::uint32_t* texels = nullptr;  // null: not perturbed
+    int scales = 0;
+    struct Scale {
+        float perMetre = 0, zero[3] = {};  // texel = place * perMetre + zero
+        float displacement = 0, extinction = 0, color[3] = {}, indirect[3] = {};
+    };
+    Scale scale[kMostScales];
+};
+
+// Texels of half-float light as kernel_baked.h reads them, in voxels of the grid.
+struct SweepLook {
+    int model = 0;  // as MediumModel
+    float radiance[3] = {};
+    float indirectShare = 0;
+    float ambient = 0, diffuse = 0, specular = 0, shininess = 1;
+    const float* phase[3] = {};  // null: the same everywhere; by the angle, 1025 entries
+    BakedData baked;
+};
+
+// The light, and its buffer. Buffer coordinates: texel centres at (x + 0.5, y + 0.5).
+struct SweepLight {
+    bool parallel = true;
+    float origin[3] = {}, right[3] = {}, up[3] = {}, forward[3] = {};
+    float xMin = 0, yMax = 0, perX = 0, perY = 0;
+    int width = 0, height = 0;
+    float axis[3] = {};  // right, up, forward . the sweep's axis
+    float length = 0;    // parallel: metres of way for one along the axis
+    float start = 0;     // of a lamp, along the axis
+    float inverseFalloffSquared = 0, lampCosine = -1;
+    // Planes of floats: rows from -1 to height + 1, columns from -16 on; row 0, column 0 here. 1 outside.
+    float* direct = nullptr;
+    std::int32_t stride = 0;
+    // For the eyes: light before the slabs of a chunk, two planes a slab of 15-bit halves (direct and red;
+    // green and blue). Row -1, column -1 first.
+    std::uint32_t* packed = nullptr;
+    std::int32_t packedStride = 0;
+    std::int64_t packedPlane = 0;
+    float blur = 0;  // sqrt(blurLength) tan(theta / 2)
+};
+
+// One slab's pass of the light.
+struct LightPass {
+    double middle = 0;  // of the slab, along the axis
+    float thickness = 0;
+    int slab = 0, inChunk = 0;
+    const float* before[3] = {};  // indirect light, as SweepLight::direct
+    float* after[3] = {};
+};
+struct LightTile {
+    static constexpr int kSide = 16;
+    int x0 = 0, y0 = 0;
+    bool sample = false;  // something may be there; else light is only spread
+};
+
+// Slabs that are seen one after the other.
+struct SweepChunk {
+    static constexpr int kMost = 16;
+    double reference = 0;      // along the axis
+    float middle[kMost] = {};  // from the reference on
+    float thickness[kMost] = {};
+};
+
+struct SweepEye {
+    bool forward = true;
+    double origin[3] = {}, right[3] = {}, up[3] = {}, ahead[3] = {};
+    double xMin = 0, yMax = 0, perX = 0, perY = 0;
+    double axis[3] = {}, start = 0;  // right, up, ahead . the axis; the eye along it
+    int width = 0, height = 0;
+    float footprint = 0;  // of a pixel at depth 1
+};
+
+// A block of pixels and what its rays have gathered so far: for each packet light (3), what is left, depth.
+struct EyeTile {
+    static constexpr int kSide = 16, kMembers = 5;
+    int x0 = 0, y0 = 0;
+    std::uint32_t slabs = 0;        // bits of those of the chunk where something may be
+    bool fresh = false;             // nothing gathered yet
+    float* state = nullptr;         // kMembers * kSide^2 numbers
+    const float* starts = nullptr;  // view depths before which nothing is; null: none; row of (x0, y0)
+    std::int32_t startStride = 0;
+};
+
+struct SweepScene {
+    SweepGrid grid;
+    const SweepLayer* layers = nullptr;
+    int layerCount = 0;
+    SweepNoise noise;
+    SweepLook look;
+    SweepLight light;
+};
+
+// Where a tile's pixels go: four floats of light each, and a depth.
+struct PictureTile {
+    float* light = nullptr;
+    float* depth = nullptr;
+    std::int64_t lightStride = 0, depthStride = 0;  // numbers from a row to the next
+    int width = 0, height = 0;                      // of the part of the tile that is in the picture
+};
+
+struct SweepKernels {
+    const char* name;
+    int lanes;
+    // Whether any ray of the tile goes on.
+    bool (*seeTile)(const SweepScene&, const SweepEye&, const SweepChunk&, const EyeTile&);
+    // Returns whether scattered light of the tile differs from 1 afterwards.
+    bool (*lightTile)(const SweepScene&, const LightPass&, const LightTile&);
+    void (*readTile)(const float* state, const PictureTile&);
+};
+
+namespace plain {
+extern const SweepKernels kSweepKernels;
+}
+namespace avx2 {
+extern const SweepKernels kSweepKernels;
+}
+namespace avx512 {
+extern const SweepKernels kSweepKernels;
+}
+
+}  // namespace stereonav
