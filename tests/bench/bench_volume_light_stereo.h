@@ -1,0 +1,98 @@
+// Two eyes from one sweep: what they cost and how much they differ from two sweeps; and the marks.
+#pragma once
+
+#include <array>
+#include <cstdio>
+
+#include "tests/bench/bench_volume_light_errors.h"
+#include "tests/bench/bench_volume_light_runs.h"
+#include "tests/bench/bench_volume_light_subjects.h"
+
+namespace stereonav::bench {
+
+// Each eye swept with the axis of both, or with its own head: then the slices lean apart.
+inline void printStereo(const MediumSubject& subject, int size, GpuSweepTimer& timer) {
+    const Medium medium = subject.medium();
+    const StereoViews stereo = stereoViewsOf(medium, size);
+    const std::array<EyeView, 2> eyes{stereo.left, stereo.right};
+    std::printf(
+        "\n### %s, two eyes, %dx%d pixels, indirect\n\n"
+        "| path | slices | one sweep ms | two sweeps ms | mean difference, grey levels | left | right |\n"
+        "|---|---|---|---|---|---|---|\n",
+        subject.name.c_str(), size, size);
+    for (const SweepPath& path : sweepPaths(medium, timer))
+        for (const int slices : {64, 256}) {
+            if (!path.run) {
+                std::printf("| %s | %d | no GL context here | | | | |\n", path.name.c_str(), slices);
+                continue;
+            }
+            SweepSetting setting;
+            setting.slices = slices;
+            std::array<MediumPicture, 2> both;
+            const double together =
+                path.run(subject.look, setting, eyes, stereo.left.head, subject.time, both, 3);
+            double apart = 0;
+            std::array<double, 2> bytes{};
+            for (std::size_t n = 0; n < 2; ++n) {
+                EyeView own = eyes[n];
+                own.head = own.eye;
+                const OneEye one = renderOne(path, subject.look, setting, own, subject.time, 3);
+                apart += one.ms;
+                bytes[n] = greyLevels(one.picture.light, both[n].light, subject.look.background);
+            }
+            std::printf("| %s | %d | %.1f | %.1f | %.3f | %.3f | %.3f |\n", path.name.c_str(), slices,
+                        together, apart, 0.5 * (bytes[0] + bytes[1]), bytes[0], bytes[1]);
+            std::fflush(stdout);
+        }
+}
+
+struct MediumMarks {
+    std::string subject;
+    double unshaded_ms = 0, full_ms = 0, stereo_ms = 0;  // CPU
+    double gpu_ms = 0;                                   // 0: no llvmpipe here
+};
+
+// Least times of runs that take turns, so that what else the machine does touches all alike.
+inline MediumMarks measureMarks(GpuSweepTimer& timer) {
+    constexpr int kSize = 512, kTurns = 5;
+    std::vector<MediumSubject> heads = headSubject(true);
+    const MediumSubject subject = heads.empty() ? waxSubject() : heads.front();
+    const Medium medium = subject.medium();
+    const EyeView view = viewOf(medium, kSize);
+    const StereoViews stereo = stereoViewsOf(medium, kSize);
+    const std::array<EyeView, 2> eyes{stereo.left, stereo.right};
+    std::array<MediumPicture, 2> pictures;
+    MediumLook unshaded = subject.look;
+    unshaded.model = MediumModel::Emission;
+    const SweepSetting setting;
+    const std::vector<SweepPath> paths = sweepPaths(medium, timer);
+    const double none = 1e300;
+    MediumMarks marks{subject.name, none, none, none, 0};
+    for (int n = 0; n < kTurns; ++n) {
+        marks.unshaded_ms =
+            std::min(marks.unshaded_ms, renderOne(paths[0], unshaded, setting, view, subject.time, 1).ms);
+        marks.full_ms =
+            std::min(marks.full_ms, renderOne(paths[0], subject.look, setting, view, subject.time, 1).ms);
+        marks.stereo_ms =
+            std::min(marks.stereo_ms,
+                     paths[0].run(subject.look, setting, eyes, stereo.left.head, subject.time, pictures, 1));
+    }
+    if (timer.renderer().find("llvmpipe") != std::string::npos)
+        marks.gpu_ms = renderOne(paths[1], subject.look, setting, view, subject.time, 3).ms;
+    return marks;
+}
+
+inline void printMarks(const MediumMarks& m, bool only) {
+    if (!only)
+        std::printf(
+            "\n%s, 512x512, 256 slices: unshaded %.1f ms, full %.1f ms, two eyes %.1f ms, shaders %.1f ms\n",
+            m.subject.c_str(), m.unshaded_ms, m.full_ms, m.stereo_ms, m.gpu_ms);
+    if (m.gpu_ms > 0)
+        std::printf("cpu_vs_llvmpipe %.2f\n", m.gpu_ms / m.full_ms);
+    else if (!only)
+        std::printf("cpu_vs_llvmpipe: shaders do not run on llvmpipe here\n");
+    std::printf("full_vs_unshaded %.2f\n", m.full_ms / m.unshaded_ms);
+    std::printf("stereo_vs_mono %.2f\n", m.stereo_ms / m.full_ms);
+}
+
+}  // namespace stereonav::bench
