@@ -3,6 +3,7 @@
 // In: the light's buffer before the slab. Out: the buffer behind it. Both hold scattered light by colour in
 // rgb, linear, 1 where nothing is in the way, and direct light's share in a. Texel (x, y) of the buffer is a
 // ray of the light, y downwards; a ring of texels around it stays 1.
+// WIDE is defined: 0 where no offset is above a texel, as rasterisers on the CPU run both sides of an `if`.
 layout(binding = 4) uniform sampler2D uBefore;
 uniform ivec2 uBeforeAt;    // corner of the buffer in its texture, inside the ring
 uniform ivec2 uWriteAt;     // the same of what is written
@@ -37,12 +38,15 @@ vec3 blurred(ivec2 texel, vec3 here, float offset) {
     float square = min(offset * offset, 1e12), weight = min(square, 1.0);
     float radius = sqrt(max(square - 1.0 / 3.0, 1.0));
     vec3 sum;
+#if WIDE
     if (radius > 1.0) {
         float turn = tapTurn(texel);
         vec2 centre = vec2(texel) + 0.5, arm = radius * vec2(cos(turn), sin(turn)), other = vec2(-arm.y, arm.x);
         sum = scatteredAt(centre + arm) + scatteredAt(centre - arm) + scatteredAt(centre + other) +
               scatteredAt(centre - other);
-    } else {
+    } else
+#endif
+    {
         sum = texelAt(texel + ivec2(1, 0)) + texelAt(texel - ivec2(1, 0)) + texelAt(texel + ivec2(0, 1)) +
               texelAt(texel - ivec2(0, 1));
     }

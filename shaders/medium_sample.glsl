@@ -16,20 +16,26 @@ struct Properties {
 };
 const Properties kNothing = Properties(0.0, vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
 
+#if GRADIENT
 layout(binding = 1) uniform sampler2DArray uTables;
+vec4 tableAt(vec2 at, float layer) { return textureLod(uTables, vec3(at, layer), 0.0); }
+#else
+layout(binding = 1) uniform sampler1DArray uTables;
+vec4 tableAt(vec2 at, float layer) { return textureLod(uTables, vec2(at.x, layer), 0.0); }
+#endif
 uniform vec2 uPerTable;  // 1 / its columns and rows
 
 Properties entryAt(float column, float row, float layer) {
-    vec3 at = vec3((vec2(column, row) + 0.5) * uPerTable, layer);
-    vec4 first = textureLod(uTables, at, 0.0);
+    vec2 at = (vec2(column, row) + 0.5) * uPerTable;
+    vec4 first = tableAt(at, layer);
     Properties p = Properties(first.a, first.rgb, vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
 #if INDIRECT || SURFACE
-    vec4 second = textureLod(uTables, at + vec3(0.0, 0.0, 1.0), 0.0);
+    vec4 second = tableAt(at, layer + 1.0);
     p.indirectExtinction = second.rgb;
     p.surface = second.a;
 #endif
 #if GLOW
-    p.glow = textureLod(uTables, at + vec3(0.0, 0.0, 2.0), 0.0).rgb;
+    p.glow = tableAt(at, layer + 2.0).rgb;
 #endif
     return p;
 }

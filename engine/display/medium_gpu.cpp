@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/base/error.h"
 #include "engine/display/medium_gpu_look.h"
@@ -76,8 +77,24 @@ glm::mat4x3 bufferFromPlace(const RayFan& fan) {
     return m;
 }
 
+// Farthest that a tap of the blur is from its texel in a slab: texels. A bound; exact for parallel light.
+double farthestTap(const RayFan& fan, const glm::dvec3& axis, double spread, double thickness,
+                   double fromLamp) {
+    if (fan.parallel) return spread * std::sqrt(thickness / glm::dot(axis, fan.forward)) / fan.perX;
+    double longest = 0, along = 0;
+    for (int corner = 0; corner < 4; ++corner) {
+        const double x = fan.xMin + (corner & 1 ? fan.width * fan.perX : 0);
+        const double y = fan.yMax - (corner & 2 ? fan.height * fan.perY : 0);
+        const glm::dvec3 ray = fan.forward + fan.right * x + fan.up * y;
+        longest = std::max(longest, glm::length(ray));
+        along = std::max(along, glm::dot(axis, ray));
+    }
+    return spread * std::sqrt(thickness * longest * along) / fromLamp / fan.perX;
+}
+
 struct Programs {
-    ShaderProgram eye, light;
+    ShaderProgram eye;
+    std::vector<ShaderProgram> lights;  // none, one, or with taps at neighbours and with taps farther away
 };
 
 }  // namespace
@@ -99,6 +116,9 @@ struct MediumGpu::State {
     const Programs* used = nullptr;
     bool lights = false;
     int turn = 0;  // which of the light's two buffers is read
+    PixelRect
+        touched;  // of the light's buffer: what may differ from 1, or, unless it is blurred, between the two
+    double spread = 0;  // of the blur: its offset over the root of the way, root of metres
 
     std::string definesOf(const MediumLook& look) const;
     const Programs& programsFor(const MediumLook& look);
@@ -106,10 +126,10 @@ struct MediumGpu::State {
     void setFrame(const MediumLook& look, const SweepSetting& setting, double time);
     void setLightSource(const ShaderProgram& program) const;
     void setEye(const MediumLook& look) const;
-    void setLight(const SweepSetting& setting) const;
+    void setLight(const ShaderProgram& program) const;
     void sweep();
     void drawEyes(int slab);
-    void drawLight(int slab);
+    bool drawLight(int slab);  // false: it met nothing
     void drawEnds();
     void setSlab(const ShaderProgram& program, int slab) const;
     double middleOf(int slab) const { return 0.5 * (geometry->faces[slab] + geometry->faces[slab + 1]); }
@@ -139,10 +159,14 @@ const Programs& MediumGpu::State::programsFor(const MediumLook& look) {
     const std::string defines = definesOf(look);
     if (const auto found = programs.find(defines); found != programs.end()) return found->second;
     const std::string common = defines + textOf("medium_sample.glsl") + textOf("medium_slab.glsl");
-    return programs
-        .try_emplace(defines, Programs{ShaderProgram("medium_full.vert", "medium_eye.frag", common),
-                                       ShaderProgram("medium_full.vert", "medium_light.frag", common)})
-        .first->second;
+    const auto light = [&](bool wide) {
+        const std::string define = fmt::format("#define WIDE {}\n", wide ? 1 : 0);
+        return ShaderProgram("medium_full.vert", "medium_light.frag", define + common);
+    };
+    Programs made{ShaderProgram("medium_full.vert", "medium_eye.frag", common), {}};
+    if (lights) made.lights.push_back(light(false));
+    if (look.model == MediumModel::Indirect) made.lights.push_back(light(true));
+    return programs.emplace(defines, std::move(made)).first->second;
 }
 
 void MediumGpu::State::makeTargets(bool single) {
@@ -190,17 +214,13 @@ void MediumGpu::State::setEye(const MediumLook& look) const {
     glUniform4f(program.location("uShading"), look.ambient, look.diffuse, look.specular, look.shininess);
 }
 
-void MediumGpu::State::setLight(const SweepSetting& setting) const {
-    const ShaderProgram& program = used->light;
+void MediumGpu::State::setLight(const ShaderProgram& program) const {
     const FanRays rays(geometry->light);
     set(program, "uLightCorner", rays.corner);
     set(program, "uLightAcross", rays.across);
     set(program, "uLightDown", rays.down);
     set(program, "uTexel", static_cast<float>(geometry->light.perX));
-    const glm::dvec3 size = medium.bounds().high - medium.bounds().low;
-    const double length =
-        setting.blurLength > 0 ? setting.blurLength : std::max({size.x, size.y, size.z}) / 64;
-    set(program, "uSpread", static_cast<float>(std::sqrt(length) * std::tan(0.5 * setting.coneAngle)));
+    set(program, "uSpread", static_cast<float>(spread));
 }
 
 void MediumGpu::State::setFrame(const MediumLook& look, const SweepSetting& setting, double time) {
@@ -209,14 +229,20 @@ void MediumGpu::State::setFrame(const MediumLook& look, const SweepSetting& sett
     const bool wantsBaked = textures.hasSurface() && look.model != MediumModel::Emission;
     baked.set(wantsBaked ? look.baked.light : nullptr);
     used = &programsFor(look);
-    for (const ShaderProgram* program : {&used->eye, &used->light}) {
-        program->use();
-        textures.setUniforms(*program, geometry->anchor, time);
-        setLightSource(*program);
-        if (program == &used->eye)
-            setEye(look);
-        else if (lights)
-            setLight(setting);
+    const auto start = [&](const ShaderProgram& program) {
+        program.use();
+        textures.setUniforms(program, geometry->anchor, time);
+        setLightSource(program);
+    };
+    start(used->eye);
+    setEye(look);
+    const glm::dvec3 size = medium.bounds().high - medium.bounds().low;
+    const double length =
+        setting.blurLength > 0 ? setting.blurLength : std::max({size.x, size.y, size.z}) / 64;
+    spread = std::sqrt(length) * std::tan(0.5 * setting.coneAngle);
+    for (const ShaderProgram& program : used->lights) {
+        start(program);
+        setLight(program);
     }
     textures.bind();
     phase.bind();
@@ -262,12 +288,23 @@ void MediumGpu::State::drawEyes(int slab) {
     glDisable(GL_BLEND);
 }
 
-// The whole buffer: scattered light spreads in empty space too.
-void MediumGpu::State::drawLight(int slab) {
-    const ShaderProgram& program = used->light;
+// Draws what the slab changes. Scattered light also spreads: all that may differ from 1 is drawn, a margin of
+// the taps' reach more each time. Else what differs between the two buffers, from the last time, is drawn
+// too.
+bool MediumGpu::State::drawLight(int slab) {
+    const SweepGeometry& g = *geometry;
+    const double t = middleOf(slab), thickness = g.faces[slab + 1] - g.faces[slab];
+    const PixelRect met = coveredBySlice(medium.bounds(), g, t, g.light);
+    const bool blurs = used->lights.size() > 1;
+    const double tap = blurs ? farthestTap(g.light, g.axis, spread, thickness, t - g.lightStart) : 0.0;
+    const int reach = static_cast<int>(std::min(std::ceil(tap), 1e6)) + 1;
+    const PixelRect part = united(met, blurs ? grown(touched, reach, g.light) : touched);
+    touched = blurs ? part : met;
+    if (part.empty()) return false;
+    const ShaderProgram& program = used->lights[tap > 0.999 ? 1 : 0];
     program.use();
     setSlab(program, slab);
-    set(program, "uFromLamp", static_cast<float>(middleOf(slab) - geometry->lightStart));
+    set(program, "uFromLamp", static_cast<float>(t - g.lightStart));
     glBindTexture(GL_TEXTURE_2D, targets->lightTexture(turn));
     set(program, "uBeforeAt", targets->lightAt(turn));
     targets->drawToLight(turn + 1);
@@ -275,8 +312,9 @@ void MediumGpu::State::drawLight(int slab) {
     set(program, "uWriteAt", at);
     glUniform1i(program.location("uSlabNumber"), slab);
     glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    glScissor(at.x, at.y, geometry->light.width, geometry->light.height);
+    glScissor(at.x + part.x, at.y + part.y, part.width, part.height);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    return true;
 }
 
 void MediumGpu::State::drawEnds() {
@@ -310,11 +348,12 @@ void MediumGpu::State::sweep() {
     glBlendEquationi(1, GL_MIN);
     glActiveTexture(GL_TEXTURE0 + GlUnit::kBefore);
     turn = 0;
+    touched = {};
     for (int slab = 0; slab < geometry->slabs(); ++slab) {
         if (geometry->forward && slab % kSlabsBetweenEnds == kSlabsBetweenEnds - 1) drawEnds();
         drawEyes(slab);
         if (!lights || !(middleOf(slab) > geometry->lightStart)) continue;
-        drawLight(slab);
+        if (!drawLight(slab)) continue;
         ++turn;
         glTextureBarrier();  // what was written is read next, from the same target
     }

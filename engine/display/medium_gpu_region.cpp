@@ -46,4 +46,18 @@ PixelRect coveredBySlice(const WorldBox& box, const SweepGeometry& geometry, dou
             static_cast<int>(high.y - low.y)};
 }
 
+PixelRect united(const PixelRect& a, const PixelRect& b) {
+    if (a.empty()) return b;
+    if (b.empty()) return a;
+    const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);
+    return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
+}
+
+PixelRect grown(const PixelRect& rect, int margin, const RayFan& fan) {
+    if (rect.empty()) return {};
+    const int x = std::max(rect.x - margin, 0), y = std::max(rect.y - margin, 0);
+    return {x, y, std::min(rect.x + rect.width + margin, fan.width) - x,
+            std::min(rect.y + rect.height + margin, fan.height) - y};
+}
+
 }  // namespace stereonav

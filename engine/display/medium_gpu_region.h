@@ -14,4 +14,8 @@ struct PixelRect {
 // lies behind the eye.
 PixelRect coveredBySlice(const WorldBox& box, const SweepGeometry& geometry, double t, const RayFan& fan);
 
+PixelRect united(const PixelRect& a, const PixelRect& b);  // the least that holds both
+// By a margin on each side, within the fan's buffer; empty ones stay so.
+PixelRect grown(const PixelRect& rect, int margin, const RayFan& fan);
+
 }  // namespace stereonav

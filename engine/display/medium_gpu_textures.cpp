@@ -26,13 +26,19 @@ std::array<glm::vec4, 3> texelsOf(const OpticalProperties& p) {
             glm::vec4(p.glow, 0.0f)};
 }
 
+// Into the array texture that is bound: of rows of entries, or of planes with a row for each gradient.
 void uploadTable(const MediumTable& table, int firstLayer, int rows) {
     std::vector<glm::vec4> texels(static_cast<std::size_t>(kColumns) * rows);
-    for (std::size_t part = 0; part < 3; ++part) {
+    for (int part = 0; part < 3; ++part) {
         for (std::size_t n = 0; n < texels.size(); ++n)
-            texels[n] = n < table.entries.size() ? texelsOf(table.entries[n])[part] : glm::vec4(0.0f);
-        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, firstLayer + static_cast<int>(part), kColumns, rows, 1,
-                        GL_RGBA, GL_FLOAT, texels.data());
+            texels[n] = n < table.entries.size() ? texelsOf(table.entries[n])[static_cast<std::size_t>(part)]
+                                                 : glm::vec4(0.0f);
+        const int layer = firstLayer + part;
+        if (rows == 1)
+            glTexSubImage2D(GL_TEXTURE_1D_ARRAY, 0, 0, layer, kColumns, 1, GL_RGBA, GL_FLOAT, texels.data());
+        else
+            glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, kColumns, rows, 1, GL_RGBA, GL_FLOAT,
+                            texels.data());
     }
 }
 
@@ -121,10 +127,14 @@ void MediumTextures::uploadTables() {
     if (mMedium.field()) tables.push_back(&mMedium.table());
     for (const HeightLayer& layer : mMedium.layers()) tables.push_back(&layer.table);
     mTableSize = {kColumns, mMedium.field() ? mMedium.table().rows : 1};
-    glBindTexture(GL_TEXTURE_2D_ARRAY, mTables.name());
-    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA32F, mTableSize.x, mTableSize.y,
-                   3 * std::max(static_cast<int>(tables.size()), 1));
-    setFilter(GL_TEXTURE_2D_ARRAY, GL_LINEAR, GL_CLAMP_TO_EDGE);
+    const int layers = 3 * std::max(static_cast<int>(tables.size()), 1);
+    mTableKind = mTableSize.y > 1 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_1D_ARRAY;
+    glBindTexture(mTableKind, mTables.name());
+    if (mTableSize.y > 1)
+        glTexStorage3D(mTableKind, 1, GL_RGBA32F, mTableSize.x, mTableSize.y, layers);
+    else
+        glTexStorage2D(mTableKind, 1, GL_RGBA32F, mTableSize.x, layers);
+    setFilter(mTableKind, GL_LINEAR, GL_CLAMP_TO_EDGE);
     for (std::size_t n = 0; n < tables.size(); ++n) {
         addTable(*tables[n]);
         uploadTable(*tables[n], static_cast<int>(3 * n), mTableSize.y);
@@ -149,7 +159,7 @@ void MediumTextures::uploadNoise() {
 
 void MediumTextures::bind() const {
     if (mMedium.field()) bindTo(GlUnit::kField, GL_TEXTURE_3D, mField);
-    bindTo(GlUnit::kTable, GL_TEXTURE_2D_ARRAY, mTables);
+    bindTo(GlUnit::kTable, mTableKind, mTables);
     for (std::size_t n = 0; n < mHeights.size(); ++n)
         bindTo(GlUnit::kHeights + static_cast<GLuint>(n), GL_TEXTURE_2D, mHeights[n].texture);
     if (mMedium.noise()) bindTo(GlUnit::kNoise, GL_TEXTURE_3D, mNoise);

@@ -48,7 +48,9 @@ private:
     GlTexture mField;  // R32F: stored values are 16 bit whole numbers, which it holds exactly
     GlTexture mTables;
     GlTexture mNoise;
-    glm::ivec2 mTableSize{0};
+    glm::ivec2 mTableSize{0};  // columns, rows
+    GLenum mTableKind =
+        GL_TEXTURE_1D_ARRAY;  // of one row each, read with half the taps; or GL_TEXTURE_2D_ARRAY
     // Mip levels of a layer side by side, and where each lies: corner and size.
     struct Heights {
         GlTexture texture;  // R32F

@@ -219,6 +219,31 @@ TEST_F(MediumGpuTest, LampsBeforeBesideAndInTheMedium) {
         }
 }
 
+// Taps from far below a texel to many texels away; of a lamp both in one slab.
+TEST_F(MediumGpuTest, NarrowAndWideBlurs) {
+    Subject subject(Medium(blobs(), transfer()));
+    MediumLook lamp = lookOf(MediumModel::Indirect, {0.3, 0.8, -0.4});
+    lamp.light.kind = MediumLight::Kind::Lamp;
+    lamp.light.position = kMiddle - 1.4 * lamp.light.direction;
+    for (const MediumLook& look :
+         {lookOf(MediumModel::Indirect, kWithView), lookOf(MediumModel::Indirect, kAgainstView), lamp})
+        for (const double cone : {0.0, 0.5, 1.0, 1.5, 2.5}) {
+            SweepSetting setting = smallSetting();
+            setting.coneAngle = cone;
+            setting.blurLength = 0.1;
+            setting.lightSize = 32;
+            SCOPED_TRACE(cone);
+            expectAsByTheBook(subject, look, {viewFrom(kEye, kMiddle)}, setting);
+        }
+    std::vector<MediumPicture> sharp(1), soft(1);
+    SweepSetting setting = smallSetting();
+    setting.coneAngle = 0;
+    subject.gpu.render(lamp, setting, {{viewFrom(kEye, kMiddle)}}, kEye, 0, sharp);
+    setting.coneAngle = 2.5;
+    subject.gpu.render(lamp, setting, {{viewFrom(kEye, kMiddle)}}, kEye, 0, soft);
+    EXPECT_GT(differenceOf(sharp[0], soft[0]).worst, 0.02) << "the blur does nothing";
+}
+
 TEST_F(MediumGpuTest, TheHeadsLampAndAnEyeInside) {
     Subject subject(Medium(blobs(), transfer(0.5)));
     MediumLook look = lookOf(MediumModel::Indirect, {0, 0, -1});
