@@ -1,6 +1,8 @@
 // The plain statement of a medium: what kernels and shaders sample, one place at a time, in double precision.
 #include "engine/medium/medium.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -8,6 +10,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "engine/base/error.h"
 #include "engine/medium/medium_extent.h"
 
 namespace stereonav {
@@ -79,6 +82,21 @@ WorldBox worldBoxOf(const HeightLayer& layer) {
              layer.originY + (heights.height() - 1) * layer.spacing, layer.highest}};
 }
 
+void checkLayer(const HeightLayer& layer, const std::string& place) {
+    const auto fail = [&](const std::string& problem, const char* advice) {
+        throw Error("medium", place, problem, advice);
+    };
+    if (!(layer.spacing > 0 && std::isfinite(layer.spacing + layer.originX + layer.originY)))
+        fail(fmt::format("expected heights at finite places, above 0 m apart, got {} m", layer.spacing),
+             "check the spacing and the origin");
+    if (!(layer.below + layer.above > 0 && std::isfinite(layer.below) && std::isfinite(layer.above)))
+        fail(fmt::format("expected a layer with a thickness, got {} m below and {} m above the height",
+                         layer.below, layer.above),
+             "give distances whose sum is above 0");
+    if (!(layer.taper >= 0 && std::isfinite(layer.taper)))
+        fail(fmt::format("expected a taper of 0 m or more, got {}", layer.taper), "0 has sharp faces");
+}
+
 // Several media in one place: extinctions add up, the rest by its share of them.
 void add(OpticalProperties& sum, const OpticalProperties& other) {
     if (!(other.extinction > 0)) return;
@@ -119,6 +137,7 @@ Medium::Medium(std::shared_ptr<const GreyVolume> field, const MediumTransfer& tr
 }
 
 Medium::Medium(std::vector<HeightLayer> layers, Perturbation perturbation) : mLayers(std::move(layers)) {
+    for (std::size_t n = 0; n < mLayers.size(); ++n) checkLayer(mLayers[n], "layer " + std::to_string(n + 1));
     usePerturbation(std::move(perturbation));
     for (const HeightLayer& layer : mLayers) {
         include(mBounds, worldBoxOf(layer));

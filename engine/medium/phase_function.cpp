@@ -28,6 +28,14 @@ Moments sineMoments(int i) {
     const double whole = 2 * std::sin(0.5 * (a + b)) * std::sin(0.5 * kStep);  // cos a - cos b
     return {whole, (std::sin(b) - std::sin(a)) / kStep - std::cos(b)};
 }
+const std::vector<Moments>& allSineMoments() {
+    static const std::vector<Moments> moments = [] {
+        std::vector<Moments> all;
+        for (int i = 0; i < PhaseFunction::kEntries; ++i) all.push_back(sineMoments(i));
+        return all;
+    }();
+    return moments;
+}
 // The same of sin cos.
 Moments cosineMoments(int i) {
     const double a = i * kStep, b = (i + 1) * kStep;
@@ -42,7 +50,7 @@ double integral(const Moments& m, double first, double last) {
 glm::dvec3 meanOf(const std::vector<glm::dvec3>& weights) {
     glm::dvec3 sum(0.0);
     for (int i = 0; i < PhaseFunction::kEntries; ++i)
-        for (int c = 0; c < 3; ++c) sum[c] += integral(sineMoments(i), weights[i][c], weights[i + 1][c]);
+        for (int c = 0; c < 3; ++c) sum[c] += integral(allSineMoments()[i], weights[i][c], weights[i + 1][c]);
     return 0.5 * sum;
 }
 
@@ -101,7 +109,7 @@ void PhaseFunction::accumulate() {
     for (int i = 0; i < kEntries; ++i)
         for (int c = 0; c < 3; ++c)
             mCumulative[i + 1][c] =
-                mCumulative[i][c] + 0.5 * integral(sineMoments(i), mEntries[i][c], mEntries[i + 1][c]);
+                mCumulative[i][c] + 0.5 * integral(allSineMoments()[i], mEntries[i][c], mEntries[i + 1][c]);
 }
 
 PhaseFunction PhaseFunction::henyeyGreenstein(const glm::vec3& g) {

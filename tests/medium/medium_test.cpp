@@ -1,18 +1,22 @@
 // A medium's properties, gradients, bounds and largest extinction, for grids and for layers; built-in fields.
 #include "engine/medium/medium.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/medium/built_in_media.h"
 #include "engine/medium/medium_look.h"
 
 namespace stereonav {
 namespace {
+
+using testing::HasSubstr;
 
 MediumMaterial material(double opacity, const glm::vec3& color = glm::vec3(1.0f)) {
     MediumMaterial m;
@@ -189,6 +193,38 @@ TEST(Medium, LayersAddUpByExtinction) {
     EXPECT_NEAR(medium.largestExtinction(), red + green, 1e-6);
     EXPECT_EQ(medium.bounds().low, glm::dvec3(0, 0, 8));
     EXPECT_EQ(medium.bounds().high, glm::dvec3(7, 7, 12 + 5.25 + 1));
+}
+
+TEST(Medium, RefusesLayersWithoutAThickness) {
+    const auto error = [](const HeightLayer& layer) -> std::string {
+        try {
+            Medium({HeightLayer(), layer});
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "no error";
+    };
+    const double nan = std::nan("");
+    HeightLayer good = layerAt(10, 0.5, {1, 0, 0});
+    good.above = 5;
+    good.below = -2;  // mist that begins 2 m above the ground
+    makeMipLevels(good);
+    EXPECT_EQ(error(good), "no error");
+    EXPECT_EQ(Medium({good}).at({0, 3, 11}).extinction, 0.0f);
+    EXPECT_GT(Medium({good}).at({0, 3, 13}).extinction, 0.0f);
+    for (const double above : {2.0, 1.0, nan}) {
+        HeightLayer bad = good;
+        bad.above = above;
+        EXPECT_THAT(error(bad), HasSubstr("medium:layer 2: expected a layer with a thickness")) << above;
+    }
+    for (const double wrong : {-1.0, nan}) {
+        HeightLayer bad = good;
+        bad.taper = wrong;
+        EXPECT_THAT(error(bad), HasSubstr("expected a taper of 0 m or more")) << wrong;
+        bad = good;
+        bad.spacing = wrong;
+        EXPECT_THAT(error(bad), HasSubstr("above 0 m apart")) << wrong;
+    }
 }
 
 TEST(Medium, LayersHaveTheNormalOfTheNearest) {
