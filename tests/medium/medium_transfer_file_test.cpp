@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "engine/base/error.h"
 #include "engine/medium/medium_table.h"
@@ -173,6 +174,42 @@ TEST(MediumFile, NamesTheLineOfWrongHeadersAndRegions) {
                 StartsWith("wax.txt:1: expected four gradient magnitudes"));
     EXPECT_THAT(errorOfText(good + " weight 5"), HasSubstr("or \"glow\", got \"weight\""));
     EXPECT_THAT(errorOfText(good + " value 0 1 2 3"), HasSubstr("\"value\" is given twice"));
+}
+
+// Presets with bytes changed, cut or doubled: refused in one line, or a medium whose numbers are sound.
+TEST(MediumFile, DamagedTextIsRefusedOrSound) {
+    std::mt19937 random(11);
+    constexpr std::string_view kBytes = "0123456789.-+einfa \n#\0x";
+    int refused = 0;
+    for (int round = 0; round < 300; ++round) {
+        std::string text(mediumPresets()[random() % mediumPresets().size()].text);
+        if (round % 3 == 0)
+            text =
+                "surface gradient 1 5\nregion value 0 1 2 3.5 gradient 0 0 7 inf color 1 0.5 0 opacity 0.5 "
+                "glow 1 2 3";
+        for (int n = 1 + random() % 3; n > 0; --n) {
+            const std::size_t at = random() % text.size();
+            if (random() % 4 == 0) text.erase(at, 1 + random() % 9);
+            text.insert(at, 1, kBytes[random() % kBytes.size()]);
+        }
+        const std::string error = errorOf([&] {
+            const MediumTransfer t = parseMediumTransfer(text, "t");
+            const MediumTable table = makeMediumTable(t, -2000, 4000);
+            for (double value = -1000; value < 2000; value += 97) {
+                const OpticalProperties p = table.at(value, 3000);
+                ASSERT_TRUE(p.extinction >= 0 && std::isfinite(p.extinction)) << text;
+                for (int c = 0; c < 3; ++c) {
+                    ASSERT_TRUE(p.color[c] >= 0 && p.color[c] <= 1) << text;
+                    ASSERT_TRUE(p.indirectExtinction[c] >= 0 && std::isfinite(p.indirectExtinction[c]))
+                        << text;
+                }
+            }
+        });
+        refused += error != "no error";
+        ASSERT_EQ(error.find('\n'), std::string::npos) << text;
+    }
+    EXPECT_GT(refused, 60);
+    EXPECT_LT(refused, 280);
 }
 
 TEST(MediumFile, PresetsAreWhole) {

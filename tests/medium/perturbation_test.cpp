@@ -40,7 +40,7 @@ TEST(NoiseVolume, HasNoBiasAndUsesItsRange) {
 }
 
 TEST(NoiseVolume, ChannelsAndAxesAreNotAlike) {
-    const std::vector<std::uint8_t>& bytes = NoiseVolume(3).bytes();
+    const std::vector<std::uint8_t> bytes = NoiseVolume(3).bytes();
     const auto correlation = [&](int a, int b, std::size_t shift) {
         double ab = 0, aa = 0, bb = 0;
         for (std::size_t n = 0; n < 32768; ++n) {
