@@ -3,9 +3,9 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 
 #include "engine/base/error.h"
+#include "engine/image/image_file.h"
 
 namespace stereonav {
 namespace fs = std::filesystem;
@@ -52,12 +52,7 @@ void checkOutputFile(const std::string& option, const fs::path& file) {
 }
 
 void checkOutputPicture(const std::string& option, const fs::path& file) {
-    bool known = false;
-    try {
-        known = file.has_extension() && cv::haveImageWriter("picture" + file.extension().string());
-    } catch (const cv::Exception&) {
-    }
-    if (!known)
+    if (!file.has_extension() || !canWritePicture(file.extension().string()))
         throw Error(option, "", "\"" + file.string() + "\" has no extension of a picture that can be written",
                     "use .png or .jpg");
     checkOutputFile(option, file);

@@ -2,24 +2,22 @@
 
 #include <unistd.h>
 
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
-
 #include "app/output_place.h"
+#include "app/video_sink.h"
 #include "engine/base/error.h"
-#include "engine/metrics/byte_image.h"
+#include "engine/base/module.h"
 
 namespace stereonav {
 namespace fs = std::filesystem;
 namespace {
 
-int codecOf(const fs::path& file) {
+// Four letters; null where the extension is none of a video that can be written.
+const char* codecOf(const fs::path& file) {
     const std::string extension = file.extension().string();
-    if (extension == ".mp4") return cv::VideoWriter::fourcc('m', 'p', '4', 'v');
-    if (extension == ".avi") return cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-    if (extension == ".mkv") return cv::VideoWriter::fourcc('F', 'F', 'V', '1');
-    return 0;
+    if (extension == ".mp4") return "mp4v";
+    if (extension == ".avi") return "MJPG";
+    if (extension == ".mkv") return "FFV1";
+    return nullptr;
 }
 
 fs::path besides(const fs::path& file) {
@@ -31,15 +29,21 @@ fs::path besides(const fs::path& file) {
 
 }  // namespace
 
+std::unique_ptr<VideoSink> openVideoSink(const fs::path& file, const char* codec, double framesPerSecond,
+                                         int width, int height) {
+    static const auto& functions = moduleFunctions<VideoFunctions>("video", "to write videos");
+    return functions.open(file, codec, framesPerSecond, width, height);
+}
+
 struct VideoFile::State {
     fs::path file, temporary;
-    cv::VideoWriter writer;
+    std::unique_ptr<VideoSink> sink;
     int width = 0, height = 0;  // of a frame as given
     bool finished = false;
 };
 
 void checkVideoFile(const std::string& option, const fs::path& file) {
-    if (codecOf(file) == 0)
+    if (!codecOf(file))
         throw Error(option, "", "\"" + file.string() + "\" is not a kind of video that can be written",
                     "use .mp4, .avi or .mkv (lossless)");
     checkOutputFile(option, file);
@@ -47,23 +51,24 @@ void checkVideoFile(const std::string& option, const fs::path& file) {
 
 VideoFile::VideoFile(const fs::path& file, double framesPerSecond, int width, int height)
     : mState(std::make_unique<State>()) {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // its errors become ours
+    const Error failed(file.string(), "", "can not be written as a video", "try another extension or folder");
+    const char* codec = codecOf(file);
+    if (!codec) throw failed;
     mState->file = file;
     mState->temporary = besides(file);
     mState->width = width;
     mState->height = height;
     std::error_code code;
     if (file.has_parent_path()) fs::create_directories(file.parent_path(), code);
-    const cv::Size size(width + width % 2, height + height % 2);
-    if (!mState->writer.open(mState->temporary.string(), codecOf(file), framesPerSecond, size)) {
-        fs::remove(mState->temporary, code);
-        throw Error(file.string(), "", "can not be written as a video", "try another extension or folder");
-    }
+    mState->sink = openVideoSink(mState->temporary, codec, framesPerSecond, width, height);
+    if (mState->sink) return;
+    fs::remove(mState->temporary, code);
+    throw failed;
 }
 
 VideoFile::~VideoFile() {
     if (mState->finished) return;
-    mState->writer.release();
+    mState->sink.reset();
     std::error_code code;
     fs::remove(mState->temporary, code);
 }
@@ -72,14 +77,11 @@ void VideoFile::add(const Plane<PackedColor>& frame) {
     if (frame.width() != mState->width || frame.height() != mState->height)
         throw Error(mState->file.string(), "", "expected frames of one size",
                     "keep the size while recording");
-    cv::Mat bytes = bytesFromPlane(frame);
-    if (frame.width() % 2 || frame.height() % 2)
-        cv::copyMakeBorder(bytes, bytes, 0, frame.height() % 2, 0, frame.width() % 2, cv::BORDER_REPLICATE);
-    mState->writer.write(bytes);
+    mState->sink->add(frame);
 }
 
 void VideoFile::finish() {
-    mState->writer.release();
+    mState->sink->close();
     std::error_code code;
     fs::rename(mState->temporary, mState->file, code);
     if (code)

@@ -15,7 +15,7 @@ pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 
 # ITK reads and writes the files of CT studies. Only the modules needed, and no ITK_USE_FILE, which would
-# register every format there is: colon/study_itk.cpp makes the readers it needs itself. The configuration files
+# register every format there is: colon/itk/study_itk.cpp makes the readers it needs itself. The configuration files
 # of GDCM name programs that Debian packs apart and say so in a long notice: kept quiet.
 set(saved_log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
@@ -24,10 +24,10 @@ find_package(ITK 5.2 CONFIG REQUIRED
 set(CMAKE_MESSAGE_LOG_LEVEL "${saved_log_level}")
 find_package(ZLIB REQUIRED)
 find_path(GDCM_INCLUDE gdcmReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)
-add_library(stereonav_itk INTERFACE)
+add_library(itk_libraries INTERFACE)
 list(REMOVE_ITEM ITK_INCLUDE_DIRS /usr/include)  # searched anyway; named, it hides the compiler's own
-target_include_directories(stereonav_itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS} ${GDCM_INCLUDE})
-target_link_libraries(stereonav_itk INTERFACE ${ITK_LIBRARIES} gdcmMSFF gdcmDSED gdcmCommon ZLIB::ZLIB)
+target_include_directories(itk_libraries SYSTEM INTERFACE ${ITK_INCLUDE_DIRS} ${GDCM_INCLUDE})
+target_link_libraries(itk_libraries INTERFACE ${ITK_LIBRARIES} gdcmMSFF gdcmDSED gdcmCommon ZLIB::ZLIB)
 
 if(STEREONAV_TESTS)
   find_package(GTest CONFIG REQUIRED)

@@ -38,9 +38,11 @@ function(stereonav_kernels target)
   endforeach()
 endfunction()
 
-# stereonav_room(folder [NAME target] [ONLY files] [EXCLUDE files] [LINK targets])
+# stereonav_room(folder [NAME target] [ONLY files] [EXCLUDE files] [LINK targets] [MODULES modules] [SHARED_WITH_MODULES])
+# MODULES: those that its functions load when first called. SHARED_WITH_MODULES: modules may link it too; each then has
+# a copy of its own, which is hidden from the others.
 function(stereonav_room folder)
-  cmake_parse_arguments(ARG "" "NAME" "ONLY;EXCLUDE;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "SHARED_WITH_MODULES" "NAME" "ONLY;EXCLUDE;LINK;MODULES" ${ARGN})
   if(ARG_NAME)
     set(name ${ARG_NAME})
   else()
@@ -55,4 +57,25 @@ function(stereonav_room folder)
   add_library(${name} STATIC)
   stereonav_sources(${name} ${folder} ONLY ${ARG_ONLY} EXCLUDE ${ARG_EXCLUDE})
   target_link_libraries(${name} PUBLIC ${ARG_LINK})
+  if(ARG_SHARED_WITH_MODULES)
+    set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)
+  endif()
+  foreach(module ${ARG_MODULES})
+    add_dependencies(${name} stereonav_${module})
+  endforeach()
+endfunction()
+
+# A part of the program that is loaded when first called (engine/base/module.h): all sources of `folder` in
+# lib/stereonav/stereonav_<name>.so.
+# stereonav_module(name folder [ONLY files] [LINK targets])
+function(stereonav_module name folder)
+  cmake_parse_arguments(ARG "" "" "ONLY;LINK" ${ARGN})
+  set(target stereonav_${name})
+  add_library(${target} MODULE)
+  stereonav_sources(${target} ${folder} ONLY ${ARG_ONLY})
+  target_link_libraries(${target} PRIVATE engine_base ${ARG_LINK})
+  # Everything it needs itself is there when it links, and bound when it loads.
+  target_link_options(${target} PRIVATE -Wl,--no-undefined -Wl,-z,now)
+  set_target_properties(${target} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
+    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/stereonav)
 endfunction()

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <glm/vec2.hpp>
 #include <string>
 #include <vector>
@@ -23,27 +22,13 @@ struct Georeference {
     bool axisAligned() const;
 };
 
-// Metres in one unit of the reference system: 1 where it has none; 0 for degrees.
-double metresPerUnit(const Georeference& raster);
-
-// True length over length in the reference system's own metres at the middle, along columns and rows:
-// 1 where a map unit is a metre on the ground. (1, 1) where that can not be said.
-glm::dvec2 groundScale(const Georeference& raster);
-
-// The raster's samples on a grid in metres, north up, in a transverse Mercator projection whose origin
-// is the raster's middle (or, without a reference system, in the raster's own units, turned level).
-// Steps are those of the source at its middle. The grid is the rectangle inside the raster where
-// that keeps nine tenths of the area around it, else the rectangle around it. Throws Error named by
-// `file`.
-Georeference metricGrid(const Georeference& raster, const std::filesystem::path& file);
-
 // Pixel coordinates in `source` of the pixel centres of `target`, exact at every kStep-th pixel and
-// bilinear between. Exact nodes are computed on construction; at() is safe from several threads.
+// bilinear between. at() is safe from several threads.
 class PixelMap {
 public:
     static constexpr int kStep = 16;
-    // Throws Error named by `file` when there is no way between the two reference systems.
-    PixelMap(const Georeference& target, const Georeference& source, const std::filesystem::path& file);
+    // From mapPixels() of raster_file.h: rows of nodesX nodes each.
+    PixelMap(int nodesX, std::vector<glm::dvec2> nodes);
 
     // Infinite or NaN where there is no such place in the source.
     glm::dvec2 at(int column, int row) const;
@@ -52,8 +37,5 @@ private:
     int mNodesX = 0;
     std::vector<glm::dvec2> mNodes;
 };
-
-// Whether the two rasters share ground. Throws Error as PixelMap does.
-bool overlap(const Georeference& a, const Georeference& b, const std::filesystem::path& file);
 
 }  // namespace stereonav

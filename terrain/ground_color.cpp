@@ -14,8 +14,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "terrain/gdal_session.h"
-#include "terrain/ground_picture.h"
+#include "terrain/raster_file.h"
 
 namespace stereonav {
 namespace {
@@ -118,10 +117,10 @@ struct ImagePlace {
     bool own = false;
 };
 
-ImagePlace placeOf(GDALDataset& dataset, const DemGrid& dem) {
+ImagePlace placeOf(RasterPicture& picture, const DemGrid& dem) {
     ImagePlace image;
     bool known = false;
-    image.place = georeferenceOf(dataset, known);
+    image.place = picture.georeference(known);
     image.own = known && dem.georeferenced;
     if (image.place.wkt.empty()) image.place.wkt = dem.source.wkt;
     if (image.own) return image;
@@ -201,11 +200,10 @@ GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Pro
 
 GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& dem, const Heightfield& ground,
                             const TerrainLook& look, Progress& progress) {
-    GdalMessages messages;
-    const GdalDataset dataset = openRaster(file, messages, "a picture", kAdvice);
-    const ImagePlace image = placeOf(*dataset, dem);
+    const auto opened = openRasterPicture(file, "a picture", kAdvice);
+    const ImagePlace image = placeOf(*opened, dem);
     if (!overlap(dem.grid, image.place, file)) throwNoOverlap(file);
-    const glm::dvec2 density = pixelsPerTexel(PixelMap(dem.grid, image.place, file), dem.grid);
+    const glm::dvec2 density = pixelsPerTexel(mapPixels(dem.grid, image.place, file), dem.grid);
     if (!std::isfinite(density.x + density.y)) throwNoOverlap(file);
     const TextureSize size =
         textureSize(ground, look.shadeImage ? glm::max(density, glm::dvec2(kLitDensity)) : density);
@@ -215,12 +213,12 @@ GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& de
     const auto& t = dem.grid.transform;
     texture.transform = {t[0], t[1] * dem.grid.width / size.width,  0, t[3],
                          0,    t[5] * dem.grid.height / size.height};
-    const PixelMap map(texture, image.place, file);
+    const PixelMap map = mapPixels(texture, image.place, file);
     const PixelWindow window = touchedWindow(map, texture, image.place);
     if (window.xMin >= window.xMax || window.yMin >= window.yMax) throwNoOverlap(file);
     progress.report(0, "reading " + file.filename().string());
     const glm::dvec2 shrink = glm::max(glm::dvec2(1.0), pixelsPerTexel(map, texture));
-    const GroundPicture picture(*dataset, messages, file, window, shrink);
+    const GroundPicture picture = opened->read(window, shrink);
     const Tint tint(ground, look);
     const GroundLight light(look);
     const auto color = [&](int column, int row, const glm::dvec2& grid) {

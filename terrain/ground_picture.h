@@ -1,14 +1,11 @@
-// The part of an image file that a texture needs, read through GDAL at the texture's density.
+// The part of an image file that a texture needs, at the texture's density; raster_file.h reads it.
 #pragma once
 
-#include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <vector>
 
 #include "engine/image/packed_color.h"
 #include "engine/image/plane.h"
-#include "terrain/gdal_session.h"
 
 namespace stereonav {
 
@@ -19,9 +16,13 @@ struct PixelWindow {
 
 class GroundPicture {
 public:
-    // Reads the window, averaged down by the factor `shrink` (>= 1) each way. Throws Error.
-    GroundPicture(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
-                  const PixelWindow& window, const glm::dvec2& shrink);
+    struct Parts {
+        glm::dvec2 origin{0.0},
+            shrink{1.0};  // the first pixel's corner in the whole image; its pixels a pixel
+        Plane<PackedColor> color;
+        Plane<unsigned char> mask;  // 0: no colour here; empty: colour everywhere
+    };
+    explicit GroundPicture(Parts parts);
 
     struct Sample {
         glm::vec3 color{0.0f};  // linear
@@ -31,9 +32,7 @@ public:
     Sample at(const glm::dvec2& pixel) const;
 
 private:
-    glm::dvec2 mOrigin{0.0}, mShrink{1.0};
-    Plane<PackedColor> mColor;
-    Plane<unsigned char> mMask;  // 0: no colour here; empty: colour everywhere
+    Parts mParts;
 };
 
 }  // namespace stereonav

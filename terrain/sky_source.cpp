@@ -11,8 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/image/radiance_file.h"
-#include "terrain/gdal_session.h"
-#include "terrain/ground_picture.h"
+#include "terrain/raster_file.h"
 
 namespace stereonav {
 namespace {
@@ -118,11 +117,12 @@ SkyPicture readProbe(const std::filesystem::path& file) {
 
 SkyPicture readPicture(const std::filesystem::path& file) {
     constexpr const char* kAdvice = "give a JPEG, PNG, TIFF or Radiance .hdr picture";
-    GdalMessages messages;
-    const GdalDataset dataset = openRaster(file, messages, "a picture of the sky", kAdvice);
-    const int width = dataset->GetRasterXSize(), height = dataset->GetRasterYSize();
+    const auto opened = openRasterPicture(file, "a picture of the sky", kAdvice);
+    bool placed = false;
+    const Georeference whole = opened->georeference(placed);
+    const int width = whole.width, height = whole.height;
     const double shrink = std::max(1.0, width / (2.0 * mapSize(width)));
-    const GroundPicture picture(*dataset, messages, file, {0, 0, width, height}, glm::dvec2(shrink));
+    const GroundPicture picture = opened->read({0, 0, width, height}, glm::dvec2(shrink));
     LinearImage image{std::max(1, static_cast<int>(width / shrink + 0.5)),
                       std::max(1, static_cast<int>(height / shrink + 0.5)),
                       {}};

@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <mutex>
 
@@ -20,10 +21,16 @@ struct Arena {
     std::unique_ptr<tbb::global_control> limit;
     std::shared_ptr<tbb::task_arena> tasks;
 
-    static Arena& instance() {
+    static Arena& own() {
         static Arena arena;
         return arena;
     }
+    // own(), or in a module that of the program.
+    static std::atomic<Arena*>& used() {
+        static std::atomic<Arena*> arena = &own();
+        return arena;
+    }
+    static Arena& instance() { return *used().load(); }
 
     void resize(int count) {
         std::lock_guard lock(mutex);
@@ -55,6 +62,14 @@ void setThreadCount(int threads) {
 int threadCount() {
     Arena::instance().get();
     return Arena::instance().threads;
+}
+
+void* loopsOfThisProgram() {
+    return &Arena::instance();
+}
+
+void shareLoops(void* program) {
+    Arena::used() = static_cast<Arena*>(program);
 }
 
 void parallelFor(int count, const std::function<void(int)>& body, Schedule schedule) {

@@ -20,4 +20,8 @@ int threadCount();
 // Calls body(i) for every i in [0, count). The first exception thrown by a body is rethrown here.
 void parallelFor(int count, const std::function<void(int)>& body, Schedule schedule = Schedule::Dynamic);
 
+// A module (module.h) has this code a second time: it takes over the program's threads before its first loop.
+void* loopsOfThisProgram();
+void shareLoops(void* program);
+
 }  // namespace stereonav

@@ -1,4 +1,5 @@
-// Picture files, through OpenCV. Kept in a target of its own: the library behind it is slow to load.
+// Picture files, through OpenCV, which is slow to load: the module stereonav_pictures (engine/image/opencv),
+// loaded by the first function that is called.
 #pragma once
 
 #include <filesystem>
@@ -30,5 +31,7 @@ LinearImage readLinearImage(const std::filesystem::path& file);
 
 // By extension (.png, .jpg, ...), 8-bit sRGB; written beside and renamed. Throws Error.
 void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image);
+// Whether there is a way to write pictures with this extension, as in ".png".
+bool canWritePicture(const std::string& extension);
 
 }  // namespace stereonav

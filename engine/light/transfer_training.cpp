@@ -7,12 +7,12 @@
 #include <glm/vec2.hpp>
 #include <limits>
 #include <numeric>
-#include <opencv2/core.hpp>
 #include <random>
 #include <string>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/light/principal_axes.h"
 #include "engine/light/transfer_compression.h"
 #include "engine/math/half_float.h"
 
@@ -196,18 +196,18 @@ private:
         for (int i = 0; i < mSize; ++i)
             to[i] = static_cast<float>(mean[i] / static_cast<double>(members.size()));
         if (mParts.components == 0) return;
-        cv::Mat covariance = cv::Mat::zeros(mSize, mSize, CV_64F), values, axes;
+        std::vector<double> covariance(static_cast<std::size_t>(mSize) * mSize, 0.0);
         for (const std::size_t n : members) {
             for (int i = 0; i < mSize; ++i) offset[i] = static_cast<double>(vector(n)[i]) - to[i];
             for (int i = 0; i < mSize; ++i) {
-                double* row = covariance.ptr<double>(i);
+                double* row = &covariance[static_cast<std::size_t>(i) * mSize];
                 for (int j = 0; j < mSize; ++j) row[j] += offset[i] * offset[j];
             }
         }
-        cv::eigen(covariance, values, axes);  // largest first, one a row
+        const std::vector<double> axes = principalAxes(covariance, mSize);
         for (int j = 0; j < mParts.components; ++j)
             for (int i = 0; i < mSize; ++i)
-                to[(j + 1) * mSize + i] = static_cast<float>(axes.at<double>(j, i));
+                to[(j + 1) * mSize + i] = static_cast<float>(axes[static_cast<std::size_t>(j) * mSize + i]);
     }
 
     std::vector<float> mVectors;

@@ -1,7 +1,7 @@
+// Holes, marked.
 #include "engine/metrics/difference_picture.h"
 
 #include "engine/base/error.h"
-#include "engine/metrics/byte_image.h"
 
 namespace stereonav {
 
@@ -14,14 +14,6 @@ Plane<PackedColor> holesInRed(const Plane<PackedColor>& image, const Plane<std::
         for (int x = 0; x < image.width(); ++x)
             if (holeMask.at(x, y) != 0) marked.at(x, y) = kRed;
     return marked;
-}
-
-Plane<PackedColor> differenceTimes(const Plane<PackedColor>& truth, const Plane<PackedColor>& image,
-                                   int factor) {
-    cv::Mat difference;
-    cv::absdiff(bytesFromPlane(truth), bytesFromPlane(image), difference);
-    difference.convertTo(difference, CV_8UC3, factor);
-    return planeFromBytes(difference);
 }
 
 }  // namespace stereonav

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/metrics/byte_image.h"
+#include "engine/image/opencv/byte_image.h"
 #include "engine/metrics/difference_picture.h"
 
 namespace stereonav {

@@ -1,6 +1,4 @@
 // Image differences, through OpenCV.
-#include "engine/metrics/image_difference.h"
-
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -10,7 +8,8 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/metrics/byte_image.h"
+#include "engine/image/opencv/byte_image.h"
+#include "engine/metrics/image_difference.h"
 
 namespace stereonav {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/metrics/byte_image.h"
+#include "engine/image/opencv/byte_image.h"
 
 namespace stereonav {
 

@@ -1,5 +1,5 @@
 // GDAL's drivers, messages and handles; see the header.
-#include "terrain/gdal_session.h"
+#include "terrain/gdal/gdal_session.h"
 
 #include <cpl_conv.h>
 #include <cpl_error.h>

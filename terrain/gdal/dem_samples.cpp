@@ -1,5 +1,5 @@
 // Elevation samples through GDAL, a run of rows at a time.
-#include "terrain/dem_samples.h"
+#include "terrain/gdal/dem_samples.h"
 
 #include <fmt/format.h>
 

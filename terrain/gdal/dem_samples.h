@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/progress.h"
-#include "terrain/gdal_session.h"
+#include "terrain/gdal/gdal_session.h"
 
 namespace stereonav {
 

@@ -1,5 +1,3 @@
-#include "engine/metrics/error_plot.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +5,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "engine/base/error.h"
-#include "engine/metrics/byte_image.h"
+#include "engine/image/opencv/byte_image.h"
+#include "engine/metrics/error_plot.h"
 
 namespace stereonav {
 namespace {
@@ -172,23 +171,7 @@ private:
     double mTimeMax = 0, mLogMin = 0, mLogMax = 1;
 };
 
-bool beats(const PlotPoint& a, const PlotPoint& b) {
-    return a.time_ms <= b.time_ms && a.error <= b.error && (a.time_ms < b.time_ms || a.error < b.error);
-}
-
 }  // namespace
-
-std::vector<std::size_t> paretoFront(const std::vector<PlotPoint>& points) {
-    std::vector<std::size_t> front;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        const auto beatsThis = [&](const PlotPoint& other) { return beats(other, points[k]); };
-        if (std::none_of(points.begin(), points.end(), beatsThis)) front.push_back(k);
-    }
-    std::sort(front.begin(), front.end(), [&](std::size_t a, std::size_t b) {
-        return points[a].time_ms < points[b].time_ms || (points[a].time_ms == points[b].time_ms && a < b);
-    });
-    return front;
-}
 
 Plane<PackedColor> drawErrorPlot(const std::vector<PlotPanel>& panels, const std::string& caption) {
     if (panels.empty())

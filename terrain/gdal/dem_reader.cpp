@@ -14,7 +14,9 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "terrain/dem_samples.h"
+#include "terrain/gdal/dem_samples.h"
+#include "terrain/gdal/reference_system.h"
+#include "terrain/raster_file.h"
 
 namespace stereonav {
 namespace {
@@ -153,7 +155,7 @@ void resample(const std::filesystem::path& file, DemGrid& dem, std::vector<float
               Progress& progress) {
     dem.grid = metricGrid(dem.source, file);
     checkRasterSize(file, dem.grid.width, dem.grid.height);
-    const PixelMap map(dem.grid, dem.source, file);
+    const PixelMap map = mapPixels(dem.grid, dem.source, file);
     const SampleReader reader(samples, dem.source.width, dem.source.height);
     std::vector<float> heights(static_cast<std::size_t>(dem.grid.width) * dem.grid.height);
     constexpr int kBand = 64;

@@ -1,0 +1,14 @@
+// What the module stereonav_itk shows the program.
+#include "colon/study_module.h"
+#include "engine/base/module.h"
+
+namespace stereonav {
+namespace {
+
+constexpr StudyFunctions kFunctions = {readVolumeFile, scanFolder, chooseSeries, readDicom};
+
+}  // namespace
+
+const ModuleEntry stereonavModule = moduleEntry(kFunctions);
+
+}  // namespace stereonav

@@ -1,0 +1,18 @@
+// What metrics ask of the module stereonav_metrics (OpenCV); engine/metrics/opencv has the functions.
+#pragma once
+
+#include "engine/metrics/difference_picture.h"
+#include "engine/metrics/error_plot.h"
+#include "engine/metrics/image_difference.h"
+
+namespace stereonav {
+
+struct MetricsFunctions {
+    decltype(&stereonav::differenceOf) differenceOf;
+    decltype(&stereonav::psnrOf) psnrOf;
+    decltype(&stereonav::edgeMask) edgeMask;
+    decltype(&stereonav::differenceTimes) differenceTimes;
+    decltype(&stereonav::drawErrorPlot) drawErrorPlot;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,14 @@
+// What the module stereonav_metrics shows the program.
+#include "engine/base/module.h"
+#include "engine/metrics/metrics_module.h"
+
+namespace stereonav {
+namespace {
+
+constexpr MetricsFunctions kFunctions = {differenceOf, psnrOf, edgeMask, differenceTimes, drawErrorPlot};
+
+}  // namespace
+
+const ModuleEntry stereonavModule = moduleEntry(kFunctions);
+
+}  // namespace stereonav

@@ -1,0 +1,252 @@
+// Reference systems through GDAL's OSR. Geographic grids go to a transverse Mercator projection about
+// their own middle: there its scale is 1, and at 100 km from it off by 1.2e-4.
+#include "terrain/gdal/reference_system.h"
+
+#include <fmt/format.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "engine/base/error.h"
+#include "terrain/gdal/gdal_session.h"
+#include "terrain/raster_file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kWidestDegrees = 20.0;  // beyond it a flat world is no picture of the Earth
+constexpr int kEdgePoints = 33;          // points along an edge to find its extent in another system
+
+OGRSpatialReference referenceSystem(const std::string& wkt) {
+    OGRSpatialReference system;
+    system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    if (!wkt.empty()) system.importFromWkt(wkt.c_str());
+    return system;
+}
+
+// From one reference system to another; the identity when either is unknown or both are the same.
+class ReferenceTransform {
+public:
+    ReferenceTransform(const std::string& fromWkt, const std::string& toWkt,
+                       const std::filesystem::path& file) {
+        if (fromWkt.empty() || toWkt.empty() || fromWkt == toWkt) return;
+        const OGRSpatialReference from = referenceSystem(fromWkt), to = referenceSystem(toWkt);
+        mTransform.reset(OGRCreateCoordinateTransformation(&from, &to));
+        if (!mTransform)
+            throw Error(file.string(), "reference system",
+                        "there is no known way from it to a projection in metres",
+                        "reproject the file, for example with gdalwarp -t_srs EPSG:32633");
+        if (to.IsGeographic()) mTurn = 2 * std::numbers::pi / to.GetAngularUnits();
+    }
+
+    // near: for geographic results, the longitude is taken within half a turn of near.x.
+    glm::dvec2 operator()(glm::dvec2 p, const glm::dvec2& near) const {
+        if (!mTransform) return p;
+        if (!mTransform->Transform(1, &p.x, &p.y)) return {kInfinity, kInfinity};
+        if (mTurn > 0) p.x += mTurn * std::round((near.x - p.x) / mTurn);
+        return p;
+    }
+
+private:
+    struct Destroy {
+        void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
+    };
+    std::unique_ptr<OGRCoordinateTransformation, Destroy> mTransform;
+    double mTurn = 0;  // a full turn in the target's units; 0 unless it is geographic
+};
+
+std::string geographicWkt(const std::string& wkt) {
+    const OGRSpatialReference system = referenceSystem(wkt);
+    const std::unique_ptr<OGRSpatialReference> geographic(system.CloneGeogCS());
+    return geographic ? wktOf(*geographic) : std::string();
+}
+
+glm::dvec2 middlePixel(const Georeference& raster) {
+    return 0.5 * glm::dvec2(raster.width, raster.height);
+}
+
+struct Box {
+    glm::dvec2 min{kInfinity}, max{-kInfinity};
+    void add(const glm::dvec2& p) {
+        min = glm::dvec2(std::min(min.x, p.x), std::min(min.y, p.y));
+        max = glm::dvec2(std::max(max.x, p.x), std::max(max.y, p.y));
+    }
+    glm::dvec2 size() const { return max - min; }
+    double area() const { return size().x > 0 && size().y > 0 ? size().x * size().y : 0.0; }
+};
+
+// The four edges of the rectangle of pixel coordinates [a, b], each mapped and boxed.
+template <typename Map>
+std::array<Box, 4> mappedEdges(const glm::dvec2& a, const glm::dvec2& b, const Map& map) {
+    std::array<Box, 4> edges;
+    for (int k = 0; k < kEdgePoints; ++k) {
+        const double t = k / double(kEdgePoints - 1);
+        const glm::dvec2 p = a + t * (b - a);
+        const glm::dvec2 ends[4] = {{p.x, a.y}, {p.x, b.y}, {a.x, p.y}, {b.x, p.y}};
+        for (int e = 0; e < 4; ++e) {
+            const glm::dvec2 q = map(ends[e]);
+            if (std::isfinite(q.x) && std::isfinite(q.y)) edges[e].add(q);
+        }
+    }
+    return edges;
+}
+
+Box around(const std::array<Box, 4>& edges) {
+    Box box;
+    for (const Box& edge : edges) {
+        if (edge.min.x > edge.max.x) continue;  // nothing of it could be mapped
+        box.add(edge.min);
+        box.add(edge.max);
+    }
+    return box;
+}
+
+// Between the two edges lying west and east, and the two lying south and north.
+Box inside(const std::array<Box, 4>& edges) {
+    const auto before = [](const Box& a, const Box& b, int axis) {
+        return a.min[axis] + a.max[axis] < b.min[axis] + b.max[axis];
+    };
+    Box box;
+    for (int axis = 0; axis < 2; ++axis) {
+        const auto low = std::min_element(edges.begin(), edges.end(),
+                                          [&](const Box& a, const Box& b) { return before(a, b, axis); });
+        const auto high = std::max_element(edges.begin(), edges.end(),
+                                           [&](const Box& a, const Box& b) { return before(a, b, axis); });
+        box.min[axis] = low->max[axis];
+        box.max[axis] = high->min[axis];
+    }
+    return box;
+}
+
+// The system about the raster's middle, in metres; throws for rasters too wide to be flattened.
+std::string localSystem(const Georeference& raster, const std::filesystem::path& file) {
+    const std::string geographic = geographicWkt(raster.wkt);
+    if (geographic.empty())
+        throw Error(file.string(), "reference system",
+                    "expected a geographic or projected one, got another kind",
+                    "reproject the file, for example with gdalwarp -t_srs EPSG:32633");
+    const glm::dvec2 middleReference = raster.fromPixel(middlePixel(raster));
+    const ReferenceTransform toGeographic(raster.wkt, geographic, file);
+    const glm::dvec2 middle = toGeographic(middleReference, middleReference);
+    const auto edges = mappedEdges({0, 0}, {raster.width, raster.height}, [&](const glm::dvec2& p) {
+        return toGeographic(raster.fromPixel(p), middle);
+    });
+    const OGRSpatialReference degrees = referenceSystem(geographic);
+    const double toDegrees = degrees.GetAngularUnits() * 180 / std::numbers::pi;
+    const glm::dvec2 size = around(edges).size() * toDegrees;
+    if (!(size.x <= kWidestDegrees && size.y <= kWidestDegrees && std::isfinite(middle.x + middle.y)))
+        throw Error(file.string(), "extent",
+                    fmt::format("expected at most {:g} degrees a side, got {:.6g} x {:.6g}", kWidestDegrees,
+                                size.x, size.y),
+                    "cut out a part, for example with gdal_translate -projwin");
+    OGRSpatialReference local;
+    local.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    local.CopyGeogCSFrom(&degrees);
+    local.SetTM(middle.y * toDegrees, middle.x * toDegrees, 1.0, 0.0, 0.0);
+    local.SetLinearUnits("metre", 1.0);
+    local.SetProjCS("local transverse Mercator");
+    return wktOf(local);
+}
+
+// Steps east and north that keep the source's own density at its middle.
+template <typename Map>
+glm::dvec2 ownSteps(const Georeference& raster, const Map& map) {
+    const glm::dvec2 middle = middlePixel(raster);
+    const glm::dvec2 column = map(middle + glm::dvec2(0.5, 0)) - map(middle - glm::dvec2(0.5, 0));
+    const glm::dvec2 row = map(middle + glm::dvec2(0, 0.5)) - map(middle - glm::dvec2(0, 0.5));
+    constexpr double kLevel = 0.2;  // a raster turned by less keeps a step for each axis
+    if (std::abs(column.y) < kLevel * std::abs(column.x)) return {glm::length(column), glm::length(row)};
+    if (std::abs(column.x) < kLevel * std::abs(column.y)) return {glm::length(row), glm::length(column)};
+    return glm::dvec2(std::min(glm::length(column), glm::length(row)));
+}
+
+}  // namespace
+
+double metresPerUnit(const Georeference& raster) {
+    if (raster.wkt.empty()) return 1.0;
+    const OGRSpatialReference system = referenceSystem(raster.wkt);
+    if (system.IsGeographic()) return 0.0;
+    return system.GetLinearUnits();
+}
+
+glm::dvec2 groundScale(const Georeference& raster) {
+    const OGRSpatialReference system = referenceSystem(raster.wkt);
+    const std::string geographic = system.IsProjected() ? geographicWkt(raster.wkt) : std::string();
+    if (geographic.empty()) return glm::dvec2(1.0);
+    const ReferenceTransform toGeographic(raster.wkt, geographic, {});
+    const double toRadians = referenceSystem(geographic).GetAngularUnits();
+    const glm::dvec2 middle = middlePixel(raster);
+    const glm::dvec2 centre = toGeographic(raster.fromPixel(middle), {0, 0});
+    const double a = system.GetSemiMajor(), b = system.GetSemiMinor(), e2 = 1 - (b * b) / (a * a);
+    const double sine = std::sin(centre.y * toRadians), w = 1 - e2 * sine * sine;
+    // Metres on the ellipsoid in a radian: prime vertical radius times cosine, meridian radius.
+    const glm::dvec2 metres(a / std::sqrt(w) * std::cos(centre.y * toRadians),
+                            a * (1 - e2) / (w * std::sqrt(w)));
+    glm::dvec2 scale(1.0);
+    for (int axis = 0; axis < 2; ++axis) {
+        glm::dvec2 step(0.0);
+        step[axis] = 0.5;
+        const glm::dvec2 from = raster.fromPixel(middle - step), to = raster.fromPixel(middle + step);
+        const glm::dvec2 ground =
+            (toGeographic(to, centre) - toGeographic(from, centre)) * toRadians * metres;
+        const double length = glm::length(to - from) * system.GetLinearUnits();
+        if (std::isfinite(glm::length(ground)) && length > 0) scale[axis] = glm::length(ground) / length;
+    }
+    return scale;
+}
+
+Georeference metricGrid(const Georeference& raster, const std::filesystem::path& file) {
+    Georeference grid;
+    if (!raster.wkt.empty()) grid.wkt = localSystem(raster, file);
+    const ReferenceTransform toGrid(raster.wkt, grid.wkt, file);
+    const auto map = [&](const glm::dvec2& p) { return toGrid(raster.fromPixel(p), {0, 0}); };
+    const auto edges = mappedEdges({0.5, 0.5}, {raster.width - 0.5, raster.height - 0.5}, map);
+    const Box outer = around(edges), inner = inside(edges);
+    const Box& box = inner.area() >= 0.9 * outer.area() ? inner : outer;
+    const glm::dvec2 step = ownSteps(raster, map);
+    const glm::dvec2 cells = box.size() / step;
+    constexpr double kMostCells = 1e9;  // far beyond what checkRasterSize lets pass
+    if (!(step.x > 0 && step.y > 0 && cells.x >= 0 && cells.y >= 0 && cells.x < kMostCells &&
+          cells.y < kMostCells))
+        throw Error(file.string(), "georeference", "can not be brought to metres",
+                    "check the file's reference system and pixel size");
+    grid.width = static_cast<int>(cells.x + 1e-6) + 1;
+    grid.height = static_cast<int>(cells.y + 1e-6) + 1;
+    const glm::dvec2 corner = 0.5 * (box.min + box.max) + 0.5 * glm::dvec2(-grid.width, grid.height) * step;
+    grid.transform = {corner.x, step.x, 0, corner.y, 0, -step.y};
+    return grid;
+}
+
+PixelMap mapPixels(const Georeference& target, const Georeference& source,
+                   const std::filesystem::path& file) {
+    const int nodesX = (target.width - 1) / PixelMap::kStep + 2;
+    const int nodesY = (target.height - 1) / PixelMap::kStep + 2;
+    const ReferenceTransform toSource(target.wkt, source.wkt, file);
+    const glm::dvec2 near = source.fromPixel(middlePixel(source));
+    std::vector<glm::dvec2> nodes;
+    nodes.reserve(static_cast<std::size_t>(nodesX) * nodesY);
+    for (int j = 0; j < nodesY; ++j)
+        for (int i = 0; i < nodesX; ++i) {
+            const glm::dvec2 reference =
+                target.fromPixel({i * PixelMap::kStep + 0.5, j * PixelMap::kStep + 0.5});
+            nodes.push_back(source.toPixel(toSource(reference, near)));
+        }
+    return PixelMap(nodesX, std::move(nodes));
+}
+
+bool overlap(const Georeference& a, const Georeference& b, const std::filesystem::path& file) {
+    const ReferenceTransform toA(b.wkt, a.wkt, file);
+    const glm::dvec2 near = a.fromPixel(middlePixel(a));
+    const Box box = around(mappedEdges({0, 0}, {b.width, b.height}, [&](const glm::dvec2& p) {
+        return a.toPixel(toA(b.fromPixel(p), near));
+    }));
+    return box.min.x < a.width && box.min.y < a.height && box.max.x > 0 && box.max.y > 0;
+}
+
+}  // namespace stereonav
