@@ -53,7 +53,7 @@ float shading(vec3 gradient, vec3 way, vec3 view) {
     float sum = uShading.x + uShading.y * abs(toLight);
     float shine = abs(dot(normal, middle)) * inversesqrt(max(long2, 1e-30));
     // pow for its own sake: exponents are any number, and few places have a surface weight.
-    return toLight * toEye > 0.0 && long2 > 0.0 ? sum + uShading.z * pow(min(shine, 1.0), uShading.w) : sum;
+    return toLight * toEye > 0.0 && long2 > 0.0 ? sum + uShading.z * pow(clamp(shine, 1e-30, 1.0), uShading.w) : sum;
 }
 
 // f_s of V3.

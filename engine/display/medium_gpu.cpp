@@ -20,6 +20,7 @@
 #include "engine/display/medium_gpu_targets.h"
 #include "engine/display/medium_gpu_textures.h"
 #include "engine/display/shader_program.h"
+#include "engine/display/texture_upload.h"
 
 namespace stereonav {
 namespace {
@@ -410,11 +411,13 @@ void MediumGpu::render(const MediumLook& look, const SweepSetting& setting, std:
         return;
     }
     const KeptState kept;
+    glGetError();  // an old one is not ours
     mState->geometry = &geometry;
     mState->lights = usesLight(look.model);
     mState->setFrame(look, setting, time);
     mState->sweep();
     for (std::size_t n = 0; n < eyes.size(); ++n) mState->targets->read(static_cast<int>(n), pictures[n]);
+    expectAccepted("volume light on the GPU");
     mState->geometry = nullptr;
 }
 

@@ -56,7 +56,7 @@ void BakedTexture::upload() {
     glBindTexture(GL_TEXTURE_3D, mTexture->name());
     glTexStorage3D(GL_TEXTURE_3D, 1, GL_RGBA16F, size.x, size.y, size.z);
     setFilter(GL_TEXTURE_3D, GL_LINEAR, GL_CLAMP_TO_EDGE);
-    expectUploaded("baked light");
+    expectAccepted("baked light");
     std::vector<glm::vec4> slice(static_cast<std::size_t>(size.x) * size.y);
     for (int k = 0; k < size.z; ++k) {
         for (int j = 0; j < size.y; ++j)
@@ -68,7 +68,7 @@ void BakedTexture::upload() {
             }
         glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, k, size.x, size.y, 1, GL_RGBA, GL_FLOAT, slice.data());
     }
-    expectUploaded("baked light");
+    expectAccepted("baked light");
 }
 
 void BakedTexture::bind() const {

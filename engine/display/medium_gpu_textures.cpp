@@ -83,13 +83,13 @@ void MediumTextures::uploadField() {
     glBindTexture(GL_TEXTURE_3D, mField.name());
     glTexStorage3D(GL_TEXTURE_3D, 1, GL_R32F, size.x, size.y, size.z);
     setFilter(GL_TEXTURE_3D, GL_LINEAR, GL_CLAMP_TO_EDGE);
-    expectUploaded("volume");
+    expectAccepted("volume");
     std::vector<float> slice(static_cast<std::size_t>(size.x) * size.y);
     for (int k = 0; k < size.z; ++k) {
         std::copy_n(&field->values[field->frame.index(0, 0, k)], slice.size(), slice.begin());
         glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, k, size.x, size.y, 1, GL_RED, GL_FLOAT, slice.data());
     }
-    expectUploaded("volume");
+    expectAccepted("volume");
 }
 
 // The finest level, and right of it the others, one above another.
@@ -112,7 +112,7 @@ void MediumTextures::uploadLayer(const HeightLayer& layer) {
         if (level.empty()) continue;
         uploadHeights(level, layer.lowest, heights.levels[n]);
     }
-    expectUploaded("height layer");
+    expectAccepted("height layer");
 }
 
 void MediumTextures::addTable(const MediumTable& table) {
@@ -139,7 +139,7 @@ void MediumTextures::uploadTables() {
         addTable(*tables[n]);
         uploadTable(*tables[n], static_cast<int>(3 * n), mTableSize.y);
     }
-    expectUploaded("transfer function");
+    expectAccepted("transfer function");
 }
 
 void MediumTextures::uploadNoise() {
@@ -154,7 +154,7 @@ void MediumTextures::uploadNoise() {
     glTexStorage3D(GL_TEXTURE_3D, 1, GL_RGBA32F, n, n, n);
     setFilter(GL_TEXTURE_3D, GL_LINEAR, GL_REPEAT);
     glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, n, n, n, GL_RGBA, GL_FLOAT, values.data());
-    expectUploaded("noise");
+    expectAccepted("noise");
 }
 
 void MediumTextures::bind() const {

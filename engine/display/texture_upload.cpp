@@ -16,7 +16,7 @@ void expectAtMost(GLenum limit, int size, const char* what) {
                     "use the CPU");
 }
 
-void expectUploaded(const char* what) {
+void expectAccepted(const char* what) {
     if (glGetError() != GL_NO_ERROR)
         throw Error("", what, "the graphics driver does not take it", "use the CPU");
 }

@@ -8,7 +8,7 @@ namespace stereonav {
 // Throws Error, named `what`, where size is above the driver's `limit` (GL_MAX_TEXTURE_SIZE, ..).
 void expectAtMost(GLenum limit, int size, const char* what);
 // Throws Error, named `what`, where the driver has refused something since glGetError was last asked.
-void expectUploaded(const char* what);
+void expectAccepted(const char* what);
 
 // Of the texture that is bound to GL_TEXTURE_1D, .. `kind`, along all its axes.
 void setFilter(GLenum kind, GLint filter, GLint wrap);
