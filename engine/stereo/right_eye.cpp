@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <vector>
 
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/stereo/border_occluders.h"
 #include "engine/stereo/depth_splat.h"
+#include "engine/stereo/error_prediction.h"
 #include "engine/stereo/hole_fill.h"
 #include "engine/stereo/packed_resample.h"
 #include "engine/stereo/paint_row.h"
@@ -279,6 +281,7 @@ void fillMask(Plane<std::uint8_t>& mask, int value) {
 
 struct RightEye::State {
     Plane<std::uint8_t> mask;
+    Plane<std::uint8_t> contrast;  // only where warped pixels are refined
     std::vector<Scratch> scratch;  // one for each worker
     HoleFill holeFill;
     ResampleFunction resample = fastestResampler();
@@ -291,6 +294,7 @@ struct RightEye::State {
 
     void warp(const EyeRenderer& renderer, const WarpJob& job);
     void copy(const WarpJob& job);
+    void refine(const WarpJob& job, RightEyeTimings& timings);
     // Both give the number of pixels that were not known.
     long long fill(const EyeRenderer& renderer, const WarpJob& job);
     long long castFromDepths(const EyeRenderer& renderer, const WarpJob& job) const;
@@ -314,6 +318,30 @@ void RightEye::State::copy(const WarpJob& job) {
     if (job.dependence == ViewDependence::Highlight) copyPlane(job.left.baseColor, job.right.baseColor);
     copyPlane(job.left.normal, job.right.normal);
     fillMask(mask, 0);
+}
+
+// Adds to the holes what is expected to be worth a ray.
+void RightEye::State::refine(const WarpJob& job, RightEyeTimings& timings) {
+    const Refinement& wanted = job.setting.refinement;
+    const ContrastCounts counts = findContrast(job.right.color, mask, contrast);
+    const double pixels = static_cast<double>(job.width()) * job.right.height();
+    const int lowest = classToCast(wanted, counts, pixels);
+    timings.refinedPixels = std::accumulate(counts.begin() + lowest, counts.end(), 0ll);
+    timings.boundPsnr_db = wanted.calibration->boundPsnr_db(counts, pixels, lowest);
+    if (timings.refinedPixels == 0) return;
+    const int tasks = (job.right.height() + kRowsOfTask - 1) / kRowsOfTask;
+    parallelFor(tasks, [&](int task) {
+        for (int y = task * kRowsOfTask; y < std::min((task + 1) * kRowsOfTask, job.right.height()); ++y) {
+            std::uint8_t* holes = mask.row(y);
+            const std::uint8_t* classes = contrast.row(y);
+            float* depth = job.right.viewDepth.row(y);
+            for (int x = 0; x < job.width(); ++x)
+                if (classes[x] >= lowest && classes[x] != kNoContrast) {
+                    holes[x] = 255;
+                    depth[x] = 0;
+                }
+        }
+    });
 }
 
 long long RightEye::State::fill(const EyeRenderer& renderer, const WarpJob& job) {
@@ -347,7 +375,10 @@ RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews&
 
     RightEyeTimings timings;
     Stopwatch watch;
-    if (setting.method == RightEyeMethod::Full) {
+    const bool refines = setting.refinement.calibration && isInverse(setting.method);
+    const bool all = refines && setting.refinement.quality >= 1 && setting.refinement.mostPixels >= 1;
+    if (setting.method == RightEyeMethod::Full || all) {
+        timings.boundPsnr_db = refines ? kMostPsnr_db : 0;
         fillMask(mState->mask, 255);
         watch.lap_ms();
         renderEye(renderer, views.right, right);
@@ -360,6 +391,7 @@ RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews&
         mState->warp(renderer, job);
     else
         mState->copy(job);
+    if (refines && parallax && !leavesHoles(setting.method)) mState->refine(job, timings);
     timings.warp_ms = watch.lap_ms();
     if (!parallax || leavesHoles(setting.method)) return timings;
     timings.holePixels = setting.method == RightEyeMethod::DepthSplat ? mState->castFromDepths(renderer, job)

@@ -48,6 +48,18 @@ RightEyeMethod defaultMethodFor(const EyeRenderer& renderer);
 // walls, wrong where layers are seen through each other, which is where selective casts.
 std::vector<RightEyeMethod> methodsFor(const EyeRenderer& renderer);
 
+struct ErrorCalibration;
+
+// Warped pixels that are cast as well, those with the largest expected error first. Without a calibration
+// none.
+struct Refinement {
+    std::shared_ptr<const ErrorCalibration> calibration;
+    // Share of the expected squared error that is to go, 0..1: the quality dial. 1 casts every pixel.
+    double quality = 0;
+    double targetPsnr_db = 0;  // against a full cast, to be reached by 95 of 100 frames; 0: no such wish
+    double mostPixels = 1;     // share of all pixels that may be cast beside the holes, whatever is wanted
+};
+
 struct WarpSetting {
     RightEyeMethod method = kDefaultRightEyeMethod;
     // Inverse methods: a pixel between survivors further apart than this many right pixels is a hole. By
@@ -64,6 +76,7 @@ struct WarpSetting {
     // from the pixels beside it: what lies between the left eye's samples may be a little nearer.
     float depthMargin = 0.01f;
     float depthRangeMargin = 1.0f;
+    Refinement refinement;
     Schedule warpSchedule = Schedule::Dynamic;
     Schedule fillSchedule = Schedule::Dynamic;  // Dynamic sorts the bands by their number of holes
 };
@@ -72,6 +85,8 @@ struct RightEyeTimings {
     double warp_ms = 0, fill_ms = 0;  // DepthSplat: splatting, and casting every pixel
     // Cast again, of width * height. DepthSplat: cast without knowing where to start.
     long long holePixels = 0;
+    long long refinedPixels = 0;  // of them, warped before
+    double boundPsnr_db = 0;      // expected, where there is a calibration; 95 of 100 frames are better
     double right_ms() const { return warp_ms + fill_ms; }
 };
 

@@ -1,0 +1,25 @@
+// How much the colours around a pixel differ: by what the error of a warped pixel is predicted. One row as
+// plain pointers, since the kernel is compiled once for each instruction set.
+#pragma once
+
+#include <cstdint>
+
+namespace stereonav {
+
+// Contrast classes: 0 for none, then four to an octave of the largest difference of a channel (of 1023) from
+// the four neighbours that are known.
+constexpr int kContrastClasses = 41;
+constexpr std::uint8_t kNoContrast = 255;  // of a hole
+
+struct ContrastRow {
+    const std::uint32_t *above, *row, *below;             // packed colours; at the border the row itself
+    const std::uint8_t *holesAbove, *holes, *holesBelow;  // 255 where nothing is known; the same
+    std::uint8_t* classes;                                // of each pixel
+    int width;                                            // >= 1
+};
+
+using ContrastFunction = void (*)(const ContrastRow&);
+// For the processor at hand.
+ContrastFunction fastestContrast();
+
+}  // namespace stereonav

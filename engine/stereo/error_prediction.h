@@ -1,0 +1,66 @@
+// How wrong warped pixels are expected to be, so that those that are worth it can be cast as well. A warped
+// pixel is an interpolated one: its error grows with the contrast around it, and by how much is a matter of
+// the scene, so it is measured on a few of its frames whose right eye is cast in full.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/camera/stereo_rig.h"
+#include "engine/image/eye_image.h"
+#include "engine/render/eye_renderer.h"
+#include "engine/stereo/contrast_row.h"
+#include "engine/stereo/right_eye.h"
+
+namespace stereonav {
+
+// Counts of pixels by their class.
+using ContrastCounts = std::array<long long, kContrastClasses>;
+
+// Expected squared error of a warped pixel by the contrast around it: of sRGB bytes, mean of the three
+// channels.
+struct ErrorCalibration {
+    std::array<double, kContrastClasses> meanSquare{};
+    // What is expected of a frame whose classes from c on are cast, times margin[c], is not exceeded by 95 of
+    // 100 frames.
+    std::array<double, kContrastClasses + 1> margin{};
+
+    // Of a frame of so many pixels; classes from `cast` on are exact.
+    double expectedMeanSquare(const ContrastCounts& counts, double pixels, int cast = kContrastClasses) const;
+    // Bound for 95 % of frames; kMostPsnr_db where nothing is expected.
+    double boundPsnr_db(const ContrastCounts& counts, double pixels, int cast = kContrastClasses) const;
+};
+constexpr double kMostPsnr_db = 100.0;
+
+// Gathers frames. Each is added with its warped right eye, the mask of its holes and its right eye cast in
+// full.
+class ErrorCalibrator {
+public:
+    void add(const EyeImage& warped, const Plane<std::uint8_t>& holes, const EyeImage& full);
+    // A class never expects less than the ones below it. Throws Error where no frame was added.
+    ErrorCalibration result() const;
+
+private:
+    struct Frame {
+        ContrastCounts counts{};
+        std::array<double, kContrastClasses> squares{};
+    };
+    double marginOf(const ErrorCalibration& calibration, int cast) const;
+
+    std::vector<Frame> mFrames;
+};
+
+// Warps and casts each of the views, at least one, of one size.
+ErrorCalibration calibrateError(const EyeRenderer& renderer, std::span<const StereoViews> views,
+                                const WarpSetting& setting);
+
+// The classes of a whole picture, all threads. classes is resized; counts those that are not holes.
+ContrastCounts findContrast(const Plane<std::uint32_t>& color, const Plane<std::uint8_t>& holes,
+                            Plane<std::uint8_t>& classes);
+
+// The lowest class to be cast so that what is wanted holds; kContrastClasses: none.
+int classToCast(const Refinement& refinement, const ContrastCounts& counts, double pixels);
+
+}  // namespace stereonav
