@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "app/commands.h"
+#include "app/medium_options.h"
 #include "app/volume_light.h"
 #include "colon/transfer_presets.h"
 #include "engine/base/error.h"
@@ -80,10 +81,11 @@ void addVolume(CLI::App& command, VolumeOptions& options) {
 }
 
 void addScene(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.scene,
-                       "a scene (.toml), an elevation model, a CT study (.nrrd, .nhdr, .nii, .nii.gz, .mha, "
-                       ".mhd, a folder of DICOM slices), or colon, the built-in one; left out: the built-in "
-                       "terrain");
+    command.add_option(
+        "SCENE", options.scene,
+        "a scene (.toml), an elevation model, a CT study (.nrrd, .nhdr, .nii, .nii.gz, .mha, "
+        ".mhd, a folder of DICOM slices), or colon, cloud or wax, which are built in; left out: the "
+        "built-in terrain");
     command.add_option("--vertical-scale", options.verticalScale, "factor on heights")
         ->check(CLI::PositiveNumber);
     command.add_flag("--open-holes", options.openHoles, "leave missing ground open instead of filling it");
@@ -101,6 +103,27 @@ void addScene(CLI::App& command, SceneOptions& options) {
     command.add_option("--threads", options.threads, "threads to use, 0 for all processors");
     command.add_option("--simd", options.simd, "instruction set: auto, plain, avx2, avx512");
     addVolume(command, options.volume);
+}
+
+void addMedium(CLI::App& command, MediumOptions& options) {
+    constexpr const char* kGroup = "Options of media";
+    const auto add = [&](const char* name, auto& value, const std::string& help) {
+        command.add_option(name, value, help)->group(kGroup);
+    };
+    add("--medium", options.medium,
+        "show the scene as a medium that light goes through: a file, or one of " + mediumPresetNames() +
+            "; ground: a terrain in its own colours");
+    add("--model", options.model, "emission, surface, direct, or indirect, which is the default");
+    add("--phase", options.phase, "how the medium scatters: none, \"hg G\", a preset or a file");
+    add("--light-from", options.lightFrom,
+        "azimuth,elevation in degrees: where parallel light comes from, clockwise from north");
+    add("--lamp", options.lamp, "a lamp instead: head, midway between the eyes, or x,y,z in metres");
+    add("--light-color", options.lightColor, "linear, one number or red,green,blue");
+    add("--noise", options.noise, "detail that moves places and properties: cloud, fur, none, or a file");
+    add("--mist", options.mist, "top,optical depth: over a terrain, up to a height in metres");
+    add("--slices", options.slices, "across the medium, 1 to 65536");
+    add("--light-size", options.lightSize, "texels a side of the light's buffer, 8 to 4096");
+    add("--cone", options.cone_deg, "degrees in which scattered light spreads, 0 to 180");
 }
 
 // What the subcommands fill, and which of them runs.
@@ -129,6 +152,7 @@ struct Parsed {
 void addInfo(CLI::App& app, Parsed& parsed) {
     CLI::App& command = *app.add_subcommand("info", "print what was read and the frame plan");
     addScene(command, parsed.info.scene);
+    addMedium(command, parsed.info.scene.medium);
     parsed.addSize(command, "1280x720");
     command.add_flag("--json", parsed.info.json, "as JSON");
     command.callback([&parsed] {
@@ -143,6 +167,7 @@ void addRender(CLI::App& app, Parsed& parsed) {
     RenderOptions& options = parsed.render;
     CLI::App& command = *app.add_subcommand("render", "one pose into a picture");
     addScene(command, options.scene);
+    addMedium(command, options.scene.medium);
     parsed.addSize(command, "1280x720");
     command.add_option("--pose", options.pose,
                        "x,y,z,heading,pitch,roll in metres and degrees; left out: the start pose");
@@ -161,6 +186,7 @@ void addPlay(CLI::App& app, Parsed& parsed) {
     PlayOptions& options = parsed.play;
     CLI::App& command = *app.add_subcommand("play", "a flight into pictures, a video, or a hash");
     addScene(command, options.scene);
+    addMedium(command, options.scene.medium);
     parsed.addSize(command, "1280x720");
     command.add_option("--path", options.path,
                        "a recorded path (.gltf, .glb, .path); left out: the scene's own");
@@ -184,6 +210,7 @@ void addCompare(CLI::App& app, Parsed& parsed) {
     CompareOptions& options = parsed.compare;
     CLI::App& command = *app.add_subcommand("compare", "measure the ways of making the right eye");
     addScene(command, options.scene);
+    addMedium(command, options.scene.medium);
     parsed.addSize(command, "500x400");
     command.add_option("--path", options.path,
                        "a recorded path (.gltf, .glb, .path); left out: the scene's own");
@@ -305,6 +332,7 @@ void addView(CLI::App& app, Parsed& parsed) {
     ViewOptions& options = parsed.view;
     CLI::App& command = *app.add_subcommand("view", "fly through the scene in a window");
     addScene(command, options.scene);
+    addMedium(command, options.scene.medium);
     parsed.addSize(command, "1280x720");
     command.add_option("--method", options.method,
                        "how the right eye is made, auto: what measures best here");

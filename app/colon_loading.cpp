@@ -235,7 +235,7 @@ void addVolume(const LoadedScene& scene, const SceneOptions& options, ViewScene&
     }
     view.followsAtStart = !options.separation_m && !options.zeroParallax_m;
     view.canBeTranslucent = true;
-    view.translucent = scene.renderer->translucent();
+    view.translucent = scene.renderer && scene.renderer->translucent();
     view.seeds = colonOptions.segmentation.seeds;
     view.readSlices = [colonOptions](Progress& progress) { return readSlices(colonOptions, progress); };
     if (colon.isColon()) {

@@ -2,6 +2,7 @@
 #include "app/bake_terrain.h"
 #include "app/bake_volume.h"
 #include "app/scene_loading.h"
+#include "engine/base/error.h"
 
 namespace stereonav {
 
@@ -11,8 +12,11 @@ int runBake(const BakeOptions& options) {
             return bakeVolume(options);
         case SceneKind::Terrain:
             return bakeTerrain(options);
+        case SceneKind::Medium:
+            break;
     }
-    return 1;
+    throw Error(options.scene.scene, "", "expected a terrain or a CT study, found a medium",
+                "its light is worked out in each frame");
 }
 
 }  // namespace stereonav

@@ -7,8 +7,10 @@
 
 #include "app/comparison_report.h"
 #include "app/output_place.h"
+#include "app/pair_comparison.h"
 #include "app/progress_bar.h"
-#include "app/scene_loading.h"
+#include "app/stereo_frame.h"
+#include "app/timed_poses.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/parallel.h"
@@ -35,7 +37,7 @@ void checkOptions(const CompareOptions& options) {
     if (!options.csv.empty()) checkOutputFile("--csv", options.csv);
     if (!options.plot.empty()) checkOutputPicture("--plot", options.plot);
     if (!options.images.empty()) checkOutputFolder("--images", options.images);
-    for (const std::string& name : options.methods) methodFromText(name);
+    for (const std::string& name : options.methods) checkMethod(options.scene, name);
 }
 
 // Each once, in the order of their first naming; "auto" is the scene's default.
@@ -46,6 +48,17 @@ std::vector<RightEyeMethod> methodsOf(const CompareOptions& options, const Loade
         if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
     }
     return methods.empty() ? scene.methods : methods;
+}
+
+std::vector<PairMethod> pairMethodsOf(const CompareOptions& options) {
+    std::vector<PairMethod> methods;
+    for (const std::string& name : options.methods) {
+        const PairMethod method = pairMethodFromText(name);
+        if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
+    }
+    if (methods.empty())
+        for (const NamedPairMethod& named : kPairMethods) methods.push_back(named.method);
+    return methods;
 }
 
 // The pictures of one frame: each eye and truth, and of each method its right eye, its holes in red
@@ -62,6 +75,46 @@ void writePictures(const ComparedFrame& frame, const fs::path& folder) {
         writeColorImage(folder / (name + "_difference_x5.png"),
                         differenceTimes(frame.fullRight.color, picture.right.color, kFactor));
     }
+}
+
+// Of a medium: both eyes of each method, and their differences from two sweeps times twenty.
+void writePictures(const ComparedPair& pair, const fs::path& folder) {
+    constexpr int kFactor = 20;
+    for (const PairPicture& picture : pair.pictures) {
+        const std::string name(nameOf(picture.method));
+        writeColorImage(folder / (name + "_left.png"), picture.left.color);
+        writeColorImage(folder / (name + "_right.png"), picture.right.color);
+        writeColorImage(folder / (name + "_left_difference_x20.png"),
+                        differenceTimes(pair.left.color, picture.left.color, kFactor));
+        writeColorImage(folder / (name + "_right_difference_x20.png"),
+                        differenceTimes(pair.right.color, picture.right.color, kFactor));
+    }
+}
+
+std::vector<MethodFigures> comparedPairs(const CompareOptions& options, const LoadedScene& scene,
+                                         const RecordedPath& path, Progress& progress) {
+    PairComparisonSetting setting;
+    setting.methods = pairMethodsOf(options);
+    setting.repeats = options.repeats;
+    const std::vector<TimedPose> poses = timedFrames(path, options.frames);
+    const int shown = static_cast<int>(poses.size()) / 2;
+    const auto listener = [&](const ComparedPair& pair) {
+        if (!options.images.empty() && pair.index == shown) writePictures(pair, options.images);
+    };
+    return comparePairs(*scene.pair, poses, scene.lens, scene.stereo, setting, progress, listener);
+}
+
+std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const LoadedScene& scene,
+                                           const RecordedPath& path, Progress& progress) {
+    ComparisonSetting setting;
+    setting.repeats = options.repeats;
+    setting.methods = methodsOf(options, scene);
+    const std::vector<Pose> poses = path.frames(options.frames);
+    const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
+    const auto listener = [&](const ComparedFrame& frame) {
+        if (!options.images.empty() && frame.index == shown) writePictures(frame, options.images);
+    };
+    return compareMethods(*scene.renderer, poses, scene.lens, scene.stereo, setting, progress, listener);
 }
 
 void writeResults(const CompareOptions& options, const ComparisonReport& report) {
@@ -92,23 +145,16 @@ ComparisonReport describe(const CompareOptions& options, const LoadedScene& scen
 int runCompare(const CompareOptions& options) {
     refuseLazyLight(options.scene);
     checkOptions(options);
-    ComparisonSetting setting;
-    setting.repeats = options.repeats;
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
     ProgressBar bar;
     LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
-    setting.methods = methodsOf(options, scene);
     if (options.relativeSeparation > 0.0)
         scene.stereo.separation = scene.stereo.zeroParallax * options.relativeSeparation;
-    const std::vector<Pose> poses = flightOf(scene, path, options.path).frames(options.frames);
-    const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
-    const auto listener = [&](const ComparedFrame& frame) {
-        if (!options.images.empty() && frame.index == shown) writePictures(frame, options.images);
-    };
-    ComparisonReport report = describe(options, scene, static_cast<int>(poses.size()));
-    report.methods =
-        compareMethods(*scene.renderer, poses, scene.lens, scene.stereo, setting, bar.progress(), listener);
+    const RecordedPath& flight = flightOf(scene, path, options.path);
+    ComparisonReport report = describe(options, scene, options.frames);
+    report.methods = scene.pair ? comparedPairs(options, scene, flight, bar.progress())
+                                : comparedMethods(options, scene, flight, bar.progress());
     writeResults(options, report);
     bar.clear();
     std::fputs(tableOf(report).c_str(), stdout);

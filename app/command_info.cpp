@@ -61,6 +61,26 @@ std::string planText(const LoadedScene& scene, const FramePlan& plan) {
     return text;
 }
 
+// Of a medium there is nothing to weigh: both eyes come from one sweep.
+Json sweepJson(const LoadedScene& scene) {
+    Json json;
+    json["size"] = {scene.lens.width, scene.lens.height};
+    json["separation_m"] = scene.stereo.separation;
+    json["zero_parallax_m"] = scene.stereo.zeroParallax;
+    json["threads"] = threadCount();
+    json["simd"] = nameOf(scene.simd);
+    json["method"] = std::string(nameOf(PairMethod::Sweep));
+    return json;
+}
+
+std::string sweepText(const LoadedScene& scene) {
+    return infoLine("size", fmt::format("{} x {} pixels an eye", scene.lens.width, scene.lens.height)) +
+           infoLine("eyes", lengthText(scene.stereo.separation) + " apart, zero parallax at " +
+                                lengthText(scene.stereo.zeroParallax)) +
+           infoLine("threads", std::to_string(threadCount())) + infoLine("simd", nameOf(scene.simd)) +
+           infoLine("both eyes", "sweep: slice by slice, from one light");
+}
+
 }  // namespace
 
 std::string infoLine(const char* name, const std::string& value) {
@@ -71,22 +91,27 @@ int runInfo(const InfoOptions& options) {
     refuseLazyLight(options.scene);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
-    bar.progress().report(0.95, "measuring");
-    const FramePlan plan = planScene(scene);
+    std::optional<FramePlan> plan;
+    if (scene.renderer) {
+        bar.progress().report(0.95, "measuring");
+        plan = planScene(scene);
+    }
     bar.clear();
     if (options.json) {
         Json json{{"scene", scene.name}};
-        if (scene.terrain)
-            json["terrain"] = terrainJson(*scene.terrain);
-        else
-            json["volume"] = colonJson(*scene.colon);
-        json["plan"] = planJson(scene, plan);
+        if (scene.terrain) json["terrain"] = terrainJson(*scene.terrain);
+        if (scene.colon) json["volume"] = colonJson(*scene.colon);
+        if (scene.medium) json["medium"] = mediumJson(*scene.medium);
+        json["plan"] = plan ? planJson(scene, *plan) : sweepJson(scene);
         std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
-    } else {
-        std::printf("%s\n%sframe plan\n%s", scene.name.c_str(),
-                    (scene.terrain ? terrainText(*scene.terrain) : colonText(*scene.colon)).c_str(),
-                    planText(scene, plan).c_str());
+        return 0;
     }
+    std::string text = scene.name + "\n";
+    if (scene.terrain) text += terrainText(*scene.terrain);
+    if (scene.colon) text += colonText(*scene.colon);
+    if (scene.medium) text += mediumText(*scene.medium);
+    text += "frame plan\n" + (plan ? planText(scene, *plan) : sweepText(scene));
+    std::fputs(text.c_str(), stdout);
     return 0;
 }
 

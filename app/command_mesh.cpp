@@ -23,7 +23,7 @@ void checkMeshOptions(const MeshOptions& options) {
                     "leave it out for half a sample spacing");
     checkOutputFile("--out", options.out);
     if (kindOf(options.scene.scene) != SceneKind::Terrain)
-        throw Error(options.scene.scene, "", "expected a terrain, found a CT study",
+        throw Error(options.scene.scene, "", "expected a terrain, found a volume",
                     "render, play and view show it; mesh writes the ground of terrains");
 }
 

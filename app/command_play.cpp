@@ -7,6 +7,7 @@
 #include "app/output_place.h"
 #include "app/progress_bar.h"
 #include "app/stereo_frame.h"
+#include "app/timed_poses.h"
 #include "app/video_file.h"
 #include "engine/base/error.h"
 #include "engine/image/image_file.h"
@@ -30,14 +31,14 @@ void checkOptions(const PlayOptions& options) {
     checkSize(options.size, options.video.empty() ? kRenderBytesPerPixel : kVideoBytesPerPixel);
 }
 
-std::vector<Pose> posesOf(const PlayOptions& options, const RecordedPath& path) {
-    if (options.frames > 0) return path.frames(options.frames);
+std::vector<TimedPose> posesOf(const PlayOptions& options, const RecordedPath& path) {
+    if (options.frames > 0) return timedFrames(path, options.frames);
     if (path.duration() * options.fps > kMostFrames)
         throw Error("--fps", "",
                     fmt::format("{} s at {} frames a second are over {} frames", path.duration(), options.fps,
                                 kMostFrames),
                     "give --frames or fewer frames a second");
-    return path.framesAtRate(options.fps);
+    return timedFramesAtRate(path, options.fps);
 }
 
 // Where composed frames go; what was not asked for stays unused.
@@ -79,30 +80,34 @@ int runPlay(const PlayOptions& options) {
     refuseLazyLight(options.scene);
     checkOptions(options);
     const OutputMode mode = modeFromText(options.mode);
-    const std::optional<RightEyeMethod> method = methodFromText(options.method);
+    checkMethod(options.scene, options.method);
     // the path first: a bad one should not cost the reading of a large scene
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
-    const std::vector<Pose> poses = posesOf(options, flightOf(scene, path, options.path));
+    const std::vector<TimedPose> poses = posesOf(options, flightOf(scene, path, options.path));
     FrameSink sink(options, mode);
-    StereoFrame frame(scene, method.value_or(scene.defaultMethod()));
+    StereoFrame frame(scene, options.method);
     Hash hash;
-    std::vector<double> left_ms, right_ms;
+    std::vector<double> left_ms, right_ms, both_ms;
     for (std::size_t k = 0; k < poses.size(); ++k) {
         bar.progress().report(static_cast<double>(k) / static_cast<double>(poses.size()),
                               fmt::format("frame {} of {}", k + 1, poses.size()));
-        frame.render(poses[k]);
+        frame.render(poses[k].pose, poses[k].time);
         left_ms.push_back(frame.left_ms());
         right_ms.push_back(frame.timings().right_ms());
+        both_ms.push_back(frame.both_ms());
         if (options.hash) frame.addTo(hash);
         sink.add(frame, static_cast<int>(k));
     }
     sink.finish();
     bar.clear();
-    std::printf("%zu frames, median left %.2f ms, right %.2f ms\n", poses.size(), medianOf(left_ms),
-                medianOf(right_ms));
+    if (scene.pair)
+        std::printf("%zu frames, median both eyes %.2f ms\n", poses.size(), medianOf(both_ms));
+    else
+        std::printf("%zu frames, median left %.2f ms, right %.2f ms\n", poses.size(), medianOf(left_ms),
+                    medianOf(right_ms));
     if (options.hash) std::printf("hash %016llx\n", static_cast<unsigned long long>(hash.value()));
     return 0;
 }

@@ -14,12 +14,12 @@ int runRender(const RenderOptions& options) {
     checkOutputPicture("--out", options.out);
     checkSize(options.size);
     const OutputMode mode = modeFromText(options.mode);
-    const std::optional<RightEyeMethod> method = methodFromText(options.method);
+    checkMethod(options.scene, options.method);
     std::optional<Pose> pose;
     if (!options.pose.empty()) pose = poseFromText(options.pose);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
-    StereoFrame frame(scene, method.value_or(scene.defaultMethod()));
+    StereoFrame frame(scene, options.method);
     bar.progress().report(0.9, "casting");
     const Pose head = pose ? *pose : scene.startPose;
     frame.render(head);
@@ -35,6 +35,11 @@ int runRender(const RenderOptions& options) {
     const Plane<PackedColor> picture = frame.compose(mode);
     writeColorImage(options.out, picture);
     bar.clear();
+    if (scene.pair) {
+        std::printf("%s: %dx%d, both eyes %.2f ms\n", options.out.c_str(), picture.width(), picture.height(),
+                    frame.both_ms());
+        return 0;
+    }
     std::printf("%s: %dx%d, left %.2f ms, right %.2f ms, holes %.2f %%\n", options.out.c_str(),
                 picture.width(), picture.height(), frame.left_ms(), frame.timings().right_ms(),
                 100.0 * static_cast<double>(frame.timings().holePixels) /

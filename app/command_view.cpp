@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/screenshots.h"
+#include "app/stereo_frame.h"
 #include "app/view_input.h"
 #include "app/view_loading.h"
 #include "app/view_session.h"
@@ -305,7 +306,7 @@ private:
 
 int runView(const ViewOptions& options) {
     checkSize(options.size);
-    if (options.method != "auto") methodFromText(options.method);
+    checkMethod(options.scene, options.method);
     Viewer(options).run();
     return 0;
 }

@@ -27,8 +27,28 @@ struct VolumeOptions {
     bool cache = true;
 };
 
+// Of a scene shown as a medium that light goes through; texts are checked where they are read.
+struct MediumOptions {
+    std::string medium;      // a preset or file; "": none, or a built-in medium's own
+    std::string model;       // emission, surface, direct, indirect; "": indirect
+    std::string phase;       // a phase function; "": none
+    std::string lightFrom;   // "azimuth,elevation" in degrees: where parallel light comes from
+    std::string lamp;        // "head"; "": as the scene has it
+    std::string lightColor;  // linear, one number or "red,green,blue"
+    std::string noise;       // a file, cloud, fur or none; "": as the scene has it
+    std::string mist;        // "top,optical depth": metres, over a terrain
+    std::optional<int> slices, lightSize;
+    std::optional<double> cone_deg;  // that scattered light spreads in
+
+    bool any() const {
+        return slices || lightSize || cone_deg ||
+               !(medium + model + phase + lightFrom + lamp + lightColor + noise + mist).empty();
+    }
+};
+
 struct SceneOptions {
-    std::string scene;  // "" or "terrain": built in; a .toml; a DEM file; "colon": built in; a CT study
+    // "" or "terrain": built in; a .toml; a DEM file; "colon", "cloud", "wax": built in; a CT study
+    std::string scene;
     double verticalScale = 0;  // 0: as the scene says
     bool openHoles = false;
     std::string image, sky;  // "": as the scene says
@@ -41,6 +61,7 @@ struct SceneOptions {
     int threads = 0;            // 0: all
     std::string simd = "auto";  // auto, plain, avx2, avx512
     VolumeOptions volume;
+    MediumOptions medium;
 };
 
 struct SizeOption {
@@ -137,11 +158,11 @@ struct BakeOptions {
     std::string probe;                 // a picture all around
     std::vector<std::string> lights;   // "x,y,z[,intensity]" metres, or "centreline[,spacing]" in a colon
     std::optional<int> bounces, order;
-    std::string albedo;     // one number or R,G,B
-    std::string isovalues;  // "LOW,HIGH" of the volume's values
+    std::string albedo;              // one number or R,G,B
+    std::string isovalues;           // "LOW,HIGH" of the volume's values
     std::optional<double> reach_mm;  // how far rays look for distant light; none: a colon's mean radius
     bool full = false;               // every texel, for any isovalue
-    std::string out;        // "": in the cache
+    std::string out;                 // "": in the cache
 };
 int runBake(const BakeOptions& options);
 

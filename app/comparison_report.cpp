@@ -18,8 +18,13 @@ struct Field {
     int decimals;  // in the table
 };
 
+// Root mean square error in 8-bit levels; 0 at the cap, which stands for identical pictures.
+double rmsFromPsnr(double psnr_db) {
+    return psnr_db >= kIdenticalPsnr_db ? 0.0 : 255.0 * std::pow(10.0, -psnr_db / 20.0);
+}
+
 using F = const MethodFigures&;
-constexpr std::array<Field, 13> kFields{{
+constexpr std::array<Field, 14> kFields{{
     {"left_ms", [](F f) { return f.left_ms; }, 2},
     {"warp_ms", [](F f) { return f.warp_ms; }, 2},
     {"fill_ms", [](F f) { return f.fill_ms; }, 2},
@@ -27,6 +32,7 @@ constexpr std::array<Field, 13> kFields{{
     {"full_right_ms", [](F f) { return f.full_right_ms; }, 2},
     {"hole_percent", [](F f) { return f.hole_percent; }, 2},
     {"psnr_db", [](F f) { return f.difference.psnr_db; }, 2},
+    {"rms_levels", [](F f) { return rmsFromPsnr(f.difference.psnr_db); }, 3},
     {"ssim", [](F f) { return f.difference.ssim; }, 4},
     {"rgb_mean", [](F f) { return f.difference.rgb_mean; }, 3},
     {"rgb_p99", [](F f) { return f.difference.rgb_p99; }, 1},
@@ -34,11 +40,6 @@ constexpr std::array<Field, 13> kFields{{
     {"edge_psnr_db", [](F f) { return f.difference.edge_psnr_db; }, 2},
     {"true_psnr_db", [](F f) { return f.true_psnr_db; }, 2},
 }};
-
-// Root mean square error in 8-bit levels; 0 at the cap, which stands for identical pictures.
-double rmsFromPsnr(double psnr_db) {
-    return psnr_db >= kIdenticalPsnr_db ? 0.0 : 255.0 * std::pow(10.0, -psnr_db / 20.0);
-}
 
 // The figures of a scene, in one line under a plot or a table.
 std::string captionOf(const ComparisonReport& report) {
@@ -65,8 +66,11 @@ std::string tableOf(const ComparisonReport& report) {
     for (const Field& field : kFields) table += fmt::format(" {:>13}", field.name);
     for (const MethodFigures& method : report.methods) {
         table += fmt::format("\n{:<10}", method.name);
-        for (const Field& field : kFields)
-            table += fmt::format(" {:>13.{}f}", field.value(method), field.decimals);
+        for (const Field& field : kFields) {
+            const double value = field.value(method);
+            table += std::isnan(value) ? fmt::format(" {:>13}", "-")
+                                       : fmt::format(" {:>13.{}f}", value, field.decimals);
+        }
     }
     return table + "\n";
 }
@@ -100,7 +104,10 @@ std::string csvOf(const ComparisonReport& report) {
     for (const MethodFigures& method : report.methods) {
         csv += fmt::format("\n{},{},{},{},{},{},{}", csvText(report.scene), report.width, report.height,
                            report.threads, report.frames, csvText(report.machine), method.name);
-        for (const Field& field : kFields) csv += fmt::format(",{:.9g}", field.value(method));
+        for (const Field& field : kFields) {
+            const double value = field.value(method);
+            csv += std::isnan(value) ? "," : fmt::format(",{:.9g}", value);
+        }
     }
     return csv + "\n";
 }
@@ -115,6 +122,11 @@ Plane<PackedColor> plotOf(const ComparisonReport& report) {
     for (const MethodFigures& method : report.methods) {
         oneRay.points.push_back({method.name, method.right_ms, rmsFromPsnr(method.difference.psnr_db)});
         manyRays.points.push_back({method.name, method.right_ms, rmsFromPsnr(method.true_psnr_db)});
+    }
+    if (std::isnan(report.methods.front().true_psnr_db)) {
+        oneRay.title = "against a sweep for each eye";
+        oneRay.timeLabel = "second eye in ms (median)";
+        return drawErrorPlot({oneRay}, captionOf(report));
     }
     return drawErrorPlot({oneRay, manyRays}, captionOf(report));
 }

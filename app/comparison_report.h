@@ -1,4 +1,5 @@
-// What `compare` found, as a table, JSON, CSV and a plot.
+// What `compare` found, as a table, JSON, CSV and a plot. Figures that do not exist are NaN: a dash, null or
+// nothing there.
 #pragma once
 
 #include <string>
@@ -20,7 +21,7 @@ struct ComparisonReport {
 std::string tableOf(const ComparisonReport& report);
 std::string jsonOf(const ComparisonReport& report);
 std::string csvOf(const ComparisonReport& report);
-// Error against time, once for each truth.
+// Error against time, once for each truth that there is.
 Plane<PackedColor> plotOf(const ComparisonReport& report);
 
 }  // namespace stereonav

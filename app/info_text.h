@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "app/medium_scene.h"
 #include "colon/colon_scene.h"
 #include "terrain/terrain_scene.h"
 
@@ -14,6 +15,9 @@ std::string terrainText(const TerrainScene& terrain);
 
 nlohmann::ordered_json colonJson(const ColonScene& colon);
 std::string colonText(const ColonScene& colon);
+
+nlohmann::ordered_json mediumJson(const MediumScene& scene);
+std::string mediumText(const MediumScene& scene);
 
 // "  name        value\n"
 std::string infoLine(const char* name, const std::string& value);

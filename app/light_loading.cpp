@@ -6,8 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <sstream>
 
+#include "app/number_text.h"
 #include "app/output_place.h"
 #include "engine/base/error.h"
 #include "engine/light/spherical_harmonics.h"
@@ -22,23 +22,6 @@ constexpr std::size_t kMostLights = 4096;  // each costs a shadow ray at every v
 
 void require(bool holds, const char* option, const std::string& problem, const std::string& advice) {
     if (!holds) throw Error(option, "", problem, advice);
-}
-
-// "1,2,3" as numbers; empty where it is anything else.
-std::vector<double> numbersFromText(const std::string& text) {
-    std::vector<double> numbers;
-    std::stringstream fields(text);
-    for (std::string field; std::getline(fields, field, ',');) {
-        std::size_t used = 0;
-        try {
-            numbers.push_back(std::stod(field, &used));
-        } catch (const std::exception&) {
-            return {};
-        }
-        if (used != field.size() || !std::isfinite(numbers.back())) return {};
-    }
-    if (!text.empty() && text.back() == ',') return {};
-    return numbers;
 }
 
 // One number for all three, or three.

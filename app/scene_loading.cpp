@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "app/colon_loading.h"
+#include "app/medium_loading.h"
+#include "app/medium_options.h"
 #include "app/terrain_loading.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
@@ -99,9 +101,12 @@ void checkSize(const SizeOption& size, int bytesPerPixel) {
 SceneKind kindOf(const std::string& name) {
     constexpr const char* kAdvice =
         "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png), a CT study (a folder of "
-        "DICOM slices, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), colon, or nothing for the built-in terrain";
+        "DICOM slices, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), colon, cloud, wax, or nothing for the "
+        "built-in "
+        "terrain";
     if (name.empty() || name == "terrain") return SceneKind::Terrain;
     if (name == "colon") return SceneKind::Volume;
+    if (name == "cloud" || name == "wax") return SceneKind::Medium;
     std::error_code code;
     if (!std::filesystem::exists(name, code)) throw Error(name, "", "no such file", kAdvice);
     if (looksLikeStudy(name)) return SceneKind::Volume;
@@ -116,13 +121,15 @@ LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progr
     checkOptions(options);
     const SimdTarget simd = simdFromText(options.simd);
     if (options.threads > 0) setThreadCount(options.threads);
+    checkMediumOptions(options);
     const bool terrain = kindOf(options.scene) == SceneKind::Terrain;
     if (terrain)
         refuseVolumeOptions(options);
     else
         refuseTerrainOptions(options);
-    LoadedScene scene =
-        terrain ? loadTerrainScene(options, simd, progress) : loadColonScene(options, simd, progress);
+    LoadedScene scene = showsMedium(options) ? loadMediumScene(options, simd, progress)
+                        : terrain            ? loadTerrainScene(options, simd, progress)
+                                             : loadColonScene(options, simd, progress);
     scene.lens.width = size.width;
     scene.lens.height = size.height;
     return scene;

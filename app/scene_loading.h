@@ -9,6 +9,8 @@
 
 #include "app/commands.h"
 #include "app/lazy_light.h"
+#include "app/medium_scene.h"
+#include "app/pair_renderer.h"
 #include "colon/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/image/stereo_compose.h"
@@ -21,11 +23,14 @@ namespace stereonav {
 
 struct LoadedScene {
     std::string name;  // as given, "terrain" for the built-in one
-    // What the rest refers to: one of the two.
+    // What the rest refers to: one of the first two, but for a built-in medium.
     std::unique_ptr<TerrainScene> terrain;
     std::unique_ptr<ColonScene> colon;
+    std::unique_ptr<MediumScene> medium;   // null where rays are cast
     std::shared_ptr<LazyLight> lazyLight;  // of a volume lit while it is shown; else null
+    // One of the two.
     std::unique_ptr<EyeRenderer> renderer;
+    std::unique_ptr<PairRenderer> pair;  // of a medium
     SimdTarget simd = SimdTarget::Auto;  // that the renderer uses
     Lens lens;                           // with the size asked for
     StereoSetting stereo;
@@ -33,14 +38,15 @@ struct LoadedScene {
     RecordedPath path;                    // the scene's own flight
     std::vector<RightEyeMethod> methods;  // that compare runs when none are named
     std::function<std::unique_ptr<Flight>()> makeFlight;
-    // Of a terrain under baked light: turns its sun, radians. Not while a picture is cast.
+    // Of a terrain under baked light, and of a medium under parallel light: turns the sun, radians. Not while
+    // a picture is made.
     std::function<void(double azimuth, double elevation)> moveSun;
 
     StereoViews viewsAt(const Pose& head) const { return makeStereoViews(head, lens, stereo); }
     RightEyeMethod defaultMethod() const { return defaultMethodFor(*renderer); }
 };
 
-enum class SceneKind { Terrain, Volume };
+enum class SceneKind { Terrain, Volume, Medium };  // Medium: a built-in one
 // What a scene's name stands for. Throws Error for a name of nothing, with what can be named.
 SceneKind kindOf(const std::string& name);
 

@@ -1,5 +1,6 @@
 #include "app/stereo_frame.h"
 
+#include "app/medium_options.h"
 #include "engine/base/stopwatch.h"
 
 namespace stereonav {
@@ -13,8 +14,26 @@ void addRows(Hash& hash, const Plane<T>& plane) {
 
 }  // namespace
 
-void StereoFrame::render(const Pose& head) {
+void checkMethod(const SceneOptions& options, const std::string& method) {
+    if (showsMedium(options))
+        pairMethodFromText(method);
+    else
+        methodFromText(method);
+}
+
+StereoFrame::StereoFrame(const LoadedScene& scene, const std::string& method) : mScene(scene) {
+    if (scene.pair)
+        mPairMethod = pairMethodFromText(method);
+    else
+        mWarp.method = methodFromText(method).value_or(scene.defaultMethod());
+}
+
+void StereoFrame::render(const Pose& head, double time) {
     const StereoViews views = mScene.viewsAt(head);
+    if (mScene.pair) {
+        mPair = mScene.pair->renderPair(views, time, mPairMethod, mLeft, mRight);
+        return;
+    }
     mLeft.resize(views.left.width, views.left.height, mScene.renderer->viewDependence());
     const Stopwatch watch;
     renderEye(*mScene.renderer, views.left, mLeft);

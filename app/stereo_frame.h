@@ -1,22 +1,29 @@
 // One frame of the pipeline without a window: left eye, right eye, one picture for the display.
 #pragma once
 
+#include <string>
+
 #include "app/scene_loading.h"
 #include "engine/base/hash.h"
 
 namespace stereonav {
 
+// Throws Error unless `method` names a way of making two eyes of what the options show. "auto" is one.
+void checkMethod(const SceneOptions& options, const std::string& method);
+
 class StereoFrame {
 public:
-    StereoFrame(const LoadedScene& scene, RightEyeMethod method) : mScene(scene) { mWarp.method = method; }
+    // method: a right eye's, or of a medium a pair's; "auto": the scene's default.
+    StereoFrame(const LoadedScene& scene, const std::string& method);
 
-    // Both eyes at one pose.
-    void render(const Pose& head);
+    // Both eyes at one pose. time: seconds, of what moves by itself.
+    void render(const Pose& head, double time = 0);
 
     const EyeImage& left() const { return mLeft; }
     const EyeImage& right() const { return mRight; }
     double left_ms() const { return mLeft_ms; }
     const RightEyeTimings& timings() const { return mTimings; }
+    double both_ms() const { return mScene.pair ? mPair.both_ms : mLeft_ms + mTimings.right_ms(); }
     Plane<PackedColor> compose(OutputMode mode) const {
         return composeStereo(mLeft.color, mRight.color, {mode, false, false});
     }
@@ -27,10 +34,12 @@ public:
 private:
     const LoadedScene& mScene;
     WarpSetting mWarp;
+    PairMethod mPairMethod = PairMethod::Sweep;
     RightEye mEye;
     EyeImage mLeft, mRight;
     double mLeft_ms = 0;
     RightEyeTimings mTimings;
+    PairTimings mPair;
 };
 
 }  // namespace stereonav

@@ -100,6 +100,8 @@ std::optional<ViewCommand> commandOfLetter(char letter, bool shift) {
             return shift ? ViewCommand::PreviousMode : ViewCommand::NextMode;
         case 'n':
             return ViewCommand::NextMethod;
+        case 'i':
+            return ViewCommand::NextModel;
         case 'l':
             return ViewCommand::LinearAnaglyph;
         case 'r':
@@ -173,9 +175,10 @@ const std::vector<std::pair<std::string, std::string>>& viewHelp() {
         {"6 7 8", "rows, columns, checkerboard"},
         {"9 0", "red/cyan Dubois, left eye alone"},
         {"N", "next way of making the right eye"},
+        {"I", "next model of light (media)"},
         {"L", "anaglyphs in linear light, or on encoded values"},
         {"z Z", "record the flight, play it"},
-        {"U H J K", "sun higher, lower, round (terrain with --light)"},
+        {"U H J K", "light higher, lower, round (terrain with --light, media)"},
         {"T", "translucent wall, or opaque (volumes)"},
         {"V", "slices (volumes): clicks set seeds, Enter looks again"},
         {"P F12", "save a picture"},

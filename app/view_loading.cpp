@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/colon_loading.h"
+#include "app/medium_loading.h"
 
 namespace stereonav {
 namespace {
@@ -17,6 +18,7 @@ ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progre
     ViewScene scene;
     scene.owner = loaded;
     scene.renderer = loaded->renderer.get();
+    scene.pair = loaded->pair.get();
     scene.makeFlight = loaded->makeFlight;
     scene.path = loaded->path;
     scene.lens = loaded->lens;
@@ -24,6 +26,11 @@ ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progre
     // A recorded flight is looked at once, with the scene that it was given for.
     if (measure && !options.path.empty()) flightOf(*loaded, readPath(options.path), options.path);
     if (loaded->colon) addVolume(*loaded, options.scene, scene);
+    if (loaded->medium) {
+        addMedium(*loaded, scene);
+        scene.pairMethod = pairMethodFromText(options.method);
+        return scene;
+    }
     if (loaded->moveSun) {
         const TerrainLook& look = loaded->terrain->look;
         scene.sun = {look.sunAzimuth, look.sunElevation};

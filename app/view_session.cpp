@@ -34,7 +34,8 @@ bool samePose(const Pose& a, const Pose& b) {
 bool sameFrame(const FrameRequest& a, const FrameRequest& b) {
     return samePose(a.pose, b.pose) && a.lens.width == b.lens.width && a.lens.height == b.lens.height &&
            a.stereo.separation == b.stereo.separation && a.stereo.zeroParallax == b.stereo.zeroParallax &&
-           a.warp.method == b.warp.method && a.twoEyes == b.twoEyes && a.mode == b.mode && a.sun == b.sun;
+           a.warp.method == b.warp.method && a.pairMethod == b.pairMethod && a.model == b.model &&
+           a.time == b.time && a.twoEyes == b.twoEyes && a.mode == b.mode && a.sun == b.sun;
 }
 
 bool asksForMotion(const FlightInput& input) {
@@ -59,7 +60,9 @@ ViewSession::ViewSession(std::shared_ptr<const ViewScene> scene, const Options& 
       mTranslucent(mScene->translucent),
       mMode(options.mode),
       mFirstMode(options.mode),
-      mMethod(mScene->method) {}
+      mMethod(mScene->method),
+      mPairMethod(mScene->pairMethod),
+      mModel(mScene->model) {}
 
 void ViewSession::replaceScene(std::shared_ptr<const ViewScene> scene) {
     stopPlaying();
@@ -74,6 +77,8 @@ void ViewSession::replaceScene(std::shared_ptr<const ViewScene> scene) {
     mStereo.replaceScene(*mScene);
     mSun = mScene->sun;
     mMethod = mScene->method;
+    mPairMethod = mScene->pairMethod;
+    mModel = mScene->model;
     forgetSceneChange();
     mResting = false;
     mLooked = true;  // one step at least shows it
@@ -141,6 +146,9 @@ bool ViewSession::actOnStereo(const ViewAction& action) {
             return true;
         case ViewCommand::NextMethod:
             nextMethod();
+            return true;
+        case ViewCommand::NextModel:
+            nextModel();
             return true;
         case ViewCommand::LinearAnaglyph:
             mLinear = !mLinear;
@@ -215,7 +223,7 @@ bool ViewSession::actOnSun(ViewCommand command) {
 }
 
 void ViewSession::turnSun(double azimuth, double elevation) {
-    if (!mScene->moveSun) return notify("the sun moves over terrain whose light is baked");
+    if (!mScene->moveSun) return notify("light turns over terrain where it is baked, and around media");
     constexpr double kTurn = 2 * std::numbers::pi;
     mSun.azimuth = std::fmod(mSun.azimuth + azimuth + kTurn, kTurn);
     mSun.elevation = std::clamp(mSun.elevation + elevation, -0.15, 0.5 * std::numbers::pi);
@@ -315,7 +323,18 @@ void ViewSession::stepMode(int by) {
     notify(fmt::format("{} ({})", infoOf(mMode).longName, infoOf(mMode).shortName));
 }
 
+void ViewSession::nextModel() {
+    if (mScene->models.empty()) return notify("lighting models are of media");
+    mModel = (mModel + 1) % static_cast<int>(mScene->models.size());
+    notify("light: " + mScene->models[static_cast<std::size_t>(mModel)]);
+}
+
 void ViewSession::nextMethod() {
+    if (mScene->pair) {
+        mPairMethod =
+            static_cast<PairMethod>((static_cast<std::size_t>(mPairMethod) + 1) % kPairMethods.size());
+        return notify(fmt::format("both eyes: {}", nameOf(mPairMethod)));
+    }
     const auto at = std::find_if(kRightEyeMethods.begin(), kRightEyeMethods.end(),
                                  [&](const NamedMethod& m) { return m.method == mMethod; });
     const std::size_t next =
@@ -330,6 +349,8 @@ void ViewSession::reset() {
     mStereo.reset(*mScene);
     mMode = mFirstMode;
     mMethod = mScene->method;
+    mPairMethod = mScene->pairMethod;
+    mModel = mScene->model;
     mStereoOn = true;
     mSwapped = mLinear = false;
     mSpeed = 1;
@@ -414,9 +435,10 @@ void ViewSession::step(const FlightInput& input, double dt) {
     } else {
         fly(input, dt);
     }
+    if (mScene->animated && dt > 0) mTime = mPlaying ? mPlayTime : mTime + dt;
     if (mNoticeLeft > 0 && (mNoticeLeft -= dt) <= 0) mNotice.clear();
-    mMoving = mPlaying || recording() || mStereo.moving() || asksForMotion(input) || looked ||
-              !samePose(poseBefore, pose());
+    mMoving = mPlaying || recording() || mScene->animated || mStereo.moving() || asksForMotion(input) ||
+              looked || !samePose(poseBefore, pose());
 }
 
 void ViewSession::notify(const std::string& text) {
@@ -437,6 +459,9 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
     wanted.lens.height = eyeHeight;
     wanted.stereo = mStereo.now();
     wanted.warp.method = mMethod;
+    wanted.pairMethod = mPairMethod;
+    wanted.model = mModel;
+    wanted.time = mTime;
     wanted.sun = mSun;
     wanted.twoEyes = mStereoOn;
     wanted.mode = compose().mode;
@@ -455,6 +480,7 @@ std::string ViewSession::statusLine(const ViewFrame& frame, double framesPerSeco
     if (frame.request.twoEyes)
         line += fmt::format("  {}{}{}", infoOf(mMode).longName, mSwapped ? " swapped" : "",
                             mStereo.follows() ? "  eyes follow" : "");
+    if (!mScene->models.empty()) line += "  " + mScene->models[static_cast<std::size_t>(frame.request.model)];
     const double clearance = mFlight->clearanceNow();
     if (std::isfinite(clearance)) line += "  clearance " + lengthText(clearance);
     if (mScene->placeOnLine) {

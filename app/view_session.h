@@ -30,6 +30,7 @@ enum class ViewCommand {
     PreviousMode,
     SetMode,
     NextMethod,
+    NextModel,
     LinearAnaglyph,
     LessSeparation,
     MoreSeparation,
@@ -140,6 +141,7 @@ private:
     void fly(const FlightInput& input, double dt);
     void stepMode(int by);
     void nextMethod();
+    void nextModel();
     void reset();
     void toggleRecording();
     void saveFlight();
@@ -169,6 +171,9 @@ private:
     int mSliceWidth = 1, mSliceHeight = 1;  // pixels of the last slice picture
     OutputMode mMode, mFirstMode;
     RightEyeMethod mMethod;
+    PairMethod mPairMethod;
+    int mModel = 0;
+    double mTime = 0;  // seconds, of what moves by itself
     bool mStereoOn = true, mSwapped = false, mLinear = false, mHelp = false, mQuit = false, mCaptured = false;
     bool mMoving = false, mScreenshot = false;
     bool mResting = false, mLooked = false;

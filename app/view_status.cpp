@@ -15,13 +15,22 @@ std::string lengthText(double metres) {
 std::string frameText(const ViewFrame& frame, double framesPerSecond) {
     // Nothing is known of the rate before the first frames that followed each other.
     std::string line = framesPerSecond > 0 ? fmt::format("{:.1f} fps  ", framesPerSecond) : "";
-    line += fmt::format("left {:.1f} ms", frame.left_ms);
+    const bool together = frame.pair.both_ms > 0;
+    if (together && !(frame.pair.left_ms > 0))
+        line += fmt::format("both eyes {:.1f} ms", frame.pair.both_ms);
+    else
+        line += fmt::format("left {:.1f} ms", together ? frame.pair.left_ms : frame.left_ms);
     if (!frame.request.twoEyes) return line + "  one eye";
     const double pixels = static_cast<double>(frame.left.width()) * frame.left.height();
-    line += fmt::format("  warp {:.1f} ms  fill {:.1f} ms  holes {:.1f} %  {}", frame.rightTimings.warp_ms,
-                        frame.rightTimings.fill_ms,
-                        100 * static_cast<double>(frame.rightTimings.holePixels) / pixels,
-                        nameOf(frame.request.warp.method));
+    if (together) {
+        if (frame.pair.right_ms > 0) line += fmt::format("  right {:.1f} ms", frame.pair.right_ms);
+        line += fmt::format("  {}", nameOf(frame.request.pairMethod));
+    } else {
+        line += fmt::format("  warp {:.1f} ms  fill {:.1f} ms  holes {:.1f} %  {}",
+                            frame.rightTimings.warp_ms, frame.rightTimings.fill_ms,
+                            100 * static_cast<double>(frame.rightTimings.holePixels) / pixels,
+                            nameOf(frame.request.warp.method));
+    }
     line += fmt::format("  separation {}  zero parallax {}  parallax {:+.1f} to {:+.1f} %",
                         lengthText(frame.request.stereo.separation),
                         lengthText(frame.request.stereo.zeroParallax), 100 * frame.nearParallax,

@@ -41,13 +41,31 @@ double depthAhead(const Plane<float>& depth) {
     return *middle;
 }
 
+// Of a medium.
+void renderTogether(const ViewScene& scene, const FrameRequest& request, ViewFrame& frame) {
+    if (scene.setModel) scene.setModel(request.model);
+    frame.pair = {};
+    if (request.twoEyes) {
+        const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
+        frame.pair = scene.pair->renderPair(views, request.time, request.pairMethod, frame.left, frame.right);
+        measureParallax(views, frame);
+    } else {
+        const Stopwatch watch;
+        scene.pair->renderOne(makeEyeView(request.pose, request.lens), request.time, frame.left);
+        frame.left_ms = watch.elapsed_ms();
+        frame.right = {};
+    }
+    frame.depthAhead = depthAhead(frame.left.viewDepth);
+}
+
 void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& rightEye, ViewFrame& frame) {
-    const EyeRenderer& renderer = *scene.renderer;
     frame.request = request;
     if (scene.moveSun) scene.moveSun(request.sun);
     frame.rightTimings = {};
     frame.nearParallax = frame.farParallax = 0;
     frame.depthAhead = kMissDepth;
+    if (scene.pair) return renderTogether(scene, request, frame);
+    const EyeRenderer& renderer = *scene.renderer;
     frame.left.resize(request.lens.width, request.lens.height, renderer.viewDependence());
     const Stopwatch watch;
     if (!request.twoEyes) {

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/pair_renderer.h"
 #include "engine/base/progress.h"
 #include "engine/camera/recorded_path.h"
 #include "engine/camera/stereo_rig.h"
@@ -47,15 +48,24 @@ struct PlaceOnLine {
 // A scene as the viewer needs it, whatever it shows. Immutable, read by both threads.
 struct ViewScene {
     std::shared_ptr<const void> owner;  // of all that the rest refers to
+    // One of the two; the second is used on the thread that makes frames alone.
     const EyeRenderer* renderer = nullptr;
+    PairRenderer* pair = nullptr;
     std::function<std::unique_ptr<Flight>()> makeFlight;
     RecordedPath path;  // the scene's own flight
     Lens lens;
     StereoSetting stereo;
     RightEyeMethod method = kDefaultRightEyeMethod;
+    PairMethod pairMethod = PairMethod::Sweep;
 
-    // Of terrain under baked light: turns the sun before a frame, on the thread that makes frames. Cheap
-    // where it stands there already.
+    // Of media: the models to choose from, and the choice before a frame, on the thread that makes frames.
+    std::vector<std::string> models;
+    int model = 0;
+    std::function<void(int model)> setModel;
+    bool animated = false;  // moves by itself, on FrameRequest::time
+
+    // Of terrain under baked light and of media: turns the sun before a frame, on the thread that makes
+    // frames. Cheap where it stands there already.
     std::function<void(const SunPlace&)> moveSun;
     SunPlace sun;
 
@@ -85,6 +95,9 @@ struct FrameRequest {
     Lens lens;
     StereoSetting stereo;
     WarpSetting warp;
+    PairMethod pairMethod = PairMethod::Sweep;
+    int model = 0;                       // of ViewScene::models
+    double time = 0;                     // seconds, where the scene is animated
     SunPlace sun;                        // where it can be moved
     bool twoEyes = true;                 // false: one eye, from the head itself
     OutputMode mode = OutputMode::Left;  // that the eyes' size was chosen for
@@ -95,6 +108,7 @@ struct ViewFrame {
     EyeImage left, right;  // right.color is empty with one eye
     double left_ms = 0;
     RightEyeTimings rightTimings;
+    PairTimings pair;  // of both eyes made together
     // Parallax of the nearest and the farthest thing, as shares of the width; positive is behind the screen.
     double nearParallax = 0, farParallax = 0;
     double depthAhead = 0;  // metres: typical of the picture's middle; infinite where nothing is there

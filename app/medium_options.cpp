@@ -1,0 +1,174 @@
+// Texts become numbers here, each with an error that names its option.
+#include "app/medium_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "app/medium_noise.h"
+#include "app/number_text.h"
+#include "app/volume_light.h"
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+constexpr double kBrightest = 1e6;
+constexpr double kFarthest = 1e9;  // metres
+constexpr double kLampCone = 2.2;  // radians: wider than what is seen
+
+bool inReach(const std::vector<double>& metres) {
+    return std::all_of(metres.begin(), metres.end(), [](double v) { return std::abs(v) <= kFarthest; });
+}
+
+glm::vec3 lightColorFromText(const std::string& text) {
+    const std::vector<double> n = numbersFromText(text);
+    const bool inRange = std::all_of(n.begin(), n.end(), [](double v) { return v >= 0 && v <= kBrightest; });
+    if (!inRange || (n.size() != 1 && n.size() != 3))
+        throw Error("--light-color", "",
+                    fmt::format("expected one number or three from 0 to {:g}, got \"{}\"", kBrightest, text),
+                    "1 is white, 1,0.8,0.6 a warm light; linear values");
+    return n.size() == 1 ? glm::vec3(static_cast<float>(n[0])) : glm::vec3(n[0], n[1], n[2]);
+}
+
+struct Direction {
+    double azimuth = 0, elevation = 0;  // radians
+};
+Direction directionFromText(const std::string& text) {
+    const std::vector<double> n = numbersFromText(text);
+    if (n.size() != 2 || !(std::abs(n[0]) <= 1e6) || !(std::abs(n[1]) <= 90))
+        throw Error("--light-from", "", "expected azimuth,elevation in degrees, got \"" + text + "\"",
+                    "as in 315,30: from the north-west, 30 degrees high; elevations are -90 to 90");
+    return {std::remainder(n[0], 360.0) * kRadians, n[1] * kRadians};
+}
+
+// The lamp's place; none at the head.
+std::optional<glm::dvec3> lampFromText(const std::string& text) {
+    if (text == "head") return std::nullopt;
+    const std::vector<double> n = numbersFromText(text);
+    if (n.size() != 3 || !inReach(n))
+        throw Error("--lamp", "", "expected head or x,y,z in metres, got \"" + text + "\"",
+                    "head is a lamp midway between the eyes");
+    return glm::dvec3(n[0], n[1], n[2]);
+}
+
+MediumModel modelFromText(const std::string& text) {
+    std::string known;
+    for (const MediumModel model :
+         {MediumModel::Emission, MediumModel::Surface, MediumModel::Direct, MediumModel::Indirect}) {
+        if (nameOf(model) == text) return model;
+        known += (known.empty() ? "" : ", ") + std::string(nameOf(model));
+    }
+    throw Error("--model", "", "there is no model \"" + text + "\"", "the models are " + known);
+}
+
+void checkWhole(const char* option, const std::optional<int>& value, int least, int most,
+                const char* advice) {
+    if (value && (*value < least || *value > most))
+        throw Error(option, "", fmt::format("expected {} to {}, got {}", least, most, *value), advice);
+}
+
+void refuseAll(std::initializer_list<std::pair<const char*, bool>> given, const std::string& problem,
+               const char* advice) {
+    for (const auto& [option, is] : given)
+        if (is) throw Error(option, "", problem, advice);
+}
+
+void refuseWithoutMedium(const MediumOptions& m) {
+    refuseAll({{"--model", !m.model.empty()},
+               {"--phase", !m.phase.empty()},
+               {"--light-from", !m.lightFrom.empty()},
+               {"--lamp", !m.lamp.empty()},
+               {"--light-color", !m.lightColor.empty()},
+               {"--noise", !m.noise.empty()},
+               {"--mist", !m.mist.empty()},
+               {"--slices", m.slices.has_value()},
+               {"--light-size", m.lightSize.has_value()},
+               {"--cone", m.cone_deg.has_value()}},
+              "expected with a medium", "add --medium, or show cloud or wax");
+}
+
+void refuseOfOtherKinds(const SceneOptions& options) {
+    const VolumeOptions& v = options.volume;
+    refuseAll({{"--transfer", !v.transfer.empty()},
+               {"--opacity", v.opacity.has_value()},
+               {"--shading", !v.shading.empty()},
+               {"--ambient", v.ambient_mm.has_value()}},
+              "does not go with a medium, which has its own", "leave it out, or leave out --medium");
+    if (options.light == kLazyLight)
+        throw Error("--light", "", "lazy expects an opaque surface, this is a medium",
+                    "bake the light and name its file");
+}
+
+}  // namespace
+
+bool showsMedium(const SceneOptions& options) {
+    return options.scene == "cloud" || options.scene == "wax" || !options.medium.medium.empty();
+}
+
+std::optional<Mist> mistFromText(const std::string& text) {
+    if (text.empty()) return std::nullopt;
+    const std::vector<double> n = numbersFromText(text);
+    if (n.size() != 2 || !inReach(n) || !(n[1] > 0 && n[1] <= 1e4))
+        throw Error("--mist", "", "expected top,optical depth, got \"" + text + "\"",
+                    "as in 900,2: up to 900 m, and 2 straight down; the depth is above 0 and at most 10000");
+    return Mist{n[0], n[1]};
+}
+
+void checkMediumOptions(const SceneOptions& options) {
+    const MediumOptions& m = options.medium;
+    if (!showsMedium(options)) return refuseWithoutMedium(m);
+    refuseOfOtherKinds(options);
+    checkWhole("--slices", m.slices, 1, 65536, "256 is the default; finer is slower");
+    checkWhole("--light-size", m.lightSize, 8, 4096, "256 is the default");
+    if (m.cone_deg && !(*m.cone_deg >= 0 && *m.cone_deg < 180))
+        throw Error("--cone", "", fmt::format("expected 0 to less than 180 degrees, got {:g}", *m.cone_deg),
+                    "35 is the default; 0 lets scattered light go straight on");
+    if (!m.lamp.empty() && !m.lightFrom.empty())
+        throw Error("--lamp", "", "does not go with --light-from", "leave one of them out");
+    if (!m.model.empty()) modelFromText(m.model);
+    if (!m.lamp.empty()) lampFromText(m.lamp);
+    if (!m.lightFrom.empty()) directionFromText(m.lightFrom);
+    if (!m.lightColor.empty()) lightColorFromText(m.lightColor);
+    if (!m.phase.empty()) findPhaseFunction(m.phase);
+    if (!m.noise.empty()) findNoise(m.noise, 1);
+    if (!m.medium.empty() && m.medium != kGroundMedium) findMediumTransfer(m.medium);
+    mistFromText(m.mist);
+}
+
+void applyMediumOptions(const MediumOptions& options, MediumScene& scene) {
+    MediumLook& look = scene.look;
+    if (!options.model.empty()) look.model = modelFromText(options.model);
+    if (!options.phase.empty()) {
+        look.phase = findPhaseFunction(options.phase);
+        scene.phase = options.phase;
+    }
+    if (!options.lightColor.empty()) look.light.radiance = lightColorFromText(options.lightColor);
+    if (!options.lightFrom.empty()) {
+        const Direction from = directionFromText(options.lightFrom);
+        look.light.kind = MediumLight::Kind::Parallel;
+        scene.turnLight(from.azimuth, from.elevation);
+    }
+    if (!options.lamp.empty()) {
+        const std::optional<glm::dvec3> place = lampFromText(options.lamp);
+        look.light.kind = MediumLight::Kind::Lamp;
+        look.light.atHead = !place.has_value();
+        look.light.coneAngle = kLampCone;
+        if (place) {
+            const glm::dvec3 way = scene.medium.bounds().center() - *place;
+            look.light.position = *place;
+            look.light.direction = glm::length(way) > 0 ? glm::normalize(way) : glm::dvec3(0, 0, -1);
+        }
+    }
+    if (options.slices) scene.sweep.slices = *options.slices;
+    if (options.lightSize) scene.sweep.lightSize = *options.lightSize;
+    if (options.cone_deg) scene.sweep.coneAngle = *options.cone_deg * kRadians;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,128 @@
+// The three ways to two eyes of a medium, and what is put behind it.
+#include "app/medium_renderer.h"
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/base/stopwatch.h"
+
+namespace stereonav {
+
+void MediumScene::turnLight(double azimuth, double elevation) {
+    look.light.direction = -glm::dvec3(std::sin(azimuth) * std::cos(elevation),
+                                       std::cos(azimuth) * std::cos(elevation), std::sin(elevation));
+}
+
+MediumTransfer allSurface(const MediumTransfer& transfer) {
+    const auto shaded = [](auto materials) {
+        for (auto& material : materials) material.material.surface = 1;
+        return materials;
+    };
+    if (!transfer.regions().empty())
+        return MediumTransfer(shaded(transfer.regions()), transfer.referenceLength(), "surface");
+    return MediumTransfer(shaded(transfer.points()), transfer.referenceLength(), "surface");
+}
+
+Medium allSurface(const Medium& layers) {
+    std::vector<HeightLayer> shaded = layers.layers();
+    for (HeightLayer& layer : shaded)
+        for (OpticalProperties& entry : layer.table.entries) entry.surface = 1;
+    return Medium(std::move(shaded), layers.perturbation());
+}
+
+// The right eye as the splat of depths sees it: one tile, swept from the depths that it is given.
+class MediumRenderer::RightRays final : public EyeRenderer {
+public:
+    RightRays(MediumRenderer& renderer, double time) : mRenderer(renderer), mTime(time) {}
+
+    int tileCount(const EyeView&) const override { return 1; }
+    void renderTile(const EyeView& view, int, EyeImage& image) const override {
+        mRenderer.sweepOne(view, mTime, {}, image);
+    }
+    // Rays are swept by the picture.
+    void renderPixels(const EyeView& view, PixelRect, std::span<const PixelIndex>,
+                      EyeImage& image) const override {
+        renderTile(view, 0, image);
+    }
+    bool mayHitBeyondEdge(const EyeView&, PixelRect, double, double) const override { return true; }
+    bool translucent() const override { return true; }
+    void renderTileFromDepth(const EyeView& view, int, EyeImage& image) const override {
+        Plane<float> starts;
+        std::swap(starts, image.viewDepth);
+        image.viewDepth.resize(view.width, view.height);
+        mRenderer.sweepOne(view, mTime, {&starts, 1}, image);
+    }
+
+private:
+    MediumRenderer& mRenderer;
+    double mTime;
+};
+
+MediumRenderer::MediumRenderer(const MediumScene& scene, SimdTarget simd)
+    : mScene(scene), mSweep(scene.medium, simd), mPictures(2) {}
+
+MediumSweep& MediumRenderer::sweep() {
+    if (mScene.look.model != MediumModel::Surface || !mScene.makeSurface) return mSweep;
+    if (!mSurface) mSurface = std::make_unique<Surface>(mScene.makeSurface(), mSweep.target());
+    return mSurface->sweep;
+}
+
+glm::vec3 MediumRenderer::behind(const EyeView& view, int x, int y) const {
+    return mScene.sky ? mScene.sky(glm::normalize(view.rayDirection(x + 0.5, y + 0.5)))
+                      : mScene.look.background;
+}
+
+void MediumRenderer::pack(const MediumPicture& picture, const EyeView& view, EyeImage& image) const {
+    image.resize(view.width, view.height);
+    parallelFor(view.height, [&](int y) {
+        for (int x = 0; x < view.width; ++x) {
+            const glm::vec4 seen = picture.light.at(x, y);
+            glm::vec3 light(seen);
+            if (seen.w > 0) light += seen.w * behind(view, x, y);
+            image.color.at(x, y) = packColor(light);
+            image.viewDepth.at(x, y) = picture.viewDepth.at(x, y);
+        }
+    });
+}
+
+void MediumRenderer::sweepOne(const EyeView& view, double time, std::span<const Plane<float>> starts,
+                              EyeImage& image) {
+    sweep().render(mScene.look, mScene.sweep, {&view, 1}, view.head, time, {mPictures.data(), 1}, starts);
+    pack(mPictures[0], view, image);
+}
+
+void MediumRenderer::renderOne(const EyeView& view, double time, EyeImage& image) {
+    sweepOne(view, time, {}, image);
+}
+
+PairTimings MediumRenderer::renderPair(const StereoViews& views, double time, PairMethod method,
+                                       EyeImage& left, EyeImage& right) {
+    PairTimings timings;
+    const Stopwatch watch;
+    if (method == PairMethod::Sweep) {
+        const std::array<EyeView, 2> eyes{views.left, views.right};
+        sweep().render(mScene.look, mScene.sweep, eyes, views.left.head, time, mPictures);
+        pack(mPictures[0], views.left, left);
+        pack(mPictures[1], views.right, right);
+        timings.both_ms = watch.elapsed_ms();
+        return timings;
+    }
+    left.resize(views.left.width, views.left.height);
+    sweepOne(views.left, time, {}, left);
+    timings.left_ms = watch.elapsed_ms();
+    WarpSetting setting;
+    setting.method = method == PairMethod::DepthSplat ? RightEyeMethod::DepthSplat : RightEyeMethod::Full;
+    const RightEyeTimings ofRight = mSplat.render(RightRays(*this, time), views, left, setting, right);
+    timings.both_ms = watch.elapsed_ms();
+    timings.right_ms = timings.both_ms - timings.left_ms;
+    if (method == PairMethod::TwoSweeps) return timings;
+    timings.splat_ms = ofRight.warp_ms;
+    timings.unknownPixels = ofRight.holePixels;
+    return timings;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,17 @@
+// Terrain as a height volume (Kniss et al. 2003, section 3.4; row K7), and mist over it.
+#pragma once
+
+#include "app/commands.h"
+#include "engine/medium/medium.h"
+#include "terrain/terrain_scene.h"
+
+namespace stereonav {
+
+// The ground as a layer in its own colours, or under a transfer function over the height; with --mist a
+// second layer. Throws Error.
+Medium terrainMedium(const TerrainScene& terrain, const MediumOptions& options);
+
+// The scene's sky by a unit world direction, linear RGB, bilinear between the map's texels.
+glm::vec3 skyAt(const SkyMap& sky, const glm::dvec3& direction);
+
+}  // namespace stereonav

@@ -1,0 +1,22 @@
+#include "app/timed_poses.h"
+
+namespace stereonav {
+namespace {
+
+std::vector<TimedPose> timed(const std::vector<Pose>& poses, double between) {
+    std::vector<TimedPose> result;
+    for (const Pose& pose : poses) result.push_back({pose, between * static_cast<double>(result.size())});
+    return result;
+}
+
+}  // namespace
+
+std::vector<TimedPose> timedFrames(const RecordedPath& path, int count) {
+    return timed(path.frames(count), count > 1 ? path.duration() / (count - 1) : 0.0);
+}
+
+std::vector<TimedPose> timedFramesAtRate(const RecordedPath& path, double framesPerSecond) {
+    return timed(path.framesAtRate(framesPerSecond), 1 / framesPerSecond);
+}
+
+}  // namespace stereonav

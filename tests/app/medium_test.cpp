@@ -1,0 +1,273 @@
+// Volume light through the real program: media that are built in, volumes and terrain shown as media.
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/app/volume_input.h"
+
+namespace stereonav::test {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+// Milky and thin, or with a surface; 48 mm are a few optical depths.
+constexpr const char* kMilk = "reference_mm 20\n0 0.9 0.8 0.7 0\n1000 0.9 0.8 0.7 0.8\n";
+constexpr const char* kSkin = "reference_mm 20\n0 0.9 0.8 0.7 0 surface 1\n1000 0.9 0.8 0.7 0.99 surface 1\n";
+const std::vector<std::string> kSmall{"--size", "40x30", "--slices", "24", "--light-size", "24"};
+
+class MediumCommands : public VolumeTest {
+protected:
+    void SetUp() override {
+        VolumeTest::SetUp();
+        setenv("XDG_CACHE_HOME", (mFolder / "cache").c_str(), 1);
+    }
+
+    Outcome runWell(std::vector<std::string> arguments) const {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        return outcome;
+    }
+    Outcome runSmall(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.end(), kSmall.begin(), kSmall.end());
+        return runWell(std::move(arguments));
+    }
+
+    // The picture's bytes.
+    std::string picture(const std::string& scene, std::vector<std::string> options) const {
+        const std::string file = (mFolder / "picture.png").string();
+        options.insert(options.begin(), {"render", scene, "--out", file});
+        runSmall(std::move(options));
+        return contentOf(file);
+    }
+    std::string hashOf(const std::string& scene, std::vector<std::string> options) const {
+        options.insert(options.begin(), {"play", scene, "--hash"});
+        const std::string out = runSmall(std::move(options)).out;
+        const std::size_t at = out.find("hash ");
+        EXPECT_NE(at, std::string::npos) << out;
+        return at == std::string::npos ? "" : out.substr(at);
+    }
+};
+
+TEST_F(MediumCommands, EveryModelPhaseFunctionAndLightLooksDifferent) {
+    const std::string milk = input("milk.txt", kMilk);
+    const std::vector<std::vector<std::string>> ways{{"--model", "emission"},
+                                                     {"--model", "surface"},
+                                                     {"--model", "direct"},
+                                                     {"--model", "indirect"},
+                                                     {"--phase", "hg 0.7"},
+                                                     {"--phase", "hg 0.2 0.5 0.8"},
+                                                     {"--light-from", "90,10"},
+                                                     {"--light-from", "0,20"},
+                                                     {"--lamp", "head"},
+                                                     {"--lamp", "0.1,0.1,0.2"},
+                                                     {"--light-color", "1,0.5,0.2"},
+                                                     {"--cone", "90"},
+                                                     {"--slices", "48"},
+                                                     {"--noise", "fur"},
+                                                     {"--method", "depthsplat"}};
+    std::set<std::string> pictures;
+    for (std::vector<std::string> way : ways) {
+        const std::string name = way[0] + " " + way[1];
+        way.insert(way.end(), {"--medium", milk});
+        if (way[0] == "--slices") {
+            way.insert(way.begin(), {"render", ball(), "--size", "40x30", "--light-size", "24", "--out",
+                                     (mFolder / "picture.png").string()});
+            runWell(way);
+            EXPECT_TRUE(pictures.insert(contentOf(mFolder / "picture.png")).second) << name;
+        } else if (way[0] == "--method") {
+            runWell({"render", ball(), "--size", "40x30", "--medium", milk, "--slices", "24", "--method",
+                     "depthsplat", "--out", (mFolder / "picture.png").string()});
+        } else {
+            EXPECT_TRUE(pictures.insert(picture(ball(), way)).second) << name << " shows nothing new";
+        }
+    }
+    // What is the default, said aloud.
+    EXPECT_FALSE(pictures.insert(picture(ball(), {"--medium", milk})).second);
+    EXPECT_FALSE(pictures.insert(picture(ball(), {"--medium", milk, "--phase", "none"})).second);
+    EXPECT_FALSE(pictures.insert(picture(ball(), {"--medium", milk, "--noise", "none"})).second);
+}
+
+// The same frames twice and with one thread, to the byte; the cloud moves between frames though the eye
+// does not, on the path's clock and not by how many frames there were.
+TEST_F(MediumCommands, AnAnimatedCloudPlaysTheSameTwice) {
+    const std::string path =
+        input("still.path", "5 0 -3000 0 0.7071 0 0 0.7071\n9 0 -3000 0 0.7071 0 0 0.7071\n");
+    const std::vector<std::string> options{"--path", path, "--frames", "3"};
+    const std::string first = hashOf("cloud", options);
+    EXPECT_EQ(hashOf("cloud", options), first);
+    std::vector<std::string> one = options;
+    one.insert(one.end(), {"--threads", "1"});
+    EXPECT_EQ(hashOf("cloud", one), first);
+
+    runSmall({"play", "cloud", "--path", path, "--frames", "3", "--out", "three"});
+    runSmall({"play", "cloud", "--path", path, "--fps", "1", "--out", "five"});
+    const auto frame = [&](const char* folder, int n) {
+        return contentOf(place() / folder / ("frame_0000" + std::to_string(n) + ".png"));
+    };
+    EXPECT_TRUE(frame("three", 0) != frame("three", 1));
+    EXPECT_TRUE(frame("three", 1) != frame("three", 2));
+    EXPECT_TRUE(frame("three", 1) == frame("five", 2)) << "both two seconds after the start";
+    EXPECT_TRUE(frame("three", 2) == frame("five", 4));
+    runSmall({"play", "cloud", "--path", path, "--frames", "2", "--noise", "none", "--out", "still"});
+    EXPECT_TRUE(frame("still", 0) == frame("still", 1)) << "without noise nothing moves";
+}
+
+TEST_F(MediumCommands, CompareListsTheThreeWaysToTwoEyes) {
+    const std::string out =
+        runSmall({"compare", "cloud", "--frames", "2", "--repeats", "1", "--json", "a.json", "--csv", "a.csv",
+                  "--plot", "plot.png", "--images", "pictures"})
+            .out;
+    const Json methods = Json::parse(contentOf(place() / "a.json")).at("methods");
+    ASSERT_EQ(methods.size(), 3u);
+    const std::vector<std::string> names{"sweep", "two-sweeps", "depthsplat"};
+    for (std::size_t n = 0; n < names.size(); ++n) {
+        const Json& method = methods[n];
+        EXPECT_EQ(method.at("name"), names[n]);
+        EXPECT_NE(out.find("\n" + names[n] + " "), std::string::npos) << out;
+        EXPECT_LT(method.at("rms_levels").get<double>(), 1.0) << names[n] << ": within one grey level";
+        EXPECT_GT(method.at("left_ms").get<double>(), 0.0) << names[n];
+        EXPECT_GT(method.at("full_right_ms").get<double>(), 0.0) << names[n];
+        EXPECT_TRUE(method.at("true_psnr_db").is_null()) << "there is no finer truth";
+        for (const char* end : {"_left.png", "_right.png", "_right_difference_x20.png"})
+            EXPECT_TRUE(fs::exists(place() / "pictures" / (names[n] + end))) << names[n] << end;
+    }
+    EXPECT_EQ(methods[1].at("psnr_db"), 100.0) << "it is what the others are measured against";
+    EXPECT_GT(methods[2].at("warp_ms").get<double>(), 0.0);
+    EXPECT_EQ(linesIn(contentOf(place() / "a.csv")), 4);
+    EXPECT_TRUE(fs::exists(place() / "plot.png"));
+    runSmall({"compare", "wax", "--frames", "1", "--repeats", "1", "--methods", "depthsplat,sweep", "--json",
+              "b.json"});
+    EXPECT_EQ(Json::parse(contentOf(place() / "b.json")).at("methods")[0].at("name"), "depthsplat");
+}
+
+TEST_F(MediumCommands, InfoTellsWhatIsSwept) {
+    const Json json =
+        Json::parse(runWell({"info", "wax", "--json", "--slices", "77", "--model", "direct"}).out);
+    EXPECT_EQ(json.at("scene"), "wax");
+    EXPECT_EQ(json.at("medium").at("slices"), 77);
+    EXPECT_EQ(json.at("medium").at("model"), "direct");
+    EXPECT_EQ(json.at("medium").at("animated"), false);
+    EXPECT_GT(json.at("medium").at("largest_extinction_per_m").get<double>(), 0.0);
+    EXPECT_EQ(json.at("plan").at("method"), "sweep");
+    const std::string text = runWell({"info", "cloud"}).out;
+    for (const char* word : {"medium", "transfer", "indirect", "moving", "slices", "frame plan", "sweep"})
+        EXPECT_NE(text.find(word), std::string::npos) << word << " in\n" << text;
+    const Json ball_ = Json::parse(
+        runWell({"info", ball(), "--medium", input("milk.txt", kMilk), "--json", "--lamp", "head"}).out);
+    EXPECT_EQ(ball_.at("volume").at("kind"), "isosurface");
+    EXPECT_NE(ball_.at("medium").at("light").get<std::string>().find("head"), std::string::npos);
+}
+
+TEST_F(MediumCommands, ATerrainIsAHeightVolumeUnderMist) {
+    const std::string ground = picture(hills(), {"--medium", "ground"});
+    EXPECT_TRUE(ground != picture(hills(), {"--medium", "ground", "--mist", "140,1"}));
+    EXPECT_TRUE(ground != picture(hills(), {"--medium", "ground", "--sun", "90,10"}));
+    const std::string sand = input("sand.txt", "reference_mm 30000\n100 1 0.9 0.6 0.9\n150 1 1 0.8 0.9\n");
+    EXPECT_TRUE(ground != picture(hills(), {"--medium", sand}));
+    const Json json =
+        Json::parse(runWell({"info", hills(), "--medium", "ground", "--mist", "140,1", "--json"}).out);
+    EXPECT_EQ(json.at("medium").at("layers"), 2);
+}
+
+TEST_F(MediumCommands, TheEyeFliesInsideAColon) {
+    const std::string tube = maskedTube();
+    const std::string wall =
+        input("wall.txt", "reference_mm 1\n-500 0.8 0.4 0.3 0\n-100 0.8 0.4 0.3 0.6\n100 0.8 0.5 0.4 0.9\n");
+    const std::string lit = picture(tube, {"--medium", wall});
+    EXPECT_TRUE(lit != picture(tube, {"--medium", wall, "--model", "emission"}));
+    EXPECT_TRUE(lit != picture(tube, {"--medium", wall, "--light-color", "0.3"}));
+    EXPECT_EQ(hashOf(tube, {"--medium", wall, "--frames", "2"}),
+              hashOf(tube, {"--medium", wall, "--frames", "2"}));
+}
+
+TEST_F(MediumCommands, BakedLightIsSeenWhereTheMediumHasASurface) {
+    const std::string bake = (mFolder / "irradiance.bake").string();
+    const Outcome baked = run({"bake", ball(), "--samples", "16", "--sky", "0.3,0.5,1", "--out", bake});
+    ASSERT_EQ(baked.status, 0) << baked.err;
+    const std::string skin = input("skin.txt", kSkin), milk = input("milk.txt", kMilk);
+    EXPECT_TRUE(picture(ball(), {"--medium", skin}) != picture(ball(), {"--medium", skin, "--light", bake}));
+    EXPECT_TRUE(picture(ball(), {"--medium", milk}) == picture(ball(), {"--medium", milk, "--light", bake}))
+        << "without a surface there is nothing that baked light falls on";
+}
+
+TEST_F(MediumCommands, NoiseComesFromAFile) {
+    const std::string milk = input("milk.txt", kMilk);
+    const std::string noise =
+        input("noise.txt",
+              "# ripples\nseed 3\nsize 0.02 displacement 0.002\n"
+              "size 0.01 extinction 0.5 color 0.2 0.1 0 indirect 0 0 0.3 velocity 0 0 1\n");
+    EXPECT_TRUE(picture(ball(), {"--medium", milk, "--noise", noise}) != picture(ball(), {"--medium", milk}));
+    EXPECT_EQ(Json::parse(runWell({"info", ball(), "--medium", milk, "--noise", noise, "--json"}).out)
+                  .at("medium")
+                  .at("animated"),
+              true);
+    const auto refused = [&](const std::string& text, const std::vector<std::string>& words) {
+        expectRefused({"render", "cloud", "--noise", input("bad.txt", text), "--out", "a.png"}, words);
+    };
+    refused("", {"bad.txt", "at least one scale"});
+    refused("seed 1\n\nsize x\n", {"bad.txt:3", "expected a number", "\"x\""});
+    refused("size 1\nsize 0 displacement 1\n", {"bad.txt:2", "above 0"});
+    refused("displacement 1\n", {"bad.txt:1", "size above 0"});
+    refused("size 1 colour 1 1 1\n", {"bad.txt:1", "colour", "color"});
+    refused("size 1 color 1 1\n", {"bad.txt:1", "expected a number"});
+    refused("size nan\n", {"bad.txt:1", "expected a number"});
+    refused("seed -1\nsize 1\n", {"bad.txt:1", "seed"});
+    refused("size 1\nsize 1\nsize 1\nsize 1\nsize 1\n", {"bad.txt"});
+}
+
+TEST_F(MediumCommands, BadValuesAreRefusedInOneLine) {
+    const auto refused = [&](const std::vector<std::string>& options, const std::vector<std::string>& words) {
+        std::vector<std::string> all{"render", "cloud", "--out", "a.png"};
+        all.insert(all.end(), options.begin(), options.end());
+        expectRefused(all, words);
+    };
+    refused({"--model", "phong"}, {"phong", "emission, surface, direct, indirect"});
+    refused({"--phase", "hg 1.5"}, {"1.5"});
+    refused({"--phase", "milk"}, {"milk"});
+    refused({"--light-from", "90"}, {"--light-from", "\"90\"", "315,30"});
+    refused({"--light-from", "0,91"}, {"--light-from"});
+    refused({"--light-from", "nan,3"}, {"--light-from"});
+    refused({"--lamp", "ceiling"}, {"--lamp", "head", "ceiling"});
+    refused({"--lamp", "1,2,inf"}, {"--lamp"});
+    refused({"--lamp", "head", "--light-from", "0,10"}, {"--lamp", "--light-from"});
+    refused({"--light-color", "1,2"}, {"--light-color", "three"});
+    refused({"--light-color", "-1"}, {"--light-color"});
+    refused({"--slices", "0"}, {"--slices", "65536"});
+    refused({"--slices", "65537"}, {"--slices"});
+    refused({"--light-size", "7"}, {"--light-size", "8"});
+    refused({"--light-size", "5000"}, {"--light-size", "4096"});
+    refused({"--cone", "180"}, {"--cone", "180"});
+    refused({"--cone", "-1"}, {"--cone"});
+    refused({"--noise", "sand"}, {"--noise", "sand", "cloud, fur or none"});
+    refused({"--medium", "jelly"}, {"jelly", "wax"});
+    refused({"--medium", "ground"}, {"--medium", "terrain"});
+    refused({"--mist", "900,2"}, {"--mist", "terrain"});
+    refused({"--method", "linear"}, {"linear", "sweep, two-sweeps, depthsplat"});
+    refused({"--transfer", "metal"}, {"--transfer", "medium"});
+    refused({"--isosurface"}, {"--isosurface", "built in"});
+    refused({"--light", "a.bake"}, {"--light", "built in"});
+    refused({"--sun", "0,10"}, {"--sun", "terrain"});
+}
+
+TEST_F(MediumCommands, OptionsOfMediaAreRefusedElsewhere) {
+    const std::string scene = hills();
+    expectRefused({"render", scene, "--model", "direct", "--out", "a.png"}, {"--model", "--medium"});
+    expectRefused({"render", scene, "--slices", "10", "--out", "a.png"}, {"--slices", "--medium"});
+    expectRefused({"render", scene, "--method", "sweep", "--out", "a.png"}, {"sweep"});
+    expectRefused({"render", scene, "--medium", "ground", "--mist", "50,1", "--out", "a.png"},
+                  {"--mist", "100", "149"});
+    expectRefused({"render", scene, "--medium", "ground", "--mist", "50", "--out", "a.png"},
+                  {"--mist", "900,2"});
+    expectRefused({"render", scene, "--medium", "ground", "--light", "auto", "--out", "a.png"}, {"--light"});
+    expectRefused({"render", ball(), "--medium", "cloud", "--light", "lazy", "--out", "a.png"}, {"lazy"});
+    expectRefused({"render", ball(), "--medium", "cloud", "--ambient", "3", "--out", "a.png"}, {"--ambient"});
+    expectRefused({"bake", "cloud", "--out", "a.bake"}, {"cloud", "medium"});
+    expectRefused({"mesh", "wax", "--out", "a.glb"}, {"wax", "terrain"});
+    expectRefused({"centreline", "wax", "--out", "a.vtp"}, {"wax", "CT study"});
+    expectRefused({"compare", "cloud", "--methods", "sweep,full"}, {"full", "depthsplat"});
+}
+
+}  // namespace
+}  // namespace stereonav::test

@@ -1,0 +1,157 @@
+// Media in the viewer without a window: both eyes come from one place, models and light change between
+// frames, and what moves by itself moves with the clock.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "app/view_session.h"
+#include "app/view_status.h"
+#include "engine/nav/navigator.h"
+
+namespace stereonav {
+namespace {
+
+// Both eyes in the colour of the method and the model, with the time as depth.
+class Fog : public PairRenderer {
+public:
+    PairTimings renderPair(const StereoViews& views, double time, PairMethod method, EyeImage& left,
+                           EyeImage& right) override {
+        paint(views.left, time, static_cast<PackedColor>(method), left);
+        paint(views.right, time, static_cast<PackedColor>(10 * model + 100), right);
+        PairTimings timings;
+        timings.both_ms = 12.5;
+        if (method == PairMethod::DepthSplat) timings.left_ms = 8, timings.right_ms = 4.5;
+        return timings;
+    }
+    void renderOne(const EyeView& view, double time, EyeImage& image) override {
+        paint(view, time, 1000, image);
+    }
+    int model = -1;
+
+private:
+    static void paint(const EyeView& view, double time, PackedColor color, EyeImage& image) {
+        image.resize(view.width, view.height);
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x) {
+                image.color.at(x, y) = color;
+                image.viewDepth.at(x, y) = static_cast<float>(10 + time);
+            }
+    }
+};
+
+ViewScene fogScene() {
+    auto fog = std::make_shared<Fog>();
+    ViewScene scene;
+    scene.pair = fog.get();
+    scene.models = {"emission", "surface", "direct"};
+    scene.model = 1;
+    scene.setModel = [fog = fog.get()](int model) { fog->model = model; };
+    scene.sun = {1.0, 0.5};
+    scene.moveSun = [](const SunPlace&) {};
+    scene.owner = std::move(fog);
+    scene.makeFlight = []() -> std::unique_ptr<Flight> {
+        return std::make_unique<Navigator>([](const glm::dvec2&) { return std::nan(""); },
+                                           poseFromAngles({0, 0, 5}, 0, 0, 0), FlightSetting{});
+    };
+    scene.path = RecordedPath(
+        {{2.0, poseFromAngles({0, 0, 5}, 0, 0, 0)}, {4.0, poseFromAngles({10, 0, 5}, 0, 0, 0)}}, "test");
+    scene.stereo = {1.0, 30.0};
+    return scene;
+}
+
+ViewSession sessionOf(const ViewScene& scene) {
+    return ViewSession(std::make_shared<ViewScene>(scene), {OutputMode::SideBySide, std::nullopt, "."});
+}
+
+std::shared_ptr<const ViewFrame> frameOf(ViewWorker& worker, const FrameRequest& request) {
+    worker.request(request);
+    for (int wait = 0; wait < 10'000; ++wait) {
+        if (auto frame = worker.takeFrame()) return frame;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return nullptr;
+}
+
+TEST(ViewMedium, ModelsAndMethodsAreSteppedThroughAndReset) {
+    ViewSession s = sessionOf(fogScene());
+    std::vector<int> models;
+    std::vector<PairMethod> methods;
+    for (int n = 0; n < 4; ++n) {
+        models.push_back(s.requestFor(80, 40).model);
+        methods.push_back(s.requestFor(80, 40).pairMethod);
+        const long long before = s.requestFor(80, 40).version;
+        s.act({ViewCommand::NextModel});
+        s.act({ViewCommand::NextMethod});
+        EXPECT_GT(s.requestFor(80, 40).version, before) << "a new frame is asked for";
+    }
+    EXPECT_THAT(models, testing::ElementsAre(1, 2, 0, 1));
+    EXPECT_THAT(methods, testing::ElementsAre(PairMethod::Sweep, PairMethod::TwoSweeps,
+                                              PairMethod::DepthSplat, PairMethod::Sweep));
+    s.act({ViewCommand::Reset});
+    EXPECT_EQ(s.requestFor(80, 40).model, 1);
+    EXPECT_EQ(s.requestFor(80, 40).pairMethod, PairMethod::Sweep);
+    s.act({ViewCommand::HigherSun});
+    EXPECT_GT(s.requestFor(80, 40).sun.elevation, 0.5);
+}
+
+TEST(ViewMedium, OtherScenesHaveNoModels) {
+    ViewScene scene = fogScene();
+    scene.models.clear();
+    ViewSession s = sessionOf(scene);
+    const long long before = s.requestFor(80, 40).version;
+    s.act({ViewCommand::NextModel});
+    EXPECT_EQ(s.requestFor(80, 40).version, before);
+    EXPECT_NE(s.notice().find("media"), std::string::npos);
+}
+
+TEST(ViewMedium, OnlyWhatMovesByItselfHasAClock) {
+    ViewSession still = sessionOf(fogScene());
+    still.step({}, 0.1);
+    still.step({}, 0.1);
+    EXPECT_EQ(still.requestFor(80, 40).time, 0.0);
+    EXPECT_FALSE(still.moving());
+
+    ViewScene scene = fogScene();
+    scene.animated = true;
+    ViewSession s = sessionOf(scene);
+    for (int n = 1; n <= 20; ++n) {
+        s.step({}, 0.1);
+        EXPECT_NEAR(s.requestFor(80, 40).time, 0.1 * n, 1e-12);
+        EXPECT_TRUE(s.moving());
+    }
+    // A flight is played on its own clock, so that it looks the same each time.
+    s.act({ViewCommand::Play});
+    s.step({}, 0.25);
+    EXPECT_NEAR(s.requestFor(80, 40).time, 0.25, 1e-12);
+}
+
+TEST(ViewMedium, TheWorkerMakesBothEyesTogether) {
+    ViewWorker worker([](Progress&) { return fogScene(); }, [] {});
+    ViewSession s = sessionOf(fogScene());
+    FrameRequest request = s.requestFor(80, 40);
+    request.time = 3;
+    request.model = 2;
+    request.pairMethod = PairMethod::DepthSplat;
+    const auto frame = frameOf(worker, request);
+    ASSERT_NE(frame, nullptr);
+    EXPECT_EQ(frame->left.color.at(3, 4), static_cast<PackedColor>(PairMethod::DepthSplat));
+    EXPECT_EQ(frame->right.color.at(3, 4), 120u);
+    EXPECT_EQ(frame->depthAhead, 13.0);
+    EXPECT_LT(frame->nearParallax, 0) << "13 m away, before the screen";
+    EXPECT_NE(frameText(*frame, 10).find("left 8.0 ms  right 4.5 ms  depthsplat"), std::string::npos)
+        << frameText(*frame, 10);
+    request.pairMethod = PairMethod::Sweep;
+    EXPECT_NE(frameText(*frameOf(worker, request), 10).find("both eyes 12.5 ms  sweep"), std::string::npos);
+    EXPECT_NE(s.statusLine(*frame, 10).find("  direct"), std::string::npos) << "the frame's model";
+    request.twoEyes = false;
+    const auto one = frameOf(worker, request);
+    ASSERT_NE(one, nullptr);
+    EXPECT_EQ(one->left.color.at(0, 0), 1000u);
+    EXPECT_TRUE(one->right.color.empty());
+    EXPECT_NE(frameText(*one, 10).find("one eye"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stereonav
