@@ -121,10 +121,12 @@ protected:
             GTEST_SKIP() << "no OpenGL 4.5 through EGL's surfaceless platform here";
     }
 
+    static constexpr double kRounding = 2e-5;
+
     // Forward sweeps go on up to 16 slabs behind where a ray has less than 1/1024 left: that is the most that
     // they differ by, beside the rounding of floats.
     static void expectAsByTheBook(Subject& subject, const MediumLook& look, const std::vector<EyeView>& eyes,
-                                  const SweepSetting& setting, double time = 0, double most = 2e-3) {
+                                  const SweepSetting& setting, double time = 0) {
         const glm::dvec3 head = eyes[0].head;
         std::vector<MediumPicture> got(eyes.size());
         subject.gpu.render(look, setting, eyes, head, time, got);
@@ -135,8 +137,8 @@ protected:
             ASSERT_EQ(got[n].light.width(), expected[n].light.width());
             const Difference d = differenceOf(got[n], expected[n]);
             EXPECT_GT(d.brightest, 0.02) << "nothing to compare";
-            EXPECT_LE(d.worst, most);
-            EXPECT_LE(d.mean, most / 8);
+            EXPECT_LE(d.worst, geometry.forward ? 1.0 / 1024 + kRounding : kRounding);
+            EXPECT_LE(d.mean, geometry.forward ? 1e-4 : kRounding / 4);
             EXPECT_LE(d.depths, 2);
         }
     }
