@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <span>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
@@ -14,6 +15,8 @@
 
 namespace stereonav::bench {
 namespace {
+
+constexpr int kDirectSamples = 8;  // times as many: their paths are short
 
 struct Options {
     bool marks = false;
@@ -49,8 +52,8 @@ std::vector<Variation> variations(bool indirect) {
     return all;
 }
 
-void printErrors(const std::vector<SweepPath>& paths, const MediumLook& look, const EyeView& view,
-                 double time, const MediumTruth& truth) {
+void printErrors(std::span<const SweepPath> paths, const MediumLook& look, const EyeView& view, double time,
+                 const MediumTruth& truth) {
     std::printf(
         "\n| path | setting | ms | RMSE linear | RMSE display | PSNR dB | light / truth |\n"
         "|---|---|---|---|---|---|---|\n");
@@ -62,19 +65,21 @@ void printErrors(const std::vector<SweepPath>& paths, const MediumLook& look, co
             }
             const OneEye one = renderOne(path, look, v.setting, view, time, 2);
             const MediumError e = errorOf(truth, one.picture.light, look.background);
-            std::printf("| %s | %s | %.1f | %.5f | %.5f | %.2f | %.3f |\n", path.name.c_str(), v.name.c_str(),
-                        one.ms, e.linear, e.display, e.psnr_db(), e.light);
+            const char* below = e.lost ? "< " : "";
+            std::printf("| %s | %s | %.1f | %s%.5f | %s%.5f | %s%.2f | %.3f |\n", path.name.c_str(),
+                        v.name.c_str(), one.ms, below, e.linear, below, e.display, e.lost ? "> " : "",
+                        e.psnr_db(), e.light);
             std::fflush(stdout);
         }
 }
 
 void printTruth(const MediumSubject& subject, const NamedWay& way, const MediumLook& look,
-                const MediumTruth& truth, const Options& options) {
+                const MediumTruth& truth, int samples) {
     std::printf(
         "\n### %s, light %s, %s\n\nTruth: %dx%d pixels, %d paths each, %.0f s; its own standard error: "
         "%.5f linear, %.5f display.\n",
-        subject.name.c_str(), way.name.c_str(), std::string(nameOf(look.model)).c_str(), options.size,
-        options.size, options.samples, truth.seconds, truth.linearNoise, truth.displayNoise);
+        subject.name.c_str(), way.name.c_str(), std::string(nameOf(look.model)).c_str(), truth.one.width(),
+        truth.one.height(), samples, truth.seconds, truth.linearNoise, truth.displayNoise);
     std::fflush(stdout);
 }
 
@@ -122,14 +127,18 @@ void compareSubject(const MediumSubject& subject, const Options& options, GpuSwe
     const Medium medium = subject.medium();
     const EyeView view = viewOf(medium, options.size);
     const std::vector<SweepPath> paths = sweepPaths(medium, timer);
-    for (const NamedWay& way : lightWays())
+    const std::vector<NamedWay> ways = lightWays();
+    for (const NamedWay& way : ways)
         for (const MediumModel model : {MediumModel::Direct, MediumModel::Indirect}) {
             MediumLook look = subject.look;
             look.light.direction = way.direction;
             look.model = model;
-            const MediumTruth truth = trackTruth(medium, look, view, options.samples, subject.time);
-            printTruth(subject, way, look, truth, options);
-            printErrors(paths, look, view, subject.time, truth);
+            const int samples = (model == MediumModel::Direct ? kDirectSamples : 1) * options.samples;
+            const MediumTruth truth = trackTruth(medium, look, view, samples, subject.time);
+            printTruth(subject, way, look, truth, samples);
+            // The shaders make the same pictures, which one way of light is enough to show.
+            const bool first = &way == &ways.front();
+            printErrors(std::span(paths).first(first ? paths.size() : 1), look, view, subject.time, truth);
             if (model != MediumModel::Indirect) continue;
             printShares(medium, subject, look, view, std::max(1, options.samples / 8));
             printFit(subject, look, truth, view);

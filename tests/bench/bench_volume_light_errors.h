@@ -29,13 +29,20 @@ inline glm::vec3 shown(const glm::vec4& light, const glm::vec3& background) {
     return {srgbFromLinear(linear.x), srgbFromLinear(linear.y), srgbFromLinear(linear.z)};
 }
 
-// Errors against the truth without its noise; 0 where that is lost in it.
+// Errors against the truth without its noise, at least what can be told from it.
 struct MediumError {
     double linear = 0;   // RMSE of light with its background
     double display = 0;  // RMSE of what a display is given, sRGB-coded, clipped to 0..1
     double light = 0;    // sum of light over the truth's
+    bool lost = false;   // below what can be told: `linear` and `display` are bounds
     double psnr_db() const { return display > 0 ? -20 * std::log10(display) : 100; }
 };
+
+// Products of two halves' noise, each sqrt(2) times that of their mean, have a mean of 0 and over `count`
+// numbers a standard deviation of 2 noise^2 / sqrt(count); twice that is taken for an error.
+inline double leastError(double noise, double count) {
+    return 2 * noise / std::pow(count, 0.25);
+}
 
 // The mean over pixels and channels of the products of a picture's differences from two others.
 struct ErrorProducts {
@@ -70,8 +77,15 @@ inline MediumError errorOf(const MediumTruth& truth, const Plane<glm::vec4>& pic
                            const glm::vec3& background) {
     const ErrorProducts products = errorProducts(truth.one, truth.two, picture, background);
     const glm::dvec3 there = 0.5 * (sumOf(truth.one) + sumOf(truth.two)), here = sumOf(picture);
-    return {std::sqrt(std::max(0.0, products.linear)), std::sqrt(std::max(0.0, products.display)),
-            (here.x + here.y + here.z) / std::max(there.x + there.y + there.z, 1e-300)};
+    const double count = 3.0 * picture.width() * picture.height();
+    const double least = leastError(truth.linearNoise, count);
+    MediumError error;
+    error.lost = products.linear < least * least;
+    error.linear = std::sqrt(std::max(least * least, products.linear));
+    error.display =
+        std::max(leastError(truth.displayNoise, count), std::sqrt(std::max(0.0, products.display)));
+    error.light = (here.x + here.y + here.z) / std::max(there.x + there.y + there.z, 1e-300);
+    return error;
 }
 
 // Mean absolute difference of what a display is given, in grey levels of 255.

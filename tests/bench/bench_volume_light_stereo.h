@@ -54,7 +54,7 @@ struct MediumMarks {
 
 // Least times of runs that take turns, so that what else the machine does touches all alike.
 inline MediumMarks measureMarks(GpuSweepTimer& timer) {
-    constexpr int kSize = 512, kTurns = 5;
+    constexpr int kSize = 512, kTurns = 9;
     std::vector<MediumSubject> heads = headSubject(true);
     const MediumSubject subject = heads.empty() ? waxSubject() : heads.front();
     const Medium medium = subject.medium();
