@@ -55,20 +55,21 @@ std::vector<Variation> variations(bool indirect) {
 void printErrors(std::span<const SweepPath> paths, const MediumLook& look, const EyeView& view, double time,
                  const MediumTruth& truth) {
     std::printf(
-        "\n| path | setting | ms | RMSE linear | RMSE display | PSNR dB | light / truth |\n"
-        "|---|---|---|---|---|---|---|\n");
+        "\n| path | setting | ms | processor ms | RMSE linear | RMSE display | PSNR dB | light / truth |\n"
+        "|---|---|---|---|---|---|---|---|\n");
     for (const SweepPath& path : paths)
         for (const Variation& v : variations(look.model == MediumModel::Indirect)) {
             if (!path.run) {
-                std::printf("| %s | %s | no GL context here | | | | |\n", path.name.c_str(), v.name.c_str());
+                std::printf("| %s | %s | no GL context here | | | | | |\n", path.name.c_str(),
+                            v.name.c_str());
                 continue;
             }
             const OneEye one = renderOne(path, look, v.setting, view, time, 2);
             const MediumError e = errorOf(truth, one.picture.light, look.background);
             const char* below = e.lost ? "< " : "";
-            std::printf("| %s | %s | %.1f | %s%.5f | %s%.5f | %s%.2f | %.3f |\n", path.name.c_str(),
-                        v.name.c_str(), one.ms, below, e.linear, below, e.display, e.lost ? "> " : "",
-                        e.psnr_db(), e.light);
+            std::printf("| %s | %s | %.1f | %.1f | %s%.5f | %s%.5f | %s%.2f | %.3f |\n", path.name.c_str(),
+                        v.name.c_str(), one.time.ms, one.time.processor_ms, below, e.linear, below, e.display,
+                        e.lost ? "> " : "", e.psnr_db(), e.light);
             std::fflush(stdout);
         }
 }
@@ -148,7 +149,7 @@ void compareSubject(const MediumSubject& subject, const Options& options, GpuSwe
 int run(const Options& options) {
     GpuSweepTimer timer;
     if (options.marks) {
-        printMarks(measureMarks(timer), true);
+        printMarks(measureMarks(timer));
         return 0;
     }
     std::printf("%d threads; shaders run on: %s\n", threadCount(), timer.renderer().c_str());
@@ -158,7 +159,9 @@ int run(const Options& options) {
         printOrder(subject, viewOf(subject.medium(), options.size));
         printStereo(subject, 256, timer);
     }
-    printMarks(measureMarks(timer), false);
+    const MediumMarks marks = measureMarks(timer);
+    printMarkTimes(marks);
+    printMarks(marks);
     return 0;
 }
 

@@ -17,7 +17,8 @@ inline void printStereo(const MediumSubject& subject, int size, GpuSweepTimer& t
     const std::array<EyeView, 2> eyes{stereo.left, stereo.right};
     std::printf(
         "\n### %s, two eyes, %dx%d pixels, indirect\n\n"
-        "| path | slices | one sweep ms | two sweeps ms | mean difference, grey levels | left | right |\n"
+        "| path | slices | one sweep processor ms | two sweeps processor ms | mean difference, grey levels | "
+        "left | right |\n"
         "|---|---|---|---|---|---|---|\n",
         subject.name.c_str(), size, size);
     for (const SweepPath& path : sweepPaths(medium, timer))
@@ -29,7 +30,7 @@ inline void printStereo(const MediumSubject& subject, int size, GpuSweepTimer& t
             SweepSetting setting;
             setting.slices = slices;
             std::array<MediumPicture, 2> both;
-            const double together =
+            const SweepTime together =
                 path.run(subject.look, setting, eyes, stereo.left.head, subject.time, both, 3);
             double apart = 0;
             std::array<double, 2> bytes{};
@@ -37,19 +38,19 @@ inline void printStereo(const MediumSubject& subject, int size, GpuSweepTimer& t
                 EyeView own = eyes[n];
                 own.head = own.eye;
                 const OneEye one = renderOne(path, subject.look, setting, own, subject.time, 3);
-                apart += one.ms;
+                apart += one.time.processor_ms;
                 bytes[n] = greyLevels(one.picture.light, both[n].light, subject.look.background);
             }
             std::printf("| %s | %d | %.1f | %.1f | %.3f | %.3f | %.3f |\n", path.name.c_str(), slices,
-                        together, apart, 0.5 * (bytes[0] + bytes[1]), bytes[0], bytes[1]);
+                        together.processor_ms, apart, 0.5 * (bytes[0] + bytes[1]), bytes[0], bytes[1]);
             std::fflush(stdout);
         }
 }
 
 struct MediumMarks {
     std::string subject;
-    double unshaded_ms = 0, full_ms = 0, stereo_ms = 0;  // CPU
-    double gpu_ms = 0;                                   // 0: no llvmpipe here
+    SweepTime unshaded, full, stereo;  // CPU
+    SweepTime shaders;                 // 1e300: no llvmpipe here
 };
 
 // Least times of runs that take turns, so that what else the machine does touches all alike.
@@ -66,33 +67,35 @@ inline MediumMarks measureMarks(GpuSweepTimer& timer) {
     unshaded.model = MediumModel::Emission;
     const SweepSetting setting;
     const std::vector<SweepPath> paths = sweepPaths(medium, timer);
-    const double none = 1e300;
-    MediumMarks marks{subject.name, none, none, none, 0};
+    MediumMarks marks;
+    marks.subject = subject.name;
     for (int n = 0; n < kTurns; ++n) {
-        marks.unshaded_ms =
-            std::min(marks.unshaded_ms, renderOne(paths[0], unshaded, setting, view, subject.time, 1).ms);
-        marks.full_ms =
-            std::min(marks.full_ms, renderOne(paths[0], subject.look, setting, view, subject.time, 1).ms);
-        marks.stereo_ms =
-            std::min(marks.stereo_ms,
-                     paths[0].run(subject.look, setting, eyes, stereo.left.head, subject.time, pictures, 1));
+        marks.unshaded.take(renderOne(paths[0], unshaded, setting, view, subject.time, 1).time);
+        marks.full.take(renderOne(paths[0], subject.look, setting, view, subject.time, 1).time);
+        marks.stereo.take(
+            paths[0].run(subject.look, setting, eyes, stereo.left.head, subject.time, pictures, 1));
     }
     if (timer.renderer().find("llvmpipe") != std::string::npos)
-        marks.gpu_ms = renderOne(paths[1], subject.look, setting, view, subject.time, 3).ms;
+        marks.shaders = renderOne(paths[1], subject.look, setting, view, subject.time, 3).time;
     return marks;
 }
 
-inline void printMarks(const MediumMarks& m, bool only) {
-    if (!only)
-        std::printf(
-            "\n%s, 512x512, 256 slices: unshaded %.1f ms, full %.1f ms, two eyes %.1f ms, shaders %.1f ms\n",
-            m.subject.c_str(), m.unshaded_ms, m.full_ms, m.stereo_ms, m.gpu_ms);
-    if (m.gpu_ms > 0)
-        std::printf("cpu_vs_llvmpipe %.2f\n", m.gpu_ms / m.full_ms);
-    else if (!only)
-        std::printf("cpu_vs_llvmpipe: shaders do not run on llvmpipe here\n");
-    std::printf("full_vs_unshaded %.2f\n", m.full_ms / m.unshaded_ms);
-    std::printf("stereo_vs_mono %.2f\n", m.stereo_ms / m.full_ms);
+inline void printMarkTimes(const MediumMarks& m) {
+    std::printf("\n%s with its surfaces, 512x512, 256 slices\n\n| | ms | processor ms |\n|---|---|---|\n",
+                m.subject.c_str());
+    const auto line = [](const char* name, const SweepTime& t) {
+        if (t.ms < 1e300) std::printf("| %s | %.1f | %.1f |\n", name, t.ms, t.processor_ms);
+    };
+    line("CPU, unshaded", m.unshaded);
+    line("CPU, full model", m.full);
+    line("CPU, full model, two eyes", m.stereo);
+    line("shaders under llvmpipe, full model", m.shaders);
+}
+
+inline void printMarks(const MediumMarks& m) {
+    if (m.shaders.ms < 1e300) std::printf("cpu_vs_llvmpipe %.2f\n", m.shaders.ms / m.full.ms);
+    std::printf("full_vs_unshaded %.2f\n", m.full.ms / m.unshaded.ms);
+    std::printf("stereo_vs_mono %.2f\n", m.stereo.ms / m.full.ms);
 }
 
 }  // namespace stereonav::bench
