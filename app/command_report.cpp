@@ -25,7 +25,10 @@ struct Part {
     void (*measure)(ReportRun& run, double seconds);
     double weight;  // of the time
 };
-constexpr Part kParts[] = {{"right-eye", reportRightEye, 1.0}};
+constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0}, {"casting", reportCasting, 0.5},
+                           {"light", reportLight, 1.0},        {"occlusion", reportOcclusion, 0.3},
+                           {"plan", reportPlan, 2.0},          {"time", reportStages, 2.0},
+                           {"left-out", reportScenes, 0.3},    {"stability", reportStability, 0.0}};
 
 std::vector<Part> partsOf(const ReportOptions& options) {
     std::string names;
@@ -45,9 +48,12 @@ void measureAll(ReportRun& run, const std::vector<Part>& parts) {
     double left = 0;
     for (const Part& part : parts) left += part.weight;
     for (const Part& part : parts) {
-        part.measure(run, run.share_s(part.weight, left));
+        run.feelMood();
+        part.measure(run, run.share_s(part.weight, std::max(left, 1e-9)));
         left -= part.weight;
     }
+    run.feelMood();
+    addFigure(run.report(), {kMoodFigure, "ms", "", ReportFigure::Kind::Time, spreadOf(run.mood_ms())});
 }
 
 void describeRun(ReportRun& run) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/report_model.h"
+#include "app/report_mood.h"
 #include "app/scene_loading.h"
 #include "engine/base/progress.h"
 #include "engine/base/stopwatch.h"
@@ -40,6 +41,10 @@ public:
     // Tells what is done now. Throws Cancelled.
     void tell(const std::string& what);
 
+    // Does the fixed work that the machine's mood is told by.
+    void feelMood() { mMood_ms.push_back(fixedWork_ms()); }
+    const std::vector<double>& mood_ms() const { return mMood_ms; }
+
     // "500x400, 2 threads": what all figures of that size share.
     std::string settingOf(int width, int height) const;
 
@@ -50,6 +55,7 @@ private:
     Progress& mProgress;
     Stopwatch mWatch;
     Report mReport;
+    std::vector<double> mMood_ms;
     std::vector<ReportScene> mScenes;
 };
 
@@ -58,5 +64,12 @@ void loadReportScenes(ReportRun& run);
 
 // The parts, in the order of the page.
 void reportRightEye(ReportRun& run, double seconds);
+void reportCasting(ReportRun& run, double seconds);
+void reportLight(ReportRun& run, double seconds);
+void reportOcclusion(ReportRun& run, double seconds);
+void reportPlan(ReportRun& run, double seconds);
+void reportStages(ReportRun& run, double seconds);
+void reportScenes(ReportRun& run, double seconds);
+void reportStability(ReportRun& run, double seconds);
 
 }  // namespace stereonav
