@@ -27,7 +27,7 @@ struct Part {
 };
 constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0}, {"casting", reportCasting, 0.5},
                            {"light", reportLight, 1.0},        {"occlusion", reportOcclusion, 0.3},
-                           {"plan", reportPlan, 2.0},          {"time", reportStages, 2.0},
+                           {"volume-light", reportMedium, 1.0}, {"plan", reportPlan, 2.0},          {"time", reportStages, 2.0},
                            {"left-out", reportScenes, 0.3},    {"stability", reportStability, 0.0}};
 
 std::vector<Part> partsOf(const ReportOptions& options) {

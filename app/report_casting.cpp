@@ -171,7 +171,7 @@ WayChart terrainChart(ReportRun& run, const ReportScene& scene) {
                                           return watch.elapsed_ms();
                                       }),
                                       {}, true));
-    chart.points.push_back(depthPoint("exact, plain code", "cell by cell, hits alone",
+    chart.points.push_back(depthPoint("exact in plain code", "cell by cell, hits alone",
                                       times([&] { return castDepths(view, exactHit).ms; }), {}, false));
     for (const double step : {0.25, 0.5, 1.0, 2.0}) {
         const double metres = step * ground.spacing().x;

@@ -31,10 +31,10 @@ double luminance(const glm::vec3& c) {
 struct LightSubject {
     GreyVolume volume = blockWithHoles();
     LightSetup setup;
-    std::vector<TexelBrick> bricks;
-    std::vector<glm::ivec3> texels;  // of the bricks, one after another
-    std::vector<bool> lit;           // on a surface
-    std::vector<double> truth;       // irradiance / pi of those that are lit
+    std::vector<TexelBrick> allBricks, bricks;  // of the surface; those of them that are measured on
+    std::vector<glm::ivec3> texels;             // of the latter, one after another
+    std::vector<bool> lit;                      // on a surface
+    std::vector<double> truth;                  // irradiance / pi of those that are lit
     int truthSamples = 0;
     std::uint64_t seed = 1;
 
@@ -94,6 +94,7 @@ LightSubject makeSubject(ReportRun& run) {
     const auto all = wantedBricks(
         subject.volume, subject.volume.frame,
         {static_cast<float>(kBlockSurface), static_cast<float>(kBlockSurface), nullptr, false}, quiet);
+    subject.allBricks = all;
     const std::size_t every =
         std::max<std::size_t>(1, all.size() / static_cast<std::size_t>(run.pick(6, 24)));
     const TexelLayout layout(subject.volume.frame.size);
@@ -230,7 +231,7 @@ WayChart transferChart(ReportRun& run, const LightSubject& subject) {
             ms.push_back(t.ms);
         }
         WayPoint p;
-        p.way = {fmt::format("order {}, {}", order, samples), perThousand(ms, subject),
+        p.way = {fmt::format("order {} at {}", order, samples), perThousand(ms, subject),
                  100 * std::sqrt(squares), order == kDefaultOrder && samples == kDefaultSamples};
         p.worstError = 100 * worst;
         p.detail = fmt::format("{} numbers, {} samples a texel", harmonicsCount(order), samples);
@@ -251,34 +252,56 @@ std::vector<float> firstBands(const std::vector<float>& means, int from, int ord
     return bands;
 }
 
-// As the program keeps and relights it: half floats, a pass over all bricks.
-WayPoint relightPoint(ReportRun& run, const LightSubject& subject, const std::vector<float>& means,
-                      int order) {
+// So many that threads are busy for a while.
+constexpr std::size_t kRelit = 50'000;
+
+// Numbers of `wanted` texels in all, those that are there again and again.
+std::vector<float> repeated(const std::vector<float>& numbers, std::size_t wanted) {
+    std::vector<float> more;
+    more.reserve(wanted);
+    while (more.size() < wanted && !numbers.empty())
+        more.insert(
+            more.end(), numbers.begin(),
+            numbers.begin() + static_cast<std::ptrdiff_t>(std::min(numbers.size(), wanted - more.size())));
+    return more;
+}
+
+TransferVolume transferOf(const LightSubject& subject, const std::vector<TexelBrick>& bricks,
+                          const std::vector<float>& means, int order) {
     const std::size_t numbers = static_cast<std::size_t>(harmonicsCount(order));
-    TransferVolume volume(subject.volume.frame, order, 1, subject.bricks);
+    TransferVolume volume(subject.volume.frame, order, 1, bricks);
+    const std::vector<float> all = repeated(means, volume.texels() * numbers);
     std::size_t at = 0;
-    for (std::size_t n = 0; n < subject.bricks.size(); ++n) {
-        const std::size_t count = static_cast<std::size_t>(countTexels(subject.bricks[n].wanted)) * numbers;
-        volume.setBrick(n, std::span(means).subspan(at, count));
+    for (std::size_t n = 0; n < bricks.size(); ++n) {
+        const std::size_t count = static_cast<std::size_t>(countTexels(bricks[n].wanted)) * numbers;
+        volume.setBrick(n, std::span(all).subspan(at, count));
         at += count;
     }
-    IlluminationVolume to(subject.volume.frame);
+    return volume;
+}
+
+// As the program keeps and relights it: half floats, a pass over all bricks of the surface.
+WayPoint relightPoint(ReportRun& run, const LightSubject& subject, const std::vector<float>& means,
+                      int order) {
     const std::vector<glm::vec3> sky = subject.setup.probe->project(order);
+    const TransferVolume whole = transferOf(subject, subject.allBricks, means, order);
+    IlluminationVolume to(subject.volume.frame);
     std::vector<double> ms;
     for (int n = 0; n < run.pick(9, 25); ++n) {
         const Stopwatch watch;
-        volume.relightAll(sky, to);
-        ms.push_back(watch.elapsed_ms());
+        whole.relightAll(sky, to);
+        ms.push_back(watch.elapsed_ms() * 1000 / static_cast<double>(whole.texels()));
     }
+    transferOf(subject, subject.bricks, means, order).relightAll(sky, to);
     std::vector<double> light;
     for (const glm::ivec3& t : subject.texels)
         light.push_back(luminance(texelLight(to.texels[to.layout.index(t.x, t.y, t.z)])));
     light = subject.onlyLit(light);
     WayPoint p;
-    p.way = {fmt::format("order {}", order), perThousand(ms, subject),
-             100 * relativeRms(light, subject.truth), order == kDefaultOrder};
+    p.way = {fmt::format("order {}", order), spreadOf(ms), 100 * relativeRms(light, subject.truth),
+             order == kDefaultOrder};
     p.worstError = 100 * relativeWorst(light, subject.truth);
-    p.others = {{"bytes a texel", 2.0 * static_cast<double>(numbers)}};
+    p.others = {{"bytes a texel", 2.0 * harmonicsCount(order)}};
     p.detail = "half floats, as the program keeps them";
     return p;
 }
@@ -291,26 +314,28 @@ WayPoint compressedPoint(ReportRun& run, const LightSubject& subject, const std:
     settings.components = components;
     const CompressedTransfer small = compressTransfer(means, {kDefaultOrder, 1}, settings);
     const std::vector<glm::vec3> sky = subject.setup.probe->project(kDefaultOrder);
-    std::vector<double> ms, light(subject.texels.size());
+    std::vector<double> ms;
+    std::vector<glm::vec3> light(kRelit);
     for (int n = 0; n < run.pick(9, 25); ++n) {
         const Stopwatch watch;
         const TransferLight prepared = small.codebook.prepareLight(sky);
         forTexels(light.size(), [&](std::size_t first, std::size_t count) {
             for (std::size_t k = first; k < first + count; ++k)
-                light[k] = std::max(luminance(small.dot(k, prepared)), 0.0);
+                light[k] = small.dot(k % small.count(), prepared);
         });
-        ms.push_back(watch.elapsed_ms());
+        ms.push_back(watch.elapsed_ms() * 1000 / static_cast<double>(kRelit));
     }
-    const std::vector<double> lit = subject.onlyLit(light);
+    std::vector<double> all;
+    for (std::size_t n = 0; n < subject.texels.size(); ++n) all.push_back(std::max(luminance(light[n]), 0.0));
+    const std::vector<double> lit = subject.onlyLit(all);
     WayPoint p;
-    p.way = {fmt::format("{} clusters, {}", clusters, components), perThousand(ms, subject),
+    p.way = {fmt::format("{} clusters of {}", clusters, components), spreadOf(ms),
              100 * relativeRms(lit, subject.truth), false};
     p.worstError = 100 * relativeWorst(lit, subject.truth);
     p.others = {{"bytes a texel", static_cast<double>(small.codebook.recordBytes())}};
-    p.detail = fmt::format(
-        "clustered principal components of order {}: {} clusters, {} components of a byte; code without "
-        "vectors",
-        kDefaultOrder, clusters, components);
+    p.detail =
+        fmt::format("clustered principal components of order {}: {} clusters, {} components of a byte each",
+                    kDefaultOrder, clusters, components);
     return p;
 }
 

@@ -17,7 +17,8 @@ font:15px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"DejaVu Sans",sans-serif
 h1{font-size:1.6rem;margin:.2em 0}h2{font-size:1.25rem;margin:2em 0 .3em;border-bottom:1px solid var(--line)}
 h3{font-size:1rem;margin:.2em 0}p{margin:.4em 0;max-width:75ch}a{color:var(--s0)}
 .soft{color:var(--soft)}.warn{border-left:4px solid var(--accent);padding:.3em .8em;background:var(--card)}
-.blocks{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,430px),1fr));gap:16px}
+.blocks{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,430px),1fr));
+grid-auto-flow:dense;gap:16px}
 .card{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:12px;min-width:0}
 .wide{grid-column:1/-1}.verdict{font-weight:600}
 nav a{display:inline-block;margin-right:1em}

@@ -67,6 +67,7 @@ void reportRightEye(ReportRun& run, double seconds);
 void reportCasting(ReportRun& run, double seconds);
 void reportLight(ReportRun& run, double seconds);
 void reportOcclusion(ReportRun& run, double seconds);
+void reportMedium(ReportRun& run, double seconds);
 void reportPlan(ReportRun& run, double seconds);
 void reportStages(ReportRun& run, double seconds);
 void reportScenes(ReportRun& run, double seconds);

@@ -1,6 +1,7 @@
 // The report's part on where the time goes: stages by thread count, speed-up and what limits it, beside the
 // figures of Wan et al. 2004.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -153,14 +154,20 @@ double leastBytes(std::size_t stage, ViewDependence dependence) {
     return stage == kWarp || stage == kPaperWarp ? 2 * planes + 1 : 0;
 }
 
+double lastCacheBytes() {
+    return static_cast<double>(std::max(sysconf(_SC_LEVEL3_CACHE_SIZE), sysconf(_SC_LEVEL2_CACHE_SIZE)));
+}
+
 struct Limits {
-    double speedup, serial, imbalance, traffic;  // traffic: share of the triad's rate
+    double speedup, serial, imbalance;
+    double traffic;  // share of the triad's rate
+    bool inCache;    // what the stage moves fits into the last cache
 };
 
 std::string limitText(const Limits& limits, int threads) {
     if (threads < 2) return "one thread: nothing to share";
     if (limits.speedup > 0.9 * threads) return "nothing: nearly linear";
-    if (limits.traffic > 0.5) return "memory traffic";
+    if (limits.traffic > 0.5 && !limits.inCache) return "memory traffic";
     if (limits.imbalance > 1.1) return "uneven tiles";
     return "the serial part, or other tasks on the processors";
 }
@@ -174,7 +181,8 @@ void addStageTable(ReportRun& run, ReportSection& section, const ReportScene& sc
         "Stages, " + scene.title,
         "Milliseconds a frame: the median and, in brackets, the least and the most of the repeats. Speed-up "
         "from the least times. Memory: bytes of the planes that the stage reads and writes, as a share of "
-        "what the triad moves; uneven tiles: the longest queue over an even share, from the times of single "
+        "what the triad moves in that time (more than all: they stayed in caches); uneven tiles: the longest "
+        "queue over an even share, from the times of single "
         "tiles.",
         {"stage"},
         {}};
@@ -195,7 +203,7 @@ void addStageTable(ReportRun& run, ReportSection& section, const ReportScene& sc
         const double bytes = leastBytes(s, scene.loaded.renderer->viewDependence()) * pixels;
         const Limits limits{least > 0 ? times.begin()->second.ms[s].low / least : 0, serialShare(times, s),
                             s == kLeft || s == kFull ? imbalanceOf(tiles, all) : 1.0,
-                            least > 0 ? 1e-6 * bytes / least / triad.at(all) : 0};
+                            least > 0 ? 1e-6 * bytes / least / triad.at(all) : 0, bytes < lastCacheBytes()};
         row.push_back(fmt::format("{:.2f}", limits.speedup));
         row.push_back(fmt::format("{:.0f} %", 100 * limits.serial));
         row.push_back(fmt::format("{:.0f} %", 100 * limits.traffic));
