@@ -194,11 +194,14 @@ bool seeTile(const SweepScene& scene, const SweepEye& eye, const SweepChunk& chu
                 start = gather(tile.starts,
                                (shiftRight<2>(lane) + I(y)) * I(tile.startStride) + (lane & I(3)) + I(x),
                                active, start);
-            if (any(active)) {
+            const std::uint32_t slabs = tile.slabs[y / EyeTile::kHalf * 2 + x / EyeTile::kHalf];
+            if (slabs == 0) {
+                goesOn = goesOn || any(active);
+            } else if (any(active)) {
                 const EyePacket<kModel, kGridAlone> packet(scene, eye, chunk, column + F(0.5f),
                                                            row + F(0.5f));
                 active = active & packet.rays.valid;
-                for (std::uint32_t left = tile.slabs; left && any(active); left &= left - 1) {
+                for (std::uint32_t left = slabs; left && any(active); left &= left - 1) {
                     packet.see(__builtin_ctz(left), active, start, g);
                     if (eye.forward) active = active & (g.left >= F(kLeastLeft));
                 }

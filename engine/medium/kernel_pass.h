@@ -1,5 +1,7 @@
 // A tile of the light's buffer passes a slab (V8 of docs/volume_light.md): first what is there is packed for
-// the eyes, then scattered light is spread and both are weakened. Included by kernels only.
+// the eyes, then scattered light is spread and both are weakened. In grids, direct light passes a chunk of
+// slabs at once and leaves behind where in the table it was: slab after slab is too far apart in memory.
+// Included by kernels only.
 #pragma once
 
 #include "engine/medium/kernel_arriving.h"
@@ -119,37 +121,20 @@ STEREONAV_INLINE F blurred(const SweepLight& light, const float* plane, const Te
 STEREONAV_INLINE I inFifteenBits(F v) {
     return truncateToInt(mulAdd(v, F(32767.0f), F(0.5f)));
 }
-template <bool kIndirect>
-STEREONAV_INLINE void packTexels(const SweepLight& light, const LightPass& pass, int x, int y, F direct,
-                                 const F (&indirect)[3], M lanes) {
-    std::uint32_t* first = light.packed + 2 * pass.inChunk * light.packedPlane +
-                           static_cast<std::int64_t>(y + 1) * light.packedStride + x + 1;
-    if constexpr (!kIndirect) {
-        store(first, inFifteenBits(direct), lanes);
-    } else {
-        store(first, inFifteenBits(direct) | shiftLeft<16>(inFifteenBits(indirect[0])), lanes);
-        store(first + light.packedPlane,
-              inFifteenBits(indirect[1]) | shiftLeft<16>(inFifteenBits(indirect[2])), lanes);
-    }
+STEREONAV_INLINE std::uint32_t* packedAt(const SweepLight& light, int inChunk, int x, int y) {
+    return light.packed + 2 * inChunk * light.packedPlane +
+           static_cast<std::int64_t>(y + 1) * light.packedStride + x + 1;
 }
-
-template <bool kGridAlone>
-STEREONAV_INLINE void sampleLight(const SweepScene& scene, const TexelPlaces& at, bool indirect, M m,
-                                  Properties& p) {
-    if constexpr (kGridAlone) {
-        const V3 v = voxelOf(scene.grid, at.place);
-        const M in = m & insideGrid(scene.grid, v);
-        const F zero(0.0f);
-        p.extinction = p.indirect[0] = p.indirect[1] = p.indirect[2] = zero;
-        if (!any(in)) return;
-        const SweepTable& table = scene.grid.table;
-        const Column column = columnOf(table, gridValue(scene.grid, v, in));
-        p.extinction = entryOf(table.extinction, column.entry, column.share, in);
-        const M seen = in & (p.extinction > zero);
-        if (indirect && any(seen)) readIndirect(table, column, seen, p);
-    } else {
-        sampleAny(scene, at.place, at.size, m, p);
-    }
+STEREONAV_INLINE void packDirect(const SweepLight& light, int inChunk, int x, int y, F direct, M lanes) {
+    store(packedAt(light, inChunk, x, y), inFifteenBits(direct), lanes);
+}
+// Direct light is there.
+STEREONAV_INLINE void packIndirect(const SweepLight& light, int inChunk, int x, int y, const F (&indirect)[3],
+                                   M lanes) {
+    std::uint32_t* first = packedAt(light, inChunk, x, y);
+    store(first, loadI(first) | shiftLeft<16>(inFifteenBits(indirect[0])), lanes);
+    store(first + light.packedPlane, inFifteenBits(indirect[1]) | shiftLeft<16>(inFifteenBits(indirect[2])),
+          lanes);
 }
 
 STEREONAV_INLINE F weakened(F light, F depth) {
@@ -157,55 +142,160 @@ STEREONAV_INLINE F weakened(F light, F depth) {
     return select(left < F(kNothing), F(0.0f), left);
 }
 
+// Where nothing is: scattered light is spread.
+STEREONAV_INLINE void spreadRow(const SweepLight& light, const LightPass& pass, int x, TexelRow& row, F way,
+                                F size, M crossed, F (&indirect)[3]) {
+    const F offset = F(light.blur) / max(size, F(1e-30f));
+    row.offsetSquare = way * offset * offset;
+    row.column = laneIndex() + I(x);
+    row.slab = pass.slab;
+    for (int k = 0; k < 3; ++k)
+        indirect[k] = select(crossed, blurred(light, pass.before[k], row, crossed), indirect[k]);
+}
+
+// Patches of 4 x kLanes / 4 texels: what lies near in the buffer lies near in the grid.
+constexpr int kPatchRows = kLanes / 4;
+struct Patch {
+    int x, y, width, height;  // texels of it that are in the buffer
+};
+template <typename T>
+STEREONAV_INLINE void storePatch(T* to, std::int64_t stride, const T* numbers, const Patch& patch) {
+    for (int row = 0; row < patch.height; ++row)
+        for (int column = 0; column < patch.width; ++column)
+            to[row * stride + column] = numbers[4 * row + column];
+}
+STEREONAV_INLINE F loadPatch(const float* from, std::int64_t stride) {
+    float numbers[kLanes];
+    for (int row = 0; row < kPatchRows; ++row)
+        for (int column = 0; column < 4; ++column) numbers[4 * row + column] = from[row * stride + column];
+    return loadF(numbers);
+}
+
+// A patch through the slabs of a chunk: direct light, which needs no neighbours, and where in the table it
+// was.
+STEREONAV_INLINE void findTexels(const SweepScene& scene, const LightColumns& at, const Patch& patch) {
+    const SweepLight& light = scene.light;
+    const SweepTable& table = scene.grid.table;
+    const F zero(0.0f), none(-1.0f);
+    const I lane = laneIndex();
+    const F u = toFloat(lane & I(3)) + F(static_cast<float>(patch.x) + 0.5f),
+            v = toFloat(shiftRight<2>(lane)) + F(static_cast<float>(patch.y) + 0.5f);
+    const M lanes = (u < F(static_cast<float>(light.width))) & (v < F(static_cast<float>(light.height)));
+    float* direct = light.direct + static_cast<std::int64_t>(patch.y) * light.stride + patch.x;
+    F left = loadPatch(direct, light.stride);
+    float numbers[kLanes];
+    std::uint32_t words[kLanes];
+    const int strip = (patch.y - at.y0) / LightTile::kStrip;
+    for (int n = 0; n < at.count; ++n) {
+        if (!(at.strips[n] >> strip & 1u)) continue;
+        store(words, inFifteenBits(left));
+        storePatch(packedAt(light, n, patch.x, patch.y), light.packedStride, words, patch);
+        const TexelPlaces texels = texelPlaces(light, static_cast<float>(at.middle[n]), u, v);
+        const V3 voxel = voxelOf(scene.grid, texels.place);
+        const M in = lanes & texels.valid & insideGrid(scene.grid, voxel);
+        F column = none;
+        if (any(in)) {
+            const Column place = columnOf(table, gridValue(scene.grid, voxel, in));
+            const F extinction = entryOf(table.extinction, place.entry, place.share, in);
+            const M there = in & (extinction > zero);
+            if (any(there)) {
+                column = select(there, toFloat(place.entry) + place.share, none);
+                left = select(there, weakened(left, extinction * F(at.thickness[n]) * texels.length), left);
+            }
+        }
+        store(numbers, column);
+        storePatch(at.columns + n * at.next + (patch.y - at.y0) * LightTile::kSide + patch.x - at.x0,
+                   LightTile::kSide, numbers, patch);
+    }
+    store(numbers, left);
+    storePatch(direct, light.stride, numbers, patch);
+}
+inline void findColumns(const SweepScene& scene, const LightColumns& at) {
+    const int right = at.x0 + LightTile::kSide, below = at.y0 + LightTile::kSide;
+    for (int y = at.y0; y < below && y < scene.light.height; y += kPatchRows)
+        for (int x = at.x0; x < right && x < scene.light.width; x += 4) {
+            const int width = scene.light.width - x, height = scene.light.height - y;
+            if (width >= 4 && height >= kPatchRows)
+                findTexels(scene, at, {x, y, 4, kPatchRows});
+            else
+                findTexels(scene, at,
+                           {x, y, width < 4 ? width : 4, height < kPatchRows ? height : kPatchRows});
+        }
+}
+
+// What weakens scattered light: optical depths of a metre along the axis. Without columns direct light passes
+// here too. Gives the lanes where something is.
+template <bool kIndirect, bool kGridAlone>
+STEREONAV_INLINE M passedThere(const SweepScene& scene, const LightTile& tile, const TexelPlaces& at, int x,
+                               int y, F way, M crossed, Properties& p) {
+    if constexpr (kGridAlone) {
+        const F column = loadF(tile.columns + (y - tile.y0) * LightTile::kSide + x - tile.x0);
+        const M there = crossed & (column >= F(0.0f));
+        if (!any(there)) return there;
+        const F place = max(column, F(0.0f));
+        const I entry = min(truncateToInt(place), I(SweepTable::kColumns - 2));
+        readIndirect(scene.grid.table, {entry, place - toFloat(entry), I(0), F(0.0f)}, there, p);
+        return there;
+    } else {
+        const SweepLight& light = scene.light;
+        sampleAny(scene, at.place, at.size, crossed, p);
+        const M there = crossed & (p.extinction > F(0.0f));
+        float* direct = light.direct + static_cast<std::int64_t>(y) * light.stride + x;
+        if (any(there)) store(direct, weakened(loadF(direct), p.extinction * way), there);
+        return there;
+    }
+}
+
+// A packet of texels from (x, y) on; gives the lanes whose scattered light differs from 1.
+template <bool kIndirect, bool kGridAlone>
+STEREONAV_INLINE M passTexels(const SweepScene& scene, const LightPass& pass, const LightTile& tile, int x,
+                              int y, bool sample) {
+    const SweepLight& light = scene.light;
+    const M lanes = firstLanes(light.width - x);
+    TexelRow row;
+    row.index = static_cast<std::int64_t>(y) * light.stride + x;
+    row.x = laneIndexF() + F(static_cast<float>(x) + 0.5f);
+    row.y = F(static_cast<float>(y) + 0.5f);
+    row.line = I(y);
+    const TexelPlaces at = texelPlaces(light, static_cast<float>(pass.middle), row.x, row.y);
+    const M crossed = lanes & at.valid;
+    const F way = F(pass.thickness) * at.length;
+    F indirect[3];
+    if constexpr (kIndirect)
+        for (int k = 0; k < 3; ++k) indirect[k] = loadF(pass.before[k] + row.index);
+    if (sample) {
+        if constexpr (!kGridAlone)
+            packDirect(light, pass.inChunk, x, y, loadF(light.direct + row.index), lanes);
+        if constexpr (kIndirect) packIndirect(light, pass.inChunk, x, y, indirect, lanes);
+    }
+    if constexpr (kIndirect) spreadRow(light, pass, x, row, way, at.size, crossed, indirect);
+    if (sample) {
+        Properties p;
+        const M there = passedThere<kIndirect, kGridAlone>(scene, tile, at, x, y, way, crossed, p);
+        if (kIndirect && any(there))
+            for (int k = 0; k < 3; ++k)
+                indirect[k] = select(there, weakened(indirect[k], p.indirect[k] * way), indirect[k]);
+    }
+    M changed = maskFromBits(0);
+    if constexpr (kIndirect)
+        for (int k = 0; k < 3; ++k) {
+            store(pass.after[k] + row.index, indirect[k], lanes);
+            changed = changed | (lanes & (indirect[k] < F(1.0f)));
+        }
+    return changed;
+}
+
 template <bool kIndirect, bool kGridAlone>
 bool passTile(const SweepScene& scene, const LightPass& pass, const LightTile& tile) {
     const SweepLight& light = scene.light;
-    const float middle = static_cast<float>(pass.middle);
     M changed = maskFromBits(0);
-    const int yEnd = tile.y0 + LightTile::kSide < light.height ? tile.y0 + LightTile::kSide : light.height;
-    for (int y = tile.y0; y < yEnd; ++y)
-        for (int x = tile.x0; x < tile.x0 + LightTile::kSide && x < light.width; x += kLanes) {
-            const M lanes = firstLanes(light.width - x);
-            const I column = laneIndex() + I(x);
-            TexelRow row;
-            row.index = static_cast<std::int64_t>(y) * light.stride + x;
-            row.x = toFloat(column) + F(0.5f);
-            row.y = F(static_cast<float>(y) + 0.5f);
-            const TexelPlaces at = texelPlaces(light, middle, row.x, row.y);
-            F direct = loadF(light.direct + row.index), indirect[3];
-            if constexpr (kIndirect)
-                for (int k = 0; k < 3; ++k) indirect[k] = loadF(pass.before[k] + row.index);
-            if (tile.sample) packTexels<kIndirect>(light, pass, x, y, direct, indirect, lanes);
-            const M crossed = lanes & at.valid;
-            const F way = F(pass.thickness) * at.length;
-            if constexpr (kIndirect) {
-                const F offset = F(light.blur) / max(at.size, F(1e-30f));
-                row.offsetSquare = way * offset * offset;
-                row.column = column;
-                row.line = I(y);
-                row.slab = pass.slab;
-                for (int k = 0; k < 3; ++k)
-                    indirect[k] = select(crossed, blurred(light, pass.before[k], row, crossed), indirect[k]);
-            }
-            if (tile.sample) {
-                Properties p;
-                sampleLight<kGridAlone>(scene, at, kIndirect, crossed, p);
-                const M there = crossed & (p.extinction > F(0.0f));
-                if (any(there)) {
-                    direct = select(there, weakened(direct, p.extinction * way), direct);
-                    if constexpr (kIndirect)
-                        for (int k = 0; k < 3; ++k)
-                            indirect[k] =
-                                select(there, weakened(indirect[k], p.indirect[k] * way), indirect[k]);
-                }
-                store(light.direct + row.index, direct, lanes);
-            }
-            if constexpr (kIndirect)
-                for (int k = 0; k < 3; ++k) {
-                    store(pass.after[k] + row.index, indirect[k], lanes);
-                    changed = changed | (lanes & (indirect[k] < F(1.0f)));
-                }
-        }
+    for (int line = 0; line < LightTile::kSide && tile.y0 + line < light.height; ++line) {
+        const bool sample = tile.strips >> line / LightTile::kStrip & 1u;
+        if (!kIndirect && !sample) continue;
+        for (int x = tile.x0; x < tile.x0 + LightTile::kSide && x < light.width; x += kLanes)
+            changed =
+                changed | passTexels<kIndirect, kGridAlone>(scene, pass, tile, x, tile.y0 + line, sample);
+    }
     return any(changed);
 }
 

@@ -48,18 +48,12 @@ void checkSpans(const SweepGeometry& geometry, std::span<MediumPicture> pictures
                 "hand in depths of the picture's size");
 }
 
-// Where the corner of a tile is among the cells: at + t way, t along the axis from the anchor on.
-struct CornerRay {
-    glm::dvec3 at{0.0}, way{0.0};
-    bool valid = false;
-};
-
 // One eye's tiles, from frame to frame.
 struct EyeBuffers {
     int across = 0, down = 0;
     std::vector<float> states;
     std::vector<std::uint8_t> fresh, done;
-    std::vector<CornerRay> corners;  // (across + 1) x (down + 1)
+    std::vector<SweepBeam> beams;  // of the quarters of each tile
 
     void start(const RayFan& fan) {
         across = (fan.width + kSide - 1) / kSide;
@@ -87,8 +81,7 @@ struct MediumSweep::State {
         bool skips = true;
     };
 
-    void setCorners(const Frame& frame, std::size_t eye);
-    std::uint32_t slabsOf(const Frame& frame, std::size_t eye, int tile, int first, int count) const;
+    void setBeams(const Frame& frame, std::size_t eye);
     void seeChunk(Frame& frame, const SweepChunk& chunk, int first, int count, SweepTimings& timings);
     void readPicture(std::size_t eye, MediumPicture& picture) const;
     bool countsAll(const SweepGeometry& geometry) const;
@@ -102,58 +95,27 @@ struct MediumSweep::State {
     std::vector<EyeBuffers> eyes;
 };
 
-void MediumSweep::State::setCorners(const Frame& frame, std::size_t eye) {
+void MediumSweep::State::setBeams(const Frame& frame, std::size_t eye) {
     const SweepGeometry& g = frame.geometry;
-    const RayFan& fan = g.eyes[eye];
     EyeBuffers& b = eyes[eye];
-    b.corners.resize(static_cast<std::size_t>(b.across + 1) * (b.down + 1));
-    const double start = glm::dot(fan.origin, g.axis);
-    for (int y = 0; y <= b.down; ++y)
-        for (int x = 0; x <= b.across; ++x) {
-            const glm::dvec3 way = fan.direction(x * kSide, y * kSide);
-            const double along = glm::dot(way, g.axis);
-            CornerRay& corner = b.corners[static_cast<std::size_t>(y) * (b.across + 1) + x];
-            corner.valid = (g.forward ? along : -along) > kLeastCosine;
-            if (!corner.valid) continue;
-            corner.way = space.cellDirection(way / along);
-            corner.at = space.cellFromWorld(g.anchor + fan.origin) - start * corner.way;
+    b.beams.resize(4 * static_cast<std::size_t>(b.tiles()));
+    parallelFor(b.tiles(), [&](int tile) {
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            constexpr double kHalf = EyeTile::kHalf;
+            const double x = tile % b.across * kSide + quarter % 2 * kHalf,
+                         y = tile / b.across * kSide + quarter / 2 * kHalf;
+            SweepBeam& beam = b.beams[4 * static_cast<std::size_t>(tile) + quarter];
+            beam = space.beamOf(g, g.eyes[eye], g.forward, x, y, x + kHalf, y + kHalf);
+            beam.known = beam.known && frame.skips;
         }
-}
-
-// Those slabs of a chunk in which a tile may see something.
-std::uint32_t MediumSweep::State::slabsOf(const Frame& frame, std::size_t eye, int tile, int first,
-                                          int count) const {
-    const EyeBuffers& b = eyes[eye];
-    const SweepGeometry& g = frame.geometry;
-    const double start = frame.eyes[eye].start;
-    const int x = tile % b.across, y = tile / b.across;
-    const CornerRay* corners[4];
-    bool all = !frame.skips;
-    for (int n = 0; n < 4; ++n) {
-        corners[n] = &b.corners[static_cast<std::size_t>(y + n / 2) * (b.across + 1) + x + n % 2];
-        all = all || !corners[n]->valid;
-    }
-    const auto anyBetween = [&](double t0, double t1) {
-        glm::dvec3 low(1e300), high(-1e300);
-        for (const CornerRay* c : corners) {
-            const glm::dvec3 p = c->at + t0 * c->way, q = c->at + t1 * c->way;
-            low = glm::min(low, glm::min(p, q));
-            high = glm::max(high, glm::max(p, q));
-        }
-        return space.any(low, high);
-    };
-    if (!all && !anyBetween(g.faces[first], g.faces[first + count])) return 0;
-    std::uint32_t slabs = 0;
-    for (int n = 0; n < count; ++n) {
-        const double t = 0.5 * (g.faces[first + n] + g.faces[first + n + 1]);
-        if (!(g.forward ? t > start : t < start)) continue;
-        if (all || anyBetween(t, t)) slabs |= 1u << n;
-    }
-    return slabs;
+    });
 }
 
 void MediumSweep::State::seeChunk(Frame& frame, const SweepChunk& chunk, int first, int count,
                                   SweepTimings& timings) {
+    double middles[SweepChunk::kMost];
+    for (int n = 0; n < count; ++n)
+        middles[n] = 0.5 * (frame.geometry.faces[first + n] + frame.geometry.faces[first + n + 1]);
     int total = 0;
     for (const EyeBuffers& b : eyes) total += b.tiles();
     std::atomic<long long> samples = 0;
@@ -163,8 +125,13 @@ void MediumSweep::State::seeChunk(Frame& frame, const SweepChunk& chunk, int fir
         EyeBuffers& b = eyes[eye];
         if (b.done[n]) return;
         EyeTile tile;
-        tile.slabs = slabsOf(frame, eye, n, first, count);
-        if (tile.slabs == 0) return;
+        long long slabs = 0;
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            tile.slabs[quarter] =
+                space.planesMet(b.beams[4 * static_cast<std::size_t>(n) + quarter], middles, count);
+            slabs += std::popcount(tile.slabs[quarter]);
+        }
+        if (slabs == 0) return;
         tile.x0 = n % b.across * kSide;
         tile.y0 = n / b.across * kSide;
         tile.fresh = b.fresh[n];
@@ -175,7 +142,7 @@ void MediumSweep::State::seeChunk(Frame& frame, const SweepChunk& chunk, int fir
         }
         b.done[n] = !kernels.seeTile(frame.scene, frame.eyes[eye], chunk, tile);
         b.fresh[n] = 0;
-        samples += static_cast<long long>(std::popcount(tile.slabs)) * kSide * kSide;
+        samples += slabs * EyeTile::kHalf * EyeTile::kHalf;
     });
     timings.eyeSamples += samples;
 }
@@ -244,13 +211,13 @@ SweepTimings MediumSweep::render(const MediumLook& look, const SweepSetting& set
     for (std::size_t eye = 0; eye < geometry.eyes.size(); ++eye) {
         s.eyes[eye].start(geometry.eyes[eye]);
         frame.eyes.push_back(sweepEye(geometry.eyes[eye], geometry));
-        s.setCorners(frame, eye);
+        s.setBeams(frame, eye);
     }
     SweepTimings timings;
     Stopwatch watch;
     const bool usesLight = geometry.light.width > 0 && geometry.slabs() > 0;
     int most = SweepChunk::kMost;
-    if (usesLight) most = s.light.start(frame.scene.light);
+    if (usesLight) most = s.light.start(frame.scene, geometry, frame.skips ? &s.space : nullptr);
     for (int first = 0; first < geometry.slabs(); first += most) {
         const int count = std::min(most, geometry.slabs() - first);
         SweepChunk chunk;
@@ -261,10 +228,11 @@ SweepTimings MediumSweep::render(const MediumLook& look, const SweepSetting& set
             chunk.thickness[n] = static_cast<float>(high - low);
         }
         watch.lap_ms();
-        if (usesLight)
+        if (usesLight) {
+            timings.lightTexels += s.light.beginChunk(frame.scene, geometry, first, count, s.kernels);
             for (int n = 0; n < count; ++n)
-                timings.lightTexels += s.light.pass(frame.scene, geometry, first + n, n,
-                                                    frame.skips ? &s.space : nullptr, s.kernels);
+                timings.lightTexels += s.light.pass(frame.scene, geometry, first + n, n, s.kernels);
+        }
         timings.light_ms += watch.lap_ms();
         s.seeChunk(frame, chunk, first, count, timings);
         timings.eye_ms += watch.lap_ms();
@@ -285,7 +253,7 @@ SimdTarget MediumSweep::target() const {
 std::size_t MediumSweep::heldBytes() const {
     std::size_t bytes = mState->data.heldBytes() + mState->space.heldBytes() + mState->light.heldBytes();
     for (const EyeBuffers& b : mState->eyes)
-        bytes += b.states.size() * sizeof(float) + b.corners.size() * sizeof(CornerRay);
+        bytes += b.states.size() * sizeof(float) + b.beams.size() * sizeof(SweepBeam);
     return bytes;
 }
 

@@ -220,6 +220,8 @@ SweepScene SweepData::sceneFor(const MediumLook& look, const SweepSetting& setti
     scene.layers = mLayers.data();
     scene.layerCount = static_cast<int>(mLayers.size());
     setNoise(scene.noise, geometry.anchor, time);
+    scene.gridAlone =
+        scene.grid.values && mLayers.empty() && !scene.noise.texels && scene.grid.table.rows == 1;
     setLook(scene.look, look);
     setVector(scene.look.radiance, geometry.radiance);
     const glm::dvec3 size = mMedium.bounds().high - mMedium.bounds().low;

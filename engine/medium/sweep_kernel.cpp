@@ -5,12 +5,8 @@
 namespace stereonav::STEREONAV_ISA {
 namespace {
 
-bool gridAlone(const SweepScene& scene) {
-    return scene.grid.values && scene.layerCount == 0 && !scene.noise.texels && scene.grid.table.rows == 1;
-}
-
 bool see(const SweepScene& scene, const SweepEye& eye, const SweepChunk& chunk, const EyeTile& tile) {
-    const bool grid = gridAlone(scene);
+    const bool grid = scene.gridAlone;
     switch (scene.look.model) {
         case kEmission:
             return grid ? seeTile<kEmission, true>(scene, eye, chunk, tile)
@@ -28,15 +24,13 @@ bool see(const SweepScene& scene, const SweepEye& eye, const SweepChunk& chunk, 
 }
 
 bool pass(const SweepScene& scene, const LightPass& lightPass, const LightTile& tile) {
-    if (scene.look.model == kDirect)
-        return gridAlone(scene) ? passTile<false, true>(scene, lightPass, tile)
-                                : passTile<false, false>(scene, lightPass, tile);
-    return gridAlone(scene) ? passTile<true, true>(scene, lightPass, tile)
-                            : passTile<true, false>(scene, lightPass, tile);
+    if (scene.gridAlone) return passTile<true, true>(scene, lightPass, tile);  // direct light is done with
+    return scene.look.model == kDirect ? passTile<false, false>(scene, lightPass, tile)
+                                       : passTile<true, false>(scene, lightPass, tile);
 }
 
 }  // namespace
 
-const SweepKernels kSweepKernels{kName, kLanes, see, pass, readTile};
+const SweepKernels kSweepKernels{kName, kLanes, see, findColumns, pass, readTile};
 
 }  // namespace stereonav::STEREONAV_ISA

@@ -86,6 +86,18 @@ struct SweepLight {
     float blur = 0;  // sqrt(blurLength) tan(theta / 2)
 };
 
+// What the light meets in a tile in the slabs of a chunk, found before it passes them: places in the grid's
+// table, from 0 on, -1 where nothing is. Grids alone; direct light is done with then.
+struct LightColumns {
+    static constexpr int kMost = 16;  // slabs
+    int x0 = 0, y0 = 0, count = 0;
+    double middle[kMost] = {};
+    float thickness[kMost] = {};
+    unsigned strips[kMost] = {};  // as LightTile's
+    float* columns = nullptr;     // of a slab's tile, kSide^2 row by row
+    std::int64_t next = 0;        // numbers from a slab to the next
+};
+
 // One slab's pass of the light.
 struct LightPass {
     double middle = 0;  // of the slab, along the axis
@@ -94,10 +106,12 @@ struct LightPass {
     const float* before[3] = {};  // indirect light, as SweepLight::direct
     float* after[3] = {};
 };
+// Texels in strips of rows: where nothing is in a strip light is only spread.
 struct LightTile {
-    static constexpr int kSide = 16;
+    static constexpr int kSide = 16, kStrip = 4;  // rows
     int x0 = 0, y0 = 0;
-    bool sample = false;  // something may be there; else light is only spread
+    unsigned strips = 0;             // bits of those where something may be
+    const float* columns = nullptr;  // see LightColumns
 };
 
 // Slabs that are seen one after the other.
@@ -119,9 +133,9 @@ struct SweepEye {
 
 // A block of pixels and what its rays have gathered so far: for each packet light (3), what is left, depth.
 struct EyeTile {
-    static constexpr int kSide = 16, kMembers = 5;
+    static constexpr int kSide = 16, kHalf = 8, kMembers = 5;
     int x0 = 0, y0 = 0;
-    std::uint32_t slabs = 0;        // bits of those of the chunk where something may be
+    std::uint32_t slabs[4] = {};    // bits of those of the chunk where something may be, for each quarter
     bool fresh = false;             // nothing gathered yet
     float* state = nullptr;         // kMembers * kSide^2 numbers
     const float* starts = nullptr;  // view depths before which nothing is; null: none; row of (x0, y0)
@@ -129,6 +143,7 @@ struct EyeTile {
 };
 
 struct SweepScene {
+    bool gridAlone = false;  // one-dimensional table, no layers, no noise: the short way
     SweepGrid grid;
     const SweepLayer* layers = nullptr;
     int layerCount = 0;
@@ -150,6 +165,7 @@ struct SweepKernels {
     int lanes;
     // Whether any ray of the tile goes on.
     bool (*seeTile)(const SweepScene&, const SweepEye&, const SweepChunk&, const EyeTile&);
+    void (*findColumns)(const SweepScene&, const LightColumns&);
     // Returns whether scattered light of the tile differs from 1 afterwards.
     bool (*lightTile)(const SweepScene&, const LightPass&, const LightTile&);
     void (*readTile)(const float* state, const PictureTile&);

@@ -1,7 +1,9 @@
-// See the header. Which tiles a slab concerns is found first, by their boxes among the cells.
+// See the header. Which tiles concern a slab is found first, by their boxes among the cells.
 #include "engine/medium/sweep_light.h"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,27 +13,49 @@
 namespace stereonav {
 namespace {
 
-constexpr int kSide = LightTile::kSide;
+constexpr int kSide = LightTile::kSide, kStrips = kSide / LightTile::kStrip;
+constexpr unsigned kAllStrips = (1u << kStrips) - 1;
 constexpr int kBorder = 16;                       // columns of 1 to both sides of a plane
 constexpr std::size_t kMostPacked = 32u << 20;    // bytes that the eyes' light may take
+constexpr std::size_t kMostStrips = 64u << 20;    // tiles of all slabs that are remembered
 constexpr std::uint32_t kAllLight = 0x7fff7fffu;  // both halves 1
 constexpr int kPieces = 16;                       // of a slab's tiles, for threads
+constexpr double kSigmas = 5;                     // light that spreads further is below 1e-6 of what there is
 
 std::int32_t strideOf(int width) {
     return (width + kSide - 1) / kSide * kSide + 2 * kBorder;
 }
 
+// Largest of each tile's neighbourhood, along one axis and then the other.
+void spreadLargest(std::vector<int>& values, int across, int down, int reach) {
+    std::vector<int> rows(values.size());
+    for (int y = 0; y < down; ++y)
+        for (int x = 0; x < across; ++x) {
+            const int* row = values.data() + static_cast<std::ptrdiff_t>(y) * across;
+            rows[static_cast<std::size_t>(y) * across + x] =
+                *std::max_element(row + std::max(x - reach, 0), row + std::min(x + reach + 1, across));
+        }
+    for (int y = 0; y < down; ++y)
+        for (int x = 0; x < across; ++x) {
+            int most = -1;
+            for (int j = std::max(y - reach, 0); j < std::min(y + reach + 1, down); ++j)
+                most = std::max(most, rows[static_cast<std::size_t>(j) * across + x]);
+            values[static_cast<std::size_t>(y) * across + x] = most;
+        }
+}
+
 }  // namespace
 
-int SweepLightBuffers::start(SweepLight& light) {
-    mAcross = (light.width + kSide - 1) / kSide;
-    mDown = (light.height + kSide - 1) / kSide;
+void SweepLightBuffers::setPlanes(SweepLight& light) {
     const std::int32_t stride = strideOf(light.width);
-    const std::size_t plane = static_cast<std::size_t>(stride) * (light.height + 4);
-    mPlanes.assign(7 * plane, 1.0f);
+    mPlanes.assign(7 * static_cast<std::size_t>(stride) * (light.height + 4), 1.0f);
     light.stride = stride;
     light.direct = mPlanes.data() + stride + kBorder;
-    // From column -1 to width + 1, row -1 to height + 1.
+    mSwapped = false;
+}
+
+// From column -1 to width + 1, row -1 to height + 1.
+void SweepLightBuffers::setPacked(SweepLight& light) {
     light.packedStride = light.width + 4;
     light.packedPlane = static_cast<std::int64_t>(light.packedStride) * (light.height + 3) + 1;
     if (mPackedWidth != light.width || mPackedHeight != light.height) {
@@ -42,58 +66,128 @@ int SweepLightBuffers::start(SweepLight& light) {
         mPackedHeight = light.height;
     }
     light.packed = mPacked.data();
-    mSwapped = false;
-    mTouched = {};
+}
+
+int SweepLightBuffers::start(SweepScene& scene, const SweepGeometry& geometry, const SweepSpace* space) {
+    mAcross = (scene.light.width + kSide - 1) / kSide;
+    mDown = (scene.light.height + kSide - 1) / kSide;
+    setPlanes(scene.light);
+    setPacked(scene.light);
+    mTouched.assign(tiles(), 0);
+    findStrips(geometry, space);
     return mChunk;
 }
 
-// Whether a tile, and a texel around it, meets cells that may not be empty.
-bool SweepLightBuffers::mayHold(const SweepGeometry& geometry, const SweepSpace& space, int tile,
-                                double t) const {
-    const RayFan& fan = geometry.light;
-    glm::dvec3 low(1e300), high(-1e300);
-    for (int n = 0; n < 4; ++n) {
-        const double x = (tile % mAcross + (n & 1)) * kSide + (n & 1 ? 1 : -1),
-                     y = (tile / mAcross + (n >> 1)) * kSide + (n & 2 ? 1 : -1);
-        const glm::dvec3 start = fan.start(x, y), way = fan.direction(x, y);
-        const double along = glm::dot(way, geometry.axis);
-        if (!(along > kLeastCosine)) return true;
-        const glm::dvec3 place = start + (t - glm::dot(start, geometry.axis)) / along * way;
-        const glm::dvec3 cell = space.cellFromWorld(geometry.anchor + place);
-        low = glm::min(low, cell);
-        high = glm::max(high, cell);
+// Strips of a tile, with a texel around each, that meet cells which may not be empty.
+void SweepLightBuffers::findStripsOf(const SweepGeometry& geometry, const SweepSpace& space, int tile,
+                                     const std::vector<double>& middles) {
+    const double x0 = tile % mAcross * kSide - 1, x1 = x0 + kSide + 2, y0 = tile / mAcross * kSide - 1;
+    const auto beamOf = [&](double top, double bottom) {
+        return space.beamOf(geometry, geometry.light, true, x0, top, x1, bottom);
+    };
+    const SweepBeam whole = beamOf(y0, y0 + kSide + 2);
+    SweepBeam beams[kStrips];
+    for (int n = 0; n < kStrips; ++n)
+        beams[n] = beamOf(y0 + n * LightTile::kStrip, y0 + (n + 1) * LightTile::kStrip + 2);
+    mLast[tile] = -1;
+    const int slabs = static_cast<int>(middles.size());
+    for (int first = 0; first < slabs; first += SweepChunk::kMost) {
+        const int count = std::min(SweepChunk::kMost, slabs - first);
+        std::uint8_t* strips = mStrips.data() + static_cast<std::size_t>(first) * tiles() + tile;
+        const std::uint32_t met = space.planesMet(whole, middles.data() + first, count);
+        std::uint32_t parts[kStrips];
+        for (int n = 0; n < kStrips; ++n)
+            parts[n] = met ? space.planesMet(beams[n], middles.data() + first, count) : 0;
+        for (int k = 0; k < count; ++k) {
+            unsigned here = 0;
+            for (int n = 0; n < kStrips; ++n) here |= (parts[n] >> k & 1u) << n;
+            strips[static_cast<std::size_t>(k) * tiles()] = static_cast<std::uint8_t>(here);
+            if (here) mLast[tile] = first + k;
+        }
     }
-    return space.any(low, high);
 }
 
-void SweepLightBuffers::chooseTiles(const SweepScene& scene, const SweepGeometry& geometry, double t,
-                                    const SweepSpace* space, double reach_texels) {
-    Rect spread;
-    if (!mTouched.empty() && scene.look.model == 3) {
-        const int reach = static_cast<int>(std::min(std::ceil(reach_texels / kSide), 1e6));
-        spread = {std::max(mTouched.x0 - reach, 0), std::max(mTouched.y0 - reach, 0),
-                  std::min(mTouched.x1 + reach, mAcross), std::min(mTouched.y1 + reach, mDown)};
-    }
-    mChanged.assign(static_cast<std::size_t>(mAcross) * mDown, 0);
-    parallelFor(mDown, [&](int y) {
-        for (int x = 0; x < mAcross; ++x) {
-            const int tile = y * mAcross + x;
-            const bool sample = !space || mayHold(geometry, *space, tile, t);
-            mChanged[tile] = sample ? 2 : spread.holds(x, y) ? 1 : 0;
+void SweepLightBuffers::findStrips(const SweepGeometry& geometry, const SweepSpace* space) {
+    const int slabs = geometry.slabs();
+    mLast.assign(tiles(), slabs);
+    mStrips.clear();
+    if (!space || static_cast<std::size_t>(slabs) * tiles() > kMostStrips) return;
+    mStrips.resize(static_cast<std::size_t>(slabs) * tiles());
+    std::vector<double> middles(slabs);
+    for (int k = 0; k < slabs; ++k) middles[k] = 0.5 * (geometry.faces[k] + geometry.faces[k + 1]);
+    parallelFor(tiles(), [&](int tile) { findStripsOf(geometry, *space, tile, middles); });
+}
+
+// Last slabs of what lies so near that light which spreads from here may get there.
+void SweepLightBuffers::findNeeded(int slab, double spread_texels) {
+    mNeeded = mLast;
+    const int last = *std::max_element(mLast.begin(), mLast.end());
+    const double reach = 1 + kSigmas * spread_texels * std::sqrt(0.5 * std::max(last - slab, 1)) / kSide;
+    spreadLargest(mNeeded, mAcross, mDown,
+                  static_cast<int>(std::min(std::ceil(reach), 1.0 * std::max(mAcross, mDown))));
+}
+
+unsigned SweepLightBuffers::stripsAt(const SweepGeometry& geometry, int slab, int tile) const {
+    if (!mStrips.empty()) return mStrips[static_cast<std::size_t>(slab) * tiles() + tile];
+    return 0.5 * (geometry.faces[slab] + geometry.faces[slab + 1]) > geometry.lightStart ? kAllStrips : 0;
+}
+
+long long SweepLightBuffers::beginChunk(const SweepScene& scene, const SweepGeometry& geometry, int first,
+                                        int count, const SweepKernels& kernels) {
+    if (!scene.gridAlone) return 0;
+    constexpr std::size_t kTexels = kSide * kSide;
+    const std::size_t needed = kTexels * static_cast<std::size_t>(mChunk) * tiles();
+    if (mColumns.size() < needed) mColumns.resize(needed);
+    std::atomic<long long> texels = 0;
+    parallelFor(tiles(), [&](int tile) {
+        LightColumns at;
+        unsigned any = 0;
+        long long strips = 0;
+        for (int n = 0; n < count; ++n) {
+            at.middle[n] = 0.5 * (geometry.faces[first + n] + geometry.faces[first + n + 1]);
+            at.thickness[n] = static_cast<float>(geometry.faces[first + n + 1] - geometry.faces[first + n]);
+            at.strips[n] = stripsAt(geometry, first + n, tile);
+            any |= at.strips[n];
+            strips += std::popcount(at.strips[n]);
         }
+        if (!any) return;
+        at.x0 = tile % mAcross * kSide;
+        at.y0 = tile / mAcross * kSide;
+        at.count = count;
+        at.columns = mColumns.data() + kTexels * tile;
+        at.next = static_cast<std::int64_t>(kTexels) * tiles();
+        kernels.findColumns(scene, at);
+        texels += strips * kSide * LightTile::kStrip;
     });
+    return texels;
+}
+
+// Those where something may be, and those to which light may spread that is needed later.
+void SweepLightBuffers::chooseTiles(const SweepGeometry& geometry, int slab, int reach) {
+    std::vector<std::uint8_t>& spread = mChanged;
+    spread.assign(tiles(), 0);
+    for (int tile = 0; tile < tiles(); ++tile) {
+        if (!mTouched[tile]) continue;
+        const int x = tile % mAcross, y = tile / mAcross;
+        for (int j = std::max(y - reach, 0); j < std::min(y + reach + 1, mDown); ++j)
+            for (int i = std::max(x - reach, 0); i < std::min(x + reach + 1, mAcross); ++i)
+                spread[static_cast<std::size_t>(j) * mAcross + i] = 1;
+    }
     mTiles.clear();
-    for (int tile = 0; tile < mAcross * mDown; ++tile)
-        if (mChanged[tile])
-            mTiles.push_back({tile % mAcross * kSide, tile / mAcross * kSide, mChanged[tile] == 2});
+    for (int tile = 0; tile < tiles(); ++tile) {
+        const unsigned here = stripsAt(geometry, slab, tile);
+        if (here || (spread[tile] && mNeeded[tile] >= slab))
+            mTiles.push_back({tile % mAcross * kSide, tile / mAcross * kSide, here, nullptr});
+    }
 }
 
 long long SweepLightBuffers::pass(const SweepScene& scene, const SweepGeometry& geometry, int slab,
-                                  int inChunk, const SweepSpace* space, const SweepKernels& kernels) {
+                                  int inChunk, const SweepKernels& kernels) {
     const SweepLight& light = scene.light;
+    const bool scattered = scene.look.model == static_cast<int>(MediumModel::Indirect);
     LightPass pass;
     pass.middle = 0.5 * (geometry.faces[slab] + geometry.faces[slab + 1]);
-    if (!(pass.middle > geometry.lightStart)) return 0;
+    if (!(pass.middle > geometry.lightStart) || (scene.gridAlone && !scattered)) return 0;
     pass.thickness = static_cast<float>(geometry.faces[slab + 1] - geometry.faces[slab]);
     pass.slab = slab;
     pass.inChunk = inChunk;
@@ -105,25 +199,30 @@ long long SweepLightBuffers::pass(const SweepScene& scene, const SweepGeometry& 
         pass.after[k] = mSwapped ? first : second;
     }
     // Texels of a lamp differ in size: any may be reached.
-    const double offset = std::sqrt(pass.thickness * light.length) * light.blur / light.perX;
-    chooseTiles(scene, geometry, pass.middle, space, light.parallel ? std::max(offset, 1.0) + 1 : 1e9);
+    const double offset =
+        light.parallel ? std::sqrt(pass.thickness * light.length) * light.blur / light.perX : 1e6;
+    if (inChunk == 0 || mNeeded.size() != mLast.size()) findNeeded(slab, offset);
+    const double reach = std::ceil((std::max(offset, 1.0) + 1) / kSide);
+    chooseTiles(geometry, slab, static_cast<int>(std::min(reach, 1.0 * std::max(mAcross, mDown))));
     const int count = static_cast<int>(mTiles.size()), pieces = std::min(count, kPieces);
     parallelFor(pieces, [&](int piece) {
-        for (int n = count * piece / pieces; n < count * (piece + 1) / pieces; ++n)
-            mChanged[n] = kernels.lightTile(scene, pass, mTiles[n]);
+        for (int n = count * piece / pieces; n < count * (piece + 1) / pieces; ++n) {
+            LightTile& tile = mTiles[n];
+            const std::size_t index =
+                static_cast<std::size_t>(inChunk) * tiles() + tile.y0 / kSide * mAcross + tile.x0 / kSide;
+            if (scene.gridAlone) tile.columns = mColumns.data() + index * kSide * kSide;
+            mChanged[n] = kernels.lightTile(scene, pass, tile);
+        }
     });
-    for (int n = 0; n < count; ++n) {
-        if (!mChanged[n]) continue;
-        const int x = mTiles[n].x0 / kSide, y = mTiles[n].y0 / kSide;
-        mTouched = {std::min(mTouched.x0, x), std::min(mTouched.y0, y), std::max(mTouched.x1, x + 1),
-                    std::max(mTouched.y1, y + 1)};
-    }
+    for (int n = 0; n < count; ++n)
+        if (mChanged[n]) mTouched[mTiles[n].y0 / kSide * mAcross + mTiles[n].x0 / kSide] = 1;
     mSwapped = !mSwapped;
-    return static_cast<long long>(count) * kSide * kSide;
+    return scene.gridAlone ? 0 : static_cast<long long>(count) * kSide * kSide;
 }
 
 std::size_t SweepLightBuffers::heldBytes() const {
-    return mPlanes.size() * sizeof(float) + mPacked.size() * sizeof(std::uint32_t);
+    return (mPlanes.size() + mColumns.size()) * sizeof(float) + mPacked.size() * sizeof(std::uint32_t) +
+           mStrips.size();
 }
 
 }  // namespace stereonav

@@ -1,5 +1,6 @@
 // The light's buffer of a sweep on the CPU: planes in floats that pass slab after slab, and for the eyes what
-// was there before each slab of a chunk. Tiles where nothing was met yet, and nothing is, are left alone.
+// was there before each slab of a chunk. Tiles are left alone where nothing was met yet, or nothing is met
+// any more near them.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +14,37 @@ namespace stereonav {
 
 class SweepLightBuffers {
 public:
-    // All light; sets the pointers of `light`. Gives how many slabs the eyes can be kept for, 1 or more.
-    int start(SweepLight& light);
-    // Past a slab, the `inChunk`-th that is kept; space: null: nothing is left out. Gives texels looked at.
+    // All light; sets the pointers of scene.light. space: null: nothing is left out. Gives how many slabs the
+    // eyes' light can be kept for, 1 or more.
+    int start(SweepScene& scene, const SweepGeometry& geometry, const SweepSpace* space);
+    // Before the slabs of a chunk are passed.
+    long long beginChunk(const SweepScene& scene, const SweepGeometry& geometry, int first, int count,
+                         const SweepKernels& kernels);
+    // Past a slab, the `inChunk`-th that is kept. Gives texels looked at.
     long long pass(const SweepScene& scene, const SweepGeometry& geometry, int slab, int inChunk,
-                   const SweepSpace* space, const SweepKernels& kernels);
+                   const SweepKernels& kernels);
     std::size_t heldBytes() const;
 
 private:
-    struct Rect {  // of tiles, ends not in it
-        int x0 = 1 << 20, y0 = 1 << 20, x1 = 0, y1 = 0;
-        bool empty() const { return x0 >= x1; }
-        bool holds(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
-    };
-    bool mayHold(const SweepGeometry& geometry, const SweepSpace& space, int tile, double t) const;
-    void chooseTiles(const SweepScene& scene, const SweepGeometry& geometry, double t,
-                     const SweepSpace* space, double reach_texels);
+    void setPlanes(SweepLight& light);
+    void setPacked(SweepLight& light);
+    void findStrips(const SweepGeometry& geometry, const SweepSpace* space);
+    void findStripsOf(const SweepGeometry& geometry, const SweepSpace& space, int tile,
+                      const std::vector<double>& middles);
+    void findNeeded(int slab, double spread_texels);
+    unsigned stripsAt(const SweepGeometry& geometry, int slab, int tile) const;
+    void chooseTiles(const SweepGeometry& geometry, int slab, int reach);
+    int tiles() const { return mAcross * mDown; }
 
     int mAcross = 0, mDown = 0;
     std::vector<float> mPlanes;  // direct, then twice three of scattered light
     std::vector<std::uint32_t> mPacked;
+    std::vector<float> mColumns;  // of a chunk's slabs: tiles
     int mPackedWidth = 0, mPackedHeight = 0, mChunk = 0;
     bool mSwapped = false;
-    Rect mTouched;  // scattered light may differ from 1 in it
+    std::vector<std::uint8_t> mStrips;   // of each slab's tiles: LightTile::strips; empty: all of all
+    std::vector<int> mLast, mNeeded;     // of tiles: last slab with something in it, and near it
+    std::vector<std::uint8_t> mTouched;  // tiles: scattered light may differ from 1
     std::vector<LightTile> mTiles;
     std::vector<std::uint8_t> mChanged;
 };

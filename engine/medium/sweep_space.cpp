@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 
@@ -169,22 +170,82 @@ void SweepSpace::sumUp() {
 
 bool SweepSpace::any(const glm::dvec3& low, const glm::dvec3& high) const {
     if (mSums.empty()) return false;
-    glm::ivec3 a, b;  // cells a .. b - 1
+    int a[3], b[3];  // cells a .. b - 1
     for (int axis = 0; axis < 3; ++axis) {
         // A little wider, for rounding; NaN asks for everything.
-        const double from = low[axis] - 1e-3, to = high[axis] + 1e-3, size = mSize[axis];
+        const double from = low[axis] - 1e-3, to = high[axis] + 1e-3;
+        const int size = mSize[axis];
         if (from >= size || to < 0) return false;
         a[axis] = from > 0 ? static_cast<int>(from) : 0;
-        b[axis] = to < size ? static_cast<int>(to) + 1 : mSize[axis];
+        b[axis] = to < size ? static_cast<int>(to) + 1 : size;
     }
-    const glm::ivec3 n = mSize + 1;
-    const auto at = [&](int x, int y, int z) {
-        return mSums[(static_cast<std::size_t>(z) * n.y + y) * n.x + x];
+    const std::ptrdiff_t row = mSize.x + 1, slice = row * (mSize.y + 1);
+    const std::int32_t* near = mSums.data() + a[2] * slice;
+    const std::int32_t* far = mSums.data() + b[2] * slice;
+    const std::ptrdiff_t first = a[1] * row, last = b[1] * row;
+    const auto over = [&](const std::int32_t* sums) {
+        return sums[last + b[0]] - sums[last + a[0]] - sums[first + b[0]] + sums[first + a[0]];
     };
-    const auto over = [&](int z) {
-        return at(b.x, b.y, z) - at(a.x, b.y, z) - at(b.x, a.y, z) + at(a.x, a.y, z);
+    return over(far) != over(near);
+}
+
+SweepBeam SweepSpace::beamOf(const SweepGeometry& geometry, const RayFan& fan, bool forward, double x0,
+                             double y0, double x1, double y1) const {
+    SweepBeam beam;
+    const double x = 0.5 * (x0 + x1), y = 0.5 * (y0 + y1);
+    const auto wayOf = [&](double px, double py, bool& crosses) {
+        const glm::dvec3 way = fan.direction(px, py);
+        const double along = glm::dot(way, geometry.axis);
+        crosses = crosses && (forward ? along : -along) > kLeastCosine;
+        return way / along;
     };
-    return over(b.z) != over(a.z);
+    beam.known = true;
+    const glm::dvec3 way = wayOf(x, y, beam.known), place = fan.start(x, y);
+    beam.way = cellDirection(way);
+    beam.start = glm::dot(place, geometry.axis);
+    beam.origin = cellFromWorld(geometry.anchor + place);
+    for (int n = 0; n < 4; ++n) {
+        const double cx = n & 1 ? x1 : x0, cy = n & 2 ? y1 : y0;
+        beam.perWay = glm::max(beam.perWay, glm::abs(cellDirection(wayOf(cx, cy, beam.known) - way)));
+        if (!fan.parallel) continue;
+        const glm::dvec3 corner = fan.start(cx, cy);  // and on to the plane of the middle
+        const glm::dvec3 there = corner + way * (beam.start - glm::dot(corner, geometry.axis));
+        beam.spread = glm::max(beam.spread, glm::abs(cellDirection(there - place)));
+    }
+    beam.side = fan.parallel ? 0 : forward ? 1 : -1;
+    return beam;
+}
+
+bool SweepSpace::meets(const SweepBeam& beam, double t0, double t1) const {
+    const double s0 = t0 - beam.start, s1 = t1 - beam.start;
+    const glm::dvec3 p = beam.origin + s0 * beam.way, r = beam.spread + std::abs(s0) * beam.perWay;
+    if (t0 == t1) return any(p - r, p + r);
+    const glm::dvec3 q = beam.origin + s1 * beam.way, u = beam.spread + std::abs(s1) * beam.perWay;
+    return any(glm::min(p - r, q - u), glm::max(p + r, q + u));
+}
+
+// Runs of planes are asked for together first.
+std::uint32_t SweepSpace::planesMet(const SweepBeam& beam, const double* t, int count) const {
+    constexpr int kRun = 4;
+    int first = 0, last = count;  // those on the rays' side
+    if (beam.side > 0)
+        while (first < last && !(t[first] > beam.start)) ++first;
+    if (beam.side < 0)
+        while (last > first && !(t[last - 1] < beam.start)) --last;
+    if (first == last) return 0;
+    std::uint32_t met = 0;
+    if (!beam.known) {
+        for (int n = first; n < last; ++n) met |= 1u << n;
+        return met;
+    }
+    if (!meets(beam, t[first], t[last - 1])) return 0;
+    for (int run = first; run < last; run += kRun) {
+        const int end = std::min(run + kRun, last);
+        if (!meets(beam, t[run], t[end - 1])) continue;
+        for (int n = run; n < end; ++n)
+            if (meets(beam, t[n], t[n])) met |= 1u << n;
+    }
+    return met;
 }
 
 }  // namespace stereonav

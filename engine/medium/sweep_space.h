@@ -7,8 +7,18 @@
 #include <vector>
 
 #include "engine/medium/medium.h"
+#include "engine/medium/sweep_geometry.h"
 
 namespace stereonav {
+
+// The rays of a block of a buffer's pixels among the cells of a SweepSpace: at t along the axis they lie in
+// the box origin + s way -+ (spread + |s| perWay), s = t - start.
+struct SweepBeam {
+    glm::dvec3 origin{0.0}, way{0.0}, spread{0.0}, perWay{0.0};
+    double start = 0;
+    int side = 0;        // the rays are where s has this sign; 0: everywhere
+    bool known = false;  // false: some ray hardly crosses the slabs; it may be anywhere
+};
 
 class SweepSpace {
 public:
@@ -18,6 +28,11 @@ public:
     // From the world to cells: any() takes boxes there.
     glm::dvec3 cellFromWorld(const glm::dvec3& world) const { return mTurn * (world - mOrigin); }
     glm::dvec3 cellDirection(const glm::dvec3& world) const { return mTurn * world; }
+    // forward: the fan's rays go to larger t.
+    SweepBeam beamOf(const SweepGeometry& geometry, const RayFan& fan, bool forward, double x0, double y0,
+                     double x1, double y1) const;
+    // Of up to 32 planes at ascending t: bits of those where a beam may meet something.
+    std::uint32_t planesMet(const SweepBeam& beam, const double* t, int count) const;
     // Whether anything may be in the box (each low <= high).
     bool any(const glm::dvec3& low, const glm::dvec3& high) const;
 
@@ -26,6 +41,7 @@ public:
     std::size_t heldBytes() const { return mSums.size() * sizeof(std::int32_t); }
 
 private:
+    bool meets(const SweepBeam& beam, double t0, double t1) const;
     void takeGrid(const Medium& medium);
     void takeLayers(const Medium& medium);
     void spread(const glm::ivec3& cells);
