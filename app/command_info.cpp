@@ -1,10 +1,11 @@
-// `stereonav info`: what was read, and the frame plan.
+// `stereonav info`: what was read, the frame plan, and what the program has started for it.
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/info_text.h"
+#include "app/process_facts.h"
 #include "app/progress_bar.h"
 #include "app/scene_loading.h"
 #include "app/view_status.h"
@@ -81,7 +82,52 @@ std::string sweepText(const LoadedScene& scene) {
            infoLine("both eyes", "sweep: slice by slice, from one light");
 }
 
+Json processJson(const ProcessFacts& process) {
+    Json json;
+    json["before_main_ms"] = process.beforeMain_ms;
+    json["ready_ms"] = process.ready_ms;
+    json["threads_running"] = process.threads;
+    json["heap_bytes"] = process.heapBytes;
+    json["peak_bytes"] = process.peakBytes;
+    json["modules"] = process.modules;
+    json["libraries"] = process.libraries;
+    return json;
+}
+
+std::string processText(const ProcessFacts& process) {
+    return infoLine("start-up",
+                    fmt::format("{:.1f} ms of processor time before main, scene ready after {:.0f} ms",
+                                process.beforeMain_ms, process.ready_ms)) +
+           infoLine("threads", fmt::format("{} running", process.threads)) +
+           infoLine("libraries", fmt::format("{} loaded", process.libraries.size())) +
+           infoLine("modules",
+                    process.modules.empty() ? "none" : fmt::format("{}", fmt::join(process.modules, ", "))) +
+           infoLine("memory", fmt::format("{:.1f} MB of heap with the scene, {:.1f} MB in all at most",
+                                          static_cast<double>(process.heapBytes) / 1e6,
+                                          static_cast<double>(process.peakBytes) / 1e6));
+}
+
 }  // namespace
+
+std::size_t bytesOf(const std::vector<Held>& held) {
+    std::size_t sum = 0;
+    for (const Held& part : held) sum += part.bytes;
+    return sum;
+}
+
+Json heldJson(const std::vector<Held>& held) {
+    Json json = Json::object();
+    for (const Held& part : held) json[part.what] = part.bytes;
+    return json;
+}
+
+std::string heldText(const std::vector<Held>& held) {
+    std::string parts;
+    for (const Held& part : held)
+        parts += fmt::format("{}{} {:.1f}", parts.empty() ? "" : ", ", part.what,
+                             static_cast<double>(part.bytes) / 1e6);
+    return fmt::format("{:.1f} MB: {}", static_cast<double>(bytesOf(held)) / 1e6, parts);
+}
 
 std::string infoLine(const char* name, const std::string& value) {
     return fmt::format("  {:<12}{}\n", name, value);
@@ -91,26 +137,31 @@ int runInfo(const InfoOptions& options) {
     refuseLazyLight(options.scene);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    ProcessFacts process;
+    takeWhenReady(process);
     std::optional<FramePlan> plan;
     if (scene.renderer) {
         bar.progress().report(0.95, "measuring");
         plan = planScene(scene);
     }
+    takeAtEnd(process);
     bar.clear();
     if (options.json) {
         Json json{{"scene", scene.name}};
-        if (scene.terrain) json["terrain"] = terrainJson(*scene.terrain);
-        if (scene.colon) json["volume"] = colonJson(*scene.colon);
+        if (scene.terrain) json["terrain"] = terrainJson(scene);
+        if (scene.colon) json["volume"] = colonJson(scene);
         if (scene.medium) json["medium"] = mediumJson(*scene.medium);
         json["plan"] = plan ? planJson(scene, *plan) : sweepJson(scene);
+        json["process"] = processJson(process);
         std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
         return 0;
     }
     std::string text = scene.name + "\n";
-    if (scene.terrain) text += terrainText(*scene.terrain);
-    if (scene.colon) text += colonText(*scene.colon);
+    if (scene.terrain) text += terrainText(scene);
+    if (scene.colon) text += colonText(scene);
     if (scene.medium) text += mediumText(*scene.medium);
     text += "frame plan\n" + (plan ? planText(scene, *plan) : sweepText(scene));
+    text += "process\n" + processText(process);
     std::fputs(text.c_str(), stdout);
     return 0;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/info_text.h"
+#include "engine/base/pages.h"
 
 namespace stereonav {
 namespace {
@@ -28,9 +29,18 @@ Range rangeOf(const GreyVolume& grey) {
     return {range.lowest * grey.scale + grey.offset, range.highest * grey.scale + grey.offset};
 }
 
-std::size_t bytesOf(const ColonScene& colon) {
-    return sizeof(std::int16_t) * colon.volume.field.values.size() + colon.lumen.lumen.values.size() +
-           sizeof(std::uint16_t) * colon.distance.values.size() + colon.volume.cells.bytesHeld();
+// Pages in use: volumes are written where there is something.
+std::vector<Held> heldBy(const ColonScene& colon) {
+    std::vector<Held> held;
+    const auto add = [&](const char* what, std::size_t bytes) {
+        if (bytes > 0) held.push_back({what, bytes});
+    };
+    add("values", residentBytes(colon.volume.field.values));
+    add("lumen", residentBytes(colon.lumen.lumen.values));
+    add("distances", residentBytes(colon.distance.values));
+    add("cells", colon.volume.cells.bytesHeld());
+    if (const auto& light = colon.volume.look.baked.light) add("illumination", light->bytesHeld());
+    return held;
 }
 
 std::string shapeName(PolypShape shape) {
@@ -61,7 +71,8 @@ double isovalueOf(const ColonScene& colon) {
 
 }  // namespace
 
-Json colonJson(const ColonScene& colon) {
+Json colonJson(const LoadedScene& scene) {
+    const ColonScene& colon = *scene.colon;
     const GreyVolume& field = colon.volume.field;
     const Range range = rangeOf(field);
     Json json;
@@ -85,14 +96,16 @@ Json colonJson(const ColonScene& colon) {
                                   {"position_mm", mmOf(polyp.position)},
                                   {"along_mm", kMm * polyp.along}});
     json["records"] = colon.volume.cells.records.size();
-    json["bytes"] = bytesOf(colon);
+    json["bytes"] = bytesOf(heldBy(colon));
+    json["held"] = heldJson(heldBy(colon));
     json["flight_s"] = colon.path.samples().size() < 2 ? 0.0 : colon.path.duration();
     json["clearance_mm"] = kMm * colon.clearance;
     json["notes"] = colon.notes;
     return json;
 }
 
-std::string colonText(const ColonScene& colon) {
+std::string colonText(const LoadedScene& scene) {
+    const ColonScene& colon = *scene.colon;
     const GreyVolume& field = colon.volume.field;
     const VolumeFrame& frame = field.frame;
     const Range range = rangeOf(field);
@@ -121,7 +134,7 @@ std::string colonText(const ColonScene& colon) {
     if (colon.path.samples().size() > 1)
         line("flight", fmt::format("{:.4g} s, at least {:.3g} mm from the wall", colon.path.duration(),
                                    kMm * colon.clearance));
-    line("memory", fmt::format("{:.1f} MB", static_cast<double>(bytesOf(colon)) / 1e6));
+    line("memory", heldText(heldBy(colon)));
     for (const std::string& note : colon.notes) line("note", note);
     return text;
 }

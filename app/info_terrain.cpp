@@ -6,16 +6,23 @@
 #include "app/info_text.h"
 #include "terrain/landmark.h"
 #include "terrain/terrain_illumination.h"
+#include "terrain/terrain_renderer.h"
 
 namespace stereonav {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::size_t bytesOf(const TerrainScene& terrain) {
-    return sizeof(float) * static_cast<std::size_t>(terrain.ground.width()) * terrain.ground.height() +
-           terrain.color.byteCount() + terrain.sky.map().byteCount() +
-           (terrain.illumination ? terrain.illumination->byteCount() : 0);
+std::vector<Held> heldBy(const LoadedScene& scene) {
+    const TerrainScene& terrain = *scene.terrain;
+    std::vector<Held> held = {{"heights", sizeof(float) * static_cast<std::size_t>(terrain.ground.width()) *
+                                              terrain.ground.height()},
+                              {"colour", terrain.color.byteCount()},
+                              {"sky", terrain.sky.map().byteCount()}};
+    if (const auto* renderer = dynamic_cast<const TerrainRenderer*>(scene.renderer.get()))
+        held.push_back({"height pyramid", renderer->byteCount()});
+    if (terrain.illumination) held.push_back({"illumination", terrain.illumination->byteCount()});
+    return held;
 }
 
 std::string orNone(const std::string& text) {
@@ -24,7 +31,8 @@ std::string orNone(const std::string& text) {
 
 }  // namespace
 
-nlohmann::ordered_json terrainJson(const TerrainScene& terrain) {
+nlohmann::ordered_json terrainJson(const LoadedScene& scene) {
+    const TerrainScene& terrain = *scene.terrain;
     const TerrainReport& report = terrain.report;
     const Heightfield& ground = terrain.ground;
     Json json;
@@ -46,13 +54,15 @@ nlohmann::ordered_json terrainJson(const TerrainScene& terrain) {
     json["sky"] = report.skySource;
     json["baked_light"] = report.lightSource;
     json["landmark_triangles"] = terrain.landmarks ? terrain.landmarks->triangleCount() : 0;
-    json["bytes"] = bytesOf(terrain);
+    json["bytes"] = bytesOf(heldBy(scene));
+    json["held"] = heldJson(heldBy(scene));
     json["flight_s"] = terrain.path.duration();
     json["clearance_m"] = terrain.clearance;
     return json;
 }
 
-std::string terrainText(const TerrainScene& terrain) {
+std::string terrainText(const LoadedScene& scene) {
+    const TerrainScene& terrain = *scene.terrain;
     const TerrainReport& report = terrain.report;
     const Heightfield& ground = terrain.ground;
     std::string text;
@@ -74,7 +84,7 @@ std::string terrainText(const TerrainScene& terrain) {
          terrain.landmarks ? fmt::format("{} triangles", terrain.landmarks->triangleCount()) : "none");
     line("flight", fmt::format("{:.4g} s, at least {:.4g} m above the ground", terrain.path.duration(),
                                terrain.clearance));
-    line("memory", fmt::format("{:.1f} MB", static_cast<double>(bytesOf(terrain)) / 1e6));
+    line("memory", heldText(heldBy(scene)));
     return text;
 }
 

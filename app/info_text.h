@@ -1,20 +1,32 @@
 // What `info` says of a scene, as JSON and as lines.
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
-#include "app/medium_scene.h"
-#include "colon/colon_scene.h"
-#include "terrain/terrain_scene.h"
+#include "app/scene_loading.h"
 
 namespace stereonav {
 
-nlohmann::ordered_json terrainJson(const TerrainScene& terrain);
-std::string terrainText(const TerrainScene& terrain);
+// Of scene.terrain.
+nlohmann::ordered_json terrainJson(const LoadedScene& scene);
+std::string terrainText(const LoadedScene& scene);
 
-nlohmann::ordered_json colonJson(const ColonScene& colon);
-std::string colonText(const ColonScene& colon);
+// Of scene.colon.
+nlohmann::ordered_json colonJson(const LoadedScene& scene);
+std::string colonText(const LoadedScene& scene);
+
+// What holds how much memory; nothing that the scene does not have is named.
+struct Held {
+    std::string what;
+    std::size_t bytes = 0;
+};
+nlohmann::ordered_json heldJson(const std::vector<Held>& held);
+// "32.1 MB: values 20.0, cells 12.1"
+std::string heldText(const std::vector<Held>& held);
+std::size_t bytesOf(const std::vector<Held>& held);
 
 nlohmann::ordered_json mediumJson(const MediumScene& scene);
 std::string mediumText(const MediumScene& scene);

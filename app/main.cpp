@@ -3,9 +3,11 @@
 #include <exception>
 
 #include "app/arguments.h"
+#include "app/process_facts.h"
 #include "engine/base/error.h"
 
 int main(int argc, char** argv) {
+    stereonav::noteStart();
     try {
         return stereonav::runCommandLine(argc, argv);
     } catch (const stereonav::Cancelled&) {

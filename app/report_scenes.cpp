@@ -56,8 +56,7 @@ ReportTable sceneTable(ReportRun& run, const ReportScene& scene) {
     run.tell("frame plan, " + scene.title);
     const FramePlan plan = planScene(scene.loaded);
     ReportTable table{scene.title, "", {"", "what was read and what a frame holds"}, {}};
-    table.rows = rowsOfInfo(scene.loaded.terrain ? terrainText(*scene.loaded.terrain)
-                                                 : colonText(*scene.loaded.colon));
+    table.rows = rowsOfInfo(scene.loaded.terrain ? terrainText(scene.loaded) : colonText(scene.loaded));
     table.rows.push_back({"loading", fmt::format("{:.0f} ms", scene.load_ms)});
     table.rows.push_back({"planes", planesText(plan)});
     table.rows.push_back({"frame", fmt::format("{:.1f} MB at {}x{}", static_cast<double>(plan.bytes) / 1e6,

@@ -115,6 +115,10 @@ TerrainRenderer::TerrainRenderer(const TerrainScene& scene, SimdTarget target)
     : mScene(scene), mState(std::make_unique<State>(scene, target)) {}
 TerrainRenderer::~TerrainRenderer() = default;
 
+std::size_t TerrainRenderer::byteCount() const {
+    return mState->pyramid.byteCount();
+}
+
 int TerrainRenderer::tileCount(const EyeView& view) const {
     return bandCount(makeCasterView(view, mScene.ground));
 }

@@ -34,6 +34,7 @@ public:
 
     SimdTarget target() const;  // what Auto became
     const TerrainScene& scene() const { return mScene; }
+    std::size_t byteCount() const;  // beside the scene: the pyramid of heights
 
 private:
     struct State;

@@ -65,7 +65,7 @@ std::vector<std::string> loadedLibraries() {
     std::vector<std::string> files;
     const auto add = [](dl_phdr_info* info, std::size_t, void* to) {
         const std::string_view name = info->dlpi_name;
-        if (name.find(".so") != std::string_view::npos)  // neither the program ("") nor the kernel's page
+        if (name.find('/') != std::string_view::npos)  // neither the program ("") nor the kernel's own page
             static_cast<std::vector<std::string>*>(to)->emplace_back(name);
         return 0;
     };

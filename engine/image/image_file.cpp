@@ -1,6 +1,8 @@
-// Picture files, handed on to their module; Radiance files need no library.
+// Picture files, handed on to their module; writing PNG and reading Radiance files need none.
+#include "engine/base/file.h"
 #include "engine/base/module.h"
 #include "engine/image/picture_module.h"
+#include "engine/image/png_writer.h"
 #include "engine/image/radiance_file.h"
 
 namespace stereonav {
@@ -10,6 +12,15 @@ const PictureFunctions& pictures() {
     static const auto& functions =
         moduleFunctions<PictureFunctions>("pictures", "to read and write pictures");
     return functions;
+}
+
+bool isPng(const std::string& extension) {
+    return extension == ".png" || extension == ".PNG";
+}
+
+void writePng(const std::filesystem::path& file, const Plane<PackedColor>& image) {
+    const std::vector<unsigned char> bytes = pngBytes(image);
+    writeTextFile(file, {bytes.begin(), bytes.end()});
 }
 
 }  // namespace
@@ -24,7 +35,7 @@ Plane<PackedColor> decodeColorImage(std::span<const unsigned char> bytes, const 
 }
 
 std::vector<unsigned char> encodeColorImage(const Plane<PackedColor>& image, const std::string& extension) {
-    return pictures().encodeColorImage(image, extension);
+    return isPng(extension) ? pngBytes(image) : pictures().encodeColorImage(image, extension);
 }
 
 LinearImage readLinearImage(const std::filesystem::path& file) {
@@ -32,11 +43,12 @@ LinearImage readLinearImage(const std::filesystem::path& file) {
 }
 
 void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image) {
+    if (isPng(file.extension().string())) return writePng(file, image);
     pictures().writeColorImage(file, image);
 }
 
 bool canWritePicture(const std::string& extension) {
-    return pictures().canWritePicture(extension);
+    return isPng(extension) || pictures().canWritePicture(extension);
 }
 
 }  // namespace stereonav

@@ -3,7 +3,6 @@
 #include "engine/volume/illumination_volume.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/pages.h"
 #include "engine/math/half_float.h"
 
 namespace stereonav {
@@ -122,14 +122,7 @@ float texelWeight(PackedTexel texel) {
 }
 
 std::size_t IlluminationVolume::bytesHeld() const {
-    if (texels.empty()) return 0;
-    constexpr std::size_t kPage = 4096;
-    const std::size_t count = (texels.size() * sizeof(PackedTexel) + kPage - 1) / kPage;
-    std::vector<unsigned char> held(count);
-    void* start = const_cast<PackedTexel*>(texels.data());
-    if (mincore(start, count * kPage, held.data()) != 0) return count * kPage;
-    return kPage * static_cast<std::size_t>(
-                       std::count_if(held.begin(), held.end(), [](unsigned char c) { return c & 1; }));
+    return residentBytes(texels);
 }
 
 IlluminationVolume::Light IlluminationVolume::at(const glm::dvec3& world, Lookup lookup) const {

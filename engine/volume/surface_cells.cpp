@@ -3,7 +3,6 @@
 #include "engine/volume/surface_cells.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include <numeric>
 
 #include "engine/base/error.h"
+#include "engine/base/pages.h"
 #include "engine/base/parallel.h"
 #include "engine/volume/distance_transform.h"
 
@@ -288,17 +288,7 @@ glm::dvec3 unpackCornerNormal(std::uint32_t packed) {
 }
 
 std::size_t SurfaceCells::bytesHeld() const {
-    const auto pages = [](const auto& array) -> std::size_t {
-        if (array.empty()) return 0;
-        constexpr std::size_t kPage = 4096;
-        const std::size_t count = (array.size() * sizeof(array[0]) + kPage - 1) / kPage;
-        std::vector<unsigned char> held(count);
-        void* start = const_cast<void*>(static_cast<const void*>(array.data()));
-        if (mincore(start, count * kPage, held.data()) != 0) return array.size() * sizeof(array[0]);
-        return kPage * static_cast<std::size_t>(
-                           std::count_if(held.begin(), held.end(), [](unsigned char c) { return c & 1; }));
-    };
-    return pages(codes) + pages(cells) + records.size() * sizeof(CellRecord);
+    return residentBytes(codes) + residentBytes(cells) + records.size() * sizeof(CellRecord);
 }
 
 SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress) {

@@ -60,6 +60,39 @@ TEST_F(ImageFile, PngBringsBackEveryByte) {
         for (int x = 0; x < 61; ++x) ASSERT_EQ(back.at(x, y), picture.at(x, y)) << x << ", " << y;
 }
 
+// What we write without a library against what OpenCV's reads, at every kind of row: noise, flat, a ramp.
+TEST_F(ImageFile, PngIsReadBackByOpenCvWithEveryByte) {
+    for (const auto& [width, height] : {std::pair(1, 1), {1, 40}, {40, 1}, {33, 17}, {640, 48}}) {
+        Plane<PackedColor> picture(width, height);
+        std::uint32_t noise = 1;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                noise = noise * 1664525u + 1013904223u;
+                const std::uint32_t ramp = static_cast<std::uint32_t>(x + y) & 1023u;
+                picture.at(x, y) = y % 3 == 0   ? noise >> 2
+                                   : y % 3 == 1 ? 0x12345678u & 0x3fffffffu
+                                                : ramp * 0x100401u;
+            }
+        const auto bytes = encodeColorImage(picture, ".png");
+        const cv::Mat back = cv::imdecode(bytes, cv::IMREAD_COLOR);
+        ASSERT_EQ(back.cols, width);
+        ASSERT_EQ(back.rows, height);
+        const auto& table = srgbByteFromPacked();
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const PackedColor c = picture.at(x, y);
+                const cv::Vec3b bgr(table[c >> 20 & 1023], table[c >> 10 & 1023], table[c & 1023]);
+                ASSERT_EQ(back.at<cv::Vec3b>(y, x), bgr)
+                    << width << "x" << height << " at " << x << ", " << y;
+            }
+    }
+}
+
+TEST_F(ImageFile, APictureOfNoPixelsIsRefused) {
+    EXPECT_THROW(writeColorImage(in("none.png"), Plane<PackedColor>()), Error);
+    EXPECT_TRUE(std::filesystem::is_empty(in("")));
+}
+
 TEST_F(ImageFile, RowZeroIsTheTopAndRedIsRed) {
     cv::Mat mat(2, 3, CV_8UC3, cv::Scalar(0, 0, 0));
     mat.at<cv::Vec3b>(0, 2) = {0, 0, 255};  // blue, green, red

@@ -1,0 +1,14 @@
+// PNG pictures without a picture library: OpenCV's brings 140 others with it, GDAL and GDCM among them.
+#pragma once
+
+#include <vector>
+
+#include "engine/image/packed_color.h"
+#include "engine/image/plane.h"
+
+namespace stereonav {
+
+// The bytes of a PNG file (ISO/IEC 15948): 8-bit sRGB, row 0 at the top. image: at least 1 x 1.
+std::vector<unsigned char> pngBytes(const Plane<PackedColor>& image);
+
+}  // namespace stereonav
