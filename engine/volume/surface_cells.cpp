@@ -75,6 +75,21 @@ bool flagRegion(const SurfaceSetting& setting, int j, int k, int cells, std::uin
     return true;
 }
 
+// Values of a cell along a ray are off by less than this in single precision: some roundings of 2^-24 of the
+// 65,535 that two 16-bit numbers may lie apart.
+constexpr float kValueRounding = 0x1p-4f;
+
+// Whether any voxel of the cell or of those around it is at most `value`.
+bool anyAround(const GreyVolume& volume, int i, int j, int k, int value) {
+    const glm::ivec3 first = glm::max(glm::ivec3(i, j, k) - 1, 0),
+                     last = glm::min(glm::ivec3(i, j, k) + 2, volume.frame.size - 1);
+    for (int z = first.z; z <= last.z; ++z)
+        for (int y = first.y; y <= last.y; ++y)
+            for (int x = first.x; x <= last.x; ++x)
+                if (volume.at(x, y, z) <= value) return true;
+    return false;
+}
+
 void flagActive(const GreyVolume& volume, const SurfaceSetting& setting, int j, int k, int cells,
                 const std::uint8_t* region, std::uint8_t* active) {
     const FourRows<std::int16_t> v(volume, j, k);
@@ -84,13 +99,24 @@ void flagActive(const GreyVolume& volume, const SurfaceSetting& setting, int j, 
     const int lowest = static_cast<int>(std::clamp(std::ceil(setting.lowest), -32768.0f, 32767.0f));
     const float top = surfaceAlone ? std::ceil(setting.highest) - 1.0f : std::floor(setting.highest);
     const int highest = static_cast<int>(std::clamp(top, -32769.0f, 32767.0f));
-    for (int i = 0; i < cells; ++i) {
+    const auto lowOf = [&](int i) {
         const auto least = [&](int n) { return std::min(v.rows[n][i], v.rows[n][i + 1]); };
+        return static_cast<int>(std::min(std::min(least(0), least(1)), std::min(least(2), least(3))));
+    };
+    unsigned touching = 0;
+    for (int i = 0; i < cells; ++i) {
         const auto most = [&](int n) { return std::max(v.rows[n][i], v.rows[n][i + 1]); };
-        const int low = std::min(std::min(least(0), least(1)), std::min(least(2), least(3)));
+        const int low = lowOf(i);
         const int high = std::max(std::max(most(0), most(1)), std::max(most(2), most(3)));
         active[i] = (region[i] != 0) & (high >= lowest) & (low <= highest);
+        touching |= (region[i] != 0) & (low == highest + 1);
     }
+    // A cell of such values that begins at the surface itself, where it lies beside lower ones: rounding may
+    // carry a ray past the crossing on the face between the two, and it must not go on through what is solid.
+    const bool mayBePassed = surfaceAlone && std::ceil(setting.highest) - setting.highest < kValueRounding;
+    if (!touching || !mayBePassed) return;
+    for (int i = 0; i < cells; ++i)
+        if (region[i] && lowOf(i) == highest + 1 && anyAround(volume, i, j, k, highest)) active[i] = 1;
 }
 
 CellFlags flagCells(const GreyVolume& volume, const SurfaceSetting& setting, const VolumeFrame& frame) {
