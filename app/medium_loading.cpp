@@ -36,7 +36,12 @@ constexpr double kWaxAzimuth = 300 * kRadians, kWaxElevation = 30 * kRadians;
 constexpr double kLampCone = 2.2;  // radians: wider than what is seen
 constexpr std::array<MediumModel, 4> kModels{MediumModel::Emission, MediumModel::Surface, MediumModel::Direct,
                                              MediumModel::Indirect};  // in the order of the enumeration
-constexpr int kTerrainSlices = 768, kColonSlices = 512;
+// Of parallel light, so that white media are just below white on the screen.
+constexpr float kCloudRadiance = 0.6f, kWaxRadiance = 0.75f, kVolumeRadiance = 0.85f, kLampRadiance = 0.7f;
+constexpr double kFraming = 0.85;  // of the distance at which a ball around the bounds fills the picture
+// A colon's wall shows grain where slices are more than half a millimetre apart; ridges and valleys where the
+// light's texels are more than a hundred metres wide.
+constexpr int kTerrainSlices = 768, kTerrainLight = 512, kColonSlices = 900;
 
 double longestSide(const Medium& medium) {
     const glm::dvec3 size = medium.bounds().high - medium.bounds().low;
@@ -63,10 +68,9 @@ std::function<std::unique_ptr<Flight>()> freeFlight(const Pose& home, double ext
     };
 }
 
-void seeFromOutside(LoadedScene& scene) {
-    const WorldBox& box = scene.medium->medium.bounds();
+void seeFromOutside(const WorldBox& box, LoadedScene& scene) {
     const double radius = std::max(0.5 * glm::length(box.high - box.low), 1e-6);
-    const double distance = radius / std::sin(0.5 * kFov);
+    const double distance = kFraming * radius / std::sin(0.5 * kFov);
     scene.lens.verticalFov = kFov;
     scene.lens.nearDepth = 0.005 * radius;
     scene.stereo.zeroParallax = distance;
@@ -125,11 +129,14 @@ LoadedScene builtInMedium(const SceneOptions& options) {
     if (cloud) {
         shown.sky = [](const glm::dvec3& direction) { return gradientSky(glm::vec3(direction)); };
         shown.turnLight(kLightAzimuth, kLightElevation);
+        shown.look.light.radiance = glm::vec3(kCloudRadiance);
     } else {
+        shown.look.light.radiance = glm::vec3(kWaxRadiance);
         shown.look.background = glm::vec3(0.02f);
         shown.turnLight(kWaxAzimuth, kWaxElevation);
     }
-    seeFromOutside(scene);
+    // Without the noise, whose displacements may reach anywhere.
+    seeFromOutside(Medium(field, findMediumTransfer(shown.transfer)).bounds(), scene);
     adjustViews(options, scene);
     scene.makeFlight = freeFlight(scene.startPose, longestSide(shown.medium));
     return scene;
@@ -149,6 +156,7 @@ void lightAtHead(const ColonScene& colon, MediumScene& shown) {
     light.kind = MediumLight::Kind::Lamp;
     light.atHead = true;
     light.coneAngle = kLampCone;
+    light.radiance = glm::vec3(kLampRadiance);
     light.falloff = colon.volume.look.falloff;
 }
 
@@ -176,6 +184,7 @@ LoadedScene volumeMedium(const SceneOptions& options, SimdTarget simd, Progress&
         lightAtHead(colon, shown);
     } else {
         shown.turnLight(kLightAzimuth, kLightElevation);
+        shown.look.light.radiance = glm::vec3(kVolumeRadiance);
         scene.makeFlight = freeFlight(scene.startPose, longestSide(shown.medium));
     }
     return scene;
@@ -190,10 +199,11 @@ LoadedScene terrainAsMedium(const SceneOptions& options, SimdTarget simd, Progre
     MediumScene& shown = *scene.medium;
     shown.transfer = options.medium.medium;
     if (!options.medium.noise.empty()) shown.noise = options.medium.noise;
-    shown.medium = terrainMedium(terrain, options.medium);
+    shown.sweep.slices = options.medium.slices.value_or(kTerrainSlices);
+    shown.sweep.lightSize = options.medium.lightSize.value_or(kTerrainLight);
+    shown.medium = terrainMedium(terrain, options.medium, shown.sweep);
     shown.makeSurface = [&shown] { return allSurface(shown.medium); };
     shown.sky = [&terrain](const glm::dvec3& direction) { return skyAt(terrain.sky, direction); };
-    shown.sweep.slices = kTerrainSlices;
     shown.turnLight(terrain.look.sunAzimuth, terrain.look.sunElevation);
     if (terrain.landmarks) shown.notes.push_back("landmarks are not shown with a medium");
     return scene;

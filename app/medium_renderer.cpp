@@ -1,6 +1,7 @@
 // The three ways to two eyes of a medium, and what is put behind it.
 #include "app/medium_renderer.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -37,7 +38,9 @@ Medium allSurface(const Medium& layers) {
 // The right eye as the splat of depths sees it: one tile, swept from the depths that it is given.
 class MediumRenderer::RightRays final : public EyeRenderer {
 public:
-    RightRays(MediumRenderer& renderer, double time) : mRenderer(renderer), mTime(time) {}
+    // nearest: metres along the view, before which nothing is expected where the left eye does not look.
+    RightRays(MediumRenderer& renderer, double time, double nearest)
+        : mRenderer(renderer), mTime(time), mNearest(nearest) {}
 
     int tileCount(const EyeView&) const override { return 1; }
     void renderTile(const EyeView& view, int, EyeImage& image) const override {
@@ -48,7 +51,10 @@ public:
                       EyeImage& image) const override {
         renderTile(view, 0, image);
     }
-    bool mayHitBeyondEdge(const EyeView&, PixelRect, double, double) const override { return true; }
+    bool mayHitBeyondEdge(const EyeView&, PixelRect rect, double column,
+                          double parallaxScale) const override {
+        return rect.x1 >= column || parallaxScale / (column - rect.x1) > mNearest;
+    }
     bool translucent() const override { return true; }
     void renderTileFromDepth(const EyeView& view, int, EyeImage& image) const override {
         Plane<float> starts;
@@ -59,8 +65,18 @@ public:
 
 private:
     MediumRenderer& mRenderer;
-    double mTime;
+    double mTime, mNearest;
 };
+
+// Beyond the edge of what the left eye sees nothing is taken to be nearer than what it sees, but for a
+// margin. Unlike the rays of a scene with surfaces a medium can not be asked what is there.
+double nearestExpected(const EyeImage& left) {
+    constexpr float kMargin = 0.9f;
+    float nearest = kMissDepth;
+    for (int y = 0; y < left.height(); ++y)
+        for (int x = 0; x < left.width(); ++x) nearest = std::min(nearest, left.viewDepth.at(x, y));
+    return kMargin * nearest;
+}
 
 MediumRenderer::MediumRenderer(const MediumScene& scene, SimdTarget simd)
     : mScene(scene), mSweep(scene.medium, simd), mPictures(2) {}
@@ -116,7 +132,8 @@ PairTimings MediumRenderer::renderPair(const StereoViews& views, double time, Pa
     timings.left_ms = watch.elapsed_ms();
     WarpSetting setting;
     setting.method = method == PairMethod::DepthSplat ? RightEyeMethod::DepthSplat : RightEyeMethod::Full;
-    const RightEyeTimings ofRight = mSplat.render(RightRays(*this, time), views, left, setting, right);
+    const RightRays rays(*this, time, nearestExpected(left));
+    const RightEyeTimings ofRight = mSplat.render(rays, views, left, setting, right);
     timings.both_ms = watch.elapsed_ms();
     timings.right_ms = timings.both_ms - timings.left_ms;
     if (method == PairMethod::TwoSweeps) return timings;

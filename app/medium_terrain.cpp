@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <utility>
 #include <vector>
 
@@ -22,9 +23,10 @@ constexpr int kColors = 64;               // heights with a colour of their own
 constexpr int kColorSamples = 1'000'000;  // samples of the ground looked at, about
 constexpr double kGroundOpacity = 0.9;    // of a layer one sample spacing thick
 constexpr double kThickness = 0.02;       // of the longer side: how far down the ground is solid
-constexpr double kTaper = 0.5;            // sample spacings over which it begins
+constexpr double kTaper = 0.5;            // sample spacings over which it begins at least
 constexpr double kMistTaper = 0.3;        // of the mist's thickness
-constexpr glm::vec3 kMistColor{0.97f};
+constexpr float kMistAlbedo = 0.97f;
+constexpr glm::vec3 kMistColor{0.62f};  // beside ground whose colours are as the eye is used to them
 
 // Heights of a grid with the same spacing both ways, row 0 southernmost.
 Plane<float> heightsOf(const Heightfield& ground, double spacing) {
@@ -95,7 +97,8 @@ MediumTransfer groundTransfer(const TerrainScene& terrain, double spacing) {
     return MediumTransfer(std::move(points), spacing, "the ground's colours");
 }
 
-HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& options) {
+HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& options,
+                        const SweepSetting& sweep) {
     const Heightfield& ground = terrain.ground;
     const glm::dvec2 extent = ground.spacing() * glm::dvec2(ground.width() - 1, ground.height() - 1);
     HeightLayer layer;
@@ -104,7 +107,9 @@ HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& option
     layer.originY = ground.originWorld().y;
     layer.levels.push_back(heightsOf(ground, layer.spacing));
     layer.below = kThickness * std::max(extent.x, extent.y);
-    layer.taper = kTaper * layer.spacing;
+    // A face thinner than slices are apart, or the light's texels wide, shows them as terraces.
+    const double step = glm::length(extent) / std::min(sweep.slices, sweep.lightSize);
+    layer.taper = std::min(std::max(kTaper * layer.spacing, step), 0.5 * layer.below);
     const MediumTransfer transfer = options.medium == kGroundMedium ? groundTransfer(terrain, layer.spacing)
                                                                     : findMediumTransfer(options.medium);
     const double margin = 1 + 0.05 * (static_cast<double>(ground.maxHeight()) - ground.minHeight());
@@ -135,9 +140,9 @@ HeightLayer mistLayer(const TerrainScene& terrain, const Mist& mist) {
     material.color = kMistColor;
     // The tapers take away half of their part each.
     material.opacity = -std::expm1(-mist.opticalDepth / (1 - kMistTaper));
-    // Diffusion: tau_i = tau sqrt(3 (1 - a)), a the colour.
-    material.transport = glm::exp(-static_cast<float>(mist.opticalDepth / (1 - kMistTaper)) *
-                                  glm::sqrt(3.0f * (1.0f - kMistColor)));
+    // Diffusion: tau_i = tau sqrt(3 (1 - albedo)).
+    material.transport = glm::vec3(std::exp(-static_cast<float>(mist.opticalDepth / (1 - kMistTaper)) *
+                                            std::sqrt(3.0f * (1.0f - kMistAlbedo))));
     const double margin = 1 + layer.below;
     const MediumTransfer transfer(
         std::vector<MediumPoint>{{mist.top - 2 * margin, material}, {mist.top + margin, material}},
@@ -149,9 +154,9 @@ HeightLayer mistLayer(const TerrainScene& terrain, const Mist& mist) {
 
 }  // namespace
 
-Medium terrainMedium(const TerrainScene& terrain, const MediumOptions& options) {
+Medium terrainMedium(const TerrainScene& terrain, const MediumOptions& options, const SweepSetting& sweep) {
     std::vector<HeightLayer> layers;
-    layers.push_back(groundLayer(terrain, options));
+    layers.push_back(groundLayer(terrain, options, sweep));
     if (const std::optional<Mist> mist = mistFromText(options.mist))
         layers.push_back(mistLayer(terrain, *mist));
     const glm::dvec2 extent =

@@ -3,13 +3,14 @@
 
 #include "app/commands.h"
 #include "engine/medium/medium.h"
+#include "engine/medium/sweep_setting.h"
 #include "terrain/terrain_scene.h"
 
 namespace stereonav {
 
 // The ground as a layer in its own colours, or under a transfer function over the height; with --mist a
-// second layer. Throws Error.
-Medium terrainMedium(const TerrainScene& terrain, const MediumOptions& options);
+// second layer. The ground begins as gradually as the sweep is coarse. Throws Error.
+Medium terrainMedium(const TerrainScene& terrain, const MediumOptions& options, const SweepSetting& sweep);
 
 // The scene's sky by a unit world direction, linear RGB, bilinear between the map's texels.
 glm::vec3 skyAt(const SkyMap& sky, const glm::dvec3& direction);
