@@ -89,11 +89,11 @@ STEREONAV_INLINE F blinnPhong(const SweepLook& look, const V3& normal, const V3&
     return select(square > tiny, sum, zero);
 }
 
-// (1 - S) + f_s S of V3. place: as it is; there: displaced.
+// (1 - S) + f_s S of V3. place: not displaced; gradient: world axes.
 [[gnu::noinline]] inline Colors surfaceFactor(const SweepScene& scene, F surface, const V3& place,
-                                              const V3& there, const V3& way, const V3& toEye, M m) {
+                                              const V3& gradient, const V3& way, const V3& toEye, M m) {
     const F one(1.0f);
-    const F shaded = blinnPhong(scene.look, gradientAt(scene, there, m), way, toEye);
+    const F shaded = blinnPhong(scene.look, gradient, way, toEye);
     Colors f{{shaded, shaded, shaded}};
     const BakedData& baked = scene.look.baked;
     if (baked.texels) {

@@ -85,7 +85,7 @@ struct EyePacket {
     }
 
     // What a slab sends to the eye, of lanes m; x: its optical depth along the rays.
-    STEREONAV_INLINE Colors scattered(const Properties& p, int n, const V3& place, const V3& there, F x,
+    STEREONAV_INLINE Colors scattered(const Properties& p, int n, const V3& place, const V3& gradient, F x,
                                       const Decay& own, M m) const {
         const SweepLight& light = scene.light;
         const F zero(0.0f);
@@ -110,7 +110,7 @@ struct EyePacket {
         }
         const M shaded = a.lit & (p.surface > zero);
         Colors factor{{F(1.0f), F(1.0f), F(1.0f)}};
-        if (any(shaded)) factor = surfaceFactor(scene, p.surface, place, there, a.way, toEye, shaded);
+        if (any(shaded)) factor = surfaceFactor(scene, p.surface, place, gradient, a.way, toEye, shaded);
         for (int k = 0; k < 3; ++k) {
             const F c = p.color[k] * F(scene.look.radiance[k]) * sent.c[k];
             sent.c[k] = select(a.lit, select(shaded, c * factor.c[k], c), zero);
@@ -125,15 +125,15 @@ struct EyePacket {
         // A depth that is handed in was found by other slices: it counts from a slab before.
         m = m & (depth > zero) & (depth + abs(rays.perDepth) * F(chunk.thickness[n]) >= start);
         Properties p;
-        V3 place, there;
+        V3 place, there, gradient{zero, zero, zero};  // there: among the voxels, or displaced
         Column at;
         const SweepTable& table = scene.grid.table;
         if constexpr (kGridAlone) {
-            const V3 v{mulAdd(t, voxelWay.x, voxel.x), mulAdd(t, voxelWay.y, voxel.y),
-                       mulAdd(t, voxelWay.z, voxel.z)};
-            m = m & insideGrid(scene.grid, v);
+            there = {mulAdd(t, voxelWay.x, voxel.x), mulAdd(t, voxelWay.y, voxel.y),
+                     mulAdd(t, voxelWay.z, voxel.z)};
+            m = m & insideGrid(scene.grid, there);
             if (!any(m)) return;
-            at = columnOf(table, gridValue(scene.grid, v, m));
+            at = columnOf(table, gridValue(scene.grid, there, m));
             p.extinction = entryOf(table.extinction, at.entry, at.share, m);
         } else {
             if (!any(m)) return;
@@ -143,9 +143,15 @@ struct EyePacket {
         const M seen = m & (p.extinction > zero);
         if (!any(seen)) return;
         if constexpr (kGridAlone) {
-            readColors(table, at, seen, p);
-            if constexpr (kModel == kIndirect) readIndirect(table, at, seen, p);
-            place = there = placeAt(t);
+            readColorsAlone(table, at, seen, p);
+            if constexpr (kModel == kIndirect) readIndirectAlone(table, at, seen, p);
+            if constexpr (kModel != kEmission) {
+                place = placeAt(t);
+                if (table.surface) gradient = surfaceAlone(scene.grid, there, at, seen, p);
+            }
+        } else if constexpr (kModel != kEmission) {
+            const M shaded = seen & (p.surface > zero);
+            if (any(shaded)) gradient = gradientAt(scene, there, shaded);
         }
         const F x = select(seen, p.extinction * F(chunk.thickness[n]) * rays.length, zero);
         const Decay own = decayOf(x);
@@ -154,7 +160,7 @@ struct EyePacket {
         if constexpr (kModel == kEmission)
             sent = {{p.color[0] * opacity, p.color[1] * opacity, p.color[2] * opacity}};
         else
-            sent = scattered(p, n, place, there, x, own, seen);
+            sent = scattered(p, n, place, gradient, x, own, seen);
         for (int k = 0; k < 3; ++k) sent.c[k] = mulAdd(p.glow[k], opacity, sent.c[k]);
         collect(sent, own.passes, depth, seen, g);
     }

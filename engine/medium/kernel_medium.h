@@ -50,6 +50,17 @@ STEREONAV_INLINE void readColors(const SweepTable& table, const Column& at, M m,
     p.surface = table.surface ? memberAt(table, table.surface, at, m) : zero;
     for (int k = 0; k < 3; ++k) p.glow[k] = table.glow[k] ? memberAt(table, table.glow[k], at, m) : zero;
 }
+// The same of grids alone, where rows have the same colours; the surface weight is not read.
+STEREONAV_INLINE void readColorsAlone(const SweepTable& table, const Column& at, M m, Properties& p) {
+    const F zero(0.0f);
+    const auto read = [&](const float* member) { return entryOf(member, at.entry, at.share, m); };
+    for (int k = 0; k < 3; ++k) p.color[k] = read(table.color[k]);
+    for (int k = 0; k < 3; ++k) p.glow[k] = table.glow[k] ? read(table.glow[k]) : zero;
+    p.surface = zero;
+}
+STEREONAV_INLINE void readIndirectAlone(const SweepTable& table, const Column& at, M m, Properties& p) {
+    for (int k = 0; k < 3; ++k) p.indirect[k] = entryOf(table.indirect[k], at.entry, at.share, m);
+}
 STEREONAV_INLINE void readIndirect(const SweepTable& table, const Column& at, M m, Properties& p) {
     for (int k = 0; k < 3; ++k) p.indirect[k] = memberAt(table, table.indirect[k], at, m);
 }
@@ -85,16 +96,53 @@ STEREONAV_INLINE F gridValue(const SweepGrid& grid, const V3& v, M m) {
     const F far = lerp(pair(next), pair(next + grid.strideY), fy);
     return lerp(near, far, fz) * F(1.0f / 16384);
 }
-// Value units a metre, along the grid's own axes.
+// Differences over two voxels to both sides, of places with two voxels around their cells. A row's neighbours
+// along x are two words, from which the one between is put together.
+STEREONAV_INLINE V3 innerDifferences(const SweepGrid& grid, const V3& v, I x, I y, I z, M m) {
+    const I high = truncateToInt(mulAdd(v.x - toFloat(x), F(16384.0f), F(0.5f)));
+    const I weights = shiftLeft<16>(high) + (I(16384) - high);
+    const F fy = v.y - toFloat(y), fz = v.z - toFloat(z);
+    const I word = z * I(grid.strideZ) + y * I(grid.strideY) + x;
+    const auto weighed = [&](I pair) { return toFloat(dotHalves(pair, weights)); };
+    const auto wordAt = [&](std::int64_t offset) { return gatherHalves(grid.values + offset, word, m); };
+    const std::int64_t down = grid.strideY, next = grid.strideZ;
+    F here[4], across[4];
+    for (int n = 0; n < 4; ++n) {
+        const std::int64_t row = (n & 1 ? down : 0) + (n & 2 ? next : 0);
+        const I before = wordAt(row - 1), after = wordAt(row + 1);
+        here[n] = weighed((shiftRight<16>(before) & I(0xFFFF)) | shiftLeft<16>(after));
+        across[n] = weighed(after) - weighed(before);
+    }
+    const auto mixed = [&](F a, F b, F c, F d) { return lerp(lerp(a, b, fy), lerp(c, d, fy), fz); };
+    const auto at = [&](std::int64_t offset) { return weighed(wordAt(offset)); };
+    const F unit(1.0f / 16384);
+    return {mixed(across[0], across[1], across[2], across[3]) * unit,
+            mixed(here[1] - at(-down), at(2 * down) - here[0], here[3] - at(next - down),
+                  at(next + 2 * down) - here[2]) *
+                unit,
+            mixed(here[2] - at(-next), here[3] - at(down - next), at(2 * next) - here[0],
+                  at(2 * next + down) - here[1]) *
+                unit};
+}
+// Value units a metre, along the grid's own axes; at the faces the outermost voxels count on.
 [[gnu::noinline]] inline V3 gridGradient(const SweepGrid& grid, const V3& v, M m) {
     const F zero(0.0f), one(1.0f);
+    const I x = truncateToInt(v.x), y = truncateToInt(v.y), z = truncateToInt(v.z), first(1);
+    const M outer =
+        m & ~(within(x - first, I(grid.lastCell[0] - 2)) & within(y - first, I(grid.lastCell[1] - 2)) &
+              within(z - first, I(grid.lastCell[2] - 2)));
+    const F scale[3] = {F(grid.slope[0]), F(grid.slope[1]), F(grid.slope[2])};
+    if (!any(outer)) {
+        const V3 d = innerDifferences(grid, v, x, y, z, m);
+        return {d.x * scale[0], d.y * scale[1], d.z * scale[2]};
+    }
     const auto along = [&](int axis) {
         V3 before = v, after = v;
         F& low = axis == 0 ? before.x : axis == 1 ? before.y : before.z;
         F& high = axis == 0 ? after.x : axis == 1 ? after.y : after.z;
         low = max(low - one, zero);
         high = min(high + one, F(grid.last[axis]));
-        return (gridValue(grid, after, m) - gridValue(grid, before, m)) * F(grid.slope[axis]);
+        return (gridValue(grid, after, m) - gridValue(grid, before, m)) * scale[axis];
     };
     return {along(0), along(1), along(2)};
 }
@@ -285,17 +333,37 @@ STEREONAV_INLINE Disturbance disturbanceAt(const SweepNoise& noise, const V3& pl
     }
     return normal;
 }
+STEREONAV_INLINE V3 worldGradient(const SweepGrid& grid, const V3& g) {
+    const auto row = [&](int k) {
+        const float(&a)[3] = grid.axes[k];
+        return mulAdd(g.x, F(a[0]), mulAdd(g.y, F(a[1]), g.z * F(a[2])));
+    };
+    return {row(0), row(1), row(2)};
+}
 // Along world axes, any length; place: displaced.
 [[gnu::noinline]] inline V3 gradientAt(const SweepScene& scene, const V3& place, M m) {
     if (!scene.grid.values) return layerNormal(scene, place, m);
     const V3 voxel = voxelOf(scene.grid, place);
     const M in = m & insideGrid(scene.grid, voxel);
-    const V3 g = gridGradient(scene.grid, voxel, in);
-    const auto row = [&](int k) {
-        const float(&a)[3] = scene.grid.axes[k];
-        return select(in, mulAdd(g.x, F(a[0]), mulAdd(g.y, F(a[1]), g.z * F(a[2]))), F(0.0f));
-    };
-    return {row(0), row(1), row(2)};
+    const F zero(0.0f);
+    const V3 g = worldGradient(scene.grid, gridGradient(scene.grid, voxel, in));
+    return {select(in, g.x, zero), select(in, g.y, zero), select(in, g.z, zero)};
+}
+// The surface weight of places in a grid alone, and their gradient where it is not 0: world axes.
+[[gnu::noinline]] inline V3 surfaceAlone(const SweepGrid& grid, const V3& voxel, Column at, M m,
+                                         Properties& p) {
+    const F zero(0.0f);
+    const SweepTable& table = grid.table;
+    const F most = entryOf(table.mostSurface, at.entry, at.share, m);
+    const M shaded = m & (most > zero);
+    p.surface = select(shaded, most, zero);
+    if (!any(shaded)) return {zero, zero, zero};
+    const V3 g = gridGradient(grid, voxel, shaded);
+    if (table.rows > 1) {
+        setRow(table, lengthOf(g), at);
+        p.surface = select(shaded, memberAt(table, table.surface, at, shaded), zero);
+    }
+    return worldGradient(grid, g);
 }
 
 // (1 - exp(-z)) / z and exp(-z), z >= 0. A series where z is small: the difference would lose digits, and it

@@ -234,7 +234,7 @@ STEREONAV_INLINE M passedThere(const SweepScene& scene, const LightTile& tile, c
         if (!any(there)) return there;
         const F place = max(column, F(0.0f));
         const I entry = min(truncateToInt(place), I(SweepTable::kColumns - 2));
-        readIndirect(scene.grid.table, {entry, place - toFloat(entry), I(0), F(0.0f)}, there, p);
+        readIndirectAlone(scene.grid.table, {entry, place - toFloat(entry), I(0), F(0.0f)}, there, p);
         return there;
     } else {
         const SweepLight& light = scene.light;

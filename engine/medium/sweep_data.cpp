@@ -91,7 +91,7 @@ void SweepData::takeTable(const MediumTable& table, double scale, double offset,
     bool surface = false, glow = false;
     for (std::size_t n = 0; n < count; ++n) {
         const OpticalProperties& p = table.entries[n];
-        const float values[12] = {p.extinction,
+        const float values[11] = {p.extinction,
                                   p.indirectExtinction.x,
                                   p.indirectExtinction.y,
                                   p.indirectExtinction.z,
@@ -101,9 +101,10 @@ void SweepData::takeTable(const MediumTable& table, double scale, double offset,
                                   p.surface,
                                   p.glow.x,
                                   p.glow.y,
-                                  p.glow.z,
-                                  0};
-        for (int k = 0; k < 12; ++k) to.members[k][n] = values[k];
+                                  p.glow.z};
+        for (int k = 0; k < 11; ++k) to.members[k][n] = values[k];
+        float& most = to.members[11][n % SweepTable::kColumns];
+        most = std::max(most, p.surface);
         surface = surface || p.surface > 0;
         glow = glow || p.glow.x > 0 || p.glow.y > 0 || p.glow.z > 0;
     }
@@ -115,6 +116,11 @@ void SweepData::takeTable(const MediumTable& table, double scale, double offset,
         d.glow[k] = glow ? to.members[8 + k].data() : nullptr;
     }
     d.surface = surface ? to.members[7].data() : nullptr;
+    d.mostSurface = to.members[11].data();
+    d.rowsOfSurface = true;
+    for (int k = 0; k < 11; ++k)
+        for (std::size_t n = SweepTable::kColumns; n < count && k != 7; ++n)
+            d.rowsOfSurface = d.rowsOfSurface && to.members[k][n] == to.members[k][n % SweepTable::kColumns];
     d.perValue = static_cast<float>(scale * table.perValue);
     d.zero = static_cast<float>((offset - table.firstValue) * table.perValue);
     d.perGradient = static_cast<float>(table.perGradient);
@@ -220,8 +226,9 @@ SweepScene SweepData::sceneFor(const MediumLook& look, const SweepSetting& setti
     scene.layers = mLayers.data();
     scene.layerCount = static_cast<int>(mLayers.size());
     setNoise(scene.noise, geometry.anchor, time);
-    scene.gridAlone =
-        scene.grid.values && mLayers.empty() && !scene.noise.texels && scene.grid.table.rows == 1;
+    const SweepTable& table = scene.grid.table;
+    scene.gridAlone = scene.grid.values && mLayers.empty() && !scene.noise.texels &&
+                      (table.rows == 1 || table.rowsOfSurface);
     setLook(scene.look, look);
     setVector(scene.look.radiance, geometry.radiance);
     const glm::dvec3 size = mMedium.bounds().high - mMedium.bounds().low;

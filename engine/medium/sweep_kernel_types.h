@@ -15,11 +15,13 @@ struct SweepTable {
     const float* extinction = nullptr;
     const float* indirect[3] = {};
     const float* color[3] = {};
-    const float* surface = nullptr;  // null: none
-    const float* glow[3] = {};       // null: none
-    float perValue = 0, zero = 0;    // column = value * perValue + zero; value: as stored, or relative height
-    float perGradient = 0;           // row
+    const float* surface = nullptr;      // null: none
+    const float* mostSurface = nullptr;  // of each column, over the rows
+    const float* glow[3] = {};           // null: none
+    float perValue = 0, zero = 0;  // column = value * perValue + zero; value: as stored, or relative height
+    float perGradient = 0;         // row
     int rows = 1;
+    bool rowsOfSurface = false;  // rows differ in nothing else
 };
 
 struct SweepGrid {
@@ -143,7 +145,8 @@ struct EyeTile {
 };
 
 struct SweepScene {
-    bool gridAlone = false;  // one-dimensional table, no layers, no noise: the short way
+    // No layers, no noise, and a table that is one-dimensional, but for the surface weight: the short way.
+    bool gridAlone = false;
     SweepGrid grid;
     const SweepLayer* layers = nullptr;
     int layerCount = 0;

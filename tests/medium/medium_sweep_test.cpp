@@ -73,7 +73,7 @@ Perturbation noisy() {
     return p;
 }
 
-enum class Kind { Grid, Surface, Noise, Regions, Layers };
+enum class Kind { Grid, Surface, Ramp, Noise, Regions, Layers };
 
 Medium mediumOf(Kind kind, std::mt19937& random) {
     if (kind == Kind::Regions) {
@@ -107,14 +107,16 @@ Medium mediumOf(Kind kind, std::mt19937& random) {
         }
         return Medium(std::move(layers), noisy());
     }
-    const double surface = kind == Kind::Surface ? 1 : 0;
+    const double surface = kind == Kind::Surface || kind == Kind::Ramp ? 1 : 0;
     std::vector<MediumPoint> points(3);
     for (int n = 0; n < 3; ++n) points[n] = {200.0 + 90 * n, randomMaterial(random, surface)};
     points[0].material.opacity = 0;
     points[1].material.glow = {0.2f, 0.0f, 0.1f};
     std::vector<MediumPoint> all{{-100, points[0].material}};
     all.insert(all.end(), points.begin(), points.end());
-    return Medium(humps({19, 17, 15}, kind == Kind::Noise), MediumTransfer(all, 0.3, "test"),
+    MediumTransfer transfer(all, 0.3, "test");
+    if (kind == Kind::Ramp) transfer.setSurfaceRamp(200, 1500, "test");
+    return Medium(humps({19, 17, 15}, kind == Kind::Noise), transfer,
                   kind == Kind::Noise ? noisy() : Perturbation{});
 }
 
@@ -188,14 +190,14 @@ struct Case {
 };
 std::string nameOfCase(const testing::TestParamInfo<Case>& info) {
     const Case& c = info.param;
-    const char* kinds[] = {"Grid", "Surface", "Noise", "Regions", "Layers"};
+    const char* kinds[] = {"Grid", "Surface", "Ramp", "Noise", "Regions", "Layers"};
     const char* models[] = {"Emission", "Surface", "Direct", "Indirect"};
     return std::string(kinds[static_cast<int>(c.kind)]) + models[static_cast<int>(c.model)] +
            (c.lamp ? "Lamp" : "Sun") + (c.forward ? "Forward" : "Backward");
 }
 std::vector<Case> cases() {
     std::vector<Case> all;
-    for (const Kind kind : {Kind::Grid, Kind::Surface, Kind::Noise, Kind::Regions, Kind::Layers})
+    for (const Kind kind : {Kind::Grid, Kind::Surface, Kind::Ramp, Kind::Noise, Kind::Regions, Kind::Layers})
         for (const MediumModel model :
              {MediumModel::Emission, MediumModel::Surface, MediumModel::Direct, MediumModel::Indirect})
             for (const bool lamp : {false, true})
