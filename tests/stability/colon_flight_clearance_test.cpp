@@ -9,6 +9,7 @@
 #include <random>
 
 #include "tests/support/analytic_lumen.h"
+#include "tests/support/stability_row.h"
 
 namespace stereonav {
 namespace {
@@ -85,11 +86,14 @@ void steer(ColonFlight& flight, const FlightInput& input, double dt, std::mt1993
 }
 
 Seen steerAtRandom(const AnalyticLumen& lumen, const ColonFlightSetting& setting, int steps,
-                   bool longSteps = false) {
+                   bool longSteps = false, const std::string& id = "") {
     ColonFlight flight(lumen.freeDistance(), lumen.line, lumen.home, setting);
     std::mt19937_64 random(42);
     FlightInput input;
     Seen seen;
+    test::StabilityRow row("clearance/" + (id.empty() ? lumen.name : id),
+                           lumen.name + ", steered at random in steps of 1 ms to 1 s",
+                           "an eye nearer to the wall than allowed", kRounding, "m");
     const auto start = std::chrono::steady_clock::now();
     steps /= kShare;
     for (int k = 0; k < steps; ++k) {
@@ -104,6 +108,7 @@ Seen steerAtRandom(const AnalyticLumen& lumen, const ColonFlightSetting& setting
         seen.leastFree = std::min(seen.leastFree, free);
         seen.leastAllowed = std::min(seen.leastAllowed, allowed);
         seen.leastOver = std::min(seen.leastOver, free - allowed);
+        row.saw(allowed - free);
         EXPECT_GE(free, allowed - kRounding) << lumen.name << ", step " << k << " of " << dt << " s";
         EXPECT_LT(std::abs(glm::length(pose.orientation) - 1), 1e-9) << lumen.name << ", step " << k;
         if (testing::Test::HasFailure()) break;
@@ -132,13 +137,14 @@ TEST(ColonFlightClearance, IsKeptAtNarrowFolds) {
 }
 
 TEST(ColonFlightClearance, IsKeptInLongSteps) {
-    steerAtRandom(foldedTube(0.02, 0.008), {0.002, 0.03, 0.004}, 5000, true);
+    steerAtRandom(foldedTube(0.02, 0.008), {0.002, 0.03, 0.004}, 5000, true, "long steps");
 }
 
 TEST(ColonFlightClearance, NeverReachesTheWallWhereTheLumenIsNarrower) {
     for (const double least : {0.004, 0.0025, 0.001}) {
         const AnalyticLumen lumen = throat(least);
-        const Seen seen = steerAtRandom(lumen, {0.003, 0.03, 0.002}, 5000);
+        const Seen seen = steerAtRandom(lumen, {0.003, 0.03, 0.002}, 5000, false,
+                                        "throat " + test::shortNumber(1e3 * least) + " mm");
         EXPECT_GT(seen.leastFree, 0.2 * 0.8 * 0.003) << least;
     }
 }
