@@ -158,6 +158,7 @@ int run(const Options& options) {
         compareSubject(subject, options, timer);
         printOrder(subject, viewOf(subject.medium(), options.size));
         printStereo(subject, 256, timer);
+        printOwnAxes(subject);
     }
     const MediumMarks marks = measureMarks(timer);
     printMarkTimes(marks);

@@ -2,15 +2,58 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
+#include "engine/medium/plain_sweep.h"
 #include "tests/bench/bench_volume_light_errors.h"
 #include "tests/bench/bench_volume_light_runs.h"
 #include "tests/bench/bench_volume_light_subjects.h"
 
 namespace stereonav::bench {
 
-// Each eye swept with the axis of both, or with its own head: then the slices lean apart.
+// The slices as they lie for an eye that is turned to the subject's middle, under rays of the eye as it is.
+inline SweepGeometry ownGeometry(const Medium& medium, const MediumLook& look, const SweepSetting& setting,
+                                 const EyeView& eye, const SweepGeometry& shared, std::size_t number) {
+    EyeView turned = eye;
+    turned.forward = glm::normalize(medium.bounds().center() - eye.eye);
+    turned.right = glm::normalize(glm::cross(turned.forward, eye.up));
+    turned.up = glm::cross(turned.right, turned.forward);
+    SweepGeometry own =
+        makeSweepGeometry(medium, look, setting, std::span<const EyeView>(&turned, 1), eye.head);
+    own.eyes = {shared.eyes[number]};
+    own.eyes[0].origin += shared.anchor - own.anchor;
+    return own;
+}
+
+// By the book, since the fast sweeps choose the axis themselves.
+inline void printOwnAxes(const MediumSubject& subject) {
+    constexpr int kSize = 64;
+    const Medium medium = subject.medium();
+    const StereoViews stereo = stereoViewsOf(medium, kSize);
+    const std::array<EyeView, 2> eyes{stereo.left, stereo.right};
+    for (const int slices : {64, 256}) {
+        SweepSetting setting;
+        setting.slices = slices;
+        setting.lightSize = 128;
+        const SweepGeometry shared = makeSweepGeometry(medium, subject.look, setting, eyes, stereo.left.head);
+        const auto both = plainSweep(medium, subject.look, setting, shared, subject.time);
+        double levels = 0, angle = 0;
+        for (std::size_t n = 0; n < 2; ++n) {
+            const SweepGeometry own = ownGeometry(medium, subject.look, setting, eyes[n], shared, n);
+            const auto one = plainSweep(medium, subject.look, setting, own, subject.time);
+            levels += 0.5 * greyLevels(one[0].light, both[n].light, subject.look.background);
+            angle = std::max(angle, std::asin(glm::length(glm::cross(own.axis, shared.axis))));
+        }
+        std::printf(
+            "\n%d slices along an axis of each eye's own, up to %.2f degrees from the shared one: %.3f "
+            "grey levels from it on average.\n",
+            slices, angle * 57.29578, levels);
+        std::fflush(stdout);
+    }
+}
+
+// Both eyes at once, and each in a sweep of its own.
 inline void printStereo(const MediumSubject& subject, int size, GpuSweepTimer& timer) {
     const Medium medium = subject.medium();
     const StereoViews stereo = stereoViewsOf(medium, size);
