@@ -96,7 +96,7 @@ inline std::vector<NamedWay> lightWays() {
             {"from behind it", glm::normalize(-p.forward() + 0.3 * p.right() - 0.6 * p.up())}};
 }
 
-// Weak enough that next to nothing of the truth is clipped: white media send back up to 2.5 times it.
+// Weak, so that less is clipped of what white media send back: a half space up to H(1)^2 / 2 = 4.2 times it.
 inline MediumLook lookFrom(const glm::dvec3& direction) {
     MediumLook look;
     look.light.radiance = glm::vec3(0.4f);
