@@ -9,6 +9,10 @@ namespace stereonav {
 class EglContext {
 public:
     EglContext() {
+        // Asking for a function that EGL does not have would end the program.
+        if (!epoxy_has_egl() || !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base") ||
+            !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
+            return;
         mDisplay = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
         if (mDisplay == EGL_NO_DISPLAY || !eglInitialize(mDisplay, nullptr, nullptr)) return;
         if (!eglBindAPI(EGL_OPENGL_API)) return;
