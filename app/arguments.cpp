@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "app/built_without.h"
 #include "app/commands.h"
 #include "app/medium_options.h"
 #include "app/volume_light.h"
@@ -358,7 +359,7 @@ std::string commandIn(const CLI::App& app) {
 int runCommandLine(int argc, char** argv) {
     CLI::App app{"Stereo flight through terrain and the colon, with the second eye warped and measured",
                  "stereonav"};
-    app.set_version_flag("--version", "stereonav 0.1.0");
+    app.set_version_flag("--version", versionText());
     app.require_subcommand(0, 1);
     app.footer(
         "Without a command: flies the built-in terrain, or, where there is no display, plays it to out/.");

@@ -23,10 +23,11 @@ namespace stereonav {
 
 struct LoadedScene {
     std::string name;  // as given, "terrain" for the built-in one
-    // What the rest refers to: one of the first two, but for a built-in medium.
-    std::unique_ptr<TerrainScene> terrain;
-    std::unique_ptr<ColonScene> colon;
-    std::unique_ptr<MediumScene> medium;   // null where rays are cast
+    // What the rest refers to: one of the first two, but for a built-in medium. Shared so that a program that
+    // leaves one of them out needs nothing of it.
+    std::shared_ptr<TerrainScene> terrain;
+    std::shared_ptr<ColonScene> colon;
+    std::shared_ptr<MediumScene> medium;   // null where rays are cast
     std::shared_ptr<LazyLight> lazyLight;  // of a volume lit while it is shown; else null
     // One of the two.
     std::unique_ptr<EyeRenderer> renderer;

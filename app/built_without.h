@@ -1,0 +1,14 @@
+// What this build of the program leaves out (CMake's STEREONAV_TERRAIN, STEREONAV_COLON, ...).
+#pragma once
+
+#include <string>
+
+namespace stereonav {
+
+// "stereonav 0.1.0", and on a second line what it was built without, where that is anything.
+std::string versionText();
+
+// For the commands and scenes that need `part`: throws Error that says how to build it.
+[[noreturn]] void throwBuiltWithout(const std::string& part, const std::string& option);
+
+}  // namespace stereonav

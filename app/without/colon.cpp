@@ -1,0 +1,89 @@
+// Stands in for CT studies and the colon where the program is built without them: everything that needs it
+// says so.
+#include <nlohmann/json.hpp>
+
+#include "app/bake_volume.h"
+#include "app/built_without.h"
+#include "app/colon_loading.h"
+#include "app/info_text.h"
+#include "app/volume_light.h"
+#include "colon/study.h"
+#include "colon/transfer_presets.h"
+
+namespace stereonav {
+namespace {
+
+[[noreturn]] void without() {
+    throwBuiltWithout("CT studies and the colon", "STEREONAV_COLON");
+}
+
+}  // namespace
+
+LoadedScene loadColonScene(const SceneOptions&, SimdTarget, Progress&) {
+    without();
+}
+
+ColonOptions colonOptionsOf(const SceneOptions&) {
+    without();
+}
+
+void checkInLumen(const ColonScene&, const RecordedPath&, const std::string&) {
+    without();
+}
+
+void addVolume(const LoadedScene&, const SceneOptions&, ViewScene&) {
+    without();
+}
+
+int bakeVolume(const BakeOptions&) {
+    without();
+}
+
+int runCentreline(const CentrelineOptions&) {
+    without();
+}
+
+nlohmann::ordered_json colonJson(const LoadedScene&) {
+    without();
+}
+
+std::string colonText(const LoadedScene&) {
+    without();
+}
+
+// Names are all that is left of studies: what they stand for is refused when it is opened.
+bool looksLikeStudy(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    for (const char* end : {".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd"})
+        if (name.ends_with(end)) return true;
+    std::error_code code;
+    return std::filesystem::is_directory(path, code);
+}
+
+std::string transferPresetNames() {
+    return "none";
+}
+
+std::string shadingNames() {
+    return "none";
+}
+
+void refuseLazyLight(const SceneOptions&) {}
+
+void LazyLight::seen(const EyeView&, const EyeImage&) {
+    without();
+}
+
+void LazyLight::waitUntilDone() const {
+    without();
+}
+
+Study readStudy(const std::filesystem::path&, const StudyOptions&, Progress&) {
+    without();
+}
+
+BuiltInColon builtInColon(const BuiltInColonSetting&, Progress&) {
+    without();
+}
+
+}  // namespace stereonav

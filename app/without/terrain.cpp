@@ -1,0 +1,47 @@
+// Stands in for terrain where the program is built without it: everything that needs it says so.
+#include <nlohmann/json.hpp>
+
+#include "app/bake_terrain.h"
+#include "app/built_without.h"
+#include "app/info_text.h"
+#include "app/medium_terrain.h"
+#include "app/terrain_loading.h"
+
+namespace stereonav {
+namespace {
+
+[[noreturn]] void without() {
+    throwBuiltWithout("terrain", "STEREONAV_TERRAIN");
+}
+
+}  // namespace
+
+LoadedScene loadTerrainScene(const SceneOptions&, SimdTarget, Progress&) {
+    without();
+}
+
+int bakeTerrain(const BakeOptions&) {
+    without();
+}
+
+int runMesh(const MeshOptions&) {
+    without();
+}
+
+nlohmann::ordered_json terrainJson(const LoadedScene&) {
+    without();
+}
+
+std::string terrainText(const LoadedScene&) {
+    without();
+}
+
+Medium terrainMedium(const TerrainScene&, const MediumOptions&) {
+    without();
+}
+
+glm::vec3 skyAt(const SkyMap&, const glm::dvec3&) {
+    without();
+}
+
+}  // namespace stereonav

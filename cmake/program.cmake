@@ -1,0 +1,64 @@
+# The program: its commands, the modules that only it uses, and what it is built without (app/without).
+stereonav_module(video app/opencv LINK engine_byte_image opencv_imgproc opencv_videoio)
+add_executable(stereonav)
+add_dependencies(stereonav stereonav_video)
+target_link_libraries(stereonav PRIVATE engine_light engine_metrics engine_stereo engine_nav
+  CLI11::CLI11 nlohmann_json::nlohmann_json)
+
+set(left_out "")   # sources of app/ that need what is left out
+set(without "")    # its names; app/without/<name>.cpp stands in for it
+
+# stereonav_part(name OPTION option LINK rooms SOURCES patterns): in, or left out with the sources that need it
+function(stereonav_part name)
+  cmake_parse_arguments(ARG "" "OPTION" "LINK;SOURCES" ${ARGN})
+  if(${ARG_OPTION})
+    target_link_libraries(stereonav PRIVATE ${ARG_LINK})
+    return()
+  endif()
+  target_sources(stereonav PRIVATE ${CMAKE_SOURCE_DIR}/app/without/${name}.cpp)
+  list(TRANSFORM ARG_SOURCES PREPEND ${CMAKE_SOURCE_DIR}/app/)
+  file(GLOB files CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/app ${ARG_SOURCES})
+  set(left_out ${left_out} ${files} PARENT_SCOPE)
+  set(without ${without} ${name} PARENT_SCOPE)
+endfunction()
+
+stereonav_part(terrain OPTION STEREONAV_TERRAIN LINK terrain
+  SOURCES terrain_loading.cpp bake_terrain.cpp info_terrain.cpp command_mesh.cpp medium_terrain.cpp)
+if(NOT STEREONAV_TERRAIN)
+  target_sources(stereonav PRIVATE ${CMAKE_SOURCE_DIR}/terrain/sky_map.cpp)  # the sky over media, too
+endif()
+stereonav_part(colon OPTION STEREONAV_COLON LINK colon
+  SOURCES colon_loading.cpp bake_volume.cpp bake_peers_*.cpp info_colon.cpp command_centreline.cpp volume_light.cpp
+    light_loading.cpp lazy_light.cpp)
+stereonav_part(medium OPTION STEREONAV_MEDIUM LINK engine_medium SOURCES medium_*.cpp info_medium.cpp)
+stereonav_part(display OPTION STEREONAV_DISPLAY LINK engine_display
+  SOURCES command_view.cpp view_input.cpp view_loading.cpp view_session.cpp view_slices.cpp view_stereo.cpp
+    view_worker.cpp screenshots.cpp slice_picture.cpp)
+if(STEREONAV_TERRAIN AND STEREONAV_COLON AND STEREONAV_MEDIUM)
+  set(whole ON)
+endif()
+stereonav_part(report OPTION whole SOURCES command_report.cpp report_*.cpp)
+
+if(STEREONAV_FAULTS)
+  list(APPEND left_out report_faults_off.cpp)
+else()
+  list(APPEND left_out report_faults_on.cpp)
+endif()
+if(STEREONAV_MPI AND STEREONAV_COLON)
+  find_package(MPI REQUIRED COMPONENTS CXX)
+  target_link_libraries(stereonav PRIVATE MPI::MPI_CXX)
+  list(APPEND left_out bake_peers_single.cpp)
+else()
+  list(APPEND left_out bake_peers_mpi.cpp)
+endif()
+if(NOT STEREONAV_MPI)
+  list(APPEND without MPI)
+endif()
+stereonav_sources(stereonav app EXCLUDE ${left_out})
+list(JOIN without ", " without)
+set_source_files_properties(app/built_without.cpp PROPERTIES COMPILE_DEFINITIONS
+  "STEREONAV_VERSION=\"${PROJECT_VERSION}\";STEREONAV_WITHOUT=\"${without}\"")
+include(cmake/version.cmake)
+install(TARGETS stereonav RUNTIME DESTINATION bin)
+install(DIRECTORY ${CMAKE_BINARY_DIR}/lib/stereonav DESTINATION lib FILES_MATCHING PATTERN "stereonav_*.so"
+  PATTERN "stereonav_test*" EXCLUDE)
