@@ -38,10 +38,11 @@ constexpr std::array<MediumModel, 4> kModels{MediumModel::Emission, MediumModel:
                                              MediumModel::Indirect};  // in the order of the enumeration
 // Of parallel light, so that white media are just below white on the screen.
 constexpr float kCloudRadiance = 0.6f, kWaxRadiance = 0.75f, kVolumeRadiance = 0.85f, kLampRadiance = 0.7f;
-constexpr double kFraming = 0.85;  // of the distance at which a ball around the bounds fills the picture
+constexpr float kSnowRadiance = 0.65f;  // of terrain, but for its own colours, which are dark
+constexpr double kFraming = 0.85;       // of the distance at which a ball around the bounds fills the picture
 // A colon's wall shows grain where slices are more than half a millimetre apart; ridges and valleys where the
 // light's texels are more than a hundred metres wide.
-constexpr int kTerrainSlices = 768, kTerrainLight = 512, kColonSlices = 900;
+constexpr int kTerrainSlices = 1200, kTerrainLight = 512, kColonSlices = 900;
 
 double longestSide(const Medium& medium) {
     const glm::dvec3 size = medium.bounds().high - medium.bounds().low;
@@ -205,6 +206,7 @@ LoadedScene terrainAsMedium(const SceneOptions& options, SimdTarget simd, Progre
     shown.makeSurface = [&shown] { return allSurface(shown.medium); };
     shown.sky = [&terrain](const glm::dvec3& direction) { return skyAt(terrain.sky, direction); };
     shown.turnLight(terrain.look.sunAzimuth, terrain.look.sunElevation);
+    if (options.medium.medium != kGroundMedium) shown.look.light.radiance = glm::vec3(kSnowRadiance);
     if (terrain.landmarks) shown.notes.push_back("landmarks are not shown with a medium");
     return scene;
 }

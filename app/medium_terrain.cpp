@@ -21,7 +21,8 @@ namespace {
 
 constexpr int kColors = 64;               // heights with a colour of their own
 constexpr int kColorSamples = 1'000'000;  // samples of the ground looked at, about
-constexpr double kGroundOpacity = 0.9;    // of a layer one sample spacing thick
+constexpr double kGroundOpacity = 0.9;    // of a layer one sample spacing thick, or kSoftSlices slices
+constexpr double kSoftSlices = 3;         // fewer, and each slice shows as a terrace
 constexpr double kThickness = 0.02;       // of the longer side: how far down the ground is solid
 constexpr double kTaper = 0.5;            // sample spacings over which it begins at least
 constexpr double kMistTaper = 0.3;        // of the mist's thickness
@@ -86,7 +87,7 @@ MediumMaterial groundMaterial(const glm::vec3& color) {
     return material;
 }
 
-MediumTransfer groundTransfer(const TerrainScene& terrain, double spacing) {
+MediumTransfer groundTransfer(const TerrainScene& terrain, double length) {
     const std::vector<glm::vec3> colors = meanColors(terrain);
     const double lowest = terrain.ground.minHeight();
     const double range = std::max<double>(terrain.ground.maxHeight() - lowest, 1.0);
@@ -94,7 +95,7 @@ MediumTransfer groundTransfer(const TerrainScene& terrain, double spacing) {
     for (int n = 0; n < kColors; ++n)
         points.push_back({lowest + (n + 0.5) / kColors * range, groundMaterial(colors[n])});
     points.push_back({lowest + 1.1 * range, groundMaterial(colors.back())});
-    return MediumTransfer(std::move(points), spacing, "the ground's colours");
+    return MediumTransfer(std::move(points), length, "the ground's colours");
 }
 
 HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& options,
@@ -108,10 +109,13 @@ HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& option
     layer.levels.push_back(heightsOf(ground, layer.spacing));
     layer.below = kThickness * std::max(extent.x, extent.y);
     // A face thinner than slices are apart, or the light's texels wide, shows them as terraces.
-    const double step = glm::length(extent) / std::min(sweep.slices, sweep.lightSize);
+    const double slice = glm::length(extent) / sweep.slices;
+    const double step = std::max(slice, glm::length(extent) / sweep.lightSize);
     layer.taper = std::min(std::max(kTaper * layer.spacing, step), 0.5 * layer.below);
-    const MediumTransfer transfer = options.medium == kGroundMedium ? groundTransfer(terrain, layer.spacing)
-                                                                    : findMediumTransfer(options.medium);
+    const MediumTransfer transfer =
+        options.medium == kGroundMedium
+            ? groundTransfer(terrain, std::max(layer.spacing, kSoftSlices * slice))
+            : findMediumTransfer(options.medium);
     const double margin = 1 + 0.05 * (static_cast<double>(ground.maxHeight()) - ground.minHeight());
     layer.table = makeMediumTable(transfer, ground.minHeight() - margin, ground.maxHeight() + margin);
     makeMipLevels(layer);
