@@ -11,6 +11,7 @@
 #include "app/report_machine.h"
 #include "app/report_page.h"
 #include "app/report_run.h"
+#include "app/report_stability.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/parallel.h"
@@ -23,12 +24,18 @@ namespace fs = std::filesystem;
 struct Part {
     const char* id;  // of its section
     void (*measure)(ReportRun& run, double seconds);
-    double weight;  // of the time
+    double weight;       // of the time
+    bool scenes = true;  // measured on them
 };
-constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0}, {"casting", reportCasting, 0.5},
-                           {"light", reportLight, 1.0},        {"occlusion", reportOcclusion, 0.3},
-                           {"volume-light", reportMedium, 1.0}, {"plan", reportPlan, 2.0},          {"time", reportStages, 2.0},
-                           {"left-out", reportScenes, 0.3},    {"stability", reportStability, 0.0}};
+constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0},
+                           {"casting", reportCasting, 0.5},
+                           {"light", reportLight, 1.0, false},
+                           {"occlusion", reportOcclusion, 0.3, false},
+                           {"volume-light", reportMedium, 1.0, false},
+                           {"plan", reportPlan, 2.0},
+                           {"time", reportStages, 2.0},
+                           {"left-out", reportScenes, 0.3},
+                           {"stability", reportStability, 0.0, false}};
 
 std::vector<Part> partsOf(const ReportOptions& options) {
     std::string names;
@@ -45,11 +52,14 @@ std::vector<Part> partsOf(const ReportOptions& options) {
 }
 
 void measureAll(ReportRun& run, const std::vector<Part>& parts) {
-    double left = 0;
-    for (const Part& part : parts) left += part.weight;
+    double all = 1e-9;
+    for (const Part& part : parts) all += part.weight;
+    double left = all;
     for (const Part& part : parts) {
         run.feelMood();
-        part.measure(run, run.share_s(part.weight, std::max(left, 1e-9)));
+        const double seconds = run.share_s(part.weight, std::max(left, 1e-9));
+        run.begin(part.id, seconds, run.whole_s() * part.weight / all);
+        part.measure(run, seconds);
         left -= part.weight;
     }
     run.feelMood();
@@ -80,14 +90,21 @@ int runReport(const ReportOptions& options) {
     std::optional<EarlierReport> earlier;
     if (!options.compare.empty()) earlier = readEarlierReport(options.compare);
     for (const std::string& name : options.scenes) kindOf(name);
+    // what can not be read is told before minutes are spent
+    if (!options.stability.empty()) stabilitySection(readTextFile(options.stability), options.stability);
     const std::vector<Part> parts = partsOf(options);
     ProgressBar bar;
     ReportRun run(options, bar.progress());
     if (options.threads > 0) setThreadCount(options.threads);
     describeRun(run);
-    loadReportScenes(run);
+    if (std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.scenes; }))
+        loadReportScenes(run);
     measureAll(run, parts);
     Report& report = run.report();
+    if (!run.hurriedParts().empty())
+        report.warnings.push_back(
+            fmt::format("The machine was slower than planned for: {} measured as in a quick run.",
+                        fmt::join(run.hurriedParts(), ", ")));
     bool worse = false;
     if (earlier) {
         const ReportComparison comparison = compareReports(*earlier, report);

@@ -135,8 +135,8 @@ WayChart chartFor(ReportRun& run, const LightSubject& subject, const char* id, c
     chart.id = id;
     chart.title = title;
     chart.text = subjectText(subject);
-    chart.setting = fmt::format("{} texels, {} threads, seed {}", subject.truth.size(), threadCount(),
-                                run.options().seed);
+    chart.setting = fmt::format("{} texels, {} threads, seed {}, truth of {} samples", subject.truth.size(),
+                                threadCount(), run.options().seed, subject.truthSamples);
     chart.timeLabel = "ms for 1000 texels";
     chart.timeUnit = "ms";
     chart.errorLabel = "RMS error, % of the light";
@@ -287,7 +287,7 @@ WayPoint relightPoint(ReportRun& run, const LightSubject& subject, const std::ve
     const TransferVolume whole = transferOf(subject, subject.allBricks, means, order);
     IlluminationVolume to(subject.volume.frame);
     std::vector<double> ms;
-    for (int n = 0; n < run.pick(9, 25); ++n) {
+    for (int n = 0; n < run.pick(15, 50); ++n) {
         const Stopwatch watch;
         whole.relightAll(sky, to);
         ms.push_back(watch.elapsed_ms() * 1000 / static_cast<double>(whole.texels()));
@@ -316,7 +316,7 @@ WayPoint compressedPoint(ReportRun& run, const LightSubject& subject, const std:
     const std::vector<glm::vec3> sky = subject.setup.probe->project(kDefaultOrder);
     std::vector<double> ms;
     std::vector<glm::vec3> light(kRelit);
-    for (int n = 0; n < run.pick(9, 25); ++n) {
+    for (int n = 0; n < run.pick(15, 50); ++n) {
         const Stopwatch watch;
         const TransferLight prepared = small.codebook.prepareLight(sky);
         forTexels(light.size(), [&](std::size_t first, std::size_t count) {

@@ -77,19 +77,19 @@ std::vector<SweepWay> waysOf(ReportRun& run, bool indirect) {
     };
     SweepSetting setting;
     for (const int slices :
-         run.quick() ? std::vector<int>{64, 1024} : std::vector<int>{32, 64, 128, 512, 1024}) {
+         run.brief() ? std::vector<int>{64, 1024} : std::vector<int>{32, 64, 128, 512, 1024}) {
         setting.slices = slices;
         add(fmt::format("{} slices", slices), setting);
     }
     setting = {};
-    for (const int size : run.quick() ? std::vector<int>{64} : std::vector<int>{32, 64, 128, 512}) {
+    for (const int size : run.brief() ? std::vector<int>{64} : std::vector<int>{32, 64, 128, 512}) {
         setting.lightSize = size;
         add(fmt::format("buffer {}", size), setting);
     }
     setting = {};
     if (indirect)
         for (const double cone :
-             run.quick() ? std::vector<double>{0.0, 1.2} : std::vector<double>{0.0, 0.3, 1.2, 2.0}) {
+             run.brief() ? std::vector<double>{0.0, 1.2} : std::vector<double>{0.0, 0.3, 1.2, 2.0}) {
             setting.coneAngle = cone;
             add(fmt::format("cone {:g}", cone), setting);
         }
@@ -187,7 +187,7 @@ void reportMedium(ReportRun& run, double) {
     std::vector<MediumSubject> subjects;
     subjects.push_back(
         subjectOf("cloud", Medium(makeCloudField(), withoutSurface("cloud"), cloudPerturbation()), size));
-    if (!run.quick())
+    if (!run.brief())
         subjects.push_back(subjectOf("wax", Medium(makeWaxField(), withoutSurface("wax")), size));
     for (const MediumSubject& subject : subjects) {
         againstPaths(run, section, subject, MediumModel::Direct);

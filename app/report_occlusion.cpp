@@ -117,7 +117,7 @@ WayChart chartOf(ReportRun& run, const GreyVolume& volume, int radius) {
 void reportOcclusion(ReportRun& run, double) {
     ReportSection section{"occlusion", "Ambient occlusion", "", {}};
     const GreyVolume volume = blockWithHoles();
-    for (const int radius : run.quick() ? std::vector<int>{5} : std::vector<int>{3, 5, 10, 20})
+    for (const int radius : run.brief() ? std::vector<int>{5} : std::vector<int>{3, 5, 10, 20})
         addChart(run.report(), section, chartOf(run, volume, radius));
     run.report().sections.push_back(std::move(section));
 }

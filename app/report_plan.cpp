@@ -153,9 +153,9 @@ std::string summaryOf(const std::vector<Case>& cases) {
 void reportPlan(ReportRun& run, double seconds) {
     const Stopwatch watch;
     const std::vector<SizeOption> sizes =
-        run.quick() ? std::vector<SizeOption>{{160, 120}, {640, 480}}
+        run.brief() ? std::vector<SizeOption>{{160, 120}, {640, 480}}
                     : std::vector<SizeOption>{{160, 120}, {320, 240}, {640, 480}, {1280, 720}};
-    const std::vector<int> parts = run.quick() ? std::vector<int>{30} : std::vector<int>{120, 30, 10};
+    const std::vector<int> parts = run.brief() ? std::vector<int>{30} : std::vector<int>{120, 30, 10};
     std::vector<Case> cases;
     const auto late = [&] { return watch.elapsed_ms() > 1000 * seconds; };
     std::vector<std::string> skipped;

@@ -64,12 +64,14 @@ public:
           mSums(mVariants.size()) {}
 
     void run(ReportRun& run, const std::string& what, int frames, double seconds) {
-        const std::vector<Pose> poses =
-            mScene.path.samples().empty() ? std::vector<Pose>{mScene.startPose} : mScene.path.frames(frames);
+        std::vector<Pose> poses = posesOf(frames);
         const Stopwatch watch;
         for (std::size_t n = 0; n < poses.size(); ++n) {
             run.tell(what);
             frame(run, makeStereoViews(poses[n], mScene.lens, mStereo), what);
+            // As many frames as there is time for; the first one is the same for any number of them.
+            const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
+            if (n == 0 && affordable < frames) poses = posesOf(std::max(1, static_cast<int>(affordable)));
             if (n == 0) chooseRepeats(watch.elapsed_ms(), poses.size(), seconds);
             for (std::size_t k = 0; k < mSums.size(); ++k) mSums[k].least_ms += mFastest[k];
         }
@@ -85,6 +87,11 @@ public:
     int repeats() const { return mRepeats; }
 
 private:
+    std::vector<Pose> posesOf(int frames) const {
+        return mScene.path.samples().empty() ? std::vector<Pose>{mScene.startPose}
+                                             : mScene.path.frames(frames);
+    }
+
     // From the first frame, which ran kLeastRepeats times: half of that is truths.
     void chooseRepeats(double first_ms, std::size_t frames, double seconds) {
         const double perRepeat_ms = mTimed_ms / kLeastRepeats,
@@ -252,10 +259,10 @@ ReportPictures picturesOf(const ReportScene& scene, const StereoSetting& stereo)
 // The default way with the eyes ever further apart.
 WayChart separationsOf(ReportRun& run, const ReportScene& scene, double seconds) {
     const std::vector<int> parts =
-        run.quick() ? std::vector<int>{240, 30, 8} : std::vector<int>{1000, 240, 120, 60, 30, 15, 8, 4};
+        run.brief() ? std::vector<int>{240, 30, 8} : std::vector<int>{1000, 240, 120, 60, 30, 15, 8, 4};
     WayChart chart;
     const Lens& lens = scene.loaded.lens;
-    int frames = 0;
+    int least = 1 << 30, most = 0;  // frames
     for (const int part : parts) {
         StereoSetting stereo = scene.loaded.stereo;
         stereo.separation = stereo.zeroParallax / part;
@@ -267,11 +274,12 @@ WayChart separationsOf(ReportRun& run, const ReportScene& scene, double seconds)
         trial.run(run, "separations, " + scene.title, run.pick(2, 6),
                   seconds / static_cast<double>(parts.size()));
         chart.points.push_back(trial.points().front());
-        frames = trial.frames();
+        least = std::min(least, trial.frames());
+        most = std::max(most, trial.frames());
     }
     chart.id = "separation/" + scene.id;
     chart.title = "Separations, " + scene.title;
-    chart.setting = fmt::format("{}, {} frames", run.settingOf(lens.width, lens.height), frames);
+    chart.setting = fmt::format("{}, {} to {} frames", run.settingOf(lens.width, lens.height), least, most);
     chart.text =
         "The default way with the eyes from 1/1000 to 1/4 of the zero-parallax distance apart; the ring "
         "marks 1/30, "
@@ -291,12 +299,14 @@ void reportRightEye(ReportRun& run, double seconds) {
                           "The right eye",
                           "Warping the left eye and casting the holes, against casting every pixel.",
                           {}};
-    const double each = seconds / static_cast<double>(run.scenes().size());
+    const Stopwatch watch;
     for (const ReportScene& scene : run.scenes()) {
         StereoSetting stereo = scene.loaded.stereo;
         stereo.separation = stereo.zeroParallax * kShare;
         const std::string what = "right eye, " + scene.title;
-        Trial trial(scene, stereo, variantsOf(scene.loaded), !run.quick());
+        const auto scenesLeft = static_cast<double>(run.scenes().data() + run.scenes().size() - &scene);
+        const double each = std::max(0.0, seconds - watch.elapsed_ms() / 1000) / scenesLeft;
+        Trial trial(scene, stereo, variantsOf(scene.loaded), !run.brief());
         trial.run(run, what, run.pick(3, 12), 0.65 * each);
         addChart(run.report(), section, chartOf(run, scene, trial));
         addChart(run.report(), section, separationsOf(run, scene, 0.3 * each));

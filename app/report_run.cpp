@@ -60,6 +60,12 @@ double ReportRun::share_s(double weight, double weights) const {
     return std::max(0.0, whole_s() - mWatch.elapsed_ms() / 1000) * weight / weights;
 }
 
+void ReportRun::begin(const std::string& part, double seconds, double planned) {
+    constexpr double kBehind = 0.5;
+    mBehind = !quick() && seconds < kBehind * planned;
+    if (mBehind) mHurried.push_back(part);
+}
+
 void ReportRun::tell(const std::string& what) {
     mProgress.report(std::min(0.99, mWatch.elapsed_ms() / 1000 / std::max(whole_s(), 1.0)), what);
 }

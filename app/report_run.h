@@ -32,12 +32,17 @@ public:
     Report& report() { return mReport; }
     std::vector<ReportScene>& scenes() { return mScenes; }
 
-    // quick ? a : b
-    int pick(int whenQuick, int whenFull) const { return quick() ? whenQuick : whenFull; }
+    // Less is measured in a quick run, and in parts of a full one that begin behind their time.
+    bool brief() const { return quick() || mBehind; }
+    int pick(int whenBrief, int whenFull) const { return brief() ? whenBrief : whenFull; }
+    // Begins a part that `seconds` are left for, of `planned`.
+    void begin(const std::string& part, double seconds, double planned);
 
     // Seconds that the next part may take: `weight` of what is left, `weights` being that of this part and
     // all after it.
     double share_s(double weight, double weights) const;
+    double whole_s() const;
+    const std::vector<std::string>& hurriedParts() const { return mHurried; }
     // Tells what is done now. Throws Cancelled.
     void tell(const std::string& what);
 
@@ -49,13 +54,13 @@ public:
     std::string settingOf(int width, int height) const;
 
 private:
-    double whole_s() const;
-
     const ReportOptions& mOptions;
     Progress& mProgress;
     Stopwatch mWatch;
     Report mReport;
     std::vector<double> mMood_ms;
+    bool mBehind = false;
+    std::vector<std::string> mHurried;  // parts that were behind
     std::vector<ReportScene> mScenes;
 };
 

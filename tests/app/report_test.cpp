@@ -1,0 +1,120 @@
+// `report` as a user runs it: what it leaves, what it refuses, what stopping it leaves. With hardly any time
+// given, so that each part measures no more than it must.
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "tests/app/program.h"
+#include "tests/support/xml_check.h"
+
+namespace stereonav::test {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+class Report : public ProgramTest {
+protected:
+    Outcome report(std::vector<std::string> more) const {
+        std::vector<std::string> arguments{"report", "--quick", "--minutes", "0.01"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    }
+    std::set<std::string> left() const {
+        std::set<std::string> names;
+        for (const auto& entry : fs::recursive_directory_iterator(place()))
+            if (entry.is_regular_file()) names.insert(fs::relative(entry.path(), place()).string());
+        return names;
+    }
+};
+
+TEST_F(Report, LeavesAPageAndItsFigures) {
+    const Outcome outcome = report({"--parts", "right-eye,stability", "--out", "page"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(left(), (std::set<std::string>{"page/index.html", "page/report.csv", "page/report.json"}));
+    const std::string page = contentOf(place() / "page/index.html");
+    EXPECT_EQ(xmlProblem(page), "");
+    for (const char* words :
+         {"Right eye, terrain", "Right eye, colon", "Right eye, colon, translucent", "On the Pareto front",
+          "The default, linear", "The default, selective", "data:image/png;base64,", "<svg"})
+        EXPECT_NE(page.find(words), std::string::npos) << words;
+
+    const Json json = Json::parse(contentOf(place() / "page/report.json"));
+    std::set<std::string> ids;
+    for (const Json& figure : json.at("figures")) {
+        EXPECT_TRUE(ids.insert(figure.at("id").get<std::string>()).second) << figure.at("id");
+        EXPECT_LE(figure.at("low").get<double>(), figure.at("median").get<double>()) << figure.at("id");
+        EXPECT_LE(figure.at("median").get<double>(), figure.at("high").get<double>()) << figure.at("id");
+        EXPECT_GE(figure.at("low").get<double>(), 0) << figure.at("id");
+    }
+    for (const char* id :
+         {"right_eye/terrain/linear/time", "right_eye/colon/full/error", "machine/mood/time"})
+        EXPECT_TRUE(ids.contains(id)) << id;
+    for (const char* fact :
+         {"commit", "compiler", "libraries", "processor", "threads", "load at the start", "date", "seed"})
+        EXPECT_FALSE(json.at("machine").at(fact).get<std::string>().empty()) << fact;
+    EXPECT_EQ(linesIn(contentOf(place() / "page/report.csv")), static_cast<long>(ids.size()) + 1);
+}
+
+TEST_F(Report, HasAScenesOwnChartAndAFullCastWithoutError) {
+    const std::string scene =
+        input("flat.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 30\n1 2 3\n2 3 4\n3 4 9\n");
+    const Outcome outcome = report({"--parts", "right-eye", "--scene", scene});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Json json = Json::parse(contentOf(place() / "report/report.json"));
+    int found = 0;
+    for (const Json& figure : json.at("figures")) {
+        const std::string id = figure.at("id");
+        if (!id.starts_with("right_eye/") || !id.ends_with("/full/error")) continue;
+        EXPECT_EQ(figure.at("median"), 0.0) << id;
+        found += id == "right_eye/flat.asc/full/error";
+    }
+    EXPECT_EQ(found, 1);
+}
+
+TEST_F(Report, ReadsRowsOfStability) {
+    const std::string rows =
+        input("rows.jsonl",
+              "{\"id\": \"a/1\", \"case\": \"a case\", \"quantity\": \"error\", \"worst\": 0.5, "
+              "\"bound\": 1, \"unit\": \"m\", \"pass\": true}\n"
+              "{\"id\": \"a/2\", \"case\": \"another <case>\", \"quantity\": \"error\", \"worst\": null, "
+              "\"bound\": 1, \"unit\": \"m\", \"pass\": false}\n");
+    ASSERT_EQ(report({"--parts", "stability", "--stability", rows}).status, 0);
+    const std::string page = contentOf(place() / "report/index.html");
+    EXPECT_EQ(xmlProblem(page), "");
+    for (const char* words : {"2 rows", "1 FAIL", "a case", "another &lt;case&gt;"})
+        EXPECT_NE(page.find(words), std::string::npos) << words;
+}
+
+TEST_F(Report, SaysInOneLineWhatIsWrong) {
+    const std::string text = input("text.json", "no json"), row = input("row.jsonl", "\n{\"id\": 1}\n");
+    const std::pair<std::vector<std::string>, std::string> cases[] = {
+        {{"--compare", text}, "text.json"},
+        {{"--compare", "/nowhere/old.json"}, "/nowhere/old.json"},
+        {{"--parts", "nonsense"}, "there is no part \"nonsense\""},
+        {{"--scene", "/nowhere/scene.tif"}, "/nowhere/scene.tif"},
+        {{"--parts", "stability", "--stability", row}, "row.jsonl:2"},
+        {{"--out", "/proc/nowhere"}, "--out"},
+    };
+    for (const auto& [arguments, words] : cases) {
+        const Outcome outcome = report(arguments);
+        EXPECT_EQ(outcome.status, 1) << words;
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+        EXPECT_EQ(linesIn(outcome.err), 1) << outcome.err;
+        EXPECT_TRUE(left().empty()) << *left().begin();
+    }
+}
+
+TEST_F(Report, LeavesNothingWhenItIsStopped) {
+    const pid_t child = start({"report", "--out", "page"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    kill(child, SIGINT);
+    const Outcome outcome = await(child);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("stopped"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(left().empty()) << *left().begin();
+}
+
+}  // namespace
+}  // namespace stereonav::test
