@@ -68,7 +68,7 @@ struct SweepWay {
 };
 
 std::vector<SweepWay> waysOf(ReportRun& run, bool indirect) {
-    std::vector<SweepWay> ways{{"default", "256 slices, light's buffer 256, cone 0.6", {}, true}};
+    std::vector<SweepWay> ways{{"256 slices", "256 slices, light's buffer 256, cone 0.6", {}, true}};
     const auto add = [&](const std::string& name, const SweepSetting& setting) {
         ways.push_back({name,
                         fmt::format("{} slices, light's buffer {}, cone {:g}", setting.slices,

@@ -108,12 +108,19 @@ std::string figuresOf(const WayChart& ways) {
     return tableOf(columns, rows, marked);
 }
 
+bool isDefaultBeaten(const std::vector<Way>& ways) {
+    for (std::size_t n = 0; n < ways.size(); ++n)
+        if (ways[n].isDefault && !verdictOf(ways, n).onFront) return true;
+    return false;
+}
+
 std::string blockOf(const WayChart& ways) {
     std::vector<Way> all;
     for (const WayPoint& p : ways.points) all.push_back(p.way);
     std::string html = "<div class=\"card\">" + heading(ways.title) + svgOf(drawingOf(ways));
     if (ways.front) html += paragraph(frontText(all), "verdict");
-    html += paragraph(ways.why) + paragraph(ways.text, "soft") + paragraph(ways.setting + ".", "soft");
+    html += paragraph(isDefaultBeaten(all) ? ways.why : "") + paragraph(ways.text, "soft") +
+            paragraph(ways.setting + ".", "soft");
     return html + "<details><summary>figures</summary>" + figuresOf(ways) + "</details></div>\n";
 }
 

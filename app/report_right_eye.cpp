@@ -222,6 +222,10 @@ WayChart chartOf(ReportRun& run, const ReportScene& scene, const Trial& trial) {
         "error "
         "against 16 rays too. A number after a way's name is a setting other than its own.",
         trial.repeats());
+    chart.why =
+        "The default's thresholds are one choice for all scenes. A lower one casts more pixels again (holes "
+        "in the "
+        "table): where its time is not longer, repeats spread by more than those rays take.";
     chart.timeLabel = "right eye, ms a frame";
     chart.timeUnit = "ms";
     chart.errorLabel = "RMS error, 8-bit levels";

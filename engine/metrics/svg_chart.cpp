@@ -15,7 +15,7 @@ constexpr double kLeft = 62, kRight = 12, kTop = 12, kBottom = 46;
 constexpr double kLegendLine = 15;  // height of the legend's lines, where there is more than one series
 constexpr double kFont = 11, kGlyph = 6.4;  // pixels; a mean width of letters, generous
 constexpr double kDot = 4, kZeroBand = 16;  // radius of a point; height of the band of zeros
-constexpr std::size_t kColors = 6;
+constexpr std::size_t kColors = 6, kLegendLetters = 26;
 
 bool isShown(const ChartPoint& p) {
     return p.x.count > 0 && p.y.count > 0 && std::isfinite(p.x.median) && std::isfinite(p.y.median);
@@ -25,6 +25,16 @@ bool isShown(const ChartPoint& p) {
 double widthOf(const std::string& text) {
     const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
     return kGlyph * static_cast<double>(letters);
+}
+
+// The middle of long names left out, at whole characters of UTF-8.
+std::string shortened(const std::string& text, std::size_t most) {
+    std::vector<std::size_t> starts;
+    for (std::size_t n = 0; n < text.size(); ++n)
+        if ((text[n] & 0xC0) != 0x80) starts.push_back(n);
+    if (starts.size() <= most) return text;
+    const std::size_t kept = (most - 2) / 2;
+    return text.substr(0, starts[kept]) + ".." + text.substr(starts[starts.size() - kept]);
 }
 
 class Drawing {
@@ -181,7 +191,7 @@ private:
                          y = 12 + kLegendLine * static_cast<double>(n / 2);
             out("<circle class=\"dot s{}\" cx=\"{:g}\" cy=\"{:g}\" r=\"{:g}\"/>", n % kColors, x, y - 4,
                 kDot);
-            text(x + 8, y, "start", mChart.series[n].name);
+            text(x + 8, y, "start", shortened(mChart.series[n].name, kLegendLetters));
         }
     }
 

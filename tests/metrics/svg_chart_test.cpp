@@ -123,6 +123,21 @@ TEST(SvgChart, ManySeriesHaveALegendAndStayWellFormed) {
     for (int n = 0; n < 9; ++n) EXPECT_THAT(svg, HasSubstr("series " + std::to_string(n)));
 }
 
+TEST(SvgChart, LongNamesInTheLegendLoseTheirMiddle) {
+    Chart chart = chartOf({1, 2}, {1, 2}, Kind::Linear);
+    chart.series.push_back(chart.series[0]);
+    for (const char* letter : {"a", "\u00f6"}) {
+        chart.series[1].name = "begin";
+        for (int n = 0; n < 60; ++n) chart.series[1].name += letter;
+        chart.series[1].name += "end";
+        const std::string svg = svgOf(chart);
+        EXPECT_EQ(test::xmlProblem(svg), "");
+        EXPECT_THAT(svg, Not(HasSubstr(chart.series[1].name)));
+        EXPECT_THAT(svg, HasSubstr(">begin"));
+        EXPECT_THAT(svg, HasSubstr(std::string(letter) + "end<"));
+    }
+}
+
 TEST(SvgChart, LabelsNeverMeet) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> x(62, 400), y(12, 270);

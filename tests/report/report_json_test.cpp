@@ -183,6 +183,14 @@ TEST(ReportPage, NamesTheFrontAndTheDefault) {
                 HasSubstr("The default, fast, is not on the front: full takes 50.0 % less"));
 }
 
+TEST(ReportPage, SaysWhyOfADefaultThatIsBeatenAlone) {
+    for (const bool beaten : {true, false}) {
+        Report report = reportWith(beaten ? 20 : 2, 1);
+        std::get<WayChart>(report.sections[0].blocks[0]).why = "because of this";
+        EXPECT_EQ(pageOf(report).find("because of this") != std::string::npos, beaten);
+    }
+}
+
 TEST(ReportPage, AnEmptyReportIsAPageToo) {
     EXPECT_EQ(test::xmlProblem(pageOf({})), "");
 }
