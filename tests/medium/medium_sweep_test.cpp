@@ -137,7 +137,7 @@ Scene sceneOf(Kind kind, MediumModel model, bool lamp, bool forward, unsigned se
     }
     s.look.phase = PhaseFunction::henyeyGreenstein({0.3f, 0.0f, -0.4f});
     s.look.indirectShare = 0.7f;
-    s.setting.slices = 37;
+    s.setting.slices = 27;
     s.setting.lightSize = 24;
     s.eyes = {viewFrom(-4.0 * view, {0, 0, 0}, 0.35, 27, 21), viewFrom(-4.0 * view, {0, 0, 0}, 0.35, 27, 21)};
     s.eyes[1].eye += 0.1 * s.eyes[1].right;

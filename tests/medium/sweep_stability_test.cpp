@@ -92,7 +92,7 @@ std::vector<SlabCase> slabCases() {
         for (const bool forward : {true, false})
             for (const double cosine : {1.0, 0.4})
                 for (const double depth : {1e-6, 1e-3, 0.1, 1.0, 10.0, 1e3, 1e6})
-                    for (const int slices : {1, 10, 1000, 10000})
+                    for (const int slices : {1, 10, 600, 10000})
                         if (slices < 10000 ||
                             (cosine == 1 && depth < 1))  // a slab this deep is black by then
                             all.push_back({way, forward, cosine, depth, slices});
@@ -193,7 +193,7 @@ class Bounds : public testing::TestWithParam<Way> {};
 TEST_P(Bounds, lightIsNeverNegativeNorMoreThanWasPutIn) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> u(0, 1);
-    for (int n = 0; n < 40; ++n) {
+    for (int n = 0; n < 20; ++n) {
         auto field = makeField({6, 7, 5}, 1, {0, 0, 0}, [&](const glm::ivec3&) { return 1024 * u(random); });
         const double densest = std::pow(10.0, 12 * u(random) - 6);
         Uniform thin{densest * 1e-6}, dense{densest};
@@ -207,7 +207,7 @@ TEST_P(Bounds, lightIsNeverNegativeNorMoreThanWasPutIn) {
         s.look.model = n % 2 ? MediumModel::Direct : MediumModel::Indirect;
         if (n % 2 == 0) s.look.phase = PhaseFunction();
         s.look.indirectShare = n % 2 ? 0.0f : 1.0f;
-        s.setting.slices = 1 + static_cast<int>(60 * u(random));
+        s.setting.slices = 1 + static_cast<int>(40 * u(random));
         s.setting.lightSize = 8 + static_cast<int>(20 * u(random));
         s.setting.coneAngle = 2.5 * u(random);
         const EyeView eye[] = {
