@@ -36,7 +36,7 @@ std::string terrainText(const LoadedScene&) {
     without();
 }
 
-Medium terrainMedium(const TerrainScene&, const MediumOptions&) {
+Medium terrainMedium(const TerrainScene&, const MediumOptions&, const SweepSetting&) {
     without();
 }
 
