@@ -164,10 +164,29 @@ void addInfo(CLI::App& app, Parsed& parsed) {
     });
 }
 
+void addQuality(CLI::App& command, QualityOptions& options) {
+    constexpr const char* kGroup = "Options of quality";
+    command
+        .add_option(
+            "--quality", options.quality,
+            "0 to 1: the share of the warp's expected squared error that is taken away by casting those "
+            "pixels as well; 1 casts all")
+        ->group(kGroup);
+    command
+        .add_option("--target-psnr", options.targetPsnr_db,
+                    "dB against a full cast that 95 of 100 frames shall reach: as many pixels as that takes")
+        ->group(kGroup);
+    command
+        .add_option("--target-ms", options.target_ms,
+                    "time for a frame, both eyes: no more pixels are cast than fit")
+        ->group(kGroup);
+}
+
 void addRender(CLI::App& app, Parsed& parsed) {
     RenderOptions& options = parsed.render;
     CLI::App& command = *app.add_subcommand("render", "one pose into a picture");
     addScene(command, options.scene);
+    addQuality(command, options.scene.quality);
     addMedium(command, options.scene.medium);
     parsed.addSize(command, "1280x720");
     command.add_option("--pose", options.pose,
@@ -187,6 +206,7 @@ void addPlay(CLI::App& app, Parsed& parsed) {
     PlayOptions& options = parsed.play;
     CLI::App& command = *app.add_subcommand("play", "a flight into pictures, a video, or a hash");
     addScene(command, options.scene);
+    addQuality(command, options.scene.quality);
     addMedium(command, options.scene.medium);
     parsed.addSize(command, "1280x720");
     command.add_option("--path", options.path,
@@ -333,6 +353,7 @@ void addView(CLI::App& app, Parsed& parsed) {
     ViewOptions& options = parsed.view;
     CLI::App& command = *app.add_subcommand("view", "fly through the scene in a window");
     addScene(command, options.scene);
+    addQuality(command, options.scene.quality);
     addMedium(command, options.scene.medium);
     parsed.addSize(command, "1280x720");
     command.add_option("--method", options.method,

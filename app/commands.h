@@ -46,6 +46,13 @@ struct MediumOptions {
     }
 };
 
+// Which warped pixels of the right eye are cast as well.
+struct QualityOptions {
+    std::optional<double> quality;        // 0..1: share of the expected squared error that is to go
+    std::optional<double> targetPsnr_db;  // against a full cast, for 95 of 100 frames
+    std::optional<double> target_ms;      // of a frame, both eyes: what fits is cast
+};
+
 struct SceneOptions {
     // "" or "terrain": built in; a .toml; a DEM file; "colon", "cloud", "wax": built in; a CT study
     std::string scene;
@@ -61,6 +68,7 @@ struct SceneOptions {
     int threads = 0;            // 0: all
     std::string simd = "auto";  // auto, plain, avx2, avx512
     VolumeOptions volume;
+    QualityOptions quality;
     MediumOptions medium;
 };
 

@@ -1,6 +1,7 @@
 #include "app/stereo_frame.h"
 
 #include "app/medium_options.h"
+#include "app/quality.h"
 #include "engine/base/stopwatch.h"
 
 namespace stereonav {
@@ -19,6 +20,7 @@ void checkMethod(const SceneOptions& options, const std::string& method) {
         pairMethodFromText(method);
     else
         methodFromText(method);
+    checkQuality(options, method);
 }
 
 StereoFrame::StereoFrame(const LoadedScene& scene, const std::string& method) : mScene(scene) {
@@ -26,6 +28,10 @@ StereoFrame::StereoFrame(const LoadedScene& scene, const std::string& method) : 
         mPairMethod = pairMethodFromText(method);
     else
         mWarp.method = methodFromText(method).value_or(scene.defaultMethod());
+}
+
+void StereoFrame::refine(const SceneOptions& options, Progress& progress) {
+    if (!mScene.pair) mWarp.refinement = refinementOf(options, mScene, mWarp.method, progress);
 }
 
 void StereoFrame::render(const Pose& head, double time) {

@@ -15,6 +15,8 @@ class StereoFrame {
 public:
     // method: a right eye's, or of a medium a pair's; "auto": the scene's default.
     StereoFrame(const LoadedScene& scene, const std::string& method);
+    // Which warped pixels are cast as well, from options; measures the scene where they ask for it.
+    void refine(const SceneOptions& options, Progress& progress);
 
     // Both eyes at one pose. time: seconds, of what moves by itself.
     void render(const Pose& head, double time = 0);

@@ -5,6 +5,7 @@
 
 #include "app/colon_loading.h"
 #include "app/medium_loading.h"
+#include "app/quality.h"
 
 namespace stereonav {
 namespace {
@@ -46,6 +47,7 @@ ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progre
         progress.report(1.0, "measuring how to make the right eye");
         scene.method = planScene(*loaded).method;
     }
+    if (!scene.pair) scene.refinement = refinementOf(options.scene, *loaded, scene.method, progress);
     return scene;
 }
 

@@ -459,6 +459,7 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
     wanted.lens.height = eyeHeight;
     wanted.stereo = mStereo.now();
     wanted.warp.method = mMethod;
+    wanted.warp.refinement = mScene->refinement;
     wanted.pairMethod = mPairMethod;
     wanted.model = mModel;
     wanted.time = mTime;

@@ -30,6 +30,8 @@ std::string frameText(const ViewFrame& frame, double framesPerSecond) {
                             frame.rightTimings.warp_ms, frame.rightTimings.fill_ms,
                             100 * static_cast<double>(frame.rightTimings.holePixels) / pixels,
                             nameOf(frame.request.warp.method));
+        if (frame.rightTimings.boundPsnr_db > 0)
+            line += fmt::format("  at least {:.0f} dB", frame.rightTimings.boundPsnr_db);
     }
     line += fmt::format("  separation {}  zero parallax {}  parallax {:+.1f} to {:+.1f} %",
                         lengthText(frame.request.stereo.separation),

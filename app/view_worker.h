@@ -56,6 +56,7 @@ struct ViewScene {
     Lens lens;
     StereoSetting stereo;
     RightEyeMethod method = kDefaultRightEyeMethod;
+    Refinement refinement;  // of whatever method: as measured when the scene was opened
     PairMethod pairMethod = PairMethod::Sweep;
 
     // Of media: the models to choose from, and the choice before a frame, on the thread that makes frames.
