@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/report_faults.h"
+#include "engine/base/error.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -20,6 +21,10 @@ void loadOne(ReportRun& run, const std::string& id, const std::string& title, co
     const Stopwatch watch;
     ReportScene scene{id, title, options, loadScene(options, {kReportWidth, kReportHeight}, quiet), 0};
     scene.load_ms = watch.elapsed_ms();
+    if (!scene.loaded.renderer)
+        throw Error("--scene", "",
+                    fmt::format("\"{}\" is a medium, whose eyes are swept and not warped", title),
+                    "leave it out: volume light is measured on the program's own media");
     scene.loaded.renderer = withFaults(std::move(scene.loaded.renderer));
     run.scenes().push_back(std::move(scene));
 }

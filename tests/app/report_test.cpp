@@ -93,6 +93,7 @@ TEST_F(Report, SaysInOneLineWhatIsWrong) {
         {{"--compare", text}, "text.json"},
         {{"--compare", "/nowhere/old.json"}, "/nowhere/old.json"},
         {{"--parts", "nonsense"}, "there is no part \"nonsense\""},
+        {{"--parts", "right-eye", "--scene", "cloud"}, "\"cloud\" is a medium"},
         {{"--scene", "/nowhere/scene.tif"}, "/nowhere/scene.tif"},
         {{"--parts", "stability", "--stability", row}, "row.jsonl:2"},
         {{"--out", "/proc/nowhere"}, "--out"},
