@@ -16,6 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
+constexpr int kFewRepeats = 3;  // fewer say little of how far they spread
 constexpr const char* kFormat = "stereonav report";
 
 const char* nameOf(ReportFigure::Kind kind) {
@@ -71,6 +72,8 @@ ReportChange changeOf(const ReportFigure& before, const ReportFigure& after, dou
     ReportChange change{after.id, after.unit, before.value, after.value, kErrorBound, Verdict::Same};
     if (time)
         change.bound = std::max(kLeastTimeBound, before.value.relative() + after.value.relative() + mood);
+    if (time && std::min(before.value.count, after.value.count) < kFewRepeats)
+        change.bound += kLeastTimeBound;
     const double from = judgedValue(before), to = judgedValue(after);
     const double slack = change.bound * std::abs(from) + (time ? 0.0 : kLeastError);
     if (to > from + slack) change.verdict = Verdict::Worse;

@@ -140,6 +140,18 @@ TEST(ReportComparison, WhatIsWithinTheSpreadIsTheSame) {
     EXPECT_FALSE(compareReports(asEarlier(before), after).worse());
 }
 
+TEST(ReportComparison, FewRepeatsAllowForMore) {
+    Report before, after;
+    for (const int count : {2, 3}) {
+        const std::string id = "repeats " + std::to_string(count);
+        addFigure(before, {id, "ms", "", ReportFigure::Kind::Time, {1, 1, 1, count}});
+        addFigure(after, {id, "ms", "", ReportFigure::Kind::Time, {1.25, 1.25, 1.25, count}});
+    }
+    const ReportComparison comparison = compareReports(asEarlier(before), after);
+    EXPECT_EQ(changeOf(comparison, "repeats 2").verdict, Verdict::Same);
+    EXPECT_EQ(changeOf(comparison, "repeats 3").verdict, Verdict::Worse);
+}
+
 TEST(ReportComparison, FromNoErrorToSomeIsWorse) {
     EXPECT_TRUE(compareReports(asEarlier(reportWith(2, 0)), reportWith(2, 0.1)).worse());
     EXPECT_FALSE(compareReports(asEarlier(reportWith(2, 0)), reportWith(2, 0)).worse());
