@@ -105,15 +105,49 @@ void setAxis(SweepGeometry& g, const Lamp& lamp, const glm::dvec3& view, double 
     g.axis = length > 0 ? glm::normalize(std::cos(lean) * from + std::sin(lean) / length * aside) : from;
 }
 
-// Even faces over the box, and the planes of eyes and lamp where these lie inside: so each slab is wholly
-// before or wholly behind them.
+// Ahead of an eye inside the medium, `length` of it: slabs grow with the distance, the last being about
+// kGrowth times the first. What is near fills most of the picture there, and even slabs would show in it as
+// rings.
+std::vector<double> gradedSteps(double length, int slices) {
+    constexpr double kGrowth = 64;
+    std::vector<double> distances;
+    distances.reserve(static_cast<std::size_t>(slices));
+    for (int k = 1; k <= slices; ++k)
+        distances.push_back(k == slices ? length
+                                        : length * (std::pow(kGrowth, static_cast<double>(k) / slices) - 1) /
+                                              (kGrowth - 1));
+    return distances;
+}
+
+// Even faces over the box, of the medium alone, so that they stand still as one flies around it; graded ones
+// ahead of an eye inside.
+std::vector<double> evenOrGraded(double low, double high, bool forward, int slices, double eye) {
+    std::vector<double> faces;
+    const bool inside = eye > low && eye < high;
+    if (inside && !forward) {
+        faces = gradedSteps(eye - low, slices);
+        std::reverse(faces.begin(), faces.end());
+        for (double& face : faces) face = eye - face;
+        faces.push_back(eye);
+        return faces;
+    }
+    for (int k = 0; k <= slices; ++k) {
+        const double face = low + (high - low) * (static_cast<double>(k) / slices);
+        if (!inside || face < eye) faces.push_back(face);
+    }
+    if (!inside) return faces;
+    faces.push_back(eye);
+    for (const double d : gradedSteps(high - eye, slices)) faces.push_back(eye + d);
+    return faces;
+}
+
+// And the planes of eyes and lamp where these lie inside: so each slab is wholly before or wholly behind
+// them.
 std::vector<double> facesOf(const WorldBox& box, const SweepGeometry& g, int slices,
-                            const std::vector<double>& planes) {
+                            const std::vector<double>& planes, double eye) {
     const double middle = glm::dot(g.axis, box.center() - g.anchor);
     const double half = 0.5 * glm::dot(glm::abs(g.axis), box.high - box.low);
-    std::vector<double> faces;
-    faces.reserve(static_cast<std::size_t>(slices) + 1 + planes.size());
-    for (int k = 0; k <= slices; ++k) faces.push_back(middle + half * (2.0 * k / slices - 1));
+    std::vector<double> faces = evenOrGraded(middle - half, middle + half, g.forward, slices, eye);
     const double near = 1e-6 * 2 * half / slices;
     for (const double plane : planes) {
         const auto above = std::lower_bound(faces.begin(), faces.end(), plane);
@@ -276,7 +310,7 @@ SweepGeometry makeSweepGeometry(const Medium& medium, const MediumLook& look, co
     }
     if (box.empty() || eyes.empty()) return g;
     if (!lamp.parallel) planes.push_back(g.lightStart);
-    g.faces = facesOf(box, g, setting.slices, planes);
+    g.faces = facesOf(box, g, setting.slices, planes, g.forward ? lowEye : highEye);
     const bool usesLight = look.model == MediumModel::Direct || look.model == MediumModel::Indirect;
     dropUnseen(g, usesLight, lowEye, highEye);
     if (usesLight && !g.faces.empty()) setTexels(g.light, lamp, box, g.anchor, setting.lightSize);

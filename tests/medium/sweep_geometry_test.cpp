@@ -202,7 +202,31 @@ TEST(SweepFaces, areAddedAtEyesAndLampInside) {
         const double t = glm::dot(eye.origin, g.axis);
         EXPECT_THAT(g.faces, testing::Contains(testing::DoubleNear(t, 1e-12)));
     }
-    EXPECT_EQ(g.slabs(), 8 + 2);  // from -0.55 on 8 of the ten slabs (one cut), two of them cut by an eye
+    EXPECT_EQ(g.slabs(),
+              4 + 10 + 1);  // even ones up to the first eye, graded ones from it on, one cut by the other
+}
+
+// Ahead of an eye inside: thin where it looks at things near it, to the end of the box, either way.
+TEST(SweepFaces, growWithTheDistanceFromAnEyeInside) {
+    const Medium medium = boxAt({0, 0, 0});
+    SweepSetting setting;
+    for (const int slices : {1, 2, 100}) {
+        setting.slices = slices;
+        for (const double way : {1.0, -1.0}) {
+            const SweepGeometry g = geometryOf(medium, lookWith(sun({0, way, 0}), MediumModel::Emission),
+                                               {viewFrom({0, -0.4, 0}, {0, 5, 0}, 0.1, 8, 8)}, setting);
+            ASSERT_EQ(g.slabs(), slices);
+            std::vector<double> steps;
+            for (int k = 0; k < slices; ++k) steps.push_back(g.faces[k + 1] - g.faces[k]);
+            EXPECT_NEAR(g.faces.back() - g.faces.front(), 1.4, 1e-12);
+            if (!g.forward) std::reverse(steps.begin(), steps.end());
+            for (std::size_t k = 1; k < steps.size(); ++k) EXPECT_GT(steps[k], steps[k - 1]);
+            if (slices == 100) {
+                EXPECT_LT(steps.front(), 1.4 / 1000);
+            }
+            EXPECT_EQ(g.forward, way > 0);
+        }
+    }
 }
 
 TEST(SweepFaces, leaveOutWhatNothingNeeds) {
@@ -213,9 +237,9 @@ TEST(SweepFaces, leaveOutWhatNothingNeeds) {
     const auto slabs = [&](const MediumLight& light, MediumModel model) {
         return geometryOf(medium, lookWith(light, model), inside, setting).slabs();
     };
-    EXPECT_EQ(slabs(sun({0, 1, 0}), MediumModel::Direct), 11);   // light comes through what is behind
-    EXPECT_EQ(slabs(sun({0, 1, 0}), MediumModel::Emission), 3);  // the eye cuts one
-    EXPECT_EQ(slabs(sun({0, -1, 0}), MediumModel::Direct), 3);   // light comes from before
+    EXPECT_EQ(slabs(sun({0, 1, 0}), MediumModel::Direct), 8 + 10);  // light comes through what is behind
+    EXPECT_EQ(slabs(sun({0, 1, 0}), MediumModel::Emission), 10);
+    EXPECT_EQ(slabs(sun({0, -1, 0}), MediumModel::Direct), 10);  // light comes from before
     const std::vector<EyeView> away{viewFrom({0, 5, 0}, {0, 9, 0}, 0.1, 8, 8)};
     EXPECT_EQ(geometryOf(medium, lookWith(sun({0, 1, 0})), away, setting).slabs(), 0);
     EXPECT_EQ(geometryOf(medium, lookWith(sun({0, -1, 0})), away, setting).slabs(), 0);
