@@ -40,9 +40,9 @@ constexpr std::array<MediumModel, 4> kModels{MediumModel::Emission, MediumModel:
 constexpr float kCloudRadiance = 0.6f, kWaxRadiance = 0.75f, kVolumeRadiance = 0.85f, kLampRadiance = 0.7f;
 constexpr float kSnowRadiance = 0.65f;  // of terrain, but for its own colours, which are dark
 constexpr double kFraming = 0.85;       // of the distance at which a ball around the bounds fills the picture
-// A colon's wall shows grain where slices are more than half a millimetre apart; ridges and valleys where the
-// light's texels are more than a hundred metres wide.
-constexpr int kTerrainSlices = 1200, kTerrainLight = 512, kColonSlices = 900;
+// A colon's wall shows grain far away with 250 slices, none in the pictures looked at with 400; ridges and
+// valleys where the light's texels are more than a hundred metres wide.
+constexpr int kTerrainSlices = 1200, kTerrainLight = 512, kColonSlices = 500;
 
 double longestSide(const Medium& medium) {
     const glm::dvec3 size = medium.bounds().high - medium.bounds().low;

@@ -27,9 +27,15 @@ void relight(const TransferGroups&, std::uint32_t*, std::uint32_t*);
 
 namespace {
 
-// 0 for what is not finite.
+// 0 for what is not finite. Numbers below the least normal half, 2^-14, become that or 0: off by at most
+// 2^-15, as numbers of 1/16 are by their rounding. As denormals, one in seven of them made the dot products
+// 45 times as slow.
 std::uint16_t storedHalf(float v) {
-    return halfFromFloat(std::abs(v) <= std::numeric_limits<float>::max() ? v : 0.0f);
+    constexpr float kLeast = 0x1p-14f;
+    if (!(std::abs(v) <= std::numeric_limits<float>::max())) return 0;
+    if (std::abs(v) < kLeast)
+        return std::abs(v) < 0.5f * kLeast ? 0 : halfFromFloat(std::copysign(kLeast, v));
+    return halfFromFloat(v);
 }
 
 constexpr int kBrickTexels = 512;

@@ -32,7 +32,7 @@ public:
     // Numbers a texel: coefficient first, then channel.
     int numbersPerTexel() const { return mOrder * mOrder * mChannels; }
     // Of all texels of bricks()[n], in the order of texelsIn(). Different bricks may be set by different
-    // threads. Rounds to half floats; what is not finite becomes 0.
+    // threads. Rounds to half floats, none of them denormal; what is not finite becomes 0.
     void setBrick(std::size_t n, std::span<const float> numbers);
     // As stored; empty where the texel is not held.
     std::vector<float> at(const glm::ivec3& texel) const;

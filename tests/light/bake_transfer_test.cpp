@@ -151,19 +151,23 @@ TEST(TransferVolume, RelightsOnlyTheBricksAskedFor) {
 TEST(TransferVolume, ExtremeNumbersStayFinite) {
     const VolumeFrame frame = frameOf({8, 8, 8});
     TexelBrick brick{0, {}};
-    brick.wanted[2] = 0b111111;
+    brick.wanted[2] = 0b11111111;
     TransferVolume volume(frame, 1, 1, {brick});
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    const std::vector<float> numbers{std::nanf(""), kInfinity, -kInfinity, 1e30f, 1e-30f, 0x1p-24f};
+    const std::vector<float> numbers{std::nanf(""), kInfinity, -kInfinity, 1e30f,
+                                     1e-30f,        0x1p-24f,  0x1.2p-15f, -0x1.fp-15f};
     volume.setBrick(0, numbers);
     EXPECT_EQ(volume.at({0, 0, 2}).at(0), 0);
     EXPECT_EQ(volume.at({3, 0, 2}).at(0), 65504);
-    EXPECT_EQ(volume.at({5, 0, 2}).at(0), 0x1p-24f);
+    // No denormals: the nearest of 0 and the least normal half.
+    EXPECT_EQ(volume.at({5, 0, 2}).at(0), 0);
+    EXPECT_EQ(volume.at({6, 0, 2}).at(0), 0x1p-14f);
+    EXPECT_EQ(volume.at({7, 0, 2}).at(0), -0x1p-14f);
     for (const float light : {0.0f, 1e30f, -1e30f, kInfinity, -kInfinity, std::nanf("")}) {
         IlluminationVolume to(frame);
         const std::vector<glm::vec3> lights{glm::vec3(light)};
         volume.relightAll(lights, to);
-        for (int i = 0; i < 6; ++i) {
+        for (int i = 0; i < 8; ++i) {
             const PackedTexel texel = to.texels[to.layout.index(i, 0, 2)];
             ASSERT_EQ(texelWeight(texel), 1.0f);
             ASSERT_LE(texelLight(texel).x, 65504.0f);
