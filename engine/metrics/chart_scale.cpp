@@ -23,6 +23,7 @@ double niceStep(double range) {
 
 std::string tickText(double value) {
     const double size = std::abs(value);
+    if (size >= 1e4 && size < 1e6) return fmt::format("{:.4g}k", value / 1000);
     return size != 0 && (size < 1e-3 || size >= 1e5) ? fmt::format("{:.0e}", value)
                                                      : fmt::format("{:.4g}", value);
 }
