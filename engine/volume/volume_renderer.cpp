@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/volume/baked_data.h"
 #include "engine/volume/volume_kernel_types.h"
 
 namespace stereonav {
@@ -32,26 +33,6 @@ CellData cellDataOf(const SurfaceCells& cells, bool leaping) {
     d.leapUnit = static_cast<float>(cells.leapUnit * (1 - 1e-5));
     d.isovalue = cells.isovalue;
     d.leaping = leaping;
-    return d;
-}
-
-BakedData bakedDataOf(const BakedLook& look, const VolumeFrame& frame) {
-    BakedData d;
-    if (!look.light || look.light->empty()) return d;
-    const IlluminationVolume& light = *look.light;
-    d.texels = reinterpret_cast<const std::uint32_t*>(light.texels.data());
-    const glm::dvec3 offset = frame.voxelFromWorld(light.frame.origin);
-    const glm::ivec3 bricks = light.layout.bricks;
-    const int strides[3] = {512, 512 * bricks.x, 512 * bricks.x * bricks.y};
-    for (int k = 0; k < 3; ++k) {
-        d.brickStride[k] = strides[k];
-        d.last[k] = light.frame.size[k] - 1;
-        d.offset[k] = static_cast<float>(offset[k]);
-        d.perVoxel[k] = static_cast<float>(frame.spacing[k] / light.frame.spacing[k]);
-    }
-    d.openness = look.use == BakedLook::Use::Openness;
-    if (!d.openness) d.exposure = look.exposure;
-    d.lampShare = look.lampShare;
     return d;
 }
 

@@ -12,6 +12,7 @@
 #include "engine/medium/medium_table.h"
 #include "engine/medium/medium_transfer.h"
 #include "engine/medium/phase_function.h"
+#include "tests/support/error_of.h"
 
 namespace stereonav {
 namespace {
@@ -21,15 +22,8 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-template <typename Call>
-std::string errorOf(Call call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
+using test::errorOf;
+
 std::string errorOfText(const std::string& text) {
     return errorOf([&] { parseMediumTransfer(text, "wax.txt"); });
 }

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/medium/medium_table.h"
+#include "tests/support/error_of.h"
 
 namespace stereonav {
 namespace {
@@ -27,15 +28,7 @@ MediumMaterial material(double opacity, const glm::vec3& color = glm::vec3(1.0f)
     return m;
 }
 
-template <typename Call>
-std::string errorOf(Call call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
+using test::errorOf;
 
 MediumTransfer ramp() {
     return MediumTransfer(

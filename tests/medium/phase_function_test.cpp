@@ -9,6 +9,7 @@
 #include <random>
 
 #include "engine/base/error.h"
+#include "tests/support/error_of.h"
 
 namespace stereonav {
 namespace {
@@ -131,15 +132,7 @@ TEST(PhaseFunction, SampledMeanIsTheMeanCosine) {
     EXPECT_GE(phase.sampleCosine(0, 1), -1);
 }
 
-template <typename Call>
-std::string errorOf(Call call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
+using test::errorOf;
 
 TEST(PhaseFunction, RefusesBadNumbers) {
     for (const float g : {1.0f, -1.0f, 0.9995f, 5.0f, std::nanf("")})

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "tests/support/error_of.h"
 
 namespace stereonav {
 namespace {
@@ -26,15 +27,7 @@ TransferFunction ramp() {
                             "test");
 }
 
-template <typename Call>
-std::string errorOf(Call call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
+using test::errorOf;
 
 // A file in a folder of its own, removed with it.
 class TransferFile {
