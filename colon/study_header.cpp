@@ -171,19 +171,51 @@ std::string plainBeginning(const fs::path& file, std::size_t bytes) {
     return text;
 }
 
-// Looked at here since the library behind ITK prints its complaints about these: the size of the header
-// (348, or 540 for version 2) and the number of axes, in either byte order.
+// A number of a NIfTI header, whose bytes may stand the other way around.
+template <typename T>
+T niftiNumber(const std::string& head, std::size_t at, bool turned) {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, head.data() + at, sizeof(T));
+    if (turned) std::reverse(bytes, bytes + sizeof(T));
+    T number;
+    std::memcpy(&number, bytes, sizeof(T));
+    return number;
+}
+
+// The library behind ITK prints its complaints about sizes and, where a spacing, a direction or an origin
+// is no number that it can invert, ends the program. Offsets: nifti1.h.
+void checkNiftiNumbers(const fs::path& file, const std::string& head, bool turned) {
+    const auto axes = niftiNumber<std::int16_t>(head, 40, turned);
+    for (int axis = 1; axis <= std::min<int>(axes, 3); ++axis) {
+        const auto size = niftiNumber<std::int16_t>(head, 40 + 2 * axis, turned);
+        if (size < 1)
+            throw Error(file.string(), "",
+                        fmt::format("expected a size above 0 along axis {}, found {}", axis, size),
+                        "correct it in the header");
+    }
+    constexpr std::size_t kPixdim = 76, kQuatern = 256, kRowsEnd = 328;
+    constexpr float kMostMillimetres = 1e12f;  // far beyond any body, and its square is a float
+    const auto check = [&](std::size_t at, const char* what) {
+        const auto number = niftiNumber<float>(head, at, turned);
+        if (!(std::abs(number) < kMostMillimetres))
+            throw Error(file.string(), fmt::format("byte {}", at),
+                        fmt::format("expected a number of millimetres for {}, found {}", what, number),
+                        "correct it in the header");
+    };
+    for (std::size_t at = kPixdim; at < kPixdim + 16; at += 4) check(at, "the spacing");
+    for (std::size_t at = kQuatern; at < kRowsEnd; at += 4) check(at, "the directions and the origin");
+}
+
+// The size of the header (348, or 540 for version 2) and the number of axes, in either byte order.
 void checkNiftiHeader(const fs::path& file, const std::string& head) {
     bool good = head.size() >= 348;
     if (good) {
-        std::int32_t size;
-        std::int16_t axes;
-        std::memcpy(&size, head.data(), sizeof size);
-        std::memcpy(&axes, head.data() + 40, sizeof axes);
-        const auto swapped = static_cast<std::uint16_t>(axes << 8 | (axes >> 8 & 255));
-        const bool first = size == 348 && axes >= 1 && axes <= 7;
-        const bool turned = size == 0x5c010000 && swapped >= 1 && swapped <= 7;
-        good = first || turned || size == 540 || size == 0x1c020000;
+        const auto axesOf = [&](bool turned) { return niftiNumber<std::int16_t>(head, 40, turned); };
+        const auto sizeOf = [&](bool turned) { return niftiNumber<std::int32_t>(head, 0, turned); };
+        for (const bool turned : {false, true})
+            if (sizeOf(turned) == 348 && axesOf(turned) >= 1 && axesOf(turned) <= 7)
+                return checkNiftiNumbers(file, head, turned);
+        good = sizeOf(false) == 540 || sizeOf(true) == 540;
     }
     if (!good)
         throw Error(file.string(), "", "expected a NIfTI file, found no header of one",

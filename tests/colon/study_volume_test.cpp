@@ -1,11 +1,14 @@
 // NRRD, NIfTI and MetaImage: voxels, frames and values as the file has them, and one clear line for what can
 // not be read.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 
 #include "../camera/temporary_folder.h"
@@ -116,6 +119,59 @@ TEST(StudyNifti, TurnsItsAxesIntoThePatients) {
         expectNear(study.grey.frame.worldFromVoxel({4, 3, 2}), {-0.012, -0.02225, 0.034}, 1e-8);
         expectNear(study.grey.frame.worldFromVoxel({0, 0, 0}), {-0.010, -0.020, 0.030}, 1e-8);
     }
+}
+
+TEST(StudyNifti, RefusesNumbersThatEndTheLibraryBehindIt) {
+    const TemporaryFolder folder;
+    const std::string good =
+        niftiBytes(kSize, {1, 1, 1}, {0, 0, 0}, DT_INT16, 16, bytesOfSamples(ramp<short>()));
+    const auto write = [&](std::size_t at, const auto& number) {
+        std::string bytes = good;
+        std::memcpy(bytes.data() + at, &number, sizeof number);
+        writeBytes(folder / "a.nii", bytes);
+    };
+    const float bad[] = {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
+                         std::numeric_limits<float>::quiet_NaN(), 3e38f};
+    for (const float number : bad) {
+        for (const std::size_t at :
+             {offsetof(nifti_1_header, pixdim) + 12, offsetof(nifti_1_header, pixdim)}) {
+            write(at, number);
+            expectError(folder / "a.nii", {fmt::format("byte {}", at), "the spacing"});
+        }
+        for (std::size_t at = offsetof(nifti_1_header, quatern_b); at < offsetof(nifti_1_header, intent_name);
+             at += 4) {
+            write(at, number);
+            expectError(folder / "a.nii", {fmt::format("byte {}", at), "the directions and the origin"});
+        }
+    }
+    for (int axis = 1; axis <= 3; ++axis) {
+        write(offsetof(nifti_1_header, dim) + 2 * axis, short(-4));
+        expectError(folder / "a.nii", {fmt::format("axis {}", axis), "found -4"});
+    }
+}
+
+// Every number of the header the other way around, as machines of the other byte order wrote it.
+TEST(StudyNifti, ReadsTheOtherByteOrder) {
+    const TemporaryFolder folder;
+    std::string bytes =
+        niftiBytes(kSize, {0.5, 0.75, 2}, {10, 20, 30}, DT_INT16, 16, bytesOfSamples(ramp<short>()));
+    const auto turn = [&](std::size_t from, std::size_t to, std::size_t size) {
+        for (std::size_t at = from; at < to; at += size)
+            std::reverse(bytes.begin() + static_cast<long>(at), bytes.begin() + static_cast<long>(at + size));
+    };
+    using H = nifti_1_header;
+    turn(0, 4, 4);
+    turn(offsetof(H, dim), offsetof(H, intent_p1), 2);
+    turn(offsetof(H, intent_p1), offsetof(H, intent_code), 4);
+    turn(offsetof(H, intent_code), offsetof(H, pixdim), 2);
+    turn(offsetof(H, pixdim), offsetof(H, slice_end), 4);
+    turn(offsetof(H, qform_code), offsetof(H, quatern_b), 2);
+    turn(offsetof(H, quatern_b), offsetof(H, intent_name), 4);
+    turn(352, bytes.size(), 2);
+    writeBytes(folder / "a.nii", bytes);
+    const Study study = read(folder / "a.nii");
+    expectRamp(study);
+    expectNear(study.grey.frame.worldFromVoxel({4, 3, 2}), {-0.012, -0.02225, 0.034}, 1e-8);
 }
 
 TEST(StudyMeta, KeepsVoxelsAndFrameWithAndWithoutDetachedData) {
