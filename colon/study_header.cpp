@@ -129,31 +129,23 @@ DataPlace findNrrdData(const fs::path& file) {
     return place;
 }
 
-void checkMetaSpacing(const fs::path& file, const std::string& value) {
-    const char* at = value.c_str();
-    for (char* end = nullptr; *at; at = end) {
-        const double spacing = std::strtod(at, &end);
-        if (end == at || !(spacing > 0) || !std::isfinite(spacing))
-            throw Error(file.string(), "", "expected a spacing of numbers above 0, found " + value,
-                        "correct it in the header");
-    }
-}
-
 DataPlace findMetaData(const fs::path& file) {
     const std::string text = beginning(file, kLongestHeader);
     DataPlace place;
+    MetaHeaderCheck check(file);
     std::string line;
     std::size_t at = 0;
     while (nextLine(text, at, line)) {
         const std::size_t equal = line.find('=');
-        if (equal == std::string::npos) continue;
-        const std::string key = lowered(trimmed(line.substr(0, equal)));
-        const std::string value = trimmed(line.substr(equal + 1));
+        const bool keyed = equal != std::string::npos;
+        const std::string key = keyed ? lowered(trimmed(line.substr(0, equal))) : "";
+        const std::string value = keyed ? trimmed(line.substr(equal + 1)) : "";
+        check.take(key, value);
         if (key == "compresseddata") place.compressed = lowered(value) == "true";
         if (key == "binarydata" && lowered(value) == "false") place.counted = false;
-        if (key == "elementspacing" || key == "elementsize") checkMetaSpacing(file, value);
         if (key == "headersize" && value != "0") place.counted = false;
         if (key != "elementdatafile") continue;
+        check.finish();
         nameDataFiles(file, value, text, at, place);
         place.countStream = place.compressed;
         return place;
@@ -169,57 +161,6 @@ std::string plainBeginning(const fs::path& file, std::size_t bytes) {
     const int count = in ? gzread(in.get(), text.data(), static_cast<unsigned>(bytes)) : 0;
     text.resize(static_cast<std::size_t>(std::max(count, 0)));
     return text;
-}
-
-// A number of a NIfTI header, whose bytes may stand the other way around.
-template <typename T>
-T niftiNumber(const std::string& head, std::size_t at, bool turned) {
-    char bytes[sizeof(T)];
-    std::memcpy(bytes, head.data() + at, sizeof(T));
-    if (turned) std::reverse(bytes, bytes + sizeof(T));
-    T number;
-    std::memcpy(&number, bytes, sizeof(T));
-    return number;
-}
-
-// The library behind ITK prints its complaints about sizes and, where a spacing, a direction or an origin
-// is no number that it can invert, ends the program. Offsets: nifti1.h.
-void checkNiftiNumbers(const fs::path& file, const std::string& head, bool turned) {
-    const auto axes = niftiNumber<std::int16_t>(head, 40, turned);
-    for (int axis = 1; axis <= std::min<int>(axes, 3); ++axis) {
-        const auto size = niftiNumber<std::int16_t>(head, 40 + 2 * axis, turned);
-        if (size < 1)
-            throw Error(file.string(), "",
-                        fmt::format("expected a size above 0 along axis {}, found {}", axis, size),
-                        "correct it in the header");
-    }
-    constexpr std::size_t kPixdim = 76, kQuatern = 256, kRowsEnd = 328;
-    constexpr float kMostMillimetres = 1e12f;  // far beyond any body, and its square is a float
-    const auto check = [&](std::size_t at, const char* what) {
-        const auto number = niftiNumber<float>(head, at, turned);
-        if (!(std::abs(number) < kMostMillimetres))
-            throw Error(file.string(), fmt::format("byte {}", at),
-                        fmt::format("expected a number of millimetres for {}, found {}", what, number),
-                        "correct it in the header");
-    };
-    for (std::size_t at = kPixdim; at < kPixdim + 16; at += 4) check(at, "the spacing");
-    for (std::size_t at = kQuatern; at < kRowsEnd; at += 4) check(at, "the directions and the origin");
-}
-
-// The size of the header (348, or 540 for version 2) and the number of axes, in either byte order.
-void checkNiftiHeader(const fs::path& file, const std::string& head) {
-    bool good = head.size() >= 348;
-    if (good) {
-        const auto axesOf = [&](bool turned) { return niftiNumber<std::int16_t>(head, 40, turned); };
-        const auto sizeOf = [&](bool turned) { return niftiNumber<std::int32_t>(head, 0, turned); };
-        for (const bool turned : {false, true})
-            if (sizeOf(turned) == 348 && axesOf(turned) >= 1 && axesOf(turned) <= 7)
-                return checkNiftiNumbers(file, head, turned);
-        good = sizeOf(false) == 540 || sizeOf(true) == 540;
-    }
-    if (!good)
-        throw Error(file.string(), "", "expected a NIfTI file, found no header of one",
-                    "give a volume file (.nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd) or a folder of DICOM");
 }
 
 DataPlace findNiftiData(const fs::path& file) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "colon/study.h"
@@ -75,6 +76,25 @@ std::string nrrdWithoutSpace(const std::filesystem::path& file);
 void checkBytes(const std::filesystem::path& file, const DataPlace& place, std::uint64_t expected);
 // Bytes that a gzip stream at `offset` of the file holds, up to `limit`.
 std::uint64_t inflatedBytes(const std::filesystem::path& file, std::uint64_t offset, std::uint64_t limit);
+
+// --- study_header_check.cpp
+// All throw Error, which names the place, where a library would print, hang or end the program.
+// head: the first 348 bytes of a NIfTI file, inflated.
+void checkNiftiHeader(const std::filesystem::path& file, const std::string& head);
+// Takes the lines of a MetaImage header in turn, keys in small letters ("" where a line has none).
+class MetaHeaderCheck {
+public:
+    explicit MetaHeaderCheck(std::filesystem::path file) : mFile(std::move(file)) {}
+    void take(const std::string& key, const std::string& value);
+    void finish() const;  // at ElementDataFile: that nothing is missing
+
+private:
+    std::filesystem::path mFile;
+    int mLine = 0, mAxes = 0;
+    bool mSized = false, mTyped = false;
+};
+// That the elements of a DICOM file's group 2 can be walked through; a file without one is left alone.
+void checkDicomMeta(const std::filesystem::path& file);
 
 // --- study_itk.cpp
 struct VolumeFile {

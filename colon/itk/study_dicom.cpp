@@ -134,6 +134,7 @@ std::uint64_t missingBytes(const gdcm::File& read, const DicomSlice& slice) {
 
 // What a file says before its pixels; nothing where it is not a DICOM image.
 std::optional<DicomSlice> readSliceHeader(const fs::path& file) {
+    checkDicomMeta(file);
     gdcm::Reader reader;
     reader.SetFileName(file.c_str());
     try {

@@ -283,6 +283,20 @@ TEST(StudyDicom, BadFoldersAndSlices) {
         writeBytes(folder / "cut/s7.dcm", bytes.substr(0, bytes.size() - missing));
         expectError(folder / "cut", {"s7.dcm is cut off: " + std::to_string(missing) + " bytes"});
     }
+    // GDCM ends the program over some of these.
+    writeSeries(folder / "meta", {0, 1, 2});
+    const std::string whole = fileBytes(folder / "meta/s7.dcm");
+    ASSERT_EQ(whole.substr(128, 4), "DICM");
+    for (const char* damage : {"{I", "--", "\xff\xff", "Ui"}) {
+        std::string changed = whole;
+        changed.replace(132 + 4, 2, damage);
+        writeBytes(folder / "meta/s7.dcm", changed);
+        expectError(folder / "meta", {"s7.dcm:byte 132", "header is damaged"});
+    }
+    for (const std::size_t length : {132, 134, 139, 143}) {
+        writeBytes(folder / "meta/s7.dcm", whole.substr(0, length));
+        expectError(folder / "meta", {"s7.dcm:byte 1", "header is damaged"});
+    }
     // What is no image is left out.
     writeSeries(folder / "extra", {0, 1, 2});
     writeBytes(folder / "extra/notes", "hello");

@@ -378,6 +378,37 @@ TEST(StudyBad, SizesBeyondAllMemoryOrNumbers) {
     EXPECT_THAT(errorOf(folder / "d.nrrd"), AllOf(HasSubstr("d.nrrd"), Not(HasSubstr("no error"))));
 }
 
+TEST(StudyBad, MetaHeadersThatTheLibraryPrintsOrHangsOver) {
+    const TemporaryFolder folder;
+    const std::string bytes = bytesOfSamples(ramp<short>());
+    const std::string good =
+        "ObjectType = Image\nNDims = 3\nBinaryData = True\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 7 8 "
+        "9\n"
+        "ElementSpacing = 0.5 0.6 2\nDimSize = 5 4 3\nElementType = MET_SHORT\nElementDataFile = LOCAL\n";
+    const struct {
+        const char *from, *to, *place, *says;
+    } cases[] = {
+        {"NDims = 3", "NDims =-3", "a.mha:2", "1 to 10 axes"},
+        {"NDims = 3", "NDims = nan", "a.mha:2", "1 to 10 axes"},
+        {"NDims = 3", "NDims = 1e9", "a.mha:2", "1 to 10 axes"},
+        {"NDims = 3\n", "", "a.mha:3", "expected NDims"},
+        {"NDims", "NDimz", "a.mha:4", "expected NDims"},
+        {"DimSize", "DimSizf", "a.mha", "no DimSize"},
+        {"ElementType", "Elementtipe", "a.mha", "no ElementType"},
+        {"5 4 3", "5 4", "a.mha:7", "3 numbers, found 2"},
+        {"5 4 3", "5 -4 3", "a.mha:7", "sizes above 0"},
+        {"7 8 9", "7 inf 9", "a.mha:5", "expected numbers"},
+        {"0 1 0 0 0 1", "0 1 0 0 0", "a.mha:4", "9 numbers, found 8"},
+        {"0 1 0 0 0 1", "0 1 0 0 0 nan", "a.mha:4", "expected numbers"},
+    };
+    for (const auto& c : cases) {
+        writeBytes(folder / "a.mha", replaced(good, c.from, c.to) + bytes);
+        expectError(folder / "a.mha", {c.place, c.says});
+    }
+    writeBytes(folder / "a.mha", good + bytes);
+    expectRamp(read(folder / "a.mha"));
+}
+
 TEST(StudyBad, SpacingThatIsNone) {
     const TemporaryFolder folder;
     const std::string lines = "DimSize = 5 4 3\nElementType = MET_SHORT\n";
