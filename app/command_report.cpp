@@ -24,14 +24,15 @@ namespace fs = std::filesystem;
 struct Part {
     const char* id;  // of its section
     void (*measure)(ReportRun& run, double seconds);
-    double weight;       // of the time
-    bool scenes = true;  // measured on them
+    double weight;         // of the time
+    bool surfaces = true;  // measured on scenes whose rays are cast
+    bool media = false;    // ... and on those that are swept
 };
 constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0},
                            {"casting", reportCasting, 0.5},
                            {"light", reportLight, 1.0, false},
                            {"occlusion", reportOcclusion, 0.3, false},
-                           {"volume-light", reportMedium, 1.0, false},
+                           {"volume-light", reportMedium, 1.0, false, true},
                            {"plan", reportPlan, 2.0},
                            {"time", reportStages, 2.0},
                            {"left-out", reportScenes, 0.3},
@@ -97,8 +98,10 @@ int runReport(const ReportOptions& options) {
     ReportRun run(options, bar.progress());
     if (options.threads > 0) setThreadCount(options.threads);
     describeRun(run);
-    if (std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.scenes; }))
-        loadReportScenes(run);
+    const auto any = [&](bool Part::*what) {
+        return std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.*what; });
+    };
+    loadReportScenes(run, any(&Part::surfaces), any(&Part::media));
     measureAll(run, parts);
     Report& report = run.report();
     if (!run.hurriedParts().empty())

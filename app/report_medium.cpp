@@ -194,6 +194,7 @@ void reportMedium(ReportRun& run, double) {
         againstPaths(run, section, subject, MediumModel::Indirect);
         againstManySlices(run, section, subject);
     }
+    reportPairs(run, section);
     run.report().sections.push_back(std::move(section));
 }
 

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "app/report_faults.h"
-#include "engine/base/error.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -21,12 +20,9 @@ void loadOne(ReportRun& run, const std::string& id, const std::string& title, co
     const Stopwatch watch;
     ReportScene scene{id, title, options, loadScene(options, {kReportWidth, kReportHeight}, quiet), 0};
     scene.load_ms = watch.elapsed_ms();
-    if (!scene.loaded.renderer)
-        throw Error("--scene", "",
-                    fmt::format("\"{}\" is a medium, whose eyes are swept and not warped", title),
-                    "leave it out: volume light is measured on the program's own media");
-    scene.loaded.renderer = withFaults(std::move(scene.loaded.renderer));
-    run.scenes().push_back(std::move(scene));
+    std::vector<ReportScene>& list = scene.loaded.renderer ? run.scenes() : run.media();
+    if (scene.loaded.renderer) scene.loaded.renderer = withFaults(std::move(scene.loaded.renderer));
+    list.push_back(std::move(scene));
 }
 
 void loadWithGlass(ReportRun& run, const std::string& id, SceneOptions options) {
@@ -80,16 +76,18 @@ std::string ReportRun::settingOf(int width, int height) const {
     return fmt::format("{}x{}, {} thread{}", width, height, threads, threads == 1 ? "" : "s");
 }
 
-void loadReportScenes(ReportRun& run) {
+void loadReportScenes(ReportRun& run, bool surfaces, bool media) {
+    std::vector<std::string> names{"terrain", "colon"};
+    if (!run.quick()) names.emplace_back("cloud");
+    for (const std::string& name : run.options().scenes)
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     SceneOptions options;
     options.threads = run.options().threads;
-    options.scene = "terrain";
-    loadOne(run, "terrain", "terrain", options);
-    options.scene = "colon";
-    loadWithGlass(run, "colon", options);
-    for (const std::string& name : run.options().scenes) {
+    for (const std::string& name : names) {
         options.scene = name;
-        loadWithGlass(run, idOf(name, run.scenes()), options);
+        const bool medium = kindOf(name) == SceneKind::Medium;
+        if (medium && media) loadOne(run, name, name, options);
+        if (!medium && surfaces) loadWithGlass(run, idOf(name, run.scenes()), options);
     }
 }
 

@@ -30,7 +30,8 @@ public:
     const ReportOptions& options() const { return mOptions; }
     bool quick() const { return mOptions.quick; }
     Report& report() { return mReport; }
-    std::vector<ReportScene>& scenes() { return mScenes; }
+    std::vector<ReportScene>& scenes() { return mScenes; }  // whose rays are cast
+    std::vector<ReportScene>& media() { return mMedia; }    // that are swept
 
     // Less is measured in a quick run, and in parts of a full one that begin behind their time.
     bool brief() const { return quick() || mBehind; }
@@ -61,11 +62,12 @@ private:
     std::vector<double> mMood_ms;
     bool mBehind = false;
     std::vector<std::string> mHurried;  // parts that were behind
-    std::vector<ReportScene> mScenes;
+    std::vector<ReportScene> mScenes, mMedia;
 };
 
-// The built-in scenes and those that were named, each with its colon's wall opaque and translucent.
-void loadReportScenes(ReportRun& run);
+// The built-in scenes and those that were named, each with its colon's wall opaque and translucent; of media
+// the cloud, in a full run, and those that were named. A scene that is named twice, or built in, comes once.
+void loadReportScenes(ReportRun& run, bool surfaces, bool media);
 
 // The parts, in the order of the page.
 void reportRightEye(ReportRun& run, double seconds);
@@ -73,6 +75,7 @@ void reportCasting(ReportRun& run, double seconds);
 void reportLight(ReportRun& run, double seconds);
 void reportOcclusion(ReportRun& run, double seconds);
 void reportMedium(ReportRun& run, double seconds);
+void reportPairs(ReportRun& run, ReportSection& section);  // in that of volume light
 void reportPlan(ReportRun& run, double seconds);
 void reportStages(ReportRun& run, double seconds);
 void reportScenes(ReportRun& run, double seconds);

@@ -73,6 +73,20 @@ TEST_F(Report, HasAScenesOwnChartAndAFullCastWithoutError) {
     EXPECT_EQ(found, 1);
 }
 
+TEST_F(Report, MeasuresANamedMediumInStereoAndABuiltInSceneOnce) {
+    const Outcome outcome = report(
+        {"--parts", "volume-light,left-out", "--scene", "wax", "--scene", "terrain", "--scene", "wax"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    std::set<std::string> ids;
+    const Json json = Json::parse(contentOf(place() / "report/report.json"));
+    for (const Json& figure : json.at("figures")) ids.insert(figure.at("id").get<std::string>());
+    for (const char* id : {"pair/wax/sweep/time", "pair/wax/two-sweeps/error", "pair/wax/depthsplat/error",
+                           "pair-separation/wax/1/8/error", "scene/terrain/loading"})
+        EXPECT_TRUE(ids.contains(id)) << id;
+    EXPECT_FALSE(ids.contains("scene/terrain 2/loading"));
+    EXPECT_FALSE(ids.contains("pair/wax 2/sweep/time"));
+}
+
 TEST_F(Report, ReadsRowsOfStability) {
     const std::string rows =
         input("rows.jsonl",
@@ -93,7 +107,6 @@ TEST_F(Report, SaysInOneLineWhatIsWrong) {
         {{"--compare", text}, "text.json"},
         {{"--compare", "/nowhere/old.json"}, "/nowhere/old.json"},
         {{"--parts", "nonsense"}, "there is no part \"nonsense\""},
-        {{"--parts", "right-eye", "--scene", "cloud"}, "\"cloud\" is a medium"},
         {{"--scene", "/nowhere/scene.tif"}, "/nowhere/scene.tif"},
         {{"--parts", "stability", "--stability", row}, "row.jsonl:2"},
         {{"--out", "/proc/nowhere"}, "--out"},
