@@ -119,16 +119,32 @@ struct TexelLighter::State {
         return glm::clamp(on ? whole : voxel, glm::dvec3(0.0), glm::dvec3(volume.frame.size - 1));
     }
 
+    // From a point of the surface of this isovalue on.
+    PathStart startFrom(const glm::dvec3& voxel, double isovalue, const glm::dvec3& normal,
+                        std::uint64_t number) const {
+        PathStart start;
+        splitPlace(volume.frame, liftedStart(volume, isovalue, voxel, normal), start.cell, start.local);
+        const glm::dvec3 along = glm::transpose(volume.frame.axes) * normal;
+        for (int k = 0; k < 3; ++k) start.normal[k] = static_cast<float>(along[k]);
+        start.isovalue = static_cast<float>(isovalue);
+        start.key = pathKey(sampling.seed, number);
+        return start;
+    }
+
     // False where the texel lies on no surface.
     bool startOf(const glm::ivec3& texel, PathStart& start) const {
         const glm::dvec3 voxel = voxelOf(texel), normal = surfaceNormal(volume, voxel);
         if (normal == glm::dvec3(0.0)) return false;
         const double isovalue = tracedIsovalue(plainValue(volume, voxel), least);
-        splitPlace(volume.frame, liftedStart(volume, isovalue, voxel, normal), start.cell, start.local);
-        const glm::dvec3 along = glm::transpose(volume.frame.axes) * normal;
-        for (int k = 0; k < 3; ++k) start.normal[k] = static_cast<float>(along[k]);
-        start.isovalue = static_cast<float>(isovalue);
-        start.key = pathKey(sampling.seed, texels.index(texel));
+        start = startFrom(voxel, isovalue, normal, texels.index(texel));
+        return true;
+    }
+    bool startOf(const SurfacePoint& point, PathStart& start) const {
+        const glm::dvec3 voxel = glm::clamp(point.voxel, glm::dvec3(0.0), glm::dvec3(volume.frame.size - 1));
+        glm::dvec3 normal = surfaceNormal(volume, voxel);
+        if (normal == glm::dvec3(0.0)) normal = point.towardsEye;
+        if (normal == glm::dvec3(0.0)) return false;
+        start = startFrom(voxel, tracedIsovalue(point.isovalue, least), normal, point.number);
         return true;
     }
 
@@ -137,8 +153,9 @@ struct TexelLighter::State {
         std::vector<PathStart> starts;
         std::vector<std::size_t> texels;  // their numbers in the span
     };
-    template <typename First>  // first sample of a texel; negative: leave it out
-    Batch batchOf(std::span<const glm::ivec3> list, const First& first) const {
+    // Of texels or points. First: first sample of one; negative: leave it out.
+    template <typename Place, typename First>
+    Batch batchOf(std::span<const Place> list, const First& first) const {
         struct Entry {
             std::size_t texel;
             PathStart start;
@@ -178,6 +195,22 @@ struct TexelLighter::State {
             }
         }
     }
+
+    template <typename Place>
+    void addIrradiance(std::span<const Place> places, int count, std::span<TexelSum> sums) const {
+        Batch batch = batchOf(places, [&](std::size_t n) { return sums[n].samples; });
+        std::vector<std::uint8_t> placed(places.size(), 0);
+        for (const std::size_t n : batch.texels) placed[n] = 1;
+        for (std::size_t n = 0; n < places.size(); ++n)
+            if (!placed[n]) sums[n] = {glm::vec3(0.0f), -1, 0};
+        const auto store = std::make_unique_for_overwrite<PathStore>();
+        std::vector<PathMoments> moments(PathStore::kPaths);
+        eachJob(batch, count, [&](std::size_t first, int together, int samples) {
+            kernels.irradiance(pathVolume, fields.all(), tables.lights(), &batch.starts[first], together,
+                               samples, *store, moments.data());
+            for (int n = 0; n < together; ++n) addMoments(sums[batch.texels[first + n]], moments[n], samples);
+        });
+    }
 };
 
 TexelLighter::TexelLighter(const GreyVolume& volume, const VolumeFrame& texels, const LightSetup& setup,
@@ -196,19 +229,12 @@ TexelLighter::TexelPlace TexelLighter::place(const glm::ivec3& texel) const {
 
 void TexelLighter::addIrradiance(std::span<const glm::ivec3> texels, int count,
                                  std::span<TexelSum> sums) const {
-    const State& s = *mState;
-    State::Batch batch = s.batchOf(texels, [&](std::size_t n) { return sums[n].samples; });
-    std::vector<std::uint8_t> placed(texels.size(), 0);
-    for (const std::size_t n : batch.texels) placed[n] = 1;
-    for (std::size_t n = 0; n < texels.size(); ++n)
-        if (!placed[n]) sums[n] = {glm::vec3(0.0f), -1, 0};
-    const auto store = std::make_unique_for_overwrite<PathStore>();
-    std::vector<PathMoments> moments(PathStore::kPaths);
-    State::eachJob(batch, count, [&](std::size_t first, int together, int samples) {
-        s.kernels.irradiance(s.pathVolume, s.fields.all(), s.tables.lights(), &batch.starts[first], together,
-                             samples, *store, moments.data());
-        for (int n = 0; n < together; ++n) addMoments(sums[batch.texels[first + n]], moments[n], samples);
-    });
+    mState->addIrradiance(texels, count, sums);
+}
+
+void TexelLighter::addIrradianceAt(std::span<const SurfacePoint> points, int count,
+                                   std::span<TexelSum> sums) const {
+    mState->addIrradiance(points, count, sums);
 }
 
 void TexelLighter::addTransfer(std::span<const glm::ivec3> texels, int firstSample, int count, int order,

@@ -49,6 +49,16 @@ public:
     // (but for rounding: equal bytes need equal splits).
     void addIrradiance(std::span<const glm::ivec3> texels, int count, std::span<TexelSum> sums) const;
 
+    // A point between texels, on a surface that is shown.
+    struct SurfacePoint {
+        glm::dvec3 voxel{0.0};       // of the volume's grid; clamped to its box
+        double isovalue = 0;         // of the surface, stored numbers
+        glm::dvec3 towardsEye{0.0};  // unit, world: the normal where the gradient vanishes
+        std::uint64_t number = 0;    // of its samples, as the place in the grid is of a texel's
+    };
+    // The same at such points; one at which there is neither a gradient nor a direction gets samples -1.
+    void addIrradianceAt(std::span<const SurfacePoint> points, int count, std::span<TexelSum> sums) const;
+
     // The transfer of distant light in harmonics (eq. 4 to 8; Y4): adds `count` samples from `firstSample` on
     // to sums of harmonicsCount(order) * channels floats a texel (coefficient first, then channel), already
     // divided by pi: dotted with the light's coefficients it is what addIrradiance gives. channels: 1 (grey
