@@ -92,9 +92,11 @@ void addScene(CLI::App& command, SceneOptions& options) {
     command.add_flag("--open-holes", options.openHoles, "leave missing ground open instead of filling it");
     command.add_option("--image", options.image, "colour of the ground");
     command.add_option("--sky", options.sky, "an equirectangular picture or a light probe (.hdr)");
-    command.add_option("--light", options.light,
-                       "baked light: a file; of a terrain also auto, for the one that bake has put by; of a "
-                       "volume in view also lazy, worked out while one flies");
+    command.add_option(
+        "--light", options.light,
+        "baked light: a file; of a terrain also auto, for the one that bake has put by; of a "
+        "volume in view also lazy, worked out while one flies; in render also traced, paths from every "
+        "pixel");
     command.add_option("--sun", options.sun,
                        "azimuth,elevation of a terrain's sun in degrees, clockwise from north");
     command.add_option("--separation", options.separation_m,
@@ -125,6 +127,22 @@ void addMedium(CLI::App& command, MediumOptions& options) {
     add("--slices", options.slices, "across the medium, 1 to 65536");
     add("--light-size", options.lightSize, "texels a side of the light's buffer, 8 to 4096");
     add("--cone", options.cone_deg, "degrees in which scattered light spreads, 0 to 180");
+}
+
+void addTraced(CLI::App& command, TracedOptions& options) {
+    constexpr const char* kGroup = "Options of --light traced";
+    const auto add = [&](const char* name, auto& value, const char* help) {
+        return command.add_option(name, value, help)->group(kGroup);
+    };
+    add("--samples", options.samples, "paths from each pixel, 64 when left out");
+    add("--bounces", options.bounces, "of light between surfaces, 0 to 8");
+    add("--albedo", options.albedo, "of the surface, 0 to 1: one number, or red,green,blue");
+    add("--point-light", options.lights,
+        "x,y,z in metres and its intensity; or centreline and the lights' distance in metres, in a colon; "
+        "may "
+        "be given several times")
+        ->allow_extra_args(false);
+    add("--reach", options.reach_mm, "millimetres that rays look for light from outside");
 }
 
 // What the subcommands fill, and which of them runs.
@@ -188,6 +206,7 @@ void addRender(CLI::App& app, Parsed& parsed) {
     addScene(command, options.scene);
     addQuality(command, options.scene.quality);
     addMedium(command, options.scene.medium);
+    addTraced(command, options.scene.traced.emplace());
     parsed.addSize(command, "1280x720");
     command.add_option("--pose", options.pose,
                        "x,y,z,heading,pitch,roll in metres and degrees; left out: the start pose");

@@ -174,12 +174,15 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
 
 LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
     checkVolumeLight(options);
+    checkTracedLight(options);
     LoadedScene scene;
     scene.name = options.scene;
     scene.colon = std::make_unique<ColonScene>(loadColon(colonOptionsOf(options), progress));
     applyVolumeLight(options, *scene.colon, progress);
     if (options.light == kLazyLight)
         scene.lazyLight = std::make_shared<LazyLight>(options, *scene.colon, progress);
+    if (options.light == kTracedLight)
+        scene.tracedLight = std::make_shared<TracedLight>(options, *scene.colon);
     const ColonScene& colon = *scene.colon;
     if (options.volume.isovalue && colon.isColon())
         throw Error("--isovalue", "", "expected with a volume seen from outside, this one is a colon",

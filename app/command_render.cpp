@@ -14,12 +14,13 @@ int runRender(const RenderOptions& options) {
     checkOutputPicture("--out", options.out);
     checkSize(options.size);
     const OutputMode mode = modeFromText(options.mode);
-    checkMethod(options.scene, options.method);
+    const std::string method = methodUnderLight(options.scene, options.method);
+    checkMethod(options.scene, method);
     std::optional<Pose> pose;
     if (!options.pose.empty()) pose = poseFromText(options.pose);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
-    StereoFrame frame(scene, options.method);
+    StereoFrame frame(scene, method);
     frame.refine(options.scene, bar.progress());
     bar.progress().report(0.9, "casting");
     const Pose head = pose ? *pose : scene.startPose;
@@ -33,6 +34,8 @@ int runRender(const RenderOptions& options) {
         bar.clear();
         std::printf("lit in %.2f s\n", watch.elapsed_ms() / 1000);
     }
+    if (scene.tracedLight)
+        scene.tracedLight->light(scene.viewsAt(head), frame.left(), frame.right(), bar.progress());
     const Plane<PackedColor> picture = frame.compose(mode);
     writeColorImage(options.out, picture);
     bar.clear();
@@ -50,6 +53,8 @@ int runRender(const RenderOptions& options) {
                     100.0 * static_cast<double>(t.refinedPixels) /
                         (static_cast<double>(options.size.width) * options.size.height),
                     t.boundPsnr_db);
+    if (scene.tracedLight)
+        for (const std::string& note : scene.tracedLight->notes()) std::printf("  %s\n", note.c_str());
     return 0;
 }
 

@@ -53,6 +53,17 @@ struct QualityOptions {
     std::optional<double> target_ms;      // of a frame, both eyes: what fits is cast
 };
 
+// The light of a picture whose every pixel is path traced; texts are those of `bake`.
+struct TracedOptions {
+    std::optional<int> samples;       // of each pixel
+    std::optional<int> bounces;       // as bake
+    std::string albedo;               // one number or R,G,B
+    std::vector<std::string> lights;  // as bake's --light
+    std::optional<double> reach_mm;   // as bake
+
+    bool any() const { return samples || bounces || !albedo.empty() || !lights.empty() || reach_mm; }
+};
+
 struct SceneOptions {
     // "" or "terrain": built in; a .toml; a DEM file; "colon", "cloud", "wax": built in; a CT study
     std::string scene;
@@ -60,7 +71,7 @@ struct SceneOptions {
     bool openHoles = false;
     std::string image, sky;  // "": as the scene says
     // Baked light: a file; of a terrain also "auto", for the cache's; of a volume in a window also "lazy",
-    // worked out while one flies; "": none.
+    // worked out while one flies, and in a picture "traced", at every pixel; "": none.
     std::string light;
     std::string sun;  // "azimuth,elevation" in degrees; "": as the scene says
     std::optional<double> separation_m, zeroParallax_m;
@@ -70,6 +81,7 @@ struct SceneOptions {
     VolumeOptions volume;
     QualityOptions quality;
     MediumOptions medium;
+    std::optional<TracedOptions> traced;  // none: of commands that trace no pictures
 };
 
 struct SizeOption {
@@ -156,6 +168,11 @@ struct CentrelineOptions {
 };
 int runCentreline(const CentrelineOptions& options);
 
+// What options are called where they were given.
+struct LightWords {
+    const char *light = "--light", *probe = "--probe";
+};
+
 // What is not given is chosen from the scene. A terrain's scene.sky is a picture; a volume's is a colour.
 struct BakeOptions {
     SceneOptions scene;
@@ -170,7 +187,8 @@ struct BakeOptions {
     std::string isovalues;           // "LOW,HIGH" of the volume's values
     std::optional<double> reach_mm;  // how far rays look for distant light; none: a colon's mean radius
     bool full = false;               // every texel, for any isovalue
-    std::string out;                 // "": in the cache
+    LightWords words;
+    std::string out;  // "": in the cache
 };
 int runBake(const BakeOptions& options);
 

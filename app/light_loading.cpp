@@ -48,22 +48,22 @@ bool isCentreline(const std::string& light) {
     return light.rfind("centreline", 0) == 0;
 }
 
-double centrelineSpacing(const std::string& light) {
+double centrelineSpacing(const std::string& light, const char* option) {
     const std::string rest = light.substr(std::string("centreline").size());
     if (rest.empty()) return kLightSpacing;
     const std::vector<double> numbers =
         rest[0] == ',' ? numbersFromText(rest.substr(1)) : std::vector<double>();
-    require(numbers.size() == 1 && numbers[0] >= 1e-4, "--light",
+    require(numbers.size() == 1 && numbers[0] >= 1e-4, option,
             "expected centreline and a distance of at least 0.0001 metres, got \"" + light + "\"",
             "as in centreline,0.05");
     return numbers[0];
 }
 
 // Position and intensity; without one, 0.
-PointLight lightFromText(const std::string& text) {
+PointLight lightFromText(const std::string& text, const char* option) {
     const std::vector<double> n = numbersFromText(text);
     require((n.size() == 3 || n.size() == 4) && (n.size() == 3 || (n[3] > 0 && n[3] <= kLargestNumber)),
-            "--light", "expected x,y,z in metres and an intensity above 0, got \"" + text + "\"",
+            option, "expected x,y,z in metres and an intensity above 0, got \"" + text + "\"",
             "the intensity may be left out, as in 0.1,0,0.3");
     PointLight light;
     light.position = {n[0], n[1], n[2]};
@@ -102,9 +102,9 @@ void checkNumbers(const BakeOptions& o) {
     if (!o.isovalues.empty()) isovaluesFromText(o.isovalues);
     for (const std::string& light : o.lights)
         if (isCentreline(light))
-            centrelineSpacing(light);
+            centrelineSpacing(light, o.words.light);
         else
-            lightFromText(light);
+            lightFromText(light, o.words.light);
 }
 
 void checkTogether(const BakeOptions& o, BakeKind kind) {
@@ -159,9 +159,8 @@ double meanRadius(const std::vector<CentrelinePoint>& points) {
 }
 
 // Lights that make a wall as far away as the lumen is wide on average as bright as a sky of 1 would.
-void addCentreline(const ColonScene& scene, double spacing, LightSetup& setup) {
-    require(scene.isColon(), "--light",
-            "expected a colon for lights along the centreline, this volume is none",
+void addCentreline(const ColonScene& scene, double spacing, const char* option, LightSetup& setup) {
+    require(scene.isColon(), option, "expected a colon for lights along the centreline, this volume is none",
             "give their places as x,y,z");
     const std::vector<CentrelinePoint>& points = scene.centreline.points;
     const double radius = meanRadius(points);
@@ -171,7 +170,7 @@ void addCentreline(const ColonScene& scene, double spacing, LightSetup& setup) {
         if (n > 0) along += glm::length(points[n].position - points[n - 1].position);
         // Where the path crosses tissue there is no room for a light.
         if (along < spacing || !(scene.freeDistanceAt(points[n].position, 1e-3) > 0)) continue;
-        require(setup.lights.size() < kMostLights, "--light",
+        require(setup.lights.size() < kMostLights, option,
                 fmt::format("the centreline would get more than {} lights", kMostLights),
                 "choose a larger distance");
         PointLight light;
@@ -180,7 +179,7 @@ void addCentreline(const ColonScene& scene, double spacing, LightSetup& setup) {
         setup.lights.push_back(light);
         along = 0;
     }
-    require(!setup.lights.empty(), "--light", "the centreline is shorter than the lights' distance",
+    require(!setup.lights.empty(), option, "the centreline is shorter than the lights' distance",
             "choose a smaller distance");
 }
 
@@ -188,9 +187,9 @@ glm::dvec3 centreOf(const VolumeFrame& frame) {
     return frame.worldFromVoxel(0.5 * (glm::dvec3(frame.size) - 1.0));
 }
 
-void addLight(const ColonScene& scene, const std::string& text, LightSetup& setup) {
-    if (isCentreline(text)) return addCentreline(scene, centrelineSpacing(text), setup);
-    PointLight light = lightFromText(text);
+void addLight(const ColonScene& scene, const std::string& text, const char* option, LightSetup& setup) {
+    if (isCentreline(text)) return addCentreline(scene, centrelineSpacing(text, option), option, setup);
+    PointLight light = lightFromText(text, option);
     if (light.intensity.x == 0) {
         // So that a surface in the middle of the volume that faces it is as bright as under a sky of 1.
         const glm::dvec3 away = light.position - centreOf(scene.volume.field.frame);
@@ -220,10 +219,10 @@ LightSetup setupOf(const ColonScene& scene, const BakeOptions& options, BakeKind
     if (kind == BakeKind::Transfer) return setup;
     if (!options.probe.empty()) setup.probe = std::make_shared<LightProbe>(readLightProbe(options.probe));
     if (!options.scene.sky.empty()) setup.sky = colorFromText("--sky", options.scene.sky, kLargestNumber, "");
-    for (const std::string& light : options.lights) addLight(scene, light, setup);
+    for (const std::string& light : options.lights) addLight(scene, light, options.words.light, setup);
     if (setup.probe || !options.scene.sky.empty() || !setup.lights.empty()) return setup;
     if (scene.isColon()) {
-        addCentreline(scene, kLightSpacing, setup);
+        addCentreline(scene, kLightSpacing, options.words.light, setup);
         notes.push_back(fmt::format("lit by {} lights along the centreline, {:g} mm apart",
                                     setup.lights.size(), 1e3 * kLightSpacing));
     } else {
@@ -236,12 +235,14 @@ LightSetup setupOf(const ColonScene& scene, const BakeOptions& options, BakeKind
 // Light from outside never gets into a closed colon, unless rays are asked no further than so far.
 void refuseOutsideLight(const ColonScene& scene, const BakeOptions& options, BakeKind kind) {
     if (!scene.isColon() || options.reach_mm) return;
-    const char* advice = "bake irradiance with --light, as in --light centreline, or add --reach";
+    const std::string advice =
+        fmt::format("{}{} centreline, or --reach",
+                    kind == BakeKind::Irradiance ? "add " : "bake irradiance with ", options.words.light);
     require(kind != BakeKind::Transfer, "--what",
             fmt::format("{} is 0 everywhere inside a colon, which is closed", nameOf(kind)), advice);
     require(kind == BakeKind::Openness || !options.lights.empty() ||
                 (options.probe.empty() && options.scene.sky.empty()),
-            options.probe.empty() ? "--sky" : "--probe",
+            options.probe.empty() ? "--sky" : options.words.probe,
             "nothing of it is seen inside a colon, which is closed", advice);
 }
 
@@ -263,6 +264,12 @@ void checkBakeOptions(const BakeOptions& options) {
     checkOutputFile("--out", options.out);
     require(!isForeignFile(options.out), "--out", "\"" + options.out + "\" is there and is no bake",
             "name another file, or take it away first");
+}
+
+LightSetup lightSetupOf(const ColonScene& scene, const BakeOptions& options,
+                        std::vector<std::string>& notes) {
+    refuseOutsideLight(scene, options, BakeKind::Irradiance);
+    return setupOf(scene, options, BakeKind::Irradiance, notes);
 }
 
 std::uint64_t contentOf(const ColonScene& scene, Progress& progress) {

@@ -23,6 +23,9 @@ struct VolumeBakePlan {
 // What is baked of a volume, and the light. Throws Error, Cancelled.
 VolumeBakePlan planVolumeBake(const ColonScene& scene, const BakeOptions& options, Progress& progress);
 
+// The light alone that irradiance is baked under, with what was chosen. Throws Error.
+LightSetup lightSetupOf(const ColonScene& scene, const BakeOptions& options, std::vector<std::string>& notes);
+
 // Of the volume, the same however it was loaded: a colon that came from the cache is known near its wall
 // only.
 std::uint64_t contentOf(const ColonScene& scene, Progress& progress);

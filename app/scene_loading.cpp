@@ -14,6 +14,7 @@
 #include "app/medium_loading.h"
 #include "app/medium_options.h"
 #include "app/terrain_loading.h"
+#include "app/volume_light.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 
@@ -79,6 +80,19 @@ void refuseTerrainOptions(const SceneOptions& options) {
         if (is) throw Error(option, "", "expected with a terrain, the scene is a CT study", "leave it out");
 }
 
+void refuseTracedElsewhere(const SceneOptions& options) {
+    const bool traced = options.light == kTracedLight;
+    if (options.traced && options.traced->any() && !traced)
+        throw Error("--samples, --bounces, --albedo, --point-light, --reach", "",
+                    "expected with --light traced", "leave them out");
+    if (!traced) return;
+    if (!options.traced)
+        throw Error("--light", "", "traced is expected with render", "bake the light, and name its file");
+    if (showsMedium(options) || kindOf(options.scene) != SceneKind::Volume)
+        throw Error("--light", "", "traced expects the surface of a CT study or of the built-in colon",
+                    "leave it out");
+}
+
 long long memoryBytes() {
     return static_cast<long long>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGE_SIZE);
 }
@@ -119,6 +133,7 @@ SceneKind kindOf(const std::string& name) {
 LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress) {
     checkSize(size);
     checkOptions(options);
+    refuseTracedElsewhere(options);
     const SimdTarget simd = simdFromText(options.simd);
     if (options.threads > 0) setThreadCount(options.threads);
     checkMediumOptions(options);

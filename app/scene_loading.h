@@ -11,6 +11,7 @@
 #include "app/lazy_light.h"
 #include "app/medium_scene.h"
 #include "app/pair_renderer.h"
+#include "app/traced_light.h"
 #include "colon/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/image/stereo_compose.h"
@@ -27,8 +28,9 @@ struct LoadedScene {
     // leaves one of them out needs nothing of it.
     std::shared_ptr<TerrainScene> terrain;
     std::shared_ptr<ColonScene> colon;
-    std::shared_ptr<MediumScene> medium;   // null where rays are cast
-    std::shared_ptr<LazyLight> lazyLight;  // of a volume lit while it is shown; else null
+    std::shared_ptr<MediumScene> medium;       // null where rays are cast
+    std::shared_ptr<LazyLight> lazyLight;      // of a volume lit while it is shown; else null
+    std::shared_ptr<TracedLight> tracedLight;  // of one lit at every pixel of a picture; else null
     // One of the two.
     std::unique_ptr<EyeRenderer> renderer;
     std::unique_ptr<PairRenderer> pair;  // of a medium

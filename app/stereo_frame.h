@@ -21,6 +21,9 @@ public:
     // Both eyes at one pose. time: seconds, of what moves by itself.
     void render(const Pose& head, double time = 0);
 
+    // Of what is worked out for the two pictures as a whole.
+    EyeImage& left() { return mLeft; }
+    EyeImage& right() { return mRight; }
     const EyeImage& left() const { return mLeft; }
     const EyeImage& right() const { return mRight; }
     double left_ms() const { return mLeft_ms; }

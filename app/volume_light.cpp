@@ -65,9 +65,7 @@ void applyBaked(const SceneOptions& options, ColonScene& scene, Progress& progre
     if (baked.kind == BakeKind::Openness) {
         look.use = BakedLook::Use::Openness;
     } else {
-        const double mean = meanLight(*light);
-        look.exposure =
-            static_cast<float>(options.volume.exposure.value_or(mean > 0 ? kMeanShown / mean : 1.0));
+        look.exposure = exposureOf(options.volume, meanLight(*light));
     }
     look.light = std::move(light);
 }
@@ -143,6 +141,11 @@ std::string shadingNames() {
     return names;
 }
 
+float exposureOf(const VolumeOptions& options, double meanLight) {
+    const double chosen = meanLight > 0 ? static_cast<double>(kMeanShown) / meanLight : 1.0;
+    return static_cast<float>(options.exposure.value_or(chosen));
+}
+
 void checkVolumeLight(const SceneOptions& options) {
     const VolumeOptions& volume = options.volume;
     const bool lazy = options.light == kLazyLight;
@@ -167,7 +170,8 @@ void checkVolumeLight(const SceneOptions& options) {
 void applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& progress) {
     const VolumeOptions& volume = options.volume;
     if (!volume.shading.empty()) shadingOf(volume.shading).apply(scene);
-    if (!options.light.empty() && options.light != kLazyLight) applyBaked(options, scene, progress);
+    const bool file = !options.light.empty() && options.light != kLazyLight && options.light != kTracedLight;
+    if (file) applyBaked(options, scene, progress);
     if (volume.ambient_mm) applyAmbient(*volume.ambient_mm, scene, progress);
 }
 

@@ -18,6 +18,13 @@ void applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& 
 // As --light: light that is worked out while one looks.
 constexpr const char* kLazyLight = "lazy";
 
+// As --light: paths traced from every pixel.
+constexpr const char* kTracedLight = "traced";
+
+// Factor on light whose mean over what is known (of white) is this: --exposure, else such that the mean is
+// shown well; 1 where there is no light.
+float exposureOf(const VolumeOptions& options, double meanLight);
+
 // Names for --shading, separated by commas.
 std::string shadingNames();
 

@@ -78,6 +78,14 @@ void LazyLight::waitUntilDone() const {
     without();
 }
 
+std::string methodUnderLight(const SceneOptions&, const std::string& method) {
+    return method;
+}
+
+void TracedLight::light(const StereoViews&, EyeImage&, EyeImage&, Progress&) {
+    without();
+}
+
 Study readStudy(const std::filesystem::path&, const StudyOptions&, Progress&) {
     without();
 }
