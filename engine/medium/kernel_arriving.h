@@ -97,7 +97,8 @@ STEREONAV_INLINE F blinnPhong(const SweepLook& look, const V3& normal, const V3&
     Colors f{{shaded, shaded, shaded}};
     const BakedData& baked = scene.look.baked;
     if (baked.texels) {
-        const BakedLight light = bakedAt(baked, voxelOf(scene.grid, place), m);
+        const BakedLight light =
+            bakedAt(baked, transformed(scene.look.texelFromPlace, scene.look.texelZero, place), m);
         const M known = m & (light.known > F(0.0f));
         const F own = baked.openness ? F(0.0f) : shaded * F(baked.lampShare);
         const F factor = baked.openness ? shaded : one;

@@ -70,13 +70,15 @@ STEREONAV_INLINE M insideGrid(const SweepGrid& grid, const V3& v) {
     return (v.x >= zero) & (v.y >= zero) & (v.z >= zero) & (v.x <= F(grid.last[0])) &
            (v.y <= F(grid.last[1])) & (v.z <= F(grid.last[2]));
 }
-STEREONAV_INLINE V3 voxelOf(const SweepGrid& grid, const V3& place) {
+STEREONAV_INLINE V3 transformed(const float (&rows)[3][3], const float (&zero)[3], const V3& place) {
     const auto row = [&](int k) {
-        return mulAdd(place.x, F(grid.fromPlace[k][0]),
-                      mulAdd(place.y, F(grid.fromPlace[k][1]),
-                             mulAdd(place.z, F(grid.fromPlace[k][2]), F(grid.zero[k]))));
+        return mulAdd(place.x, F(rows[k][0]),
+                      mulAdd(place.y, F(rows[k][1]), mulAdd(place.z, F(rows[k][2]), F(zero[k]))));
     };
     return {row(0), row(1), row(2)};
+}
+STEREONAV_INLINE V3 voxelOf(const SweepGrid& grid, const V3& place) {
+    return transformed(grid.fromPlace, grid.zero, place);
 }
 
 // Trilinear, of places inside the grid. Two neighbours along x are one word; their weights have 14 bits.

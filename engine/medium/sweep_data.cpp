@@ -48,6 +48,17 @@ SweepLight lightOf(const SweepGeometry& g, double blurLength, double coneAngle) 
     return light;
 }
 
+// By the texels' own frame: so it may lie as it will, and layers need no grid.
+void setBaked(SweepLook& to, const BakedLook& look, const glm::dvec3& anchor) {
+    const VolumeFrame& frame = look.light->frame;
+    to.baked = bakedDataOf(look, frame);
+    const glm::dvec3 zero = frame.voxelFromWorld(anchor);
+    for (int k = 0; k < 3; ++k) {
+        setVector(to.texelFromPlace[k], frame.axes[k] / frame.spacing[k]);
+        to.texelZero[k] = static_cast<float>(zero[k]);
+    }
+}
+
 }  // namespace
 
 SweepData::SweepData(const Medium& medium) : mMedium(medium) {
@@ -180,14 +191,14 @@ void SweepData::setNoise(SweepNoise& noise, const glm::dvec3& anchor, double tim
     }
 }
 
-void SweepData::setLook(SweepLook& to, const MediumLook& look) {
+void SweepData::setLook(SweepLook& to, const MediumLook& look, const glm::dvec3& anchor) {
     to.model = static_cast<int>(look.model);
     to.indirectShare = look.indirectShare;
     to.ambient = look.ambient;
     to.diffuse = look.diffuse;
     to.specular = look.specular;
     to.shininess = look.shininess;
-    if (mMedium.field()) to.baked = bakedDataOf(look.baked, mMedium.field()->frame);
+    if (look.baked.light) setBaked(to, look.baked, anchor);
     if (look.phase.isotropic()) return;
     const auto& entries = look.phase.entries();
     for (int k = 0; k < 3; ++k) {
@@ -208,7 +219,7 @@ SweepScene SweepData::sceneFor(const MediumLook& look, const SweepSetting& setti
     const SweepTable& table = scene.grid.table;
     scene.gridAlone = scene.grid.values && mLayers.empty() && !scene.noise.texels &&
                       (table.rows == 1 || table.rowsOfSurface);
-    setLook(scene.look, look);
+    setLook(scene.look, look, geometry.anchor);
     setVector(scene.look.radiance, geometry.radiance);
     const glm::dvec3 size = mMedium.bounds().high - mMedium.bounds().low;
     const double length =

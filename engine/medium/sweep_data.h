@@ -31,7 +31,7 @@ private:
     void setGrid(SweepGrid& grid, const glm::dvec3& anchor) const;
     void setLayers(const glm::dvec3& anchor);
     void setNoise(SweepNoise& noise, const glm::dvec3& anchor, double time) const;
-    void setLook(SweepLook& to, const MediumLook& look);
+    void setLook(SweepLook& to, const MediumLook& look, const glm::dvec3& anchor);
 
     const Medium& mMedium;
     double mBase = 0;  // world z that heights are relative to

@@ -57,14 +57,15 @@ struct SweepNoise {
     Scale scale[kMostScales];
 };
 
-// Texels of half-float light as kernel_baked.h reads them, in voxels of the grid.
 struct SweepLook {
     int model = 0;  // as MediumModel
     float radiance[3] = {};
     float indirectShare = 0;
     float ambient = 0, diffuse = 0, specular = 0, shininess = 1;
     const float* phase[3] = {};  // null: the same everywhere; by the angle, 1025 entries
-    BakedData baked;
+    BakedData
+        baked;  // as kernel_baked.h reads it, by its own texels: texel = texelFromPlace[row] . place + zero
+    float texelFromPlace[3][3] = {}, texelZero[3] = {};
 };
 
 // The light, and its buffer. Buffer coordinates: texel centres at (x + 0.5, y + 0.5).

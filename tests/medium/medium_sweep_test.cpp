@@ -229,6 +229,52 @@ TEST_P(MediumSweepAgrees, withThePlainSweep) {
 }
 INSTANTIATE_TEST_SUITE_P(All, MediumSweepAgrees, testing::ValuesIn(cases()), nameOfCase);
 
+// Baked light on a grid that lies askew, a part of its texels unknown.
+std::shared_ptr<IlluminationVolume> bakedTexels(std::mt19937& random) {
+    VolumeFrame frame;
+    frame.size = {6, 7, 5};
+    frame.spacing = {0.4, 0.35, 0.45};
+    frame.origin = {-0.9, -1.2, -0.8};
+    const double c = std::cos(0.3), s = std::sin(0.3);
+    frame.axes = glm::dmat3({c, s, 0}, {-s, c, 0}, {0, 0, 1});
+    auto light = std::make_shared<IlluminationVolume>(frame);
+    std::uniform_real_distribution<float> u(0, 1);
+    for (int k = 0; k < frame.size.z; ++k)
+        for (int j = 0; j < frame.size.y; ++j)
+            for (int i = 0; i < frame.size.x; ++i)
+                light->texels[light->layout.index(i, j, k)] =
+                    packTexel({u(random), u(random), u(random)}, i == 1 ? 0.0f : 1.0f);
+    return light;
+}
+
+TEST(MediumSweep, agreesOnBakedLight) {
+    for (const Kind kind : {Kind::Surface, Kind::Ramp, Kind::Noise, Kind::Layers})
+        for (const BakedLook::Use use : {BakedLook::Use::Irradiance, BakedLook::Use::Openness}) {
+            std::mt19937 random(11);
+            Scene scene = sceneOf(kind, MediumModel::Indirect, false, true, 9);
+            if (kind == Kind::Noise) {
+                MediumTransfer shiny({{-100, randomMaterial(random, 1)}, {400, randomMaterial(random, 1)}},
+                                     0.3, "test");
+                scene.medium = Medium(humps({19, 17, 15}, true), shiny, noisy());
+            }
+            const std::vector<MediumPicture> lamp = plain(scene);
+            scene.look.baked.light = bakedTexels(random);
+            scene.look.baked.use = use;
+            scene.look.baked.exposure = 0.8f;
+            scene.look.baked.lampShare = 0.3f;
+            const std::vector<MediumPicture> truth = plain(scene);
+            EXPECT_GT(differenceOf(lamp, truth).light, 20 * kTolerance) << static_cast<int>(kind);
+            for (const SimdTarget target : targets()) {
+                const Difference d = differenceOf(truth, fast(scene, target));
+                // Layers: as above.
+                EXPECT_LE(d.beyond, kind == Kind::Layers ? d.pixels / 100 : 0)
+                    << static_cast<int>(kind) << ' ' << static_cast<int>(target);
+                EXPECT_LE(d.light, kind == Kind::Layers ? 0.1 : kTolerance)
+                    << static_cast<int>(kind) << ' ' << static_cast<int>(target);
+            }
+        }
+}
+
 TEST(MediumSweep, doesNotDependOnTheThreadCount) {
     const int before = threadCount();
     for (const Kind kind : {Kind::Grid, Kind::Noise})
