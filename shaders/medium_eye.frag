@@ -29,10 +29,10 @@ uniform vec2 uBakedShares;                     // exposure, share of the lamp be
 layout(location = 0) out vec4 sent;
 layout(location = 1) out float viewDepth;
 
-// Scattered light in rgb, direct in a; 1 outside the buffer.
+// Scattered light in rgb, direct in a; outside the buffer what the ring around it holds.
 vec4 lightBefore(vec3 place) {
     vec3 h = uLightFromPlace * vec4(place, 1.0);
-    if (!(h.z > 0.0)) return vec4(1.0);
+    if (!(h.z > 0.0)) return vec4(0.0);
     vec2 at = clamp(h.xy / h.z, vec2(-0.5), vec2(uLightSize) + 0.5);
     return textureLod(uBefore, (vec2(uBeforeAt) + at) / vec2(textureSize(uBefore, 0)), 0.0);
 }
@@ -87,7 +87,7 @@ vec3 scattered(Properties p, vec3 place, vec3 view, float x) {
     return color * share(x, 0.0);
 #else
     vec4 before = lightBefore(place);
-    vec3 received = vec3(before.a * share(x, min(p.extinction * light.slabLength, 1e30)));
+    vec3 received = vec3(light.direct * before.a * share(x, min(p.extinction * light.slabLength, 1e30)));
 #if PHASE
     received *= phase(-dot(light.way, view));
 #endif

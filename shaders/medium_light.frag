@@ -2,7 +2,7 @@
 // The light's pass: what a slab leaves of direct and scattered light (eq. V8 and V9 of docs/volume_light.md).
 // In: the light's buffer before the slab. Out: the buffer behind it. Both hold scattered light by colour in
 // rgb, linear, 1 where nothing is in the way, and direct light's share in a. Texel (x, y) of the buffer is a
-// ray of the light, y downwards; a ring of texels around it stays 1.
+// ray of the light, y downwards; a ring of texels around it stays as light sets out.
 // WIDE is defined: 0 where no offset is above a texel, as rasterisers on the CPU run both sides of an `if`.
 layout(binding = 4) uniform sampler2D uBefore;
 uniform ivec2 uBeforeAt;    // corner of the buffer in its texture, inside the ring

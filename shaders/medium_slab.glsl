@@ -36,7 +36,8 @@ vec3 share(float x, vec3 y) { return x * exp(-min(vec3(x), y)) * meanShare(abs(x
 
 struct Arriving {
     vec3 way;          // that it travels, unit
-    vec3 radiance;     // R of V4: 0 where it does not shine
+    vec3 radiance;     // R of V4: 0 where nothing arrives
+    float direct;      // 0 beside a lamp's cone, where scattered light alone arrives; else 1
     float slabLength;  // of the slab along its way: metres
 };
 Arriving arrivingAt(vec3 place) {
@@ -44,10 +45,14 @@ Arriving arrivingAt(vec3 place) {
     vec3 from = place - uLightOrigin, fallen = from * uPerFalloff;
     vec3 way = from * inversesqrt(max(dot(from, from), 1e-30));
     float across = dot(uAxis, way);
-    bool lit = uSlab.x > uLightStart && dot(way, uLightForward) >= uLampCosine && across > kLeastCosine;
+    float ahead = dot(way, uLightForward);
+    bool lit = uSlab.x > uLightStart && ahead > 0.0 && across > kLeastCosine, inCone = ahead >= uLampCosine;
+#if MODEL != 3
+    lit = lit && inCone;
+#endif
     vec3 radiance = lit ? uRadiance / (1.0 + dot(fallen, fallen)) : vec3(0.0);
-    return Arriving(way, radiance, lit ? uSlab.y / across : 0.0);
+    return Arriving(way, radiance, inCone ? 1.0 : 0.0, lit ? uSlab.y / across : 0.0);
 #else
-    return Arriving(uLightForward, uRadiance, uSlab.y / dot(uAxis, uLightForward));
+    return Arriving(uLightForward, uRadiance, 1.0, uSlab.y / dot(uAxis, uLightForward));
 #endif
 }

@@ -128,6 +128,7 @@ struct MediumGpu::State {
     void setLightSource(const ShaderProgram& program) const;
     void setEye(const MediumLook& look) const;
     void setLight(const ShaderProgram& program) const;
+    void startLight();
     void sweep();
     void drawEyes(int slab);
     bool drawLight(int slab);  // false: it met nothing
@@ -237,10 +238,7 @@ void MediumGpu::State::setFrame(const MediumLook& look, const SweepSetting& sett
     };
     start(used->eye);
     setEye(look);
-    const glm::dvec3 size = medium.bounds().high - medium.bounds().low;
-    const double length =
-        setting.blurLength > 0 ? setting.blurLength : std::max({size.x, size.y, size.z}) / 64;
-    spread = std::sqrt(length) * std::tan(0.5 * setting.coneAngle);
+    spread = blurOf(medium, setting);
     for (const ShaderProgram& program : used->lights) {
         start(program);
         setLight(program);
@@ -339,6 +337,15 @@ void MediumGpu::State::drawEnds() {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
+// Beside a lamp's cone there is no scattered light yet.
+void MediumGpu::State::startLight() {
+    if (!lights || used->lights.size() < 2) return;
+    const std::vector<float> start = scatteredAtStart(*geometry);
+    if (start.empty()) return;
+    targets->startLight(start);
+    touched = {0, 0, geometry->light.width, geometry->light.height};
+}
+
 void MediumGpu::State::sweep() {
     targets->clear();
     glEnable(GL_SCISSOR_TEST);
@@ -350,6 +357,7 @@ void MediumGpu::State::sweep() {
     glActiveTexture(GL_TEXTURE0 + GlUnit::kBefore);
     turn = 0;
     touched = {};
+    startLight();
     for (int slab = 0; slab < geometry->slabs(); ++slab) {
         if (geometry->forward && slab % kSlabsBetweenEnds == kSlabsBetweenEnds - 1) drawEnds();
         drawEyes(slab);

@@ -114,6 +114,17 @@ void MediumTargets::clear() {
     }
 }
 
+void MediumTargets::startLight(const std::vector<float>& scattered) {
+    std::vector<glm::vec4> texels;
+    texels.reserve(scattered.size());
+    for (const float s : scattered) texels.emplace_back(s, s, s, 1.0f);
+    const glm::ivec2 size = mSizes.light + 2 * kRing;
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    for (const Region& light : mLights)
+        glTextureSubImage2D(surfaceOf(light).color.name(), 0, light.at.x - kRing, light.at.y - kRing, size.x,
+                            size.y, GL_RGBA, GL_FLOAT, texels.data());
+}
+
 void MediumTargets::drawTo(const Region& region) {
     // One target stays bound: telling the driver again would cost a switch.
     if (mSurfaces.size() > 1) glBindFramebuffer(GL_FRAMEBUFFER, surfaceOf(region).framebuffer.name());

@@ -20,7 +20,7 @@ struct TargetSizes {
 
 class MediumTargets {
 public:
-    // The light's regions have a ring of texels around them that stays 1: nothing is in the way outside.
+    // The light's regions have a ring of texels around them that stays as light sets out.
     static constexpr int kRing = 1;
 
     // Throws Error where a target would be larger than the driver allows.
@@ -28,6 +28,8 @@ public:
 
     // Eyes see all of what lies behind and no light, the light's buffers are 1; leaves no scissor.
     void clear();
+    // Scattered light as it sets out, in both buffers, the ring too: texels row by row.
+    void startLight(const std::vector<float>& scattered);
 
     // Following draws go there; sets framebuffer and viewport.
     void drawToEye(int eye) { drawTo(mEyes[static_cast<std::size_t>(eye)]); }

@@ -10,7 +10,7 @@ STEREONAV_INLINE F dotWith(const V3& v, const float (&a)[3]) {
     return mulAdd(v.x, F(a[0]), mulAdd(v.y, F(a[1]), v.z * F(a[2])));
 }
 
-// What the buffer holds at continuous coordinates, bilinearly; 1 outside.
+// What the buffer holds at continuous coordinates, bilinearly; outside, what the ring around it does.
 struct Buffered {
     F direct, indirect[3];
 };
@@ -47,7 +47,8 @@ struct Arriving {
     V3 way;           // unit
     F share, length;  // by the falloff; metres of way for one along the axis
     F u, v;           // in the buffer
-    M lit;
+    M lit;            // past the light
+    M inCone;         // of a lamp, where direct light is
 };
 // along: of the places, along the axis.
 [[gnu::noinline]] inline Arriving lampAt(const SweepLight& light, const V3& place, F along, M m) {
@@ -58,7 +59,8 @@ struct Arriving {
     Arriving a;
     a.way = {from.x * inverse, from.y * inverse, from.z * inverse};
     a.share = one / mulAdd(square, F(light.inverseFalloffSquared), one);
-    a.lit = m & (past > F(1e-4f) * distance) & (depth * inverse >= F(light.lampCosine)) & (depth > zero);
+    a.lit = m & (past > F(1e-4f) * distance) & (depth > zero);
+    a.inCone = a.lit & (depth * inverse >= F(light.lampCosine));
     const F perDepth = one / max(depth, tiny);
     a.u = (dotWith(from, light.right) * perDepth - F(light.xMin)) * F(1.0f / light.perX);
     a.v = (F(light.yMax) - dotWith(from, light.up) * perDepth) * F(1.0f / light.perY);
@@ -72,6 +74,7 @@ STEREONAV_INLINE Arriving sunAt(const SweepLight& light, const V3& place, M m) {
             F(light.length),
             (dotWith(place, light.right) - F(light.xMin)) * F(1.0f / light.perX),
             (F(light.yMax) - dotWith(place, light.up)) * F(1.0f / light.perY),
+            m,
             m};
 }
 

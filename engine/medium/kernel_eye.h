@@ -90,7 +90,8 @@ struct EyePacket {
         const SweepLight& light = scene.light;
         const F zero(0.0f);
         const F along = F(chunk.middle[n]) + F(static_cast<float>(chunk.reference));
-        const Arriving a = light.parallel ? sunAt(light, place, m) : lampAt(light, place, along, m);
+        Arriving a = light.parallel ? sunAt(light, place, m) : lampAt(light, place, along, m);
+        if constexpr (kModel != kIndirect) a.lit = a.inCone;
         Colors sent{{zero, zero, zero}};
         if (!any(a.lit)) return sent;
         if constexpr (kModel == kSurface) {
@@ -99,7 +100,8 @@ struct EyePacket {
             const F way = F(chunk.thickness[n]) * a.length;
             const Buffered b = readBuffer<kModel == kIndirect>(light, n, a.u, a.v, a.lit);
             const Colors p1 = light.parallel ? phase : phaseAt(scene.look, dot(toEye, a.way), a.lit);
-            const F direct = b.direct * slabShareOf(x, p.extinction * way, eye.forward) * a.share;
+            F direct = b.direct * slabShareOf(x, p.extinction * way, eye.forward) * a.share;
+            if (kModel == kIndirect && !light.parallel) direct = select(a.inCone, direct, zero);
             for (int k = 0; k < 3; ++k) sent.c[k] = direct * p1.c[k];
             if constexpr (kModel == kIndirect) {
                 const F share = a.share * F(scene.look.indirectShare);

@@ -15,28 +15,39 @@ namespace {
 
 constexpr double kLeastLeft = 1.0 / 1024;
 
-// The light's buffer, V8. Outside it there is nothing in the way: 1.
+// The light's buffer, V8. Outside it light is as it set out: 1, or of scattered light beside a lamp's cone 0.
 struct LightBuffer {
     int width = 0, height = 0;
     std::vector<double> direct;
     std::vector<glm::dvec3> indirect, before;  // before: while a slab is passed, what entered it
 
-    void start(int w, int h) {
+    std::vector<float> scattered;  // as it set out, with a ring; empty: 1
+
+    void start(int w, int h, std::vector<float> setsOut) {
         width = w;
         height = h;
+        scattered = std::move(setsOut);
         direct.assign(static_cast<std::size_t>(w) * h, 1.0);
-        indirect.assign(direct.size(), glm::dvec3(1.0));
+        for (int y = 0; y < h; ++y)
+            for (int x = 0; x < w; ++x) indirect.push_back(atStart(indirect, x, y));
+    }
+    double atStart(const std::vector<double>&, int, int) const { return 1.0; }
+    glm::dvec3 atStart(const std::vector<glm::dvec3>&, int x, int y) const {
+        if (scattered.empty()) return glm::dvec3(1.0);
+        const int column = std::clamp(x, -1, width) + 1, row = std::clamp(y, -1, height) + 1;
+        return glm::dvec3(scattered[static_cast<std::size_t>(row) * (width + 2) + column]);
     }
     std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 
     template <typename T>
     T texel(const std::vector<T>& plane, int x, int y) const {
-        return x >= 0 && y >= 0 && x < width && y < height ? plane[index(x, y)] : T(1.0);
+        return x >= 0 && y >= 0 && x < width && y < height ? plane[index(x, y)] : atStart(plane, x, y);
     }
     // Bilinear, at continuous coordinates.
     template <typename T>
     T read(const std::vector<T>& plane, double x, double y) const {
-        if (!(x > -1 && y > -1 && x < width + 1 && y < height + 1)) return T(1.0);
+        x = std::clamp(x, -0.5, width + 0.5);
+        y = std::clamp(y, -0.5, height + 0.5);
         const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
         const double fx = x - 0.5 - left, fy = y - 0.5 - top;
         const int i = static_cast<int>(left), j = static_cast<int>(top);
@@ -67,7 +78,8 @@ struct EyePixel {
 
 // The light at a place: its way, and what reaches it when nothing is between.
 struct Arriving {
-    bool lit = false;
+    bool lit = false;     // past the light
+    bool inCone = false;  // of a lamp
     glm::dvec3 way{0.0};
     double share = 1;   // by the falloff
     double cosine = 1;  // of the way to the axis
@@ -78,12 +90,10 @@ public:
     Sweep(const Medium& medium, const MediumLook& look, const SweepSetting& setting,
           const SweepGeometry& geometry, double time)
         : mMedium(medium), mLook(look), mGeometry(geometry), mTime(time) {
-        const glm::dvec3 size = medium.bounds().high - medium.bounds().low;
-        const double length =
-            setting.blurLength > 0 ? setting.blurLength : std::max({size.x, size.y, size.z}) / 64;
-        mBlur = std::sqrt(length) * std::tan(0.5 * setting.coneAngle);
+        mBlur = blurOf(medium, setting);
         mUsesLight = look.model == MediumModel::Direct || look.model == MediumModel::Indirect;
-        if (mUsesLight) mBuffer.start(geometry.light.width, geometry.light.height);
+        if (mUsesLight)
+            mBuffer.start(geometry.light.width, geometry.light.height, scatteredAtStart(geometry));
         for (const RayFan& eye : geometry.eyes)
             mEyes.emplace_back(static_cast<std::size_t>(eye.width) * eye.height);
     }
@@ -153,7 +163,7 @@ private:
         const glm::dvec3 color(medium.color);
         if (mLook.model == MediumModel::Emission) return color * slabShare(x, 0, true);
         const Arriving light = arrivingAt(at.place, slab);
-        if (!light.lit) return glm::dvec3(0.0);
+        if (!light.lit || (mLook.model != MediumModel::Indirect && !light.inCone)) return glm::dvec3(0.0);
         const glm::dvec3 radiance = light.share * glm::dvec3(mGeometry.radiance);
         const glm::dvec3 c = color * surfaceFactor(medium, at, light);  // C of V3
         if (mLook.model == MediumModel::Surface) return c * radiance * slabShare(x, 0, true);
@@ -165,7 +175,7 @@ private:
                         double x) const {
         const glm::dvec2 texel = mGeometry.light.project(at.place);
         const double way = thicknessOf(slab) / light.cosine;
-        const double direct = mBuffer.read(mBuffer.direct, texel.x, texel.y);
+        const double direct = light.inCone ? mBuffer.read(mBuffer.direct, texel.x, texel.y) : 0.0;
         const glm::dvec3 phase(mLook.phase.at(static_cast<float>(-glm::dot(light.way, at.way))));
         glm::dvec3 sum = direct * slabShare(x, medium.extinction * way, mGeometry.forward) * phase;
         if (mLook.model != MediumModel::Indirect) return sum;
@@ -180,13 +190,14 @@ private:
         const RayFan& fan = mGeometry.light;
         Arriving light;
         light.way = fan.forward;
-        light.lit = true;
+        light.lit = light.inCone = true;
         if (!fan.parallel) {
             const double distance = glm::length(place - fan.origin);
             if (!(distance > 0)) return {};
             light.way = (place - fan.origin) / distance;
-            light.lit = middleOf(slab) > mGeometry.lightStart &&
-                        glm::dot(light.way, fan.forward) >= mGeometry.lampCosine;
+            const double ahead = glm::dot(light.way, fan.forward);
+            light.lit = middleOf(slab) > mGeometry.lightStart && ahead > 0;
+            light.inCone = ahead >= mGeometry.lampCosine;
             if (mGeometry.falloff > 0) light.share = 1 / (1 + std::pow(distance / mGeometry.falloff, 2));
         }
         light.cosine = glm::dot(light.way, mGeometry.axis);

@@ -24,7 +24,7 @@ void setVector(double (&to)[3], const glm::dvec3& from) {
     for (int k = 0; k < 3; ++k) to[k] = from[k];
 }
 
-SweepLight lightOf(const SweepGeometry& g, double blurLength, double coneAngle) {
+SweepLight lightOf(const SweepGeometry& g, double blur) {
     const RayFan& fan = g.light;
     SweepLight light;
     light.parallel = fan.parallel;
@@ -44,7 +44,7 @@ SweepLight lightOf(const SweepGeometry& g, double blurLength, double coneAngle) 
     light.start = fan.parallel ? 0.0f : static_cast<float>(g.lightStart);
     light.inverseFalloffSquared = g.falloff > 0 ? static_cast<float>(1 / (g.falloff * g.falloff)) : 0.0f;
     light.lampCosine = static_cast<float>(g.lampCosine);
-    light.blur = static_cast<float>(std::sqrt(blurLength) * std::tan(0.5 * coneAngle));
+    light.blur = static_cast<float>(blur);
     return light;
 }
 
@@ -221,10 +221,7 @@ SweepScene SweepData::sceneFor(const MediumLook& look, const SweepSetting& setti
                       (table.rows == 1 || table.rowsOfSurface);
     setLook(scene.look, look, geometry.anchor);
     setVector(scene.look.radiance, geometry.radiance);
-    const glm::dvec3 size = mMedium.bounds().high - mMedium.bounds().low;
-    const double length =
-        setting.blurLength > 0 ? setting.blurLength : std::max({size.x, size.y, size.z}) / 64;
-    scene.light = lightOf(geometry, length, setting.coneAngle);
+    scene.light = lightOf(geometry, blurOf(mMedium, setting));
     return scene;
 }
 

@@ -20,7 +20,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Eye rays stay below it where a wide lamp would lean the axis further: radians.
 constexpr double kSteepest = 85.0 / 180.0 * glm::pi<double>();
-constexpr int kLightMargin = 1;  // texels around the medium, so that reads in it never meet the border
+constexpr double kWidestLight = 1;  // tangent: a lamp's buffer grows no further beyond its cone
+constexpr int kLightMargin = 1;       // texels around the medium, so that reads in it never meet the border
 
 void checkSetting(const SweepSetting& s) {
     const auto expect = [](bool good, const char* what, const std::string& problem) {
@@ -241,8 +242,30 @@ int texelsOver(double length, double per) {
     return static_cast<int>(std::ceil(length / per - 1e-9)) + 2 * kLightMargin;
 }
 
-void setTexels(RayFan& fan, const Lamp& lamp, const WorldBox& box, const glm::dvec3& anchor, int size) {
-    const double most = lamp.parallel ? kInfinity : std::tan(lamp.half);
+// How far light that is scattered on its way through the box gets beside a lamp's cone: three standard
+// deviations at unit depth. V9's taps of a step ds spread by ds blurLength tan^2(theta / 2) / 2 along each
+// axis, which is as much at unit depth over the square of the depth; summed from depth near to far. At most
+// as far again as the cone is wide, so that texels in it are at most twice as large, and to 45 degrees: near
+// a lamp inside, more is lost.
+double spreadBeside(const RayFan& fan, const Lamp& lamp, const WorldBox& box, const glm::dvec3& anchor,
+                    double blur) {
+    double near = kInfinity, far = 0;
+    for (int n = 0; n < 8; ++n) {
+        const double depth = glm::dot(cornerOf(box, n) - anchor - fan.origin, fan.forward);
+        near = std::min(near, depth);
+        far = std::max(far, depth);
+    }
+    const double widest = std::min(std::tan(lamp.half), std::max(kWidestLight - std::tan(lamp.half), 0.0));
+    if (!(far > 0) || !(blur > 0)) return 0;
+    if (!(near > 0)) return widest;
+    return std::min(3 * blur * std::sqrt(0.5 * (1 / near - 1 / far)), widest);
+}
+
+// blur: of scattered light, V9's offset over the root of the way; 0: none is.
+void setTexels(RayFan& fan, const Lamp& lamp, const WorldBox& box, const glm::dvec3& anchor, int size,
+               double blur) {
+    const double most =
+        lamp.parallel ? kInfinity : std::tan(lamp.half) + spreadBeside(fan, lamp, box, anchor, blur);
     const Window w = windowOf(fan, box, anchor, most);
     const double across = w.xMax - w.xMin, down = w.yMax - w.yMin;
     // A lamp that lights nothing of the box has no window: the smallest buffer.
@@ -313,8 +336,33 @@ SweepGeometry makeSweepGeometry(const Medium& medium, const MediumLook& look, co
     g.faces = facesOf(box, g, setting.slices, planes, g.forward ? lowEye : highEye);
     const bool usesLight = look.model == MediumModel::Direct || look.model == MediumModel::Indirect;
     dropUnseen(g, usesLight, lowEye, highEye);
-    if (usesLight && !g.faces.empty()) setTexels(g.light, lamp, box, g.anchor, setting.lightSize);
+    const double blur = look.model == MediumModel::Indirect ? blurOf(medium, setting) : 0.0;
+    if (usesLight && !g.faces.empty()) setTexels(g.light, lamp, box, g.anchor, setting.lightSize, blur);
     return g;
+}
+
+double blurOf(const Medium& medium, const SweepSetting& setting) {
+    const glm::dvec3 size = medium.bounds().high - medium.bounds().low;
+    const double length =
+        setting.blurLength > 0 ? setting.blurLength : std::max({size.x, size.y, size.z}) / 64;
+    return std::sqrt(length) * std::tan(0.5 * setting.coneAngle);
+}
+
+std::vector<float> scatteredAtStart(const SweepGeometry& geometry) {
+    const RayFan& fan = geometry.light;
+    if (fan.parallel || fan.width == 0) return {};
+    const double edge = std::sqrt(1 / (geometry.lampCosine * geometry.lampCosine) - 1);  // tangent
+    std::vector<float> start;
+    start.reserve(static_cast<std::size_t>(fan.width + 2) * (fan.height + 2));
+    bool all = true;
+    for (int y = -1; y <= fan.height; ++y)
+        for (int x = -1; x <= fan.width; ++x) {
+            const double u = fan.xMin + (x + 0.5) * fan.perX, v = fan.yMax - (y + 0.5) * fan.perY;
+            start.push_back(
+                static_cast<float>(std::clamp((edge - std::hypot(u, v)) / fan.perX + 0.5, 0.0, 1.0)));
+            all = all && start.back() == 1;
+        }
+    return all ? std::vector<float>{} : start;
 }
 
 BlurTaps blurTaps(double offset_texels) {

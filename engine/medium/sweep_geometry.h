@@ -53,8 +53,9 @@ struct SweepGeometry {
     // them. Slabs that no eye sees, nor light crosses on its way to one that is seen, are left out.
     std::vector<double> faces;
     std::vector<RayFan> eyes;
-    // Of the light's buffer, which holds the box; width 0: the model needs none, but the light's place and
-    // way are still origin and forward.
+    // Of the light's buffer, which holds the box, or what a lamp's cone meets of it, and where light is
+    // scattered also what it may spread to beside the cone; width 0: the model needs none, but the light's
+    // place and way are still origin and forward.
     RayFan light;
     double lightStart = 0;     // t before which a lamp lights nothing (-infinity for parallel light)
     glm::vec3 radiance{1.0f};  // of the light
@@ -72,6 +73,14 @@ struct SweepGeometry {
 // for settings and lights out of range.
 SweepGeometry makeSweepGeometry(const Medium& medium, const MediumLook& look, const SweepSetting& setting,
                                 std::span<const EyeView> eyes, const glm::dvec3& head);
+
+// Of scattered light: offset of the taps over the root of the way (V9), root of metres.
+double blurOf(const Medium& medium, const SweepSetting& setting);
+
+// Scattered light as it sets out, for the buffer and a ring of texels around it, rows of light.width + 2 from
+// (-1, -1) on: the part of a texel that lies within the lamp's cone. Empty where that is 1 everywhere. The
+// ring stays as it is, and what lies farther outside is like the nearest texel of it.
+std::vector<float> scatteredAtStart(const SweepGeometry& geometry);
 
 // How the light's buffer is blurred while it passes a slab (row K3): taps at `radius` texels with together
 // `share` of the weight, the rest for the texel itself. Where the offset is below a texel the taps are the

@@ -78,7 +78,8 @@ struct SweepLight {
     float length = 0;    // parallel: metres of way for one along the axis
     float start = 0;     // of a lamp, along the axis
     float inverseFalloffSquared = 0, lampCosine = -1;
-    // Planes of floats: rows from -1 to height + 1, columns from -16 on; row 0, column 0 here. 1 outside.
+    // Planes of floats: rows from -1 to height + 1, columns from -16 on; row 0, column 0 here. Outside light
+    // is as it sets out.
     float* direct = nullptr;
     std::int32_t stride = 0;
     // For the eyes: light before the slabs of a chunk, two planes a slab of 15-bit halves (direct and red;

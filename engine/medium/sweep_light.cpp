@@ -64,8 +64,48 @@ void SweepLightBuffers::setPacked(SweepLight& light) {
         mPacked.assign(2 * mChunk * static_cast<std::size_t>(light.packedPlane) + kBorder, kAllLight);
         mPackedWidth = light.width;
         mPackedHeight = light.height;
+        mRingSet = false;
     }
     light.packed = mPacked.data();
+}
+
+// Scattered light as it sets out, in both turns.
+void SweepLightBuffers::setStart(const SweepLight& light) {
+    const std::size_t plane = static_cast<std::size_t>(light.stride) * (light.height + 4);
+    for (int y = -1; y <= light.height; ++y)
+        for (int x = -1; x <= light.width; ++x) {
+            const float value = mStart[static_cast<std::size_t>(y + 1) * (light.width + 2) + x + 1];
+            if (value == 1) continue;
+            const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(y) * light.stride + x;
+            for (std::size_t k = 1; k <= 6; ++k)
+                light.direct[static_cast<std::ptrdiff_t>(k * plane) + at] = value;
+            const int i = std::clamp(x, 0, light.width - 1), j = std::clamp(y, 0, light.height - 1);
+            mTouched[static_cast<std::size_t>(j / kSide) * mAcross + i / kSide] = 1;
+        }
+}
+
+// Around what is kept for the eyes.
+void SweepLightBuffers::setRing(const SweepLight& light) {
+    const auto set = [&](int x, int y) {
+        const float value =
+            mStart.empty() ? 1.0f : mStart[static_cast<std::size_t>(y + 1) * (light.width + 2) + x + 1];
+        const auto half = static_cast<std::uint32_t>(value * 32767 + 0.5f);
+        const std::int64_t at = static_cast<std::int64_t>(y + 1) * light.packedStride + x + 1;
+        for (int n = 0; n < mChunk; ++n) {
+            std::uint32_t* first = light.packed + 2 * n * light.packedPlane + at;
+            first[0] = 0x7fffu | half << 16;
+            first[light.packedPlane] = half | half << 16;
+        }
+    };
+    for (int x = -1; x <= light.width; ++x) {
+        set(x, -1);
+        set(x, light.height);
+    }
+    for (int y = 0; y < light.height; ++y) {
+        set(-1, y);
+        set(light.width, y);
+    }
+    mRingSet = !mStart.empty();
 }
 
 int SweepLightBuffers::start(SweepScene& scene, const SweepGeometry& geometry, const SweepSpace* space) {
@@ -74,6 +114,10 @@ int SweepLightBuffers::start(SweepScene& scene, const SweepGeometry& geometry, c
     setPlanes(scene.light);
     setPacked(scene.light);
     mTouched.assign(tiles(), 0);
+    const bool scattered = scene.look.model == static_cast<int>(MediumModel::Indirect);
+    mStart = scattered ? scatteredAtStart(geometry) : std::vector<float>{};
+    if (!mStart.empty()) setStart(scene.light);
+    if (!mStart.empty() || mRingSet) setRing(scene.light);
     findStrips(geometry, space);
     return mChunk;
 }
@@ -222,7 +266,7 @@ long long SweepLightBuffers::pass(const SweepScene& scene, const SweepGeometry& 
 
 std::size_t SweepLightBuffers::heldBytes() const {
     return (mPlanes.size() + mColumns.size()) * sizeof(float) + mPacked.size() * sizeof(std::uint32_t) +
-           mStrips.size();
+           mStart.size() * sizeof(float) + mStrips.size();
 }
 
 }  // namespace stereonav

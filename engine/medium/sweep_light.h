@@ -28,6 +28,8 @@ public:
 private:
     void setPlanes(SweepLight& light);
     void setPacked(SweepLight& light);
+    void setStart(const SweepLight& light);
+    void setRing(const SweepLight& light);
     void findStrips(const SweepGeometry& geometry, const SweepSpace* space);
     void findStripsOf(const SweepGeometry& geometry, const SweepSpace& space, int tile,
                       const std::vector<double>& middles);
@@ -42,6 +44,8 @@ private:
     std::vector<float> mColumns;  // of a chunk's slabs: tiles
     int mPackedWidth = 0, mPackedHeight = 0, mChunk = 0;
     bool mSwapped = false;
+    std::vector<float> mStart;           // see scatteredAtStart
+    bool mRingSet = false;               // around mPacked, to others than 1
     std::vector<std::uint8_t> mStrips;   // of each slab's tiles: LightTile::strips; empty: all of all
     std::vector<int> mLast, mNeeded;     // of tiles: last slab with something in it, and near it
     std::vector<std::uint8_t> mTouched;  // tiles: scattered light may differ from 1

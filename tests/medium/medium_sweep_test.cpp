@@ -275,6 +275,40 @@ TEST(MediumSweep, agreesOnBakedLight) {
         }
 }
 
+// A narrow spot: scattered light gets beside the cone, direct light does not; the fast sweep agrees there
+// too, and a parallel light afterwards finds the buffer as it was.
+TEST(MediumSweep, scatteredLightLeavesALampsCone) {
+    for (const bool forward : {true, false}) {
+        Scene s = sceneOf(Kind::Grid, MediumModel::Indirect, true, forward, 12);
+        s.look.light.coneAngle = 0.12;
+        s.look.light.radiance = glm::vec3(8);  // the medium is thin
+        s.setting.lightSize = 32;
+        s.setting.coneAngle = 1.2;
+        s.setting.blurLength = 0.2;
+        const std::vector<MediumPicture> truth = plain(s);
+        Scene direct = s;
+        direct.look.model = MediumModel::Direct;
+        const std::vector<MediumPicture> straight = plain(direct);
+        int beside = 0;
+        for (int y = 0; y < 21; ++y)
+            for (int x = 0; x < 27; ++x) {
+                // Green: the medium's own glow has none.
+                beside += straight[0].light.at(x, y).y < 1e-6f && truth[0].light.at(x, y).y > 4 * kTolerance;
+            }
+        EXPECT_GT(beside, 10) << forward;
+        for (const SimdTarget target : targets()) {
+            MediumSweep sweep(s.medium, target);
+            std::vector<MediumPicture> spot(2), after(2);
+            sweep.render(s.look, s.setting, s.eyes, s.eyes[0].head, s.time, spot);
+            EXPECT_LE(differenceOf(truth, spot).light, kTolerance) << static_cast<int>(target) << forward;
+            Scene sunny = s;
+            sunny.look.light.kind = MediumLight::Kind::Parallel;
+            sweep.render(sunny.look, s.setting, s.eyes, s.eyes[0].head, s.time, after);
+            EXPECT_EQ(differenceOf(fast(sunny, target), after).light, 0);
+        }
+    }
+}
+
 TEST(MediumSweep, doesNotDependOnTheThreadCount) {
     const int before = threadCount();
     for (const Kind kind : {Kind::Grid, Kind::Noise})

@@ -343,6 +343,46 @@ TEST(LightFan, ofALampInsideIsItsCone) {
     EXPECT_NEAR(g.lightStart, glm::dot(g.axis, g.eyes[0].origin), 1e-12);
 }
 
+// A narrow lamp's buffer holds what light may spread to: with texels of 1 cm at a metre, V9's random walk
+// from depth 2 to 4 is 3 sqrt(blurLength / 2 (1 / 2 - 1 / 4)) tan(theta / 2) wide; and light sets out in the
+// cone.
+TEST(LightFan, ofANarrowLampHasRoomForScatteredLight) {
+    MediumLight lamp = sun({0, 0, -1});
+    lamp.kind = MediumLight::Kind::Lamp;
+    lamp.position = {0, 0, 3};
+    lamp.coneAngle = 0.4;
+    const EyeView view = viewFrom({0, 0, 3}, {0, 0, 0}, 0.5, 8, 8);
+    MediumLook look = lookWith(lamp);
+    SweepSetting setting;
+    setting.lightSize = 64;
+    setting.blurLength = 0.02;
+    const Medium box = boxAt({0, 0, 0});
+    look.model = MediumModel::Direct;
+    const SweepGeometry direct = geometryOf(box, look, {view}, setting);
+    EXPECT_NEAR(direct.light.xMin + direct.light.perX, -std::tan(0.2), 1e-9);
+    look.model = MediumModel::Indirect;
+    const SweepGeometry g = geometryOf(box, look, {view}, setting);
+    const double half = 0.5 * (box.bounds().high.z - box.bounds().low.z);
+    const double spread =
+        3 * std::tan(0.3) * std::sqrt(0.5 * setting.blurLength * (1 / (3 - half) - 1 / (3 + half)));
+    EXPECT_NEAR(g.light.xMin + g.light.perX, -std::tan(0.2) - spread, 1e-9);
+    const std::vector<float> start = scatteredAtStart(g);
+    ASSERT_EQ(start.size(), static_cast<std::size_t>(g.light.width + 2) * (g.light.height + 2));
+    double area = 0;
+    for (const float s : start) {
+        EXPECT_GE(s, 0.0f);
+        EXPECT_LE(s, 1.0f);
+        area += s * g.light.perX * g.light.perY;
+    }
+    const double disc = 3.14159265 * std::pow(std::tan(0.2), 2);
+    EXPECT_NEAR(area, disc, 0.01 * disc);
+    setting.coneAngle = 0;  // nothing spreads
+    EXPECT_NEAR(geometryOf(box, look, {view}, setting).light.xMin, direct.light.xMin, 1e-9);
+    look.light.coneAngle = 1.9;  // beyond 45 degrees: texels stay small
+    setting.coneAngle = 0.6;
+    EXPECT_GT(geometryOf(box, look, {view}, setting).light.xMin, -std::tan(0.95) - 0.1);
+}
+
 TEST(SweepGeometry, refusesSettingsOutOfRangeInOneLine) {
     const Medium medium = boxAt({0, 0, 0});
     const auto errorOf = [&](const SweepSetting& setting, const MediumLight& light) -> std::string {
