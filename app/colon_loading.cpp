@@ -172,13 +172,27 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
     return colon;
 }
 
+namespace {
+
+// Keys turn clockwise, as the sun goes; --turn and harmonics the other way.
+template <typename Sky>
+void turnSky(Sky& sky, ViewScene& view) {
+    view.turnsSky = true;
+    view.sun = {std::remainder(-sky.turn().turn, 2 * std::numbers::pi), sky.turn().tilt};
+    view.moveSun = [&sky](const SunPlace& to) { sky.turnTo({-to.azimuth, to.elevation}); };
+    view.seen = [&sky](const EyeView& eye, const EyeImage& image) { sky.seen(eye, image); };
+    view.lightChanges = [&sky] { return sky.changes(); };
+}
+
+}  // namespace
+
 LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
     checkVolumeLight(options);
     checkTracedLight(options);
     LoadedScene scene;
     scene.name = options.scene;
     scene.colon = std::make_unique<ColonScene>(loadColon(colonOptionsOf(options), progress));
-    applyVolumeLight(options, *scene.colon, progress);
+    scene.sky = applyVolumeLight(options, *scene.colon, progress);
     if (options.light == kLazyLight)
         scene.lazyLight = std::make_shared<LazyLight>(options, *scene.colon, progress);
     if (options.light == kTracedLight)
@@ -236,6 +250,7 @@ void addVolume(const LoadedScene& scene, const SceneOptions& options, ViewScene&
         };
         view.lightChanges = [light = scene.lazyLight.get()] { return light->changes(); };
     }
+    if (scene.sky) turnSky(*scene.sky, view);
     view.followsAtStart = !options.separation_m && !options.zeroParallax_m;
     view.canBeTranslucent = true;
     view.translucent = scene.renderer && scene.renderer->translucent();

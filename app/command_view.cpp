@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/medium_options.h"
 #include "app/screenshots.h"
 #include "app/stereo_frame.h"
 #include "app/view_input.h"
@@ -113,7 +114,7 @@ private:
         const Gamepad pad = mWindow.gamepad();
         for (const KeyPress& press : mWindow.takeKeys())
             if (const auto action = actionOf(press)) mSession->act(*action);
-        for (const ViewAction& action : mInput.actionsOf(pad)) mSession->act(action);
+        for (const ViewAction& action : mInput.actionsOf(pad, dt)) mSession->act(action);
         mWindow.setCaptured(mSession->mouseCaptured());
         const glm::ivec2 size = mWindow.framebufferSize();
         usePointer(size);
@@ -307,7 +308,9 @@ private:
 int runView(const ViewOptions& options) {
     checkSize(options.size);
     checkMethod(options.scene, options.method);
-    Viewer(options).run();
+    ViewOptions shown = options;
+    shown.scene.skyTurns = !showsMedium(options.scene);  // a medium's keys turn its own light
+    Viewer(shown).run();
     return 0;
 }
 

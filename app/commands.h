@@ -82,6 +82,7 @@ struct SceneOptions {
     QualityOptions quality;
     MediumOptions medium;
     std::optional<TracedOptions> traced;  // none: of commands that trace no pictures
+    bool skyTurns = false;  // set by a window: keep what turning the sky over baked transfer takes
 };
 
 struct SizeOption {

@@ -12,6 +12,7 @@
 #include "app/medium_scene.h"
 #include "app/pair_renderer.h"
 #include "app/traced_light.h"
+#include "app/view_sky.h"
 #include "colon/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/image/stereo_compose.h"
@@ -31,6 +32,7 @@ struct LoadedScene {
     std::shared_ptr<MediumScene> medium;       // null where rays are cast
     std::shared_ptr<LazyLight> lazyLight;      // of a volume lit while it is shown; else null
     std::shared_ptr<TracedLight> tracedLight;  // of one lit at every pixel of a picture; else null
+    std::shared_ptr<ViewSky> sky;              // over baked transfer, where SceneOptions::skyTurns; else null
     // One of the two.
     std::unique_ptr<EyeRenderer> renderer;
     std::unique_ptr<PairRenderer> pair;  // of a medium

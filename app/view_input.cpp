@@ -10,8 +10,9 @@
 namespace stereonav {
 namespace {
 
-constexpr double kTurnRate = 0.9;  // radians a second with a key held
-constexpr double kFast = 4.0;      // times the speed with shift held
+constexpr double kTurnRate = 0.9;      // radians a second with a key held
+constexpr double kFast = 4.0;          // times the speed with shift held
+constexpr double kCrossRepeat = 0.05;  // seconds: about as often as held keys
 
 std::optional<ViewAction> actionOfKey(int key) {
     switch (key) {
@@ -178,7 +179,7 @@ const std::vector<std::pair<std::string, std::string>>& viewHelp() {
         {"I", "next model of light (media)"},
         {"L", "anaglyphs in linear light, or on encoded values"},
         {"z Z", "record the flight, play it"},
-        {"U H J K", "light higher, lower, round (terrain with --light, media)"},
+        {"U H J K", "light or sky higher, lower, round (where it turns)"},
         {"T", "translucent wall, or opaque (volumes)"},
         {"V", "slices (volumes): clicks set seeds, Enter looks again"},
         {"P F12", "save a picture"},
@@ -210,11 +211,18 @@ FlightInput ViewInput::flightOf(const Window& window, const Gamepad& pad) const 
     return input;
 }
 
-std::vector<ViewAction> ViewInput::actionsOf(const Gamepad& pad) {
+std::vector<ViewAction> ViewInput::actionsOf(const Gamepad& pad, double dt) {
     std::vector<ViewAction> actions;
     const auto add = [&](bool now, bool before, ViewCommand command) {
         if (now && !before) actions.push_back({command});
     };
+    mCrossHeld += dt;
+    const bool again = mCrossHeld >= kCrossRepeat;
+    add(pad.up, mBefore.up && !again, ViewCommand::HigherSun);
+    add(pad.down, mBefore.down && !again, ViewCommand::LowerSun);
+    add(pad.left, mBefore.left && !again, ViewCommand::SunAnticlockwise);
+    add(pad.right, mBefore.right && !again, ViewCommand::SunClockwise);
+    if (!actions.empty()) mCrossHeld = 0;
     add(pad.a, mBefore.a, ViewCommand::Home);
     add(pad.b, mBefore.b, ViewCommand::SwapEyes);
     add(pad.x, mBefore.x, ViewCommand::NextMode);

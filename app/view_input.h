@@ -25,10 +25,12 @@ glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place);
 class ViewInput {
 public:
     FlightInput flightOf(const Window& window, const Gamepad& pad) const;
-    std::vector<ViewAction> actionsOf(const Gamepad& pad);
+    // dt: seconds since the last call. The cross turns the light on while it is held.
+    std::vector<ViewAction> actionsOf(const Gamepad& pad, double dt);
 
 private:
     Gamepad mBefore;
+    double mCrossHeld = 0;  // seconds since it last did something
 };
 
 }  // namespace stereonav

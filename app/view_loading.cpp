@@ -12,6 +12,14 @@ namespace {
 
 constexpr double kUsualOpacity = 0.95;  // of a translucent wall a millimetre: that of Wan et al. 2004
 
+// Told where a key would turn it, if it does not turn.
+std::string whyLightStays(const LoadedScene& scene, const SceneOptions& options) {
+    if (scene.medium) return "a lamp lights this medium: --light-from gives light that turns";
+    if (scene.terrain) return "the sun stands still in this ground's colours: --light gives one that moves";
+    if (options.light.empty()) return "a lamp lights this volume: --light gives a sky that turns";
+    return "the sky is baked into this light: bake --what transfer for one that turns";
+}
+
 }  // namespace
 
 ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progress) {
@@ -27,6 +35,7 @@ ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progre
     // A recorded flight is looked at once, with the scene that it was given for.
     if (measure && !options.path.empty()) flightOf(*loaded, readPath(options.path), options.path);
     if (loaded->colon) addVolume(*loaded, options.scene, scene);
+    scene.lightStays = whyLightStays(*loaded, options.scene);
     if (loaded->medium) {
         addMedium(*loaded, scene);
         scene.pairMethod = pairMethodFromText(options.method);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "app/view_status.h"
@@ -72,10 +71,12 @@ void ViewSession::replaceScene(std::shared_ptr<const ViewScene> scene) {
     if (mode < flight->modeCount()) flight->setMode(mode);
     flight->setPose(here);
     mFlight = std::move(flight);
+    // Light that was turned stays so over the same study.
+    const bool lightStays = mScene->moveSun && scene->moveSun && mScene->turnsSky == scene->turnsSky;
     mScene = std::move(scene);
     if (mOwnPath) mPath = mScene->path;
     mStereo.replaceScene(*mScene);
-    mSun = mScene->sun;
+    if (!lightStays) mSun = mScene->sun;
     mMethod = mScene->method;
     mPairMethod = mScene->pairMethod;
     mModel = mScene->model;
@@ -183,61 +184,6 @@ bool ViewSession::actOnEyes(ViewCommand command) {
     }
 }
 
-bool ViewSession::actOnVolume(ViewCommand command) {
-    switch (command) {
-        case ViewCommand::LowerIsovalue:
-            moveIsovalue(-1);
-            return true;
-        case ViewCommand::HigherIsovalue:
-            moveIsovalue(1);
-            return true;
-        case ViewCommand::ToggleTranslucent:
-            if (!mScene->canBeTranslucent) return true;
-            mTranslucent = !mTranslucent;
-            mChange = SceneChange{mIsovalue, mTranslucent, std::nullopt};
-            notify(mTranslucent ? "translucent" : "opaque");
-            return true;
-        default:
-            return false;
-    }
-}
-
-bool ViewSession::actOnSun(ViewCommand command) {
-    constexpr double kDegree = std::numbers::pi / 180;
-    switch (command) {
-        case ViewCommand::LowerSun:
-            turnSun(0, -kDegree);
-            return true;
-        case ViewCommand::HigherSun:
-            turnSun(0, kDegree);
-            return true;
-        case ViewCommand::SunAnticlockwise:
-            turnSun(-3 * kDegree, 0);
-            return true;
-        case ViewCommand::SunClockwise:
-            turnSun(3 * kDegree, 0);
-            return true;
-        default:
-            return false;
-    }
-}
-
-void ViewSession::turnSun(double azimuth, double elevation) {
-    if (!mScene->moveSun) return notify("light turns over terrain where it is baked, and around media");
-    constexpr double kTurn = 2 * std::numbers::pi;
-    mSun.azimuth = std::fmod(mSun.azimuth + azimuth + kTurn, kTurn);
-    mSun.elevation = std::clamp(mSun.elevation + elevation, -0.15, 0.5 * std::numbers::pi);
-    notify(fmt::format("sun at {:.0f} degrees, {:.0f} high", mSun.azimuth * 360 / kTurn,
-                       mSun.elevation * 360 / kTurn));
-}
-
-void ViewSession::moveIsovalue(double steps) {
-    if (!mIsovalue) return;
-    *mIsovalue += steps * mScene->isovalueStep;
-    mChange = SceneChange{mIsovalue, mTranslucent, std::nullopt};
-    notify(fmt::format("surface at {:.6g}", *mIsovalue));
-}
-
 void ViewSession::actOnFlight(ViewCommand command) {
     stopPlaying();
     if (command == ViewCommand::Home) {
@@ -249,70 +195,6 @@ void ViewSession::actOnFlight(ViewCommand command) {
         mFlight->setMode(mode);
         notify(fmt::format("flight: {}", mFlight->modeName(mFlight->mode())));
     }
-}
-
-// --- slices
-
-bool ViewSession::actOnSlices(ViewCommand command) {
-    if (!mSlices) {
-        if (command == ViewCommand::Slices) openSlices();
-        return command == ViewCommand::Slices || command == ViewCommand::NextSlice ||
-               command == ViewCommand::PreviousSlice || command == ViewCommand::RemoveSeed ||
-               command == ViewCommand::FindAgain;
-    }
-    switch (command) {
-        case ViewCommand::Quit:
-            mSlices.reset();
-            return true;
-        case ViewCommand::Slices:
-            mSlices->nextAxis(pose().position);
-            return true;
-        case ViewCommand::NextSlice:
-            mSlices->turnPages(1);
-            return true;
-        case ViewCommand::PreviousSlice:
-            mSlices->turnPages(-1);
-            return true;
-        case ViewCommand::RemoveSeed:
-            mSlices->removeSeed();
-            return true;
-        case ViewCommand::FindAgain:
-            mChange = SceneChange{std::nullopt, mTranslucent, mSlices->seeds()};
-            notify(mSlices->seeds().empty() ? "looking for the colon again, without seeds"
-                                            : "looking for the colon again, from the seeds");
-            return true;
-        default:
-            return false;
-    }
-}
-
-void ViewSession::openSlices() {
-    if (mStudy) return showSlices(mStudy);
-    if (!mScene->readSlices) return notify("there are no slices of a terrain");
-    mStudyWished = true;
-    notify("reading the slices");
-}
-
-bool ViewSession::takeStudyWish() {
-    return std::exchange(mStudyWished, false);
-}
-
-void ViewSession::showSlices(std::shared_ptr<const SliceStudy> study) {
-    mStudy = std::move(study);
-    mSlices.emplace(mStudy, pose().position, mScene->seeds);
-}
-
-const Plane<PackedColor>& ViewSession::slicePicture(int width, int height) {
-    mSliceWidth = width;
-    mSliceHeight = height;
-    return mSlices->picture(width, height, pose().position, mScene);
-}
-
-std::string ViewSession::click(double x, double y) {
-    if (!mSlices) return "";
-    const std::string text = mSlices->click(x, y, mSliceWidth, mSliceHeight);
-    if (!text.empty()) notify(text);
-    return text;
 }
 
 // --- modes
@@ -351,6 +233,7 @@ void ViewSession::reset() {
     mMethod = mScene->method;
     mPairMethod = mScene->pairMethod;
     mModel = mScene->model;
+    mSun = mScene->sun;
     mStereoOn = true;
     mSwapped = mLinear = false;
     mSpeed = 1;

@@ -28,10 +28,7 @@ double approach(double now, double target, double dt) {
 ViewStereo::ViewStereo(const ViewScene& scene) {
     reset(scene);
     mNow = mTarget;
-    if (scene.followsAtStart)
-        follow();
-    else
-        mFollower = nullptr;
+    if (follows()) follow();  // from there
 }
 
 void ViewStereo::reset(const ViewScene& scene) {
@@ -39,7 +36,7 @@ void ViewStereo::reset(const ViewScene& scene) {
     mLargest = scene.largestSeparation;
     mMakeFollower = scene.makeFollower;
     mFollower = nullptr;
-    follow();
+    if (scene.followsAtStart) follow();
 }
 
 void ViewStereo::replaceScene(const ViewScene& scene) {

@@ -11,7 +11,7 @@ public:
     // The follower, where the scene has one, is at work from the start.
     explicit ViewStereo(const ViewScene& scene);
 
-    // The scene's own setting, followed again where that is possible.
+    // The scene's own setting; follows as at the start.
     void reset(const ViewScene& scene);
     // Another scene: the eyes stay as they are and go on from there.
     void replaceScene(const ViewScene& scene);

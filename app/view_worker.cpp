@@ -72,18 +72,19 @@ void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& 
         const EyeView view = makeEyeView(request.pose, request.lens);
         renderEye(renderer, view, frame.left);
         frame.left_ms = watch.elapsed_ms();
-        if (scene.seen) scene.seen(view, frame.left);
         frame.right = {};
         frame.depthAhead = depthAhead(frame.left.viewDepth);
+        if (scene.seen) scene.seen(view, frame.left);
         return;
     }
     const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
     renderEye(renderer, views.left, frame.left);
     frame.left_ms = watch.elapsed_ms();
-    if (scene.seen) scene.seen(views.left, frame.left);
     frame.rightTimings = rightEye.render(renderer, views, frame.left, request.warp, frame.right);
     measureParallax(views, frame);
     frame.depthAhead = depthAhead(frame.left.viewDepth);
+    // Not between the eyes, which are to be lit alike.
+    if (scene.seen) scene.seen(views.left, frame.left);
 }
 
 }  // namespace

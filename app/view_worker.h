@@ -35,7 +35,8 @@ struct SliceStudy {
 // depth: view depth in the middle of the picture; metres.
 using StereoFollower = std::function<StereoSetting(double free, double depth, double dt)>;
 
-// Where the sun stands, radians: clockwise from north, above the horizon.
+// Where the sun stands, radians: clockwise from north, above the horizon; or how far a sky is turned
+// clockwise and tilted.
 struct SunPlace {
     double azimuth = 0, elevation = 0;
     bool operator==(const SunPlace&) const = default;
@@ -66,9 +67,11 @@ struct ViewScene {
     bool animated = false;  // moves by itself, on FrameRequest::time
 
     // Of terrain under baked light and of media: turns the sun before a frame, on the thread that makes
-    // frames. Cheap where it stands there already.
+    // frames. Cheap where it stands there already. Of volumes under baked transfer: the sky.
     std::function<void(const SunPlace&)> moveSun;
     SunPlace sun;
+    bool turnsSky = false;   // elevation is then how far the sky is tilted
+    std::string lightStays;  // why, where moveSun is empty
 
     // Of light that is worked out while one flies: told what each frame saw; counts changes, after which the
     // last frame is drawn again. Both called on the thread that makes frames.

@@ -16,7 +16,6 @@
 #include "engine/base/error.h"
 #include "engine/light/occlusion_light.h"
 #include "engine/light/sky_probe.h"
-#include "engine/light/spherical_harmonics.h"
 
 namespace stereonav {
 namespace {
@@ -40,18 +39,7 @@ double meanLight(const IlluminationVolume& light) {
     return weight > 0 ? sum / weight : 0.0;
 }
 
-std::vector<glm::vec3> skyOf(const SceneOptions& options, int order) {
-    const LightProbe probe = options.sky.empty() ? overcastSkyProbe() : readLightProbe(options.sky);
-    const std::vector<glm::vec3> straight = probe.project(order);
-    const double turn = options.volume.turn_deg * std::numbers::pi / 180;
-    const glm::dmat3 about(glm::dvec3(std::cos(turn), std::sin(turn), 0),
-                           glm::dvec3(-std::sin(turn), std::cos(turn), 0), glm::dvec3(0, 0, 1));
-    std::vector<glm::vec3> turned(straight.size());
-    HarmonicsRotation(about, order).apply(straight.data(), turned.data());
-    return turned;
-}
-
-void applyBaked(const SceneOptions& options, ColonScene& scene, Progress& progress) {
+std::shared_ptr<ViewSky> applyBaked(const SceneOptions& options, ColonScene& scene, Progress& progress) {
     BakedLight baked = loadBakedLight(options.light, scene, progress);
     BakedLook& look = scene.volume.look.baked;
     const bool transfer = baked.kind == BakeKind::Transfer;
@@ -61,13 +49,20 @@ void applyBaked(const SceneOptions& options, ColonScene& scene, Progress& progre
                     "bake with --what transfer, or leave out --sky and --turn");
     auto light = std::make_shared<IlluminationVolume>(transfer ? IlluminationVolume(baked.transfer.frame())
                                                                : std::move(baked.irradiance));
-    if (transfer) baked.transfer.relightAll(skyOf(options, baked.transfer.order()), *light);
+    std::vector<glm::vec3> straight;
+    if (transfer) {
+        straight = skyHarmonics(options, baked.transfer.order());
+        baked.transfer.relightAll(turnedSky(straight, skyTurnOf(options)), *light);
+    }
     if (baked.kind == BakeKind::Openness) {
         look.use = BakedLook::Use::Openness;
     } else {
         look.exposure = exposureOf(options.volume, meanLight(*light));
     }
-    look.light = std::move(light);
+    look.light = light;
+    if (!transfer || !options.skyTurns) return nullptr;
+    return std::make_shared<ViewSky>(std::move(baked.transfer), std::move(straight), std::move(light),
+                                     skyTurnOf(options));
 }
 
 // The lamp's light times the openness of a box around each voxel: the whole light that a lamp at the head
@@ -134,6 +129,14 @@ const Shading& shadingOf(const std::string& name) {
 
 }  // namespace
 
+std::vector<glm::vec3> skyHarmonics(const SceneOptions& options, int order) {
+    return (options.sky.empty() ? overcastSkyProbe() : readLightProbe(options.sky)).project(order);
+}
+
+SkyTurn skyTurnOf(const SceneOptions& options) {
+    return {options.volume.turn_deg * std::numbers::pi / 180, 0};
+}
+
 std::string shadingNames() {
     std::string names;
     for (const Shading& shading : shadings())
@@ -167,12 +170,15 @@ void checkVolumeLight(const SceneOptions& options) {
     if (!volume.shading.empty()) shadingOf(volume.shading);
 }
 
-void applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& progress) {
+std::shared_ptr<ViewSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene,
+                                          Progress& progress) {
     const VolumeOptions& volume = options.volume;
     if (!volume.shading.empty()) shadingOf(volume.shading).apply(scene);
     const bool file = !options.light.empty() && options.light != kLazyLight && options.light != kTracedLight;
-    if (file) applyBaked(options, scene, progress);
+    std::shared_ptr<ViewSky> sky;
+    if (file) sky = applyBaked(options, scene, progress);
     if (volume.ambient_mm) applyAmbient(*volume.ambient_mm, scene, progress);
+    return sky;
 }
 
 }  // namespace stereonav

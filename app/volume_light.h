@@ -1,9 +1,12 @@
 // How a volume is lit, from options: baked light, or one of the models it is compared with.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "app/commands.h"
+#include "app/view_sky.h"
 #include "colon/colon_scene.h"
 #include "engine/base/progress.h"
 
@@ -12,8 +15,14 @@ namespace stereonav {
 // What can be checked without the volume. Throws Error.
 void checkVolumeLight(const SceneOptions& options);
 
-// --light, --sky, --turn, --exposure, --ambient and --shading into the scene's look. Throws Error, Cancelled.
-void applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& progress);
+// --light, --sky, --turn, --exposure, --ambient and --shading into the scene's look. Gives the sky, where it
+// is one that turns and options.skyTurns; else null. Throws Error, Cancelled.
+std::shared_ptr<ViewSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& progress);
+
+// The harmonics of --sky, or of an overcast one, before they are turned. Throws Error.
+std::vector<glm::vec3> skyHarmonics(const SceneOptions& options, int order);
+// --turn.
+SkyTurn skyTurnOf(const SceneOptions& options);
 
 // As --light: light that is worked out while one looks.
 constexpr const char* kLazyLight = "lazy";

@@ -262,6 +262,10 @@ Gamepad Window::gamepad() const {
     pad.y = pressed(GLFW_GAMEPAD_BUTTON_Y);
     pad.leftBumper = pressed(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER);
     pad.rightBumper = pressed(GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER);
+    pad.up = pressed(GLFW_GAMEPAD_BUTTON_DPAD_UP);
+    pad.down = pressed(GLFW_GAMEPAD_BUTTON_DPAD_DOWN);
+    pad.left = pressed(GLFW_GAMEPAD_BUTTON_DPAD_LEFT);
+    pad.right = pressed(GLFW_GAMEPAD_BUTTON_DPAD_RIGHT);
     return pad;
 }
 

@@ -27,6 +27,7 @@ struct Gamepad {
     glm::dvec2 leftStick{0.0}, rightStick{0.0};
     double leftTrigger = 0, rightTrigger = 0;
     bool a = false, b = false, x = false, y = false, leftBumper = false, rightBumper = false;
+    bool up = false, down = false, left = false, right = false;  // of the cross
 };
 
 class Window {

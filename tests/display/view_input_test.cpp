@@ -72,17 +72,41 @@ TEST(ViewKeys, GamepadButtonsActOnceAPress) {
     ViewInput input;
     Gamepad pad;
     pad.present = true;
-    EXPECT_TRUE(input.actionsOf(pad).empty());
+    EXPECT_TRUE(input.actionsOf(pad, 0.01).empty());
     pad.b = pad.rightBumper = true;
-    const auto actions = input.actionsOf(pad);
+    const auto actions = input.actionsOf(pad, 0.01);
     ASSERT_EQ(actions.size(), 2u);
     EXPECT_EQ(actions[0].command, ViewCommand::SwapEyes);
     EXPECT_EQ(actions[1].command, ViewCommand::MoreSeparation);
-    EXPECT_TRUE(input.actionsOf(pad).empty()) << "held, not pressed again";
+    EXPECT_TRUE(input.actionsOf(pad, 0.01).empty()) << "held, not pressed again";
     pad.b = false;
-    EXPECT_TRUE(input.actionsOf(pad).empty());
+    EXPECT_TRUE(input.actionsOf(pad, 0.01).empty());
     pad.b = true;
-    EXPECT_EQ(input.actionsOf(pad).size(), 1u);
+    EXPECT_EQ(input.actionsOf(pad, 0.01).size(), 1u);
+}
+
+TEST(ViewKeys, TheCrossTurnsLightWhileItIsHeld) {
+    const std::pair<bool Gamepad::*, ViewCommand> ways[] = {{&Gamepad::up, ViewCommand::HigherSun},
+                                                            {&Gamepad::down, ViewCommand::LowerSun},
+                                                            {&Gamepad::left, ViewCommand::SunAnticlockwise},
+                                                            {&Gamepad::right, ViewCommand::SunClockwise}};
+    for (const auto& [way, command] : ways) {
+        ViewInput input;
+        Gamepad pad;
+        pad.present = pad.*way = true;
+        int done = 0;
+        for (int n = 0; n < 100; ++n)
+            for (const ViewAction& action : input.actionsOf(pad, 0.01)) {
+                ASSERT_EQ(action.command, command);
+                ++done;
+            }
+        EXPECT_NEAR(done, 20, 1) << "every 50 ms of a second";
+        pad.*way = false;
+        EXPECT_TRUE(input.actionsOf(pad, 0.01).empty());
+        pad.*way = true;
+        EXPECT_EQ(input.actionsOf(pad, 0.0).size(), 1u) << "a press counts at once";
+        EXPECT_TRUE(input.actionsOf(pad, 0.0).empty()) << "and once";
+    }
 }
 
 }  // namespace

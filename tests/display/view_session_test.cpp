@@ -240,5 +240,33 @@ TEST_F(ViewSessionTest, TheSunMovesWhereLightIsBaked) {
     EXPECT_NEAR(moving.requestFor(640, 360).sun.elevation, -0.15, 1e-9);
 }
 
+TEST_F(ViewSessionTest, TheSkyTurnsAndTilts) {
+    mScene->moveSun = [](const SunPlace&) {};
+    mScene->turnsSky = true;
+    ViewSession s = session();
+    for (int k = 0; k < 10; ++k) s.act({ViewCommand::SunAnticlockwise});
+    EXPECT_THAT(s.notice(), testing::HasSubstr("turned by 30 degrees, tilted by 0")) << "as --turn counts";
+    for (int k = 0; k < 20; ++k) s.act({ViewCommand::SunClockwise});
+    EXPECT_THAT(s.notice(), testing::HasSubstr("turned by -30 degrees"));
+    for (int k = 0; k < 300; ++k) s.act({ViewCommand::LowerSun});
+    EXPECT_NEAR(s.requestFor(640, 360).sun.elevation, -std::numbers::pi / 2, 1e-9);
+    for (int k = 0; k < 300; ++k) s.act({ViewCommand::HigherSun});
+    EXPECT_NEAR(s.requestFor(640, 360).sun.elevation, std::numbers::pi / 2, 1e-9);
+    // Another surface of the same study stays under it; one with another light does not.
+    const SunPlace turned = s.requestFor(640, 360).sun;
+    s.replaceScene(std::make_shared<ViewScene>(*mScene));
+    EXPECT_EQ(s.requestFor(640, 360).sun, turned);
+    s.act({ViewCommand::Reset});
+    EXPECT_EQ(s.requestFor(640, 360).sun, mScene->sun);
+    s.act({ViewCommand::SunClockwise});
+    auto other = std::make_shared<ViewScene>(*mScene);
+    other->moveSun = nullptr;
+    other->lightStays = "stays for this reason";
+    s.replaceScene(other);
+    EXPECT_EQ(s.requestFor(640, 360).sun, mScene->sun);
+    s.act({ViewCommand::SunClockwise});
+    EXPECT_EQ(s.notice(), "stays for this reason");
+}
+
 }  // namespace
 }  // namespace stereonav
