@@ -44,8 +44,10 @@ STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, 
     const M seen = m & (density > F(0.0f));
     if (!any(seen)) return;
     const I color = gather(transfer.color, entry, seen);
-    const V3 n = directionOf(mixCorners(grid.data.records + 4, word, local, seen));
-    const Falling lit = fallingOn(data, view, r, w.t, n, F(1.0f), seen);
+    const Falling lit = fallingOn(data, view, r, w.t, seen, [&] {
+        const V3 n = directionOf(mixCorners(grid.data.records + 4, word, local, seen));
+        return litBy(data, view, r, w.t, n, F(1.0f));
+    });
     const F passes = exp2(density * F(-1.44269504f * transfer.step));
     const F share = select(seen, sum.through * (F(1.0f) - passes), F(0.0f));
     sum.red = mulAdd(share, mulAdd(lit.diffuse.red, channelAt(color, 0), lit.highlight), sum.red);

@@ -137,37 +137,43 @@ struct Falling {
     Light diffuse;
     F highlight;
 };
-STEREONAV_INLINE Falling fallingOn(const VolumeData& data, const VolumeView& view, const Rays& r, F t,
-                                   const V3& n, F lit, M m) {
-    if (!data.baked.texels) {
-        const Lit lamp = litBy(data, view, r, t, n, lit);
-        return {{lamp.diffuse, lamp.diffuse, lamp.diffuse}, lamp.highlight};
-    }
+STEREONAV_INLINE Falling ofLamp(const Lit& lamp, F share) {
+    const F light = lamp.diffuse * share;
+    return {{light, light, light}, lamp.highlight * share};
+}
+
+// Where less than this of what a lookup weighs is known, a neighbour may know nothing and ask for the lamp.
+constexpr float kWhollyKnown = 0.999f;
+
+// lampAt(): litBy of these points, asked for only where the lamp counts: its normals take as many loads as
+// half a lookup of baked light, and its shadows rays.
+template <typename Lamp>
+STEREONAV_INLINE Falling fallingOn(const VolumeData& data, const VolumeView& view, const Rays& r, F t, M m,
+                                   const Lamp& lampAt) {
+    const F one(1.0f), zero(0.0f);
+    if (!data.baked.texels) return ofLamp(lampAt(), one);
     const auto voxel = [&](int k, F direction) {
         return mulAdd(t, direction, F(view.eye[k])) + F(static_cast<float>(view.base[k]));
     };
     const BakedLight baked =
         bakedAt(data.baked, {voxel(0, r.direction.x), voxel(1, r.direction.y), voxel(2, r.direction.z)}, m);
-    const M known = m & (baked.known > F(0.0f));
-    if (data.baked.openness) {
-        const Lit lamp = litBy(data, view, r, t, n, lit);
-        const F open = select(known, baked.red, F(1.0f)), light = lamp.diffuse * open;
-        return {{light, light, light}, lamp.highlight * open};
-    }
-    if (!(data.baked.lampShare > 0) && !any(andNot(m, known)))
-        return {{baked.red, baked.green, baked.blue}, F(0.0f)};
-    const Lit lamp = litBy(data, view, r, t, n, lit);
-    const F share = select(known, F(data.baked.lampShare), F(1.0f)), zero(0.0f);
+    const M known = m & (baked.known > zero);
+    if (data.baked.openness) return ofLamp(lampAt(), select(known, baked.red, one));
+    if (!(data.baked.lampShare > 0) && !any(m & (baked.known < F(kWhollyKnown))))
+        return {{baked.red, baked.green, baked.blue}, zero};
+    const Lit lamp = lampAt();
+    const F share = select(known, F(data.baked.lampShare), one);
     const auto both = [&](F light) { return mulAdd(share, lamp.diffuse, select(known, light, zero)); };
     return {{both(baked.red), both(baked.green), both(baked.blue)}, share * lamp.highlight};
 }
 
-// lit: share of the lamp that a hit sees.
-STEREONAV_INLINE I surfaceColor(const VolumeData& data, const VolumeView& view, const Rays& r, F depth,
-                                const V3& n, F lit, M hit) {
+// lampAt: as above, of a view depth.
+template <typename Lamp>
+STEREONAV_INLINE I surfaceColor(const VolumeData& data, const VolumeView& view, const Rays& r, F depth, M hit,
+                                const Lamp& lampAt) {
     const LightData& light = data.light;
     const F t = select(hit, depth, F(1.0f));
-    const Falling falling = fallingOn(data, view, r, t, n, lit, hit);
+    const Falling falling = fallingOn(data, view, r, t, hit, [&] { return lampAt(t); });
     Light sent{mulAdd(falling.diffuse.red, F(light.albedo[0]), falling.highlight),
                mulAdd(falling.diffuse.green, F(light.albedo[1]), falling.highlight),
                mulAdd(falling.diffuse.blue, F(light.albedo[2]), falling.highlight)};

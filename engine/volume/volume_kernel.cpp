@@ -9,8 +9,9 @@ namespace {
 
 constexpr int kBlock = 4;  // pixels a side of a beam
 constexpr int kPacketX = 4, kPacketY = kLanes / 4;
-constexpr int kLargestSide = 64;          // of a rectangle that is cast at once
-constexpr float kLifted = 1.0f;           // voxels: a shadow's end before the surface
+constexpr int kLargestSide = 64;  // of a rectangle that is cast at once
+constexpr float kLifted = 1.0f;   // voxels: a shadow's end before the surface
+constexpr int kNoNormal = 512 | 512 << 10 | 512 << 20;
 constexpr float kInFront = 1.0f - 4e-6f;  // for the rounding of a beam's end
 
 STEREONAV_INLINE Walk startAt(const Grid& grid, const Rays& r, F t, M lanes) {
@@ -130,13 +131,14 @@ struct Packet {
         }
         return select(shade.t < end, F(0.0f), F(1.0f));
     }
+    // Normals that nothing asked for are left at none: whoever shades again will not ask either.
     STEREONAV_INLINE Result shaded(const Rays& r, const Hits& hits, bool wantNormal) const {
-        const Channels n = mixCorners(grid.data.records + 4, hits.word, hits.local, hits.hit);
-        Result result{hits.t,
-                      surfaceColor(data, view, r, hits.t, directionOf(n), litShare(r, hits), hits.hit), I(0),
-                      F(0.0f)};
-        if (wantNormal) result.normal = closeChannels(n);
-        return result;
+        Channels n = openChannels(I(kNoNormal));
+        const I color = surfaceColor(data, view, r, hits.t, hits.hit, [&](F t) {
+            n = mixCorners(grid.data.records + 4, hits.word, hits.local, hits.hit);
+            return litBy(data, view, r, t, directionOf(n), litShare(r, hits));
+        });
+        return {hits.t, color, wantNormal ? closeChannels(n) : I(0), F(0.0f)};
     }
 };
 
@@ -390,9 +392,12 @@ void shadeRow(const VolumeData& data, const VolumeView& view, int y, int x0, int
         const Rays r = makeRays(view, laneIndexF() + F(static_cast<float>(x)), F(static_cast<float>(y)));
         const F t = loadF(depth + x);
         const M lanes = firstLanes(x1 - x) & (t > F(0.0f));
-        const V3 n = directionOf(openChannels(loadI(normal + x)));
         const M hit = lanes & (t < F(__builtin_inff()));
-        store(color + x, surfaceColor(data, view, r, t, n, F(1.0f), hit), lanes);
+        const I shown = surfaceColor(data, view, r, t, hit, [&](F depth) {
+            const V3 n = directionOf(openChannels(loadI(normal + x)));
+            return litBy(data, view, r, depth, n, F(1.0f));
+        });
+        store(color + x, shown, lanes);
     }
 }
 

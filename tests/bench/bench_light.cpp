@@ -1,7 +1,7 @@
 // Precomputed light: how long bakes take (Wyman et al. 2006, Table 1) and what each way of choosing paths
-// gains at equal error. With --marks "name value" lines alone. Times of whole volumes are rates measured on a
-// random part of the texels and scaled; processor times, of all threads together, say what they would be on a
-// machine that does nothing else.
+// gains at equal error. With --marks "name value" lines alone, with --frames the cost of frames alone. Times
+// of whole volumes are rates measured on a random part of the texels and scaled; processor times, of all
+// threads together, say what they would be on a machine that does nothing else.
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -90,9 +90,15 @@ void printGains(const Marks& marks) {
     }
 }
 
-int run(bool marksOnly) {
+enum class Part { All, Marks, Frames };
+
+int run(Part part) {
+    if (part == Part::Frames) {
+        printLookup(measureLookup(lightSubject(), kOrder, 100), false);
+        return 0;
+    }
     const Marks marks;
-    if (marksOnly) {
+    if (part == Part::Marks) {
         BakeRate rate;
         std::printf("irradiance100_s %.1f\n", marks.irradiance_s(100, 8, &rate));
         std::printf("irradiance100_processor_s %.1f\n", rate.processor_s);
@@ -116,7 +122,13 @@ int run(bool marksOnly) {
 
 int main(int count, char** arguments) {
     try {
-        return stereonav::bench::run(count > 1 && std::strcmp(arguments[1], "--marks") == 0);
+        using stereonav::bench::Part;
+        const auto asks = [&](const char* option) {
+            return count > 1 && std::strcmp(arguments[1], option) == 0;
+        };
+        return stereonav::bench::run(asks("--marks")    ? Part::Marks
+                                     : asks("--frames") ? Part::Frames
+                                                        : Part::All);
     } catch (const stereonav::Error& e) {
         std::fprintf(stderr, "%s\n", e.what());
         return 1;
