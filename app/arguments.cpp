@@ -195,8 +195,10 @@ void addQuality(CLI::App& command, QualityOptions& options) {
                     "dB against a full cast that 95 of 100 frames shall reach: as many pixels as that takes")
         ->group(kGroup);
     command
-        .add_option("--target-ms", options.target_ms,
-                    "time for a frame, both eyes: no more pixels are cast than fit")
+        .add_option(
+            "--target-ms", options.target_ms,
+            "time for a frame, both eyes: no more pixels are cast than fit; where none do, pictures are made "
+            "smaller")
         ->group(kGroup);
 }
 

@@ -10,6 +10,25 @@
 
 namespace stereonav {
 
+namespace {
+
+void printEyes(const StereoFrame& frame, const Plane<PackedColor>& picture, const std::string& file) {
+    const double pixels = static_cast<double>(frame.madeIn().width) * frame.madeIn().height;
+    const RightEyeTimings& t = frame.timings();
+    std::printf("%s: %dx%d, left %.2f ms, right %.2f ms, holes %.2f %%\n", file.c_str(), picture.width(),
+                picture.height(), frame.left_ms(), t.right_ms(),
+                100.0 * static_cast<double>(t.holePixels) / pixels);
+    if (!frame.way().empty()) std::printf("  by %s\n", frame.way().c_str());
+    if (t.boundPsnr_db > 0)
+        std::printf("  of them %.2f %% were warped before; 95 of 100 frames reach %.1f dB\n",
+                    100.0 * static_cast<double>(t.refinedPixels) / pixels, t.boundPsnr_db);
+    if (frame.isSmaller())
+        std::printf("  made in %dx%d and enlarged, to take the time that was asked for\n",
+                    frame.madeIn().width, frame.madeIn().height);
+}
+
+}  // namespace
+
 int runRender(const RenderOptions& options) {
     checkOutputPicture("--out", options.out);
     checkSize(options.size);
@@ -44,15 +63,7 @@ int runRender(const RenderOptions& options) {
                     frame.both_ms());
         return 0;
     }
-    std::printf("%s: %dx%d, left %.2f ms, right %.2f ms, holes %.2f %%\n", options.out.c_str(),
-                picture.width(), picture.height(), frame.left_ms(), frame.timings().right_ms(),
-                100.0 * static_cast<double>(frame.timings().holePixels) /
-                    (static_cast<double>(options.size.width) * options.size.height));
-    if (const RightEyeTimings& t = frame.timings(); t.boundPsnr_db > 0)
-        std::printf("  of them %.2f %% were warped before; 95 of 100 frames reach %.1f dB\n",
-                    100.0 * static_cast<double>(t.refinedPixels) /
-                        (static_cast<double>(options.size.width) * options.size.height),
-                    t.boundPsnr_db);
+    printEyes(frame, picture, options.out);
     if (scene.tracedLight)
         for (const std::string& note : scene.tracedLight->notes()) std::printf("  %s\n", note.c_str());
     return 0;

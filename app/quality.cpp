@@ -2,21 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "app/medium_options.h"
 #include "engine/base/error.h"
-#include "engine/stereo/error_prediction.h"
 
 namespace stereonav {
 namespace {
 
 constexpr int kCalibrationFrames = 15;  // of the scene's flight, beside the start pose
-// Pixels are picked by contrast and lie apart: their rays are taken for twice as dear as those of a full
-// cast, where no hole was there to measure them on.
-constexpr double kScatteredRay = 2;
+constexpr int kTimedRepeats = 2;        // where times are wished for
 
 bool wantsQuality(const QualityOptions& q) {
     return q.quality || q.targetPsnr_db || q.target_ms;
@@ -26,16 +19,6 @@ void requireIn(const char* option, const std::optional<double>& value, double lo
                const std::string& advice) {
     if (value && !(*value >= low && *value <= high))
         throw Error(option, "", fmt::format("expected {:g} to {:g}, got {:g}", low, high, *value), advice);
-}
-
-// The share of all pixels that may be cast beside the holes, so that both eyes take no longer than the
-// target.
-double affordable(const FramePlan& plan, double target_ms) {
-    const double pixels = static_cast<double>(plan.width) * plan.height;
-    const double left_ms = plan.castRight_ms;  // a left eye is cast like a right one
-    const double ray_ns = plan.costs.hole_ns > 0 ? plan.costs.hole_ns : kScatteredRay * plan.costs.cast_ns;
-    if (target_ms >= left_ms + plan.castRight_ms || !(ray_ns > 0)) return 1;
-    return std::clamp((target_ms - left_ms - plan.warpRight_ms) / (ray_ns * pixels * 1e-6), 0.0, 1.0);
 }
 
 }  // namespace
@@ -56,27 +39,28 @@ void checkQuality(const SceneOptions& options, const std::string& method) {
                     "choose linear, cubic or selective, or leave the method out");
 }
 
-Refinement refinementOf(const SceneOptions& options, const LoadedScene& scene, RightEyeMethod method,
-                        Progress& progress) {
-    const QualityOptions& q = options.quality;
-    Refinement refinement;
-    if (!wantsQuality(q)) return refinement;
-    progress.report(0.85, "measuring what error is to be expected");
+std::vector<StereoViews> calibrationViews(const LoadedScene& scene) {
     std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};
     if (!scene.path.samples().empty())
         for (const Pose& pose : scene.path.frames(kCalibrationFrames)) views.push_back(scene.viewsAt(pose));
-    WarpSetting warp;
-    warp.method = method;
-    refinement.calibration = std::make_shared<ErrorCalibration>(calibrateError(*scene.renderer, views, warp));
-    refinement.targetPsnr_db = q.targetPsnr_db.value_or(0);
-    if (q.target_ms)
-        refinement.mostPixels =
-            affordable(planFrame(*scene.renderer,
-                                 std::span(views).first(std::min<std::size_t>(views.size(), 5)), method),
-                       *q.target_ms);
-    // A time alone is spent as a whole.
-    refinement.quality = q.quality.value_or(q.target_ms && !q.targetPsnr_db ? 1.0 : 0.0);
-    return refinement;
+    return views;
+}
+
+std::optional<QualityPlan> qualityOf(const SceneOptions& options, const LoadedScene& scene,
+                                     const std::string& method, Progress& progress) {
+    const QualityOptions& q = options.quality;
+    if (!wantsQuality(q)) return std::nullopt;
+    progress.report(0.85, "measuring what error is to be expected");
+    QualityWish wish{q.quality, q.targetPsnr_db, q.target_ms, false};
+    std::vector<NamedWarp> warps = warpsWorthTrying(*scene.renderer);
+    if (const auto named = methodFromText(method)) {
+        warps.erase(warps.begin(), warps.end() - 1);
+        warps.insert(warps.begin(), {std::string(nameOf(*named)), {}});
+        warps.front().setting.method = *named;
+        wish.firstAlone = true;
+    }
+    const int repeats = q.target_ms ? kTimedRepeats : 1;
+    return planQuality(measureWarps(*scene.renderer, calibrationViews(scene), warps, repeats), wish);
 }
 
 }  // namespace stereonav

@@ -1,8 +1,12 @@
 #include "app/stereo_frame.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "app/medium_options.h"
 #include "app/quality.h"
 #include "engine/base/stopwatch.h"
+#include "engine/image/enlarge.h"
 
 namespace stereonav {
 namespace {
@@ -23,7 +27,8 @@ void checkMethod(const SceneOptions& options, const std::string& method) {
     checkQuality(options, method);
 }
 
-StereoFrame::StereoFrame(const LoadedScene& scene, const std::string& method) : mScene(scene) {
+StereoFrame::StereoFrame(const LoadedScene& scene, const std::string& method)
+    : mScene(scene), mMethod(method), mLens(scene.lens) {
     if (scene.pair)
         mPairMethod = pairMethodFromText(method);
     else
@@ -31,11 +36,21 @@ StereoFrame::StereoFrame(const LoadedScene& scene, const std::string& method) : 
 }
 
 void StereoFrame::refine(const SceneOptions& options, Progress& progress) {
-    if (!mScene.pair) mWarp.refinement = refinementOf(options, mScene, mWarp.method, progress);
+    if (mScene.pair) return;
+    const auto plan = qualityOf(options, mScene, mMethod, progress);
+    if (!plan) return;
+    mWarp = plan->setting;
+    mWay = plan->name;
+    const Lens& whole = mScene.lens;
+    mLens.width = std::max(1, static_cast<int>(std::lround(plan->scale * whole.width)));
+    mLens.height = std::max(1, static_cast<int>(std::lround(plan->scale * whole.height)));
+    // the same frustum, whatever was rounded
+    mLens.pixelAspect =
+        whole.pixelAspect * whole.width * mLens.height / (static_cast<double>(whole.height) * mLens.width);
 }
 
 void StereoFrame::render(const Pose& head, double time) {
-    const StereoViews views = mScene.viewsAt(head);
+    const StereoViews views = makeStereoViews(head, mLens, mScene.stereo);
     if (mScene.pair) {
         mPair = mScene.pair->renderPair(views, time, mPairMethod, mLeft, mRight);
         return;
@@ -45,6 +60,8 @@ void StereoFrame::render(const Pose& head, double time) {
     renderEye(*mScene.renderer, views.left, mLeft);
     mLeft_ms = watch.elapsed_ms();
     mTimings = mEye.render(*mScene.renderer, views, mLeft, mWarp, mRight);
+    if (!isSmaller()) return;
+    for (EyeImage* eye : {&mLeft, &mRight}) *eye = enlarged(*eye, mScene.lens.width, mScene.lens.height);
 }
 
 void StereoFrame::addTo(Hash& hash) const {

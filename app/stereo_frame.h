@@ -15,7 +15,8 @@ class StereoFrame {
 public:
     // method: a right eye's, or of a medium a pair's; "auto": the scene's default.
     StereoFrame(const LoadedScene& scene, const std::string& method);
-    // Which warped pixels are cast as well, from options; measures the scene where they ask for it.
+    // How the right eye is made and which warped pixels are cast as well, from options; measures the scene
+    // where they ask for it.
     void refine(const SceneOptions& options, Progress& progress);
 
     // Both eyes at one pose. time: seconds, of what moves by itself.
@@ -26,6 +27,10 @@ public:
     EyeImage& right() { return mRight; }
     const EyeImage& left() const { return mLeft; }
     const EyeImage& right() const { return mRight; }
+    // What refine() chose, "" where nothing was wished; and the size in which eyes are made, to be enlarged.
+    const std::string& way() const { return mWay; }
+    const Lens& madeIn() const { return mLens; }
+    bool isSmaller() const { return mLens.width < mScene.lens.width || mLens.height < mScene.lens.height; }
     double left_ms() const { return mLeft_ms; }
     const RightEyeTimings& timings() const { return mTimings; }
     double both_ms() const { return mScene.pair ? mPair.both_ms : mLeft_ms + mTimings.right_ms(); }
@@ -38,6 +43,8 @@ public:
 
 private:
     const LoadedScene& mScene;
+    std::string mMethod, mWay;
+    Lens mLens;
     WarpSetting mWarp;
     PairMethod mPairMethod = PairMethod::Sweep;
     RightEye mEye;

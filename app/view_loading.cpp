@@ -52,11 +52,13 @@ ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progre
     }
     scene.method = methodFromText(options.method).value_or(loaded->defaultMethod());
     // A study is opened quickly: it gets its default.
-    if (measure && options.method == "auto" && loaded->terrain) {
+    if (const auto plan = qualityOf(options.scene, *loaded, options.method, progress)) {
+        scene.warp = plan->setting;
+        scene.method = plan->setting.method;
+    } else if (measure && options.method == "auto" && loaded->terrain) {
         progress.report(1.0, "measuring how to make the right eye");
         scene.method = planScene(*loaded).method;
     }
-    if (!scene.pair) scene.refinement = refinementOf(options.scene, *loaded, scene.method, progress);
     return scene;
 }
 

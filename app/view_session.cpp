@@ -341,8 +341,8 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
     wanted.lens.width = eyeWidth;
     wanted.lens.height = eyeHeight;
     wanted.stereo = mStereo.now();
+    wanted.warp = mScene->warp;
     wanted.warp.method = mMethod;
-    wanted.warp.refinement = mScene->refinement;
     wanted.pairMethod = mPairMethod;
     wanted.model = mModel;
     wanted.time = mTime;

@@ -57,7 +57,7 @@ struct ViewScene {
     Lens lens;
     StereoSetting stereo;
     RightEyeMethod method = kDefaultRightEyeMethod;
-    Refinement refinement;  // of whatever method: as measured when the scene was opened
+    WarpSetting warp;  // of whatever method: as planned when the scene was opened
     PairMethod pairMethod = PairMethod::Sweep;
 
     // Of media: the models to choose from, and the choice before a frame, on the thread that makes frames.

@@ -378,7 +378,7 @@ RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews&
     const bool refines = setting.refinement.calibration && isInverse(setting.method);
     const bool all = refines && setting.refinement.quality >= 1 && setting.refinement.mostPixels >= 1;
     if (setting.method == RightEyeMethod::Full || all) {
-        timings.boundPsnr_db = refines ? kMostPsnr_db : 0;
+        timings.boundPsnr_db = setting.refinement.calibration ? kMostPsnr_db : 0;
         fillMask(mState->mask, 255);
         watch.lap_ms();
         renderEye(renderer, views.right, right);

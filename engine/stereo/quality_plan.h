@@ -1,0 +1,76 @@
+// Which way of making the right eye meets a wish for quality at the least cost: all ways that are worth it
+// are measured on a few frames of the scene, and each is thought refined (error_prediction.h) until the wish
+// is met. Without a wish for a time nothing of what is chosen depends on measured times, so that pictures
+// repeat.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/stereo/error_prediction.h"
+
+namespace stereonav {
+
+struct QualityWish {
+    std::optional<double> quality =
+        std::nullopt;  // 0..1: share of the first way's expected squared error that is to go
+    std::optional<double> targetPsnr_db = std::nullopt;  // for 95 of 100 frames; 0 to kMostPsnr_db
+    std::optional<double> target_ms = std::nullopt;  // of both eyes, above 0; alone it is spent as a whole
+    bool firstAlone = false;                         // no other way is to be taken, nor all pixels cast
+
+    bool wantsError() const { return quality || targetPsnr_db; }
+};
+
+// A way as measured on some frames.
+struct MeasuredWarp {
+    std::string name;  // "linear", "linear 1.1"
+    WarpSetting setting;
+    // setting.refinement.calibration is there for all but the full cast. Of each frame:
+    std::vector<ContrastCounts> counts;
+    std::vector<double> holes;  // pixels cast anyway
+    double right_ms = 0;        // mean frame, the least of the repeats
+    double ray_ns = 0;          // of a pixel cast beside the holes
+};
+struct MeasuredWarps {
+    std::vector<MeasuredWarp> warps;  // the scene's default first, the full cast last
+    double pixels = 0;                // of one eye
+    double left_ms = 0;               // mean frame
+};
+
+// Ways on the measured fronts of `report`, named: opaque scenes linear with several stretches, translucent
+// ones selective with several spreads. The default first, the full cast last.
+struct NamedWarp {
+    std::string name;
+    WarpSetting setting;
+};
+std::vector<NamedWarp> warpsWorthTrying(const EyeRenderer& renderer);
+
+// Warps and casts each of the views, at least one, of one size. repeats: timed runs of each, >= 1.
+MeasuredWarps measureWarps(const EyeRenderer& renderer, std::span<const StereoViews> views,
+                           std::span<const NamedWarp> warps, int repeats);
+
+struct QualityPlan {
+    WarpSetting setting;  // with its refinement
+    std::string name;
+    double castShare = 0;   // of all pixels, expected: holes and those that are refined
+    double meanSquare = 0;  // expected, of sRGB bytes; without holes, which are exact
+    double both_ms = 0;     // expected of both eyes, by times measured
+    // Share of the picture's sides that both eyes are to be made in so that they take target_ms; 1: they do.
+    double scale = 1;
+};
+
+// What meets the wish at the least cost, the first way where another is not cheaper by kWorthAChange, and
+// where nothing is wished but quality 0. Where no way takes so little time as wished: the fastest one, in a
+// smaller picture and without a bound, which is known at this size alone. Throws Error for a wish that is not
+// in its range.
+QualityPlan planQuality(const MeasuredWarps& measured, const QualityWish& wish);
+constexpr double kWorthAChange = 0.05;
+constexpr double kLeastScale = 0.25;
+
+// Pixels that are cast beside holes lie apart: a ray there takes as long as this many of a full cast, in
+// ranking ways and where no hole was there to measure it on.
+constexpr double kScatteredRay = 2;
+
+}  // namespace stereonav
