@@ -1,6 +1,7 @@
 // `report` as a user runs it: what it leaves, what it refuses, what stopping it leaves. With hardly any time
 // given, so that each part measures no more than it must.
 #include <csignal>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
@@ -85,6 +86,35 @@ TEST_F(Report, MeasuresANamedMediumInStereoAndABuiltInSceneOnce) {
         EXPECT_TRUE(ids.contains(id)) << id;
     EXPECT_FALSE(ids.contains("scene/terrain 2/loading"));
     EXPECT_FALSE(ids.contains("pair/wax 2/sweep/time"));
+}
+
+// Errors do not depend on the machine: more paths, more texels and the program's lookup are nearer to the
+// truth.
+TEST_F(Report, HoldsBakedLightAgainstPathsFromEveryPixel) {
+    const Outcome outcome = report({"--parts", "light"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    std::map<std::string, double> of;
+    const Json json = Json::parse(contentOf(place() / "report/report.json"));
+    for (const Json& figure : json.at("figures"))
+        of[figure.at("id").get<std::string>()] = figure.at("median").get<double>();
+    const auto expectFalling = [&](const std::string& chart, const std::vector<std::string>& ways) {
+        for (std::size_t n = 0; n + 1 < ways.size(); ++n) {
+            const std::string worse = chart + ways[n] + "/error", better = chart + ways[n + 1] + "/error";
+            ASSERT_TRUE(of.contains(worse) && of.contains(better)) << worse << " " << better;
+            EXPECT_GT(of[worse], of[better]) << worse;
+            EXPECT_GT(of[better], 0) << better;
+        }
+    };
+    expectFalling("light/pixels/", {"traced 1", "traced 4", "traced 16", "traced 64"});
+    expectFalling("light/pixels/", {"baked 16", "baked 64", "baked 256"});
+    expectFalling("light/pixels/", {"transfer 256", "baked 1/8", "baked 256", "baked 8"});
+    expectFalling("light/lookup/", {"nearest", "tricubic", "trilinear"});
+    expectFalling("light/lookup/", {"nearest isovalue", "trilinear", "trilinear, 8"});
+    const std::string page = contentOf(place() / "report/index.html");
+    EXPECT_EQ(xmlProblem(page), "");
+    for (const char* words :
+         {"Path tracing", "Lookup of baked light", "The default, baked 256", "The default, trilinear"})
+        EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
 TEST_F(Report, ReadsRowsOfStability) {
