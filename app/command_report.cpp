@@ -29,7 +29,8 @@ struct Part {
     bool media = false;    // ... and on those that are swept
 };
 constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0},
-                           {"casting", reportCasting, 0.5},
+                           {"quality", reportQuality, 1.5},
+                           {"casting", reportCasting, 0.7},
                            {"light", reportLight, 1.0, false},
                            {"occlusion", reportOcclusion, 0.3, false},
                            {"volume-light", reportMedium, 1.0, false, true},

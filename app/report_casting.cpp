@@ -225,6 +225,7 @@ void reportCasting(ReportRun& run, double) {
         {}};
     for (const ReportScene& scene : run.scenes()) {
         if (scene.loaded.terrain) addChart(run.report(), section, terrainChart(run, scene));
+        if (scene.loaded.terrain) addChart(run.report(), section, filteringChart(run, scene));
         if (!scene.loaded.colon) continue;
         if (scene.loaded.renderer->translucent())
             addChart(run.report(), section, stepChart(run, scene));
@@ -232,12 +233,9 @@ void reportCasting(ReportRun& run, double) {
             addLeaping(run, leaping, scene);
     }
     section.blocks.emplace_back(std::move(leaping));
-    section.blocks.emplace_back(
-        ReportText{"Fixed, with nothing to choose: the texture of terrain is read bilinearly from the mip "
-                   "level of the ray's footprint; "
-                   "opaque surfaces are met exactly (bilinear cells of terrain, cubic hits in cells of "
-                   "volumes); pictures are always cast at "
-                   "their full resolution."});
+    section.blocks.emplace_back(ReportText{
+        "Fixed, with nothing to choose: opaque surfaces are met exactly (bilinear cells of terrain, "
+        "cubic hits in cells of volumes)."});
     run.report().sections.push_back(std::move(section));
 }
 

@@ -5,187 +5,15 @@
 #include <cmath>
 #include <iterator>
 
-#include "app/report_run.h"
+#include "app/report_trial.h"
 #include "engine/base/parallel.h"
 #include "engine/image/image_file.h"
 #include "engine/metrics/difference_picture.h"
-#include "engine/metrics/image_difference.h"
-#include "engine/metrics/supersampled_picture.h"
 
 namespace stereonav {
 namespace {
 
-constexpr int kLeastRepeats = 3, kMostRepeats = 9;
-constexpr int kTruthFactor = 4;      // 16 rays a pixel
 constexpr double kShare = 1.0 / 30;  // of the zero-parallax distance: the eyes' separation
-
-struct Variant {
-    std::string name, detail;
-    WarpSetting setting;
-    bool isDefault = false;
-};
-
-Variant methodVariant(RightEyeMethod method) {
-    Variant v{std::string(nameOf(method)), "", {}, false};
-    v.setting.method = method;
-    return v;
-}
-
-// The same way with one setting changed.
-Variant tuned(RightEyeMethod method, float WarpSetting::*what, const char* name, float value) {
-    Variant v = methodVariant(method);
-    v.setting.*what = value;
-    v.name = fmt::format("{} {:g}", nameOf(method), value);
-    v.detail = fmt::format("{} {:g}", name, value);
-    return v;
-}
-
-// Sums over the frames of one repeat, and over frames.
-struct Sums {
-    std::vector<double> right_ms, warp_ms, fill_ms;  // by repeat, over frames
-    double least_ms = 0;                             // of each frame the fastest repeat, over frames
-    double squares = 0, trueSquares = 0, worst = 0, ssim = 0, holes = 0;
-};
-
-// Root mean square error in 8-bit levels.
-double rmsOf(double psnr_db) {
-    return psnr_db >= kIdenticalPsnr_db ? 0.0 : 255 * std::pow(10.0, -psnr_db / 20);
-}
-
-// Runs variants over frames, one after another in each repeat, so that the machine's moods meet all alike.
-class Trial {
-public:
-    // truths: also against 16 rays a pixel, which takes as long as 16 frames.
-    Trial(const ReportScene& scene, const StereoSetting& stereo, std::vector<Variant> variants, bool truths)
-        : mTruths(truths),
-          mScene(scene.loaded),
-          mStereo(stereo),
-          mVariants(std::move(variants)),
-          mSums(mVariants.size()) {}
-
-    void run(ReportRun& run, const std::string& what, int frames, double seconds) {
-        std::vector<Pose> poses = posesOf(frames);
-        const Stopwatch watch;
-        for (std::size_t n = 0; n < poses.size(); ++n) {
-            run.tell(what);
-            frame(run, makeStereoViews(poses[n], mScene.lens, mStereo), what);
-            // As many frames as there is time for; the first one is the same for any number of them.
-            const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
-            if (n == 0 && affordable < frames) poses = posesOf(std::max(1, static_cast<int>(affordable)));
-            if (n == 0) chooseRepeats(watch.elapsed_ms(), poses.size(), seconds);
-            for (std::size_t k = 0; k < mSums.size(); ++k) mSums[k].least_ms += mFastest[k];
-        }
-        mFrames = static_cast<int>(poses.size());
-    }
-
-    std::vector<WayPoint> points() const {
-        std::vector<WayPoint> points;
-        for (std::size_t n = 0; n < mVariants.size(); ++n) points.push_back(pointOf(mVariants[n], mSums[n]));
-        return points;
-    }
-    int frames() const { return mFrames; }
-    int repeats() const { return mRepeats; }
-
-private:
-    std::vector<Pose> posesOf(int frames) const {
-        return mScene.path.samples().empty() ? std::vector<Pose>{mScene.startPose}
-                                             : mScene.path.frames(frames);
-    }
-
-    // From the first frame, which ran kLeastRepeats times: half of that is truths.
-    void chooseRepeats(double first_ms, std::size_t frames, double seconds) {
-        const double perRepeat_ms = mTimed_ms / kLeastRepeats,
-                     fixed_ms = std::max(0.0, first_ms - mTimed_ms) * static_cast<double>(frames);
-        const double affordable =
-            (1000 * seconds - fixed_ms) / std::max(perRepeat_ms * static_cast<double>(frames), 1e-3);
-        mRepeats = std::clamp(static_cast<int>(affordable), kLeastRepeats, kMostRepeats);
-        // what is left of the first frame's repeats
-        for (int r = kLeastRepeats; r < mRepeats; ++r) repeat(r);
-    }
-
-    void frame(ReportRun& run, const StereoViews& views, const std::string& what) {
-        mViews = views;
-        mLeft.resize(views.left.width, views.left.height, mScene.renderer->viewDependence());
-        renderEye(*mScene.renderer, views.left, mLeft);
-        WarpSetting full;
-        full.method = RightEyeMethod::Full;
-        mEye.render(*mScene.renderer, views, mLeft, full, mFull);
-        Progress quiet([&](double, const std::string&) { run.tell(what); });
-        const Plane<PackedColor> truth =
-            mTruths ? renderSupersampled(*mScene.renderer, views.right, kTruthFactor, quiet)
-                    : Plane<PackedColor>();
-        for (std::size_t n = 0; n < mVariants.size(); ++n) measureError(n, truth);
-        mFastest.assign(mVariants.size(), 1e300);
-        const Stopwatch watch;
-        for (int r = 0; r < mRepeats; ++r) {
-            run.tell(what);
-            repeat(r);
-        }
-        mTimed_ms = watch.elapsed_ms();
-    }
-
-    void measureError(std::size_t n, const Plane<PackedColor>& truth) {
-        const RightEyeTimings timings =
-            mEye.render(*mScene.renderer, mViews, mLeft, mVariants[n].setting, mRight);
-        Plane<std::uint8_t> nothing(mRight.width(), mRight.height());
-        const ImageDifference difference = differenceOf(mFull.color, mRight.color, nothing);
-        const double rms = rmsOf(difference.psnr_db),
-                     trueRms = mTruths ? rmsOf(psnrOf(truth, mRight.color)) : 0;
-        Sums& sums = mSums[n];
-        sums.squares += rms * rms;
-        sums.trueSquares += trueRms * trueRms;
-        sums.worst = std::max(sums.worst, rms);
-        sums.ssim += difference.ssim;
-        sums.holes +=
-            static_cast<double>(timings.holePixels) / (static_cast<double>(mRight.width()) * mRight.height());
-    }
-
-    void repeat(int r) {
-        for (std::size_t n = 0; n < mVariants.size(); ++n) {
-            const RightEyeTimings t =
-                mEye.render(*mScene.renderer, mViews, mLeft, mVariants[n].setting, mRight);
-            const auto add = [r](std::vector<double>& sums, double ms) {
-                sums.resize(std::max(sums.size(), static_cast<std::size_t>(r) + 1));
-                sums[static_cast<std::size_t>(r)] += ms;
-            };
-            add(mSums[n].right_ms, t.right_ms());
-            mFastest[n] = std::min(mFastest[n], t.right_ms());
-            add(mSums[n].warp_ms, t.warp_ms);
-            add(mSums[n].fill_ms, t.fill_ms);
-        }
-    }
-
-    WayPoint pointOf(const Variant& v, const Sums& sums) const {
-        const double count = mFrames;
-        const auto mean = [count](const std::vector<double>& times) {
-            return scaled(spreadOf(times), 1 / count);
-        };
-        WayPoint point;
-        Spread time = mean(sums.right_ms);
-        time.low = sums.least_ms / count;
-        point.way = {v.name, time, std::sqrt(sums.squares / count), v.isDefault};
-        point.detail = v.detail;
-        point.worstError = sums.worst;
-        point.others = {{"warp ms", mean(sums.warp_ms).median},
-                        {"fill ms", mean(sums.fill_ms).median},
-                        {"holes %", 100 * sums.holes / count},
-                        {"SSIM", sums.ssim / count}};
-        if (mTruths) point.others.emplace_back("RMS against 16 rays", std::sqrt(sums.trueSquares / count));
-        return point;
-    }
-
-    bool mTruths;
-    const LoadedScene& mScene;
-    StereoSetting mStereo;
-    std::vector<Variant> mVariants;
-    std::vector<Sums> mSums;
-    StereoViews mViews;
-    RightEye mEye;
-    EyeImage mLeft, mFull, mRight;
-    int mRepeats = kLeastRepeats, mFrames = 0;
-    double mTimed_ms = 0;
-    std::vector<double> mFastest;  // of the frame at hand, by variant
-};
 
 std::vector<Variant> variantsOf(const LoadedScene& scene) {
     std::vector<Variant> variants;
@@ -209,7 +37,7 @@ std::vector<Variant> variantsOf(const LoadedScene& scene) {
     return variants;
 }
 
-WayChart chartOf(ReportRun& run, const ReportScene& scene, const Trial& trial) {
+WayChart chartOf(ReportRun& run, const ReportScene& scene, const RightEyeTrial& trial) {
     WayChart chart;
     chart.id = "right_eye/" + scene.id;
     chart.title = "Right eye, " + scene.title;
@@ -274,7 +102,7 @@ WayChart separationsOf(ReportRun& run, const ReportScene& scene, double seconds)
         v.name = fmt::format("1/{}", part);
         v.detail = fmt::format("eyes 1/{} of the zero-parallax distance apart", part);
         v.isDefault = part == 30;
-        Trial trial(scene, stereo, {v}, false);
+        RightEyeTrial trial(scene, stereo, {v}, false);
         trial.run(run, "separations, " + scene.title, run.pick(2, 6),
                   seconds / static_cast<double>(parts.size()));
         chart.points.push_back(trial.points().front());
@@ -310,7 +138,7 @@ void reportRightEye(ReportRun& run, double seconds) {
         const std::string what = "right eye, " + scene.title;
         const auto scenesLeft = static_cast<double>(run.scenes().data() + run.scenes().size() - &scene);
         const double each = std::max(0.0, seconds - watch.elapsed_ms() / 1000) / scenesLeft;
-        Trial trial(scene, stereo, variantsOf(scene.loaded), !run.brief());
+        RightEyeTrial trial(scene, stereo, variantsOf(scene.loaded), !run.brief());
         trial.run(run, what, run.pick(3, 12), 0.65 * each);
         addChart(run.report(), section, chartOf(run, scene, trial));
         addChart(run.report(), section, separationsOf(run, scene, 0.3 * each));

@@ -75,10 +75,13 @@ void reportCasting(ReportRun& run, double seconds);
 void reportLight(ReportRun& run, double seconds);
 void reportOcclusion(ReportRun& run, double seconds);
 void reportMedium(ReportRun& run, double seconds);
-void reportPairs(ReportRun& run, ReportSection& section);  // in that of volume light
+void reportQuality(ReportRun& run, double seconds);
 void reportPlan(ReportRun& run, double seconds);
 void reportStages(ReportRun& run, double seconds);
 void reportScenes(ReportRun& run, double seconds);
 void reportStability(ReportRun& run, double seconds);
+// Charts that stand in sections of others: of casting, and of volume light.
+WayChart filteringChart(ReportRun& run, const ReportScene& terrain);
+void reportPairs(ReportRun& run, ReportSection& section);
 
 }  // namespace stereonav

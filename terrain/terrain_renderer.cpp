@@ -58,10 +58,10 @@ GroundData groundData(const Heightfield& ground, const HeightPyramid& pyramid) {
     return g;
 }
 
-TextureData textureData(const ColorTexture& color, const glm::dvec2& spacing) {
+TextureData textureData(const ColorTexture& color, const glm::dvec2& spacing, const GroundFilter& filter) {
     TextureData t;
     t.texels = color.data();
-    t.levels = color.levelCount();
+    t.levels = filter.mipLevels ? color.levelCount() : 1;
     t.width = color.level(0).width();
     t.height = color.level(0).height();
     for (int k = 0; k < ColorTexture::kMaxLevels; ++k) t.offset[k] = color.offset(std::min(k, t.levels - 1));
@@ -71,7 +71,8 @@ TextureData textureData(const ColorTexture& color, const glm::dvec2& spacing) {
     t.shiftX = static_cast<float>(shift.x);
     t.shiftY = static_cast<float>(shift.y);
     const glm::dvec2 texel = color.gridPerTexel() * spacing;
-    t.texelsPerMetre = static_cast<float>(1 / std::sqrt(texel.x * texel.y));
+    t.texelsPerMetre =
+        static_cast<float>(std::exp2(std::clamp(filter.levelBias, -8.0, 8.0)) / std::sqrt(texel.x * texel.y));
     return t;
 }
 
@@ -99,11 +100,11 @@ struct TerrainRenderer::State {
     Specular specular;
     SimdTarget target;
 
-    State(const TerrainScene& terrain, SimdTarget wanted)
+    State(const TerrainScene& terrain, SimdTarget wanted, const GroundFilter& filter)
         : pyramid(terrain.ground), specular(terrain.look), target(availableTarget(wanted)) {
         kernels = &kernelsFor(target);
         scene.ground = groundData(terrain.ground, pyramid);
-        scene.texture = textureData(terrain.color, terrain.ground.spacing());
+        scene.texture = textureData(terrain.color, terrain.ground.spacing(), filter);
         scene.sky = {terrain.sky.map().row(0), terrain.sky.map().width(), terrain.sky.map().stride()};
         const glm::vec3& fog = terrain.look.fogColor;
         if (terrain.look.fogDistance > 0)
@@ -111,8 +112,8 @@ struct TerrainRenderer::State {
     }
 };
 
-TerrainRenderer::TerrainRenderer(const TerrainScene& scene, SimdTarget target)
-    : mScene(scene), mState(std::make_unique<State>(scene, target)) {}
+TerrainRenderer::TerrainRenderer(const TerrainScene& scene, SimdTarget target, const GroundFilter& filter)
+    : mScene(scene), mState(std::make_unique<State>(scene, target, filter)) {}
 TerrainRenderer::~TerrainRenderer() = default;
 
 std::size_t TerrainRenderer::byteCount() const {

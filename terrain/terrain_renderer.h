@@ -10,10 +10,17 @@
 
 namespace stereonav {
 
+// How the ground's colour is read, for comparing; as it is by default.
+struct GroundFilter {
+    bool mipLevels = true;  // else the finest alone
+    double levelBias = 0;   // levels coarser (above 0) or finer than the ray's footprint asks for, -8 to 8
+};
+
 class TerrainRenderer final : public EyeRenderer {
 public:
     // scene must outlive the renderer.
-    explicit TerrainRenderer(const TerrainScene& scene, SimdTarget target = SimdTarget::Auto);
+    explicit TerrainRenderer(const TerrainScene& scene, SimdTarget target = SimdTarget::Auto,
+                             const GroundFilter& filter = {});
     ~TerrainRenderer() override;
 
     int tileCount(const EyeView& view) const override;

@@ -58,6 +58,23 @@ TEST_F(Report, LeavesAPageAndItsFigures) {
     EXPECT_EQ(linesIn(contentOf(place() / "page/report.csv")), static_cast<long>(ids.size()) + 1);
 }
 
+TEST_F(Report, ChartsTheDialSmallerPicturesAndFilters) {
+    ASSERT_EQ(report({"--parts", "quality,casting"}).status, 0);
+    const Json json = Json::parse(contentOf(place() / "report/report.json"));
+    std::map<std::string, double> of;
+    for (const Json& figure : json.at("figures")) of[figure.at("id")] = figure.at("median");
+    for (const std::string scene : {"terrain", "colon", "colon translucent"}) {
+        EXPECT_EQ(of.at("quality/" + scene + "/full/error"), 0) << scene;
+        EXPECT_GT(of.at("quality/" + scene + "/50 dB/bound dB"), 50) << scene;
+        // 50 dB are 0.81 levels
+        EXPECT_LT(of.at("quality/" + scene + "/50 dB/error"), 0.81) << scene;
+        EXPECT_GT(of.at("resolution/" + scene + "/0.5/error"), of.at("resolution/" + scene + "/1/error"))
+            << scene;
+    }
+    EXPECT_GT(of.at("filtering/terrain/bilinear alone/error"),
+              of.at("filtering/terrain/bilinear, 4 rays/error"));
+}
+
 TEST_F(Report, HasAScenesOwnChartAndAFullCastWithoutError) {
     const std::string scene =
         input("flat.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 30\n1 2 3\n2 3 4\n3 4 9\n");
