@@ -23,7 +23,15 @@ STEREONAV_INLINE Buffered readBuffer(const SweepLight& light, int inChunk, F u, 
     const I s = weightOf(x - toFloat(i)), t = weightOf(y - toFloat(j));
     const I word = (j + one) * I(light.packedStride) + i + one;
     const std::uint32_t* plane = light.packed + 2 * inChunk * light.packedPlane;
+    std::int64_t corner = 0;
+    I index;
+    const bool near = lightBlock(light, i, j, m, corner, index);
     const auto mixed = [&](const std::uint32_t* first) {
+        if (near) {
+            const WordBlock block = wordsAt(first + corner, light.packedStride);
+            const I above = lerpHalves(block.at(index), block.at(index + one), s);
+            return lerpHalves(above, lerpHalves(block.at(index + I(4)), block.at(index + I(5)), s), t);
+        }
         const IPair above = gatherPair(first, word, m),
                     below = gatherPair(first + light.packedStride, word, m);
         return lerpHalves(lerpHalves(above.first, above.second, s), lerpHalves(below.first, below.second, s),
@@ -82,10 +90,10 @@ STEREONAV_INLINE Arriving sunAt(const SweepLight& light, const V3& place, M m) {
 STEREONAV_INLINE F blinnPhong(const SweepLook& look, const V3& normal, const V3& way, const V3& toEye) {
     const F zero(0.0f), tiny(1e-30f);
     const F square = dot(normal, normal);
-    const F inverse = F(1.0f) / sqrt(max(square, tiny));
+    const F inverse = approxRsqrt(max(square, tiny));
     const F facing = zero - dot(normal, way) * inverse, seen = dot(normal, toEye) * inverse;
     const V3 half{toEye.x - way.x, toEye.y - way.y, toEye.z - way.z};
-    const F aligned = abs(dot(normal, half)) * inverse / sqrt(max(dot(half, half), tiny));
+    const F aligned = abs(dot(normal, half)) * inverse * approxRsqrt(max(dot(half, half), tiny));
     const F power = exp2(log2(clamp(aligned, F(1e-30f), F(1.0f))) * F(look.shininess));
     const F highlight = select(facing * seen > zero, power * F(look.specular), zero);
     const F sum = mulAdd(F(look.diffuse), abs(facing), F(look.ambient)) + highlight;

@@ -2,6 +2,7 @@
 // short way; noise, layers and gradients take the long one. Included by kernels only.
 #pragma once
 
+#include "engine/medium/kernel_block.h"
 #include "engine/medium/sweep_kernel_types.h"
 #include "engine/volume/kernel_light.h"
 
@@ -135,7 +136,8 @@ STEREONAV_INLINE V3 innerDifferences(const SweepGrid& grid, const V3& v, I x, I 
               within(z - first, I(grid.lastCell[2] - 2)));
     const F scale[3] = {F(grid.slope[0]), F(grid.slope[1]), F(grid.slope[2])};
     if (!any(outer)) {
-        const V3 d = innerDifferences(grid, v, x, y, z, m);
+        V3 d;
+        if (!blockDifferences(grid, v, x, y, z, m, d)) d = innerDifferences(grid, v, x, y, z, m);
         return {d.x * scale[0], d.y * scale[1], d.z * scale[2]};
     }
     const auto along = [&](int axis) {
@@ -351,17 +353,27 @@ STEREONAV_INLINE V3 worldGradient(const SweepGrid& grid, const V3& g) {
     const V3 g = worldGradient(scene.grid, gridGradient(scene.grid, voxel, in));
     return {select(in, g.x, zero), select(in, g.y, zero), select(in, g.z, zero)};
 }
+// Between the entries of a word of 15-bit halves, with a weight of 14 bits.
+STEREONAV_INLINE F betweenHalves(I pair, F share) {
+    const I high = truncateToInt(mulAdd(share, F(16384.0f), F(0.5f)));
+    return toFloat(dotHalves(pair, shiftLeft<16>(high) + (I(16384) - high))) * F(1.0f / (16384 * 32767.0f));
+}
 // The surface weight of places in a grid alone, and their gradient where it is not 0: world axes.
 [[gnu::noinline]] inline V3 surfaceAlone(const SweepGrid& grid, const V3& voxel, Column at, M m,
                                          Properties& p) {
     const F zero(0.0f);
     const SweepTable& table = grid.table;
-    const F most = entryOf(table.mostSurface, at.entry, at.share, m);
+    const F most = table.surfacePairs ? betweenHalves(gather(table.surfacePairs, at.entry, m), at.share)
+                                      : entryOf(table.mostSurface, at.entry, at.share, m);
     const M shaded = m & (most > zero);
     p.surface = select(shaded, most, zero);
     if (!any(shaded)) return {zero, zero, zero};
     const V3 g = gridGradient(grid, voxel, shaded);
-    if (table.rows > 1) {
+    if (table.sharePairs) {
+        const F row = min(sqrt(dot(g, g)) * F(table.perGradient), F(static_cast<float>(table.rows - 1)));
+        const I low = min(truncateToInt(row), I(table.rows - 2));
+        p.surface = p.surface * betweenHalves(gather(table.sharePairs, low, shaded), row - toFloat(low));
+    } else if (table.rows > 1) {
         setRow(table, lengthOf(g), at);
         p.surface = select(shaded, memberAt(table, table.surface, at, shaded), zero);
     }

@@ -161,8 +161,11 @@ struct Patch {
 template <typename T>
 STEREONAV_INLINE void storePatch(T* to, std::int64_t stride, const T* numbers, const Patch& patch) {
     for (int row = 0; row < patch.height; ++row)
-        for (int column = 0; column < patch.width; ++column)
-            to[row * stride + column] = numbers[4 * row + column];
+        if (patch.width == 4)
+            __builtin_memcpy(to + row * stride, numbers + 4 * row, 4 * sizeof(T));
+        else
+            for (int column = 0; column < patch.width; ++column)
+                to[row * stride + column] = numbers[4 * row + column];
 }
 STEREONAV_INLINE F loadPatch(const float* from, std::int64_t stride) {
     float numbers[kLanes];

@@ -10,6 +10,7 @@
 #include <glm/matrix.hpp>
 
 #include "engine/base/error.h"
+#include "engine/medium/medium_extent.h"
 #include "engine/volume/baked_data.h"
 
 namespace stereonav {
@@ -48,6 +49,16 @@ SweepLight lightOf(const SweepGeometry& g, double blur) {
     return light;
 }
 
+// Each entry and the next, of 0 to 1, as a word of 15-bit halves.
+std::vector<std::uint32_t> pairsOf(const std::vector<float>& entries) {
+    std::vector<std::uint32_t> pairs;
+    const auto half = [&](std::size_t n) {
+        return static_cast<std::uint32_t>(entries[std::min(n, entries.size() - 1)] * 32767 + 0.5f);
+    };
+    for (std::size_t n = 0; n < entries.size(); ++n) pairs.push_back(half(n) | half(n + 1) << 16);
+    return pairs;
+}
+
 // By the texels' own frame: so it may lie as it will, and layers need no grid.
 void setBaked(SweepLook& to, const BakedLook& look, const glm::dvec3& anchor) {
     const VolumeFrame& frame = look.light->frame;
@@ -67,6 +78,10 @@ SweepData::SweepData(const Medium& medium) : mMedium(medium) {
             throw Error("", "volume", fmt::format("{} voxels are more than 2^31", field->frame.count()),
                         "crop it or take every second voxel");
         takeTable(medium.table(), field->scale, field->offset, mGridTable);
+        if (mGridTable.data.surface || mGridTable.data.rows > 1) {
+            const GreyRange range = valueRange(*field);
+            mNarrow = range.highest - range.lowest < 32767 * std::abs(field->scale);
+        }
     }
     mBase = medium.bounds().center().z;
     mLayerTables.resize(medium.layers().size());
@@ -115,6 +130,26 @@ void SweepData::takeTable(const MediumTable& table, double scale, double offset,
     d.zero = static_cast<float>((offset - table.firstValue) * table.perValue);
     d.perGradient = static_cast<float>(table.perGradient);
     d.rows = table.rows;
+    if (d.surface && d.rowsOfSurface) takePairs(to);
+}
+
+// Surface ramps multiply each column's weight by a share of the row's: two small tables are as good then.
+void SweepData::takePairs(Table& table) {
+    constexpr std::size_t kColumns = SweepTable::kColumns;
+    const std::vector<float>&most = table.members[11], &surface = table.members[7];
+    const auto column = static_cast<std::size_t>(
+        std::max_element(most.begin(), most.begin() + static_cast<std::ptrdiff_t>(kColumns)) - most.begin());
+    std::vector<float> weights(most.begin(), most.begin() + static_cast<std::ptrdiff_t>(kColumns)), shares;
+    const auto rows = static_cast<std::size_t>(table.data.rows);
+    for (std::size_t row = 0; row < rows; ++row) {
+        shares.push_back(surface[row * kColumns + column] / most[column]);
+        for (std::size_t n = 0; n < kColumns; ++n)
+            if (std::abs(surface[row * kColumns + n] - weights[n] * shares.back()) > 1e-5f) return;
+    }
+    table.surfacePairs = pairsOf(weights);
+    table.sharePairs = pairsOf(shares);
+    table.data.surfacePairs = table.surfacePairs.data();
+    if (rows > 1) table.data.sharePairs = table.sharePairs.data();
 }
 
 void SweepData::takeLayer(const HeightLayer& layer) {
@@ -160,6 +195,7 @@ void SweepData::setGrid(SweepGrid& grid, const glm::dvec3& anchor) const {
         setVector(grid.axes[k], {frame.axes[0][k], frame.axes[1][k], frame.axes[2][k]});
     }
     grid.table = mGridTable.data;
+    grid.blocks = mNarrow && std::min({frame.size.x, frame.size.y, frame.size.z}) >= 8;
 }
 
 void SweepData::setLayers(const glm::dvec3& anchor) {
@@ -229,6 +265,7 @@ std::size_t SweepData::heldBytes() const {
     std::size_t numbers = mPhase[0].size() * 3;
     const auto count = [&](const Table& t) {
         for (const auto& member : t.members) numbers += member.size();
+        numbers += t.surfacePairs.size() + t.sharePairs.size();
     };
     count(mGridTable);
     for (const Table& t : mLayerTables) count(t);

@@ -24,9 +24,11 @@ public:
 private:
     struct Table {
         std::vector<float> members[12];
+        std::vector<std::uint32_t> surfacePairs, sharePairs;
         SweepTable data;
     };
     static void takeTable(const MediumTable& table, double scale, double offset, Table& to);
+    static void takePairs(Table& table);
     void takeLayer(const HeightLayer& layer);
     void setGrid(SweepGrid& grid, const glm::dvec3& anchor) const;
     void setLayers(const glm::dvec3& anchor);
@@ -36,6 +38,7 @@ private:
     const Medium& mMedium;
     double mBase = 0;  // world z that heights are relative to
     Table mGridTable;
+    bool mNarrow = false;  // differences of values fit 16 bits
     std::vector<Table> mLayerTables;
     std::vector<std::vector<float>> mHeights;
     std::vector<SweepLayer> mLayers;

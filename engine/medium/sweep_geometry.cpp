@@ -21,7 +21,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Eye rays stay below it where a wide lamp would lean the axis further: radians.
 constexpr double kSteepest = 85.0 / 180.0 * glm::pi<double>();
 constexpr double kWidestLight = 1;  // tangent: a lamp's buffer grows no further beyond its cone
-constexpr int kLightMargin = 1;       // texels around the medium, so that reads in it never meet the border
+constexpr int kLightMargin = 1;     // texels around the medium, so that reads in it never meet the border
 
 void checkSetting(const SweepSetting& s) {
     const auto expect = [](bool good, const char* what, const std::string& problem) {

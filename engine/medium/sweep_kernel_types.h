@@ -17,7 +17,11 @@ struct SweepTable {
     const float* color[3] = {};
     const float* surface = nullptr;      // null: none
     const float* mostSurface = nullptr;  // of each column, over the rows
-    const float* glow[3] = {};           // null: none
+    // The same where it is a weight by column times a share by row: null where it is not. A word holds an
+    // entry and the next, 15 bits each.
+    const std::uint32_t* surfacePairs = nullptr;
+    const std::uint32_t* sharePairs = nullptr;
+    const float* glow[3] = {};     // null: none
     float perValue = 0, zero = 0;  // column = value * perValue + zero; value: as stored, or relative height
     float perGradient = 0;         // row
     int rows = 1;
@@ -27,6 +31,7 @@ struct SweepTable {
 struct SweepGrid {
     const std::int16_t* values = nullptr;  // null: layers alone
     std::int32_t strideY = 0, strideZ = 0, lastCell[3] = {};
+    bool blocks = false;                       // large enough, and values near enough, for kernel_block.h
     float last[3] = {};                        // the last voxel along each axis
     float fromPlace[3][3] = {}, zero[3] = {};  // voxel = fromPlace[row] . place + zero
     float slope[3] = {};                       // value units a metre, of a difference over two voxels

@@ -309,6 +309,38 @@ TEST(MediumSweep, scatteredLightLeavesALampsCone) {
     }
 }
 
+// Pixels much smaller than voxels and texels: kernels load what is around a packet once (kernel_block.h). In
+// the middle, at faces and corners of the grid; and of values too far apart for their differences to be
+// halves.
+TEST(MediumSweep, agreesFromNear) {
+    for (const bool wide : {false, true}) {
+        Scene scene = sceneOf(Kind::Ramp, MediumModel::Indirect, false, true, 21);
+        if (wide) {
+            auto field = makeField({19, 17, 15}, 2.0, {0.3, -0.2, 0.1}, [](const glm::ivec3& v) {
+                return 32000 * std::sin(2.1 * v.x) * std::cos(1.9 * v.y + 1) * std::sin(1.7 * v.z + 2);
+            });
+            std::mt19937 random(5);
+            MediumTransfer transfer({{-40000, randomMaterial(random, 1)}, {40000, randomMaterial(random, 1)}},
+                                    0.3, "test");
+            transfer.setSurfaceRamp(2000, 400000, "test");
+            scene.medium = Medium(field, transfer);
+        }
+        const WorldBox& box = scene.medium.bounds();
+        const glm::dvec3 ahead = scene.eyes[0].forward;
+        for (const glm::dvec3& share : {glm::dvec3(0.5, 0.5, 0.5), glm::dvec3(0.02, 0.5, 0.5),
+                                        glm::dvec3(0.97, 0.95, 0.5), glm::dvec3(0.04, 0.97, 0.96)}) {
+            const glm::dvec3 target = glm::mix(box.low, box.high, share);
+            for (EyeView& eye : scene.eyes) eye = viewFrom(target - 4.0 * ahead, target, 0.02, 27, 21);
+            const std::vector<MediumPicture> truth = plain(scene);
+            for (const SimdTarget simd : targets()) {
+                const Difference d = differenceOf(truth, fast(scene, simd));
+                EXPECT_GT(d.brightest, 1e-3);
+                EXPECT_LE(d.light, kTolerance) << static_cast<int>(simd) << ' ' << share.x << ' ' << wide;
+            }
+        }
+    }
+}
+
 TEST(MediumSweep, doesNotDependOnTheThreadCount) {
     const int before = threadCount();
     for (const Kind kind : {Kind::Grid, Kind::Noise})
