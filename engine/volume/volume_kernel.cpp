@@ -393,9 +393,9 @@ void shadeRow(const VolumeData& data, const VolumeView& view, int y, int x0, int
         const F t = loadF(depth + x);
         const M lanes = firstLanes(x1 - x) & (t > F(0.0f));
         const M hit = lanes & (t < F(__builtin_inff()));
-        const I shown = surfaceColor(data, view, r, t, hit, [&](F depth) {
+        const I shown = surfaceColor(data, view, r, t, hit, [&](F hitDepth) {
             const V3 n = directionOf(openChannels(loadI(normal + x)));
-            return litBy(data, view, r, depth, n, F(1.0f));
+            return litBy(data, view, r, hitDepth, n, F(1.0f));
         });
         store(color + x, shown, lanes);
     }
