@@ -1,7 +1,7 @@
 // Precomputed light: how long bakes take (Wyman et al. 2006, Table 1) and what each way of choosing paths
-// gains at equal error. With --marks "name value" lines alone, with --frames the cost of frames alone. Times
-// of whole volumes are rates measured on a random part of the texels and scaled; processor times, of all
-// threads together, say what they would be on a machine that does nothing else.
+// gains at equal error. With --marks "name value" lines alone, with --table bakes and with --frames the cost
+// of frames alone. Times of whole volumes are rates measured on a random part of the texels and scaled;
+// processor times, of all threads together, say what they would be on a machine that does nothing else.
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -10,6 +10,7 @@
 #include "tests/bench/bench_light_gain.h"
 #include "tests/bench/bench_light_lookup.h"
 #include "tests/bench/bench_light_occlusion.h"
+#include "tests/bench/bench_light_view.h"
 
 namespace stereonav::bench {
 namespace {
@@ -57,18 +58,38 @@ struct Marks {
     }
 };
 
+// As the paper's Table 1, from rates of `seconds` each.
 void printBakes(const Marks& marks) {
-    std::printf("%-12s %8s %10s %22s %10s %10s\n", "bake", "samples", "minutes", "M samples/s a thread",
-                "measured", "surface");
-    BakeRate rate;
-    const auto line = [&](const char* name, int samples, double seconds) {
-        std::printf("%-12s %8d %10.2f %22.3f %9.1f%% %9.1f%%\n", name, samples, seconds / 60,
-                    rate.samples_s / 1e6, 100 * rate.part, 100 * rate.onSurface);
+    constexpr double kSeconds = 20;
+    const OneView view = viewOf900(marks.subject);
+    const std::vector<Brick> all = inPieces(marks.bricks);
+    const TexelLighter light = marks.lighter();
+    irradianceRate(light, all, 1, 1.5);  // finds what rays leap by
+    std::printf("one view of 900x900: %zu texels, %zu pixels on the surface\n", view.texelCount,
+                view.pixelCount);
+    std::printf("%-34s %8s %10s %10s %22s %10s\n", "", "samples", "minutes", "processor",
+                "M samples/s a thread", "measured");
+    const auto row = [&](const char* name, double before_s, const auto& rateOf) {
+        for (const int samples : {100, 625, 2500, 10000}) {
+            const BakeRate rate = rateOf(samples);
+            std::printf("%-34s %8d %10.2f %10.2f %22.3f %9.1f%%\n", name, samples,
+                        (before_s + rate.all_s) / 60, rate.processor_s / 60, rate.samples_s / 1e6,
+                        100 * rate.part);
+            std::fflush(stdout);
+        }
     };
-    for (const int samples : {100, 625, 2500, 10000})
-        line("irradiance", samples, marks.irradiance_s(samples, 8, &rate));
-    for (const int samples : {100, 625, 2500, 10000})
-        line("transfer", samples, marks.transfer_s(samples, 8, &rate));
+    const auto irradiance = [&](const std::vector<Brick>& bricks) {
+        return [&](int samples) { return irradianceRate(light, bricks, samples, kSeconds); };
+    };
+    const auto transfer = [&](const std::vector<Brick>& bricks) {
+        return [&](int samples) { return transferRate(light, bricks, samples, kOrder, kChannels, kSeconds); };
+    };
+    row("transfer, of one view", 0, transfer(view.texels));
+    row("transfer, all", marks.found_s, transfer(all));
+    row("irradiance, of one view", 0, irradiance(view.texels));
+    row("irradiance, all", marks.found_s, irradiance(all));
+    row("paths from pixels, of one view", 0,
+        [&](int samples) { return tracedRate(light, view, samples, kSeconds); });
 }
 
 void printGains(const Marks& marks) {
@@ -90,7 +111,7 @@ void printGains(const Marks& marks) {
     }
 }
 
-enum class Part { All, Marks, Frames };
+enum class Part { All, Marks, Frames, Table };
 
 int run(Part part) {
     if (part == Part::Frames) {
@@ -112,6 +133,7 @@ int run(Part part) {
     std::printf("%s, %d bounces, %d threads, fields of all isovalues found in %.2f s\n",
                 marks.subject.name.c_str(), marks.subject.setup.bounces, threadCount(), marks.found_s);
     printBakes(marks);
+    if (part == Part::Table) return 0;
     printGains(marks);
     printLookup(measureLookup(marks.subject, kOrder, 40), false);
     return 0;
@@ -128,6 +150,7 @@ int main(int count, char** arguments) {
         };
         return stereonav::bench::run(asks("--marks")    ? Part::Marks
                                      : asks("--frames") ? Part::Frames
+                                     : asks("--table")  ? Part::Table
                                                         : Part::All);
     } catch (const stereonav::Error& e) {
         std::fprintf(stderr, "%s\n", e.what());

@@ -62,13 +62,13 @@ struct BakeRate {
     double samples_s = 0;    // a second, of texels on a surface
 };
 
-// Calls job(brick), which gives the number of texels on a surface, for bricks in turn until `seconds` are
-// over.
-template <typename Job>
-BakeRate bakeRate(const std::vector<Brick>& bricks, double seconds, int samples, const Job& job) {
+// Calls job(brick), which gives the number of texels on a surface, for bricks (or pixels) in turn until
+// `seconds` are over.
+template <typename Piece, typename Job>
+BakeRate bakeRate(const std::vector<Piece>& bricks, double seconds, int samples, const Job& job) {
     std::atomic<std::size_t> next{0}, done{0}, lit{0};
     std::size_t all = 0;
-    for (const Brick& b : bricks) all += b.size();
+    for (const Piece& b : bricks) all += b.size();
     const Stopwatch watch;
     const double before = processor_s();
     parallelFor(threadCount(), [&](int) {
