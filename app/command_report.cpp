@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <thread>
 
 #include "app/output_place.h"
@@ -57,15 +58,24 @@ void measureAll(ReportRun& run, const std::vector<Part>& parts) {
     double all = 1e-9;
     for (const Part& part : parts) all += part.weight;
     double left = all;
+    ReportTable times{"Where this run's own time went",
+                      "Processor: of all threads together.",
+                      {"part", "planned s", "taken s", "processor s"},
+                      {{"loading", "", fmt::format("{:.1f}", run.elapsed_s()), ""}}};
     for (const Part& part : parts) {
         run.feelMood();
-        const double seconds = run.share_s(part.weight, std::max(left, 1e-9));
+        const double seconds = run.share_s(part.weight, std::max(left, 1e-9)), before = run.elapsed_s();
+        const std::clock_t processor = std::clock();
         run.begin(part.id, seconds, run.whole_s() * part.weight / all);
         part.measure(run, seconds);
         left -= part.weight;
+        times.rows.push_back(
+            {part.id, fmt::format("{:.1f}", seconds), fmt::format("{:.1f}", run.elapsed_s() - before),
+             fmt::format("{:.1f}", static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC)});
     }
     run.feelMood();
     addFigure(run.report(), {kMoodFigure, "ms", "", ReportFigure::Kind::Time, spreadOf(run.mood_ms())});
+    run.report().sections.push_back({"run", "This run", "", {std::move(times)}});
 }
 
 void describeRun(ReportRun& run) {
@@ -107,7 +117,7 @@ int runReport(const ReportOptions& options) {
     Report& report = run.report();
     if (!run.hurriedParts().empty())
         report.warnings.push_back(
-            fmt::format("The machine was slower than planned for: {} measured as in a quick run.",
+            fmt::format("There was less time than planned for: {} measured as in a quick run.",
                         fmt::join(run.hurriedParts(), ", ")));
     bool worse = false;
     if (earlier) {

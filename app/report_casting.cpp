@@ -224,6 +224,7 @@ void reportCasting(ReportRun& run, double) {
         {"scene", "leaping, ms", "cell by cell, ms", "pixels that differ"},
         {}};
     for (const ReportScene& scene : run.scenes()) {
+        run.checkTime();
         if (scene.loaded.terrain) addChart(run.report(), section, terrainChart(run, scene));
         if (scene.loaded.terrain) addChart(run.report(), section, filteringChart(run, scene));
         if (!scene.loaded.colon) continue;

@@ -182,6 +182,7 @@ WayChart separationsChart(ReportRun& run, ReportScene& scene) {
 void reportPairs(ReportRun& run, ReportSection& section) {
     constexpr double kShare = 1.0 / 30;
     for (ReportScene& scene : run.media()) {
+        run.checkTime();
         PairTrial trial(run, scene, run.pick(1, 3), kShare);
         addChart(run.report(), section, waysChart(run, scene, trial, run.pick(2, 4)));
         section.blocks.emplace_back(trial.pictures());

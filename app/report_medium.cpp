@@ -190,6 +190,7 @@ void reportMedium(ReportRun& run, double) {
     if (!run.brief())
         subjects.push_back(subjectOf("wax", Medium(makeWaxField(), withoutSurface("wax")), size));
     for (const MediumSubject& subject : subjects) {
+        run.checkTime();
         againstPaths(run, section, subject, MediumModel::Direct);
         againstPaths(run, section, subject, MediumModel::Indirect);
         againstManySlices(run, section, subject);

@@ -181,6 +181,7 @@ void reportQuality(ReportRun& run, double seconds) {
                           {}};
     const Stopwatch watch;
     for (const ReportScene& scene : run.scenes()) {
+        run.checkTime();
         const auto left = static_cast<double>(run.scenes().data() + run.scenes().size() - &scene);
         const double each = std::max(0.0, seconds - watch.elapsed_ms() / 1000) / left;
         addChart(run.report(), section, dialChart(run, scene, 0.6 * each));

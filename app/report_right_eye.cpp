@@ -133,6 +133,7 @@ void reportRightEye(ReportRun& run, double seconds) {
                           {}};
     const Stopwatch watch;
     for (const ReportScene& scene : run.scenes()) {
+        run.checkTime();
         StereoSetting stereo = scene.loaded.stereo;
         stereo.separation = stereo.zeroParallax * kShare;
         const std::string what = "right eye, " + scene.title;

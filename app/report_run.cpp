@@ -63,8 +63,16 @@ double ReportRun::share_s(double weight, double weights) const {
 
 void ReportRun::begin(const std::string& part, double seconds, double planned) {
     constexpr double kBehind = 0.5;
+    mPart = part;
+    mPartEnd_s = elapsed_s() + seconds;
     mBehind = !quick() && seconds < kBehind * planned;
     if (mBehind) mHurried.push_back(part);
+}
+
+void ReportRun::checkTime() {
+    if (brief() || elapsed_s() <= mPartEnd_s) return;
+    mBehind = true;
+    mHurried.push_back("the rest of " + mPart);
 }
 
 void ReportRun::tell(const std::string& what) {

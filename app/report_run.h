@@ -38,6 +38,9 @@ public:
     int pick(int whenBrief, int whenFull) const { return brief() ? whenBrief : whenFull; }
     // Begins a part that `seconds` are left for, of `planned`.
     void begin(const std::string& part, double seconds, double planned);
+    // Between charts: from here on the part is brief where its time is up.
+    void checkTime();
+    double elapsed_s() const { return mWatch.elapsed_ms() / 1000; }
 
     // Seconds that the next part may take: `weight` of what is left, `weights` being that of this part and
     // all after it.
@@ -61,6 +64,8 @@ private:
     Report mReport;
     std::vector<double> mMood_ms;
     bool mBehind = false;
+    double mPartEnd_s = 0;  // of the part at hand
+    std::string mPart;
     std::vector<std::string> mHurried;  // parts that were behind
     std::vector<ReportScene> mScenes, mMedia;
 };

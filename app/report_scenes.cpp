@@ -139,6 +139,7 @@ void reportScenes(ReportRun& run, double) {
         "one scene alone.",
         threadCount(), loadedLibraries());
     for (const ReportScene& scene : run.scenes()) section.blocks.emplace_back(sceneTable(run, scene));
+    run.checkTime();
     section.blocks.emplace_back(featureTable(run));
     run.report().sections.push_back(std::move(section));
 }

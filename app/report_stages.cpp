@@ -303,6 +303,7 @@ void reportStages(ReportRun& run, double seconds) {
     section.text += ".";
     const double each = seconds / static_cast<double>(run.scenes().size());
     for (const ReportScene& scene : run.scenes()) {
+        run.checkTime();
         const TimesByThreads times = measureStages(run, scene, counts, 0.9 * each);
         addStageTable(run, section, scene, times, triad);
         if (counts.size() > 1) addSpeedups(section, scene.title, times);

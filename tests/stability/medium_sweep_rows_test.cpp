@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "engine/medium/medium_sweep.h"
+#include "engine/medium/plain_sweep.h"
 #include "tests/medium/sweep_scenes.h"
 #include "tests/stability/stability_scenes.h"
 #include "tests/support/stability_row.h"
@@ -187,6 +188,58 @@ TEST_P(SweepSoundRow, LightStaysWithinItsBounds) {
 
 INSTANTIATE_TEST_SUITE_P(Stability, SweepSoundRow, testing::Values(1e-6, 1e-3, 1.0, 10.0),
                          [](const auto& given) { return testName(shortNumber(given.param)); });
+
+// ---- pictures of one pixel, one row, one column, and long ones
+
+struct SweepSize {
+    int width, height;
+    std::string text() const { return std::to_string(width) + "x" + std::to_string(height); }
+};
+
+class SweepSizeRow : public testing::TestWithParam<SweepSize> {};
+
+// Against the model by the book. Each of 24 slabs reads light in 15 bits, twice, where two texels are mixed;
+// a forward sweep stops where less than 1/1024 is left.
+TEST_P(SweepSizeRow, IsAsByTheBook) {
+    StabilityRow row("image/sweep/" + GetParam().text(),
+                     "a cloud in stereo in " + GetParam().text() + " pixels, as by the book",
+                     "difference of light, of a light of 1", 1.0 / 1024 + 24 * 0x1p-15, "");
+    const Medium medium = cloud(0.6);
+    MediumLook look;
+    SweepSetting setting;
+    setting.slices = 24;
+    setting.lightSize = 32;
+    for (const glm::dvec3 way : {glm::dvec3(0.5, 0.3, -0.8), glm::dvec3(0.1, 1, 0.1)}) {
+        look.light = sun(way);
+        const glm::dvec3 eye(0.3, -3, 1);
+        EyeView eyes[] = {
+            viewFrom(eye - glm::dvec3(0.03, 0, 0), {0, 0, 0}, 0.5, GetParam().width, GetParam().height),
+            viewFrom(eye + glm::dvec3(0.03, 0, 0), {0, 0, 0}, 0.5, GetParam().width, GetParam().height)};
+        for (EyeView& view : eyes) view.xMin = view.yMin = -0.3, view.xMax = view.yMax = 0.3;
+        const SweepGeometry geometry = makeSweepGeometry(medium, look, setting, eyes, eye);
+        const std::vector<MediumPicture> truth = plainSweep(medium, look, setting, geometry);
+        for (const SimdTarget target : availableTargets()) {
+            std::vector<MediumPicture> pictures(2);
+            MediumSweep(medium, target).render(look, setting, geometry, 0, pictures);
+            float brightest = 0;
+            for (std::size_t e = 0; e < 2; ++e)
+                for (int y = 0; y < GetParam().height; ++y)
+                    for (int x = 0; x < GetParam().width; ++x)
+                        for (int c = 0; c < 4; ++c) {
+                            row.saw(std::abs(double(pictures[e].light.at(x, y)[c]) -
+                                             double(truth[e].light.at(x, y)[c])));
+                            if (c < 3) brightest = std::max(brightest, truth[e].light.at(x, y)[c]);
+                        }
+            EXPECT_GT(brightest, 0.01f) << "nothing to compare";
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Stability, SweepSizeRow,
+                         testing::Values(SweepSize{1, 1}, SweepSize{1, 2}, SweepSize{2, 1}, SweepSize{1, 97},
+                                         SweepSize{97, 1}, SweepSize{15, 3}, SweepSize{17, 3},
+                                         SweepSize{4096, 1}, SweepSize{1, 4096}),
+                         [](const auto& given) { return testName(given.param.text()); });
 
 }  // namespace
 }  // namespace stereonav
