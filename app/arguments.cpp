@@ -95,8 +95,8 @@ void addScene(CLI::App& command, SceneOptions& options) {
     command.add_option(
         "--light", options.light,
         "baked light: a file; of a terrain also auto, for the one that bake has put by; of a "
-        "volume in view also lazy, worked out while one flies; in render also traced, paths from every "
-        "pixel");
+        "volume in view also lazy, worked out while one flies, or lazy-transfer, for a sky that turns; in "
+        "render also traced, paths from every pixel");
     command.add_option("--sun", options.sun,
                        "azimuth,elevation of a terrain's sun in degrees, clockwise from north");
     command.add_option("--separation", options.separation_m,

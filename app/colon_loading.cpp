@@ -180,8 +180,12 @@ void turnSky(Sky& sky, ViewScene& view) {
     view.turnsSky = true;
     view.sun = {std::remainder(-sky.turn().turn, 2 * std::numbers::pi), sky.turn().tilt};
     view.moveSun = [&sky](const SunPlace& to) { sky.turnTo({-to.azimuth, to.elevation}); };
-    view.seen = [&sky](const EyeView& eye, const EyeImage& image) { sky.seen(eye, image); };
-    view.lightChanges = [&sky] { return sky.changes(); };
+}
+
+template <typename Light>
+void tellOf(Light& light, ViewScene& view) {
+    view.seen = [&light](const EyeView& eye, const EyeImage& image) { light.seen(eye, image); };
+    view.lightChanges = [&light] { return light.changes(); };
 }
 
 }  // namespace
@@ -193,7 +197,7 @@ LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progres
     scene.name = options.scene;
     scene.colon = std::make_unique<ColonScene>(loadColon(colonOptionsOf(options), progress));
     scene.sky = applyVolumeLight(options, *scene.colon, progress);
-    if (options.light == kLazyLight)
+    if (isLazyLight(options.light))
         scene.lazyLight = std::make_shared<LazyLight>(options, *scene.colon, progress);
     if (options.light == kTracedLight)
         scene.tracedLight = std::make_shared<TracedLight>(options, *scene.colon);
@@ -244,12 +248,9 @@ void addVolume(const LoadedScene& scene, const SceneOptions& options, ViewScene&
             return StereoSetting{control.separation(), control.zeroParallax()};
         };
     };
-    if (scene.lazyLight) {
-        view.seen = [light = scene.lazyLight.get()](const EyeView& eye, const EyeImage& image) {
-            light->seen(eye, image);
-        };
-        view.lightChanges = [light = scene.lazyLight.get()] { return light->changes(); };
-    }
+    if (scene.lazyLight) tellOf(*scene.lazyLight, view);
+    if (scene.lazyLight && scene.lazyLight->turns()) turnSky(*scene.lazyLight, view);
+    if (scene.sky) tellOf(*scene.sky, view);
     if (scene.sky) turnSky(*scene.sky, view);
     view.followsAtStart = !options.separation_m && !options.zeroParallax_m;
     view.canBeTranslucent = true;

@@ -47,7 +47,8 @@ int runRender(const RenderOptions& options) {
     if (scene.lazyLight) {
         bar.progress().report(0.95, "lighting what is seen");
         const Stopwatch watch;
-        scene.lazyLight->seen(scene.viewsAt(head).left, frame.left());
+        for (int look = 0; look < 2; ++look)  // at some pixels, then at all
+            scene.lazyLight->seen(scene.viewsAt(head).left, frame.left());
         scene.lazyLight->waitUntilDone();
         frame.render(head);
         bar.clear();

@@ -2,10 +2,13 @@
 // shows, with all that it refers to.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "app/commands.h"
+#include "app/view_sky.h"
 #include "colon/colon_scene.h"
 #include "engine/camera/eye_view.h"
 #include "engine/image/eye_image.h"
@@ -20,21 +23,30 @@ void refuseLazyLight(const SceneOptions& options);
 
 class LazyLight {
 public:
-    // scene must outlive this; its look is set to show the light. Lit by --sky, or by what bake takes where
-    // nothing is said. Throws Error, Cancelled.
+    // scene must outlive this; its look is set to show the light. Irradiance is lit by --sky, or by what bake
+    // takes where nothing is said; transfer as baked one is. Throws Error, Cancelled.
     LazyLight(const SceneOptions& options, ColonScene& scene, Progress& progress);
 
-    // What a frame saw is lit next. Any thread; returns at once.
+    // Of transfer: where the sky stands; before a frame, that it stands elsewhere.
+    bool turns() const { return !mStraight.empty(); }
+    const SkyTurn& turn() const { return mTurn; }
+    void turnTo(const SkyTurn& turn);
+
+    // What a frame saw is lit next; all of it when the frame comes again. Returns at once.
     void seen(const EyeView& view, const EyeImage& image);
-    // Grows as texels change.
-    std::uint64_t changes() const { return mBake->changes(); }
+    // Grows as texels change, and while the last frame is to come again.
+    std::uint64_t changes() const { return mBake->changes() + mLooks; }
     // Until all that was seen last is lit.
     void waitUntilDone() const;
 
 private:
     std::shared_ptr<IlluminationVolume> mLight;
     std::unique_ptr<TexelLighter> mLighter;
-    std::unique_ptr<LazyBake> mBake;  // last: it stops first
+    std::vector<glm::vec3> mStraight;  // the sky's harmonics before it is turned; of irradiance none
+    SkyTurn mTurn;
+    std::array<glm::dvec3, 3> mPlace{};  // of the last frame: its eye and two rays
+    std::uint64_t mLooks = 0;            // frames of which some pixels were looked at
+    std::unique_ptr<LazyBake> mBake;     // last: it stops first
 };
 
 }  // namespace stereonav

@@ -101,8 +101,8 @@ void refuseOfOtherKinds(const SceneOptions& options) {
                {"--shading", !v.shading.empty()},
                {"--ambient", v.ambient_mm.has_value()}},
               "does not go with a medium, which has its own", "leave it out, or leave out --medium");
-    if (options.light == kLazyLight)
-        throw Error("--light", "", "lazy expects an opaque surface, this is a medium",
+    if (isLazyLight(options.light))
+        throw Error("--light", "", options.light + " expects an opaque surface, this is a medium",
                     "bake the light and name its file");
 }
 

@@ -6,6 +6,7 @@
 #include "app/colon_loading.h"
 #include "app/medium_loading.h"
 #include "app/quality.h"
+#include "app/volume_light.h"
 
 namespace stereonav {
 namespace {
@@ -17,6 +18,8 @@ std::string whyLightStays(const LoadedScene& scene, const SceneOptions& options)
     if (scene.medium) return "a lamp lights this medium: --light-from gives light that turns";
     if (scene.terrain) return "the sun stands still in this ground's colours: --light gives one that moves";
     if (options.light.empty()) return "a lamp lights this volume: --light gives a sky that turns";
+    if (options.light == kLazyLight)
+        return "the sky is part of this light: --light lazy-transfer has one that turns";
     return "the sky is baked into this light: bake --what transfer for one that turns";
 }
 

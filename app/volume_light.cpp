@@ -151,16 +151,18 @@ float exposureOf(const VolumeOptions& options, double meanLight) {
 
 void checkVolumeLight(const SceneOptions& options) {
     const VolumeOptions& volume = options.volume;
-    const bool lazy = options.light == kLazyLight;
+    const bool lazy = isLazyLight(options.light);
     if (volume.exposure && !(*volume.exposure > 0 && *volume.exposure < 1e6))
         throw Error("--exposure", "", fmt::format("expected a number above 0, got {}", *volume.exposure),
                     "1 shows a white sky of 1 as white");
     if (volume.ambient_mm && !(*volume.ambient_mm > 0 && *volume.ambient_mm <= 1e6))
         throw Error("--ambient", "", fmt::format("expected millimetres above 0, got {}", *volume.ambient_mm),
                     "try ten voxels' worth");
-    if (lazy && (volume.turn_deg != 0 || !volume.transfer.empty() || volume.opacity))
-        throw Error("--light", "", "lazy expects an opaque surface under a sky that stands still",
-                    "leave out --turn, --transfer and --opacity");
+    if (options.light == kLazyLight && volume.turn_deg != 0)
+        throw Error("--turn", "", "lazy expects a sky that stands still", "use --light lazy-transfer");
+    if (lazy && (!volume.transfer.empty() || volume.opacity))
+        throw Error("--light", "", options.light + " expects an opaque surface",
+                    "leave out --transfer and --opacity");
     if (options.light.empty() && (!options.sky.empty() || volume.turn_deg != 0 || volume.exposure))
         throw Error("--sky, --turn, --exposure", "", "expected with light that was baked for a CT study",
                     "name it with --light, or leave them out");
@@ -174,7 +176,7 @@ std::shared_ptr<ViewSky> applyVolumeLight(const SceneOptions& options, ColonScen
                                           Progress& progress) {
     const VolumeOptions& volume = options.volume;
     if (!volume.shading.empty()) shadingOf(volume.shading).apply(scene);
-    const bool file = !options.light.empty() && options.light != kLazyLight && options.light != kTracedLight;
+    const bool file = !options.light.empty() && !isLazyLight(options.light) && options.light != kTracedLight;
     std::shared_ptr<ViewSky> sky;
     if (file) sky = applyBaked(options, scene, progress);
     if (volume.ambient_mm) applyAmbient(*volume.ambient_mm, scene, progress);

@@ -24,8 +24,11 @@ std::vector<glm::vec3> skyHarmonics(const SceneOptions& options, int order);
 // --turn.
 SkyTurn skyTurnOf(const SceneOptions& options);
 
-// As --light: light that is worked out while one looks.
-constexpr const char* kLazyLight = "lazy";
+// As --light: light that is worked out while one looks: irradiance, or transfer under a sky that turns.
+constexpr const char *kLazyLight = "lazy", *kLazyTransfer = "lazy-transfer";
+inline bool isLazyLight(const std::string& light) {
+    return light == kLazyLight || light == kLazyTransfer;
+}
 
 // As --light: paths traced from every pixel.
 constexpr const char* kTracedLight = "traced";

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/parallel.h"
+
 namespace stereonav {
 namespace {
 
@@ -62,7 +64,9 @@ struct LazyBake::Brick {
     // Of whoever is busy with it.
     std::uint64_t chosen = 0;  // the choice that `wanted` is of
     TexelMask wanted{}, held{};
-    std::vector<TexelSum> sums;  // of held texels
+    std::vector<TexelSum> sums;  // of held texels; of transfer only how many samples
+    int each = 0;                // numbers of a texel's transfer
+    std::vector<float> numbers;  // of held texels: sums of samples
 
     std::size_t slot(int texel) const {
         std::size_t before = 0;
@@ -72,16 +76,28 @@ struct LazyBake::Brick {
     }
     void hold(const TexelMask& more) {
         std::vector<TexelSum> all;
+        std::vector<float> allNumbers;
         std::size_t from = 0;
         for (int t = 0; t < kTexels; ++t) {
-            if (isIn(held, t))
+            if (isIn(held, t)) {
+                const auto own = numbers.begin() + static_cast<std::ptrdiff_t>(from) * each;
+                allNumbers.insert(allNumbers.end(), own, own + each);
                 all.push_back(sums[from++]);
-            else if (isIn(more, t))
+            } else if (isIn(more, t)) {
+                allNumbers.resize(allNumbers.size() + static_cast<std::size_t>(each));
                 all.emplace_back();
+            }
         }
         for (int k = 0; k < 8; ++k) held[k] |= more[k];
         sums = std::move(all);
+        numbers = std::move(allNumbers);
     }
+};
+
+// What a change of the light needs to know of a brick, under the light's mutex.
+struct LazyBake::Shown {
+    TransferVolume transfer;  // of this brick alone
+    std::vector<Borrowed> borrowed;
 };
 
 LazyBake::LazyBake(const GreyVolume& volume, const TexelChoice& choice, BakeSource source,
@@ -93,6 +109,7 @@ LazyBake::LazyBake(const GreyVolume& volume, const TexelChoice& choice, BakeSour
              std::make_shared<TexelChooser>(volume, to.frame, choice), 1};
     mNow = mWish;
     mCursor.assign(static_cast<std::size_t>(levels()), 0);
+    if (transfers()) mShown.resize(mBricks.size());
     for (int n = 0; n < std::max(1, setting.threads); ++n)
         mThreads.emplace_back([this](const std::stop_token& stop) { work(stop); });
 }
@@ -192,6 +209,7 @@ LazyBake::Brick& LazyBake::brickAt(std::uint32_t number) {
         brick = std::make_unique<Brick>();
         brick->number = number;
         brick->first = brickPlace(mTo.layout, number) * 8;
+        brick->each = mSetting.shape.numbersPerTexel();
     }
     return *brick;
 }
@@ -253,7 +271,7 @@ void LazyBake::choose(const Task& task) {
     for (int t = 0; t < kTexels; ++t) {
         if (!isIn(brick.wanted, t)) continue;
         TexelSum& sum = brick.sums[brick.slot(t)];
-        if (sum.samples == 0 && texelWeight(load(brick, t)) >= 1) sum.samples = kGiven;
+        if (sum.samples == 0 && texelWeight(load(brick.number, t)) >= 1) sum.samples = kGiven;
     }
 }
 
@@ -291,7 +309,12 @@ bool LazyBake::light(const Task& task, const std::stop_token& stop) {
             begin, begin + static_cast<std::ptrdiff_t>(std::min(kAtOnce, texels.size() - from)));
         if (!lightTexels(task, some, stop)) return false;
     }
-    if (task.level < kAllLevel) spread(brick, task.level);
+    if (transfers()) {
+        publishTransfer(brick, task.level);
+    } else if (task.level < kAllLevel) {
+        for (const Borrowed& b : borrowers(brick, task.level))
+            store(brick.number, b.to, packTexel(texelLight(load(brick.number, b.from)), b.weight));
+    }
     if (!texels.empty()) ++mChanges;
     return true;
 }
@@ -308,56 +331,149 @@ bool LazyBake::lightTexels(const Task& task, const std::vector<int>& texels, con
         }
         if (least >= static_cast<float>(target)) break;
         if (stop.stop_requested() || mVersion != task.version) return false;
+        std::vector<int> some;
+        for (const int t : texels)
+            if (brick.sums[brick.slot(t)].samples == least) some.push_back(t);
         const auto now = static_cast<std::uint32_t>(least);
-        std::vector<glm::ivec3> places;
-        std::vector<TexelSum> sums;
-        for (const int t : texels)
-            if (brick.sums[brick.slot(t)].samples == least) {
-                places.push_back(brick.first + inBrick(t));
-                sums.push_back(brick.sums[brick.slot(t)]);
-            }
-        mSource.addIrradiance(places, static_cast<int>(std::min(batchEnd(now), target) - now), sums);
-        std::size_t from = 0;
-        for (const int t : texels)
-            if (TexelSum& sum = brick.sums[brick.slot(t)]; sum.samples == least) sum = sums[from++];
+        const std::uint32_t end = endOfBatch(now, target);
+        transfers() ? addTransfer(brick, some, now, end) : addSamples(brick, some, now, end);
     }
-    publish(brick, texels);
+    if (!transfers()) publish(brick, texels);
     return true;
+}
+
+// As runBake does.
+std::uint32_t LazyBake::endOfBatch(std::uint32_t first, std::uint32_t target) const {
+    const std::uint32_t end = std::min(batchEnd(first), target);
+    return transfers() && first == 0 ? (end + 1) / 2 : end;
+}
+
+void LazyBake::addSamples(Brick& brick, const std::vector<int>& texels, std::uint32_t first,
+                          std::uint32_t end) {
+    std::vector<glm::ivec3> places;
+    std::vector<TexelSum> sums;
+    for (const int t : texels) {
+        places.push_back(brick.first + inBrick(t));
+        sums.push_back(brick.sums[brick.slot(t)]);
+    }
+    mSource.addIrradiance(places, static_cast<int>(end - first), sums);
+    for (std::size_t n = 0; n < texels.size(); ++n) brick.sums[brick.slot(texels[n])] = sums[n];
+}
+
+void LazyBake::addTransfer(Brick& brick, const std::vector<int>& texels, std::uint32_t first,
+                           std::uint32_t end) {
+    const auto numbersOf = [&](int texel) {
+        return brick.numbers.begin() + static_cast<std::ptrdiff_t>(brick.slot(texel)) * brick.each;
+    };
+    std::vector<glm::ivec3> places;
+    std::vector<float> numbers;
+    for (const int t : texels) {
+        places.push_back(brick.first + inBrick(t));
+        numbers.insert(numbers.end(), numbersOf(t), numbersOf(t) + brick.each);
+    }
+    std::vector<std::uint8_t> alive(texels.size(), 1);
+    mSource.addTransfer(places, static_cast<int>(first), static_cast<int>(end - first), mSetting.shape.order,
+                        mSetting.shape.channels, numbers, alive);
+    for (std::size_t n = 0; n < texels.size(); ++n) {
+        brick.sums[brick.slot(texels[n])].samples = alive[n] ? static_cast<float>(end) : -1.0f;
+        std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(n) * brick.each, brick.each,
+                    numbersOf(texels[n]));
+    }
 }
 
 void LazyBake::publish(Brick& brick, const std::vector<int>& texels) {
     for (const int t : texels) {
         const TexelSum& sum = brick.sums[brick.slot(t)];
         if (sum.samples == kGiven) continue;
-        if (texelWeight(load(brick, t)) < 1 && sum.samples > 0) ++mTexelsLit;
-        store(brick, t, sum.samples > 0 ? packTexel(sum.mean, 1) : 0);
+        if (texelWeight(load(brick.number, t)) < 1 && sum.samples > 0) ++mTexelsLit;
+        store(brick.number, t, sum.samples > 0 ? packTexel(sum.mean, 1) : 0);
     }
     ++mChanges;
 }
 
-void LazyBake::spread(Brick& brick, int level) {
+// The whole brick again, as half floats and in the order that a bake's volume has: the same bytes.
+std::unique_ptr<LazyBake::Shown> LazyBake::shownOf(const Brick& brick) const {
+    TexelBrick known{brick.number, {}};
+    std::vector<float> means;
+    for (int t = 0; t < kTexels; ++t) {
+        if (!isIn(brick.held, t)) continue;
+        const std::size_t slot = brick.slot(t);
+        const float samples = brick.sums[slot].samples;
+        if (!(samples > 0) || samples == kGiven) continue;
+        known.wanted[t >> 6] |= 1ull << (t & 63);
+        const float share = 1.0f / samples;
+        const auto first = brick.numbers.begin() + static_cast<std::ptrdiff_t>(slot) * brick.each;
+        for (auto n = first; n != first + brick.each; ++n) means.push_back(*n * share);
+    }
+    auto shown = std::make_unique<Shown>();
+    shown->transfer = TransferVolume(mTo.frame, mSetting.shape.order, mSetting.shape.channels, {known});
+    shown->transfer.setBrick(0, means);
+    return shown;
+}
+
+void LazyBake::publishTransfer(Brick& brick, int level) {
+    std::unique_ptr<Shown> shown = shownOf(brick);
+    const TexelMask known = shown->transfer.bricks()[0].wanted;
+    const std::lock_guard lock(mLightMutex);
+    for (int t = 0; t < kTexels; ++t) {
+        if (isIn(known, t)) mTexelsLit += texelWeight(load(brick.number, t)) < 1;
+        if (isIn(brick.wanted, t) && brick.sums[brick.slot(t)].samples < 0) store(brick.number, t, 0);
+    }
+    show(*shown);
+    if (level < kAllLevel) {
+        shown->borrowed = borrowers(brick, level);
+        show(*shown);
+    }
+    mShown[brick.number] = std::move(shown);
+}
+
+// Under the light's mutex.
+void LazyBake::show(const Shown& shown) {
+    shown.transfer.relightAll(mLight, mTo);
+    const std::uint32_t number = shown.transfer.bricks()[0].number;
+    for (const Borrowed& b : shown.borrowed)
+        store(number, b.to, packTexel(texelLight(load(number, b.from)), b.weight));
+}
+
+void LazyBake::setLight(std::vector<glm::vec3> light) {
+    const std::lock_guard lock(mLightMutex);
+    mLight = std::move(light);
+    std::vector<const Shown*> all;
+    for (const std::unique_ptr<Shown>& shown : mShown)
+        if (shown) all.push_back(shown.get());
+    constexpr int kAtATime = 16;
+    const int count = static_cast<int>(all.size());
+    parallelFor((count + kAtATime - 1) / kAtATime, [&](int part) {
+        for (int n = part * kAtATime; n < std::min((part + 1) * kAtATime, count); ++n) show(*all[n]);
+    });
+}
+
+std::vector<LazyBake::Borrowed> LazyBake::borrowers(const Brick& brick, int level) const {
     int lit[64];
     std::fill(std::begin(lit), std::end(lit), -1);
     for (int t = 0; t < kTexels; ++t)
-        if (isIn(brick.wanted, t) && texelWeight(load(brick, t)) >= 1) {
+        if (isIn(brick.wanted, t) && texelWeight(load(brick.number, t)) >= 1) {
             int& l = lit[blockOf(t, level)];
             if (l < 0 || fromMiddle(t, level) < fromMiddle(l, level)) l = t;
         }
+    std::vector<Borrowed> borrowed;
     for (int t = 0; t < kTexels; ++t) {
         const int from = lit[blockOf(t, level)];
-        if (from < 0 || !isIn(brick.wanted, t) || texelWeight(load(brick, t)) >= 1) continue;
+        if (from < 0 || !isIn(brick.wanted, t) || texelWeight(load(brick.number, t)) >= 1) continue;
         if (brick.sums[brick.slot(t)].samples < 0) continue;
-        store(brick, t, packTexel(texelLight(load(brick, from)), kBorrowed[level]));
+        borrowed.push_back(
+            {static_cast<std::uint16_t>(t), static_cast<std::uint16_t>(from), kBorrowed[level]});
     }
+    return borrowed;
 }
 
-PackedTexel LazyBake::load(const Brick& brick, int texel) const {
-    PackedTexel& word = mTo.texels[static_cast<std::size_t>(brick.number) * kTexels + texel];
+PackedTexel LazyBake::load(std::uint32_t brick, int texel) const {
+    PackedTexel& word = mTo.texels[static_cast<std::size_t>(brick) * kTexels + texel];
     return std::atomic_ref<PackedTexel>(word).load(std::memory_order_relaxed);
 }
 
-void LazyBake::store(const Brick& brick, int texel, PackedTexel value) {
-    PackedTexel& word = mTo.texels[static_cast<std::size_t>(brick.number) * kTexels + texel];
+void LazyBake::store(std::uint32_t brick, int texel, PackedTexel value) {
+    PackedTexel& word = mTo.texels[static_cast<std::size_t>(brick) * kTexels + texel];
     std::atomic_ref<PackedTexel>(word).store(value, std::memory_order_relaxed);
 }
 

@@ -1,7 +1,7 @@
-// Irradiance computed while one flies (Wyman et al. 2006, section 4.2; Y6): threads of low priority light the
-// texels near what is seen, coarse first, and write them where frames look them up. Nothing here makes a
-// frame wait: whoever asks swaps a list and goes on. Other than the paper's, which lights texels when a ray
-// first meets them, and so makes the ray wait.
+// Irradiance or transfer computed while one flies (Wyman et al. 2006, section 4.2; Y6): threads of low
+// priority light the texels near what is seen, coarse first, and write them where frames look them up.
+// Nothing here makes a frame wait: whoever asks swaps a list and goes on. Other than the paper's, which
+// lights texels when a ray first meets them, and so makes the ray wait.
 #pragma once
 
 #include <atomic>
@@ -21,12 +21,14 @@ struct LazyBakeSetting {
     int samples = 64;   // of a texel before others get more
     int refineTo = 64;  // then in doubling passes up to so many
     int threads = 1;
+    BakeShape shape{};  // irradiance, or transfer, which setLight() lights
 };
 
 class LazyBake {
 public:
     // volume, the choice's region, what the source refers to, and `to` must outlive this. Texels of `to` that
-    // are known with weight 1 already stay as they are. Of the source irradiance is used.
+    // are known with weight 1 already stay as they are. Of the source the function for the setting's shape is
+    // used.
     LazyBake(const GreyVolume& volume, const TexelChoice& choice, BakeSource source, IlluminationVolume& to,
              const LazyBakeSetting& setting = {});
     // Prompt: waits for some milliseconds' work at most.
@@ -42,6 +44,10 @@ public:
     // the surface through itself.
     void setChoice(const TexelChoice& choice);
 
+    // The sky over transfer, order^2 harmonics; none at first: black. What is lit so far is dotted with it at
+    // once, some nanoseconds a texel. Any thread, between frames.
+    void setLight(std::vector<glm::vec3> light);
+
     // Counts changes of texels: a frame drawn since the last one need not be drawn again.
     std::uint64_t changes() const { return mChanges; }
     // Texels lit so far by own samples.
@@ -53,6 +59,11 @@ public:
 
 private:
     struct Brick;
+    struct Shown;
+    struct Borrowed {
+        std::uint16_t to, from;  // texels of a brick
+        float weight;
+    };
     // What is to be done; replaced as a whole.
     struct Wish {
         std::shared_ptr<const std::vector<std::uint32_t>> bricks;
@@ -82,10 +93,17 @@ private:
     std::uint32_t samplesAt(int level) const;
     void choose(const Task& task);
     std::vector<int> texelsAt(const Brick& brick, int level) const;
+    bool transfers() const { return mSetting.shape.kind == BakeKind::Transfer; }
+    std::uint32_t endOfBatch(std::uint32_t first, std::uint32_t target) const;
+    void addSamples(Brick& brick, const std::vector<int>& texels, std::uint32_t first, std::uint32_t end);
+    void addTransfer(Brick& brick, const std::vector<int>& texels, std::uint32_t first, std::uint32_t end);
     void publish(Brick& brick, const std::vector<int>& texels);
-    void spread(Brick& brick, int level);
-    PackedTexel load(const Brick& brick, int texel) const;
-    void store(const Brick& brick, int texel, PackedTexel value);
+    void publishTransfer(Brick& brick, int level);
+    std::unique_ptr<Shown> shownOf(const Brick& brick) const;
+    void show(const Shown& shown);
+    std::vector<Borrowed> borrowers(const Brick& brick, int level) const;
+    PackedTexel load(std::uint32_t brick, int texel) const;
+    void store(std::uint32_t brick, int texel, PackedTexel value);
 
     const GreyVolume& mVolume;
     const BakeSource mSource;
@@ -107,6 +125,11 @@ private:
     int mBusy = 0;
     bool mPassedOver = false;                     // some brick was busy when its turn came
     std::vector<std::unique_ptr<Brick>> mBricks;  // by number
+
+    // Of transfer: held while a brick's texels are dotted, or after another light was set all of them.
+    std::mutex mLightMutex;
+    std::vector<glm::vec3> mLight;
+    std::vector<std::unique_ptr<Shown>> mShown;  // by brick
 
     std::atomic<std::uint64_t> mChanges = 0, mTexelsLit = 0;
     std::vector<std::jthread> mThreads;  // last: they end first

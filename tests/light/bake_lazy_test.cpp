@@ -325,5 +325,150 @@ TEST(LazyBake, WhatIsBakedAlreadyStays) {
     EXPECT_GT(lazy.texelsLit(), 0u);
 }
 
+// --- transfer
+
+constexpr int kOrder = 3;
+const LazyBakeSetting kTransfer{48, 48, 2, {BakeKind::Transfer, kOrder, 1}};
+
+std::vector<glm::vec3> skyOf(float turn) {
+    std::vector<glm::vec3> sky(kOrder * kOrder, glm::vec3(0.02f));
+    sky[0] = {1.0f, 0.8f, 0.6f};
+    sky[1] = glm::vec3(0.3f * std::cos(turn), 0.1f, 0.3f * std::sin(turn));
+    return sky;
+}
+
+// Numbers that differ from sample to sample, texel to texel, coefficient to coefficient.
+struct TransferBackground : Background {
+    explicit TransferBackground(double pause_ms = 0) : Background(pause_ms) {
+        source = {};
+        source.addTransfer = [this](std::span<const glm::ivec3> texels, int first, int count, int order,
+                                    int channels, std::span<float> sums, std::span<std::uint8_t> alive) {
+            EXPECT_EQ(order, kOrder);
+            {
+                const std::lock_guard lock(mutex);
+                calls.push_back({brickOf(to.layout, texels[0]), static_cast<int>(texels.size()), count});
+            }
+            if (pause > 0) std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(pause));
+            const std::size_t each = static_cast<std::size_t>(order * order * channels);
+            for (std::size_t n = 0; n < texels.size(); ++n) {
+                alive[n] = !dead(texels[n]);
+                for (std::size_t c = 0; alive[n] && c < each; ++c)
+                    for (int k = first; k < first + count; ++k)
+                        sums[n * each + c] +=
+                            static_cast<float>((c == 0 ? truth(texels[n]) : 0.1) +
+                                               0.1 * std::sin(12.9 * k + 3.1 * c + texels[n].z));
+            }
+        };
+    }
+    // The bake without a window, under a sky.
+    IlluminationVolume whole(const std::vector<glm::vec3>& sky, int samples) const {
+        Progress progress;
+        BakeSums sums(volume.frame, wantedBricks(volume, volume.frame, choice, progress), kTransfer.shape);
+        runBake(sums, source, {samples, 0, 0}, progress);
+        IlluminationVolume lit(volume.frame);
+        transferOf(sums).relightAll(sky, lit);
+        return lit;
+    }
+    void expectSame(const IlluminationVolume& other) const {
+        for (std::size_t n = 0; n < other.layout.count(); ++n) ASSERT_EQ(to.texels[n], other.texels[n]) << n;
+    }
+};
+
+TEST(LazyTransfer, TheSameBytesAsTheWholeBake) {
+    for (const auto& [samples, threads] : {std::pair{1, 1}, std::pair{48, 3}, std::pair{150, 2}}) {
+        TransferBackground b;
+        LazyBakeSetting setting = kTransfer;
+        setting.samples = setting.refineTo = samples;
+        setting.threads = threads;
+        LazyBake lazy(b.volume, b.choice, b.source, b.to, setting);
+        lazy.setLight(skyOf(0));
+        lazy.request(b.all());
+        ASSERT_TRUE(lazy.waitUntilDone(60));
+        EXPECT_GT(lazy.texelsLit(), 1000u);
+        b.expectSame(b.whole(skyOf(0), samples));
+    }
+}
+
+// Light that is set before, while and after texels are lit is the same light.
+TEST(LazyTransfer, TheSkyTurnsMeanwhile) {
+    TransferBackground b(1);
+    {
+        LazyBake lazy(b.volume, b.choice, b.source, b.to, kTransfer);
+        lazy.request(b.all());
+        for (int n = 0; n < 100; ++n) {
+            lazy.setLight(skyOf(0.1f * static_cast<float>(n)));
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        EXPECT_FALSE(lazy.done()) << "it was turned while texels were lit";
+        ASSERT_TRUE(lazy.waitUntilDone(60));
+        b.expectSame(b.whole(skyOf(9.9f), kTransfer.samples));
+        const std::size_t calls = b.seen().size();
+        const std::uint64_t lit = lazy.texelsLit();
+        lazy.setLight(skyOf(1));
+        EXPECT_EQ(b.seen().size(), calls) << "nothing is lit anew";
+        b.expectSame(b.whole(skyOf(1), kTransfer.samples));
+        EXPECT_EQ(lazy.texelsLit(), lit);
+    }
+    EXPECT_TRUE(texelWeight(b.to.texels[b.to.layout.index(0, 0, 0)]) == 0) << "and nothing else is";
+}
+
+// Left alone midway, by another wish, it goes on where it was.
+TEST(LazyTransfer, GoesOnWhereItWasLeft) {
+    TransferBackground b(1);
+    LazyBake lazy(b.volume, b.choice, b.source, b.to, kTransfer);
+    lazy.setLight(skyOf(0));
+    lazy.request(b.all());
+    while (b.seen().size() < 60) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    lazy.request({});
+    ASSERT_TRUE(lazy.waitUntilDone(60));
+    lazy.request(b.all());
+    ASSERT_TRUE(lazy.waitUntilDone(60));
+    b.expectSame(b.whole(skyOf(0), kTransfer.samples));
+    long long samples = 0, needed = 0;
+    for (const Background::Call& call : b.seen())
+        samples += static_cast<long long>(call.texels) * call.samples;
+    Progress progress;
+    for (const TexelBrick& brick : wantedBricks(b.volume, b.volume.frame, b.choice, progress))
+        for (const glm::ivec3& t : texelsIn(b.to.layout, brick)) needed += dead(t) ? 24 : 48;
+    // The bake without a window added its own calls, once.
+    EXPECT_EQ(samples, 2 * needed) << "no sample is made twice";
+}
+
+// While coarse texels are all there is, others borrow from them, also after the sky has turned.
+TEST(LazyTransfer, BorrowedLightTurnsToo) {
+    TransferBackground b;
+    const std::size_t bricks = b.holding().size();
+    std::atomic<std::size_t> count = 0;
+    std::atomic<bool> hold = true;
+    BakeSource source = b.source;
+    source.addTransfer = [&](auto texels, int first, int samples, int order, int channels, auto sums,
+                             auto alive) {
+        if (++count > 2 * bricks)
+            while (hold) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        b.source.addTransfer(texels, first, samples, order, channels, sums, alive);
+    };
+    LazyBakeSetting setting = kTransfer;
+    setting.threads = 1;
+    LazyBake lazy(b.volume, b.choice, source, b.to, setting);
+    lazy.setLight(skyOf(0));
+    lazy.request(b.all());
+    while (count <= 2 * bricks) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const std::vector<PackedTexel> before(b.to.texels.data(), b.to.texels.data() + b.to.layout.count());
+    std::vector<glm::vec3> doubled = skyOf(0);
+    for (glm::vec3& c : doubled) c *= 2;
+    lazy.setLight(doubled);
+    std::size_t borrowed = 0, own = 0;
+    for (std::size_t n = 0; n < before.size(); ++n) {
+        const float weight = texelWeight(before[n]);
+        ASSERT_EQ(texelWeight(b.to.texels[n]), weight);
+        ASSERT_NEAR(texelLight(b.to.texels[n]).x, 2 * texelLight(before[n]).x, 2e-3) << n;
+        borrowed += weight > 0 && weight < 1;
+        own += weight == 1;
+    }
+    EXPECT_GT(own, bricks / 2);
+    EXPECT_GT(borrowed, 5 * own);
+    hold = false;
+}
+
 }  // namespace
 }  // namespace stereonav
