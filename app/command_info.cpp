@@ -150,7 +150,7 @@ int runInfo(const InfoOptions& options) {
         Json json{{"scene", scene.name}};
         if (scene.terrain) json["terrain"] = terrainJson(scene);
         if (scene.colon) json["volume"] = colonJson(scene);
-        if (scene.medium) json["medium"] = mediumJson(*scene.medium);
+        if (scene.medium) json["medium"] = mediumJson(scene);
         json["plan"] = plan ? planJson(scene, *plan) : sweepJson(scene);
         json["process"] = processJson(process);
         std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
@@ -159,7 +159,7 @@ int runInfo(const InfoOptions& options) {
     std::string text = scene.name + "\n";
     if (scene.terrain) text += terrainText(scene);
     if (scene.colon) text += colonText(scene);
-    if (scene.medium) text += mediumText(*scene.medium);
+    if (scene.medium) text += mediumText(scene);
     text += "frame plan\n" + (plan ? planText(scene, *plan) : sweepText(scene));
     text += "process\n" + processText(process);
     std::fputs(text.c_str(), stdout);

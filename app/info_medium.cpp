@@ -4,9 +4,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <vector>
 
 #include "app/info_text.h"
+#include "app/medium_renderer.h"
 #include "app/view_status.h"
+#include "engine/base/pages.h"
 
 namespace stereonav {
 namespace {
@@ -25,9 +28,33 @@ std::string lightText(const MediumLight& light) {
                        std::asin(std::clamp(from.z, -1.0, 1.0)) * kDegrees);
 }
 
+// A field that a volume's scene holds is counted there.
+std::vector<Held> heldBy(const LoadedScene& loaded) {
+    const Medium& medium = loaded.medium->medium;
+    std::vector<Held> held;
+    const auto add = [&](const char* what, std::size_t bytes) {
+        if (bytes > 0) held.push_back({what, bytes});
+    };
+    if (const GreyVolume* field = medium.field();
+        field && !(loaded.colon && field == &loaded.colon->volume.field))
+        add("field", residentBytes(field->values));
+    std::size_t heights = 0;
+    for (const HeightLayer& layer : medium.layers())
+        for (const Plane<float>& level : layer.levels)
+            heights += sizeof(float) * static_cast<std::size_t>(level.width()) * level.height();
+    add("heights", heights);
+    EyeImage left, right;
+    loaded.pair->renderPair(loaded.viewsAt(loaded.startPose), 0, PairMethod::Sweep, left, right);
+    const auto& renderer = dynamic_cast<const MediumRenderer&>(*loaded.pair);
+    add("sweep", renderer.sweepBytes());
+    add("pictures", renderer.pictureBytes());
+    return held;
+}
+
 }  // namespace
 
-Json mediumJson(const MediumScene& scene) {
+Json mediumJson(const LoadedScene& loaded) {
+    const MediumScene& scene = *loaded.medium;
     const WorldBox& box = scene.medium.bounds();
     const glm::dvec3 size = box.empty() ? glm::dvec3(0.0) : box.high - box.low;
     Json json;
@@ -44,11 +71,15 @@ Json mediumJson(const MediumScene& scene) {
     json["slices"] = scene.sweep.slices;
     json["light_size"] = scene.sweep.lightSize;
     json["cone_deg"] = scene.sweep.coneAngle * 180 / std::numbers::pi;
+    const std::vector<Held> held = heldBy(loaded);
+    json["bytes"] = bytesOf(held);
+    json["held"] = heldJson(held);
     json["notes"] = scene.notes;
     return json;
 }
 
-std::string mediumText(const MediumScene& scene) {
+std::string mediumText(const LoadedScene& loaded) {
+    const MediumScene& scene = *loaded.medium;
     const WorldBox& box = scene.medium.bounds();
     std::string text = "medium\n";
     const auto line = [&](const char* name, const std::string& value) { text += infoLine(name, value); };
@@ -67,6 +98,7 @@ std::string mediumText(const MediumScene& scene) {
     line("sweep", fmt::format("{} slices, light of {} x {} texels, cone of {:.0f} degrees",
                               scene.sweep.slices, scene.sweep.lightSize, scene.sweep.lightSize,
                               scene.sweep.coneAngle * 180 / std::numbers::pi));
+    line("memory", heldText(heldBy(loaded)));
     for (const std::string& note : scene.notes) line("note", note);
     return text;
 }

@@ -28,8 +28,9 @@ nlohmann::ordered_json heldJson(const std::vector<Held>& held);
 std::string heldText(const std::vector<Held>& held);
 std::size_t bytesOf(const std::vector<Held>& held);
 
-nlohmann::ordered_json mediumJson(const MediumScene& scene);
-std::string mediumText(const MediumScene& scene);
+// Of scene.medium: make a frame at the start pose, for what the sweep then holds.
+nlohmann::ordered_json mediumJson(const LoadedScene& scene);
+std::string mediumText(const LoadedScene& scene);
 
 // "  name        value\n"
 std::string infoLine(const char* name, const std::string& value);

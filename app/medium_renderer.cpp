@@ -81,6 +81,17 @@ double nearestExpected(const EyeImage& left) {
 MediumRenderer::MediumRenderer(const MediumScene& scene, SimdTarget simd)
     : mScene(scene), mSweep(scene.medium, simd), mPictures(2) {}
 
+std::size_t MediumRenderer::sweepBytes() const {
+    return mSweep.heldBytes() + (mSurface ? mSurface->sweep.heldBytes() : 0);
+}
+
+std::size_t MediumRenderer::pictureBytes() const {
+    std::size_t pixels = 0;
+    for (const MediumPicture& picture : mPictures)
+        pixels += static_cast<std::size_t>(picture.light.width()) * picture.light.height();
+    return pixels * (sizeof(glm::vec4) + sizeof(float));
+}
+
 MediumSweep& MediumRenderer::sweep() {
     if (mScene.look.model != MediumModel::Surface || !mScene.makeSurface) return mSweep;
     if (!mSurface) mSurface = std::make_unique<Surface>(mScene.makeSurface(), mSweep.target());

@@ -23,6 +23,9 @@ public:
     void renderOne(const EyeView& view, double time, EyeImage& image) override;
 
     SimdTarget target() const { return mSweep.target(); }
+    // Held between frames: what sweeps read and write, and their pictures before they are packed.
+    std::size_t sweepBytes() const;
+    std::size_t pictureBytes() const;
 
 private:
     class RightRays;

@@ -33,11 +33,11 @@ void checkMediumOptions(const SceneOptions& options) {
     if (showsMedium(options)) without();
 }
 
-nlohmann::ordered_json mediumJson(const MediumScene&) {
+nlohmann::ordered_json mediumJson(const LoadedScene&) {
     without();
 }
 
-std::string mediumText(const MediumScene&) {
+std::string mediumText(const LoadedScene&) {
     without();
 }
 

@@ -160,6 +160,27 @@ TEST_F(MediumCommands, InfoTellsWhatIsSwept) {
     EXPECT_NE(ball_.at("medium").at("light").get<std::string>().find("head"), std::string::npos);
 }
 
+TEST_F(MediumCommands, InfoCountsTheSweepsBuffers) {
+    const auto held = [&](const char* lightSize) {
+        const Json medium = Json::parse(runWell({"info", "wax", "--json", "--size", "64x48", "--slices", "32",
+                                                 "--light-size", lightSize})
+                                            .out)
+                                .at("medium");
+        std::size_t sum = 0;
+        for (const auto& [what, bytes] : medium.at("held").items()) sum += bytes.get<std::size_t>();
+        EXPECT_EQ(medium.at("bytes"), sum);
+        return medium.at("held");
+    };
+    const Json small = held("32"), large = held("128");
+    // Of both eyes four floats of light and one of depth.
+    EXPECT_EQ(small.at("pictures"), 2 * 64 * 48 * 5 * sizeof(float));
+    EXPECT_EQ(large.at("pictures"), small.at("pictures"));
+    EXPECT_GT(small.at("field").get<std::size_t>(), 1000u);
+    // At least the light's own plane.
+    EXPECT_GE(large.at("sweep").get<std::size_t>(),
+              small.at("sweep").get<std::size_t>() + (128 * 128 - 32 * 32) * sizeof(float));
+}
+
 TEST_F(MediumCommands, ATerrainIsAHeightVolumeUnderMist) {
     const std::string ground = picture(hills(), {"--medium", "ground"});
     EXPECT_TRUE(ground != picture(hills(), {"--medium", "ground", "--mist", "140,1"}));
