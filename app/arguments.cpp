@@ -74,6 +74,9 @@ void addVolume(CLI::App& command, VolumeOptions& options) {
     add("--shading", options.shading, "to compare: " + shadingNames());
     add("--ambient", options.ambient_mm,
         "how far ambient occlusion looks around, in millimetres (Ruiz et al. 2010); not with --light");
+    add("--modulate", options.modulate,
+        "opacity of translucent volumes by the variance of the values within 10 voxels, or within --ambient, "
+        "or by the gradient of their openness (Ruiz et al. 2010): variance, gradient or none");
     add("--exposure", options.exposure, "factor on baked light; left out: by its mean");
     add("--turn", options.turn_deg,
         "degrees by which the sky over baked transfer is turned about the vertical");

@@ -23,6 +23,7 @@ struct VolumeOptions {
     std::string shading;               // a lighting model by name; "": a lamp at the head
     std::optional<double> exposure;    // factor on baked light; none: by its mean
     std::optional<double> ambient_mm;  // radius of ambient occlusion; none: without
+    std::string modulate;              // opacity: variance or gradient; "": none
     double turn_deg = 0;               // of the sky about the vertical, with baked transfer
     bool cache = true;
 };

@@ -99,6 +99,7 @@ void refuseOfOtherKinds(const SceneOptions& options) {
     refuseAll({{"--transfer", !v.transfer.empty()},
                {"--opacity", v.opacity.has_value()},
                {"--shading", !v.shading.empty()},
+               {"--modulate", !v.modulate.empty()},
                {"--ambient", v.ambient_mm.has_value()}},
               "does not go with a medium, which has its own", "leave it out, or leave out --medium");
     if (isLazyLight(options.light))

@@ -62,6 +62,7 @@ void refuseVolumeOptions(const SceneOptions& options) {
                                                   {"--backwards", v.backwards},
                                                   {"--no-cache", !v.cache},
                                                   {"--ambient", v.ambient_mm.has_value()},
+                                                  {"--modulate", !v.modulate.empty()},
                                                   {"--shading", !v.shading.empty()},
                                                   {"--exposure", v.exposure.has_value()},
                                                   {"--turn", v.turn_deg != 0}};

@@ -15,6 +15,7 @@
 #include "app/light_loading.h"
 #include "engine/base/error.h"
 #include "engine/light/occlusion_light.h"
+#include "engine/light/occlusion_modulation.h"
 #include "engine/light/sky_probe.h"
 
 namespace stereonav {
@@ -78,6 +79,24 @@ void applyAmbient(double radius_mm, ColonScene& scene, Progress& progress) {
     BakedLook& look = scene.volume.look.baked;
     look.light = std::make_shared<IlluminationVolume>(ambientLight(field, openness, isovalue, isovalue));
     look.use = BakedLook::Use::Openness;
+}
+
+// Opacity by what the surroundings of each voxel hold (Ruiz et al. 2010, section 4.2: 10 voxels).
+void applyModulation(const VolumeOptions& options, ColonScene& scene, Progress& progress) {
+    if (scene.isColon())
+        throw Error("--modulate", "", "expected with a volume seen from outside, this one is a colon",
+                    "add --isosurface, or leave it out");
+    const GreyVolume& field = scene.volume.field;
+    const glm::dvec3 spacing = field.frame.spacing;
+    const double usual = 10 * std::min({spacing.x, spacing.y, spacing.z});
+    const double reach = options.ambient_mm ? *options.ambient_mm / 1000 : usual;
+    const ModulatedBy by = options.modulate == "variance" ? ModulatedBy::Variance : ModulatedBy::Gradient;
+    scene.volume.look.modulation = std::make_shared<Volume<std::uint8_t>>(opacityModulation(
+        field, by, occlusionRadius(field.frame, reach), scene.volume.look.transfer, progress));
+}
+
+bool modulates(const VolumeOptions& options) {
+    return !options.modulate.empty() && options.modulate != "none";
 }
 
 // Up and to the left behind the one who looks, as far away as what is looked at is large.
@@ -170,6 +189,13 @@ void checkVolumeLight(const SceneOptions& options) {
         throw Error("--ambient", "", "expected without baked light, --light was given too",
                     "leave one of them out");
     if (!volume.shading.empty()) shadingOf(volume.shading);
+    const std::string& by = volume.modulate;
+    if (!by.empty() && by != "none" && by != "variance" && by != "gradient")
+        throw Error("--modulate", "", fmt::format("\"{}\" is not known", by),
+                    "expected one of variance, gradient, none");
+    if (modulates(volume) && volume.transfer.empty() && !volume.opacity)
+        throw Error("--modulate", "", "expected with a translucent volume",
+                    "add --transfer or --opacity, or leave it out");
 }
 
 std::shared_ptr<ViewSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene,
@@ -180,6 +206,7 @@ std::shared_ptr<ViewSky> applyVolumeLight(const SceneOptions& options, ColonScen
     std::shared_ptr<ViewSky> sky;
     if (file) sky = applyBaked(options, scene, progress);
     if (volume.ambient_mm) applyAmbient(*volume.ambient_mm, scene, progress);
+    if (modulates(volume)) applyModulation(volume, scene, progress);
     return sky;
 }
 

@@ -203,7 +203,7 @@ private:
             way = {select(take, sight.way.x, way.x), select(take, sight.way.y, way.y),
                    select(take, sight.way.z, way.z)};
             distance = select(take, sight.distance, distance);
-            const auto light = [&](int k) { return F(point.intensity[k] / point.weight) * all; };
+            const auto light = [&](int k) { return F(point.color[k]) * all; };
             red = select(take, light(0), red);
             green = select(take, light(1), green);
             blue = select(take, light(2), blue);

@@ -37,6 +37,7 @@ struct PathPoint {
     float voxel[3] = {};      // position, voxel space
     float intensity[3] = {};  // over pi and the square of the unit: divided by squared units it is light
     float weight = 0;         // luminance of the intensity, above 0
+    float color[3] = {};      // intensity for a weight of 1
     float radius = 0;         // units
 };
 

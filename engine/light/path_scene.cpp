@@ -121,6 +121,7 @@ void PathLightTables::addPoints(const VolumeFrame& frame, const std::vector<Poin
         for (int k = 0; k < 3; ++k) {
             point.voxel[k] = static_cast<float>(voxel[k]);
             point.intensity[k] = static_cast<float>(light.intensity[k] / (kPi * unit * unit));
+            point.color[k] = point.intensity[k] / point.weight;
         }
         point.radius = static_cast<float>(light.radius / unit);
         mPoints.push_back(point);

@@ -233,6 +233,22 @@ glm::dvec3 shadePlain(const VolumeLook& look, const glm::dvec3& position, const 
     return light * (albedo * (look.ambient + look.diffuse * std::max(facing, 0.0)) + highlight);
 }
 
+namespace {
+
+double plainModulation(const Volume<std::uint8_t>& modulation, const glm::dvec3& voxel) {
+    const glm::ivec3 cell = cellOf(modulation.frame, voxel);
+    const glm::dvec3 p = voxel - glm::dvec3(cell);
+    double sum = 0;
+    for (int n = 0; n < 8; ++n) {
+        const glm::ivec3 o(n & 1, n >> 1 & 1, n >> 2);
+        const double weight = (o.x ? p.x : 1 - p.x) * (o.y ? p.y : 1 - p.y) * (o.z ? p.z : 1 - p.z);
+        sum += weight * modulation.at(cell + o);
+    }
+    return sum / 255;
+}
+
+}  // namespace
+
 PlainComposite compositePlain(const GreyVolume& volume, const VolumeLook& look, const PlainRay& worldRay,
                               const glm::dvec3& head, double stepVoxels) {
     PlainComposite result;
@@ -249,7 +265,9 @@ PlainComposite compositePlain(const GreyVolume& volume, const VolumeLook& look, 
         const glm::dvec3 voxel = glm::clamp(ray.at(tAt(k)), glm::dvec3(0.0), glm::dvec3(frame.size - 1));
         const double value = plainValue(volume, voxel) * volume.scale + volume.offset;
         ++result.samples;
-        const double opacity = -std::expm1(-look.transfer.extinction(value) * step);
+        double extinction = look.transfer.extinction(value);
+        if (look.modulation) extinction *= plainModulation(*look.modulation, voxel);
+        const double opacity = -std::expm1(-extinction * step);
         if (!(opacity > 0)) continue;
         if (result.firstDepth == kInfinity) result.firstDepth = tAt(k);
         const glm::dvec3 position = worldRay.eye + tAt(k) * worldRay.direction;

@@ -54,7 +54,8 @@ struct PlainComposite {
 };
 
 // Front to back along samples at path lengths k * stepVoxels * (smallest spacing), k = 0, 1, ..., from
-// nearDepth on, each of opacity 1 - exp(-extinction * step); ends where less than 1/1024 is left.
+// nearDepth on, each of opacity 1 - exp(-extinction * step), the extinction times
+// look.modulation where there is one; ends where less than 1/1024 is left.
 PlainComposite compositePlain(const GreyVolume& volume, const VolumeLook& look, const PlainRay& ray,
                               const glm::dvec3& head, double stepVoxels);
 

@@ -45,7 +45,9 @@ struct TransferData {
     const float* extinction = nullptr;     // a metre; kEntries + 1 of them
     const std::uint32_t* color = nullptr;  // packed (10-bit square roots)
     float first = 0, scale = 0;
-    float step = 0;  // metres of way between samples
+    float step = 0;                            // metres of way between samples
+    const std::uint8_t* modulation = nullptr;  // of extinction, 0..255 for 0..1 a voxel; null: none
+    std::int32_t row = 0, slice = 0;           // its voxels from one to the next along y and z
 };
 
 struct VolumeData {

@@ -2,12 +2,14 @@
 // endoscope's: it moves with the viewer and both eyes see what one lamp lights.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 
 #include "engine/volume/illumination_volume.h"
 #include "engine/volume/transfer_function.h"
+#include "engine/volume/volume.h"
 
 namespace stereonav {
 
@@ -39,6 +41,9 @@ struct VolumeLook {
     float fog = 0;                     // metres in which all but 1/e is lost in the background; 0: no fog
     BakedLook baked;
     TransferFunction transfer;  // empty: the opaque surface alone
+    // What the transfer function's extinction is multiplied with, 0..255 for 0..1, trilinear between the
+    // voxels of the scene's field (see engine/light/occlusion_modulation.h); null: nothing.
+    std::shared_ptr<const Volume<std::uint8_t>> modulation;
 };
 
 }  // namespace stereonav

@@ -1,6 +1,8 @@
 // Chooses the kernels and hands them rectangles and pixels.
 #include "engine/volume/volume_renderer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -8,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/base/error.h"
 #include "engine/volume/baked_data.h"
 #include "engine/volume/volume_kernel_types.h"
 
@@ -141,6 +144,20 @@ struct TransferTable {
         data.extinction = extinction.data();
         data.color = color.data();
     }
+
+    void modulate(const Volume<std::uint8_t>& modulation, const VolumeFrame& frame) {
+        const glm::ivec3 size = frame.size, has = modulation.frame.size;
+        if (has != size || frame.count() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+            throw Error(
+                "", "opacity modulation",
+                fmt::format("expected {}x{}x{} voxels, as the volume has, less than 2^31 of them, got "
+                            "{}x{}x{}",
+                            size.x, size.y, size.z, has.x, has.y, has.z),
+                "compute it from the same volume, or leave it out");
+        data.modulation = modulation.values.data();
+        data.row = size.x;
+        data.slice = size.x * size.y;
+    }
 };
 
 double smallestSpacing(const VolumeFrame& frame) {
@@ -162,7 +179,11 @@ struct VolumeRenderer::State {
           shadeAgain(casting.shadeAgain),
           transfer(scene.look.transfer, scene.field, casting.stepVoxels * smallestSpacing(scene.cells.frame)),
           data{cellDataOf(scene.cells, casting.leaping), lightDataOf(scene.look, scene.cells.frame),
-               bakedDataOf(scene.look.baked, scene.cells.frame), transfer.data} {}
+               bakedDataOf(scene.look.baked, scene.cells.frame), transfer.data} {
+        if (!scene.look.modulation || scene.look.transfer.empty()) return;
+        transfer.modulate(*scene.look.modulation, scene.cells.frame);
+        data.transfer = transfer.data;
+    }
 
     // Leap code of the cell around a world point, in metres; negative outside the volume.
     static double freeAt(const SurfaceCells& cells, const glm::dvec3& world) {

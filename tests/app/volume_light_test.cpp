@@ -90,6 +90,23 @@ TEST_F(VolumeLight, AmbientOcclusionIsSeen) {
                   {"--ambient", "--light"});
 }
 
+// Inside two translucent balls all is alike; their walls are not.
+TEST_F(VolumeLight, OpacityIsModulated) {
+    const std::string scene = ball();
+    const auto shown = [&](const std::string& by) {
+        return picture(scene, {"--isosurface", "--opacity", "0.3", "--modulate", by});
+    };
+    const std::string none = shown("none"), variance = shown("variance");
+    EXPECT_TRUE(picture(scene, {"--isosurface", "--opacity", "0.3"}) == none);
+    EXPECT_TRUE(variance != none);
+    EXPECT_TRUE(shown("gradient") != variance);
+    expectRefused({"render", scene, "--modulate", "much", "--opacity", "0.3", "--out", "a.png"},
+                  {"--modulate", "much", "variance, gradient, none"});
+    expectRefused({"render", scene, "--modulate", "variance", "--out", "a.png"},
+                  {"--modulate", "translucent", "--transfer"});
+    expectRefused({"render", "cloud", "--modulate", "variance", "--out", "a.png"}, {"--modulate", "medium"});
+}
+
 TEST_F(VolumeLight, RefusesWhatDoesNotFit) {
     const std::string scene = ball();
     const std::string light = baked(scene, "irradiance");

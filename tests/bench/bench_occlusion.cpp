@@ -6,6 +6,7 @@
 
 #include "bench_light_occlusion.h"
 #include "occlusion_errors.h"
+#include "occlusion_shapes.h"
 
 using namespace stereonav;
 
@@ -40,20 +41,9 @@ void printTimes() {
 
 struct Sample {
     TracedOpenness truth;
-    double vicinity = 0, obscurance42 = 0, box = 0;
+    double vicinity = 0, obscurance42 = 0;
+    bench::BoxNumbers box;
 };
-
-// The share of the box's voxels that are not above the middle one: what the estimates estimate.
-double shareOfBox(const GreyVolume& volume, const glm::ivec3& voxel, const glm::ivec3& radius) {
-    const glm::ivec3 first = glm::max(voxel - radius, 0),
-                     last = glm::min(voxel + radius, volume.frame.size - 1);
-    const std::int16_t own = volume.at(voxel);
-    int below = 0, count = 0;
-    for (int k = first.z; k <= last.z; ++k)
-        for (int j = first.y; j <= last.y; ++j)
-            for (int i = first.x; i <= last.x; ++i, ++count) below += volume.at(i, j, k) <= own;
-    return static_cast<double>(below) / count;
-}
 
 void printRow(const char* name, const bench::Numbers& values, const std::vector<Sample>& samples) {
     bench::Numbers obscurance, visible, sphere;
@@ -79,7 +69,7 @@ std::vector<Sample> sampleTruth(const GreyVolume& volume, std::vector<glm::ivec3
         s.truth = traceOpenness(volume, texel, radius, 128);
         s.vicinity = opennessByDirections(volume, texel, DirectionMethod::Vicinity, radius);
         s.obscurance42 = opennessByDirections(volume, texel, DirectionMethod::Obscurance, radius);
-        s.box = shareOfBox(volume, texel, box);
+        s.box = bench::numbersOfBox(volume, texel, box);
     });
     return samples;
 }
@@ -121,7 +111,11 @@ void printErrors(const char* name, const GreyVolume& volume, double isovalue, in
     estimate("Chebyshev (Penner)", OcclusionMethod::Chebyshev);
     row("vicinity (Stewart)", [&](std::size_t n) { return samples[n].vicinity; });
     row("obscurance, 42 (Ruiz)", [&](std::size_t n) { return samples[n].obscurance42; });
-    row("box, counted", [&](std::size_t n) { return samples[n].box; });
+    row("beta distribution", [&](std::size_t n) { return bench::betaOpenness(samples[n].box); });
+    row("Gaussian, cut off", [&](std::size_t n) { return bench::cutGaussianOpenness(samples[n].box); });
+    row("t^beta within 2 sigma", [&](std::size_t n) { return bench::drawnInOpenness(samples[n].box, 2); });
+    row("t^beta within 3 sigma", [&](std::size_t n) { return bench::drawnInOpenness(samples[n].box, 3); });
+    row("box, counted", [&](std::size_t n) { return samples[n].box.share; });
     row("tangent sphere", [&](std::size_t n) { return samples[n].truth.sphere; });
     row("visible within R", [&](std::size_t n) { return samples[n].truth.visible; });
     row("1 for all", [&](std::size_t) { return 1.0; });

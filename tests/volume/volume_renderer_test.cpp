@@ -6,9 +6,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <memory>
 #include <random>
 #include <vector>
 
+#include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/volume/plain_volume_caster.h"
@@ -339,6 +341,63 @@ TEST(VolumeRenderer, CompositesAsThePlainCompositor) {
             EXPECT_EQ(large, 0) << opacity;
         }
     }
+}
+
+// Smooth, from nothing to all, and different along each axis.
+std::shared_ptr<Volume<std::uint8_t>> waves(const VolumeFrame& frame) {
+    auto volume = std::make_shared<Volume<std::uint8_t>>(frame);
+    for (int k = 0; k < frame.size.z; ++k)
+        for (int j = 0; j < frame.size.y; ++j)
+            for (int i = 0; i < frame.size.x; ++i)
+                volume->at(i, j, k) = static_cast<std::uint8_t>(127.5 + 127.4 * std::sin(0.5 * i + 0.9 * j) *
+                                                                            std::cos(0.7 * k));
+    return volume;
+}
+
+TEST(VolumeRenderer, ModulatesOpacityAsThePlainCompositor) {
+    const VolumeFrame frame = frameOf({40, 36, 70}, {0.0008, 0.0008, 0.0007});
+    VolumeScene scene = glassTube(frame, 0.95);
+    std::mt19937 random(31);
+    const EyeView view = makeEyeView(randomPose(random, frame, {23, 17, 20}), lensOf(40, 36, 0.0002));
+    const EyeImage plain = rendered(VolumeRenderer(scene), view);
+    scene.look.modulation = waves(frame);
+    for (const SimdTarget target : targets()) {
+        const EyeImage image = rendered(VolumeRenderer(scene, {target}), view);
+        long long sum = 0, changed = 0;
+        for (int y = 0; y < 36; ++y)
+            for (int x = 0; x < 40; ++x) {
+                const PlainComposite truth =
+                    compositePlain(scene.field, scene.look,
+                                   {view.eye, view.rayDirection(x + 0.5, y + 0.5), 0.0}, view.head, 0.5);
+                const int difference =
+                    channelDifference(image.color.at(x, y), packColor(glm::vec3(truth.color)));
+                sum += difference;
+                changed += channelDifference(image.color.at(x, y), plain.color.at(x, y)) > 30;
+                ASSERT_LE(difference, 12) << x << " " << y;
+            }
+        EXPECT_LT(sum, 40 * 36);
+        EXPECT_GT(changed, 200) << "what is compared differs from what is not modulated";
+    }
+}
+
+TEST(VolumeRenderer, FullModulationChangesNothingAndNoneLeavesNothing) {
+    const VolumeFrame frame = frameOf({40, 36, 70}, {0.0008, 0.0008, 0.0007});
+    VolumeScene scene = glassTube(frame, 0.95);
+    std::mt19937 random(37);
+    const EyeView view = makeEyeView(randomPose(random, frame, {23, 17, 20}), lensOf(30, 20, 0.0002));
+    const EyeImage plain = rendered(VolumeRenderer(scene), view);
+    const auto modulation = std::make_shared<Volume<std::uint8_t>>(frame);
+    scene.look.modulation = modulation;
+    const EyeImage none = rendered(VolumeRenderer(scene), view);
+    for (std::size_t n = 0; n < modulation->values.size(); ++n) modulation->values[n] = 255;
+    const EyeImage full = rendered(VolumeRenderer(scene), view);
+    for (int y = 0; y < 20; ++y)
+        for (int x = 0; x < 30; ++x) {
+            ASSERT_LE(channelDifference(full.color.at(x, y), plain.color.at(x, y)), 1) << x << " " << y;
+            ASSERT_EQ(none.viewDepth.at(x, y), kMissDepth) << x << " " << y;
+        }
+    scene.look.modulation = std::make_shared<Volume<std::uint8_t>>(frameOf({40, 36, 69}, frame.spacing));
+    EXPECT_THROW(VolumeRenderer{scene}, Error);
 }
 
 TEST(VolumeRenderer, StartingFromAKnownDepthChangesNothing) {
