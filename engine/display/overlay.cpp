@@ -118,6 +118,7 @@ Overlay::~Overlay() {
 }
 
 void Overlay::draw(const OverlayContent& content, const std::vector<OverlayArea>& areas) {
+    if (content == OverlayContent()) return;
     // A box that sizes itself knows its size one frame late: the first frames are laid out twice.
     ImGui_ImplOpenGL3_NewFrame();
     for (int pass = 0; pass < 2; ++pass) {
