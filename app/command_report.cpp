@@ -31,10 +31,10 @@ struct Part {
 };
 constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0},
                            {"quality", reportQuality, 1.5},
-                           {"casting", reportCasting, 0.7},
+                           {"casting", reportCasting, 1.0},
                            {"light", reportLight, 1.0, false},
                            {"occlusion", reportOcclusion, 0.3, false},
-                           {"volume-light", reportMedium, 1.0, false, true},
+                           {"volume-light", reportMedium, 2.0, false, true},
                            {"plan", reportPlan, 2.0},
                            {"time", reportStages, 2.0},
                            {"left-out", reportScenes, 0.3},

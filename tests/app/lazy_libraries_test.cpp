@@ -146,6 +146,24 @@ TEST_F(LazyLibraries, ATerrainHoldsItsGroundAndSkyAlone) {
     EXPECT_EQ(json.at("plan").at("planes"), Json({"color", "depth", "hole mask"}));
 }
 
+// Normals are kept where shading for the other eye asks for them, and there alone.
+TEST_F(LazyLibraries, PlanesAreThoseThatShadingAsksFor) {
+    const auto planes = [&](std::vector<std::string> more) {
+        return info(std::move(more)).at("plan").at("planes");
+    };
+    const auto look = [&](const std::string& name, const std::string& specular) {
+        return input(name, "[terrain]\nbuiltin = true\nsize = 65\n[look]\nspecular = " + specular + "\n");
+    };
+    const Json plain = Json({"color", "depth", "hole mask"});
+    EXPECT_EQ(planes({hills()}), plain);
+    EXPECT_EQ(planes({look("dull.toml", "0.0")}), plain);
+    EXPECT_EQ(planes({look("shiny.toml", "0.5")}),
+              Json({"color", "depth", "base color", "normal", "hole mask"}));
+    EXPECT_EQ(planes({maskedTube(), "--no-cache"}), Json({"color", "depth", "normal", "hole mask"}));
+    EXPECT_EQ(planes({maskedTube(), "--no-cache", "--opacity", "0.5"}),
+              Json({"color", "depth", "depth spread", "hole mask"}));
+}
+
 TEST_F(LazyLibraries, AVolumeHoldsWhatItIsShownBy) {
     const Json colon = info({maskedTube(), "--no-cache"}).at("volume").at("held");
     for (const char* what : {"values", "lumen", "distances", "cells"}) {
