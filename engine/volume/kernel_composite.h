@@ -75,11 +75,12 @@ STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, 
     sum.square = mulAdd(share * behind, behind, sum.square);
 }
 
-// To the first sample behind t, and the cell there.
+// To the first sample behind t, and the cell there. Where samples are nearer to each other than the view
+// depth's rounding (an eye millions of samples away), to the next view depth that there is.
 STEREONAV_INLINE void toSample(const VolumeData& data, const Grid& grid, const Rays& r, Walk& w, F t, M m) {
     const F apart = F(data.transfer.step) * r.perMetre;
     const F number = toFloat(floorToInt(t / apart)) + F(1.0f);
-    w.t = select(m, number * apart, w.t);
+    w.t = select(m, max(number * apart, t * F(1.0f + 2.4e-7f)), w.t);
     const Cells c = grid.cellsAt(r.direction, w.t);
     w.at = {select(m, c.x, w.at.x), select(m, c.y, w.at.y), select(m, c.z, w.at.z)};
 }

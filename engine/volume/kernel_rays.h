@@ -150,15 +150,17 @@ public:
         mParked.index = select(here, index, mParked.index);
         mParked.lanes = mParked.lanes | here;
         mMoving = andNot(mMoving, here);
-        const M wide = mGrid.data.leaping ? mMoving & (nearby < code) : maskFromBits(0);
-        const M walk = andNot(mMoving, wide);
+        M wide = mGrid.data.leaping ? mMoving & (nearby < code) : maskFromBits(0);
         if (any(wide)) {
             const F ahead = mulAdd(toFloat(code - nearby) * F(mGrid.data.leapUnit), mRays.perMetre, mWalk.t);
+            // Far to the side of a view a leap may be less than the view depth's rounding: such rays walk.
+            wide = wide & (mWalk.t < ahead);
             mWalk.t = select(wide, ahead, mWalk.t);
             const Cells c = mGrid.cellsAt(mRays.direction, mWalk.t);
             mWalk.at = {select(wide, c.x, mWalk.at.x), select(wide, c.y, mWalk.at.y),
                         select(wide, c.z, mWalk.at.z)};
         }
+        const M walk = andNot(mMoving, wide);
         stepCell(mRays, mWalk, walk);
     }
     STEREONAV_INLINE Parked parked() const { return mParked; }

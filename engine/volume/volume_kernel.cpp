@@ -58,8 +58,8 @@ STEREONAV_INLINE F castBeams(const Grid& grid, const VolumeView& view, F x, F y,
         const I code = gatherByte(grid.data.codes, grid.index(at), in);
         const F free = toFloat(code - I(1)) * unit;
         const F ahead = (free - radius * t) * slower;
-        // Less than the smallest leap is not worth a look.
-        moving = in & (ahead * length > unit);
+        // Less than the smallest leap is not worth a look; less than the depth's rounding would never end.
+        moving = in & (ahead * length > unit) & (t < t + ahead);
         t = select(moving, t + ahead, t);
     }
     return t * F(kInFront);

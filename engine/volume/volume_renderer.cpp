@@ -277,7 +277,7 @@ bool VolumeRenderer::mayHitBeyondEdge(const EyeView& view, PixelRect rect, doubl
         const double free = State::freeAt(cells, view.eye + t * axis);
         if (free < 0) return true;
         const double ahead = (free - radius * t) / (length + radius) * (1 - 1e-9);
-        if (!(ahead * length > cells.leapUnit)) return true;
+        if (!(ahead * length > cells.leapUnit) || !(t + ahead > t)) return true;
         t += ahead;
     }
     return false;

@@ -147,6 +147,16 @@ TEST_F(BadInput, PlacesThatCanNotBeWrittenAreRefusedFirst) {
     expectRefused({"compare", "nowhere.tif", "--plot", "plot.txt"}, {"--plot", "plot.txt"});
 }
 
+// Damaged files hold bytes that would clear a terminal or break the line; what is said of them does not.
+TEST_F(BadInput, BytesOfDamagedFilesDoNotReachTheTerminal) {
+    const std::string path = input("odd.path", "0 0 0 0 0 0 0 1\n1 0 \x1b[2J\x0b\x7f\x01 0 0 0 1\n");
+    const Outcome outcome = run({"play", hills(), "--size", "32x24", "--path", path, "--out", "frames"});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("[2J"), std::string::npos) << "not quoted any more: " << outcome.err;
+    for (const char c : outcome.err.substr(0, outcome.err.size() - 1))
+        EXPECT_TRUE(static_cast<unsigned char>(c) >= ' ' && c != '\x7f') << static_cast<int>(c);
+}
+
 // Heights that are extreme but finite are a terrain like any other.
 TEST_F(BadInput, ExtremeHeightRangesAreFlown) {
     const auto flat =
