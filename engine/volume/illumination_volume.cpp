@@ -19,8 +19,8 @@
 namespace stereonav {
 namespace {
 
-// Kernels count texels with signed 32-bit numbers, and read a few beyond the last.
-constexpr double kMostTexels = 2147483648.0 - 512.0;
+// Kernels count halves of texels with signed 32-bit numbers, and read a few beyond the last.
+constexpr double kMostTexels = 1073741824.0 - 512.0;
 
 // Stored numbers: far below the steps of the data, far above the rounding of places in it.
 constexpr double kEqualValues = 1e-4;
@@ -176,7 +176,7 @@ VolumeFrame texelFrame(const VolumeFrame& volume, double perVoxel) {
     }
     if (!(bricked <= kMostTexels))
         throw Error("", "resolution",
-                    fmt::format("{} texels a voxel are {} x {} x {} texels, more than 2^31", perVoxel,
+                    fmt::format("{} texels a voxel are {} x {} x {} texels, more than 2^30", perVoxel,
                                 texels.x, texels.y, texels.z),
                     "choose a lower resolution or a smaller volume");
     frame.size = glm::ivec3(texels);
