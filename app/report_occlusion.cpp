@@ -110,6 +110,7 @@ WayChart chartOf(ReportRun& run, const GreyVolume& volume, int radius) {
     chart.errorUnit = "of 1";
     chart.points = {estimated(run, volume, OcclusionMethod::Gaussian, "gaussian", radius, texels),
                     estimated(run, volume, OcclusionMethod::Reconstructed, "reconstructed", radius, texels),
+                    estimated(run, volume, OcclusionMethod::DrawnIn, "drawn in", radius, texels),
                     estimated(run, volume, OcclusionMethod::Chebyshev, "chebyshev", radius, texels),
                     directed(run, volume, DirectionMethod::Vicinity, "vicinity", metres, texels),
                     directed(run, volume, DirectionMethod::Obscurance, "obscurance 42", metres, texels)};

@@ -172,14 +172,15 @@ private:
 
     void takeMemory() {
         const std::size_t voxels = static_cast<std::size_t>(mBand.stride) * mBand.size[2];
-        mRows = bandRows(voxels * (mBand.extrema() ? 8 : 12));
+        mRows = bandRows(voxels * (4 + (mBand.extrema() ? 4 : 0) + (mBand.moments() ? 8 : 0)));
         const std::size_t count = voxels * static_cast<std::size_t>(mRows);
         take(mSums, mBand.sums, count);
         take(mLastSums, mBand.lastSums, voxels);
         if (mBand.extrema()) {
             take(mLows, mBand.lows, count);
             take(mHighs, mBand.highs, count);
-        } else {
+        }
+        if (mBand.moments()) {
             take(mSquares, mBand.squares, count);
             take(mLastSquares, mBand.lastSquares, voxels);
         }
@@ -232,6 +233,8 @@ BoxResult resultOf(OcclusionMethod method) {
             return BoxResult::Gaussian;
         case OcclusionMethod::Chebyshev:
             return BoxResult::Chebyshev;
+        case OcclusionMethod::DrawnIn:
+            return BoxResult::DrawnIn;
         default:
             return BoxResult::Reconstructed;
     }

@@ -35,6 +35,13 @@ double reconstructedOpenness(double value, double minimum, double maximum, doubl
     return std::pow((value - minimum) / (maximum - minimum), below / above);
 }
 
+double drawnInOpenness(double value, double minimum, double maximum, double mean, double variance) {
+    if (!std::isfinite(maximum - minimum) || !std::isfinite(variance)) return kUndecided;
+    const double reach = kDrawnInDeviations * std::sqrt(std::max(variance, 0.0));
+    return reconstructedOpenness(value, std::max(minimum, mean - reach), std::min(maximum, mean + reach),
+                                 mean);
+}
+
 double gaussianOpenness(double value, double mean, double variance) {
     if (!std::isfinite(value - mean) || !std::isfinite(variance)) return kUndecided;
     if (!(variance > 0)) return step(value, mean);

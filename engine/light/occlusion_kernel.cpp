@@ -299,6 +299,26 @@ STEREONAV_INLINE Moments moments(bool turned, I value, D sum, D squares, D count
     return {away, max(about * inverse - shift * shift, F(0.0f)), about <= F(0.0f)};
 }
 
+// The same as `reconstructed` between ends at most three standard deviations from the mean, and bit for bit
+// that where neither end is drawn in. Lengths are times `count` where the sums are. From an end that is the
+// box's own t counts in whole numbers; from one drawn in, where away + reach cancels, beta is at least 1 and
+// t near 0 says nothing.
+STEREONAV_INLINE F drawnIn(const Moments& box, bool turned, I value, I low, I high, D sum, D count) {
+    const D lowest = count * toDouble(low), highest = count * toDouble(high);
+    const F below = toFloat(turned ? highest - sum : sum - lowest);
+    const F above = toFloat(turned ? sum - lowest : highest - sum);
+    const F number = toFloat(count), sigmas = F(3.0f) * sqrt(box.variance), reach = sigmas * number;
+    const F lower = min(below, reach), upper = min(above, reach);
+    const F whole = toFloat(high - low), part = (lower + upper) / number;
+    const F range = select(max(below, above) <= reach, whole, part);
+    const I place = turned ? high - value : value - low;
+    const F from = select(below <= reach, toFloat(place), box.away + sigmas);
+    const F t = clamp(from / range, F(1e-37f), F(1.0f));
+    const F open = exp2Of(lower / upper * log2Of(t));
+    const F ends = select(place == I(0), F(0.0f), open);
+    return select(box.even, F(0.5f), ends);
+}
+
 STEREONAV_INLINE F gaussian(const Moments& box) {
     constexpr float kA = 0.140012288686666f, kFourByPi = 1.27323954473516f, kLog2E = 1.44269504088896f;
     const F square = min(box.away * box.away / (box.variance + box.variance), F(1e6f));
@@ -317,9 +337,11 @@ STEREONAV_INLINE F chebyshev(const Moments& box) {
 STEREONAV_INLINE F resultOf(const OcclusionBand& band, const OcclusionScratch& s, int i, D count) {
     const D sum = loadD(s.total + i);
     const I value = loadI(s.value + i);
-    if (band.extrema())
+    if (!band.moments())
         return reconstructed(band.turned, value, loadI(s.low + i), loadI(s.high + i), sum, count);
     const Moments box = moments(band.turned, value, sum, loadD(s.totalSquares + i), count);
+    if (band.extrema())
+        return drawnIn(box, band.turned, value, loadI(s.low + i), loadI(s.high + i), sum, count);
     if (band.result == BoxResult::Gaussian) return gaussian(box);
     if (band.result == BoxResult::Chebyshev) return chebyshev(box);
     return box.variance * F(band.perVariance);
@@ -432,14 +454,14 @@ void filterSquares(const OcclusionBand& band, const Slice& slice, int k, const O
 void finishColumns(const OcclusionBand& band, int i, int j, const OcclusionScratch& s) {
     constexpr int n = kOcclusionStrip;
     const int depth = band.size[2], radius = band.radius[2];
-    const bool extrema = band.extrema();
+    const bool extrema = band.extrema(), moments = band.moments();
     const auto sums = [&](int k) { return band.sums + band.boxRow(j, k) + i; };
     const auto squares = [&](int k) { return band.squares + band.boxRow(j, k) + i; };
     for (int c = 0; c < n; ++c) s.total[c] = 0;
     for (int c = 0; c < n; ++c) s.totalSquares[c] = 0;
     for (int k = 0; k < radius; ++k) {
         exchange(s.total, sums(k), nullptr, n);
-        if (!extrema) exchange(s.totalSquares, squares(k), nullptr, n);
+        if (moments) exchange(s.totalSquares, squares(k), nullptr, n);
     }
     const std::ptrdiff_t start = extrema ? band.boxRow(j, 0) + i : 0;
     SlidingExtrema<n> sliding({band.lows + start, band.highs + start, band.stride, depth}, radius, 0, depth,
@@ -449,9 +471,8 @@ void finishColumns(const OcclusionBand& band, int i, int j, const OcclusionScrat
         const int in = k + radius, out = k - radius - 1;
         const bool enters = in < depth, leaves = out >= 0;
         exchange(s.total, enters ? sums(in) : nullptr, leaves ? sums(out) : nullptr, n);
-        if (extrema)
-            sliding.next({s.lows, s.highs});
-        else
+        if (extrema) sliding.next({s.lows, s.highs});
+        if (moments)
             exchange(s.totalSquares, enters ? squares(in) : nullptr, leaves ? squares(out) : nullptr, n);
         finishStrip(band, s, i, j, k, static_cast<double>(rows) * clippedWindow(k, radius, depth));
     }
@@ -464,10 +485,8 @@ void filterOcclusionSlice(const OcclusionBand& band, int k, const OcclusionScrat
     const Slice slice{band.values + static_cast<std::ptrdiff_t>(k) * height * width, width, height,
                       band.radius[1]};
     filterSums(band, slice, k, scratch);
-    if (band.extrema())
-        filterExtrema(band, k, scratch);
-    else
-        filterSquares(band, slice, k, scratch);
+    if (band.extrema()) filterExtrema(band, k, scratch);
+    if (band.moments()) filterSquares(band, slice, k, scratch);
 }
 
 void finishOcclusionRow(const OcclusionBand& band, int j, const OcclusionScratch& scratch) {

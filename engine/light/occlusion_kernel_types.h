@@ -10,7 +10,7 @@
 
 namespace stereonav {
 
-enum class BoxResult { Reconstructed, Gaussian, Chebyshev, Variance };
+enum class BoxResult { Reconstructed, DrawnIn, Gaussian, Chebyshev, Variance };
 
 // Columns that extrema are sought for at a time, so that a window of them stays in the nearest cache; rows of
 // boxes are padded to whole strips. A multiple of the lanes of every kernel.
@@ -27,7 +27,7 @@ struct OcclusionBand {
     float perVariance = 0;  // Variance: result a squared stored number
 
     // Boxes of one voxel along k: [(j - first) * size[2] + k] rows of `stride`. Extrema for Reconstructed,
-    // squares for the others.
+    // squares for the others, both for DrawnIn.
     int stride = 0;
     std::int32_t* sums = nullptr;
     std::int16_t *lows = nullptr, *highs = nullptr;
@@ -42,7 +42,8 @@ struct OcclusionBand {
     std::ptrdiff_t boxRow(int j, int k) const {
         return (static_cast<std::ptrdiff_t>(j - first) * size[2] + k) * stride;
     }
-    bool extrema() const { return result == BoxResult::Reconstructed; }
+    bool extrema() const { return result == BoxResult::Reconstructed || result == BoxResult::DrawnIn; }
+    bool moments() const { return result != BoxResult::Reconstructed; }
 };
 
 // Working memory of one thread; a padded row has stride + 2 * kMostOcclusionRadius + 1 numbers.

@@ -16,14 +16,15 @@ void printTimes() {
     const GreyVolume body = bench::occlusionBody();
     std::printf("%dx%dx%d voxels, %d threads; ms, least of 5\n", body.frame.size.x, body.frame.size.y,
                 body.frame.size.z, threadCount());
-    std::printf("radius  Chebyshev  CDF rec.  Gaussian  variance\n");
+    std::printf("radius  Chebyshev  CDF rec.  drawn in  Gaussian  variance\n");
     for (const int radius : {1, 2, 5, 10, 20, 40, 64}) {
         Progress progress;
         const double variance =
             bench::leastTime_ms(5, [&] { varianceModulation(body, glm::ivec3(radius), 300, progress); });
-        std::printf("%6d  %9.1f  %8.1f  %8.1f  %8.1f\n", radius,
+        std::printf("%6d  %9.1f  %8.1f  %8.1f  %8.1f  %8.1f\n", radius,
                     bench::opennessTime_ms(body, OcclusionMethod::Chebyshev, radius),
                     bench::opennessTime_ms(body, OcclusionMethod::Reconstructed, radius),
+                    bench::opennessTime_ms(body, OcclusionMethod::DrawnIn, radius),
                     bench::opennessTime_ms(body, OcclusionMethod::Gaussian, radius), variance);
     }
     Progress progress;
@@ -107,6 +108,7 @@ void printErrors(const char* name, const GreyVolume& volume, double isovalue, in
         row(method, [&](std::size_t n) { return openness.at(texels[n]) / 255.0; });
     };
     estimate("CDF reconstruction", OcclusionMethod::Reconstructed);
+    estimate("CDF within 3 sigma", OcclusionMethod::DrawnIn);
     estimate("Gaussian CDF", OcclusionMethod::Gaussian);
     estimate("Chebyshev (Penner)", OcclusionMethod::Chebyshev);
     row("vicinity (Stewart)", [&](std::size_t n) { return samples[n].vicinity; });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -11,6 +12,9 @@
 #include "engine/light/occlusion_formulas.h"
 
 namespace stereonav::test {
+
+constexpr std::array kOcclusionMethods{OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn,
+                                       OcclusionMethod::Gaussian, OcclusionMethod::Chebyshev};
 
 __extension__ typedef __int128 Wide;
 
@@ -51,6 +55,8 @@ inline double opennessOf(const Box& box, double value, OcclusionMethod method) {
             return gaussianOpenness(value, box.mean(), box.variance());
         case OcclusionMethod::Chebyshev:
             return chebyshevOpenness(value, box.mean(), box.variance());
+        case OcclusionMethod::DrawnIn:
+            return drawnInOpenness(value, box.low, box.high, box.mean(), box.variance());
         default:
             return reconstructedOpenness(value, box.low, box.high, box.mean());
     }

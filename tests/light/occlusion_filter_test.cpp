@@ -18,8 +18,7 @@ using test::boxAt;
 using test::bytesAway;
 using test::opennessOf;
 
-constexpr std::array kMethods{OcclusionMethod::Reconstructed, OcclusionMethod::Gaussian,
-                              OcclusionMethod::Chebyshev};
+constexpr auto kMethods = test::kOcclusionMethods;
 
 OpennessVolume estimate(const GreyVolume& volume, OcclusionMethod method, const glm::ivec3& radius,
                         SimdTarget target = SimdTarget::Auto) {
@@ -109,8 +108,11 @@ TEST(OcclusionFilter, OneVoxelThatDiffersByOneInTheLargestBoxIsNotLost) {
     volume.at(64, 64, 64) = 32767;
     EXPECT_EQ(estimate(volume, OcclusionMethod::Gaussian, glm::ivec3(64)).at(64, 64, 64), 255);
     EXPECT_EQ(estimate(volume, OcclusionMethod::Chebyshev, glm::ivec3(64)).at(64, 64, 64), 255);
-    EXPECT_EQ(estimate(volume, OcclusionMethod::Reconstructed, glm::ivec3(64)).at(64, 64, 64), 255);
-    EXPECT_EQ(estimate(volume, OcclusionMethod::Reconstructed, glm::ivec3(64)).at(64, 63, 64), 0);
+    for (const OcclusionMethod method : {OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn}) {
+        const OpennessVolume openness = estimate(volume, method, glm::ivec3(64));
+        EXPECT_EQ(openness.at(64, 64, 64), 255) << static_cast<int>(method);
+        EXPECT_EQ(openness.at(64, 63, 64), 0) << static_cast<int>(method);
+    }
 }
 
 template <typename Make>
@@ -148,16 +150,44 @@ TEST(OcclusionFilter, SameBytesFromEveryInstructionSetAndThreadCount) {
 }
 
 TEST(OcclusionFilter, BandsOfTallVolumesMeet) {
-    // A row of boxes takes 1.5 MB: several bands.
+    // A row of boxes takes 1.5 MB, with squares 3 MB: several bands.
     const GreyVolume volume = noise({16, 70, 3000}, 12, 0, 1000);
     const glm::ivec3 radius(3);
-    const OpennessVolume openness = estimate(volume, OcclusionMethod::Reconstructed, radius);
-    for (int j = 0; j < volume.frame.size.y; ++j) {
-        const glm::ivec3 voxel(5, j, 1000 + 7 * j);
-        const double truth =
-            opennessOf(boxAt(volume, voxel, radius), volume.at(voxel), OcclusionMethod::Reconstructed);
-        ASSERT_LE(bytesAway(openness.at(voxel), truth), kTolerance) << j;
+    for (const OcclusionMethod method : {OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn}) {
+        const OpennessVolume openness = estimate(volume, method, radius);
+        for (int j = 0; j < volume.frame.size.y; ++j) {
+            const glm::ivec3 voxel(5, j, 1000 + 7 * j);
+            const double truth = opennessOf(boxAt(volume, voxel, radius), volume.at(voxel), method);
+            ASSERT_LE(bytesAway(openness.at(voxel), truth), kTolerance)
+                << j << ", method " << static_cast<int>(method);
+        }
     }
+}
+
+TEST(OcclusionFilter, EndsWithinThreeDeviationsStayWhereTheyAre) {
+    // Uniform noise reaches sqrt(3) standard deviations to either side.
+    GreyVolume volume(VolumeFrame{{40, 30, 20}, glm::dvec3(1e-3)});
+    std::mt19937 engine(17);
+    for (std::size_t n = 0; n < volume.values.size(); ++n)
+        volume.values[n] = static_cast<std::int16_t>(static_cast<int>(engine() >> 20) - 2048);
+    const OpennessVolume plain = estimate(volume, OcclusionMethod::Reconstructed, glm::ivec3(5));
+    const OpennessVolume drawnIn = estimate(volume, OcclusionMethod::DrawnIn, glm::ivec3(5));
+    for (std::size_t n = 0; n < plain.values.size(); ++n) ASSERT_EQ(drawnIn.values[n], plain.values[n]) << n;
+}
+
+TEST(OcclusionFilter, TwoFarVoxelsDrawBothEndsIn) {
+    // Noise of -100..100 between a far voxel on either side: t is linear, 1/2 + (v - mean) / (6 sigma).
+    GreyVolume volume = noise({11, 11, 11}, 18, -100, 100);
+    volume.at(0, 0, 0) = -30000;
+    volume.at(10, 10, 10) = 30000;
+    const OpennessVolume drawnIn = estimate(volume, OcclusionMethod::DrawnIn, glm::ivec3(10));
+    const test::Box box = boxAt(volume, glm::ivec3(5), glm::ivec3(5));
+    for (const glm::ivec3& voxel : {glm::ivec3(5), glm::ivec3(4, 5, 6), glm::ivec3(1, 9, 2)}) {
+        const double share = 0.5 + (volume.at(voxel) - box.mean()) / (6 * std::sqrt(box.variance()));
+        EXPECT_LE(bytesAway(drawnIn.at(voxel), share), 0.501);
+    }
+    EXPECT_EQ(drawnIn.at(0, 0, 0), 0);
+    EXPECT_EQ(drawnIn.at(10, 10, 10), 255);
 }
 
 TEST(OcclusionFilter, NeitherOffsetNorScaleMatters) {

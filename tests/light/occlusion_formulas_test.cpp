@@ -43,6 +43,51 @@ TEST(OcclusionFormulas, ReconstructedDistributionHasTheMeanItWasMadeFrom) {
     }
 }
 
+TEST(OcclusionFormulas, DrawingEndsInKeepsTheMean) {
+    // As above: 3 sigma cut off the lower end, the upper, both and none.
+    for (const double mean : {-800.0, 100.0, 1900.0})
+        for (const double sigma : {20.0, 150.0, 400.0, 1500.0}) {
+            constexpr int kSteps = 200000;
+            constexpr double kWidth = 3000.0 / kSteps;
+            double integral = 0;
+            for (int s = 0; s < kSteps; ++s)
+                integral +=
+                    kWidth * drawnInOpenness(-1000 + (s + 0.5) * kWidth, -1000, 2000, mean, sigma * sigma);
+            EXPECT_NEAR(2000 - integral, mean, 2 * kWidth) << mean << " " << sigma;
+        }
+}
+
+TEST(OcclusionFormulas, BeyondTheDrawnInEndsNothingIsLeft) {
+    EXPECT_EQ(drawnInOpenness(-31, -1000, 1000, 0, 100), 0);
+    EXPECT_EQ(drawnInOpenness(-30, -1000, 1000, 0, 100), 0);
+    EXPECT_EQ(drawnInOpenness(30, -1000, 1000, 0, 100), 1);
+    EXPECT_EQ(drawnInOpenness(31, -1000, 1000, 0, 100), 1);
+    EXPECT_DOUBLE_EQ(drawnInOpenness(15, -1000, 1000, 0, 100), 0.75);  // beta 1: linear
+    // Only the upper end: t = (v + 10) / 40, beta = 1/3.
+    EXPECT_DOUBLE_EQ(drawnInOpenness(0, -10, 1000, 0, 100), std::cbrt(0.25));
+    EXPECT_EQ(drawnInOpenness(0.5, -1, 1, 0.2, 100), reconstructedOpenness(0.5, -1, 1, 0.2));
+}
+
+TEST(OcclusionFormulas, DrawnInHasAnAnswerForEveryBox) {
+    EXPECT_EQ(drawnInOpenness(5, 5, 5, 5, 0), 0.5);
+    EXPECT_EQ(drawnInOpenness(5, 5, 5, 5, -1e-9), 0.5);
+    EXPECT_EQ(drawnInOpenness(6, 0, 9, 5, 0), 1);  // variance 0: all at the mean, as for the Gaussian
+    EXPECT_EQ(drawnInOpenness(4, 0, 9, 5, 0), 0);
+    EXPECT_EQ(drawnInOpenness(0.5, 0, 1, 0, 1), 1);
+    EXPECT_EQ(drawnInOpenness(0.5, 0, 1, 1, 1), 0);
+    EXPECT_EQ(drawnInOpenness(1, 0, 1, 1, 1), 1);
+    for (const double bad : {kNan, kInfinity, -kInfinity}) {
+        EXPECT_EQ(drawnInOpenness(bad, 0, 1, 0.5, 1), 0.5);
+        EXPECT_EQ(drawnInOpenness(0.5, bad, 1, 0.5, 1), 0.5);
+        EXPECT_EQ(drawnInOpenness(0.5, 0, bad, 0.5, 1), 0.5);
+        EXPECT_EQ(drawnInOpenness(0.5, 0, 1, bad, 1), 0.5);
+        EXPECT_EQ(drawnInOpenness(0.5, 0, 1, 0.5, bad), 0.5);
+    }
+    for (const double value : {-900.0, -100.0, 35.0, 700.0})
+        EXPECT_EQ(drawnInOpenness(value + 1e6, 1e6 - 1000, 1e6 + 3000, 1e6 + 200, 62500),
+                  drawnInOpenness(value, -1000, 3000, 200, 62500));
+}
+
 TEST(OcclusionFormulas, GaussianIsTheLibrarysWithinTheApproximation) {
     for (int n = -500; n <= 500; ++n) {
         const double value = 7 + n * 0.1;

@@ -34,6 +34,7 @@ TEST(OcclusionUse, ARampHalvesTheBox) {
     // nothing there: not open.
     const GreyVolume volume = fill({21, 21, 21}, [](const glm::ivec3& v) { return 300 * v.z - 70 * v.x; });
     EXPECT_EQ(estimate(volume, OcclusionMethod::Reconstructed, 6).at(10, 10, 10), 128);
+    EXPECT_EQ(estimate(volume, OcclusionMethod::DrawnIn, 6).at(10, 10, 10), 128);
     EXPECT_EQ(estimate(volume, OcclusionMethod::Gaussian, 6).at(10, 10, 10), 128);
     EXPECT_EQ(estimate(volume, OcclusionMethod::Chebyshev, 6).at(10, 10, 10), 0);
 }

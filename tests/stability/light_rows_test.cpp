@@ -137,8 +137,8 @@ TEST_P(BoxRow, IsWhatWholeBoxesSay) {
             for (int i = 0; i < c.size.x; ++i)
                 volume.at(i, j, k) = static_cast<std::int16_t>(c.value({i, j, k}));
     Progress quiet;
-    for (const OcclusionMethod method :
-         {OcclusionMethod::Reconstructed, OcclusionMethod::Gaussian, OcclusionMethod::Chebyshev})
+    for (const OcclusionMethod method : {OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn,
+                                         OcclusionMethod::Gaussian, OcclusionMethod::Chebyshev})
         for (const SimdTarget target : availableTargets()) {
             const OpennessVolume open = estimateOpenness(volume, method, c.radius, quiet, target);
             for (int n = 0; n < 60; ++n) {
@@ -202,8 +202,8 @@ TEST_P(OcclusionOffsetRow, ChangesNoBit) {
         moved.values[n] = static_cast<std::int16_t>(anyValue(v) + offset);
     }
     Progress quiet;
-    for (const OcclusionMethod method :
-         {OcclusionMethod::Reconstructed, OcclusionMethod::Gaussian, OcclusionMethod::Chebyshev}) {
+    for (const OcclusionMethod method : {OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn,
+                                         OcclusionMethod::Gaussian, OcclusionMethod::Chebyshev}) {
         const OpennessVolume a = estimateOpenness(plain, method, glm::ivec3(4), quiet),
                              b = estimateOpenness(moved, method, glm::ivec3(4), quiet);
         for (std::size_t n = 0; n < plain.frame.count(); ++n) row.count(a.values[n] != b.values[n]);

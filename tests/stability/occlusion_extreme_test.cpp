@@ -12,8 +12,7 @@
 namespace stereonav {
 namespace {
 
-constexpr OcclusionMethod kMethods[]{OcclusionMethod::Reconstructed, OcclusionMethod::Gaussian,
-                                     OcclusionMethod::Chebyshev};
+constexpr auto kMethods = test::kOcclusionMethods;
 
 OpennessVolume estimate(const GreyVolume& volume, OcclusionMethod method, const glm::ivec3& radius) {
     Progress progress;

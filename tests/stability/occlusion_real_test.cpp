@@ -45,7 +45,8 @@ TEST(OcclusionReal, SameBytesFromEveryThreadCountAndInstructionSet) {
     const GreyVolume trunk = readReal("ct/trunk_ct_3mm.nii.gz");
     if (trunk.empty()) GTEST_SKIP() << "no ct/trunk_ct_3mm.nii.gz";
     const int threads = threadCount();
-    for (const OcclusionMethod method : {OcclusionMethod::Reconstructed, OcclusionMethod::Gaussian}) {
+    for (const OcclusionMethod method :
+         {OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn, OcclusionMethod::Gaussian}) {
         const OpennessVolume first = estimate(trunk, method, glm::ivec3(9), SimdTarget::Plain);
         for (int n = 1; n <= 4; ++n) {
             setThreadCount(n);
@@ -66,8 +67,7 @@ TEST(OcclusionReal, IsWhatWholeBoxesSay) {
     if (trunk.empty()) GTEST_SKIP() << "no ct/trunk_ct_3mm.nii.gz";
     std::mt19937 engine(5);
     for (const int radius : {1, 5, 24}) {
-        for (const OcclusionMethod method :
-             {OcclusionMethod::Reconstructed, OcclusionMethod::Gaussian, OcclusionMethod::Chebyshev}) {
+        for (const OcclusionMethod method : test::kOcclusionMethods) {
             const OpennessVolume openness = estimate(trunk, method, glm::ivec3(radius));
             for (int n = 0; n < 60; ++n) {
                 const glm::ivec3 size = trunk.frame.size;
@@ -104,7 +104,8 @@ void expectBetterThanChebyshev(const GreyVolume& volume, double isovalue) {
         return Accuracy{bench::rootMeanSquare(values, 1, truth), bench::rankCorrelation(values, truth)};
     };
     const Accuracy bound = accuracy(OcclusionMethod::Chebyshev);
-    for (const OcclusionMethod method : {OcclusionMethod::Reconstructed, OcclusionMethod::Gaussian}) {
+    for (const OcclusionMethod method :
+         {OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn, OcclusionMethod::Gaussian}) {
         const Accuracy ours = accuracy(method);
         EXPECT_LT(ours.error, 0.7 * bound.error) << static_cast<int>(method);
         EXPECT_GT(ours.rank, kTexels < 600 ? 0.2 : bound.rank) << static_cast<int>(method);

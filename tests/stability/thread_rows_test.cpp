@@ -107,8 +107,8 @@ Bytes occlusionAndDistance() {
     const VolumeScene scene = lumenScene();
     Progress quiet;
     Bytes bytes;
-    for (const OcclusionMethod method :
-         {OcclusionMethod::Reconstructed, OcclusionMethod::Gaussian, OcclusionMethod::Chebyshev}) {
+    for (const OcclusionMethod method : {OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn,
+                                         OcclusionMethod::Gaussian, OcclusionMethod::Chebyshev}) {
         const OpennessVolume open = estimateOpenness(scene.field, method, glm::ivec3(4), quiet);
         append(bytes, std::span(open.values.data(), open.frame.count()));
     }
