@@ -116,7 +116,6 @@ void printErrors(const char* name, const GreyVolume& volume, double isovalue, in
     row("beta distribution", [&](std::size_t n) { return bench::betaOpenness(samples[n].box); });
     row("Gaussian, cut off", [&](std::size_t n) { return bench::cutGaussianOpenness(samples[n].box); });
     row("t^beta within 2 sigma", [&](std::size_t n) { return bench::drawnInOpenness(samples[n].box, 2); });
-    row("t^beta within 3 sigma", [&](std::size_t n) { return bench::drawnInOpenness(samples[n].box, 3); });
     row("box, counted", [&](std::size_t n) { return samples[n].box.share; });
     row("tangent sphere", [&](std::size_t n) { return samples[n].truth.sphere; });
     row("visible within R", [&](std::size_t n) { return samples[n].truth.visible; });

@@ -1,5 +1,5 @@
-// Distributions of the same family of inputs that the estimates of openness do not use: what more numbers of
-// the box would gain. For bench_occlusion --errors alone.
+// Distributions of the same family of inputs that the estimates of openness do not use: what other shapes
+// would gain. For bench_occlusion --errors alone.
 #pragma once
 
 #include <algorithm>
