@@ -384,6 +384,8 @@ void addView(CLI::App& app, Parsed& parsed) {
                        "how the right eye is made, auto: what measures best here");
     command.add_option("--mode", options.mode, kModeHelp);
     command.add_option("--path", options.path, "a recorded path (.gltf, .glb, .path) for Z to play");
+    command.add_option("--sweep", options.sweep,
+                       "where a medium is swept: cpu, gpu (OpenGL 4.5), or auto, what is faster here");
     command.add_option("--shots", options.shots, "folder for saved pictures and recorded flights");
     command.callback([&parsed] {
         parsed.run = [&parsed] {

@@ -15,6 +15,8 @@
 #include "app/view_loading.h"
 #include "app/view_session.h"
 #include "app/view_status.h"
+#include "app/view_sweep.h"
+#include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/display/overlay.h"
 #include "engine/display/stereo_presenter.h"
@@ -60,9 +62,12 @@ public:
           mFlight(options.path.empty() ? std::nullopt : std::optional(readPath(options.path))),
           mWindow(titleOf(options), composedSize(mMode, options.size.width, options.size.height).first,
                   composedSize(mMode, options.size.width, options.size.height).second),
+          mSweep(showsMedium(options.scene) ? std::make_unique<ViewSweep>(sweepFromText(options.sweep))
+                                            : nullptr),
           mOverlay(mWindow),
           mScreenshots(options.shots),
-          mWorker([options](Progress& progress) { return viewSceneOf(options, true, progress); },
+          mWorker([options, sweep = mSweep.get()](
+                      Progress& progress) { return viewSceneOf(options, true, sweep, progress); },
                   [] { Window::wake(); }) {}
 
     void run() {
@@ -150,8 +155,9 @@ private:
     void followWishes() {
         if (const auto change = mSession->takeSceneChange()) {
             applyChange(*change, mOptions, mChanged.scene);
-            mWorker.reload(
-                [options = mChanged](Progress& progress) { return viewSceneOf(options, false, progress); });
+            mWorker.reload([options = mChanged, sweep = mSweep.get()](Progress& progress) {
+                return viewSceneOf(options, false, sweep, progress);
+            });
         }
         if (const std::string problem = mWorker.takeReloadProblem(); !problem.empty()) {
             mSession->forgetSceneChange();
@@ -186,6 +192,7 @@ private:
             mScreenshots.take(mFrame, mSession->compose());
         if (!mSession->slicesShown() && mSliceVersion != 0) endSlices();
         reportScreenshots();
+        reportSweep();
     }
 
     void takeSlice() {
@@ -204,6 +211,15 @@ private:
         mSliceVersion = 0;
         if (mFrame) mPresenter.upload(mFrame->left.color, mFrame->right.color);
         mNewFrame = true;
+    }
+
+    void reportSweep() {
+        const std::string notice = mSweep ? mSweep->takeNotice() : "";
+        if (!notice.empty()) mSession->notify(notice);
+        tell(notice);
+        if (!mFrame || mFrame->sweep == mSwept) return;
+        mSwept = mFrame->sweep;
+        tell(mSwept);
     }
 
     void reportScreenshots() {
@@ -285,6 +301,7 @@ private:
     OutputMode mMode;
     std::optional<RecordedPath> mFlight;
     Window mWindow;
+    std::unique_ptr<ViewSweep> mSweep;  // of a medium; before the scenes, which use it to their end
     StereoPresenter mPresenter;
     Overlay mOverlay;
     Screenshots mScreenshots;
@@ -294,7 +311,7 @@ private:
     std::shared_ptr<const ViewFrame> mFrame;
     OverlayContent mContent;
     ComposeSetting mDrawn;
-    std::string mStatus, mWarning;
+    std::string mStatus, mWarning, mSwept = kCpuSweep;
     long long mAsked = 0, mSliceVersion = 0;
     std::shared_ptr<const ViewScene> mScene;
     SliceReading mSlices;
@@ -303,11 +320,17 @@ private:
     std::optional<ViewSession> mSession;
 };
 
+void checkSweep(const ViewOptions& options) {
+    if (sweepFromText(options.sweep) != SweepChoice::Auto && !showsMedium(options.scene))
+        throw Error("--sweep", "", "expected with a medium", "leave it out, or show one with --medium");
+}
+
 }  // namespace
 
 int runView(const ViewOptions& options) {
     checkSize(options.size);
     checkMethod(options.scene, options.method);
+    checkSweep(options);
     ViewOptions shown = options;
     shown.scene.skyTurns = !showsMedium(options.scene);  // a medium's keys turn its own light
     Viewer(shown).run();

@@ -152,8 +152,9 @@ struct ViewOptions {
     SizeOption size;
     std::string method = "auto";  // auto: the frame plan's choice
     std::string mode = "sbsl";
-    std::string path;   // Z plays this one at first
-    std::string shots;  // folder for screenshots and recorded flights; "": the present one
+    std::string path;            // Z plays this one at first
+    std::string shots;           // folder for screenshots and recorded flights; "": the present one
+    std::string sweep = "auto";  // of a medium: auto, cpu, gpu
 };
 int runView(const ViewOptions& options);
 

@@ -92,8 +92,16 @@ std::size_t MediumRenderer::pictureBytes() const {
     return pixels * (sizeof(glm::vec4) + sizeof(float));
 }
 
+bool MediumRenderer::showsSurface() const {
+    return mScene.look.model == MediumModel::Surface && mScene.makeSurface;
+}
+
+const Medium& MediumRenderer::medium() const {
+    return showsSurface() ? mSurface->medium : mScene.medium;
+}
+
 MediumSweep& MediumRenderer::sweep() {
-    if (mScene.look.model != MediumModel::Surface || !mScene.makeSurface) return mSweep;
+    if (!showsSurface()) return mSweep;
     if (!mSurface) mSurface = std::make_unique<Surface>(mScene.makeSurface(), mSweep.target());
     return mSurface->sweep;
 }
@@ -116,13 +124,25 @@ void MediumRenderer::pack(const MediumPicture& picture, const EyeView& view, Eye
     });
 }
 
+void MediumRenderer::sweepEyes(std::span<const EyeView> eyes, double time,
+                               std::span<const Plane<float>> starts) {
+    MediumSweep& sweep = this->sweep();
+    const glm::dvec3& head = eyes[0].head;
+    const std::span<MediumPicture> pictures(mPictures.data(), eyes.size());
+    const auto cpu = [&] { sweep.render(mScene.look, mScene.sweep, eyes, head, time, pictures, starts); };
+    mElsewhere = false;
+    if (!mChooser || mHere || !starts.empty()) return cpu();
+    mElsewhere = mChooser({medium(), mScene.look, mScene.sweep, eyes, head, time, pictures}, cpu);
+}
+
 void MediumRenderer::sweepOne(const EyeView& view, double time, std::span<const Plane<float>> starts,
                               EyeImage& image) {
-    sweep().render(mScene.look, mScene.sweep, {&view, 1}, view.head, time, {mPictures.data(), 1}, starts);
+    sweepEyes({&view, 1}, time, starts);
     pack(mPictures[0], view, image);
 }
 
 void MediumRenderer::renderOne(const EyeView& view, double time, EyeImage& image) {
+    mHere = false;
     sweepOne(view, time, {}, image);
 }
 
@@ -130,9 +150,10 @@ PairTimings MediumRenderer::renderPair(const StereoViews& views, double time, Pa
                                        EyeImage& left, EyeImage& right) {
     PairTimings timings;
     const Stopwatch watch;
+    mHere = method == PairMethod::DepthSplat;
     if (method == PairMethod::Sweep) {
         const std::array<EyeView, 2> eyes{views.left, views.right};
-        sweep().render(mScene.look, mScene.sweep, eyes, views.left.head, time, mPictures);
+        sweepEyes(eyes, time, {});
         pack(mPictures[0], views.left, left);
         pack(mPictures[1], views.right, right);
         timings.both_ms = watch.elapsed_ms();

@@ -1,6 +1,7 @@
-// Both eyes of a medium by sweeps.
+// Both eyes of a medium by sweeps, on the processor or by what is set in its place.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -13,6 +14,19 @@
 
 namespace stereonav {
 
+// What a sweep is asked for; pictures: one for each eye.
+struct SweepTask {
+    const Medium& medium;
+    const MediumLook& look;
+    const SweepSetting& setting;
+    std::span<const EyeView> eyes;
+    const glm::dvec3& head;
+    double time;
+    std::span<MediumPicture> pictures;
+};
+// Sweeps elsewhere, or calls cpu(), which does it here; true: what the pictures hold was made elsewhere.
+using SweepChooser = std::function<bool(const SweepTask& task, const std::function<void()>& cpu)>;
+
 class MediumRenderer final : public PairRenderer {
 public:
     // scene must outlive this; its look is read at each frame.
@@ -21,6 +35,10 @@ public:
     PairTimings renderPair(const StereoViews& views, double time, PairMethod method, EyeImage& left,
                            EyeImage& right) override;
     void renderOne(const EyeView& view, double time, EyeImage& image) override;
+
+    // Asked at each sweep from now on, but for those of the depth splat, whose rays start in depths.
+    void setSweep(SweepChooser chooser) { mChooser = std::move(chooser); }
+    bool sweptElsewhere() const { return mElsewhere; }  // the last one
 
     SimdTarget target() const { return mSweep.target(); }
     // Held between frames: what sweeps read and write, and their pictures before they are packed.
@@ -31,10 +49,13 @@ private:
     class RightRays;
     glm::vec3 behind(const EyeView& view, int x, int y) const;
     void pack(const MediumPicture& picture, const EyeView& view, EyeImage& image) const;
+    void sweepEyes(std::span<const EyeView> eyes, double time, std::span<const Plane<float>> starts);
     void sweepOne(const EyeView& view, double time, std::span<const Plane<float>> starts, EyeImage& image);
 
     // Of the medium that the look's model shows.
+    bool showsSurface() const;
     MediumSweep& sweep();
+    const Medium& medium() const;  // once sweep() was called
 
     struct Surface {
         Medium medium;
@@ -47,6 +68,8 @@ private:
     std::unique_ptr<Surface> mSurface;  // made when it is first shown
     RightEye mSplat;
     std::vector<MediumPicture> mPictures;
+    bool mHere = false, mElsewhere = false;  // the chooser is not asked; it swept elsewhere
+    SweepChooser mChooser;                   // last: it ends before the media that it was asked for
 };
 
 }  // namespace stereonav

@@ -6,6 +6,7 @@
 #include "app/colon_loading.h"
 #include "app/medium_loading.h"
 #include "app/quality.h"
+#include "app/view_sweep.h"
 #include "app/volume_light.h"
 
 namespace stereonav {
@@ -25,7 +26,7 @@ std::string whyLightStays(const LoadedScene& scene, const SceneOptions& options)
 
 }  // namespace
 
-ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progress) {
+ViewScene viewSceneOf(const ViewOptions& options, bool measure, ViewSweep* sweep, Progress& progress) {
     auto loaded = std::make_shared<LoadedScene>(loadScene(options.scene, options.size, progress));
     ViewScene scene;
     scene.owner = loaded;
@@ -41,6 +42,7 @@ ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progre
     scene.lightStays = whyLightStays(*loaded, options.scene);
     if (loaded->medium) {
         addMedium(*loaded, scene);
+        if (sweep) sweep->use(*loaded->pair, scene);
         scene.pairMethod = pairMethodFromText(options.method);
         return scene;
     }

@@ -10,9 +10,11 @@
 
 namespace stereonav {
 
+class ViewSweep;
+
 // measure: whether to find out by measuring how the right eye is made best, where the options leave it
-// open; else it is the scene's default. Throws Error, Cancelled.
-ViewScene viewSceneOf(const ViewOptions& options, bool measure, Progress& progress);
+// open; else it is the scene's default. sweep: of media, null for other scenes. Throws Error, Cancelled.
+ViewScene viewSceneOf(const ViewOptions& options, bool measure, ViewSweep* sweep, Progress& progress);
 
 // What the user changed in the window, into `options`, which were made from `first`.
 void applyChange(const SceneChange& change, const ViewOptions& first, SceneOptions& options);

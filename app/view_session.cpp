@@ -365,6 +365,7 @@ std::string ViewSession::statusLine(const ViewFrame& frame, double framesPerSeco
         line += fmt::format("  {}{}{}", infoOf(mMode).longName, mSwapped ? " swapped" : "",
                             mStereo.follows() ? "  eyes follow" : "");
     if (!mScene->models.empty()) line += "  " + mScene->models[static_cast<std::size_t>(frame.request.model)];
+    if (!frame.sweep.empty()) line += "  " + frame.sweep;
     const double clearance = mFlight->clearanceNow();
     if (std::isfinite(clearance)) line += "  clearance " + lengthText(clearance);
     if (mScene->placeOnLine) {

@@ -55,11 +55,13 @@ void renderTogether(const ViewScene& scene, const FrameRequest& request, ViewFra
         frame.left_ms = watch.elapsed_ms();
         frame.right = {};
     }
+    if (scene.sweepName) frame.sweep = scene.sweepName();
     frame.depthAhead = depthAhead(frame.left.viewDepth);
 }
 
 void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& rightEye, ViewFrame& frame) {
     frame.request = request;
+    frame.sweep.clear();
     if (scene.moveSun) scene.moveSun(request.sun);
     frame.rightTimings = {};
     frame.nearParallax = frame.farParallax = 0;

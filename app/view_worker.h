@@ -64,7 +64,8 @@ struct ViewScene {
     std::vector<std::string> models;
     int model = 0;
     std::function<void(int model)> setModel;
-    bool animated = false;  // moves by itself, on FrameRequest::time
+    std::function<std::string()> sweepName;  // after a frame, there: where it was swept; may be empty
+    bool animated = false;                   // moves by itself, on FrameRequest::time
 
     // Of terrain under baked light and of media: turns the sun before a frame, on the thread that makes
     // frames. Cheap where it stands there already. Of volumes under baked transfer: the sky.
@@ -112,7 +113,8 @@ struct ViewFrame {
     EyeImage left, right;  // right.color is empty with one eye
     double left_ms = 0;
     RightEyeTimings rightTimings;
-    PairTimings pair;  // of both eyes made together
+    PairTimings pair;   // of both eyes made together
+    std::string sweep;  // where they were swept, "" where nobody tells
     // Parallax of the nearest and the farthest thing, as shares of the width; positive is behind the screen.
     double nearParallax = 0, farParallax = 0;
     double depthAhead = 0;  // metres: typical of the picture's middle; infinite where nothing is there

@@ -6,6 +6,7 @@
 #include "app/info_text.h"
 #include "app/medium_loading.h"
 #include "app/medium_options.h"
+#include "app/view_sweep.h"
 #include "engine/medium/medium_transfer.h"
 
 namespace stereonav {
@@ -31,6 +32,26 @@ bool showsMedium(const SceneOptions& options) {
 
 void checkMediumOptions(const SceneOptions& options) {
     if (showsMedium(options)) without();
+}
+
+// Of the viewer: no medium gets as far as to a sweep.
+SweepChoice sweepFromText(const std::string& text) {
+    if (text == "auto") return SweepChoice::Auto;
+    without();
+}
+
+ViewSweep::ViewSweep(SweepChoice choice) : mChoice(choice) {
+    without();
+}
+
+ViewSweep::~ViewSweep() = default;
+
+void ViewSweep::use(PairRenderer&, ViewScene&) {
+    without();
+}
+
+std::string ViewSweep::takeNotice() {
+    return "";
 }
 
 nlohmann::ordered_json mediumJson(const LoadedScene&) {

@@ -1,0 +1,23 @@
+#!/bin/bash
+# Drives the viewer's window through two models of a medium, the second of which has a medium of its own, once
+# for each way to sweep; run it inside xvfb-run.
+#   drive_sweep.sh PROGRAM FOLDER "SWEEP ..." SCENE [OPTION ...]
+# Leaves pictures (one for each step, named in steps.txt), the log and the exit status in FOLDER/SWEEP;
+# view_sweep_window_test.cpp judges them.
+. "$(dirname "$0")/drive_window.sh"
+folder=$2
+sweeps=$3
+shift 3
+
+for sweep in $sweeps; do
+    out=$folder/$sweep
+    shots=$out/shots
+    mkdir -p "$shots"
+    open_window "$@" --sweep "$sweep"
+    sleep 1
+    shot indirect
+    keys i i
+    sleep 1
+    shot surface
+    close_window
+done
