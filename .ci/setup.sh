@@ -77,5 +77,5 @@ build() {
 
 # with_display COMMAND...: under a virtual display of its own, so that no window opens on the user's
 with_display() {
-    env -u WAYLAND_DISPLAY xvfb-run -a -s "-screen 0 1280x1024x24" "$@"
+    env -u WAYLAND_DISPLAY xvfb-run -a -n "$((200 + $$ % 30000))" -s "-screen 0 1280x1024x24" "$@"
 }

@@ -63,11 +63,13 @@ protected:
 
     // arguments: after the program and the folder, quoted for the shell.
     int drive(const std::string& script, const std::string& arguments = "") {
-        const std::string command = "XDG_CACHE_HOME='" + mFolder.string() +
-                                    "/cache' xvfb-run -a -s '-screen 0 1280x1024x24' "
-                                    "'" STEREONAV_SOURCE_DIR "/tests/display/" +
-                                    script + "' '" STEREONAV_PROGRAM "' '" + mFolder.string() + "' " +
-                                    arguments;
+        // From a number of this process's own on: xvfb-run's way of finding a free display is a race.
+        const std::string display = std::to_string(200 + getpid() % 30000);
+        const std::string command =
+            "XDG_CACHE_HOME='" + mFolder.string() + "/cache' xvfb-run -a -n " + display +
+            " -s '-screen 0 1280x1024x24' "
+            "'" STEREONAV_SOURCE_DIR "/tests/display/" +
+            script + "' '" STEREONAV_PROGRAM "' '" + mFolder.string() + "' " + arguments;
         const int status = std::system(command.c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
