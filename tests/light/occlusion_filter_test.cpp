@@ -190,6 +190,24 @@ TEST(OcclusionFilter, TwoFarVoxelsDrawBothEndsIn) {
     EXPECT_EQ(drawnIn.at(10, 10, 10), 255);
 }
 
+// One voxel in `every` far away, down or up: ends that are drawn in, on one side or both.
+GreyVolume noiseWithFarVoxels(unsigned seed, unsigned every, int lowest, int highest) {
+    GreyVolume volume = noise({37, 15, 14}, seed, -30, 40);
+    std::mt19937 engine(seed);
+    for (std::size_t n = 0; n < volume.values.size(); ++n)
+        if (engine() % every == 0)
+            volume.values[n] = static_cast<std::int16_t>(engine() % 2 ? lowest : highest);
+    return volume;
+}
+
+TEST(OcclusionFilter, FarVoxelsOnEitherSide) {
+    expectLikeBrute(noiseWithFarVoxels(21, 300, -32768, 32767), glm::ivec3(4), "both");
+    expectLikeBrute(noiseWithFarVoxels(22, 200, -20000, 0), glm::ivec3(5), "below");
+    expectLikeBrute(noiseWithFarVoxels(23, 200, 0, 20000), glm::ivec3(5), "above");
+    expectLikeBrute(noiseWithFarVoxels(24, 2500, -32768, 0), glm::ivec3(9), "few below");
+    expectLikeBrute(noiseWithFarVoxels(25, 2500, 0, 32767), glm::ivec3(9), "few above");
+}
+
 TEST(OcclusionFilter, NeitherOffsetNorScaleMatters) {
     GreyVolume volume = noise({30, 20, 10}, 13, -1000, 2000);
     for (const OcclusionMethod method : kMethods) {
@@ -222,10 +240,10 @@ TEST(OcclusionFilter, StoredNumbersMovedToTheEndOfTheRangeChangeNothing) {
     }
 }
 
-TEST(OcclusionFilter, NegativeScaleTurnsOpenAndOccludedAround) {
-    GreyVolume volume = noise({25, 14, 12}, 15, 0, 500), turned = noise({25, 14, 12}, 15, 0, 500);
+void expectTurnedAround(const GreyVolume& volume) {
+    GreyVolume turned(volume.frame);
     for (std::size_t n = 0; n < turned.values.size(); ++n)
-        turned.values[n] = static_cast<std::int16_t>(-turned.values[n]);
+        turned.values[n] = static_cast<std::int16_t>(-volume.values[n]);
     turned.scale = -1;
     for (const OcclusionMethod method : kMethods) {
         const OpennessVolume a = estimate(volume, method, glm::ivec3(3));
@@ -233,6 +251,12 @@ TEST(OcclusionFilter, NegativeScaleTurnsOpenAndOccludedAround) {
         for (std::size_t n = 0; n < a.values.size(); ++n)
             ASSERT_LE(std::abs(a.values[n] - b.values[n]), 1) << n;
     }
+}
+
+TEST(OcclusionFilter, NegativeScaleTurnsOpenAndOccludedAround) {
+    expectTurnedAround(noise({25, 14, 12}, 15, 0, 500));
+    expectTurnedAround(noiseWithFarVoxels(26, 200, -20000, 100));
+    expectTurnedAround(noiseWithFarVoxels(27, 200, -100, 20000));
 }
 
 TEST(OcclusionFilter, EvenBoxesAreHalfOpen) {
