@@ -13,7 +13,7 @@
 
 namespace stereonav::test {
 
-constexpr std::array kOcclusionMethods{OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn,
+inline constexpr std::array kOcclusionMethods{OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn,
                                        OcclusionMethod::Gaussian, OcclusionMethod::Chebyshev};
 
 __extension__ typedef __int128 Wide;
