@@ -14,7 +14,7 @@
 namespace stereonav::test {
 
 inline constexpr std::array kOcclusionMethods{OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn,
-                                       OcclusionMethod::Gaussian, OcclusionMethod::Chebyshev};
+                                              OcclusionMethod::Gaussian, OcclusionMethod::Chebyshev};
 
 __extension__ typedef __int128 Wide;
 
