@@ -14,8 +14,8 @@
 namespace stereonav {
 namespace {
 
-// Of layers. With 64 levels the generated terrain's snow is sampled at 69.8 million places for a pair of 640x360
-// pixels, with 32 at 73.9 million, with 128, which take twice the memory, at 67.8 million.
+// Of layers. With 64 levels the generated terrain's snow is sampled at 69.8 million places for a pair of
+// 640x360 pixels, with 32 at 73.9 million, with 128, which take twice the memory, at 67.8 million.
 constexpr int kLayerCells = 128, kLayerLevels = 64;
 constexpr std::int64_t kMostCells = 1 << 19;
 
