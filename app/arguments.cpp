@@ -51,13 +51,18 @@ double shareFromText(const std::string& text) {
     return number(text.substr(0, slash)) / number(text.substr(slash + 1));
 }
 
-void addVolume(CLI::App& command, VolumeOptions& options) {
-    constexpr const char* kGroup = "Options of CT studies";
+constexpr const char* kStudyGroup = "Options of CT studies";
+constexpr const char* kUpHelp =
+    "x, -x, y, -y, z or -z: the axis of a study's file that is to point up, by quarter turns; not where a "
+    "colon is looked for";
+
+// What is read, and which surface of it.
+void addStudy(CLI::App& command, VolumeOptions& options) {
     const auto add = [&](const char* name, auto& value, const std::string& help) {
-        return command.add_option(name, value, help)->group(kGroup);
+        return command.add_option(name, value, help)->group(kStudyGroup);
     };
     const auto flag = [&](const char* name, bool& value, const char* help) {
-        command.add_flag(name, value, help)->group(kGroup);
+        command.add_flag(name, value, help)->group(kStudyGroup);
     };
     add("--series", options.series, "of a DICOM folder with several: its number in the list, or its UID");
     add("--label", options.label, "the label of a mask with several");
@@ -68,6 +73,16 @@ void addVolume(CLI::App& command, VolumeOptions& options) {
     flag("--resample", options.resample, "mend missing, uneven or tilted slices");
     flag("--isosurface", options.isosurface, "show the volume from outside, without looking for a colon");
     add("--isovalue", options.isovalue, "the value of that surface");
+    add("--up", options.up, kUpHelp);
+    flag("--backwards", options.backwards, "fly from the caecum to the rectum");
+    command.add_flag("!--no-cache", options.cache, "neither read nor keep what was computed")
+        ->group(kStudyGroup);
+}
+
+void addVolumeLook(CLI::App& command, VolumeOptions& options) {
+    const auto add = [&](const char* name, auto& value, const std::string& help) {
+        return command.add_option(name, value, help)->group(kStudyGroup);
+    };
     add("--transfer", options.transfer,
         "colours and opacities by value: translucent; a file, or one of " + transferPresetNames());
     add("--opacity", options.opacity, "a translucent wall that takes this share of light a millimetre, 0..1");
@@ -80,11 +95,12 @@ void addVolume(CLI::App& command, VolumeOptions& options) {
     add("--exposure", options.exposure, "factor on baked light; left out: by its mean");
     add("--turn", options.turn_deg,
         "degrees by which the sky over baked transfer is turned about the vertical");
-    flag("--backwards", options.backwards, "fly from the caecum to the rectum");
-    command.add_flag("!--no-cache", options.cache, "neither read nor keep what was computed")->group(kGroup);
+    add("--tilt", options.tilt_deg,
+        "degrees by which that sky is tilted before it is turned, -90 to 90: what lies north rises");
 }
 
-void addScene(CLI::App& command, SceneOptions& options) {
+// Which scene, and how it is read.
+void addSource(CLI::App& command, SceneOptions& options) {
     command.add_option(
         "SCENE", options.scene,
         "a scene (.toml), an elevation model, a CT study (.nrrd, .nhdr, .nii, .nii.gz, .mha, "
@@ -93,6 +109,13 @@ void addScene(CLI::App& command, SceneOptions& options) {
     command.add_option("--vertical-scale", options.verticalScale, "factor on heights")
         ->check(CLI::PositiveNumber);
     command.add_flag("--open-holes", options.openHoles, "leave missing ground open instead of filling it");
+    command.add_option("--threads", options.threads, "threads to use, 0 for all processors");
+    command.add_option("--simd", options.simd, "instruction set: auto, plain, avx2, avx512");
+    addStudy(command, options.volume);
+}
+
+void addScene(CLI::App& command, SceneOptions& options) {
+    addSource(command, options);
     command.add_option("--image", options.image, "colour of the ground");
     command.add_option("--sky", options.sky, "an equirectangular picture or a light probe (.hdr)");
     command.add_option(
@@ -106,9 +129,7 @@ void addScene(CLI::App& command, SceneOptions& options) {
                        "of the eyes, in metres: 0.001 is a millimetre, and usual in a colon");
     command.add_option("--zero-parallax", options.zeroParallax_m, "distance seen in the screen, in metres");
     command.add_option("--fov", options.fov_deg, "vertical field of view in degrees");
-    command.add_option("--threads", options.threads, "threads to use, 0 for all processors");
-    command.add_option("--simd", options.simd, "instruction set: auto, plain, avx2, avx512");
-    addVolume(command, options.volume);
+    addVolumeLook(command, options.volume);
 }
 
 void addMedium(CLI::App& command, MediumOptions& options) {
@@ -291,6 +312,7 @@ void addReport(CLI::App& app, Parsed& parsed) {
     command
         .add_option("--scene", options.scenes, "a scene beside the built-in ones; may be given several times")
         ->allow_extra_args(false);
+    command.add_option("--up", options.up, kUpHelp);
     command.add_option(
         "--compare", options.compare,
         "an earlier run's report.json: shows what moved, exit status 1 where something got worse");
@@ -333,7 +355,6 @@ void addCentreline(CLI::App& app, Parsed& parsed) {
 
 // The light that is baked has other words than the light that scenes are shown in.
 void addBakedLight(CLI::App& command, BakeOptions& options) {
-    if (CLI::Option* shown = command.get_option_no_throw("--light")) command.remove_option(shown);
     command
         .add_option(
             "--light", options.lights,
@@ -341,6 +362,8 @@ void addBakedLight(CLI::App& command, BakeOptions& options) {
             "metres, in a colon; may be given several times")
         ->allow_extra_args(false);
     command.add_option("--probe", options.probe, "light from all around: a light probe (.hdr) or a picture");
+    command.add_option("--sky", options.scene.sky,
+                       "of a volume: light from everywhere, one number or red,green,blue");
     command.add_option("--bounces", options.bounces, "of light between surfaces, 0 to 8");
     command.add_option("--albedo", options.albedo, "of the surface, 0 to 1: one number, or red,green,blue");
     command.add_option("--order", options.order, "of transfer's harmonics, 1 to 6");
@@ -350,10 +373,8 @@ void addBake(CLI::App& app, Parsed& parsed) {
     BakeOptions& options = parsed.bake;
     CLI::App& command = *app.add_subcommand(
         "bake", "light worked out before, with bounces and soft shadows; Ctrl-C keeps what is done");
-    addScene(command, options.scene);
+    addSource(command, options.scene);
     addBakedLight(command, options);
-    command.get_option("--sky")->description(
-        "of a volume: light from everywhere, one number or red,green,blue; of a terrain: its picture");
     command.add_option("--what", options.what,
                        "irradiance, transfer (light can be turned later), or openness");
     command.add_option("--samples", options.samples,

@@ -71,7 +71,7 @@ void refuseOtherOptions(const BakeOptions& options) {
         {"--error", options.error.has_value()},      {"--minutes", options.minutes.has_value()},
         {"--probe", !options.probe.empty()},         {"--light", !options.lights.empty()},
         {"--isovalues", !options.isovalues.empty()}, {"--full", options.full},
-        {"--reach", options.reach_mm.has_value()}};
+        {"--reach", options.reach_mm.has_value()},   {"--sky", !options.scene.sky.empty()}};
     for (const auto& [option, is] : given)
         if (is)
             throw Error(option, "", "expected with a CT study, the scene is a terrain",

@@ -44,6 +44,13 @@ glm::dvec3 seedFromText(const std::string& text) {
     return seed / 1000.0;
 }
 
+std::optional<UpAxis> upFromText(const std::optional<std::string>& text) {
+    if (!text) return std::nullopt;
+    if (const std::optional<UpAxis> up = upAxisFromText(*text)) return up;
+    throw Error("--up", "", "expected x, -x, y, -y, z or -z, got \"" + *text + "\"",
+                "-z stands a volume on its head");
+}
+
 void checkVolumeOptions(const SceneOptions& options) {
     const VolumeOptions& volume = options.volume;
     const auto refuse = [](bool when, const char* option, const std::string& problem, const char* advice) {
@@ -130,6 +137,7 @@ std::shared_ptr<const SliceStudy> readSlices(const ColonOptions& options, Progre
         Study study = readStudy(options.study, options.reading, progress);
         slices->grey = study.isMask ? greyOf(study.mask) : std::move(study.grey);
     }
+    if (options.up) turnUp(slices->grey.frame, *options.up);
     const Range range = rangeOf(slices->grey);
     const bool ct = range.lowest <= kAirSeen;
     slices->windowWidth = ct ? kCtWidth : std::max(range.highest - range.lowest, 1e-9);
@@ -169,6 +177,7 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
     colon.transfer = volume.transfer;
     colon.opacity = volume.opacity;
     colon.cache = volume.cache;
+    colon.up = upFromText(volume.up);
     return colon;
 }
 

@@ -101,7 +101,9 @@ int runReport(const ReportOptions& options) {
     checkOutputFolder("--out", options.out);
     std::optional<EarlierReport> earlier;
     if (!options.compare.empty()) earlier = readEarlierReport(options.compare);
-    for (const std::string& name : options.scenes) kindOf(name);
+    const long studies = std::ranges::count_if(options.scenes, isStudy);
+    if (options.up && studies == 0)
+        throw Error("--up", "", "expected with a CT study among the scenes", "name one with --scene");
     // what can not be read is told before minutes are spent
     if (!options.stability.empty()) stabilitySection(readTextFile(options.stability), options.stability);
     const std::vector<Part> parts = partsOf(options);

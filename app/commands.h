@@ -20,12 +20,16 @@ struct VolumeOptions {
     std::string transfer;              // a transfer function's file or name; "": none
     std::optional<double> opacity;     // of a translucent wall a millimetre, in (0, 1]
     bool backwards = false;            // from the caecum
+    std::optional<std::string> up;     // the file's axis that is to point up; none: z
     std::string shading;               // a lighting model by name; "": a lamp at the head
     std::optional<double> exposure;    // factor on baked light; none: by its mean
     std::optional<double> ambient_mm;  // radius of ambient occlusion; none: without
     std::string modulate;              // opacity: variance or gradient; "": none
     double turn_deg = 0;               // of the sky about the vertical, with baked transfer
+    double tilt_deg = 0;               // of it before that: what lies north rises
     bool cache = true;
+
+    bool skyMoved() const { return turn_deg != 0 || tilt_deg != 0; }
 };
 
 // Of a scene shown as a medium that light goes through; texts are checked where they are read.
@@ -137,6 +141,7 @@ struct ReportOptions {
     std::string out = "report";       // folder
     bool quick = false;               // within a minute, with fewer frames and repeats
     std::vector<std::string> scenes;  // beside the built-in ones
+    std::optional<std::string> up;    // as VolumeOptions, of those that are studies
     std::string compare;              // an earlier run's report.json; "": none
     std::string stability;            // rows that the stability tests wrote; "": those of this build, if any
     int threads = 0;                  // 0: all

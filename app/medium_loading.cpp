@@ -105,7 +105,8 @@ void refuseWithBuiltIn(const SceneOptions& options) {
         {"--label", options.volume.label.has_value()}, {"--series", !options.volume.series.empty()},
         {"--seed", !options.volume.seeds.empty()},     {"--resample", options.volume.resample},
         {"--backwards", options.volume.backwards},     {"--exposure", options.volume.exposure.has_value()},
-        {"--turn", options.volume.turn_deg != 0}};
+        {"--turn", options.volume.turn_deg != 0},      {"--tilt", options.volume.tilt_deg != 0},
+        {"--up", options.volume.up.has_value()}};
     for (const auto& [option, is] : given)
         if (is)
             throw Error(option, "", "expected with a CT study, " + options.scene + " is built in",

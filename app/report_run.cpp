@@ -93,6 +93,7 @@ void loadReportScenes(ReportRun& run, bool surfaces, bool media) {
     options.threads = run.options().threads;
     for (const std::string& name : names) {
         options.scene = name;
+        options.volume.up = isStudy(name) ? run.options().up : std::nullopt;
         const bool medium = kindOf(name) == SceneKind::Medium;
         if (medium && media) loadOne(run, name, name, options);
         if (!medium && surfaces) loadWithGlass(run, idOf(name, run.scenes()), options);

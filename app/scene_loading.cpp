@@ -65,7 +65,9 @@ void refuseVolumeOptions(const SceneOptions& options) {
                                                   {"--modulate", !v.modulate.empty()},
                                                   {"--shading", !v.shading.empty()},
                                                   {"--exposure", v.exposure.has_value()},
-                                                  {"--turn", v.turn_deg != 0}};
+                                                  {"--turn", v.turn_deg != 0},
+                                                  {"--tilt", v.tilt_deg != 0},
+                                                  {"--up", v.up.has_value()}};
     for (const auto& [option, is] : given)
         if (is)
             throw Error(option, "", "expected with a CT study or the built-in colon, the scene is a terrain",
@@ -129,6 +131,10 @@ SceneKind kindOf(const std::string& name) {
         throw Error(name, "", "expected a file or a folder of DICOM slices, found a folder without any",
                     kAdvice);
     return SceneKind::Terrain;
+}
+
+bool isStudy(const std::string& name) {
+    return kindOf(name) == SceneKind::Volume && name != "colon";
 }
 
 LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress) {

@@ -54,6 +54,8 @@ struct LoadedScene {
 enum class SceneKind { Terrain, Volume, Medium };  // Medium: a built-in one
 // What a scene's name stands for. Throws Error for a name of nothing, with what can be named.
 SceneKind kindOf(const std::string& name);
+// From files: not the built-in colon.
+bool isStudy(const std::string& name);
 
 // Checks options and size, sets the thread count, reads the scene. Throws Error, Cancelled.
 LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress);

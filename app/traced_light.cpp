@@ -48,9 +48,9 @@ std::string errorText(double error) {
 void checkTracedLight(const SceneOptions& options) {
     if (options.light != kTracedLight) return;
     const VolumeOptions& v = options.volume;
-    if (v.turn_deg != 0 || !v.transfer.empty() || v.opacity || !v.shading.empty())
+    if (v.skyMoved() || !v.transfer.empty() || v.opacity || !v.shading.empty())
         throw Error("--light", "", "traced expects an opaque surface under a sky that stands still",
-                    "leave out --turn, --transfer, --opacity and --shading");
+                    "leave out --turn, --tilt, --transfer, --opacity and --shading");
     checkBakeOptions(asBake(options));
 }
 

@@ -21,6 +21,7 @@
 namespace stereonav {
 namespace {
 
+constexpr double kRadians = std::numbers::pi / 180;
 constexpr float kMeanShown =
     0.45f;  // radiance of white at the mean of the known texels, where nothing is said
 
@@ -44,10 +45,10 @@ std::shared_ptr<ViewSky> applyBaked(const SceneOptions& options, ColonScene& sce
     BakedLight baked = loadBakedLight(options.light, scene, progress);
     BakedLook& look = scene.volume.look.baked;
     const bool transfer = baked.kind == BakeKind::Transfer;
-    if (!transfer && (!options.sky.empty() || options.volume.turn_deg != 0))
+    if (!transfer && (!options.sky.empty() || options.volume.skyMoved()))
         throw Error(options.light, "",
                     "expected baked transfer, to be lit by a sky, got light that stands still",
-                    "bake with --what transfer, or leave out --sky and --turn");
+                    "bake with --what transfer, or leave out --sky, --turn and --tilt");
     auto light = std::make_shared<IlluminationVolume>(transfer ? IlluminationVolume(baked.transfer.frame())
                                                                : std::move(baked.irradiance));
     std::vector<glm::vec3> straight;
@@ -153,7 +154,7 @@ std::vector<glm::vec3> skyHarmonics(const SceneOptions& options, int order) {
 }
 
 SkyTurn skyTurnOf(const SceneOptions& options) {
-    return {options.volume.turn_deg * std::numbers::pi / 180, 0};
+    return {options.volume.turn_deg * kRadians, options.volume.tilt_deg * kRadians};
 }
 
 std::string shadingNames() {
@@ -177,13 +178,21 @@ void checkVolumeLight(const SceneOptions& options) {
     if (volume.ambient_mm && !(*volume.ambient_mm > 0 && *volume.ambient_mm <= 1e6))
         throw Error("--ambient", "", fmt::format("expected millimetres above 0, got {}", *volume.ambient_mm),
                     "try ten voxels' worth");
-    if (options.light == kLazyLight && volume.turn_deg != 0)
-        throw Error("--turn", "", "lazy expects a sky that stands still", "use --light lazy-transfer");
+    if (!std::isfinite(volume.turn_deg))
+        throw Error("--turn", "", fmt::format("expected degrees, got {}", volume.turn_deg),
+                    "90 turns a quarter");
+    if (!(std::abs(volume.tilt_deg) <= 90))
+        throw Error("--tilt", "", fmt::format("expected -90 to 90 degrees, got {}", volume.tilt_deg),
+                    "turn the sky as well for more: --turn");
+    if (options.light == kLazyLight && volume.skyMoved())
+        throw Error(volume.turn_deg != 0 ? "--turn" : "--tilt", "", "lazy expects a sky that stands still",
+                    "use --light lazy-transfer");
     if (lazy && (!volume.transfer.empty() || volume.opacity))
         throw Error("--light", "", options.light + " expects an opaque surface",
                     "leave out --transfer and --opacity");
-    if (options.light.empty() && (!options.sky.empty() || volume.turn_deg != 0 || volume.exposure))
-        throw Error("--sky, --turn, --exposure", "", "expected with light that was baked for a CT study",
+    if (options.light.empty() && (!options.sky.empty() || volume.skyMoved() || volume.exposure))
+        throw Error("--sky, --turn, --tilt, --exposure", "",
+                    "expected with light that was baked for a CT study",
                     "name it with --light, or leave them out");
     if (!options.light.empty() && volume.ambient_mm)
         throw Error("--ambient", "", "expected without baked light, --light was given too",

@@ -171,12 +171,20 @@ ColonScene sceneOf(FoundColon found, const ColonOptions& options, Progress& prog
 }
 
 ColonScene surfaceOf(Study study, const ColonOptions& options, const std::string& note, Progress& progress) {
-    ColonScene scene =
-        isosurfaceScene(study.isMask ? greyOf(study.mask) : std::move(study.grey), options, progress);
+    GreyVolume grey = study.isMask ? greyOf(study.mask) : std::move(study.grey);
+    if (options.up) turnUp(grey.frame, *options.up);
+    ColonScene scene = isosurfaceScene(std::move(grey), options, progress);
+    if (options.up) scene.notes.push_back("turned: what points to " + nameOf(*options.up) + " is up");
     scene.format = study.format;
     scene.notes.insert(scene.notes.begin(), study.notes.begin(), study.notes.end());
     if (!note.empty()) scene.notes.insert(scene.notes.begin(), note);
     return scene;
+}
+
+void refuseTurned(const ColonOptions& options) {
+    if (options.up)
+        throw Error("--up", "", "expected with a volume seen from outside, in this one a colon is looked for",
+                    "leave it out: a colon follows the patient's axes; or add --isosurface");
 }
 
 Study readOrMake(const ColonOptions& options, std::vector<Polyp>& polyps, Progress& progress) {
@@ -209,7 +217,8 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
     const std::string name = nameOf(options);
     bool damaged = false;
     std::uint64_t key = 0;
-    if (!options.isosurface && options.cache) {
+    if (!options.isosurface && builtIn) refuseTurned(options);
+    if (!options.isosurface && options.cache && !options.up) {
         key = colonCacheKey(builtIn ? builtInKey(options.builtIn) : studyKey(options.study, options.reading),
                             options);
         if (std::optional<FoundColon> kept = readColonCache(key, damaged)) {
@@ -229,6 +238,7 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
         scene.name = name;
         return scene;
     }
+    refuseTurned(options);
     FoundColon found = findColon(study, options, progress);
     found.polyps = std::move(polyps);
     study = {};

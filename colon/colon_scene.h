@@ -16,6 +16,7 @@
 #include "engine/camera/stereo_rig.h"
 #include "engine/volume/distance_transform.h"
 #include "engine/volume/volume_scene.h"
+#include "engine/volume/volume_up.h"
 
 namespace stereonav {
 
@@ -30,6 +31,7 @@ struct ColonOptions {
     std::filesystem::path transfer;  // a transfer function, by file or name: translucent
     std::optional<double> opacity;   // translucent wall of this opacity a millimetre, in (0, 1]
     double clearance = 0;            // metres; 0: chosen
+    std::optional<UpAxis> up;        // of a volume seen from outside; not given: z
     bool cache = true;
 };
 
