@@ -1,9 +1,11 @@
 #version 450 core
 // The light's pass: what a slab leaves of direct and scattered light (eq. V8 and V9 of docs/volume_light.md).
+// Where slabs lean against the light's way, taps count by V11.
 // In: the light's buffer before the slab. Out: the buffer behind it. Both hold scattered light by colour in
 // rgb, linear, 1 where nothing is in the way, and direct light's share in a. Texel (x, y) of the buffer is a
 // ray of the light, y downwards; a ring of texels around it stays as light sets out.
-// WIDE is defined: 0 where no offset is above a texel, as rasterisers on the CPU run both sides of an `if`.
+// WIDE is defined: 0 where no offset is above a texel, as rasterisers on the CPU run both sides of an `if`. So is
+// LEANS: 0 where V11 does not count.
 layout(binding = 4) uniform sampler2D uBefore;
 uniform ivec2 uBeforeAt;    // corner of the buffer in its texture, inside the ring
 uniform ivec2 uWriteAt;     // the same of what is written
@@ -15,6 +17,7 @@ uniform float uTexel;       // width of a texel: metres, of a lamp: at unit dist
 uniform float uFromLamp;    // of the slab's middle along the axis of the sweep: metres
 uniform float uSpread;      // offset of the taps over the root of the way through the slab: root of metres
 uniform int uSlabNumber;
+uniform float uLeaning;     // how far V11 counts, 0..1
 layout(location = 0) out vec4 behind;
 
 vec3 texelAt(ivec2 texel) { return texelFetch(uBefore, uBeforeAt + texel, 0).rgb; }
@@ -33,8 +36,52 @@ float tapTurn(ivec2 texel) {
     return float(h >> 8) * (1.57079632679 / 16777216.0);
 }
 
+// Of a texel's ray where it crosses the middle of the slab.
+struct Crossing {
+    vec3 place, way;
+    float width;  // of a texel there: metres; 0 or less: behind a lamp
+    vec2 lags;    // sweep_geometry's tapLags
+};
+Crossing crossingOf(ivec2 texel) {
+    vec2 at = vec2(texel) + 0.5;
+    vec3 ray = uLightCorner + at.x * uLightAcross + at.y * uLightDown;
+    vec2 leans = vec2(dot(uAxis, uLightAcross), dot(uAxis, uLightDown));
+    Crossing c;
+#if LAMP
+    float along = dot(uAxis, ray), k = uFromLamp / along, far = length(ray);  // k: metres along the lamp's axis
+    c.place = uLightOrigin + k * ray;
+    c.way = ray / far;
+    c.width = uTexel * k;
+    c.lags = uLeaning * k * (vec2(dot(ray, uLightAcross), dot(ray, uLightDown)) / far - far / along * leans);
+#else
+    c.way = uLightForward;
+    c.place = ray + (uSlab.x - dot(uAxis, ray)) / dot(uAxis, c.way) * c.way;
+    c.width = uTexel;
+    c.lags = -uLeaning / dot(uAxis, c.way) * leans;
+#endif
+    return c;
+}
+bool crosses(Crossing c) { return dot(uAxis, c.way) > kLeastCosine && c.width > 0.0; }
+
+#if LEANS
+// V11: a tap whose ray is met later has lost more of its light on the way. at: of the tap, in texels.
+vec3 leveled(vec3 light, vec2 at, float later) {
+    ivec2 texel = ivec2(floor(clamp(at, vec2(-1.0), vec2(uLightSize))));
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, uLightSize))) return light;
+    Crossing c = crossingOf(texel);
+    if (!crosses(c)) return light;
+    return light * (1.0 + clamp(propertiesAt(c.place, c.width).indirectExtinction * later, -1.0, 1.0));
+}
+#else
+vec3 leveled(vec3 light, vec2 at, float later) { return light; }
+#endif
+vec3 nearTap(ivec2 texel, ivec2 by, vec2 lags) {
+    return leveled(texelAt(texel + by), vec2(texel + by) + 0.5, dot(vec2(by), lags));
+}
+vec3 farTap(vec2 centre, vec2 by, vec2 lags) { return leveled(scatteredAt(centre + by), centre + by, dot(by, lags)); }
+
 // By sweep_geometry's blurTaps for that offset, in texels.
-vec3 blurred(ivec2 texel, vec3 here, float offset) {
+vec3 blurred(ivec2 texel, vec3 here, float offset, vec2 lags) {
     float square = min(offset * offset, 1e12), weight = min(square, 1.0);
     float radius = sqrt(max(square - 1.0 / 3.0, 1.0));
     vec3 sum;
@@ -42,36 +89,27 @@ vec3 blurred(ivec2 texel, vec3 here, float offset) {
     if (radius > 1.0) {
         float turn = tapTurn(texel);
         vec2 centre = vec2(texel) + 0.5, arm = radius * vec2(cos(turn), sin(turn)), other = vec2(-arm.y, arm.x);
-        sum = scatteredAt(centre + arm) + scatteredAt(centre - arm) + scatteredAt(centre + other) +
-              scatteredAt(centre - other);
+        sum = farTap(centre, arm, lags) + farTap(centre, -arm, lags) + farTap(centre, other, lags) +
+              farTap(centre, -other, lags);
     } else
 #endif
     {
-        sum = texelAt(texel + ivec2(1, 0)) + texelAt(texel - ivec2(1, 0)) + texelAt(texel + ivec2(0, 1)) +
-              texelAt(texel - ivec2(0, 1));
+        sum = nearTap(texel, ivec2(1, 0), lags) + nearTap(texel, ivec2(-1, 0), lags) +
+              nearTap(texel, ivec2(0, 1), lags) + nearTap(texel, ivec2(0, -1), lags);
     }
-    return (1.0 - weight) * here + 0.25 * weight * sum;
+    return min((1.0 - weight) * here + 0.25 * weight * sum, 1.0);
 }
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy) - uWriteAt;
-    vec2 at = vec2(texel) + 0.5;
-    vec3 ray = uLightCorner + at.x * uLightAcross + at.y * uLightDown;
-#if LAMP
-    float k = uFromLamp / dot(uAxis, ray);  // metres along the lamp's axis
-    vec3 place = uLightOrigin + k * ray, way = normalize(ray);
-    float texelWidth = uTexel * k;
-#else
-    vec3 way = uLightForward, place = ray + (uSlab.x - dot(uAxis, ray)) / dot(uAxis, way) * way;
-    float texelWidth = uTexel;
-#endif
+    Crossing at = crossingOf(texel);
     behind = texelFetch(uBefore, uBeforeAt + texel, 0);
-    if (!(dot(uAxis, way) > kLeastCosine) || !(texelWidth > 0.0)) return;
-    float slabLength = uSlab.y / dot(uAxis, way);
-    Properties p = propertiesAt(place, texelWidth);
+    if (!crosses(at)) return;
+    float slabLength = uSlab.y / dot(uAxis, at.way);
+    Properties p = propertiesAt(at.place, at.width);
     behind.a *= through(p.extinction * slabLength);
 #if MODEL == 3
-    behind.rgb = blurred(texel, behind.rgb, uSpread * sqrt(slabLength) / texelWidth) *
+    behind.rgb = blurred(texel, behind.rgb, uSpread * sqrt(slabLength) / at.width, at.lags) *
                  exp(-p.indirectExtinction * slabLength);
 #endif
 }

@@ -121,6 +121,9 @@ struct MediumGpu::State {
         touched;  // of the light's buffer: what may differ from 1, or, unless it is blurred, between the two
     double spread = 0;  // of the blur: its offset over the root of the way, root of metres
 
+    bool leans(const MediumLook& look) const {
+        return look.model == MediumModel::Indirect && geometry->leaning > 0;
+    }
     std::string definesOf(const MediumLook& look) const;
     const Programs& programsFor(const MediumLook& look);
     void makeTargets(bool single);
@@ -150,11 +153,12 @@ std::string MediumGpu::State::definesOf(const MediumLook& look) const {
            fmt::format(
                "#define MODEL {}\n#define FORWARD {}\n#define LAMP {}\n#define PHASE {}\n"
                "#define SURFACE {}\n#define GLOW {}\n#define EYES {}\n#define INDIRECT {}\n#define BAKED "
-               "{}\n#define OPENNESS {}\n",
+               "{}\n#define OPENNESS {}\n#define LEANS {}\n",
                static_cast<int>(look.model), flag(geometry->forward),
                flag(look.light.kind == MediumLight::Kind::Lamp), flag(!look.phase.isotropic()), flag(surface),
                flag(textures.hasGlow()), kMostEyes, flag(look.model == MediumModel::Indirect),
-               flag(surface && baked.any()), flag(look.baked.use == BakedLook::Use::Openness));
+               flag(surface && baked.any()), flag(look.baked.use == BakedLook::Use::Openness),
+               flag(leans(look)));
 }
 
 const Programs& MediumGpu::State::programsFor(const MediumLook& look) {
@@ -223,6 +227,7 @@ void MediumGpu::State::setLight(const ShaderProgram& program) const {
     set(program, "uLightDown", rays.down);
     set(program, "uTexel", static_cast<float>(geometry->light.perX));
     set(program, "uSpread", static_cast<float>(spread));
+    set(program, "uLeaning", static_cast<float>(geometry->leaning));
 }
 
 void MediumGpu::State::setFrame(const MediumLook& look, const SweepSetting& setting, double time) {
@@ -297,7 +302,9 @@ bool MediumGpu::State::drawLight(int slab) {
     const bool blurs = used->lights.size() > 1;
     const double tap = blurs ? farthestTap(g.light, g.axis, spread, thickness, t - g.lightStart) : 0.0;
     const int reach = static_cast<int>(std::min(std::ceil(tap), 1e6)) + 1;
-    const PixelRect part = united(met, blurs ? grown(touched, reach, g.light) : touched);
+    // Where slabs lean, what the medium meets changes its neighbours too.
+    const PixelRect changed = blurs && g.leaning > 0 ? united(met, touched) : touched;
+    const PixelRect part = united(met, blurs ? grown(changed, reach, g.light) : changed);
     touched = blurs ? part : met;
     if (part.empty()) return false;
     const ShaderProgram& program = used->lights[tap > 0.999 ? 1 : 0];

@@ -4,119 +4,10 @@
 // Included by kernels only.
 #pragma once
 
-#include "engine/medium/kernel_arriving.h"
+#include "engine/medium/kernel_blur.h"
 #include "engine/medium/kernel_eye.h"
 
 namespace stereonav::STEREONAV_ISA {
-
-// Texels' rays in the middle of a slab.
-struct TexelPlaces {
-    V3 place;
-    F length;  // of way for one along the axis
-    F size;    // of a texel there, metres
-    M valid;
-};
-STEREONAV_INLINE V3 alongFan(const SweepLight& light, F x, F y) {
-    const auto axis = [&](int k) { return mulAdd(F(light.right[k]), x, mulAdd(F(light.up[k]), y, F(0.0f))); };
-    return {axis(0), axis(1), axis(2)};
-}
-STEREONAV_INLINE TexelPlaces texelPlaces(const SweepLight& light, float middle, F x, F y) {
-    const F u = mulAdd(x, F(light.perX), F(light.xMin)), v = mulAdd(y, F(-light.perY), F(light.yMax));
-    const F zero(0.0f);
-    const V3 aside = alongFan(light, u, v);
-    const F asideAxis = mulAdd(F(light.axis[0]), u, F(light.axis[1]) * v);
-    TexelPlaces p;
-    if (light.parallel) {  // from the fan's plane on
-        const F way = (F(middle) - asideAxis) * F(light.length);
-        p.place = {mulAdd(way, F(light.forward[0]), aside.x), mulAdd(way, F(light.forward[1]), aside.y),
-                   mulAdd(way, F(light.forward[2]), aside.z)};
-        p.length = F(light.length);
-        p.size = F(light.perX);
-        p.valid = zero < F(1.0f);
-        return p;
-    }
-    const V3 d{aside.x + F(light.forward[0]), aside.y + F(light.forward[1]), aside.z + F(light.forward[2])};
-    const F c = asideAxis + F(light.axis[2]), length = lengthOf(d);
-    p.valid = c > F(1e-4f) * length;
-    const F per = F(1.0f) / select(p.valid, c, F(1.0f)), depth = (F(middle) - F(light.start)) * per;
-    p.place = {mulAdd(depth, d.x, F(light.origin[0])), mulAdd(depth, d.y, F(light.origin[1])),
-               mulAdd(depth, d.z, F(light.origin[2]))};
-    p.length = length * per;
-    p.size = depth * F(light.perX);
-    p.valid = p.valid & (depth > zero);
-    return p;
-}
-
-// sin and cos of 0 .. pi / 2, errors below 4e-6.
-struct Turn {
-    F cosine, sine;
-};
-STEREONAV_INLINE Turn turnBy(F a) {
-    const F s = a * a, one(1.0f);
-    F sine = mulAdd(s, F(1.0f / 362880), F(-1.0f / 5040));
-    sine = mulAdd(sine, s, F(1.0f / 120));
-    sine = mulAdd(sine, s, F(-1.0f / 6));
-    F cosine = mulAdd(s, F(-1.0f / 3628800), F(1.0f / 40320));
-    cosine = mulAdd(cosine, s, F(-1.0f / 720));
-    cosine = mulAdd(cosine, s, F(1.0f / 24));
-    cosine = mulAdd(cosine, s, F(-0.5f));
-    return {mulAdd(cosine, s, one), mulAdd(sine, s, one) * a};
-}
-template <int kBits>
-STEREONAV_INLINE I logicalRight(I a) {
-    return shiftRight<kBits>(a) & I(static_cast<int>(0xFFFFFFFFu >> kBits));
-}
-STEREONAV_INLINE I wholeNumber(std::uint32_t bitsOf) {
-    return I(static_cast<int>(bitsOf));
-}
-// As tapTurn().
-STEREONAV_INLINE F turnOf(I x, I y, int slab) {
-    I h = (x * wholeNumber(0x8da6b343u)) ^ (y * wholeNumber(0xd8163841u)) ^
-          wholeNumber(static_cast<std::uint32_t>(slab) * 0xcb1ab31fu);
-    h = (h ^ logicalRight<16>(h)) * wholeNumber(0x7feb352du);
-    h = (h ^ logicalRight<15>(h)) * wholeNumber(0x846ca68bu);
-    h = h ^ logicalRight<16>(h);
-    return toFloat(logicalRight<8>(h)) * F(1.57079633f / 16777216);
-}
-
-STEREONAV_INLINE F readPlane(const SweepLight& light, const float* plane, F u, F v, M m) {
-    const F half(0.5f), least(-1.0f), one(1.0f);
-    const F x = clamp(u - half, least, F(static_cast<float>(light.width)));
-    const F y = clamp(v - half, least, F(static_cast<float>(light.height)));
-    const I i = floorToInt(x), j = floorToInt(y);
-    const F s = x - toFloat(i), t = y - toFloat(j);
-    const I index = j * I(light.stride) + i;
-    const FPair above = gatherPair(plane, index, m), below = gatherPair(plane + light.stride, index, m);
-    return lerp(lerp(above.first, above.second, s), lerp(below.first, below.second, s), t);
-}
-
-// Row of texels: everything of a packet that does not depend on the plane.
-struct TexelRow {
-    std::int64_t index;  // of the first texel in a plane
-    F x, y;              // centres
-    F offsetSquare;      // of the blur, in texels
-    I column, line;
-    int slab;
-};
-// The sum of four taps on a circle.
-[[gnu::noinline]] inline F circleTaps(const SweepLight& light, const float* plane, const TexelRow& row, M m) {
-    const F radius = sqrt(max(min(row.offsetSquare, F(1e12f)) - F(1.0f / 3), F(1.0f)));
-    const Turn turn = turnBy(turnOf(row.column, row.line, row.slab));
-    const F c = radius * turn.cosine, s = radius * turn.sine;
-    return (readPlane(light, plane, row.x + c, row.y + s, m) +
-            readPlane(light, plane, row.x - s, row.y + c, m)) +
-           (readPlane(light, plane, row.x - c, row.y - s, m) +
-            readPlane(light, plane, row.x + s, row.y - c, m));
-}
-STEREONAV_INLINE F blurred(const SweepLight& light, const float* plane, const TexelRow& row, M m) {
-    const float* p = plane + row.index;
-    const F here = loadF(p), quarter(0.25f), one(1.0f), wideFrom(4.0f / 3);
-    const F share = min(row.offsetSquare, one);
-    F four = (loadF(p - 1) + loadF(p + 1)) + (loadF(p - light.stride) + loadF(p + light.stride));
-    const M wide = m & (row.offsetSquare > wideFrom);
-    if (any(wide)) four = select(wide, circleTaps(light, plane, row, wide), four);
-    return mulAdd(share * quarter, four, here - share * here);
-}
 
 STEREONAV_INLINE I inFifteenBits(F v) {
     return truncateToInt(mulAdd(v, F(32767.0f), F(0.5f)));
@@ -143,14 +34,18 @@ STEREONAV_INLINE F weakened(F light, F depth) {
 }
 
 // Where nothing is: scattered light is spread.
+template <bool kLeans>
 STEREONAV_INLINE void spreadRow(const SweepLight& light, const LightPass& pass, int x, TexelRow& row, F way,
                                 F size, M crossed, F (&indirect)[3]) {
     const F offset = F(light.blur) / max(size, F(1e-30f));
     row.offsetSquare = way * offset * offset;
     row.column = laneIndex() + I(x);
     row.slab = pass.slab;
+    if constexpr (kLeans) row.lags = lagsOf(light, static_cast<float>(pass.middle), row.x, row.y);
     for (int k = 0; k < 3; ++k)
-        indirect[k] = select(crossed, blurred(light, pass.before[k], row, crossed), indirect[k]);
+        indirect[k] =
+            select(crossed, blurred(light, pass.before[k], kLeans ? pass.depths[k] : nullptr, row, crossed),
+                   indirect[k]);
 }
 
 // Patches of 4 x kLanes / 4 texels: what lies near in the buffer lies near in the grid.
@@ -249,17 +144,65 @@ STEREONAV_INLINE M passedThere(const SweepScene& scene, const LightTile& tile, c
     }
 }
 
-// A packet of texels from (x, y) on; gives the lanes whose scattered light differs from 1.
-template <bool kIndirect, bool kGridAlone>
-STEREONAV_INLINE M passTexels(const SweepScene& scene, const LightPass& pass, const LightTile& tile, int x,
-                              int y, bool sample) {
-    const SweepLight& light = scene.light;
-    const M lanes = firstLanes(light.width - x);
+STEREONAV_INLINE TexelRow rowOf(const SweepLight& light, int x, int y) {
     TexelRow row;
     row.index = static_cast<std::int64_t>(y) * light.stride + x;
     row.x = laneIndexF() + F(static_cast<float>(x) + 0.5f);
     row.y = F(static_cast<float>(y) + 0.5f);
     row.line = I(y);
+    return row;
+}
+// Where slabs lean: tau_i of the slab, found before scattered light passes it. Direct light passes here then.
+template <bool kGridAlone>
+STEREONAV_INLINE void findDepths(const SweepScene& scene, const LightPass& pass, const LightTile& tile, int x,
+                                 int y, bool sample) {
+    const SweepLight& light = scene.light;
+    const M lanes = firstLanes(light.width - x);
+    const TexelRow row = rowOf(light, x, y);
+    const F zero(0.0f);
+    F depths[3] = {zero, zero, zero};
+    if (sample) {
+        const TexelPlaces at = texelPlaces(light, static_cast<float>(pass.middle), row.x, row.y);
+        if constexpr (!kGridAlone)
+            packDirect(light, pass.inChunk, x, y, loadF(light.direct + row.index), lanes);
+        Properties p;
+        const M there = passedThere<true, kGridAlone>(scene, tile, at, x, y, F(pass.thickness) * at.length,
+                                                      lanes & at.valid, p);
+        if (any(there))
+            for (int k = 0; k < 3; ++k) depths[k] = select(there, p.indirect[k], zero);
+    }
+    for (int k = 0; k < 3; ++k) store(pass.depths[k] + row.index, depths[k], lanes);
+}
+template <bool kGridAlone>
+void findTileDepths(const SweepScene& scene, const LightPass& pass, const LightTile& tile) {
+    const SweepLight& light = scene.light;
+    for (int line = 0; line < LightTile::kSide && tile.y0 + line < light.height; ++line) {
+        const bool sample = tile.strips >> line / LightTile::kStrip & 1u;
+        for (int x = tile.x0; x < tile.x0 + LightTile::kSide && x < light.width; x += kLanes)
+            findDepths<kGridAlone>(scene, pass, tile, x, tile.y0 + line, sample);
+    }
+}
+
+// What weakens scattered light of a packet, and the lanes where something is.
+template <bool kIndirect, bool kGridAlone, bool kLeans>
+STEREONAV_INLINE M depthsThere(const SweepScene& scene, const LightPass& pass, const LightTile& tile,
+                               const TexelPlaces& at, int x, int y, F way, M crossed, Properties& p) {
+    if constexpr (kLeans) {
+        const std::int64_t index = static_cast<std::int64_t>(y) * scene.light.stride + x;
+        for (int k = 0; k < 3; ++k) p.indirect[k] = loadF(pass.depths[k] + index);
+        return crossed & (p.indirect[0] + p.indirect[1] + p.indirect[2] > F(0.0f));
+    } else {
+        return passedThere<kIndirect, kGridAlone>(scene, tile, at, x, y, way, crossed, p);
+    }
+}
+
+// A packet of texels from (x, y) on; gives the lanes whose scattered light differs from 1.
+template <bool kIndirect, bool kGridAlone, bool kLeans>
+STEREONAV_INLINE M passTexels(const SweepScene& scene, const LightPass& pass, const LightTile& tile, int x,
+                              int y, bool sample) {
+    const SweepLight& light = scene.light;
+    const M lanes = firstLanes(light.width - x);
+    TexelRow row = rowOf(light, x, y);
     const TexelPlaces at = texelPlaces(light, static_cast<float>(pass.middle), row.x, row.y);
     const M crossed = lanes & at.valid;
     const F way = F(pass.thickness) * at.length;
@@ -267,14 +210,15 @@ STEREONAV_INLINE M passTexels(const SweepScene& scene, const LightPass& pass, co
     if constexpr (kIndirect)
         for (int k = 0; k < 3; ++k) indirect[k] = loadF(pass.before[k] + row.index);
     if (sample) {
-        if constexpr (!kGridAlone)
+        if constexpr (!kGridAlone && !kLeans)
             packDirect(light, pass.inChunk, x, y, loadF(light.direct + row.index), lanes);
         if constexpr (kIndirect) packIndirect(light, pass.inChunk, x, y, indirect, lanes);
     }
-    if constexpr (kIndirect) spreadRow(light, pass, x, row, way, at.size, crossed, indirect);
+    if constexpr (kIndirect) spreadRow<kLeans>(light, pass, x, row, way, at.size, crossed, indirect);
     if (sample) {
         Properties p;
-        const M there = passedThere<kIndirect, kGridAlone>(scene, tile, at, x, y, way, crossed, p);
+        const M there =
+            depthsThere<kIndirect, kGridAlone, kLeans>(scene, pass, tile, at, x, y, way, crossed, p);
         if (kIndirect && any(there))
             for (int k = 0; k < 3; ++k)
                 indirect[k] = select(there, weakened(indirect[k], p.indirect[k] * way), indirect[k]);
@@ -288,7 +232,7 @@ STEREONAV_INLINE M passTexels(const SweepScene& scene, const LightPass& pass, co
     return changed;
 }
 
-template <bool kIndirect, bool kGridAlone>
+template <bool kIndirect, bool kGridAlone, bool kLeans>
 bool passTile(const SweepScene& scene, const LightPass& pass, const LightTile& tile) {
     const SweepLight& light = scene.light;
     M changed = maskFromBits(0);
@@ -296,8 +240,8 @@ bool passTile(const SweepScene& scene, const LightPass& pass, const LightTile& t
         const bool sample = tile.strips >> line / LightTile::kStrip & 1u;
         if (!kIndirect && !sample) continue;
         for (int x = tile.x0; x < tile.x0 + LightTile::kSide && x < light.width; x += kLanes)
-            changed =
-                changed | passTexels<kIndirect, kGridAlone>(scene, pass, tile, x, tile.y0 + line, sample);
+            changed = changed |
+                      passTexels<kIndirect, kGridAlone, kLeans>(scene, pass, tile, x, tile.y0 + line, sample);
     }
     return any(changed);
 }

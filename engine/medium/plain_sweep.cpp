@@ -21,6 +21,8 @@ struct LightBuffer {
     std::vector<double> direct;
     std::vector<glm::dvec3> indirect, before;  // before: while a slab is passed, what entered it
 
+    std::vector<glm::dvec3> depths;  // tau_i at the texels of the slab; empty where V11 does not count
+
     std::vector<float> scattered;  // as it set out, with a ring; empty: 1
 
     void start(int w, int h, std::vector<float> setsOut) {
@@ -54,19 +56,32 @@ struct LightBuffer {
         return (texel(plane, i, j) * (1 - fx) + texel(plane, i + 1, j) * fx) * (1 - fy) +
                (texel(plane, i, j + 1) * (1 - fx) + texel(plane, i + 1, j + 1) * fx) * fy;
     }
-    glm::dvec3 blurred(int x, int y, int slab, const BlurTaps& taps) const {
+    // V11: a tap that reads its ray later by a length has lost more of its light on the way. u, v:
+    // continuous.
+    glm::dvec3 leveled(const glm::dvec3& light, double u, double v, double later) const {
+        const int x = static_cast<int>(std::floor(std::clamp(u, -1.0, static_cast<double>(width)))),
+                  y = static_cast<int>(std::floor(std::clamp(v, -1.0, static_cast<double>(height))));
+        if (depths.empty() || x < 0 || y < 0 || x >= width || y >= height) return light;
+        return light * (1.0 + glm::clamp(depths[index(x, y)] * later, -1.0, 1.0));
+    }
+    glm::dvec3 blurred(int x, int y, int slab, const BlurTaps& taps, const glm::dvec2& lags) const {
+        const double u = x + 0.5, v = y + 0.5;
+        const auto later = [&](double right, double down) { return right * lags.x + down * lags.y; };
         glm::dvec3 sum(0.0);
         if (taps.radius > 1) {
             const double turn = tapTurn(x, y, slab);
             const double c = taps.radius * std::cos(turn), s = taps.radius * std::sin(turn);
-            const double u = x + 0.5, v = y + 0.5;
-            sum = read(before, u + c, v + s) + read(before, u - s, v + c) + read(before, u - c, v - s) +
-                  read(before, u + s, v - c);
+            const auto tap = [&](double right, double down) {
+                return leveled(read(before, u + right, v + down), u + right, v + down, later(right, down));
+            };
+            sum = tap(c, s) + tap(-s, c) + tap(-c, -s) + tap(s, -c);
         } else {
-            sum = texel(before, x - 1, y) + texel(before, x + 1, y) + texel(before, x, y - 1) +
-                  texel(before, x, y + 1);
+            const auto tap = [&](int right, int down) {
+                return leveled(texel(before, x + right, y + down), u + right, v + down, later(right, down));
+            };
+            sum = tap(-1, 0) + tap(1, 0) + tap(0, -1) + tap(0, 1);
         }
-        return (1 - taps.share) * before[index(x, y)] + 0.25 * taps.share * sum;
+        return glm::min((1 - taps.share) * before[index(x, y)] + 0.25 * taps.share * sum, 1.0);
     }
 };
 
@@ -244,11 +259,22 @@ private:
     void lightSlab(int slab) {
         const RayFan& fan = mGeometry.light;
         mBuffer.before = mBuffer.indirect;
+        if (mLook.model == MediumModel::Indirect && mGeometry.leaning > 0) findDepths(slab);
         parallelFor(fan.height, [&](int y) {
             for (int x = 0; x < fan.width; ++x) {
                 const Crossing at = crossingOf(fan, x + 0.5, y + 0.5, slab, true);
                 if (at.cosine > 0) passTexel(x, y, at, slab);
             }
+        });
+    }
+    void findDepths(int slab) {
+        const RayFan& fan = mGeometry.light;
+        mBuffer.depths.assign(mBuffer.indirect.size(), glm::dvec3(0.0));
+        parallelFor(fan.height, [&](int y) {
+            for (int x = 0; x < fan.width; ++x)
+                if (const Crossing at = crossingOf(fan, x + 0.5, y + 0.5, slab, true); at.cosine > 0)
+                    mBuffer.depths[mBuffer.index(x, y)] =
+                        glm::dvec3(propertiesAt(at.place, fan).indirectExtinction);
         });
     }
     void passTexel(int x, int y, const Crossing& at, int slab) {
@@ -258,7 +284,9 @@ private:
         mBuffer.direct[index] *= std::exp(-medium.extinction * way);
         if (mLook.model != MediumModel::Indirect) return;
         const double offset = std::sqrt(way) * mBlur / mGeometry.light.pixelSize(at.place);
-        mBuffer.indirect[index] = mBuffer.blurred(x, y, slab, blurTaps(offset)) *
+        const glm::dvec2 lags =
+            mBuffer.depths.empty() ? glm::dvec2(0.0) : tapLags(mGeometry, x + 0.5, y + 0.5, middleOf(slab));
+        mBuffer.indirect[index] = mBuffer.blurred(x, y, slab, blurTaps(offset), lags) *
                                   glm::exp(-glm::dvec3(medium.indirectExtinction) * way);
     }
 

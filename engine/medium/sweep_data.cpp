@@ -46,6 +46,7 @@ SweepLight lightOf(const SweepGeometry& g, double blur) {
     light.inverseFalloffSquared = g.falloff > 0 ? static_cast<float>(1 / (g.falloff * g.falloff)) : 0.0f;
     light.lampCosine = static_cast<float>(g.lampCosine);
     light.blur = static_cast<float>(blur);
+    light.leaning = static_cast<float>(g.leaning);
     return light;
 }
 

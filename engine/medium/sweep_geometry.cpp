@@ -21,7 +21,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Eye rays stay below it where a wide lamp would lean the axis further: radians.
 constexpr double kSteepest = 85.0 / 180.0 * glm::pi<double>();
 constexpr double kWidestLight = 1;  // tangent: a lamp's buffer grows no further beyond its cone
-constexpr int kLightMargin = 1;     // texels around the medium, so that reads in it never meet the border
+// Of view to light, radians: where V11 begins and where it counts in full.
+constexpr double kLeansFrom = 50.0 / 180.0 * glm::pi<double>(), kLeansTo = 75.0 / 180.0 * glm::pi<double>();
+constexpr int kLightMargin = 1;  // texels around the medium, so that reads in it never meet the border
 
 void checkSetting(const SweepSetting& s) {
     const auto expect = [](bool good, const char* what, const std::string& problem) {
@@ -103,6 +105,7 @@ void setAxis(SweepGeometry& g, const Lamp& lamp, const glm::dvec3& view, double 
     const glm::dvec3 aside = lamp.direction - glm::dot(lamp.direction, from) * from;
     const double length = glm::length(aside);
     const double lean = leanOf(beta, lamp.half, eyeHalf);
+    g.leaning = glm::smoothstep(kLeansFrom, kLeansTo, beta);
     g.axis = length > 0 ? glm::normalize(std::cos(lean) * from + std::sin(lean) / length * aside) : from;
 }
 
@@ -346,6 +349,19 @@ double blurOf(const Medium& medium, const SweepSetting& setting) {
     const double length =
         setting.blurLength > 0 ? setting.blurLength : std::max({size.x, size.y, size.z}) / 64;
     return std::sqrt(length) * std::tan(0.5 * setting.coneAngle);
+}
+
+glm::dvec2 tapLags(const SweepGeometry& geometry, double x, double y, double t) {
+    const RayFan& fan = geometry.light;
+    const glm::dvec2 across(fan.perX * glm::dot(fan.right, geometry.axis),
+                            -fan.perY * glm::dot(fan.up, geometry.axis));
+    if (fan.parallel) return -geometry.leaning / glm::dot(fan.forward, geometry.axis) * across;
+    // Rays d at unit depth have gone (t - start) |d| / (d . axis): its slopes.
+    const double u = fan.xMin + x * fan.perX, v = fan.yMax - y * fan.perY;
+    const glm::dvec3 d = fan.forward + fan.right * u + fan.up * v;
+    const double c = glm::dot(d, geometry.axis), length = glm::length(d);
+    const glm::dvec2 longer(u * fan.perX / length, -v * fan.perY / length);
+    return geometry.leaning * (t - geometry.lightStart) / c * (longer - length / c * across);
 }
 
 std::vector<float> scatteredAtStart(const SweepGeometry& geometry) {

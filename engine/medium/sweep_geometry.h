@@ -61,6 +61,8 @@ struct SweepGeometry {
     glm::vec3 radiance{1.0f};  // of the light
     double falloff = 0;
     double lampCosine = -1;  // of half the lamp's cone
+    // How far V11 counts for scattered light, 0..1: from 50 to 75 degrees between view and light.
+    double leaning = 0;
 
     int slabs() const { return faces.empty() ? 0 : static_cast<int>(faces.size()) - 1; }
 };
@@ -76,6 +78,11 @@ SweepGeometry makeSweepGeometry(const Medium& medium, const MediumLook& look, co
 
 // Of scattered light: offset of the taps over the root of the way (V9), root of metres.
 double blurOf(const Medium& medium, const SweepSetting& setting);
+
+// In a slab that leans against the light's way, rays of the light are met after different lengths (V11): how
+// much later the next texel to the right, and the next below, meets the plane at t than the texel at (x, y)
+// does; metres, times `leaning`, even about the texel.
+glm::dvec2 tapLags(const SweepGeometry& geometry, double x, double y, double t);
 
 // Scattered light as it sets out, for the buffer and a ring of texels around it, rows of light.width + 2 from
 // (-1, -1) on: the part of a texel that lies within the lamp's cone. Empty where that is 1 everywhere. The

@@ -23,14 +23,23 @@ bool see(const SweepScene& scene, const SweepEye& eye, const SweepChunk& chunk, 
     }
 }
 
+void findDepths(const SweepScene& scene, const LightPass& lightPass, const LightTile& tile) {
+    if (scene.gridAlone)
+        findTileDepths<true>(scene, lightPass, tile);
+    else
+        findTileDepths<false>(scene, lightPass, tile);
+}
+
 bool pass(const SweepScene& scene, const LightPass& lightPass, const LightTile& tile) {
-    if (scene.gridAlone) return passTile<true, true>(scene, lightPass, tile);  // direct light is done with
-    return scene.look.model == kDirect ? passTile<false, false>(scene, lightPass, tile)
-                                       : passTile<true, false>(scene, lightPass, tile);
+    if (lightPass.depths[0]) return passTile<true, true, true>(scene, lightPass, tile);
+    if (scene.gridAlone)
+        return passTile<true, true, false>(scene, lightPass, tile);  // direct light is done with
+    return scene.look.model == kDirect ? passTile<false, false, false>(scene, lightPass, tile)
+                                       : passTile<true, false, false>(scene, lightPass, tile);
 }
 
 }  // namespace
 
-const SweepKernels kSweepKernels{kName, kLanes, see, findColumns, pass, readTile};
+const SweepKernels kSweepKernels{kName, kLanes, see, findColumns, findDepths, pass, readTile};
 
 }  // namespace stereonav::STEREONAV_ISA

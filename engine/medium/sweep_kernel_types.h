@@ -92,7 +92,8 @@ struct SweepLight {
     std::uint32_t* packed = nullptr;
     std::int32_t packedStride = 0;
     std::int64_t packedPlane = 0;
-    float blur = 0;  // sqrt(blurLength) tan(theta / 2)
+    float blur = 0;     // sqrt(blurLength) tan(theta / 2)
+    float leaning = 0;  // SweepGeometry's
 };
 
 // What the light meets in a tile in the slabs of a chunk, found before it passes them: places in the grid's
@@ -114,6 +115,7 @@ struct LightPass {
     int slab = 0, inChunk = 0;
     const float* before[3] = {};  // indirect light, as SweepLight::direct
     float* after[3] = {};
+    float* depths[3] = {};  // tau_i at the slab, where slabs lean (V11); the same layout; null: they do not
 };
 // Texels in strips of rows: where nothing is in a strip light is only spread.
 struct LightTile {
@@ -176,6 +178,8 @@ struct SweepKernels {
     // Whether any ray of the tile goes on.
     bool (*seeTile)(const SweepScene&, const SweepEye&, const SweepChunk&, const EyeTile&);
     void (*findColumns)(const SweepScene&, const LightColumns&);
+    // Where slabs lean, of all tiles before lightTile: tau_i of the slab, 0 in strips where nothing is.
+    void (*findDepths)(const SweepScene&, const LightPass&, const LightTile&);
     // Returns whether scattered light of the tile differs from 1 afterwards.
     bool (*lightTile)(const SweepScene&, const LightPass&, const LightTile&);
     void (*readTile)(const float* state, const PictureTile&);

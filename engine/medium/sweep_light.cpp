@@ -117,6 +117,10 @@ int SweepLightBuffers::start(SweepScene& scene, const SweepGeometry& geometry, c
     const bool scattered = scene.look.model == static_cast<int>(MediumModel::Indirect);
     mStart = scattered ? scatteredAtStart(geometry) : std::vector<float>{};
     if (!mStart.empty()) setStart(scene.light);
+    mLeans = scattered && scene.light.leaning > 0 && scene.light.blur > 0;
+    mDeep.assign(tiles(), 0);
+    if (mLeans)
+        mDepths.assign(3 * static_cast<std::size_t>(scene.light.stride) * (scene.light.height + 4), 0.0f);
     if (!mStart.empty() || mRingSet) setRing(scene.light);
     findStrips(geometry, space);
     return mChunk;
@@ -206,12 +210,37 @@ long long SweepLightBuffers::beginChunk(const SweepScene& scene, const SweepGeom
     return texels;
 }
 
+// tau_i at every texel of the slab before light is spread across them; 0 where the slab before left some.
+void SweepLightBuffers::findDepths(const SweepScene& scene, const SweepGeometry& geometry,
+                                   const LightPass& pass, const SweepKernels& kernels) {
+    mTiles.clear();
+    for (int tile = 0; tile < tiles(); ++tile) {
+        const unsigned here = stripsAt(geometry, pass.slab, tile);
+        if (here || mDeep[tile])
+            mTiles.push_back({tile % mAcross * kSide, tile / mAcross * kSide, here, nullptr});
+        mDeep[tile] = here != 0;
+    }
+    const int count = static_cast<int>(mTiles.size()), pieces = std::min(count, kPieces);
+    parallelFor(pieces, [&](int piece) {
+        for (int n = count * piece / pieces; n < count * (piece + 1) / pieces; ++n) {
+            if (scene.gridAlone) mTiles[n].columns = columnsOf(pass.inChunk, mTiles[n]);
+            kernels.findDepths(scene, pass, mTiles[n]);
+        }
+    });
+}
+
+const float* SweepLightBuffers::columnsOf(int inChunk, const LightTile& tile) const {
+    const std::size_t index =
+        static_cast<std::size_t>(inChunk) * tiles() + tile.y0 / kSide * mAcross + tile.x0 / kSide;
+    return mColumns.data() + index * kSide * kSide;
+}
+
 // Those where something may be, and those to which light may spread that is needed later.
 void SweepLightBuffers::chooseTiles(const SweepGeometry& geometry, int slab, int reach) {
     std::vector<std::uint8_t>& spread = mChanged;
     spread.assign(tiles(), 0);
     for (int tile = 0; tile < tiles(); ++tile) {
-        if (!mTouched[tile]) continue;
+        if (!mTouched[tile] && !(mLeans && stripsAt(geometry, slab, tile))) continue;
         const int x = tile % mAcross, y = tile / mAcross;
         for (int j = std::max(y - reach, 0); j < std::min(y + reach + 1, mDown); ++j)
             for (int i = std::max(x - reach, 0); i < std::min(x + reach + 1, mAcross); ++i)
@@ -242,6 +271,10 @@ long long SweepLightBuffers::pass(const SweepScene& scene, const SweepGeometry& 
         pass.before[k] = mSwapped ? second : first;
         pass.after[k] = mSwapped ? first : second;
     }
+    if (mLeans) {
+        for (int k = 0; k < 3; ++k) pass.depths[k] = mDepths.data() + light.stride + kBorder + k * plane;
+        findDepths(scene, geometry, pass, kernels);
+    }
     // Texels of a lamp differ in size: any may be reached.
     const double offset =
         light.parallel ? std::sqrt(pass.thickness * light.length) * light.blur / light.perX : 1e6;
@@ -252,9 +285,7 @@ long long SweepLightBuffers::pass(const SweepScene& scene, const SweepGeometry& 
     parallelFor(pieces, [&](int piece) {
         for (int n = count * piece / pieces; n < count * (piece + 1) / pieces; ++n) {
             LightTile& tile = mTiles[n];
-            const std::size_t index =
-                static_cast<std::size_t>(inChunk) * tiles() + tile.y0 / kSide * mAcross + tile.x0 / kSide;
-            if (scene.gridAlone) tile.columns = mColumns.data() + index * kSide * kSide;
+            if (scene.gridAlone) tile.columns = columnsOf(inChunk, tile);
             mChanged[n] = kernels.lightTile(scene, pass, tile);
         }
     });
@@ -265,8 +296,8 @@ long long SweepLightBuffers::pass(const SweepScene& scene, const SweepGeometry& 
 }
 
 std::size_t SweepLightBuffers::heldBytes() const {
-    return (mPlanes.size() + mColumns.size()) * sizeof(float) + mPacked.size() * sizeof(std::uint32_t) +
-           mStart.size() * sizeof(float) + mStrips.size();
+    return (mPlanes.size() + mColumns.size() + mDepths.size()) * sizeof(float) +
+           mPacked.size() * sizeof(std::uint32_t) + mStart.size() * sizeof(float) + mStrips.size();
 }
 
 }  // namespace stereonav

@@ -30,6 +30,9 @@ private:
     void setPacked(SweepLight& light);
     void setStart(const SweepLight& light);
     void setRing(const SweepLight& light);
+    void findDepths(const SweepScene& scene, const SweepGeometry& geometry, const LightPass& pass,
+                    const SweepKernels& kernels);
+    const float* columnsOf(int inChunk, const LightTile& tile) const;
     void findStrips(const SweepGeometry& geometry, const SweepSpace* space);
     void findStripsOf(const SweepGeometry& geometry, const SweepSpace& space, int tile,
                       const std::vector<double>& middles);
@@ -39,7 +42,10 @@ private:
     int tiles() const { return mAcross * mDown; }
 
     int mAcross = 0, mDown = 0;
-    std::vector<float> mPlanes;  // direct, then twice three of scattered light
+    std::vector<float> mPlanes;       // direct, then twice three of scattered light
+    std::vector<float> mDepths;       // three planes as those: tau_i, where slabs lean
+    std::vector<std::uint8_t> mDeep;  // tiles: may have some of it that is not 0
+    bool mLeans = false;
     std::vector<std::uint32_t> mPacked;
     std::vector<float> mColumns;  // of a chunk's slabs: tiles
     int mPackedWidth = 0, mPackedHeight = 0, mChunk = 0;

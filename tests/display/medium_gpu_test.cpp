@@ -246,6 +246,29 @@ TEST_F(MediumGpuTest, NarrowAndWideBlurs) {
     EXPECT_GT(differenceOf(sharp[0], soft[0]).worst, 0.02) << "the blur does nothing";
 }
 
+// Light across the view, where slabs lean most and taps count by V11; on both sides of the right angle.
+TEST_F(MediumGpuTest, SlabsThatLean) {
+    Subject subject(Medium(blobs(), transfer()));
+    const EyeView view = viewFrom(kEye, kMiddle);
+    for (const auto& [degrees, lamp] :
+         {std::pair(80.0, false), std::pair(65.0, true), std::pair(100.0, false)}) {
+        const double angle = degrees * std::acos(-1.0) / 180;
+        MediumLook look = lookOf(MediumModel::Indirect,
+                                 std::cos(angle) * view.forward + std::sin(angle) * (view.right - view.up));
+        if (lamp) look.light.kind = MediumLight::Kind::Lamp;
+        look.light.position = kMiddle - 1.6 * look.light.direction;
+        SweepSetting setting = smallSetting();
+        for (const double cone : {0.5, 1.5}) {
+            setting.coneAngle = cone;
+            setting.blurLength = 0.1;
+            setting.lightSize = 28;
+            SCOPED_TRACE(cone);
+            EXPECT_GT(makeSweepGeometry(subject.medium, look, setting, {{view}}, view.head).leaning, 0.2);
+            expectAsByTheBook(subject, look, {view}, setting);
+        }
+    }
+}
+
 TEST_F(MediumGpuTest, TheHeadsLampAndAnEyeInside) {
     Subject subject(Medium(blobs(), transfer(0.5)));
     MediumLook look = lookOf(MediumModel::Indirect, {0, 0, -1});

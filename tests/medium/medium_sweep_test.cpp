@@ -309,6 +309,37 @@ TEST(MediumSweep, scatteredLightLeavesALampsCone) {
     }
 }
 
+// Light across the view, where slabs lean most (V11): taps near and far, before and behind the right angle.
+TEST(MediumSweep, agreesWhereSlabsLean) {
+    for (const Kind kind : {Kind::Grid, Kind::Ramp, Kind::Noise})
+        for (const bool lamp : {false, true})
+            for (const double degrees : {60.0, 80.0, 100.0}) {
+                Scene s = sceneOf(kind, MediumModel::Indirect, lamp, true, 14);
+                const double angle = degrees * std::acos(-1.0) / 180;
+                const glm::dvec3 way =
+                    glm::normalize(std::cos(angle) * s.eyes[0].forward +
+                                   std::sin(angle) * (0.8 * s.eyes[0].right - 0.6 * s.eyes[0].up));
+                s.look.light.direction = way;
+                s.look.light.position = -3.0 * way;
+                s.setting.coneAngle = degrees < 90 ? 0.4 : 1.4;  // taps nearer and farther than a texel
+                s.setting.blurLength = 1;
+                s.look.indirectShare = 1;
+                s.look.light.falloff = 0;
+                const std::vector<MediumPicture> truth = plain(s);
+                SweepGeometry upright =
+                    makeSweepGeometry(s.medium, s.look, s.setting, s.eyes, s.eyes[0].head);
+                EXPECT_GT(upright.leaning, 0.3);
+                upright.leaning = 0;
+                EXPECT_GT(differenceOf(truth, plainSweep(s.medium, s.look, s.setting, upright, s.time)).light,
+                          kTolerance)
+                    << "V11 does nothing here";
+                for (const SimdTarget target : targets())
+                    EXPECT_LE(differenceOf(truth, fast(s, target)).light, kTolerance)
+                        << static_cast<int>(kind) << lamp << ' ' << degrees << ' '
+                        << static_cast<int>(target);
+            }
+}
+
 // Pixels much smaller than voxels and texels: kernels load what is around a packet once (kernel_block.h). In
 // the middle, at faces and corners of the grid; and of values too far apart for their differences to be
 // halves.

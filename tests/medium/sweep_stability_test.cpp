@@ -5,27 +5,23 @@
 #include <numeric>
 #include <random>
 
-#include "engine/medium/medium_sweep.h"
-#include "sweep_scenes.h"
+#include "sweep_subjects.h"
 
 namespace stereonav {
 namespace {
 
+using test::ball;
 using test::makeField;
+using test::nameOfWay;
+using test::pictureOf;
+using test::rootMeanSquare;
+using test::Slab;
 using test::slabGeometry;
 using test::slabOf;
 using test::sun;
 using test::Uniform;
 using test::viewFrom;
-
-enum class Way { Plain, Fast };
-
-struct Slab {
-    Medium medium;
-    MediumLook look;
-    SweepSetting setting;
-    SweepGeometry geometry;
-};
+using test::Way;
 
 MediumLight sunAt(double cosine) {
     return sun({std::sqrt(std::max(0.0, 1 - cosine * cosine)), 0, cosine});
@@ -38,13 +34,6 @@ Slab slab(const std::vector<Uniform>& layers, double thick, MediumModel model, d
     s.setting.slices = slices;
     s.geometry = slabGeometry(s.medium, s.look, s.setting, eyeCosine, forward, thick);
     return s;
-}
-MediumPicture pictureOf(const Slab& s, Way way) {
-    if (way == Way::Plain) return plainSweep(s.medium, s.look, s.setting, s.geometry)[0];
-    MediumSweep sweep(s.medium);
-    MediumPicture picture;
-    sweep.render(s.look, s.setting, s.geometry, 0, std::span(&picture, 1));
-    return picture;
 }
 glm::dvec4 seen(const Slab& s, Way way) {
     return glm::dvec4(pictureOf(s, way).light.at(1, 1));
@@ -179,9 +168,6 @@ TEST_P(TwoLayers, areTheClosedForm) {
                             << a << " " << b << " " << slices << forward;
                     }
 }
-std::string nameOfWay(const testing::TestParamInfo<Way>& way) {
-    return way.param == Way::Plain ? "Plain" : "Fast";
-}
 INSTANTIATE_TEST_SUITE_P(All, TwoLayers, testing::Values(Way::Plain, Way::Fast), nameOfWay);
 
 // ---- What light can not do
@@ -284,35 +270,6 @@ INSTANTIATE_TEST_SUITE_P(All, Bounds, testing::Values(Way::Plain, Way::Fast), na
 
 // ---- Order of convergence
 
-// A smooth ball whose extinction changes everywhere.
-Slab ball(MediumModel model, int slices, const glm::dvec3& eye = {0.5, -3, 0.7}, double cone = 0.6) {
-    static const std::shared_ptr<GreyVolume> field =
-        makeField({33, 33, 33}, 2, {0, 0, 0}, [](const glm::ivec3& v) {
-            const double r = glm::length(glm::dvec3(v - 16)) / 16;
-            return r < 1 ? 20000 * (1 - r * r) * (1 - r * r) : 0.0;
-        });
-    Uniform dense{3.0, {1.0, 1.5, 2.0}};
-    std::vector<MediumPoint> points{{0, {}}, {20000, test::materialOf(dense, 0.2)}};
-    points[0].material.transport = glm::vec3(1.0f);
-    Slab s{Medium(field, MediumTransfer(points, 0.2, "test")), {}, {}, {}};
-    s.look.light = sun({0.6, 0.3, -0.8});
-    s.look.model = model;
-    s.setting.slices = slices;
-    s.setting.lightSize = 96;
-    s.setting.coneAngle = cone;
-    s.setting.blurLength = 0.25;
-    const EyeView view[] = {viewFrom(eye, {0, 0, 0}, 0.25, 8, 8)};
-    s.geometry = makeSweepGeometry(s.medium, s.look, s.setting, view, view[0].eye);
-    return s;
-}
-double rootMeanSquare(const MediumPicture& a, const MediumPicture& b) {
-    double sum = 0;
-    for (int y = 0; y < a.light.height(); ++y)
-        for (int x = 0; x < a.light.width(); ++x)
-            for (int k = 0; k < 3; ++k)
-                sum += std::pow(static_cast<double>(a.light.at(x, y)[k]) - b.light.at(x, y)[k], 2);
-    return std::sqrt(sum / (3.0 * a.light.width() * a.light.height()));
-}
 // How fast the difference to twice as many slices falls from n to 4 n: its logarithm to 2, an octave.
 double orderOf(MediumModel model, double cone, int n) {
     const auto step = [&](int slices) {
@@ -333,34 +290,6 @@ TEST(Convergence, blurredLightIsOfTheFirstOrderAtLeast) {
     const double order = orderOf(MediumModel::Indirect, 0.6, 24);
     RecordProperty("order", std::to_string(order));
     EXPECT_GT(order, 0.9);
-}
-
-// ---- The flip
-
-// A light just before and just behind a right angle to the view: other slices, nearly the same picture. Of
-// direct light the difference falls with the slices' thickness squared. Scattered light is spread within the
-// slices, which lean the other way after the flip: there a part stays, whatever their number.
-double flipOf(MediumModel model, int slices) {
-    MediumPicture picture[2];
-    for (int side = 0; side < 2; ++side) {
-        Slab s = ball(model, slices);
-        const glm::dvec3 forward = s.geometry.eyes[0].forward, right = s.geometry.eyes[0].right;
-        s.look.light.direction = glm::normalize(right + (side ? -1e-9 : 1e-9) * forward);
-        const EyeView view[] = {viewFrom({0.5, -3, 0.7}, {0, 0, 0}, 0.25, 8, 8)};
-        s.geometry = makeSweepGeometry(s.medium, s.look, s.setting, view, view[0].eye);
-        EXPECT_EQ(s.geometry.forward, side == 0);
-        picture[side] = pictureOf(s, Way::Plain);
-    }
-    return rootMeanSquare(picture[0], picture[1]);
-}
-TEST(Flip, changesASmoothPictureLittle) {
-    const double coarse = flipOf(MediumModel::Direct, 24), fine = flipOf(MediumModel::Direct, 96);
-    RecordProperty("direct", std::to_string(fine));
-    EXPECT_LT(fine, 1e-3);
-    EXPECT_LT(fine, coarse / 6);
-    const double indirect = flipOf(MediumModel::Indirect, 64);
-    RecordProperty("indirect", std::to_string(indirect));
-    EXPECT_LT(indirect, 8e-3);
 }
 
 // ---- The blur
