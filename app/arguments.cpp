@@ -151,6 +151,8 @@ void addMedium(CLI::App& command, MediumOptions& options) {
     add("--slices", options.slices, "across the medium, 1 to 65536");
     add("--light-size", options.lightSize, "texels a side of the light's buffer, 8 to 4096");
     add("--cone", options.cone_deg, "degrees in which scattered light spreads, 0 to 180");
+    add("--shading-width", options.shadingWidth,
+        "voxels between the places where surfaces are shaded, 0 to 16; 0: at each sample");
 }
 
 void addTraced(CLI::App& command, TracedOptions& options) {

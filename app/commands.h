@@ -43,10 +43,11 @@ struct MediumOptions {
     std::string noise;       // a file, cloud, fur or none; "": as the scene has it
     std::string mist;        // "top,optical depth": metres, over a terrain
     std::optional<int> slices, lightSize;
-    std::optional<double> cone_deg;  // that scattered light spreads in
+    std::optional<double> cone_deg;      // that scattered light spreads in
+    std::optional<double> shadingWidth;  // voxels between the places where surfaces are shaded
 
     bool any() const {
-        return slices || lightSize || cone_deg ||
+        return slices || lightSize || cone_deg || shadingWidth ||
                !(medium + model + phase + lightFrom + lamp + lightColor + noise + mist).empty();
     }
 };

@@ -71,6 +71,7 @@ Json mediumJson(const LoadedScene& loaded) {
     json["slices"] = scene.sweep.slices;
     json["light_size"] = scene.sweep.lightSize;
     json["cone_deg"] = scene.sweep.coneAngle * 180 / std::numbers::pi;
+    json["shading_width_voxels"] = scene.sweep.shadingWidth;
     const std::vector<Held> held = heldBy(loaded);
     json["bytes"] = bytesOf(held);
     json["held"] = heldJson(held);

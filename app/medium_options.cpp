@@ -21,6 +21,7 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kBrightest = 1e6;
 constexpr double kFarthest = 1e9;  // metres
+constexpr double kWidestShading = 16;
 constexpr double kLampCone = 2.2;  // radians: wider than what is seen
 
 bool inReach(const std::vector<double>& metres) {
@@ -90,7 +91,8 @@ void refuseWithoutMedium(const MediumOptions& m) {
                {"--mist", !m.mist.empty()},
                {"--slices", m.slices.has_value()},
                {"--light-size", m.lightSize.has_value()},
-               {"--cone", m.cone_deg.has_value()}},
+               {"--cone", m.cone_deg.has_value()},
+               {"--shading-width", m.shadingWidth.has_value()}},
               "expected with a medium", "add --medium, or show cloud or wax");
 }
 
@@ -131,6 +133,10 @@ void checkMediumOptions(const SceneOptions& options) {
     if (m.cone_deg && !(*m.cone_deg >= 0 && *m.cone_deg < 180))
         throw Error("--cone", "", fmt::format("expected 0 to less than 180 degrees, got {:g}", *m.cone_deg),
                     "35 is the default; 0 lets scattered light go straight on");
+    if (m.shadingWidth && !(*m.shadingWidth >= 0 && *m.shadingWidth <= kWidestShading))
+        throw Error("--shading-width", "",
+                    fmt::format("expected 0 to {:g} voxels, got {:g}", kWidestShading, *m.shadingWidth),
+                    "1 is the default; 0 shades at each sample");
     if (!m.lamp.empty() && !m.lightFrom.empty())
         throw Error("--lamp", "", "does not go with --light-from", "leave one of them out");
     if (!m.model.empty()) modelFromText(m.model);
@@ -170,6 +176,7 @@ void applyMediumOptions(const MediumOptions& options, MediumScene& scene) {
     if (options.slices) scene.sweep.slices = *options.slices;
     if (options.lightSize) scene.sweep.lightSize = *options.lightSize;
     if (options.cone_deg) scene.sweep.coneAngle = *options.cone_deg * kRadians;
+    if (options.shadingWidth) scene.sweep.shadingWidth = *options.shadingWidth;
 }
 
 }  // namespace stereonav

@@ -58,6 +58,7 @@ public:
         mScene.stereo.separation = mScene.stereo.zeroParallax * share;
         for (const Pose& pose : mScene.path.frames(frames)) mViews.push_back(mScene.viewsAt(pose));
         SweepSetting finest = mOwn;
+        finest.shadingWidth = 0;
         finest.slices = run.pick(512, 2048);
         mTruths.resize(mViews.size());
         for (std::size_t n = 0; n < mViews.size(); ++n) sweep(finest, PairMethod::TwoSweeps, n, mTruths[n]);

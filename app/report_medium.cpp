@@ -164,6 +164,7 @@ void againstPaths(ReportRun& run, ReportSection& section, const MediumSubject& s
 void againstManySlices(ReportRun& run, ReportSection& section, const MediumSubject& subject) {
     SweepSetting finest;
     finest.slices = run.pick(2048, 8192);
+    finest.shadingWidth = 0;
     MediumPicture picture;
     run.tell("volume light, many slices of " + subject.name);
     MediumSweep sweep(subject.medium);

@@ -2,43 +2,13 @@
 // it gathers in registers (V7 of docs/volume_light.md). Included by kernels only.
 #pragma once
 
-#include "engine/medium/kernel_arriving.h"
+#include "engine/medium/kernel_shading.h"
 
 namespace stereonav::STEREONAV_ISA {
 
-constexpr float kLongest = 1e4f;  // 1 / kLeastCosine
 constexpr float kLeastLeft = 1.0f / 1024;
 constexpr float kNothing = 1e-20f;  // below it numbers become 0 before they get denormal and slow
 constexpr int kEmission = 0, kSurface = 1, kDirect = 2, kIndirect = 3;
-
-// Rays by the distance along the axis from the chunk's reference: place = at + t way.
-struct EyeRays {
-    V3 at, way;
-    F length;           // of way
-    F depth, perDepth;  // view depth = depth + t perDepth
-    M valid;
-};
-STEREONAV_INLINE EyeRays eyeRays(const SweepEye& eye, double reference, F x, F y) {
-    const D wx = D(eye.xMin) + toDouble(x) * D(eye.perX), wy = D(eye.yMax) - toDouble(y) * D(eye.perY);
-    const D c = D(eye.axis[2]) + D(eye.axis[0]) * wx + D(eye.axis[1]) * wy;
-    const D rough = toDouble(F(1.0f) / awayFromZero(toFloat(c)));
-    const D per = rough * (D(2.0) - c * rough), depth = per * D(reference - eye.start);
-    EyeRays r;
-    F at[3], way[3];
-    for (int k = 0; k < 3; ++k) {
-        const D direction = D(eye.ahead[k]) + D(eye.right[k]) * wx + D(eye.up[k]) * wy;
-        at[k] = toFloat(D(eye.origin[k]) + direction * depth);
-        way[k] = toFloat(direction * per);
-    }
-    r.at = {at[0], at[1], at[2]};
-    r.way = {way[0], way[1], way[2]};
-    r.length = lengthOf(r.way);
-    r.depth = toFloat(depth);
-    r.perDepth = toFloat(per);
-    const F zero(0.0f);
-    r.valid = (r.length < F(kLongest)) & (eye.forward ? r.perDepth > zero : r.perDepth < zero);
-    return r;
-}
 
 struct Gathered {
     F light[3], left, depth;
@@ -73,20 +43,14 @@ struct EyePacket {
             voxelWay = {dotWith(rays.way, g.fromPlace[0]), dotWith(rays.way, g.fromPlace[1]),
                         dotWith(rays.way, g.fromPlace[2])};
         }
-        const F back = (e.forward ? F(-1.0f) : F(1.0f)) / rays.length;
-        toEye = {rays.way.x * back, rays.way.y * back, rays.way.z * back};
+        toEye = rays.toEye(e);
         if constexpr (kModel >= kDirect)
             if (s.light.parallel) phase = phaseAt(s.look, dotWith(toEye, s.light.forward), rays.valid);
     }
 
-    STEREONAV_INLINE V3 placeAt(F t) const {
-        return {mulAdd(t, rays.way.x, rays.at.x), mulAdd(t, rays.way.y, rays.at.y),
-                mulAdd(t, rays.way.z, rays.at.z)};
-    }
-
     // What a slab sends to the eye, of lanes m; x: its optical depth along the rays.
-    STEREONAV_INLINE Colors scattered(const Properties& p, int n, const V3& place, const V3& gradient, F x,
-                                      const Decay& own, M m) const {
+    STEREONAV_INLINE Colors scattered(const Properties& p, int n, const V3& place,
+                                      const SurfaceAlone& surface, F x, const Decay& own, M m) const {
         const SweepLight& light = scene.light;
         const F zero(0.0f);
         const F along = F(chunk.middle[n]) + F(static_cast<float>(chunk.reference));
@@ -112,7 +76,12 @@ struct EyePacket {
         }
         const M shaded = a.lit & (p.surface > zero);
         Colors factor{{F(1.0f), F(1.0f), F(1.0f)}};
-        if (any(shaded)) factor = surfaceFactor(scene, p.surface, place, gradient, a.way, toEye, shaded);
+        if (surface.isShaded) {
+            const F all = mulAdd(p.surface, surface.shade, F(1.0f) - p.surface);
+            factor = {{all, all, all}};
+        } else if (any(shaded)) {
+            factor = surfaceFactor(scene, p.surface, place, surface.gradient, a.way, toEye, shaded);
+        }
         for (int k = 0; k < 3; ++k) {
             const F c = p.color[k] * F(scene.look.radiance[k]) * sent.c[k];
             sent.c[k] = select(a.lit, select(shaded, c * factor.c[k], c), zero);
@@ -121,13 +90,14 @@ struct EyePacket {
     }
 
     // Slab n of the chunk, of lanes m.
-    STEREONAV_INLINE void see(int n, M m, F start, Gathered& g) const {
+    STEREONAV_INLINE void see(int n, M m, F start, const PacketShading& shading, Gathered& g) const {
         const F t(chunk.middle[n]), zero(0.0f);
         const F depth = mulAdd(t, rays.perDepth, rays.depth);
         // A depth that is handed in was found by other slices: it counts from a slab before.
         m = m & (depth > zero) & (depth + abs(rays.perDepth) * F(chunk.thickness[n]) >= start);
         Properties p;
-        V3 place, there, gradient{zero, zero, zero};  // there: among the voxels, or displaced
+        V3 place, there;  // there: among the voxels, or displaced
+        SurfaceAlone surface{{zero, zero, zero}, zero, false};
         Column at;
         const SweepTable& table = scene.grid.table;
         if constexpr (kGridAlone) {
@@ -139,7 +109,7 @@ struct EyePacket {
             p.extinction = entryOf(table.extinction, at.entry, at.share, m);
         } else {
             if (!any(m)) return;
-            place = placeAt(t);
+            place = rays.placeAt(t);
             there = sampleAny(scene, place, depth * F(eye.footprint), m, p);
         }
         const M seen = m & (p.extinction > zero);
@@ -148,12 +118,12 @@ struct EyePacket {
             readColorsAlone(table, at, seen, p);
             if constexpr (kModel == kIndirect) readIndirectAlone(table, at, seen, p);
             if constexpr (kModel != kEmission) {
-                place = placeAt(t);
-                if (table.surface) gradient = surfaceAlone(scene.grid, there, at, seen, p);
+                place = rays.placeAt(t);
+                if (table.surface) surface = surfaceAlone(scene.grid, there, at, seen, shading, n, p);
             }
         } else if constexpr (kModel != kEmission) {
             const M shaded = seen & (p.surface > zero);
-            if (any(shaded)) gradient = gradientAt(scene, there, shaded);
+            if (any(shaded)) surface.gradient = gradientAt(scene, there, shaded);
         }
         const F x = select(seen, p.extinction * F(chunk.thickness[n]) * rays.length, zero);
         const Decay own = decayOf(x);
@@ -162,7 +132,7 @@ struct EyePacket {
         if constexpr (kModel == kEmission)
             sent = {{p.color[0] * opacity, p.color[1] * opacity, p.color[2] * opacity}};
         else
-            sent = scattered(p, n, place, gradient, x, own, seen);
+            sent = scattered(p, n, place, surface, x, own, seen);
         for (int k = 0; k < 3; ++k) sent.c[k] = mulAdd(p.glow[k], opacity, sent.c[k]);
         collect(sent, own.passes, depth, seen, g);
     }
@@ -189,6 +159,8 @@ bool seeTile(const SweepScene& scene, const SweepEye& eye, const SweepChunk& chu
     const F across = toFloat(lane & I(3)), down = toFloat(shiftRight<2>(lane));
     bool goesOn = false;
     float* state = tile.state;
+    const bool shadesPlaces = kModel != kEmission && kGridAlone && scene.shadingWidth > 0;
+    TileShading shading(scene, eye, chunk, tile);
     for (int y = 0; y < EyeTile::kSide; y += kRows)
         for (int x = 0; x < EyeTile::kSide; x += 4, state += EyeTile::kMembers * kLanes) {
             const F column = across + F(static_cast<float>(tile.x0 + x)),
@@ -210,7 +182,8 @@ bool seeTile(const SweepScene& scene, const SweepEye& eye, const SweepChunk& chu
                                                            row + F(0.5f));
                 active = active & packet.rays.valid;
                 for (std::uint32_t left = slabs; left && any(active); left &= left - 1) {
-                    packet.see(__builtin_ctz(left), active, start, g);
+                    packet.see(__builtin_ctz(left), active, start, {shadesPlaces ? &shading : nullptr, x, y},
+                               g);
                     if (eye.forward) active = active & (g.left >= F(kLeastLeft));
                 }
                 goesOn = goesOn || any(active);

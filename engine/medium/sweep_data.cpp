@@ -258,6 +258,8 @@ SweepScene SweepData::sceneFor(const MediumLook& look, const SweepSetting& setti
                       (table.rows == 1 || table.rowsOfSurface);
     setLook(scene.look, look, geometry.anchor);
     setVector(scene.look.radiance, geometry.radiance);
+    if (scene.gridAlone && table.surface && !scene.look.baked.texels)
+        scene.shadingWidth = static_cast<float>(setting.shadingWidth);
     scene.light = lightOf(geometry, blurOf(mMedium, setting));
     return scene;
 }

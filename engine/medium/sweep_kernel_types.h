@@ -156,6 +156,8 @@ struct EyeTile {
 struct SweepScene {
     // No layers, no noise, and a table that is one-dimensional, but for the surface weight: the short way.
     bool gridAlone = false;
+    // Surfaces of a grid alone are shaded at places up to so many voxels apart; 0: at each sample.
+    float shadingWidth = 0;
     SweepGrid grid;
     const SweepLayer* layers = nullptr;
     int layerCount = 0;

@@ -12,6 +12,9 @@ struct SweepSetting {
     // steps as in few thick ones; the paper's spread less and less as slices are added. 0: 1/64 of the
     // medium's longest side.
     double blurLength = 0;
+    // Surfaces are shaded at places up to so many voxels apart and between them; 0: at each sample. CPU,
+    // grids without noise and baked light.
+    double shadingWidth = 1;
     bool singleTarget = true;  // GPU: one target split by viewports (K8), or one a buffer
 };
 

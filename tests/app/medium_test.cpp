@@ -261,6 +261,9 @@ TEST_F(MediumCommands, BadValuesAreRefusedInOneLine) {
     refused({"--light-size", "5000"}, {"--light-size", "4096"});
     refused({"--cone", "180"}, {"--cone", "180"});
     refused({"--cone", "-1"}, {"--cone"});
+    refused({"--shading-width", "17"}, {"--shading-width", "0 to 16", "17", "1 is the default"});
+    refused({"--shading-width", "-1"}, {"--shading-width"});
+    refused({"--shading-width", "nan"}, {"--shading-width"});
     refused({"--noise", "sand"}, {"--noise", "sand", "cloud, fur or none"});
     refused({"--medium", "jelly"}, {"jelly", "wax"});
     refused({"--medium", "ground"}, {"--medium", "terrain"});

@@ -1,7 +1,7 @@
 // Volume light against the truth of the path tracer: error against time for slices, cone angles and sizes of
 // the light's buffer, on the CPU and by the GPU's shaders; what both eyes in one sweep cost and change; which
 // settings follow multiple scattering best. With --marks "name value" lines alone: 512x512 pixels, 256
-// slices.
+// slices. With --shading what shading at places costs and saves.
 // --samples N: paths a pixel of the truth; --size N: pixels a side of what is compared with it.
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +11,7 @@
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "tests/bench/bench_volume_light_fit.h"
+#include "tests/bench/bench_volume_light_shading.h"
 #include "tests/bench/bench_volume_light_stereo.h"
 
 namespace stereonav::bench {
@@ -19,7 +20,7 @@ namespace {
 constexpr int kDirectSamples = 8;  // times as many: their paths are short
 
 struct Options {
-    bool marks = false;
+    bool marks = false, shading = false;
     int samples = 256, size = 64;
     std::string only;  // subject
 };
@@ -147,6 +148,10 @@ void compareSubject(const MediumSubject& subject, const Options& options, GpuSwe
 }
 
 int run(const Options& options) {
+    if (options.shading) {
+        printShading();
+        return 0;
+    }
     GpuSweepTimer timer;
     if (options.marks) {
         printMarks(measureMarks(timer));
@@ -171,6 +176,7 @@ Options parse(int count, char** arguments) {
     for (int n = 1; n < count; ++n) {
         const std::string word = arguments[n];
         if (word == "--marks") options.marks = true;
+        if (word == "--shading") options.shading = true;
         if (n + 1 < count && word == "--samples") options.samples = std::max(2, std::atoi(arguments[n + 1]));
         if (n + 1 < count && word == "--size") options.size = std::max(8, std::atoi(arguments[n + 1]));
         if (n + 1 < count && word == "--only") options.only = arguments[n + 1];

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "simd_targets.h"
 #include "sweep_scenes.h"
 
 namespace stereonav {
@@ -13,19 +14,11 @@ namespace {
 
 using test::makeField;
 using test::sun;
+using test::targets;
 using test::viewFrom;
 
 // Light that eyes read is kept in 15 bits, weights between voxels in 14; the rest is float. Of light up to 1.
 constexpr double kTolerance = 5e-4;
-
-std::vector<SimdTarget> targets() {
-    std::vector<SimdTarget> all{SimdTarget::Plain};
-    for (const SimdTarget t : {SimdTarget::Avx2, SimdTarget::Avx512}) try {
-            all.push_back(availableTarget(t));
-        } catch (const Error&) {
-        }
-    return all;
-}
 
 struct Scene {
     Medium medium;
@@ -346,6 +339,7 @@ TEST(MediumSweep, agreesWhereSlabsLean) {
 TEST(MediumSweep, agreesFromNear) {
     for (const bool wide : {false, true}) {
         Scene scene = sceneOf(Kind::Ramp, MediumModel::Indirect, false, true, 21);
+        scene.setting.shadingWidth = 0;  // between places: sweep_shading_test.cpp
         if (wide) {
             auto field = makeField({19, 17, 15}, 2.0, {0.3, -0.2, 0.1}, [](const glm::ivec3& v) {
                 return 32000 * std::sin(2.1 * v.x) * std::cos(1.9 * v.y + 1) * std::sin(1.7 * v.z + 2);
