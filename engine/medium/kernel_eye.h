@@ -98,43 +98,47 @@ struct EyePacket {
         Properties p;
         V3 place, there;  // there: among the voxels, or displaced
         SurfaceAlone surface{{zero, zero, zero}, zero, false};
-        Column at;
         const SweepTable& table = scene.grid.table;
         if constexpr (kGridAlone) {
             there = {mulAdd(t, voxelWay.x, voxel.x), mulAdd(t, voxelWay.y, voxel.y),
                      mulAdd(t, voxelWay.z, voxel.z)};
             m = m & insideGrid(scene.grid, there);
             if (!any(m)) return;
-            at = columnOf(table, gridValue(scene.grid, there, m));
-            p.extinction = entryOf(table.extinction, at.entry, at.share, m);
+            const Column at = columnOf(table, gridValue(scene.grid, there, m));
+            TablePlaces places(at, m);
+            p.extinction = places.readOne(table.extinction);
+            m = m & (p.extinction > zero);
+            if (!any(m)) return;
+            places.leave(m);
+            places.read([&](const auto& read) {
+                readColorsAlone(table, read, p);
+                if constexpr (kModel == kIndirect) readIndirectAlone(table, read, p);
+            });
+            if constexpr (kModel != kEmission) {
+                place = rays.placeAt(t);
+                if (table.surface) surface = surfaceAlone(scene.grid, there, places, shading, n, p);
+            }
         } else {
             if (!any(m)) return;
             place = rays.placeAt(t);
             there = sampleAny(scene, place, depth * F(eye.footprint), m, p);
-        }
-        const M seen = m & (p.extinction > zero);
-        if (!any(seen)) return;
-        if constexpr (kGridAlone) {
-            readColorsAlone(table, at, seen, p);
-            if constexpr (kModel == kIndirect) readIndirectAlone(table, at, seen, p);
+            m = m & (p.extinction > zero);
+            if (!any(m)) return;
             if constexpr (kModel != kEmission) {
-                place = rays.placeAt(t);
-                if (table.surface) surface = surfaceAlone(scene.grid, there, at, seen, shading, n, p);
+                const M shaded = m & (p.surface > zero);
+                if (any(shaded)) surface.gradient = gradientAt(scene, there, shaded);
             }
-        } else if constexpr (kModel != kEmission) {
-            const M shaded = seen & (p.surface > zero);
-            if (any(shaded)) surface.gradient = gradientAt(scene, there, shaded);
         }
-        const F x = select(seen, p.extinction * F(chunk.thickness[n]) * rays.length, zero);
+        const F x = select(m, p.extinction * F(chunk.thickness[n]) * rays.length, zero);
         const Decay own = decayOf(x);
         const F opacity = x * own.mean;
         Colors sent;
         if constexpr (kModel == kEmission)
             sent = {{p.color[0] * opacity, p.color[1] * opacity, p.color[2] * opacity}};
         else
-            sent = scattered(p, n, place, surface, x, own, seen);
+            sent = scattered(p, n, place, surface, x, own, m);
         for (int k = 0; k < 3; ++k) sent.c[k] = mulAdd(p.glow[k], opacity, sent.c[k]);
-        collect(sent, own.passes, depth, seen, g);
+        collect(sent, own.passes, depth, m, g);
     }
     STEREONAV_INLINE void collect(const Colors& sent, F passes, F depth, M seen, Gathered& g) const {
         const F zero(0.0f), tiny(kNothing);

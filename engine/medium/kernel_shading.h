@@ -6,6 +6,7 @@
 
 #include "engine/medium/kernel_arriving.h"
 #include "engine/medium/kernel_eye_rays.h"
+#include "engine/medium/kernel_table_window.h"
 
 namespace stereonav::STEREONAV_ISA {
 
@@ -184,13 +185,14 @@ struct SurfaceAlone {
     bool isShaded;
 };
 // The surface weight of places in a grid alone, and what shades them where it is not 0.
-[[gnu::noinline]] inline SurfaceAlone surfaceAlone(const SweepGrid& grid, const V3& voxel, Column at, M m,
-                                                   const PacketShading& shading, int slab, Properties& p) {
+[[gnu::noinline]] inline SurfaceAlone surfaceAlone(const SweepGrid& grid, const V3& voxel,
+                                                   const TablePlaces& places, const PacketShading& shading,
+                                                   int slab, Properties& p) {
     const F zero(0.0f);
     const SweepTable& table = grid.table;
-    const F most = table.surfacePairs ? betweenHalves(gather(table.surfacePairs, at.entry, m), at.share)
-                                      : entryOf(table.mostSurface, at.entry, at.share, m);
-    const M shaded = m & (most > zero);
+    const F most =
+        table.surfacePairs ? places.readPairs(table.surfacePairs) : places.readOne(table.mostSurface);
+    const M shaded = places.m & (most > zero);
     p.surface = select(shaded, most, zero);
     SurfaceAlone surface{{zero, zero, zero}, zero, false};
     if (!any(shaded)) return surface;
@@ -207,6 +209,7 @@ struct SurfaceAlone {
         const I low = min(truncateToInt(row), I(table.rows - 2));
         p.surface = p.surface * betweenHalves(gather(table.sharePairs, low, shaded), row - toFloat(low));
     } else if (table.rows > 1) {
+        Column at = places.at;
         setRow(table, length, at);
         p.surface = select(shaded, memberAt(table, table.surface, at, shaded), zero);
     }

@@ -48,16 +48,22 @@ STEREONAV_INLINE void readColors(const SweepTable& table, const Column& at, M m,
     p.surface = table.surface ? memberAt(table, table.surface, at, m) : zero;
     for (int k = 0; k < 3; ++k) p.glow[k] = table.glow[k] ? memberAt(table, table.glow[k], at, m) : zero;
 }
-// The same of grids alone, where rows have the same colours; the surface weight is not read.
-STEREONAV_INLINE void readColorsAlone(const SweepTable& table, const Column& at, M m, Properties& p) {
+// The same of grids alone, where rows have the same colours; the surface weight is not read. read: a member,
+// where the table is read.
+template <typename Read>
+STEREONAV_INLINE void readColorsAlone(const SweepTable& table, const Read& read, Properties& p) {
     const F zero(0.0f);
-    const auto read = [&](const float* member) { return entryOf(member, at.entry, at.share, m); };
     for (int k = 0; k < 3; ++k) p.color[k] = read(table.color[k]);
     for (int k = 0; k < 3; ++k) p.glow[k] = table.glow[k] ? read(table.glow[k]) : zero;
     p.surface = zero;
 }
+template <typename Read>
+STEREONAV_INLINE void readIndirectAlone(const SweepTable& table, const Read& read, Properties& p) {
+    for (int k = 0; k < 3; ++k) p.indirect[k] = read(table.indirect[k]);
+}
 STEREONAV_INLINE void readIndirectAlone(const SweepTable& table, const Column& at, M m, Properties& p) {
-    for (int k = 0; k < 3; ++k) p.indirect[k] = entryOf(table.indirect[k], at.entry, at.share, m);
+    readIndirectAlone(
+        table, [&](const float* member) { return entryOf(member, at.entry, at.share, m); }, p);
 }
 STEREONAV_INLINE void readIndirect(const SweepTable& table, const Column& at, M m, Properties& p) {
     for (int k = 0; k < 3; ++k) p.indirect[k] = memberAt(table, table.indirect[k], at, m);

@@ -48,25 +48,32 @@ public:
 
 #endif
 
-// How a packet's lanes m read a column of the table: through a window, or each on its own.
-struct ColumnReader {
-    TableWindow window;
-    I entry;
-    F share;
+// Where a packet's lanes m read a table: through a window, or each on its own.
+struct TablePlaces {
+    Column at;
     M m;
+    TableWindow window;
 
-    STEREONAV_INLINE ColumnReader(const Column& at, M lanes)
-        : window(at.entry, lanes), entry(at.entry), share(at.share), m(lanes) {}
-    // Of some of these lanes; where they lie apart, those may not.
+    STEREONAV_INLINE TablePlaces(const Column& column, M lanes)
+        : at(column), m(lanes), window(column.entry, lanes) {}
+    // Of some of these lanes; they may lie closer together.
     STEREONAV_INLINE void leave(M lanes) {
         m = lanes;
-        if (!window.holds()) window = TableWindow(entry, lanes);
+        if (!window.holds()) window = TableWindow(at.entry, lanes);
     }
-    STEREONAV_INLINE F operator()(const float* member) const {
-        return window.holds() ? window.between(member, share) : entryOf(member, entry, share, m);
+    // use: of what reads a member; the choice is made once for all that it reads.
+    template <typename Use>
+    STEREONAV_INLINE void read(const Use& use) const {
+        if (window.holds())
+            use([&](const float* member) { return window.between(member, at.share); });
+        else
+            use([&](const float* member) { return entryOf(member, at.entry, at.share, m); });
     }
-    STEREONAV_INLINE F operator()(const std::uint32_t* pairs) const {
-        return betweenHalves(window.holds() ? window.at(pairs) : gather(pairs, entry, m), share);
+    STEREONAV_INLINE F readOne(const float* member) const {
+        return window.holds() ? window.between(member, at.share) : entryOf(member, at.entry, at.share, m);
+    }
+    STEREONAV_INLINE F readPairs(const std::uint32_t* pairs) const {
+        return betweenHalves(window.holds() ? window.at(pairs) : gather(pairs, at.entry, m), at.share);
     }
 };
 
