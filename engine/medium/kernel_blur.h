@@ -9,9 +9,11 @@ namespace stereonav::STEREONAV_ISA {
 // Texels' rays in the middle of a slab.
 struct TexelPlaces {
     V3 place;
-    F length;  // of way for one along the axis
-    F size;    // of a texel there, metres
-    M valid;
+    V3 way;     // for one along the axis
+    F length;   // of way
+    F size;     // of a texel there, metres
+    M crosses;  // rays that cross slabs
+    M valid;    // and do so past a lamp
 };
 STEREONAV_INLINE V3 alongFan(const SweepLight& light, F x, F y) {
     const auto axis = [&](int k) { return mulAdd(F(light.right[k]), x, mulAdd(F(light.up[k]), y, F(0.0f))); };
@@ -27,20 +29,23 @@ STEREONAV_INLINE TexelPlaces texelPlaces(const SweepLight& light, float middle, 
         const F way = (F(middle) - asideAxis) * F(light.length);
         p.place = {mulAdd(way, F(light.forward[0]), aside.x), mulAdd(way, F(light.forward[1]), aside.y),
                    mulAdd(way, F(light.forward[2]), aside.z)};
+        const auto along = [&](int k) { return F(light.forward[k] * light.length); };
+        p.way = {along(0), along(1), along(2)};
         p.length = F(light.length);
         p.size = F(light.perX);
-        p.valid = zero < F(1.0f);
+        p.crosses = p.valid = zero < F(1.0f);
         return p;
     }
     const V3 d{aside.x + F(light.forward[0]), aside.y + F(light.forward[1]), aside.z + F(light.forward[2])};
     const F c = asideAxis + F(light.axis[2]), length = lengthOf(d);
-    p.valid = c > F(1e-4f) * length;
-    const F per = F(1.0f) / select(p.valid, c, F(1.0f)), depth = (F(middle) - F(light.start)) * per;
+    p.crosses = c > F(1e-4f) * length;
+    const F per = F(1.0f) / select(p.crosses, c, F(1.0f)), depth = (F(middle) - F(light.start)) * per;
     p.place = {mulAdd(depth, d.x, F(light.origin[0])), mulAdd(depth, d.y, F(light.origin[1])),
                mulAdd(depth, d.z, F(light.origin[2]))};
+    p.way = {per * d.x, per * d.y, per * d.z};
     p.length = length * per;
     p.size = depth * F(light.perX);
-    p.valid = p.valid & (depth > zero);
+    p.valid = p.crosses & (depth > zero);
     return p;
 }
 

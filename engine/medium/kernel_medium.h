@@ -302,16 +302,21 @@ STEREONAV_INLINE V3 worldGradient(const SweepGrid& grid, const V3& g) {
 struct Decay {
     F mean, passes;
 };
-STEREONAV_INLINE Decay decayOf(F z) {
-    const F limit(0.5f), one(1.0f);
-    const F s = min(z, limit);
+STEREONAV_INLINE F thinMean(F s) {
     F mean = mulAdd(s, F(1.0f / 5040), F(-1.0f / 720));
     mean = mulAdd(mean, s, F(1.0f / 120));
     mean = mulAdd(mean, s, F(-1.0f / 24));
     mean = mulAdd(mean, s, F(1.0f / 6));
     mean = mulAdd(mean, s, F(-0.5f));
-    mean = mulAdd(mean, s, one);
-    F passes = one - s * mean;
+    return mulAdd(mean, s, F(1.0f));
+}
+STEREONAV_INLINE F thinlyPassed(F s) {
+    return F(1.0f) - s * thinMean(s);
+}
+STEREONAV_INLINE Decay decayOf(F z) {
+    const F limit(0.5f), one(1.0f);
+    const F s = min(z, limit);
+    F mean = thinMean(s), passes = one - s * mean;
     const M thick = z > limit;
     if (any(thick)) {
         const F left = exp2(z * F(-1.44269504f));

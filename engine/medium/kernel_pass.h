@@ -4,33 +4,12 @@
 // Included by kernels only.
 #pragma once
 
-#include "engine/medium/kernel_blur.h"
-#include "engine/medium/kernel_eye.h"
+#include "engine/medium/kernel_columns.h"
 
 namespace stereonav::STEREONAV_ISA {
 
-STEREONAV_INLINE I inFifteenBits(F v) {
-    return truncateToInt(mulAdd(v, F(32767.0f), F(0.5f)));
-}
-STEREONAV_INLINE std::uint32_t* packedAt(const SweepLight& light, int inChunk, int x, int y) {
-    return light.packed + 2 * inChunk * light.packedPlane +
-           static_cast<std::int64_t>(y + 1) * light.packedStride + x + 1;
-}
 STEREONAV_INLINE void packDirect(const SweepLight& light, int inChunk, int x, int y, F direct, M lanes) {
     store(packedAt(light, inChunk, x, y), inFifteenBits(direct), lanes);
-}
-// Direct light is there.
-STEREONAV_INLINE void packIndirect(const SweepLight& light, int inChunk, int x, int y, const F (&indirect)[3],
-                                   M lanes) {
-    std::uint32_t* first = packedAt(light, inChunk, x, y);
-    store(first, loadI(first) | shiftLeft<16>(inFifteenBits(indirect[0])), lanes);
-    store(first + light.packedPlane, inFifteenBits(indirect[1]) | shiftLeft<16>(inFifteenBits(indirect[2])),
-          lanes);
-}
-
-STEREONAV_INLINE F weakened(F light, F depth) {
-    const F left = light * decayOf(depth).passes;
-    return select(left < F(kNothing), F(0.0f), left);
 }
 
 // Where nothing is: scattered light is spread.
@@ -69,6 +48,24 @@ STEREONAV_INLINE F loadPatch(const float* from, std::int64_t stride) {
     return loadF(numbers);
 }
 
+// Texels' rays among the voxels: voxel + t way at t from a plane on.
+struct PatchRays {
+    V3 voxel, way;
+    F length;  // as TexelPlaces
+    M valid;   // past a lamp
+};
+STEREONAV_INLINE PatchRays patchRays(const SweepScene& scene, float plane, F x, F y) {
+    const SweepLight& light = scene.light;
+    const TexelPlaces at = texelPlaces(light, plane, x, y);
+    PatchRays rays;
+    rays.voxel = voxelOf(scene.grid, at.place);
+    rays.length = at.length;
+    rays.valid = at.crosses;
+    const auto along = [&](int k) { return dotWith(at.way, scene.grid.fromPlace[k]); };
+    rays.way = {along(0), along(1), along(2)};
+    return rays;
+}
+
 // A patch through the slabs of a chunk: direct light, which needs no neighbours, and where in the table it
 // was.
 STEREONAV_INLINE void findTexels(const SweepScene& scene, const LightColumns& at, const Patch& patch) {
@@ -79,6 +76,7 @@ STEREONAV_INLINE void findTexels(const SweepScene& scene, const LightColumns& at
     const F u = toFloat(lane & I(3)) + F(static_cast<float>(patch.x) + 0.5f),
             v = toFloat(shiftRight<2>(lane)) + F(static_cast<float>(patch.y) + 0.5f);
     const M lanes = (u < F(static_cast<float>(light.width))) & (v < F(static_cast<float>(light.height)));
+    const PatchRays rays = patchRays(scene, static_cast<float>(at.middle[0]), u, v);
     float* direct = light.direct + static_cast<std::int64_t>(patch.y) * light.stride + patch.x;
     F left = loadPatch(direct, light.stride);
     float numbers[kLanes];
@@ -88,9 +86,10 @@ STEREONAV_INLINE void findTexels(const SweepScene& scene, const LightColumns& at
         if (!(at.strips[n] >> strip & 1u)) continue;
         store(words, inFifteenBits(left));
         storePatch(packedAt(light, n, patch.x, patch.y), light.packedStride, words, patch);
-        const TexelPlaces texels = texelPlaces(light, static_cast<float>(at.middle[n]), u, v);
-        const V3 voxel = voxelOf(scene.grid, texels.place);
-        const M in = lanes & texels.valid & insideGrid(scene.grid, voxel);
+        const F t(static_cast<float>(at.middle[n] - at.middle[0]));
+        const V3 voxel{mulAdd(t, rays.way.x, rays.voxel.x), mulAdd(t, rays.way.y, rays.voxel.y),
+                       mulAdd(t, rays.way.z, rays.voxel.z)};
+        const M in = lanes & rays.valid & insideGrid(scene.grid, voxel);
         F column = none;
         if (any(in)) {
             const Column place = columnOf(table, gridValue(scene.grid, voxel, in));
@@ -98,7 +97,7 @@ STEREONAV_INLINE void findTexels(const SweepScene& scene, const LightColumns& at
             const M there = in & (extinction > zero);
             if (any(there)) {
                 column = select(there, toFloat(place.entry) + place.share, none);
-                left = select(there, weakened(left, extinction * F(at.thickness[n]) * texels.length), left);
+                left = select(there, weakened(left, extinction * F(at.thickness[n]) * rays.length), left);
             }
         }
         store(numbers, column);
@@ -130,9 +129,7 @@ STEREONAV_INLINE M passedThere(const SweepScene& scene, const LightTile& tile, c
         const F column = loadF(tile.columns + (y - tile.y0) * LightTile::kSide + x - tile.x0);
         const M there = crossed & (column >= F(0.0f));
         if (!any(there)) return there;
-        const F place = max(column, F(0.0f));
-        const I entry = min(truncateToInt(place), I(SweepTable::kColumns - 2));
-        readIndirectAlone(scene.grid.table, {entry, place - toFloat(entry), I(0), F(0.0f)}, there, p);
+        readIndirectAlone(scene.grid.table, columnAt(max(column, F(0.0f))), there, p);
         return there;
     } else {
         const SweepLight& light = scene.light;
@@ -212,7 +209,8 @@ STEREONAV_INLINE M passTexels(const SweepScene& scene, const LightPass& pass, co
     if (sample) {
         if constexpr (!kGridAlone && !kLeans)
             packDirect(light, pass.inChunk, x, y, loadF(light.direct + row.index), lanes);
-        if constexpr (kIndirect) packIndirect(light, pass.inChunk, x, y, indirect, lanes);
+        if constexpr (kIndirect)
+            packIndirect(packedAt(light, pass.inChunk, x, y), light.packedPlane, indirect, lanes);
     }
     if constexpr (kIndirect) spreadRow<kLeans>(light, pass, x, row, way, at.size, crossed, indirect);
     if (sample) {
@@ -234,6 +232,8 @@ STEREONAV_INLINE M passTexels(const SweepScene& scene, const LightPass& pass, co
 
 template <bool kIndirect, bool kGridAlone, bool kLeans>
 bool passTile(const SweepScene& scene, const LightPass& pass, const LightTile& tile) {
+    if constexpr (kGridAlone && !kLeans)
+        if (passesEvenly(scene.light, pass)) return passEvenTile(scene, pass, tile);
     const SweepLight& light = scene.light;
     M changed = maskFromBits(0);
     for (int line = 0; line < LightTile::kSide && tile.y0 + line < light.height; ++line) {

@@ -22,6 +22,16 @@ constexpr std::uint32_t kAllLight = 0x7fff7fffu;  // both halves 1
 constexpr int kPieces = 16;                       // of a slab's tiles, for threads
 constexpr double kSigmas = 5;                     // light that spreads further is below 1e-6 of what there is
 
+constexpr int kLine = 16;  // numbers of a cache line: rows start with one, so that no packet lies across two
+
+// The first whole line of numbers.
+template <typename T>
+T* linesOf(std::vector<T>& numbers) {
+    const std::size_t bytes = kLine * sizeof(T),
+                      past = reinterpret_cast<std::uintptr_t>(numbers.data()) % bytes;
+    return numbers.data() + (past ? (bytes - past) / sizeof(T) : 0);
+}
+
 std::int32_t strideOf(int width) {
     return (width + kSide - 1) / kSide * kSide + 2 * kBorder;
 }
@@ -48,25 +58,26 @@ void spreadLargest(std::vector<int>& values, int across, int down, int reach) {
 
 void SweepLightBuffers::setPlanes(SweepLight& light) {
     const std::int32_t stride = strideOf(light.width);
-    mPlanes.assign(7 * static_cast<std::size_t>(stride) * (light.height + 4), 1.0f);
+    mPlanes.assign(7 * static_cast<std::size_t>(stride) * (light.height + 4) + kLine, 1.0f);
     light.stride = stride;
-    light.direct = mPlanes.data() + stride + kBorder;
+    light.direct = linesOf(mPlanes) + stride + kBorder;
     mSwapped = false;
 }
 
 // From column -1 to width + 1, row -1 to height + 1.
 void SweepLightBuffers::setPacked(SweepLight& light) {
-    light.packedStride = light.width + 4;
-    light.packedPlane = static_cast<std::int64_t>(light.packedStride) * (light.height + 3) + 1;
+    light.packedStride = (light.width + 4 + kLine - 1) / kLine * kLine;
+    light.packedPlane = static_cast<std::int64_t>(light.packedStride) * (light.height + 3) + kLine;
     if (mPackedWidth != light.width || mPackedHeight != light.height) {
         const std::size_t bytes = 2 * sizeof(std::uint32_t) * static_cast<std::size_t>(light.packedPlane);
         mChunk = static_cast<int>(std::clamp<std::size_t>(kMostPacked / bytes, 1, SweepChunk::kMost));
-        mPacked.assign(2 * mChunk * static_cast<std::size_t>(light.packedPlane) + kBorder, kAllLight);
+        mPacked.assign(2 * mChunk * static_cast<std::size_t>(light.packedPlane) + kBorder + 2 * kLine,
+                       kAllLight);
         mPackedWidth = light.width;
         mPackedHeight = light.height;
         mRingSet = false;
     }
-    light.packed = mPacked.data();
+    light.packed = linesOf(mPacked) + kLine - 1;  // column 0 starts a line
 }
 
 // Scattered light as it sets out, in both turns.
@@ -120,7 +131,8 @@ int SweepLightBuffers::start(SweepScene& scene, const SweepGeometry& geometry, c
     mLeans = scattered && scene.light.leaning > 0 && scene.light.blur > 0;
     mDeep.assign(tiles(), 0);
     if (mLeans)
-        mDepths.assign(3 * static_cast<std::size_t>(scene.light.stride) * (scene.light.height + 4), 0.0f);
+        mDepths.assign(3 * static_cast<std::size_t>(scene.light.stride) * (scene.light.height + 4) + kLine,
+                       0.0f);
     if (!mStart.empty() || mRingSet) setRing(scene.light);
     findStrips(geometry, space);
     return mChunk;
@@ -184,7 +196,7 @@ long long SweepLightBuffers::beginChunk(const SweepScene& scene, const SweepGeom
                                         int count, const SweepKernels& kernels) {
     if (!scene.gridAlone) return 0;
     constexpr std::size_t kTexels = kSide * kSide;
-    const std::size_t needed = kTexels * static_cast<std::size_t>(mChunk) * tiles();
+    const std::size_t needed = columnsOfTile() * tiles() + kLine;
     if (mColumns.size() < needed) mColumns.resize(needed);
     std::atomic<long long> texels = 0;
     parallelFor(tiles(), [&](int tile) {
@@ -202,8 +214,8 @@ long long SweepLightBuffers::beginChunk(const SweepScene& scene, const SweepGeom
         at.x0 = tile % mAcross * kSide;
         at.y0 = tile / mAcross * kSide;
         at.count = count;
-        at.columns = mColumns.data() + kTexels * tile;
-        at.next = static_cast<std::int64_t>(kTexels) * tiles();
+        at.columns = columnsOf(0, at.x0, at.y0);
+        at.next = kTexels;
         kernels.findColumns(scene, at);
         texels += strips * kSide * LightTile::kStrip;
     });
@@ -223,16 +235,19 @@ void SweepLightBuffers::findDepths(const SweepScene& scene, const SweepGeometry&
     const int count = static_cast<int>(mTiles.size()), pieces = std::min(count, kPieces);
     parallelFor(pieces, [&](int piece) {
         for (int n = count * piece / pieces; n < count * (piece + 1) / pieces; ++n) {
-            if (scene.gridAlone) mTiles[n].columns = columnsOf(pass.inChunk, mTiles[n]);
+            if (scene.gridAlone) mTiles[n].columns = columnsOf(pass.inChunk, mTiles[n].x0, mTiles[n].y0);
             kernels.findDepths(scene, pass, mTiles[n]);
         }
     });
 }
 
-const float* SweepLightBuffers::columnsOf(int inChunk, const LightTile& tile) const {
-    const std::size_t index =
-        static_cast<std::size_t>(inChunk) * tiles() + tile.y0 / kSide * mAcross + tile.x0 / kSide;
-    return mColumns.data() + index * kSide * kSide;
+// A tile's slabs lie together, and tiles a line apart from where their numbers would meet in the caches.
+std::size_t SweepLightBuffers::columnsOfTile() const {
+    return static_cast<std::size_t>(kSide * kSide) * mChunk + kLine;
+}
+float* SweepLightBuffers::columnsOf(int inChunk, int x0, int y0) {
+    const std::size_t tile = static_cast<std::size_t>(y0 / kSide) * mAcross + x0 / kSide;
+    return linesOf(mColumns) + tile * columnsOfTile() + static_cast<std::size_t>(inChunk) * kSide * kSide;
 }
 
 // Those where something may be, and those to which light may spread that is needed later.
@@ -272,7 +287,7 @@ long long SweepLightBuffers::pass(const SweepScene& scene, const SweepGeometry& 
         pass.after[k] = mSwapped ? first : second;
     }
     if (mLeans) {
-        for (int k = 0; k < 3; ++k) pass.depths[k] = mDepths.data() + light.stride + kBorder + k * plane;
+        for (int k = 0; k < 3; ++k) pass.depths[k] = linesOf(mDepths) + light.stride + kBorder + k * plane;
         findDepths(scene, geometry, pass, kernels);
     }
     // Texels of a lamp differ in size: any may be reached.
@@ -285,7 +300,7 @@ long long SweepLightBuffers::pass(const SweepScene& scene, const SweepGeometry& 
     parallelFor(pieces, [&](int piece) {
         for (int n = count * piece / pieces; n < count * (piece + 1) / pieces; ++n) {
             LightTile& tile = mTiles[n];
-            if (scene.gridAlone) tile.columns = columnsOf(inChunk, tile);
+            if (scene.gridAlone) tile.columns = columnsOf(inChunk, tile.x0, tile.y0);
             mChanged[n] = kernels.lightTile(scene, pass, tile);
         }
     });

@@ -32,7 +32,8 @@ private:
     void setRing(const SweepLight& light);
     void findDepths(const SweepScene& scene, const SweepGeometry& geometry, const LightPass& pass,
                     const SweepKernels& kernels);
-    const float* columnsOf(int inChunk, const LightTile& tile) const;
+    float* columnsOf(int inChunk, int x0, int y0);
+    std::size_t columnsOfTile() const;
     void findStrips(const SweepGeometry& geometry, const SweepSpace* space);
     void findStripsOf(const SweepGeometry& geometry, const SweepSpace& space, int tile,
                       const std::vector<double>& middles);
@@ -47,7 +48,7 @@ private:
     std::vector<std::uint8_t> mDeep;  // tiles: may have some of it that is not 0
     bool mLeans = false;
     std::vector<std::uint32_t> mPacked;
-    std::vector<float> mColumns;  // of a chunk's slabs: tiles
+    std::vector<float> mColumns;  // of tiles: a chunk's slabs
     int mPackedWidth = 0, mPackedHeight = 0, mChunk = 0;
     bool mSwapped = false;
     std::vector<float> mStart;           // see scatteredAtStart
