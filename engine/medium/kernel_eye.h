@@ -121,7 +121,7 @@ struct EyePacket {
         } else {
             if (!any(m)) return;
             place = rays.placeAt(t);
-            there = sampleAny(scene, place, depth * F(eye.footprint), m, p);
+            there = sampleAny<true, kModel == kIndirect>(scene, place, depth * F(eye.footprint), m, p);
             m = m & (p.extinction > zero);
             if (!any(m)) return;
             if constexpr (kModel != kEmission) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/medium/kernel_block.h"
+#include "engine/medium/kernel_heights.h"
 #include "engine/medium/kernel_table.h"
 #include "engine/medium/sweep_kernel_types.h"
 #include "engine/volume/kernel_light.h"
@@ -158,45 +159,19 @@ STEREONAV_INLINE Disturbance disturbanceAt(const SweepNoise& noise, const V3& pl
     return d;
 }
 
-// Height above the layer's base; NaN where unknown. A sample of weight 0 does not count.
-[[gnu::noinline]] inline F heightIn(const SweepLayer& layer, F u, F v, I level, M m) {
-    const F zero(0.0f), one(1.0f), half(0.5f);
-    const F perSize = asFloat(shiftLeft<23>(I(127) - level));
-    const I width = gather(layer.width, level, m), height = gather(layer.height, level, m);
-    const F x = clamp(mulAdd(u + half, perSize, -half), zero, toFloat(width - I(1)));
-    const F y = clamp(mulAdd(v + half, perSize, -half), zero, toFloat(height - I(1)));
-    const I i = truncateToInt(x), j = truncateToInt(y);
-    const F s = x - toFloat(i), t = y - toFloat(j);
-    const I first = gather(layer.start, level, m) + j * width + i;
-    F sum = zero;
-    for (int corner = 0; corner < 4; ++corner) {
-        const F weight = (corner & 1 ? s : one - s) * (corner & 2 ? t : one - t);
-        const M counts = m & (weight > zero);
-        const I index = first + (corner & 1 ? I(1) : I(0)) + (corner & 2 ? width : I(0));
-        sum = sum + select(counts, weight * gather(layer.heights, index, counts, zero), zero);
+// A column of a layer's table; of one that is the same everywhere it is not looked for.
+struct LayerColumn {
+    const SweepTable& table;
+    Column at;
+    M m;
+    STEREONAV_INLINE F operator()(const float* member) const {
+        return table.uniform ? F(member[0]) : memberAt(table, member, at, m);
     }
-    return sum;
-}
-[[gnu::noinline]] inline F heightAt(const SweepLayer& layer, const V3& place, F footprint, M m) {
-    const F zero(0.0f);
-    const F u = mulAdd(place.x, F(layer.perMetre), F(layer.zero[0])),
-            v = mulAdd(place.y, F(layer.perMetre), F(layer.zero[1]));
-    const M in = m & (u >= zero) & (v >= zero) & (u <= F(static_cast<float>(layer.width[0]) - 1)) &
-                 (v <= F(static_cast<float>(layer.height[0]) - 1));
-    const F size = footprint * F(layer.perMetre), coarsest(static_cast<float>(layer.levels - 1));
-    const F level = select(size > F(1.0f), min(log2(max(size, F(1.0f))), coarsest), zero);
-    const I fine = truncateToInt(level);
-    const F share = level - toFloat(fine);
-    F height = heightIn(layer, u, v, fine, in);
-    const M between = in & (share > zero);
-    if (any(between))
-        height = select(between, lerp(height, heightIn(layer, u, v, fine + I(1), between), share), height);
-    return select(in, height, F(__builtin_nanf("")));
-}
-
-// Adds a layer to what is there; extinctions add up, the rest by its share of them.
-[[gnu::noinline]] inline void addLayer(const SweepLayer& layer, const V3& place, F footprint, M m,
-                                       Properties& sum) {
+};
+// Adds a layer to what is there; extinctions add up, the rest by its share of them. Light that passes needs
+// no colours, and eyes not always what scattered light meets.
+template <bool kColors, bool kIndirect>
+[[gnu::noinline]] void addLayer(const SweepLayer& layer, const V3& place, F footprint, M m, Properties& sum) {
     const F zero(0.0f), one(1.0f);
     const M near = m & (place.z >= F(layer.lowest)) & (place.z <= F(layer.highest));
     if (!any(near)) return;
@@ -206,26 +181,28 @@ STEREONAV_INLINE Disturbance disturbanceAt(const SweepNoise& noise, const V3& pl
     const M in = near & (inside >= zero);
     if (!any(in)) return;
     const F weight = layer.perTaper > 0 ? min(inside * F(layer.perTaper), one) : one;
-    const Column at = columnOf(layer.table, select(in, height, zero));
-    Properties p;
-    p.extinction = select(in, weight * entryOf(layer.table.extinction, at.entry, at.share, in), zero);
-    const M counts = in & (p.extinction > zero);
+    const SweepTable& table = layer.table;
+    LayerColumn read{table, {I(0), zero, I(0), zero}, in};
+    if (!table.uniform) read.at = columnOf(table, select(in, height, zero));
+    const F extinction = select(in, weight * read(table.extinction), zero);
+    const M counts = in & (extinction > zero);
     if (!any(counts)) return;
-    readColors(layer.table, at, counts, p);
-    readIndirect(layer.table, at, counts, p);
-    const F share = select(counts, p.extinction / max(sum.extinction + p.extinction, F(1e-30f)), zero);
-    sum.extinction = sum.extinction + p.extinction;
-    for (int k = 0; k < 3; ++k) {
-        sum.indirect[k] = mulAdd(select(counts, weight, zero), p.indirect[k], sum.indirect[k]);
-        sum.color[k] = lerp(sum.color[k], p.color[k], share);
-        sum.glow[k] = lerp(sum.glow[k], p.glow[k], share);
+    sum.extinction = sum.extinction + extinction;
+    if constexpr (kIndirect)
+        for (int k = 0; k < 3; ++k)
+            sum.indirect[k] = mulAdd(select(counts, weight, zero), read(table.indirect[k]), sum.indirect[k]);
+    if constexpr (kColors) {
+        const F share = select(counts, extinction / max(sum.extinction, F(1e-30f)), zero);
+        for (int k = 0; k < 3; ++k) sum.color[k] = lerp(sum.color[k], read(table.color[k]), share);
+        sum.surface = lerp(sum.surface, table.surface ? read(table.surface) : zero, share);
+        for (int k = 0; k < 3; ++k)
+            sum.glow[k] = lerp(sum.glow[k], table.glow[k] ? read(table.glow[k]) : zero, share);
     }
-    sum.surface = lerp(sum.surface, p.surface, share);
 }
 
-// The long way: noise, layers, gradients. Gives the displaced place.
-[[gnu::noinline]] inline V3 sampleAny(const SweepScene& scene, const V3& place, F footprint, M m,
-                                      Properties& p) {
+// The long way: noise, layers, gradients. Gives the displaced place; what is not asked for is 0.
+template <bool kColors, bool kIndirect>
+[[gnu::noinline]] V3 sampleAny(const SweepScene& scene, const V3& place, F footprint, M m, Properties& p) {
     const F zero(0.0f), one(1.0f);
     p = {zero, {zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero}, zero};
     Disturbance d;
@@ -243,11 +220,12 @@ STEREONAV_INLINE Disturbance disturbanceAt(const SweepNoise& noise, const V3& pl
         p.extinction = memberAt(table, table.extinction, at, in);
         const M seen = in & (p.extinction > zero);
         if (any(seen)) {
-            readColors(table, at, seen, p);
-            readIndirect(table, at, seen, p);
+            if constexpr (kColors) readColors(table, at, seen, p);
+            if constexpr (kIndirect) readIndirect(table, at, seen, p);
         }
     }
-    for (int n = 0; n < scene.layerCount; ++n) addLayer(scene.layers[n], there, footprint, m, p);
+    for (int n = 0; n < scene.layerCount; ++n)
+        addLayer<kColors, kIndirect>(scene.layers[n], there, footprint, m, p);
     if (scene.noise.texels) {
         p.extinction = p.extinction * max(d.extinction, zero);
         for (int k = 0; k < 3; ++k) {

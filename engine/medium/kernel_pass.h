@@ -133,9 +133,9 @@ STEREONAV_INLINE M passedThere(const SweepScene& scene, const LightTile& tile, c
         return there;
     } else {
         const SweepLight& light = scene.light;
-        sampleAny(scene, at.place, at.size, crossed, p);
-        const M there = crossed & (p.extinction > F(0.0f));
         float* direct = light.direct + static_cast<std::int64_t>(y) * light.stride + x;
+        sampleAny<false, kIndirect>(scene, at.place, at.size, crossed, p);
+        const M there = crossed & (p.extinction > F(0.0f));
         if (any(there)) store(direct, weakened(loadF(direct), p.extinction * way), there);
         return there;
     }
@@ -183,12 +183,21 @@ void findTileDepths(const SweepScene& scene, const LightPass& pass, const LightT
 // What weakens scattered light of a packet, and the lanes where something is.
 template <bool kIndirect, bool kGridAlone, bool kLeans>
 STEREONAV_INLINE M depthsThere(const SweepScene& scene, const LightPass& pass, const LightTile& tile,
-                               const TexelPlaces& at, int x, int y, F way, M crossed, Properties& p) {
+                               const TexelPlaces& at, int x, int y, F way, M crossed, const F (&indirect)[3],
+                               Properties& p) {
     if constexpr (kLeans) {
         const std::int64_t index = static_cast<std::int64_t>(y) * scene.light.stride + x;
         for (int k = 0; k < 3; ++k) p.indirect[k] = loadF(pass.depths[k] + index);
         return crossed & (p.indirect[0] + p.indirect[1] + p.indirect[2] > F(0.0f));
     } else {
+        if constexpr (!kGridAlone) {  // where no light is left nothing weakens it
+            M lit =
+                loadF(scene.light.direct + static_cast<std::int64_t>(y) * scene.light.stride + x) > F(0.0f);
+            if constexpr (kIndirect)
+                for (int k = 0; k < 3; ++k) lit = lit | (indirect[k] > F(0.0f));
+            crossed = crossed & lit;
+            if (!any(crossed)) return crossed;
+        }
         return passedThere<kIndirect, kGridAlone>(scene, tile, at, x, y, way, crossed, p);
     }
 }
@@ -215,8 +224,8 @@ STEREONAV_INLINE M passTexels(const SweepScene& scene, const LightPass& pass, co
     if constexpr (kIndirect) spreadRow<kLeans>(light, pass, x, row, way, at.size, crossed, indirect);
     if (sample) {
         Properties p;
-        const M there =
-            depthsThere<kIndirect, kGridAlone, kLeans>(scene, pass, tile, at, x, y, way, crossed, p);
+        const M there = depthsThere<kIndirect, kGridAlone, kLeans>(scene, pass, tile, at, x, y, way, crossed,
+                                                                   indirect, p);
         if (kIndirect && any(there))
             for (int k = 0; k < 3; ++k)
                 indirect[k] = select(there, weakened(indirect[k], p.indirect[k] * way), indirect[k]);

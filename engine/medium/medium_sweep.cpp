@@ -78,13 +78,11 @@ struct MediumSweep::State {
         SweepScene scene;
         std::vector<SweepEye> eyes;
         std::span<const Plane<float>> starts;
-        bool skips = true;
     };
 
     void setBeams(const Frame& frame, std::size_t eye);
     void seeChunk(Frame& frame, const SweepChunk& chunk, int first, int count, SweepTimings& timings);
     void readPicture(std::size_t eye, MediumPicture& picture) const;
-    bool countsAll(const SweepGeometry& geometry) const;
 
     const Medium& medium;
     SimdTarget target;
@@ -104,9 +102,8 @@ void MediumSweep::State::setBeams(const Frame& frame, std::size_t eye) {
             constexpr double kHalf = EyeTile::kHalf;
             const double x = tile % b.across * kSide + quarter % 2 * kHalf,
                          y = tile / b.across * kSide + quarter / 2 * kHalf;
-            SweepBeam& beam = b.beams[4 * static_cast<std::size_t>(tile) + quarter];
-            beam = space.beamOf(g, g.eyes[eye], g.forward, x, y, x + kHalf, y + kHalf);
-            beam.known = beam.known && frame.skips;
+            b.beams[4 * static_cast<std::size_t>(tile) + quarter] =
+                space.beamOf(g, g.eyes[eye], g.forward, x, y, x + kHalf, y + kHalf);
         }
     });
 }
@@ -170,22 +167,6 @@ void MediumSweep::State::readPicture(std::size_t eye, MediumPicture& picture) co
     });
 }
 
-// Whether footprints are small enough for what is said to be empty to be so.
-bool MediumSweep::State::countsAll(const SweepGeometry& geometry) const {
-    const WorldBox& box = medium.bounds();
-    double largest = 0;
-    const auto add = [&](const RayFan& fan) {
-        for (int n = 0; n < 8; ++n)
-            largest = std::max(largest, fan.pixelSize(glm::dvec3(n & 1 ? box.high.x : box.low.x,
-                                                                 n & 2 ? box.high.y : box.low.y,
-                                                                 n & 4 ? box.high.z : box.low.z) -
-                                                      geometry.anchor));
-    };
-    for (const RayFan& eye : geometry.eyes) add(eye);
-    if (geometry.light.width > 0) add(geometry.light);
-    return largest <= space.mostFootprint();
-}
-
 MediumSweep::MediumSweep(const Medium& medium, SimdTarget target)
     : mState(std::make_unique<State>(medium, target)) {}
 
@@ -205,8 +186,7 @@ SweepTimings MediumSweep::render(const MediumLook& look, const SweepSetting& set
                                  std::span<const Plane<float>> startDepths) {
     checkSpans(geometry, pictures, startDepths);
     State& s = *mState;
-    State::Frame frame{geometry, s.data.sceneFor(look, setting, geometry, time), {}, startDepths, true};
-    frame.skips = s.countsAll(geometry);
+    State::Frame frame{geometry, s.data.sceneFor(look, setting, geometry, time), {}, startDepths};
     s.eyes.resize(geometry.eyes.size());
     for (std::size_t eye = 0; eye < geometry.eyes.size(); ++eye) {
         s.eyes[eye].start(geometry.eyes[eye]);
@@ -217,7 +197,7 @@ SweepTimings MediumSweep::render(const MediumLook& look, const SweepSetting& set
     Stopwatch watch;
     const bool usesLight = geometry.light.width > 0 && geometry.slabs() > 0;
     int most = SweepChunk::kMost;
-    if (usesLight) most = s.light.start(frame.scene, geometry, frame.skips ? &s.space : nullptr);
+    if (usesLight) most = s.light.start(frame.scene, geometry, &s.space);
     for (int first = 0; first < geometry.slabs(); first += most) {
         const int count = std::min(most, geometry.slabs() - first);
         SweepChunk chunk;

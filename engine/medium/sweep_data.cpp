@@ -123,6 +123,9 @@ void SweepData::takeTable(const MediumTable& table, double scale, double offset,
     }
     d.surface = surface ? to.members[7].data() : nullptr;
     d.mostSurface = to.members[11].data();
+    d.uniform = true;
+    for (int k = 0; k < 11; ++k)
+        for (std::size_t n = 0; n < count; ++n) d.uniform = d.uniform && to.members[k][n] == to.members[k][0];
     d.rowsOfSurface = true;
     for (int k = 0; k < 11; ++k)
         for (std::size_t n = SweepTable::kColumns; n < count && k != 7; ++n)
@@ -168,6 +171,8 @@ void SweepData::takeLayer(const HeightLayer& layer) {
             for (int x = 0; x < level.width(); ++x)
                 heights.push_back(static_cast<float>(level.at(x, y) - mBase));
     }
+    d.flat = std::all_of(heights.begin(), heights.end(), [&](float h) { return h == heights.front(); });
+    d.holes = !std::all_of(heights.begin(), heights.end(), [](float h) { return std::abs(h) < 1e30f; });
     heights.resize(heights.size() + kReadAhead);
     mHeights.push_back(std::move(heights));
     d.heights = mHeights.back().data();

@@ -26,6 +26,7 @@ struct SweepTable {
     float perGradient = 0;         // row
     int rows = 1;
     bool rowsOfSurface = false;  // rows differ in nothing else
+    bool uniform = false;        // every entry is like the first
 };
 
 struct SweepGrid {
@@ -48,6 +49,8 @@ struct SweepLayer {
     float base = 0;                            // of the heights, relative to the anchor: metres
     float below = 0, above = 0, perTaper = 0;  // perTaper 0: none
     float lowest = 0, highest = 0;             // relative to the anchor
+    bool flat = false;                         // every height is like the first
+    bool holes = false;                        // some are unknown, or too large to be subtracted
     SweepTable table;
 };
 

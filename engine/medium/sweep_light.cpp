@@ -143,7 +143,7 @@ void SweepLightBuffers::findStripsOf(const SweepGeometry& geometry, const SweepS
                                      const std::vector<double>& middles) {
     const double x0 = tile % mAcross * kSide - 1, x1 = x0 + kSide + 2, y0 = tile / mAcross * kSide - 1;
     const auto beamOf = [&](double top, double bottom) {
-        return space.beamOf(geometry, geometry.light, true, x0, top, x1, bottom);
+        return space.lightBeamOf(geometry, x0, top, x1, bottom);
     };
     const SweepBeam whole = beamOf(y0, y0 + kSide + 2);
     SweepBeam beams[kStrips];

@@ -1,5 +1,6 @@
-// Cells are full where the largest extinction of the values around them is above 0; boxes are asked by sums
-// over all cells before a corner (a summed-volume table), eight numbers a question.
+// Cells of grids are full where the largest extinction of the values around them is above 0; boxes are asked
+// by sums over all cells before a corner (a summed-volume table), eight numbers a question. Layers are asked
+// by the bounds of their heights.
 #include "engine/medium/sweep_space.h"
 
 #include <algorithm>
@@ -14,9 +15,6 @@
 namespace stereonav {
 namespace {
 
-// Of layers. With 64 levels the generated terrain's snow is sampled at 69.8 million places for a pair of
-// 640x360 pixels, with 32 at 73.9 million, with 128, which take twice the memory, at 67.8 million.
-constexpr int kLayerCells = 128, kLayerLevels = 64;
 constexpr std::int64_t kMostCells = 1 << 19;
 
 glm::ivec3 cellsFor(const glm::ivec3& voxels, int side) {
@@ -47,23 +45,6 @@ Range rangeOf(const GreyVolume& field, const glm::ivec3& first, const glm::ivec3
     return r;
 }
 
-// Heights that may be met around a cell's part of the world; none: low > high.
-struct Heights {
-    float low = std::numeric_limits<float>::infinity(), high = -low;
-};
-Heights heightsOf(const Plane<float>& plane, const glm::dvec2& first, const glm::dvec2& last) {
-    const auto column = [&](double x) { return std::clamp(x, 0.0, plane.width() - 1.0); };
-    const auto row = [&](double y) { return std::clamp(y, 0.0, plane.height() - 1.0); };
-    Heights h;
-    for (int y = static_cast<int>(row(first.y)); y <= static_cast<int>(std::ceil(row(last.y))); ++y)
-        for (int x = static_cast<int>(column(first.x)); x <= static_cast<int>(std::ceil(column(last.x))); ++x)
-            if (const float v = plane.at(x, y); v == v) {
-                h.low = std::min(h.low, v);
-                h.high = std::max(h.high, v);
-            }
-    return h;
-}
-
 }  // namespace
 
 SweepSpace::SweepSpace(const Medium& medium) {
@@ -72,7 +53,6 @@ SweepSpace::SweepSpace(const Medium& medium) {
         takeGrid(medium);
     else
         takeLayers(medium);
-    sumUp();
 }
 
 void SweepSpace::takeGrid(const Medium& medium) {
@@ -99,7 +79,7 @@ void SweepSpace::takeGrid(const Medium& medium) {
             }
     });
     spread(margin);
-    mMostFootprint = std::numeric_limits<double>::infinity();
+    sumUp();
 }
 
 // Every cell that is full makes those around it full: the place may be displaced as far.
@@ -120,37 +100,12 @@ void SweepSpace::spread(const glm::ivec3& cells) {
     }
 }
 
-// A cell is full where a layer's heights in it and its neighbours come near; footprints up to a third of a
-// cell read no further.
 void SweepSpace::takeLayers(const Medium& medium) {
-    const WorldBox& box = medium.bounds();
+    mBounds = medium.bounds();
+    mOrigin = mBounds.low;
     const double reach = medium.perturbation().largestDisplacement();
-    mSize = {kLayerCells, kLayerCells, kLayerLevels};
-    const glm::dvec3 cell = (box.high - box.low) / glm::dvec3(mSize);
-    mOrigin = box.low;
-    mTurn = glm::dmat3(1.0);
-    for (int axis = 0; axis < 3; ++axis) mTurn[axis][axis] = 1 / cell[axis];
-    mMostFootprint = std::min(cell.x, cell.y) / 3;
-    mFull.assign(static_cast<std::size_t>(mSize.x) * mSize.y * mSize.z, 0);
-    parallelFor(mSize.y, [&](int y) {
-        for (int x = 0; x < mSize.x; ++x)
-            for (const HeightLayer& layer : medium.layers()) {
-                if (layer.levels.empty()) continue;
-                const glm::dvec2 origin(layer.originX, layer.originY);
-                const auto sample = [&](double cx, double cy, double out) {
-                    return (glm::dvec2(box.low) + glm::dvec2(cx, cy) * glm::dvec2(cell) + out - origin) /
-                           layer.spacing;
-                };
-                const Heights h =
-                    heightsOf(layer.levels[0], sample(x - 1, y - 1, -reach), sample(x + 2, y + 2, reach));
-                if (!(h.low <= h.high)) continue;
-                const double low = (h.low - layer.below - reach - box.low.z) / cell.z,
-                             high = (h.high + layer.above + reach - box.low.z) / cell.z;
-                const int last = std::min(static_cast<int>(std::floor(high)), mSize.z - 1);
-                for (int z = std::max(static_cast<int>(std::floor(low)), 0); z <= last; ++z)
-                    mFull[index(x, y, z)] = 1;
-            }
-    });
+    for (const HeightLayer& layer : medium.layers())
+        if (!layer.levels.empty() && layer.lowest < layer.highest) mLayers.emplace_back(layer, reach);
 }
 
 void SweepSpace::sumUp() {
@@ -191,6 +146,50 @@ bool SweepSpace::any(const glm::dvec3& low, const glm::dvec3& high) const {
     return over(far) != over(near);
 }
 
+bool SweepSpace::anyLayer(const SweepBeam& beam, const glm::dvec3& low, const glm::dvec3& high) const {
+    const glm::dvec3 middle = 0.5 * (low + high), half = 0.5 * (high - low);
+    double footprint = beam.least;
+    for (const SweepBeam::Footprint& f : beam.footprint)
+        footprint = std::max(
+            footprint, f.constant + glm::dot(f.gradient, middle) + glm::dot(glm::abs(f.gradient), half));
+    return std::any_of(mLayers.begin(), mLayers.end(), [&](const HeightBounds& layer) {
+        return layer.meets(mOrigin + low, mOrigin + high, footprint);
+    });
+}
+
+// As RayFan::pixelSize().
+SweepBeam::Footprint SweepSpace::footprintOf(const SweepGeometry& geometry, const RayFan& fan) const {
+    if (fan.parallel) return {glm::dvec3(0.0), fan.perX};
+    const glm::dvec3 gradient = fan.perX * fan.forward;
+    return {gradient, glm::dot(gradient, mOrigin - geometry.anchor - fan.origin)};
+}
+
+double SweepSpace::largestFootprint(const SweepGeometry& geometry, const RayFan& fan) const {
+    double largest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
+        largest =
+            std::max(largest, fan.pixelSize(glm::mix(mBounds.low, mBounds.high, high) - geometry.anchor));
+    }
+    return largest;
+}
+
+SweepBeam SweepSpace::lightBeamOf(const SweepGeometry& geometry, double x0, double y0, double x1,
+                                  double y1) const {
+    SweepBeam beam = beamOf(geometry, geometry.light, true, x0, y0, x1, y1);
+    if (mLayers.empty() || geometry.eyes.empty()) return beam;
+    SweepBeam::Footprint& all = beam.footprint[1];
+    all = footprintOf(geometry, geometry.eyes[0]);
+    for (const RayFan& fan : geometry.eyes) {
+        const SweepBeam::Footprint eye = footprintOf(geometry, fan);
+        if (eye.gradient == all.gradient)  // as of both eyes of a pair
+            all.constant = std::max(all.constant, eye.constant);
+        else
+            beam.least = std::max(beam.least, largestFootprint(geometry, fan));
+    }
+    return beam;
+}
+
 SweepBeam SweepSpace::beamOf(const SweepGeometry& geometry, const RayFan& fan, bool forward, double x0,
                              double y0, double x1, double y1) const {
     SweepBeam beam;
@@ -215,15 +214,19 @@ SweepBeam SweepSpace::beamOf(const SweepGeometry& geometry, const RayFan& fan, b
         beam.spread = glm::max(beam.spread, glm::abs(cellDirection(there - place)));
     }
     beam.side = fan.parallel ? 0 : forward ? 1 : -1;
+    if (!mLayers.empty()) beam.footprint[0] = footprintOf(geometry, fan);
     return beam;
 }
 
 bool SweepSpace::meets(const SweepBeam& beam, double t0, double t1) const {
     const double s0 = t0 - beam.start, s1 = t1 - beam.start;
     const glm::dvec3 p = beam.origin + s0 * beam.way, r = beam.spread + std::abs(s0) * beam.perWay;
-    if (t0 == t1) return any(p - r, p + r);
+    const auto anything = [&](const glm::dvec3& low, const glm::dvec3& high) {
+        return mLayers.empty() ? any(low, high) : anyLayer(beam, low, high);
+    };
+    if (t0 == t1) return anything(p - r, p + r);
     const glm::dvec3 q = beam.origin + s1 * beam.way, u = beam.spread + std::abs(s1) * beam.perWay;
-    return any(glm::min(p - r, q - u), glm::max(p + r, q + u));
+    return anything(glm::min(p - r, q - u), glm::max(p + r, q + u));
 }
 
 // Runs of planes are asked for together first.
@@ -248,6 +251,12 @@ std::uint32_t SweepSpace::planesMet(const SweepBeam& beam, const double* t, int 
             if (meets(beam, t[n], t[n])) met |= 1u << n;
     }
     return met;
+}
+
+std::size_t SweepSpace::heldBytes() const {
+    std::size_t bytes = mSums.size() * sizeof(std::int32_t);
+    for (const HeightBounds& layer : mLayers) bytes += layer.heldBytes();
+    return bytes;
 }
 
 }  // namespace stereonav

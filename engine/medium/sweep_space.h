@@ -1,11 +1,13 @@
-// Where a medium may not be empty: a coarse grid of cells over it, asked for boxes. What sweeps leave out
-// is decided here; a box that is said to be empty is empty, displacements counted.
+// Where a medium may not be empty: a coarse grid of cells over it, or the bounds of layers' heights, asked
+// for boxes. What sweeps leave out is decided here; a box that is said to be empty is empty, displacements
+// counted.
 #pragma once
 
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <vector>
 
+#include "engine/medium/height_bounds.h"
 #include "engine/medium/medium.h"
 #include "engine/medium/sweep_geometry.h"
 
@@ -18,6 +20,13 @@ struct SweepBeam {
     double start = 0;
     int side = 0;        // the rays are where s has this sign; 0: everywhere
     bool known = false;  // false: some ray hardly crosses the slabs; it may be anywhere
+    // Footprints there, metres: the largest of `least` and of both constant + gradient . place.
+    struct Footprint {
+        glm::dvec3 gradient{0.0};
+        double constant = 0;
+    };
+    double least = 0;
+    Footprint footprint[2];
 };
 
 class SweepSpace {
@@ -25,22 +34,24 @@ public:
     SweepSpace() = default;
     explicit SweepSpace(const Medium& medium);
 
-    // From the world to cells: any() takes boxes there.
+    // From the world to cells; of layers to metres from the bounds' corner.
     glm::dvec3 cellFromWorld(const glm::dvec3& world) const { return mTurn * (world - mOrigin); }
     glm::dvec3 cellDirection(const glm::dvec3& world) const { return mTurn * world; }
     // forward: the fan's rays go to larger t.
     SweepBeam beamOf(const SweepGeometry& geometry, const RayFan& fan, bool forward, double x0, double y0,
                      double x1, double y1) const;
+    // Of the light, which must be known wherever an eye samples the medium, with the eye's footprint too.
+    SweepBeam lightBeamOf(const SweepGeometry& geometry, double x0, double y0, double x1, double y1) const;
     // Of up to 32 planes at ascending t: bits of those where a beam may meet something.
     std::uint32_t planesMet(const SweepBeam& beam, const double* t, int count) const;
-    // Whether anything may be in the box (each low <= high).
-    bool any(const glm::dvec3& low, const glm::dvec3& high) const;
-
-    // Footprints up to it are counted in layers: metres; infinite for grids.
-    double mostFootprint() const { return mMostFootprint; }
-    std::size_t heldBytes() const { return mSums.size() * sizeof(std::int32_t); }
+    std::size_t heldBytes() const;
 
 private:
+    // Whether anything may be in the box (each low <= high).
+    bool any(const glm::dvec3& low, const glm::dvec3& high) const;
+    bool anyLayer(const SweepBeam& beam, const glm::dvec3& low, const glm::dvec3& high) const;
+    SweepBeam::Footprint footprintOf(const SweepGeometry& geometry, const RayFan& fan) const;
+    double largestFootprint(const SweepGeometry& geometry, const RayFan& fan) const;
     bool meets(const SweepBeam& beam, double t0, double t1) const;
     void takeGrid(const Medium& medium);
     void takeLayers(const Medium& medium);
@@ -55,7 +66,8 @@ private:
     glm::ivec3 mSize{0};
     std::vector<std::uint8_t> mFull;
     std::vector<std::int32_t> mSums;  // of full cells before (x, y, z), (size + 1)^3
-    double mMostFootprint = 0;
+    std::vector<HeightBounds> mLayers;
+    WorldBox mBounds;
 };
 
 }  // namespace stereonav
