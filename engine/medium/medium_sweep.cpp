@@ -17,6 +17,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/medium/sweep_data.h"
 #include "engine/medium/sweep_light.h"
+#include "engine/medium/sweep_reach.h"
 #include "engine/medium/sweep_space.h"
 
 namespace stereonav {
@@ -82,6 +83,7 @@ struct MediumSweep::State {
 
     void setBeams(const Frame& frame, std::size_t eye);
     void seeChunk(Frame& frame, const SweepChunk& chunk, int first, int count, SweepTimings& timings);
+    void dropPassed();
     void readPicture(std::size_t eye, MediumPicture& picture) const;
 
     const Medium& medium;
@@ -90,6 +92,8 @@ struct MediumSweep::State {
     SweepData data;
     SweepSpace space;
     SweepLightBuffers light;
+    SweepReach reach;
+    bool passesAll = false;
     std::vector<EyeBuffers> eyes;
 };
 
@@ -142,6 +146,13 @@ void MediumSweep::State::seeChunk(Frame& frame, const SweepChunk& chunk, int fir
         samples += slabs * EyeTile::kHalf * EyeTile::kHalf;
     });
     timings.eyeSamples += samples;
+}
+
+// Tiles of which no ray goes on read no light any more.
+void MediumSweep::State::dropPassed() {
+    for (std::size_t eye = 0; eye < eyes.size(); ++eye)
+        for (int tile = 0; tile < eyes[eye].tiles(); ++tile)
+            if (eyes[eye].done[tile]) reach.drop(eye, tile);
 }
 
 void MediumSweep::State::readPicture(std::size_t eye, MediumPicture& picture) const {
@@ -198,6 +209,7 @@ SweepTimings MediumSweep::render(const MediumLook& look, const SweepSetting& set
     const bool usesLight = geometry.light.width > 0 && geometry.slabs() > 0;
     int most = SweepChunk::kMost;
     if (usesLight) most = s.light.start(frame.scene, geometry, &s.space);
+    if (usesLight) s.reach.start(geometry, &s.space, most, EyeTile::kSide, LightTile::kSide);
     for (int first = 0; first < geometry.slabs(); first += most) {
         const int count = std::min(most, geometry.slabs() - first);
         SweepChunk chunk;
@@ -209,12 +221,14 @@ SweepTimings MediumSweep::render(const MediumLook& look, const SweepSetting& set
         }
         watch.lap_ms();
         if (usesLight) {
-            timings.lightTexels += s.light.beginChunk(frame.scene, geometry, first, count, s.kernels);
+            timings.lightTexels += s.light.beginChunk(frame.scene, geometry, first, count, s.kernels,
+                                                      s.passesAll ? nullptr : &s.reach);
             for (int n = 0; n < count; ++n)
                 timings.lightTexels += s.light.pass(frame.scene, geometry, first + n, n, s.kernels);
         }
         timings.light_ms += watch.lap_ms();
         s.seeChunk(frame, chunk, first, count, timings);
+        if (usesLight) s.dropPassed();
         timings.eye_ms += watch.lap_ms();
     }
     for (std::size_t eye = 0; eye < geometry.eyes.size(); ++eye) {
@@ -226,12 +240,17 @@ SweepTimings MediumSweep::render(const MediumLook& look, const SweepSetting& set
     return timings;
 }
 
+void MediumSweep::passAllLight(bool all) {
+    mState->passesAll = all;
+}
+
 SimdTarget MediumSweep::target() const {
     return mState->target;
 }
 
 std::size_t MediumSweep::heldBytes() const {
-    std::size_t bytes = mState->data.heldBytes() + mState->space.heldBytes() + mState->light.heldBytes();
+    std::size_t bytes = mState->data.heldBytes() + mState->space.heldBytes() + mState->light.heldBytes() +
+                        mState->reach.heldBytes();
     for (const EyeBuffers& b : mState->eyes)
         bytes += b.states.size() * sizeof(float) + b.beams.size() * sizeof(SweepBeam);
     return bytes;

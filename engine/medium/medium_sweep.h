@@ -36,6 +36,9 @@ public:
                         double time, std::span<MediumPicture> pictures,
                         std::span<const Plane<float>> startDepths = {});
 
+    // For comparisons: all of the light passes, also what no eye reads any more.
+    void passAllLight(bool all);
+
     SimdTarget target() const;
     std::size_t heldBytes() const;
 

@@ -178,11 +178,24 @@ void SweepLightBuffers::findStrips(const SweepGeometry& geometry, const SweepSpa
     parallelFor(tiles(), [&](int tile) { findStripsOf(geometry, *space, tile, middles); });
 }
 
-// Last slabs of what lies so near that light which spreads from here may get there.
-void SweepLightBuffers::findNeeded(int slab, double spread_texels) {
-    mNeeded = mLast;
-    const int last = *std::max_element(mLast.begin(), mLast.end());
-    const double reach = 1 + kSigmas * spread_texels * std::sqrt(0.5 * std::max(last - slab, 1)) / kSide;
+// Last slabs in which eyes read something.
+void SweepLightBuffers::findRead(int first, SweepReach* reach) {
+    mRead = mLast;
+    if (!reach || !reach->known()) return;
+    reach->begin(first / mChunk);
+    for (int tile = 0; tile < tiles(); ++tile) mRead[tile] = std::min(mRead[tile], reach->lastRead(tile));
+}
+
+// And those of what lies so near that light which spreads from here may get there. Never later than from a
+// slab before: light that stays behind is not asked for again.
+void SweepLightBuffers::findNeeded(const SweepLight& light, const SweepGeometry& geometry, int slab) {
+    mNeeded = mRead;
+    const int last = std::min(*std::max_element(mRead.begin(), mRead.end()), geometry.slabs() - 1);
+    const double length = std::max(geometry.faces[std::max(last, slab) + 1] - geometry.faces[slab], 0.0);
+    // Texels of a lamp differ in size: any may be reached.
+    const double spread =
+        light.parallel ? std::sqrt(0.5 * length * light.length) * light.blur / light.perX : 1e6;
+    const double reach = 1 + kSigmas * spread / kSide;
     spreadLargest(mNeeded, mAcross, mDown,
                   static_cast<int>(std::min(std::ceil(reach), 1.0 * std::max(mAcross, mDown))));
 }
@@ -193,7 +206,13 @@ unsigned SweepLightBuffers::stripsAt(const SweepGeometry& geometry, int slab, in
 }
 
 long long SweepLightBuffers::beginChunk(const SweepScene& scene, const SweepGeometry& geometry, int first,
-                                        int count, const SweepKernels& kernels) {
+                                        int count, const SweepKernels& kernels, SweepReach* reach) {
+    const bool scattered = scene.look.model == static_cast<int>(MediumModel::Indirect);
+    findRead(first, reach);
+    if (scattered)
+        findNeeded(scene.light, geometry, first);
+    else
+        mNeeded = mRead;
     if (!scene.gridAlone) return 0;
     constexpr std::size_t kTexels = kSide * kSide;
     const std::size_t needed = columnsOfTile() * tiles() + kLine;
@@ -201,6 +220,7 @@ long long SweepLightBuffers::beginChunk(const SweepScene& scene, const SweepGeom
     std::atomic<long long> texels = 0;
     parallelFor(tiles(), [&](int tile) {
         LightColumns at;
+        if (mNeeded[tile] < first) return;
         unsigned any = 0;
         long long strips = 0;
         for (int n = 0; n < count; ++n) {
@@ -227,7 +247,7 @@ void SweepLightBuffers::findDepths(const SweepScene& scene, const SweepGeometry&
                                    const LightPass& pass, const SweepKernels& kernels) {
     mTiles.clear();
     for (int tile = 0; tile < tiles(); ++tile) {
-        const unsigned here = stripsAt(geometry, pass.slab, tile);
+        const unsigned here = mNeeded[tile] < pass.slab ? 0u : stripsAt(geometry, pass.slab, tile);
         if (here || mDeep[tile])
             mTiles.push_back({tile % mAcross * kSide, tile / mAcross * kSide, here, nullptr});
         mDeep[tile] = here != 0;
@@ -263,8 +283,9 @@ void SweepLightBuffers::chooseTiles(const SweepGeometry& geometry, int slab, int
     }
     mTiles.clear();
     for (int tile = 0; tile < tiles(); ++tile) {
+        if (mNeeded[tile] < slab) continue;
         const unsigned here = stripsAt(geometry, slab, tile);
-        if (here || (spread[tile] && mNeeded[tile] >= slab))
+        if (here || spread[tile])
             mTiles.push_back({tile % mAcross * kSide, tile / mAcross * kSide, here, nullptr});
     }
 }
@@ -293,7 +314,6 @@ long long SweepLightBuffers::pass(const SweepScene& scene, const SweepGeometry& 
     // Texels of a lamp differ in size: any may be reached.
     const double offset =
         light.parallel ? std::sqrt(pass.thickness * light.length) * light.blur / light.perX : 1e6;
-    if (inChunk == 0 || mNeeded.size() != mLast.size()) findNeeded(slab, offset);
     const double reach = std::ceil((std::max(offset, 1.0) + 1) / kSide);
     chooseTiles(geometry, slab, static_cast<int>(std::min(reach, 1.0 * std::max(mAcross, mDown))));
     const int count = static_cast<int>(mTiles.size()), pieces = std::min(count, kPieces);

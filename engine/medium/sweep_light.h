@@ -8,6 +8,7 @@
 
 #include "engine/medium/sweep_geometry.h"
 #include "engine/medium/sweep_kernel_types.h"
+#include "engine/medium/sweep_reach.h"
 #include "engine/medium/sweep_space.h"
 
 namespace stereonav {
@@ -17,9 +18,9 @@ public:
     // All light; sets the pointers of scene.light. space: null: nothing is left out. Gives how many slabs the
     // eyes' light can be kept for, 1 or more.
     int start(SweepScene& scene, const SweepGeometry& geometry, const SweepSpace* space);
-    // Before the slabs of a chunk are passed.
+    // Before the slabs of a chunk are passed. reach: what eyes may still read, chunks as here; null: all.
     long long beginChunk(const SweepScene& scene, const SweepGeometry& geometry, int first, int count,
-                         const SweepKernels& kernels);
+                         const SweepKernels& kernels, SweepReach* reach = nullptr);
     // Past a slab, the `inChunk`-th that is kept. Gives texels looked at.
     long long pass(const SweepScene& scene, const SweepGeometry& geometry, int slab, int inChunk,
                    const SweepKernels& kernels);
@@ -37,7 +38,8 @@ private:
     void findStrips(const SweepGeometry& geometry, const SweepSpace* space);
     void findStripsOf(const SweepGeometry& geometry, const SweepSpace& space, int tile,
                       const std::vector<double>& middles);
-    void findNeeded(int slab, double spread_texels);
+    void findRead(int first, SweepReach* reach);
+    void findNeeded(const SweepLight& light, const SweepGeometry& geometry, int slab);
     unsigned stripsAt(const SweepGeometry& geometry, int slab, int tile) const;
     void chooseTiles(const SweepGeometry& geometry, int slab, int reach);
     int tiles() const { return mAcross * mDown; }
@@ -51,11 +53,11 @@ private:
     std::vector<float> mColumns;  // of tiles: a chunk's slabs
     int mPackedWidth = 0, mPackedHeight = 0, mChunk = 0;
     bool mSwapped = false;
-    std::vector<float> mStart;           // see scatteredAtStart
-    bool mRingSet = false;               // around mPacked, to others than 1
-    std::vector<std::uint8_t> mStrips;   // of each slab's tiles: LightTile::strips; empty: all of all
-    std::vector<int> mLast, mNeeded;     // of tiles: last slab with something in it, and near it
-    std::vector<std::uint8_t> mTouched;  // tiles: scattered light may differ from 1
+    std::vector<float> mStart;               // see scatteredAtStart
+    bool mRingSet = false;                   // around mPacked, to others than 1
+    std::vector<std::uint8_t> mStrips;       // of each slab's tiles: LightTile::strips; empty: all of all
+    std::vector<int> mLast, mRead, mNeeded;  // of tiles: last slab with something in it, and near it
+    std::vector<std::uint8_t> mTouched;      // tiles: scattered light may differ from 1
     std::vector<LightTile> mTiles;
     std::vector<std::uint8_t> mChanged;
 };

@@ -44,6 +44,10 @@ public:
     SweepBeam lightBeamOf(const SweepGeometry& geometry, double x0, double y0, double x1, double y1) const;
     // Of up to 32 planes at ascending t: bits of those where a beam may meet something.
     std::uint32_t planesMet(const SweepBeam& beam, const double* t, int count) const;
+    // Whether a beam may meet something between two planes on its rays' side.
+    bool mayMeet(const SweepBeam& beam, double t0, double t1) const {
+        return !beam.known || meets(beam, t0, t1);
+    }
     std::size_t heldBytes() const;
 
 private:
