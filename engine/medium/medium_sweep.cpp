@@ -148,7 +148,8 @@ void MediumSweep::State::seeChunk(Frame& frame, const SweepChunk& chunk, int fir
     timings.eyeSamples += samples;
 }
 
-// Tiles of which no ray goes on read no light any more.
+// Tiles of which no ray goes on read no light any more. (One that samples for another eye as well would go
+// on.)
 void MediumSweep::State::dropPassed() {
     for (std::size_t eye = 0; eye < eyes.size(); ++eye)
         for (int tile = 0; tile < eyes[eye].tiles(); ++tile)

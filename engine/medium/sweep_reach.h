@@ -16,7 +16,8 @@ public:
     // space: null: nothing is left out. Where too much would have to be remembered all light counts as read.
     void start(const SweepGeometry& geometry, const SweepSpace* space, int chunk, int eyeSide, int lightSide);
     bool known() const { return !mRects.empty(); }
-    // A tile of an eye reads no more. Asked in the order of the eyes' tiles, row by row.
+    // A tile of an eye reads no more: not for itself, nor for another eye that is shown what it samples.
+    // Tiles are numbered row by row.
     void drop(std::size_t eye, int tile);
     // Before a chunk is passed; chunks follow each other.
     void begin(int chunk);

@@ -109,6 +109,47 @@ TEST(SweepReach, picturesAreTheSameToTheBit) {
         }
 }
 
+// Layers over heights, whose light passes the long way.
+TEST(SweepReach, picturesOfLayersAreTheSameToTheBit) {
+    std::vector<HeightLayer> layers(1);
+    HeightLayer& layer = layers[0];
+    layer.levels.emplace_back(41, 41);
+    for (int y = 0; y < 41; ++y)
+        for (int x = 0; x < 41; ++x)
+            layer.levels[0].at(x, y) = static_cast<float>(0.3 * std::sin(0.3 * x) * std::cos(0.2 * y));
+    layer.originX = layer.originY = -2;
+    layer.spacing = 0.1;
+    layer.below = 0.5;
+    layer.above = 0.1;
+    layer.taper = 0.05;
+    makeMipLevels(layer);
+    const MediumMaterial material = test::materialOf({6.0, {1.0, 1.5, 2.0}}, 0.2);
+    layer.table = makeMediumTable(MediumTransfer({{-1, material}, {1, material}}, 0.2, "test"), layer.lowest,
+                                  layer.highest);
+    const Medium medium(std::move(layers), {});
+    MediumSweep sweep(medium);
+    for (const glm::dvec3& light : {glm::dvec3(0.5, 0.6, -0.6), glm::dvec3(-0.2, -0.8, -0.5)}) {
+        MediumLook look;
+        look.light = sun(light);
+        look.model = MediumModel::Indirect;
+        SweepSetting setting;
+        setting.slices = 70;
+        setting.lightSize = 192;
+        setting.coneAngle = 0.3;
+        setting.blurLength = 0.02;
+        const EyeView eye[] = {viewFrom({-1.2, -1.2, 0.9}, {0, 0, 0}, 0.1, 40, 36)};
+        std::vector<MediumPicture> some(1), all(1);
+        sweep.passAllLight(false);
+        const SweepTimings less = sweep.render(look, setting, eye, eye[0].eye, 0, some);
+        sweep.passAllLight(true);
+        const SweepTimings most = sweep.render(look, setting, eye, eye[0].eye, 0, all);
+        EXPECT_LT(less.lightTexels, most.lightTexels);
+        for (int y = 0; y < 36; ++y)
+            for (int x = 0; x < 40; ++x) ASSERT_EQ(some[0].light.at(x, y), all[0].light.at(x, y));
+        EXPECT_GT(all[0].light.at(20, 18).x, 0.01f);
+    }
+}
+
 // Tiles that read no more let go of all that no other tile reads.
 TEST(SweepReach, letsGoOfWhatIsDropped) {
     const Slab s = sceneOf(kCases[0], MediumModel::Indirect, 70);
