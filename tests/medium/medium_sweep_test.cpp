@@ -304,9 +304,9 @@ TEST(MediumSweep, scatteredLightLeavesALampsCone) {
 
 // Light across the view, where slabs lean most (V11): taps near and far, before and behind the right angle.
 TEST(MediumSweep, agreesWhereSlabsLean) {
-    for (const Kind kind : {Kind::Grid, Kind::Ramp, Kind::Noise})
+    for (const Kind kind : {Kind::Grid, Kind::Noise})
         for (const bool lamp : {false, true})
-            for (const double degrees : {60.0, 80.0, 100.0}) {
+            for (const double degrees : {80.0, 100.0}) {
                 Scene s = sceneOf(kind, MediumModel::Indirect, lamp, true, 14);
                 const double angle = degrees * std::acos(-1.0) / 180;
                 const glm::dvec3 way =
