@@ -5,6 +5,7 @@
 #include "engine/medium/kernel_block.h"
 #include "engine/medium/kernel_heights.h"
 #include "engine/medium/kernel_table.h"
+#include "engine/medium/kernel_table_window.h"
 #include "engine/medium/sweep_kernel_types.h"
 #include "engine/volume/kernel_light.h"
 
@@ -159,17 +160,26 @@ STEREONAV_INLINE Disturbance disturbanceAt(const SweepNoise& noise, const V3& pl
     return d;
 }
 
-// A column of a layer's table; of one that is the same everywhere it is not looked for.
-struct LayerColumn {
-    const SweepTable& table;
-    Column at;
-    M m;
-    STEREONAV_INLINE F operator()(const float* member) const {
-        return table.uniform ? F(member[0]) : memberAt(table, member, at, m);
+// What lanes m, where a layer has this extinction, add to what is there. read: a member, where its table is
+// read.
+template <bool kColors, bool kIndirect, typename Read>
+STEREONAV_INLINE void addProperties(const SweepTable& table, F extinction, F weight, M m, const Read& read,
+                                    Properties& sum) {
+    const F zero(0.0f);
+    sum.extinction = sum.extinction + extinction;
+    if constexpr (kIndirect)
+        for (int k = 0; k < 3; ++k)
+            sum.indirect[k] = mulAdd(select(m, weight, zero), read(table.indirect[k]), sum.indirect[k]);
+    if constexpr (kColors) {
+        const F share = select(m, extinction / max(sum.extinction, F(1e-30f)), zero);
+        for (int k = 0; k < 3; ++k) sum.color[k] = lerp(sum.color[k], read(table.color[k]), share);
+        sum.surface = lerp(sum.surface, table.surface ? read(table.surface) : zero, share);
+        for (int k = 0; k < 3; ++k)
+            sum.glow[k] = lerp(sum.glow[k], table.glow[k] ? read(table.glow[k]) : zero, share);
     }
-};
+}
 // Adds a layer to what is there; extinctions add up, the rest by its share of them. Light that passes needs
-// no colours, and eyes not always what scattered light meets.
+// no colours, and eyes not always what scattered light meets. Layers have no gradient: a table's first row.
 template <bool kColors, bool kIndirect>
 [[gnu::noinline]] void addLayer(const SweepLayer& layer, const V3& place, F footprint, M m, Properties& sum) {
     const F zero(0.0f), one(1.0f);
@@ -182,22 +192,21 @@ template <bool kColors, bool kIndirect>
     if (!any(in)) return;
     const F weight = layer.perTaper > 0 ? min(inside * F(layer.perTaper), one) : one;
     const SweepTable& table = layer.table;
-    LayerColumn read{table, {I(0), zero, I(0), zero}, in};
-    if (!table.uniform) read.at = columnOf(table, select(in, height, zero));
-    const F extinction = select(in, weight * read(table.extinction), zero);
+    if (table.uniform) {
+        const auto first = [](const float* member) { return F(member[0]); };
+        const F extinction = select(in, weight * first(table.extinction), zero);
+        const M counts = in & (extinction > zero);
+        if (any(counts)) addProperties<kColors, kIndirect>(table, extinction, weight, counts, first, sum);
+        return;
+    }
+    TablePlaces places(columnOf(table, select(in, height, zero)), in);
+    const F extinction = select(in, weight * places.readOne(table.extinction), zero);
     const M counts = in & (extinction > zero);
     if (!any(counts)) return;
-    sum.extinction = sum.extinction + extinction;
-    if constexpr (kIndirect)
-        for (int k = 0; k < 3; ++k)
-            sum.indirect[k] = mulAdd(select(counts, weight, zero), read(table.indirect[k]), sum.indirect[k]);
-    if constexpr (kColors) {
-        const F share = select(counts, extinction / max(sum.extinction, F(1e-30f)), zero);
-        for (int k = 0; k < 3; ++k) sum.color[k] = lerp(sum.color[k], read(table.color[k]), share);
-        sum.surface = lerp(sum.surface, table.surface ? read(table.surface) : zero, share);
-        for (int k = 0; k < 3; ++k)
-            sum.glow[k] = lerp(sum.glow[k], table.glow[k] ? read(table.glow[k]) : zero, share);
-    }
+    places.leave(counts);
+    places.read([&](const auto& read) {
+        addProperties<kColors, kIndirect>(table, extinction, weight, counts, read, sum);
+    });
 }
 
 // The long way: noise, layers, gradients. Gives the displaced place; what is not asked for is 0.
