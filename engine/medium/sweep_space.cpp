@@ -125,14 +125,16 @@ void SweepSpace::sumUp() {
     mFull = {};
 }
 
-bool SweepSpace::any(const glm::dvec3& low, const glm::dvec3& high) const {
-    if (mSums.empty()) return false;
+SweepSpace::Filling SweepSpace::fillingOf(const glm::dvec3& low, const glm::dvec3& high) const {
+    if (mSums.empty()) return Filling::Empty;
     int a[3], b[3];  // cells a .. b - 1
+    bool within = true;
     for (int axis = 0; axis < 3; ++axis) {
         // A little wider, for rounding; NaN asks for everything.
         const double from = low[axis] - 1e-3, to = high[axis] + 1e-3;
         const int size = mSize[axis];
-        if (from >= size || to < 0) return false;
+        if (from >= size || to < 0) return Filling::Empty;
+        within = within && from >= 0 && to < size;
         a[axis] = from > 0 ? static_cast<int>(from) : 0;
         b[axis] = to < size ? static_cast<int>(to) + 1 : size;
     }
@@ -143,7 +145,10 @@ bool SweepSpace::any(const glm::dvec3& low, const glm::dvec3& high) const {
     const auto over = [&](const std::int32_t* sums) {
         return sums[last + b[0]] - sums[last + a[0]] - sums[first + b[0]] + sums[first + a[0]];
     };
-    return over(far) != over(near);
+    const std::int32_t full = over(far) - over(near);
+    if (full == 0) return Filling::Empty;
+    const bool all = within && full == (b[0] - a[0]) * (b[1] - a[1]) * (b[2] - a[2]);
+    return all ? Filling::Full : Filling::Partly;
 }
 
 bool SweepSpace::anyLayer(const SweepBeam& beam, const glm::dvec3& low, const glm::dvec3& high) const {
@@ -218,18 +223,19 @@ SweepBeam SweepSpace::beamOf(const SweepGeometry& geometry, const RayFan& fan, b
     return beam;
 }
 
-bool SweepSpace::meets(const SweepBeam& beam, double t0, double t1) const {
+SweepSpace::Filling SweepSpace::fillingOf(const SweepBeam& beam, double t0, double t1) const {
     const double s0 = t0 - beam.start, s1 = t1 - beam.start;
     const glm::dvec3 p = beam.origin + s0 * beam.way, r = beam.spread + std::abs(s0) * beam.perWay;
-    const auto anything = [&](const glm::dvec3& low, const glm::dvec3& high) {
-        return mLayers.empty() ? any(low, high) : anyLayer(beam, low, high);
+    const auto filling = [&](const glm::dvec3& low, const glm::dvec3& high) {
+        if (mLayers.empty()) return fillingOf(low, high);
+        return anyLayer(beam, low, high) ? Filling::Partly : Filling::Empty;
     };
-    if (t0 == t1) return anything(p - r, p + r);
+    if (t0 == t1) return filling(p - r, p + r);
     const glm::dvec3 q = beam.origin + s1 * beam.way, u = beam.spread + std::abs(s1) * beam.perWay;
-    return anything(glm::min(p - r, q - u), glm::max(p + r, q + u));
+    return filling(glm::min(p - r, q - u), glm::max(p + r, q + u));
 }
 
-// Runs of planes are asked for together first.
+// Runs of planes are asked for together first; where all cells are full there is no more to ask.
 std::uint32_t SweepSpace::planesMet(const SweepBeam& beam, const double* t, int count) const {
     constexpr int kRun = 4;
     int first = 0, last = count;  // those on the rays' side
@@ -238,17 +244,21 @@ std::uint32_t SweepSpace::planesMet(const SweepBeam& beam, const double* t, int 
     if (beam.side < 0)
         while (last > first && !(t[last - 1] < beam.start)) --last;
     if (first == last) return 0;
+    const auto planes = [](int from, int to) {
+        return static_cast<std::uint32_t>((std::uint64_t{1} << to) - (std::uint64_t{1} << from));
+    };
+    if (!beam.known) return planes(first, last);
+    const Filling all = fillingOf(beam, t[first], t[last - 1]);
+    if (all == Filling::Empty) return 0;
+    if (all == Filling::Full) return planes(first, last);
     std::uint32_t met = 0;
-    if (!beam.known) {
-        for (int n = first; n < last; ++n) met |= 1u << n;
-        return met;
-    }
-    if (!meets(beam, t[first], t[last - 1])) return 0;
     for (int run = first; run < last; run += kRun) {
         const int end = std::min(run + kRun, last);
-        if (!meets(beam, t[run], t[end - 1])) continue;
+        const Filling filling = fillingOf(beam, t[run], t[end - 1]);
+        if (filling == Filling::Full) met |= planes(run, end);
+        if (filling != Filling::Partly) continue;
         for (int n = run; n < end; ++n)
-            if (meets(beam, t[n], t[n])) met |= 1u << n;
+            if (fillingOf(beam, t[n], t[n]) != Filling::Empty) met |= 1u << n;
     }
     return met;
 }

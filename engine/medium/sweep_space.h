@@ -46,17 +46,19 @@ public:
     std::uint32_t planesMet(const SweepBeam& beam, const double* t, int count) const;
     // Whether a beam may meet something between two planes on its rays' side.
     bool mayMeet(const SweepBeam& beam, double t0, double t1) const {
-        return !beam.known || meets(beam, t0, t1);
+        return !beam.known || fillingOf(beam, t0, t1) != Filling::Empty;
     }
     std::size_t heldBytes() const;
 
 private:
-    // Whether anything may be in the box (each low <= high).
-    bool any(const glm::dvec3& low, const glm::dvec3& high) const;
+    // Whether anything may be in the box (each low <= high); full: in each cell of a box wholly among the
+    // cells.
+    enum class Filling { Empty, Partly, Full };
+    Filling fillingOf(const glm::dvec3& low, const glm::dvec3& high) const;
+    Filling fillingOf(const SweepBeam& beam, double t0, double t1) const;
     bool anyLayer(const SweepBeam& beam, const glm::dvec3& low, const glm::dvec3& high) const;
     SweepBeam::Footprint footprintOf(const SweepGeometry& geometry, const RayFan& fan) const;
     double largestFootprint(const SweepGeometry& geometry, const RayFan& fan) const;
-    bool meets(const SweepBeam& beam, double t0, double t1) const;
     void takeGrid(const Medium& medium);
     void takeLayers(const Medium& medium);
     void spread(const glm::ivec3& cells);
