@@ -1,6 +1,6 @@
-// Central differences of a packet whose rays lie close together: what is around their cells is loaded once,
-// row by row, subtracted there, and looked up in registers. With pixels smaller than a voxel the lanes'
-// sixteen gathers would load the same words over and over. AVX-512 alone: its permutes reach 64 words.
+// Values and central differences of a packet whose rays lie close together: what is around their cells is
+// loaded once, row by row, subtracted there, and looked up in registers. With pixels smaller than a voxel the
+// lanes' sixteen gathers would load the same words over and over. AVX-512 alone: its permutes reach 64 words.
 // Included by kernels only.
 #pragma once
 
@@ -83,6 +83,31 @@ STEREONAV_INLINE bool blockDifferences(const SweepGrid& grid, const V3& v, I x, 
     return true;
 }
 
+// Trilinear, of lanes m whose cells lie within seven, three and two along x, y and z; false: they do not, and
+// nothing was done.
+STEREONAV_INLINE bool blockValue(const SweepGrid& grid, const V3& v, I x, I y, I z, M m, F& value) {
+    if (!grid.large) return false;
+    const int x0 = leastOf(x, m, grid.lastCell[0] - 6), y0 = leastOf(y, m, grid.lastCell[1] - 2),
+              z0 = leastOf(z, m, grid.lastCell[2] - 1);
+    const I ox = x - I(x0), oy = y - I(y0), oz = z - I(z0);
+    if (any(m & ~(within(ox, I(6)) & within(oy, I(2)) & within(oz, I(1))))) return false;
+    const std::int16_t* first =
+        grid.values + z0 * std::int64_t{grid.strideZ} + y0 * std::int64_t{grid.strideY} + x0;
+    __m512i planes[3];
+    for (int plane = 0; plane < 3; ++plane)
+        planes[plane] = rowsAt(first + plane * std::int64_t{grid.strideZ}, grid.strideY, 4);
+    const I high = truncateToInt(mulAdd(v.x - toFloat(x), F(16384.0f), F(0.5f)));
+    BlockPlace at;
+    at.weights = shiftLeft<16>(high) + (I(16384) - high);
+    at.fy = v.y - toFloat(y);
+    at.fz = v.z - toFloat(z);
+    const I word = shiftLeft<5>(oz) + shiftLeft<3>(oy) + ox;
+    at.words[0] = shiftLeft<16>(word + I(1)) | word;
+    at.words[1] = at.words[0] + I(0x00080008);
+    value = inBlock(planes, at) * F(1.0f / 16384);
+    return true;
+}
+
 // Four rows of four words, looked up in a register.
 struct WordBlock {
     I words;
@@ -118,6 +143,9 @@ STEREONAV_INLINE bool lightBlock(const SweepLight&, I, I, M, std::int64_t&, I&) 
     return false;
 }
 STEREONAV_INLINE bool blockDifferences(const SweepGrid&, const V3&, I, I, I, M, V3&) {
+    return false;
+}
+STEREONAV_INLINE bool blockValue(const SweepGrid&, const V3&, I, I, I, M, F&) {
     return false;
 }
 

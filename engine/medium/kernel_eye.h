@@ -104,7 +104,7 @@ struct EyePacket {
                      mulAdd(t, voxelWay.z, voxel.z)};
             m = m & insideGrid(scene.grid, there);
             if (!any(m)) return;
-            const Column at = columnOf(table, gridValue(scene.grid, there, m));
+            const Column at = columnOf(table, valueNearby(scene.grid, there, m));
             TablePlaces places(at, m);
             p.extinction = places.readOne(table.extinction);
             m = m & (p.extinction > zero);

@@ -29,10 +29,15 @@ STEREONAV_INLINE V3 voxelOf(const SweepGrid& grid, const V3& place) {
 }
 
 // Trilinear, of places inside the grid. Two neighbours along x are one word; their weights have 14 bits.
+struct GridCell {
+    I x, y, z;
+};
+STEREONAV_INLINE GridCell cellOf(const SweepGrid& grid, const V3& v) {
+    return {min(truncateToInt(v.x), I(grid.lastCell[0])), min(truncateToInt(v.y), I(grid.lastCell[1])),
+            min(truncateToInt(v.z), I(grid.lastCell[2]))};
+}
 STEREONAV_INLINE F gridValue(const SweepGrid& grid, const V3& v, M m) {
-    const I x = min(truncateToInt(v.x), I(grid.lastCell[0])),
-            y = min(truncateToInt(v.y), I(grid.lastCell[1])),
-            z = min(truncateToInt(v.z), I(grid.lastCell[2]));
+    const auto [x, y, z] = cellOf(grid, v);
     const I high = truncateToInt(mulAdd(v.x - toFloat(x), F(16384.0f), F(0.5f)));
     const I weights = shiftLeft<16>(high) + (I(16384) - high);
     const F fy = v.y - toFloat(y), fz = v.z - toFloat(z);
@@ -44,6 +49,12 @@ STEREONAV_INLINE F gridValue(const SweepGrid& grid, const V3& v, M m) {
     const std::int64_t next = grid.strideZ;
     const F far = lerp(pair(next), pair(next + grid.strideY), fy);
     return lerp(near, far, fz) * F(1.0f / 16384);
+}
+// The same of places that mostly lie close together.
+STEREONAV_INLINE F valueNearby(const SweepGrid& grid, const V3& v, M m) {
+    const GridCell cell = cellOf(grid, v);
+    F value;
+    return blockValue(grid, v, cell.x, cell.y, cell.z, m, value) ? value : gridValue(grid, v, m);
 }
 // Differences over two voxels to both sides, of places with two voxels around their cells. A row's neighbours
 // along x are two words, from which the one between is put together.

@@ -92,8 +92,8 @@ STEREONAV_INLINE void findTexels(const SweepScene& scene, const LightColumns& at
         const M in = lanes & rays.valid & insideGrid(scene.grid, voxel);
         F column = none;
         if (any(in)) {
-            const Column place = columnOf(table, gridValue(scene.grid, voxel, in));
-            const F extinction = entryOf(table.extinction, place.entry, place.share, in);
+            const Column place = columnOf(table, valueNearby(scene.grid, voxel, in));
+            const F extinction = TablePlaces(place, in).readOne(table.extinction);
             const M there = in & (extinction > zero);
             if (any(there)) {
                 column = select(there, toFloat(place.entry) + place.share, none);

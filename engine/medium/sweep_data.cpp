@@ -201,7 +201,8 @@ void SweepData::setGrid(SweepGrid& grid, const glm::dvec3& anchor) const {
         setVector(grid.axes[k], {frame.axes[0][k], frame.axes[1][k], frame.axes[2][k]});
     }
     grid.table = mGridTable.data;
-    grid.blocks = mNarrow && std::min({frame.size.x, frame.size.y, frame.size.z}) >= 8;
+    grid.large = std::min({frame.size.x, frame.size.y, frame.size.z}) >= 8;
+    grid.blocks = mNarrow && grid.large;
 }
 
 void SweepData::setLayers(const glm::dvec3& anchor) {

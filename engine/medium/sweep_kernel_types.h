@@ -32,7 +32,8 @@ struct SweepTable {
 struct SweepGrid {
     const std::int16_t* values = nullptr;  // null: layers alone
     std::int32_t strideY = 0, strideZ = 0, lastCell[3] = {};
-    bool blocks = false;                       // large enough, and values near enough, for kernel_block.h
+    bool large = false;                        // enough for kernel_block.h
+    bool blocks = false;                       // and values lie near enough to each other
     float last[3] = {};                        // the last voxel along each axis
     float fromPlace[3][3] = {}, zero[3] = {};  // voxel = fromPlace[row] . place + zero
     float slope[3] = {};                       // value units a metre, of a difference over two voxels

@@ -1,7 +1,8 @@
 // Volume light against the truth of the path tracer: error against time for slices, cone angles and sizes of
 // the light's buffer, on the CPU and by the GPU's shaders; what both eyes in one sweep cost and change; which
 // settings follow multiple scattering best. With --marks "name value" lines alone: 512x512 pixels, 256
-// slices. With --shading what shading at places costs and saves.
+// slices; --times prints the times that they come from too. With --shading what shading at places costs and
+// saves.
 // --samples N: paths a pixel of the truth; --size N: pixels a side of what is compared with it.
 #include <cstdio>
 #include <cstdlib>
@@ -20,7 +21,7 @@ namespace {
 constexpr int kDirectSamples = 8;  // times as many: their paths are short
 
 struct Options {
-    bool marks = false, shading = false;
+    bool marks = false, times = false, shading = false;
     int samples = 256, size = 64;
     std::string only;  // subject
 };
@@ -153,8 +154,10 @@ int run(const Options& options) {
         return 0;
     }
     GpuSweepTimer timer;
-    if (options.marks) {
-        printMarks(measureMarks(timer));
+    if (options.marks || options.times) {
+        const MediumMarks marks = measureMarks(timer);
+        if (options.times) printMarkTimes(marks);
+        printMarks(marks);
         return 0;
     }
     std::printf("%d threads; shaders run on: %s\n", threadCount(), timer.renderer().c_str());
@@ -176,6 +179,7 @@ Options parse(int count, char** arguments) {
     for (int n = 1; n < count; ++n) {
         const std::string word = arguments[n];
         if (word == "--marks") options.marks = true;
+        if (word == "--times") options.times = true;
         if (word == "--shading") options.shading = true;
         if (n + 1 < count && word == "--samples") options.samples = std::max(2, std::atoi(arguments[n + 1]));
         if (n + 1 < count && word == "--size") options.size = std::max(8, std::atoi(arguments[n + 1]));
