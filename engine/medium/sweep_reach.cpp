@@ -47,6 +47,10 @@ void SweepReach::start(const SweepGeometry& geometry, const SweepSpace* space, i
         return;
     mRects.resize(tiles * chunks);
     mGone.assign(tiles, 0);
+    mEnd.assign(tiles, 0);
+    const std::vector<RayFan>& eyes = geometry.eyes;
+    const bool alike = eyes.size() == 2 && eyes[0].width == eyes[1].width && eyes[0].height == eyes[1].height;
+    mPaired = alike ? tilesOver(eyes[0].width, eyeSide) : 0;
     for (std::size_t n = 0; n < geometry.eyes.size(); ++n) {
         const RayFan& eye = geometry.eyes[n];
         parallelFor(tilesOver(eye.width, eyeSide) * tilesOver(eye.height, eyeSide), [&](int tile) {
@@ -54,6 +58,10 @@ void SweepReach::start(const SweepGeometry& geometry, const SweepSpace* space, i
                       mRects.data() + (static_cast<std::size_t>(mFirstTile[n]) + tile) * chunks);
         });
     }
+    for (std::size_t tile = 0; tile < tiles; ++tile)
+        for (std::size_t c = 0; c < chunks; ++c)
+            if (mRects[tile * chunks + c].x0 <= mRects[tile * chunks + c].x1)
+                mEnd[tile] = static_cast<int>(c) + 1;
     mCount.assign(chunks * lights, 0);
     parallelFor(mChunks, [&](int c) {
         for (std::size_t tile = 0; tile < tiles; ++tile) count(c, mRects[tile * chunks + c], 1);
@@ -128,18 +136,38 @@ void SweepReach::drop(std::size_t eye, int tile) {
     const std::size_t n = static_cast<std::size_t>(mFirstTile[eye]) + tile;
     if (mGone[n]) return;
     mGone[n] = 1;
+    if (mPaired == 0 || eye != 0) release(n);
+}
+
+void SweepReach::release(std::size_t n) {
     for (int c = 0; c < mChunks; ++c) count(c, mRects[n * mChunks + c], -1);
 }
 
+// Of the first eye of two.
+void SweepReach::releaseRows(int chunk) {
+    const auto second = static_cast<std::size_t>(mFirstTile[1]), across = static_cast<std::size_t>(mPaired);
+    for (std::size_t row = 0; row < second; row += across) {
+        bool over = true;
+        for (std::size_t n = row; n < row + across; ++n)
+            over = over && (mGone[second + n] || mEnd[second + n] <= chunk);
+        for (std::size_t n = row; over && n < row + across; ++n)
+            if (mGone[n] == 1) {
+                release(n);
+                mGone[n] = 2;
+            }
+    }
+}
+
 void SweepReach::begin(int chunk) {
+    if (mPaired > 0) releaseRows(chunk);
     const std::size_t lights = mLast.size();
     for (std::size_t n = 0; n < lights; ++n)
         while (mLast[n] >= chunk && mCount[mLast[n] * lights + n] == 0) --mLast[n];
 }
 
 std::size_t SweepReach::heldBytes() const {
-    return mRects.capacity() * sizeof(Rect) + mGone.capacity() + mCount.capacity() * sizeof(std::uint32_t) +
-           mLast.capacity() * sizeof(int);
+    return mRects.capacity() * sizeof(Rect) + mGone.capacity() + mEnd.capacity() * sizeof(int) +
+           mCount.capacity() * sizeof(std::uint32_t) + mLast.capacity() * sizeof(int);
 }
 
 }  // namespace stereonav

@@ -16,8 +16,9 @@ public:
     // space: null: nothing is left out. Where too much would have to be remembered all light counts as read.
     void start(const SweepGeometry& geometry, const SweepSpace* space, int chunk, int eyeSide, int lightSide);
     bool known() const { return !mRects.empty(); }
-    // A tile of an eye reads no more: not for itself, nor for another eye that is shown what it samples.
-    // Tiles are numbered row by row.
+    // A tile of an eye reads no more for itself. Of two eyes the first may sample for the second along the
+    // same row of tiles: there its tiles count until none of the second's reads on. Tiles are numbered row by
+    // row.
     void drop(std::size_t eye, int tile);
     // Before a chunk is passed; chunks follow each other.
     void begin(int chunk);
@@ -34,6 +35,8 @@ private:
     void findRects(const SweepGeometry& geometry, const SweepSpace* space, const RayFan& eye, int eyeSide,
                    int tile, Rect* rects) const;
     Rect rectOf(const Looking& looking, double near, double far) const;
+    void release(std::size_t n);
+    void releaseRows(int chunk);
     void count(int chunk, const Rect& rect, int by);
 
     int mChunk = 1, mChunks = 0, mSide = 1, mAcross = 0, mDown = 0;
@@ -41,6 +44,8 @@ private:
     std::vector<Rect> mRects;           // of eyes' tiles: chunks
     std::vector<std::uint8_t> mGone;    // eyes' tiles that read no more
     std::vector<std::uint32_t> mCount;  // of chunks: how many tiles of eyes read tiles of light
+    int mPaired = 0;                    // tiles in a row of both eyes; 0: not two alike
+    std::vector<int> mEnd;              // of eyes' tiles: behind the last chunk in which they read
     std::vector<int> mLast;             // of tiles of light: chunks
 };
 
