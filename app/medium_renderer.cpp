@@ -1,4 +1,4 @@
-// The three ways to two eyes of a medium, and what is put behind it.
+// The four ways to two eyes of a medium, and what is put behind it.
 #include "app/medium_renderer.h"
 
 #include <algorithm>
@@ -125,14 +125,16 @@ void MediumRenderer::pack(const MediumPicture& picture, const EyeView& view, Eye
 }
 
 void MediumRenderer::sweepEyes(std::span<const EyeView> eyes, double time,
-                               std::span<const Plane<float>> starts) {
+                               std::span<const Plane<float>> starts, bool shares) {
     MediumSweep& sweep = this->sweep();
+    SweepSetting setting = mScene.sweep;
+    if (!shares) setting.sharedWidth = 0;
     const glm::dvec3& head = eyes[0].head;
     const std::span<MediumPicture> pictures(mPictures.data(), eyes.size());
-    const auto cpu = [&] { sweep.render(mScene.look, mScene.sweep, eyes, head, time, pictures, starts); };
+    const auto cpu = [&] { sweep.render(mScene.look, setting, eyes, head, time, pictures, starts); };
     mElsewhere = false;
     if (!mChooser || mHere || !starts.empty()) return cpu();
-    mElsewhere = mChooser({medium(), mScene.look, mScene.sweep, eyes, head, time, pictures}, cpu);
+    mElsewhere = mChooser({medium(), mScene.look, setting, eyes, head, time, pictures}, cpu);
 }
 
 void MediumRenderer::sweepOne(const EyeView& view, double time, std::span<const Plane<float>> starts,
@@ -151,9 +153,9 @@ PairTimings MediumRenderer::renderPair(const StereoViews& views, double time, Pa
     PairTimings timings;
     const Stopwatch watch;
     mHere = method == PairMethod::DepthSplat;
-    if (method == PairMethod::Sweep) {
+    if (method == PairMethod::Sweep || method == PairMethod::OwnSamples) {
         const std::array<EyeView, 2> eyes{views.left, views.right};
-        sweepEyes(eyes, time, {});
+        sweepEyes(eyes, time, {}, method == PairMethod::Sweep);
         pack(mPictures[0], views.left, left);
         pack(mPictures[1], views.right, right);
         timings.both_ms = watch.elapsed_ms();

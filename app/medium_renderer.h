@@ -49,7 +49,8 @@ private:
     class RightRays;
     glm::vec3 behind(const EyeView& view, int x, int y) const;
     void pack(const MediumPicture& picture, const EyeView& view, EyeImage& image) const;
-    void sweepEyes(std::span<const EyeView> eyes, double time, std::span<const Plane<float>> starts);
+    void sweepEyes(std::span<const EyeView> eyes, double time, std::span<const Plane<float>> starts,
+                   bool shares = true);
     void sweepOne(const EyeView& view, double time, std::span<const Plane<float>> starts, EyeImage& image);
 
     // Of the medium that the look's model shows.

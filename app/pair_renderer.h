@@ -13,15 +13,17 @@
 namespace stereonav {
 
 enum class PairMethod {
-    Sweep,      // both eyes in one sweep, from one light
-    TwoSweeps,  // a sweep for each eye: what the others are measured against
-    DepthSplat  // the left eye's depths splatted to the right, whose rays start there (W12)
+    Sweep,       // both eyes in one sweep, from one light; the right one reads what the left one saw
+    OwnSamples,  // the same, but that each eye takes samples of its own
+    TwoSweeps,   // a sweep for each eye: what the others are measured against
+    DepthSplat   // the left eye's depths splatted to the right, whose rays start there (W12)
 };
 struct NamedPairMethod {
     std::string_view name;
     PairMethod method;
 };
-constexpr std::array<NamedPairMethod, 3> kPairMethods{{{"sweep", PairMethod::Sweep},
+constexpr std::array<NamedPairMethod, 4> kPairMethods{{{"sweep", PairMethod::Sweep},
+                                                       {"own-samples", PairMethod::OwnSamples},
                                                        {"two-sweeps", PairMethod::TwoSweeps},
                                                        {"depthsplat", PairMethod::DepthSplat}}};
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/medium/kernel_shading.h"
+#include "engine/medium/kernel_shared.h"
 
 namespace stereonav::STEREONAV_ISA {
 
@@ -89,12 +90,14 @@ struct EyePacket {
         return sent;
     }
 
+    STEREONAV_INLINE F depthAt(int n) const { return mulAdd(F(chunk.middle[n]), rays.perDepth, rays.depth); }
     // Slab n of the chunk, of lanes m.
-    STEREONAV_INLINE void see(int n, M m, F start, const PacketShading& shading, Gathered& g) const {
+    STEREONAV_INLINE Sighting look(int n, M m, F start, const PacketShading& shading) const {
         const F t(chunk.middle[n]), zero(0.0f);
-        const F depth = mulAdd(t, rays.perDepth, rays.depth);
+        const F depth = depthAt(n);
         // A depth that is handed in was found by other slices: it counts from a slab before.
         m = m & (depth > zero) & (depth + abs(rays.perDepth) * F(chunk.thickness[n]) >= start);
+        Sighting s = nothingSeen(depth, m);
         Properties p;
         V3 place, there;  // there: among the voxels, or displaced
         SurfaceAlone surface{{zero, zero, zero}, zero, false};
@@ -103,12 +106,12 @@ struct EyePacket {
             there = {mulAdd(t, voxelWay.x, voxel.x), mulAdd(t, voxelWay.y, voxel.y),
                      mulAdd(t, voxelWay.z, voxel.z)};
             m = m & insideGrid(scene.grid, there);
-            if (!any(m)) return;
+            if (!any(m)) return s;
             const Column at = columnOf(table, valueNearby(scene.grid, there, m));
             TablePlaces places(at, m);
             p.extinction = places.readOne(table.extinction);
             m = m & (p.extinction > zero);
-            if (!any(m)) return;
+            if (!any(m)) return s;
             places.leave(m);
             places.read([&](const auto& read) {
                 readColorsAlone(table, read, p);
@@ -119,11 +122,11 @@ struct EyePacket {
                 if (table.surface) surface = surfaceAlone(scene.grid, there, places, shading, n, p);
             }
         } else {
-            if (!any(m)) return;
+            if (!any(m)) return s;
             place = rays.placeAt(t);
             there = sampleAny<true, kModel == kIndirect>(scene, place, depth * F(eye.footprint), m, p);
             m = m & (p.extinction > zero);
-            if (!any(m)) return;
+            if (!any(m)) return s;
             if constexpr (kModel != kEmission) {
                 const M shaded = m & (p.surface > zero);
                 if (any(shaded)) surface.gradient = gradientAt(scene, there, shaded);
@@ -131,41 +134,69 @@ struct EyePacket {
         }
         const F x = select(m, p.extinction * F(chunk.thickness[n]) * rays.length, zero);
         const Decay own = decayOf(x);
-        const F opacity = x * own.mean;
-        Colors sent;
+        s.opacity = x * own.mean;
+        s.passes = own.passes;
+        s.seen = m;
         if constexpr (kModel == kEmission)
-            sent = {{p.color[0] * opacity, p.color[1] * opacity, p.color[2] * opacity}};
+            s.sent = {{p.color[0] * s.opacity, p.color[1] * s.opacity, p.color[2] * s.opacity}};
         else
-            sent = scattered(p, n, place, surface, x, own, m);
-        for (int k = 0; k < 3; ++k) sent.c[k] = mulAdd(p.glow[k], opacity, sent.c[k]);
-        collect(sent, own.passes, depth, m, g);
+            s.sent = scattered(p, n, place, surface, x, own, m);
+        for (int k = 0; k < 3; ++k) s.sent.c[k] = mulAdd(p.glow[k], s.opacity, s.sent.c[k]);
+        return s;
     }
-    STEREONAV_INLINE void collect(const Colors& sent, F passes, F depth, M seen, Gathered& g) const {
+    STEREONAV_INLINE void collect(const Sighting& s, Gathered& g) const {
         const F zero(0.0f), tiny(kNothing);
         if (eye.forward) {
             for (int k = 0; k < 3; ++k)
-                g.light[k] = mulAdd(select(seen, g.left, zero), sent.c[k], g.light[k]);
-            g.depth = select(seen, min(g.depth, depth), g.depth);
+                g.light[k] = mulAdd(select(s.seen, g.left, zero), s.sent.c[k], g.light[k]);
+            g.depth = select(s.seen, min(g.depth, s.depth), g.depth);
         } else {
             for (int k = 0; k < 3; ++k)
-                g.light[k] = select(seen, mulAdd(passes, g.light[k], sent.c[k]), g.light[k]);
-            g.depth = select(seen, depth, g.depth);
+                g.light[k] = select(s.seen, mulAdd(s.passes, g.light[k], s.sent.c[k]), g.light[k]);
+            g.depth = select(s.seen, s.depth, g.depth);
         }
-        const F left = g.left * passes;
-        g.left = select(seen, select(left < tiny, zero, left), g.left);
+        const F left = g.left * s.passes;
+        g.left = select(s.seen, select(left < tiny, zero, left), g.left);
     }
 };
 
+// A packet through `slabs` of a tile. Gives the lanes that go on.
+template <int kModel, bool kGridAlone>
+STEREONAV_INLINE M seeSlabs(const EyePacket<kModel, kGridAlone>& packet, const EyeTile& tile,
+                            std::uint32_t slabs, const SharedReader& reader, const SharedPlace& place,
+                            F start, const PacketShading& shading, M active, Gathered& g) {
+    const std::uint32_t read = tile.reads ? tile.reads->slabs : 0, kept = tile.keeps ? tile.keeps->slabs : 0;
+    for (; slabs && any(active); slabs &= slabs - 1) {
+        const int n = __builtin_ctz(slabs);
+        M own = active;
+        if (read >> n & 1u) {
+            const F depth = packet.depthAt(n);
+            const M ahead = active & (depth > F(0.0f));
+            const Sighting s = reader.read(n, depth, packet.eye.forward ? g.left : F(1.0f), ahead);
+            if (any(s.seen)) packet.collect(s, g);
+            own = andNot(ahead, s.looked);
+        }
+        if (any(own)) {
+            const Sighting s = packet.look(n, own, start, shading);
+            if (any(s.seen)) packet.collect(s, g);
+            if (kept >> n & 1u) keepSighting(place, n, s);
+        }
+        if (packet.eye.forward) active = active & (g.left >= F(kLeastLeft));
+    }
+    keepNotLooked(place, kept & slabs);
+    return active;
+}
+
 template <int kModel, bool kGridAlone>
 bool seeTile(const SweepScene& scene, const SweepEye& eye, const SweepChunk& chunk, const EyeTile& tile) {
-    constexpr int kRows = kLanes / 4;
+    constexpr int kRows = kLanes / 4, kAcross = EyeTile::kSide / 4;
     const I lane = laneIndex();
     const F across = toFloat(lane & I(3)), down = toFloat(shiftRight<2>(lane));
     bool goesOn = false;
-    float* state = tile.state;
+    float* state = tile.state + tile.firstRow / kRows * kAcross * EyeTile::kMembers * kLanes;
     const bool shadesPlaces = kModel != kEmission && kGridAlone && scene.shadingWidth > 0;
     TileShading shading(scene, eye, chunk, tile);
-    for (int y = 0; y < EyeTile::kSide; y += kRows)
+    for (int y = tile.firstRow; y < tile.lastRow; y += kRows)
         for (int x = 0; x < EyeTile::kSide; x += 4, state += EyeTile::kMembers * kLanes) {
             const F column = across + F(static_cast<float>(tile.x0 + x)),
                     row = down + F(static_cast<float>(tile.y0 + y));
@@ -179,19 +210,22 @@ bool seeTile(const SweepScene& scene, const SweepEye& eye, const SweepChunk& chu
                                (shiftRight<2>(lane) + I(y)) * I(tile.startStride) + (lane & I(3)) + I(x),
                                active, start);
             const std::uint32_t slabs = tile.slabs[y / EyeTile::kHalf * 2 + x / EyeTile::kHalf];
-            if (slabs == 0) {
-                goesOn = goesOn || any(active);
-            } else if (any(active)) {
-                const EyePacket<kModel, kGridAlone> packet(scene, eye, chunk, column + F(0.5f),
-                                                           row + F(0.5f));
-                active = active & packet.rays.valid;
-                for (std::uint32_t left = slabs; left && any(active); left &= left - 1) {
-                    packet.see(__builtin_ctz(left), active, start, {shadesPlaces ? &shading : nullptr, x, y},
-                               g);
-                    if (eye.forward) active = active & (g.left >= F(kLeastLeft));
-                }
-                goesOn = goesOn || any(active);
+            SharedPlace place{};
+            if (tile.keeps) {
+                place = sharedPlace(*tile.keeps, tile.x0 + x, y - tile.firstRow);
+                keepNothing(place, tile.keeps->slabs & ~slabs);
+                if (!any(active)) keepNotLooked(place, tile.keeps->slabs & slabs);
             }
+            if (slabs && any(active)) {
+                const F px = column + F(0.5f), py = row + F(0.5f);
+                const EyePacket<kModel, kGridAlone> packet(scene, eye, chunk, px, py);
+                active = active & packet.rays.valid;
+                SharedReader reader;
+                if (tile.reads) reader = SharedReader(*tile.reads, eye, px, py, y - tile.firstRow);
+                active = seeSlabs(packet, tile, slabs, reader, place, start,
+                                  {shadesPlaces ? &shading : nullptr, x, y}, active, g);
+            }
+            goesOn = goesOn || any(active);
             storeGathered(g, state);
         }
     return goesOn;

@@ -35,6 +35,7 @@ void checkSetting(const SweepSetting& s) {
            fmt::format("expected 8 to 4096 texels, got {}", s.lightSize));
     expect(s.coneAngle >= 0 && s.coneAngle < 3.0, "cone angle",
            fmt::format("expected 0 or more and below 3 radians, got {}", s.coneAngle));
+    expect(s.sharedWidth >= 0, "shared width", fmt::format("expected 0 or more, got {}", s.sharedWidth));
     expect(s.blurLength >= 0 && s.blurLength < kInfinity, "blur length",
            fmt::format("expected 0 or more metres, got {}", s.blurLength));
 }

@@ -146,15 +146,33 @@ struct SweepEye {
     float footprint = 0;  // of a pixel at depth 1
 };
 
+// Rows of the first eye's pixels as they saw the slabs of a chunk, for the second eye: of each slab, row by
+// row, planes of columns: light sent (3), opacity (-1 where it was not looked at). See sweep_sharing.h.
+struct SharedRows {
+    static constexpr int kRows = 8, kNumbers = 4;  // half a tile
+    float* numbers = nullptr;
+    std::int32_t pitch = 0;   // from plane to plane; 16 more than tiles have columns, or more
+    std::uint32_t slabs = 0;  // bits of those kept
+    // A ray of the second eye with the cosine c finds its place at x + column + c parallax perParallax, where
+    // whole numbers are pixels' centres.
+    int width = 0;
+    float column = 0, perParallax = 0;
+    float parallax[SweepChunk::kMost] = {};     // tangents
+    float lengthening[SweepChunk::kMost] = {};  // of ways, by their cosines
+};
+
 // A block of pixels and what its rays have gathered so far: for each packet light (3), what is left, depth.
 struct EyeTile {
     static constexpr int kSide = 16, kHalf = 8, kMembers = 5;
     int x0 = 0, y0 = 0;
-    std::uint32_t slabs[4] = {};    // bits of those of the chunk where something may be, for each quarter
-    bool fresh = false;             // nothing gathered yet
-    float* state = nullptr;         // kMembers * kSide^2 numbers
-    const float* starts = nullptr;  // view depths before which nothing is; null: none; row of (x0, y0)
+    int firstRow = 0, lastRow = kSide;  // those to be seen now; a multiple of SharedRows::kRows each
+    std::uint32_t slabs[4] = {};        // bits of those of the chunk where something may be, for each quarter
+    bool fresh = false;                 // nothing gathered yet
+    float* state = nullptr;             // kMembers * kSide^2 numbers
+    const float* starts = nullptr;      // view depths before which nothing is; null: none; row of (x0, y0)
     std::int32_t startStride = 0;
+    const SharedRows* keeps = nullptr;  // what is seen is kept there: of its rows
+    const SharedRows* reads = nullptr;  // what the other eye kept
 };
 
 struct SweepScene {

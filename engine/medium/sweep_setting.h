@@ -15,6 +15,9 @@ struct SweepSetting {
     // Surfaces are shaded at places up to so many voxels apart and between them; 0: at each sample. CPU,
     // grids without noise and baked light.
     double shadingWidth = 1;
+    // The right eye reads what the left one saw in slabs where a pixel is no wider than this times the finest
+    // detail of the medium (sweep_sharing.h). 0: each eye takes samples of its own. Not by the GPU.
+    double sharedWidth = 1;
     bool singleTarget = true;  // GPU: one target split by viewports (K8), or one a buffer
 };
 

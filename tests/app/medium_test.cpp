@@ -114,14 +114,14 @@ TEST_F(MediumCommands, AnAnimatedCloudPlaysTheSameTwice) {
     EXPECT_TRUE(frame("still", 0) == frame("still", 1)) << "without noise nothing moves";
 }
 
-TEST_F(MediumCommands, CompareListsTheThreeWaysToTwoEyes) {
+TEST_F(MediumCommands, CompareListsTheFourWaysToTwoEyes) {
     const std::string out =
         runSmall({"compare", "cloud", "--frames", "2", "--repeats", "1", "--json", "a.json", "--csv", "a.csv",
                   "--plot", "plot.png", "--images", "pictures"})
             .out;
     const Json methods = Json::parse(contentOf(place() / "a.json")).at("methods");
-    ASSERT_EQ(methods.size(), 3u);
-    const std::vector<std::string> names{"sweep", "two-sweeps", "depthsplat"};
+    ASSERT_EQ(methods.size(), 4u);
+    const std::vector<std::string> names{"sweep", "own-samples", "two-sweeps", "depthsplat"};
     for (std::size_t n = 0; n < names.size(); ++n) {
         const Json& method = methods[n];
         EXPECT_EQ(method.at("name"), names[n]);
@@ -133,9 +133,9 @@ TEST_F(MediumCommands, CompareListsTheThreeWaysToTwoEyes) {
         for (const char* end : {"_left.png", "_right.png", "_right_difference_x20.png"})
             EXPECT_TRUE(fs::exists(place() / "pictures" / (names[n] + end))) << names[n] << end;
     }
-    EXPECT_EQ(methods[1].at("psnr_db"), 100.0) << "it is what the others are measured against";
-    EXPECT_GT(methods[2].at("warp_ms").get<double>(), 0.0);
-    EXPECT_EQ(linesIn(contentOf(place() / "a.csv")), 4);
+    EXPECT_EQ(methods[2].at("psnr_db"), 100.0) << "it is what the others are measured against";
+    EXPECT_GT(methods[3].at("warp_ms").get<double>(), 0.0);
+    EXPECT_EQ(linesIn(contentOf(place() / "a.csv")), 5);
     EXPECT_TRUE(fs::exists(place() / "plot.png"));
     runSmall({"compare", "wax", "--frames", "1", "--repeats", "1", "--methods", "depthsplat,sweep", "--json",
               "b.json"});
@@ -268,7 +268,7 @@ TEST_F(MediumCommands, BadValuesAreRefusedInOneLine) {
     refused({"--medium", "jelly"}, {"jelly", "wax"});
     refused({"--medium", "ground"}, {"--medium", "terrain"});
     refused({"--mist", "900,2"}, {"--mist", "terrain"});
-    refused({"--method", "linear"}, {"linear", "sweep, two-sweeps, depthsplat"});
+    refused({"--method", "linear"}, {"linear", "sweep, own-samples, two-sweeps, depthsplat"});
     refused({"--transfer", "metal"}, {"--transfer", "medium"});
     refused({"--isosurface"}, {"--isosurface", "built in"});
     refused({"--light", "a.bake"}, {"--light", "built in"});

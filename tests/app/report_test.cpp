@@ -98,8 +98,9 @@ TEST_F(Report, MeasuresANamedMediumInStereoAndABuiltInSceneOnce) {
     std::set<std::string> ids;
     const Json json = Json::parse(contentOf(place() / "report/report.json"));
     for (const Json& figure : json.at("figures")) ids.insert(figure.at("id").get<std::string>());
-    for (const char* id : {"pair/wax/sweep/time", "pair/wax/two-sweeps/error", "pair/wax/depthsplat/error",
-                           "pair-separation/wax/1/8/error", "scene/terrain/loading"})
+    for (const char* id :
+         {"pair/wax/sweep/time", "pair/wax/own-samples/error", "pair/wax/two-sweeps/error",
+          "pair/wax/depthsplat/error", "pair-separation/wax/1/8/error", "scene/terrain/loading"})
         EXPECT_TRUE(ids.contains(id)) << id;
     EXPECT_FALSE(ids.contains("scene/terrain 2/loading"));
     EXPECT_FALSE(ids.contains("pair/wax 2/sweep/time"));

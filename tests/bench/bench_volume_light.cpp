@@ -2,7 +2,7 @@
 // the light's buffer, on the CPU and by the GPU's shaders; what both eyes in one sweep cost and change; which
 // settings follow multiple scattering best. With --marks "name value" lines alone: 512x512 pixels, 256
 // slices; --times prints the times that they come from too. With --shading what shading at places costs and
-// saves.
+// saves, with --sharing what eyes that share do.
 // --samples N: paths a pixel of the truth; --size N: pixels a side of what is compared with it.
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +13,7 @@
 #include "engine/base/parallel.h"
 #include "tests/bench/bench_volume_light_fit.h"
 #include "tests/bench/bench_volume_light_shading.h"
+#include "tests/bench/bench_volume_light_sharing.h"
 #include "tests/bench/bench_volume_light_stereo.h"
 
 namespace stereonav::bench {
@@ -21,7 +22,7 @@ namespace {
 constexpr int kDirectSamples = 8;  // times as many: their paths are short
 
 struct Options {
-    bool marks = false, times = false, shading = false;
+    bool marks = false, times = false, shading = false, sharing = false;
     int samples = 256, size = 64;
     std::string only;  // subject
 };
@@ -160,6 +161,13 @@ int run(const Options& options) {
         printMarks(marks);
         return 0;
     }
+    if (options.sharing) {
+        std::vector<MediumSubject> subjects{cloudSubject(), waxSubject()};
+        for (MediumSubject& head : headSubject(true)) subjects.push_back(std::move(head));
+        for (const MediumSubject& subject : subjects)
+            if (options.only.empty() || subject.name == options.only) printSharing(subject);
+        return 0;
+    }
     std::printf("%d threads; shaders run on: %s\n", threadCount(), timer.renderer().c_str());
     for (const MediumSubject& subject : mediumSubjects()) {
         if (!options.only.empty() && subject.name != options.only) continue;
@@ -181,6 +189,7 @@ Options parse(int count, char** arguments) {
         if (word == "--marks") options.marks = true;
         if (word == "--times") options.times = true;
         if (word == "--shading") options.shading = true;
+        if (word == "--sharing") options.sharing = true;
         if (n + 1 < count && word == "--samples") options.samples = std::max(2, std::atoi(arguments[n + 1]));
         if (n + 1 < count && word == "--size") options.size = std::max(8, std::atoi(arguments[n + 1]));
         if (n + 1 < count && word == "--only") options.only = arguments[n + 1];

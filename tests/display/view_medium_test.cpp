@@ -78,7 +78,7 @@ TEST(ViewMedium, ModelsAndMethodsAreSteppedThroughAndReset) {
     ViewSession s = sessionOf(fogScene());
     std::vector<int> models;
     std::vector<PairMethod> methods;
-    for (int n = 0; n < 4; ++n) {
+    for (int n = 0; n < 5; ++n) {
         models.push_back(s.requestFor(80, 40).model);
         methods.push_back(s.requestFor(80, 40).pairMethod);
         const long long before = s.requestFor(80, 40).version;
@@ -86,9 +86,10 @@ TEST(ViewMedium, ModelsAndMethodsAreSteppedThroughAndReset) {
         s.act({ViewCommand::NextMethod});
         EXPECT_GT(s.requestFor(80, 40).version, before) << "a new frame is asked for";
     }
-    EXPECT_THAT(models, testing::ElementsAre(1, 2, 0, 1));
-    EXPECT_THAT(methods, testing::ElementsAre(PairMethod::Sweep, PairMethod::TwoSweeps,
-                                              PairMethod::DepthSplat, PairMethod::Sweep));
+    EXPECT_THAT(models, testing::ElementsAre(1, 2, 0, 1, 2));
+    EXPECT_THAT(methods,
+                testing::ElementsAre(PairMethod::Sweep, PairMethod::OwnSamples, PairMethod::TwoSweeps,
+                                     PairMethod::DepthSplat, PairMethod::Sweep));
     s.act({ViewCommand::Reset});
     EXPECT_EQ(s.requestFor(80, 40).model, 1);
     EXPECT_EQ(s.requestFor(80, 40).pairMethod, PairMethod::Sweep);

@@ -132,6 +132,7 @@ Scene sceneOf(Kind kind, MediumModel model, bool lamp, bool forward, unsigned se
     s.look.indirectShare = 0.7f;
     s.setting.slices = 27;
     s.setting.lightSize = 24;
+    s.setting.sharedWidth = 0;  // as the plain sweep; see sweep_sharing_test.cpp
     s.eyes = {viewFrom(-4.0 * view, {0, 0, 0}, 0.35, 27, 21), viewFrom(-4.0 * view, {0, 0, 0}, 0.35, 27, 21)};
     s.eyes[1].eye += 0.1 * s.eyes[1].right;
     return s;
