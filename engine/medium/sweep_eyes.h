@@ -57,6 +57,7 @@ private:
         double middles[SweepChunk::kMost] = {};
         SharedRows shared;
     };
+    long long seeSlabs(const SweepScene& scene, const SweepChunk& chunk, int first, int count);
     void setBeams(std::size_t eye);
     long long findSlabs(Eye& eye, int tile, const Walk& walk) const;
     EyeTile tileOf(std::size_t eye, int tile) const;
