@@ -18,89 +18,75 @@ STEREONAV_INLINE Sighting nothingSeen(F depth, M looked) {
     return {{{zero, zero, zero}}, zero, F(1.0f), depth, looked, maskFromBits(0)};
 }
 
-// Numbers of a packet, four pixels a row, to rows `next` apart.
-STEREONAV_INLINE void storeRows(float* to, std::int64_t next, F numbers) {
-#if defined(STEREONAV_ISA_avx512)
-    _mm_storeu_ps(to, _mm512_castps512_ps128(numbers.v));
-    _mm_storeu_ps(to + next, _mm512_extractf32x4_ps(numbers.v, 1));
-    _mm_storeu_ps(to + 2 * next, _mm512_extractf32x4_ps(numbers.v, 2));
-    _mm_storeu_ps(to + 3 * next, _mm512_extractf32x4_ps(numbers.v, 3));
-#else
-    float all[kLanes];
-    store(all, numbers);
-    for (int row = 0; row < kLanes / 4; ++row)
-        __builtin_memcpy(to + row * next, all + 4 * row, 4 * sizeof(float));
-#endif
-}
-
-// Where a packet's numbers are kept: row: of the rows that are kept.
+// Where a packet's numbers are kept: four columns, kLanes / 4 rows, slab after slab.
 struct SharedPlace {
-    float* first;        // of slab 0: light's first colour
-    std::int64_t plane;  // from colour to colour, and on to the opacity
-    std::int64_t next, slab;
+    float* first = nullptr;  // of slab 0: light's first colour; then the others, the opacity
 };
+constexpr int kSharedSlab = SharedRows::kNumbers * kLanes;
+constexpr int kSharedPacket = SweepChunk::kMost * kSharedSlab;
+// x: of the picture's columns, a multiple of four; row: of the rows that are kept.
 STEREONAV_INLINE SharedPlace sharedPlace(const SharedRows& rows, int x, int row) {
-    SharedPlace p;
-    p.plane = rows.pitch;
-    p.next = SharedRows::kNumbers * rows.pitch;
-    p.slab = SharedRows::kRows * p.next;
-    p.first = rows.numbers + row * p.next + x;
-    return p;
+    const std::int64_t packets = rows.columns / 4;
+    return {rows.numbers + (row / (kLanes / 4) * packets + x / 4) * kSharedPacket};
 }
 constexpr float kNotLooked = -1.0f;  // as an opacity
 
 STEREONAV_INLINE void keepSighting(const SharedPlace& at, int n, const Sighting& s) {
-    float* to = at.first + n * at.slab;
+    float* to = at.first + n * kSharedSlab;
     const F zero(0.0f);
-    for (int k = 0; k < 3; ++k) storeRows(to + k * at.plane, at.next, select(s.seen, s.sent.c[k], zero));
-    storeRows(to + 3 * at.plane, at.next, select(s.looked, select(s.seen, s.opacity, zero), F(kNotLooked)));
+    for (int k = 0; k < 3; ++k) store(to + k * kLanes, select(s.seen, s.sent.c[k], zero));
+    store(to + 3 * kLanes, select(s.looked, select(s.seen, s.opacity, zero), F(kNotLooked)));
 }
 // Slabs of which is known that nothing is there.
 STEREONAV_INLINE void keepNothing(const SharedPlace& at, std::uint32_t slabs) {
     for (; slabs; slabs &= slabs - 1) {
-        float* to = at.first + __builtin_ctz(slabs) * at.slab;
-        for (int k = 0; k < SharedRows::kNumbers; ++k) storeRows(to + k * at.plane, at.next, F(0.0f));
+        float* to = at.first + __builtin_ctz(slabs) * kSharedSlab;
+        for (int k = 0; k < SharedRows::kNumbers; ++k) store(to + k * kLanes, F(0.0f));
     }
 }
 STEREONAV_INLINE void keepNotLooked(const SharedPlace& at, std::uint32_t slabs) {
     for (; slabs; slabs &= slabs - 1)
-        storeRows(at.first + __builtin_ctz(slabs) * at.slab + 3 * at.plane, at.next, F(kNotLooked));
+        store(at.first + __builtin_ctz(slabs) * kSharedSlab + 3 * kLanes, F(kNotLooked));
 }
 
-// Columns index and index + 1 of a packet's rows, of lanes m. In AVX-512 rows are loaded once and looked up,
-// where a packet's columns lie close together, as they do but where the slabs are seen along.
-struct SharedColumns {
-    I index;
-    M m;
+// Columns i and i + 1 of a packet's rows, of lanes m. In AVX-512 two packets are loaded and looked up where
+// all lie in them, as they do but where the slabs are seen along.
+class SharedColumns {
+public:
+    STEREONAV_INLINE SharedColumns(I i, M lanes) : mLanes(lanes), mColumn(i) {
+        mRow = shiftLeft<2>(shiftRight<2>(laneIndex()));
 #if defined(STEREONAV_ISA_avx512)
-    bool near;
-    int least;
-    I word;  // in two registers of two rows
-    STEREONAV_INLINE SharedColumns(I i, M lanes, std::int64_t next) : m(lanes) {
-        least = leastOf(i, lanes, 0x7fffffff);
-        const I from = i - I(least), row = shiftRight<2>(laneIndex());
-        near = !any(lanes & ~within(from, I(6)));
-        word = shiftLeft<3>(row) + from;
-        index = row * I(static_cast<int>(next)) + i;
+        const int least = leastOf(i, lanes, 0x7fffffff) & ~3;
+        const I from = i - I(least);
+        mNear = !any(andNot(lanes, within(from, I(6))));
+        mOffset = static_cast<std::int64_t>(least / 4) * kSharedPacket;
+        const I next = from + I(1);
+        mFirst = mRow + (from & I(3)) + shiftLeft<4>(shiftRight<2>(from));
+        mSecond = mRow + (next & I(3)) + shiftLeft<4>(shiftRight<2>(next));
+#endif
     }
-    STEREONAV_INLINE FPair read(const float* plane, std::int64_t next) const {
-        if (!near) return gatherPair(plane, index, m);
-        const float* p = plane + least;
-        const auto two = [&](const float* row) {
-            return _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(row)),
-                                      _mm256_loadu_ps(row + next), 1);
+    // from: of column 0.
+    STEREONAV_INLINE FPair read(const float* from) const {
+#if defined(STEREONAV_ISA_avx512)
+        if (mNear) {
+            const F a = loadF(from + mOffset), b = loadF(from + mOffset + kSharedPacket);
+            return {_mm512_permutex2var_ps(a.v, mFirst.v, b.v), _mm512_permutex2var_ps(a.v, mSecond.v, b.v)};
+        }
+#endif
+        const auto column = [&](I i) {
+            const I index = shiftRight<2>(i) * I(kSharedPacket) + mRow + (i & I(3));
+            return gather(from, index, mLanes, F(0.0f));
         };
-        const __m512 above = two(p), below = two(p + 2 * next);
-        return {_mm512_permutex2var_ps(above, word.v, below),
-                _mm512_permutex2var_ps(above, (word + I(1)).v, below)};
+        return {column(mColumn), column(mColumn + I(1))};
     }
-#else
-    STEREONAV_INLINE SharedColumns(I i, M lanes, std::int64_t next) : m(lanes) {
-        index = shiftRight<2>(laneIndex()) * I(static_cast<int>(next)) + i;
-    }
-    STEREONAV_INLINE FPair read(const float* plane, std::int64_t) const {
-        return gatherPair(plane, index, m);
-    }
+
+private:
+    M mLanes;
+    I mColumn, mRow;  // mRow: its first lane
+#if defined(STEREONAV_ISA_avx512)
+    bool mNear;
+    std::int64_t mOffset;  // of the first packet
+    I mFirst, mSecond;     // in both packets
 #endif
 };
 
@@ -135,9 +121,9 @@ struct SharedReader {
         const F zero(0.0f), one(1.0f);
         Sighting s = nothingSeen(depth, m & within(i, I(rows->width - 2)));
         if (!any(s.looked)) return s;
-        const SharedColumns columns(i, s.looked, at.next);
-        const float* from = at.first + n * at.slab;
-        const FPair opacity = columns.read(from + 3 * at.plane, at.next);
+        const SharedColumns columns(i, s.looked);
+        const float* from = at.first + n * kSharedSlab;
+        const FPair opacity = columns.read(from + 3 * kLanes);
         F share = x - toFloat(i);
         const M first = opacity.first >= zero, second = opacity.second >= zero;
         const M either = s.looked & (first | second), both = first & second;
@@ -159,7 +145,7 @@ struct SharedReader {
         const F factor = mulAdd(more * (one - most), bent, one);
         s.opacity = min(most * factor, one);
         s.passes = one - s.opacity;
-        for (int k = 0; k < 3; ++k) s.sent.c[k] = mixed(columns.read(from + k * at.plane, at.next)) * factor;
+        for (int k = 0; k < 3; ++k) s.sent.c[k] = mixed(columns.read(from + k * kLanes)) * factor;
         return s;
     }
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -15,10 +16,20 @@ namespace {
 
 constexpr int kSide = EyeTile::kSide;
 constexpr std::size_t kTileNumbers = EyeTile::kMembers * kSide * kSide;
-// Slabs that are kept at a time. With 4 of them two eyes took 10 to 15 % more time: rays are set out
-// anew for each few.
-constexpr int kKept = 16;
-constexpr std::int32_t kReadAhead = 16;  // numbers behind a row's last that vector code may read
+constexpr std::size_t kLine = 64;  // bytes; what is kept begins with one
+
+float* alignedStart(std::vector<float>& numbers) {
+    void* start = numbers.data();
+    std::size_t space = numbers.size() * sizeof(float);
+    return static_cast<float*>(std::align(kLine, kLine, start, space));
+}
+
+// How many tiles of a row the first eye has to be ahead: the second eye's pixels find their places at most
+// `farthest` columns to the right, between two pixels.
+int tilesBehind(float farthest, int across) {
+    const double tiles = std::floor((kSide + 1.0 + static_cast<double>(farthest)) / kSide);
+    return static_cast<int>(std::clamp(tiles, 0.0, static_cast<double>(across)));
+}
 
 }  // namespace
 
@@ -119,11 +130,16 @@ long long SweepEyes::seeRow(int row, const Walk& walk) {
         if (!first.done[n]) samples += met;
     }
     RowTask task{row, walk.shared, std::vector<std::uint8_t>(2 * static_cast<std::size_t>(first.across))};
+    const int behind = tilesBehind(walk.shared.farthest, first.across);
     std::unique_ptr<std::vector<float>> rows = takeRows();
-    task.rows.numbers = rows->data();
+    task.rows.numbers = alignedStart(*rows);
     for (task.firstRow = 0; task.firstRow < kSide; task.firstRow += SharedRows::kRows) {
         task.rows.slabs = walk.shared.slabs & wanted[task.firstRow / EyeTile::kHalf];
-        for (const std::size_t eye : {0, 1}) seeBand(eye, walk, task);
+        // The second eye follows as soon as what it reads is there, while it is still in the cache.
+        for (int n = begin; n < end + behind; ++n) {
+            if (n < end) seeHalf(0, n, walk, task);
+            if (n - behind >= begin) seeHalf(1, n - behind, walk, task);
+        }
     }
     giveBack(std::move(rows));
     for (int n = begin; n < end; ++n)
@@ -141,20 +157,17 @@ bool SweepEyes::isSeen(std::size_t eye, int n) const {
     return eye == 0 || (!mEyes[eye].done[n] && (slabs[0] | slabs[1] | slabs[2] | slabs[3]) != 0);
 }
 
-void SweepEyes::seeBand(std::size_t eye, const Walk& walk, RowTask& task) {
+// The rows of a task of one tile.
+void SweepEyes::seeHalf(std::size_t eye, int n, const Walk& walk, RowTask& task) {
     Eye& e = mEyes[eye];
-    const int begin = task.row * e.across;
-    if (task.row * kSide + task.firstRow >= e.seen.height) return;
-    for (int n = begin; n < begin + e.across; ++n) {
-        if (!isSeen(eye, n)) continue;
-        EyeTile tile = tileOf(eye, n);
-        tile.state = e.states.data() + n * kTileNumbers;
-        tile.firstRow = task.firstRow;
-        tile.lastRow = task.firstRow + SharedRows::kRows;
-        if (task.rows.slabs != 0) (eye == 0 ? tile.keeps : tile.reads) = &task.rows;
-        std::uint8_t& goesOn = task.goesOn[2 * static_cast<std::size_t>(n - begin) + eye];
-        if (mKernels.seeTile(walk.scene, e.seen, walk.chunk, tile)) goesOn = 1;
-    }
+    if (task.row * kSide + task.firstRow >= e.seen.height || !isSeen(eye, n)) return;
+    EyeTile tile = tileOf(eye, n);
+    tile.state = e.states.data() + n * kTileNumbers;
+    tile.firstRow = task.firstRow;
+    tile.lastRow = task.firstRow + SharedRows::kRows;
+    if (task.rows.slabs != 0) (eye == 0 ? tile.keeps : tile.reads) = &task.rows;
+    std::uint8_t& goesOn = task.goesOn[2 * static_cast<std::size_t>(n - task.row * e.across) + eye];
+    if (mKernels.seeTile(walk.scene, e.seen, walk.chunk, tile)) goesOn = 1;
 }
 
 // As many are held as tasks run at once.
@@ -177,40 +190,19 @@ void SweepEyes::giveBack(std::unique_ptr<std::vector<float>> rows) {
     mRows.push_back(std::move(rows));
 }
 
-// Odd as a number of cache lines, so that rows do not share theirs.
-std::int32_t SweepEyes::rowsPitch() const {
-    return (mEyes[0].across * kSide + kReadAhead) | kReadAhead;
-}
-
 std::size_t SweepEyes::rowsNumbers() const {
-    return static_cast<std::size_t>(kKept) * SharedRows::kRows * SharedRows::kNumbers * rowsPitch();
+    const std::size_t columns = static_cast<std::size_t>(mEyes[0].across) * kSide + SharedRows::kReadAhead;
+    return SweepChunk::kMost * SharedRows::kRows * SharedRows::kNumbers * columns + kLine / sizeof(float);
 }
 
-// Where eyes share, a few slabs at a time.
 long long SweepEyes::seeChunk(const SweepScene& scene, const SweepChunk& chunk, int first, int count) {
-    if (!mSharing.any()) return seeSlabs(scene, chunk, first, count);
-    long long samples = 0;
-    for (int n = 0; n < count; n += kKept) {
-        const int some = std::min(kKept, count - n);
-        SweepScene part = scene;
-        if (part.light.packed) part.light.packed += 2 * n * part.light.packedPlane;
-        SweepChunk slabs;
-        slabs.reference = chunk.reference;
-        std::copy_n(chunk.middle + n, some, slabs.middle);
-        std::copy_n(chunk.thickness + n, some, slabs.thickness);
-        samples += seeSlabs(part, slabs, first + n, some);
-    }
-    return samples;
-}
-
-long long SweepEyes::seeSlabs(const SweepScene& scene, const SweepChunk& chunk, int first, int count) {
     Walk walk{scene, chunk, count, {}, {}};
     for (int n = 0; n < count; ++n)
         walk.middles[n] = 0.5 * (mGeometry->faces[first + n] + mGeometry->faces[first + n + 1]);
     walk.shared.slabs = mSharing.slabsOf(chunk, count, walk.shared);
     std::atomic<long long> samples = 0;
     if (walk.shared.slabs != 0) {
-        walk.shared.pitch = rowsPitch();
+        walk.shared.columns = mEyes[0].across * kSide;
         parallelFor(mEyes[0].down, [&](int row) { samples += seeRow(row, walk); });
         return samples;
     }

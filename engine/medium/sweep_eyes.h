@@ -57,7 +57,6 @@ private:
         double middles[SweepChunk::kMost] = {};
         SharedRows shared;
     };
-    long long seeSlabs(const SweepScene& scene, const SweepChunk& chunk, int first, int count);
     void setBeams(std::size_t eye);
     long long findSlabs(Eye& eye, int tile, const Walk& walk) const;
     EyeTile tileOf(std::size_t eye, int tile) const;
@@ -71,10 +70,9 @@ private:
         int firstRow = 0;
     };
     bool isSeen(std::size_t eye, int tile) const;
-    void seeBand(std::size_t eye, const Walk& walk, RowTask& task);
+    void seeHalf(std::size_t eye, int tile, const Walk& walk, RowTask& task);
     std::unique_ptr<std::vector<float>> takeRows();
     void giveBack(std::unique_ptr<std::vector<float>> rows);
-    std::int32_t rowsPitch() const;
     std::size_t rowsNumbers() const;
 
     const SweepSpace& mSpace;

@@ -146,17 +146,19 @@ struct SweepEye {
     float footprint = 0;  // of a pixel at depth 1
 };
 
-// Rows of the first eye's pixels as they saw the slabs of a chunk, for the second eye: of each slab, row by
-// row, planes of columns: light sent (3), opacity (-1 where it was not looked at). See sweep_sharing.h.
+// Rows of the first eye's pixels as they saw the slabs of a chunk, for the second eye: light sent (3) and
+// opacity (-1 where it was not looked at), laid out as in kernel_shared.h. See sweep_sharing.h.
 struct SharedRows {
     static constexpr int kRows = 8, kNumbers = 4;  // half a tile
-    float* numbers = nullptr;
-    std::int32_t pitch = 0;   // from plane to plane; 16 more than tiles have columns, or more
-    std::uint32_t slabs = 0;  // bits of those kept
+    float* numbers = nullptr;  // for each column, row and slab of a chunk; kReadAhead columns more
+    std::int32_t columns = 0;  // of whole tiles
+    std::uint32_t slabs = 0;   // bits of those kept
+    static constexpr int kReadAhead = 4;
     // A ray of the second eye with the cosine c finds its place at x + column + c parallax perParallax, where
     // whole numbers are pixels' centres.
     int width = 0;
     float column = 0, perParallax = 0;
+    float farthest = 0;                         // the largest of what is added to x
     float parallax[SweepChunk::kMost] = {};     // tangents
     float lengthening[SweepChunk::kMost] = {};  // of ways, by their cosines
 };

@@ -35,7 +35,7 @@ double finestDetail(const Medium& medium) {
     double finest = kInfinity;
     if (const GreyVolume* field = medium.field())
         finest = std::min({field->frame.spacing.x, field->frame.spacing.y, field->frame.spacing.z});
-    for (const HeightLayer& layer : medium.layers()) finest = std::min(finest, layer.spacing);
+    for (const HeightLayer& layer : medium.layers()) finest = std::min({finest, layer.spacing, layer.taper});
     if (!medium.noise()) return finest;
     for (const NoiseScale& scale : medium.perturbation().scales) {
         const bool counts = scale.displacement != 0 || scale.extinction != 0 ||
@@ -96,13 +96,16 @@ std::uint32_t SweepSharing::slabsOf(const SweepChunk& chunk, int count, SharedRo
     rows.width = mWidth;
     rows.column = mColumn;
     rows.perParallax = static_cast<float>(1 / mPixel);
+    double most = -kInfinity;
     for (int n = 0; n < count; ++n) {
         double parallax = 0;
         if (!share(chunk.reference + chunk.middle[n] - mStart, parallax)) continue;
         shared |= 1u << n;
+        for (const double cosine : mCosines) most = std::max(most, cosine * parallax / mPixel);
         rows.parallax[n] = static_cast<float>(parallax);
         rows.lengthening[n] = static_cast<float>(1 + parallax * mAxisRight);
     }
+    rows.farthest = mColumn + static_cast<float>(most);
     return shared;
 }
 

@@ -63,7 +63,7 @@ Perturbation noisy() {
     return p;
 }
 
-Medium hills() {
+Medium hills(double taper) {
     HeightLayer layer;
     layer.levels.emplace_back(21, 19);
     for (int y = 0; y < 19; ++y)
@@ -73,7 +73,7 @@ Medium hills() {
     layer.spacing = 0.1;
     layer.below = 0.4;
     layer.above = 0.2;
-    layer.taper = 0.15;
+    layer.taper = taper;
     makeMipLevels(layer);
     layer.table = makeMediumTable(materials(0.3), layer.lowest, layer.highest);
     for (OpticalProperties& entry : layer.table.entries) entry = materials(0.3).at(800, 0);
@@ -82,7 +82,7 @@ Medium hills() {
 
 enum class Kind { Grid, Askew, Surface, Noise, Layers };
 Medium mediumOf(Kind kind) {
-    if (kind == Kind::Layers) return hills();
+    if (kind == Kind::Layers) return hills(0.15);
     if (kind == Kind::Noise) return Medium(blob(false), materials(0), noisy());
     return Medium(blob(kind == Kind::Askew), materials(kind == Kind::Surface ? 1 : 0));
 }
@@ -191,6 +191,23 @@ TEST(SweepSharing, eyesMayLookPastEachOther) {
     }
 }
 
+// Each eye finds what it reads some tiles to the left or to the right.
+TEST(SweepSharing, placesLieTilesAway) {
+    for (const double sign : {-1.0, 1.0}) {
+        Scene s = sceneOf(Kind::Grid, MediumModel::Indirect, true, 320, 9);
+        s.eyes[1].eye = s.eyes[0].eye + sign * 0.3 * s.eyes[0].right;
+        expectAlike(s, 0.2, 20, sign > 0 ? "right " : "left ");
+    }
+}
+
+// Their rims would be softened by a pixel.
+TEST(SweepSharing, layersWithSharpFacesAreNotShared) {
+    Scene s = sceneOf(Kind::Layers);
+    s.medium = hills(0);
+    const auto own = pictures(s, 0), shared = pictures(s, 1e9);
+    for (std::size_t n = 0; n < 2; ++n) EXPECT_EQ(apart(own[n], shared[n]).most, 0) << n;
+}
+
 TEST(SweepSharing, eyesInTheMedium) {
     for (const bool forward : {true, false}) {
         Scene s = sceneOf(Kind::Grid, MediumModel::Indirect, forward);
@@ -257,7 +274,8 @@ TEST(SweepSharing, keepsToItsWidth) {
         EXPECT_THROW(pictures(bad, width), Error);
     }
     EXPECT_DOUBLE_EQ(finestDetail(s.medium), 2.0 / 24);
-    EXPECT_DOUBLE_EQ(finestDetail(hills()), 0.1);
+    EXPECT_DOUBLE_EQ(finestDetail(hills(0.15)), 0.1);
+    EXPECT_DOUBLE_EQ(finestDetail(hills(0.01)), 0.01);
     EXPECT_EQ(finestDetail(Medium()), kInfinity);
     Perturbation fine = noisy();
     fine.scales[0].size = 0.32;
