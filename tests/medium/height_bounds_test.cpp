@@ -128,6 +128,7 @@ HeightLayer nothingThrough(const HeightLayer& whole) {
             layer.levels[0].at(x, y) = static_cast<float>(whole.lowest);
     layer.above = whole.highest - whole.lowest;
     layer.below = 0;
+    layer.taper = whole.taper;  // so that eyes share in both or in neither
     layer.table = tableOf(0, 12);
     makeMipLevels(layer);
     return layer;
