@@ -130,7 +130,7 @@ ComparisonReport describe(const CompareOptions& options, const LoadedScene& scen
     report.scene = scene.name;
     report.path = options.path;
     report.machine = machineName();
-    report.simd = nameOf(scene.simd);
+    report.simd = std::string(nameOf(scene.simd));
     report.width = options.size.width;
     report.height = options.size.height;
     report.threads = threadCount();

@@ -31,7 +31,7 @@ Json planJson(const LoadedScene& scene, const FramePlan& plan) {
     json["separation_m"] = scene.stereo.separation;
     json["zero_parallax_m"] = scene.stereo.zeroParallax;
     json["threads"] = threadCount();
-    json["simd"] = nameOf(scene.simd);
+    json["simd"] = std::string(nameOf(scene.simd));
     json["view_dependent"] = plan.viewDependent;
     json["planes"] = planesOf(plan);
     json["bytes"] = plan.bytes;
@@ -53,7 +53,7 @@ std::string planText(const LoadedScene& scene, const FramePlan& plan) {
     line("eyes", lengthText(scene.stereo.separation) + " apart, zero parallax at " +
                      lengthText(scene.stereo.zeroParallax));
     line("threads", std::to_string(threadCount()));
-    line("simd", nameOf(scene.simd));
+    line("simd", std::string(nameOf(scene.simd)));
     line("planes", fmt::format("{}", fmt::join(planesOf(plan), ", ")));
     line("memory", fmt::format("{:.1f} MB", static_cast<double>(plan.bytes) / 1e6));
     line("right eye", fmt::format("{}: {}", nameOf(plan.method), plan.reason));
@@ -69,7 +69,7 @@ Json sweepJson(const LoadedScene& scene) {
     json["separation_m"] = scene.stereo.separation;
     json["zero_parallax_m"] = scene.stereo.zeroParallax;
     json["threads"] = threadCount();
-    json["simd"] = nameOf(scene.simd);
+    json["simd"] = std::string(nameOf(scene.simd));
     json["method"] = std::string(nameOf(PairMethod::Sweep));
     return json;
 }
@@ -78,7 +78,7 @@ std::string sweepText(const LoadedScene& scene) {
     return infoLine("size", fmt::format("{} x {} pixels an eye", scene.lens.width, scene.lens.height)) +
            infoLine("eyes", lengthText(scene.stereo.separation) + " apart, zero parallax at " +
                                 lengthText(scene.stereo.zeroParallax)) +
-           infoLine("threads", std::to_string(threadCount())) + infoLine("simd", nameOf(scene.simd)) +
+           infoLine("threads", std::to_string(threadCount())) + infoLine("simd", std::string(nameOf(scene.simd))) +
            infoLine("both eyes", "sweep: slice by slice, from one light");
 }
 

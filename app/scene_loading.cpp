@@ -210,12 +210,6 @@ SimdTarget simdFromText(const std::string& name) {
                 "use auto, plain, avx2 or avx512");
 }
 
-std::string nameOf(SimdTarget target) {
-    for (const NamedSimdTarget& known : kSimdTargets)
-        if (known.target == target) return std::string(known.name);
-    return "";
-}
-
 FramePlan planScene(const LoadedScene& scene) {
     constexpr int kPosesAlongTheFlight = 4;
     std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};

@@ -81,7 +81,6 @@ Pose poseFromText(const std::string& text);
 std::optional<RightEyeMethod> methodFromText(const std::string& name);
 OutputMode modeFromText(const std::string& name);
 SimdTarget simdFromText(const std::string& name);
-std::string nameOf(SimdTarget target);
 
 // The frame plan of a loaded scene: measured at the start pose and along its flight.
 FramePlan planScene(const LoadedScene& scene);

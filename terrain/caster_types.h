@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "engine/math/kernel_sets.h"
+
 namespace stereonav {
 
 // Grid coordinates as in heightfield.h; heights in metres.
@@ -118,14 +120,6 @@ struct CasterKernels {
     void (*shadeRow)(const CasterScene&, const CasterView&, int y, const CasterTarget&);
 };
 
-namespace plain {
-extern const CasterKernels kCasterKernels;
-}
-namespace avx2 {
-extern const CasterKernels kCasterKernels;
-}
-namespace avx512 {
-extern const CasterKernels kCasterKernels;
-}
+STEREONAV_EACH_SET(extern const CasterKernels kCasterKernels;)
 
 }  // namespace stereonav

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "engine/math/kernel_sets.h"
+
 namespace stereonav {
 
 // One row of baked samples under the present light. Pointers are to the row's first sample.
@@ -49,14 +51,6 @@ struct RelightKernels {
     void (*lightTexels)(const LitTexels&);
 };
 
-namespace plain {
-extern const RelightKernels kRelightKernels;
-}
-namespace avx2 {
-extern const RelightKernels kRelightKernels;
-}
-namespace avx512 {
-extern const RelightKernels kRelightKernels;
-}
+STEREONAV_EACH_SET(extern const RelightKernels kRelightKernels;)
 
 }  // namespace stereonav

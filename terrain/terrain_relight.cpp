@@ -14,8 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 const RelightKernels& kernelsFor(SimdTarget target) {
-    if (target == SimdTarget::Avx512) return avx512::kRelightKernels;
-    return target == SimdTarget::Avx2 ? avx2::kRelightKernels : plain::kRelightKernels;
+    return kernelsOf(target, plain::kRelightKernels, avx2::kRelightKernels, avx512::kRelightKernels);
 }
 
 // Light of all rows: what does not depend on the row.

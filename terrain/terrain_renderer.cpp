@@ -23,8 +23,7 @@ namespace stereonav {
 namespace {
 
 const CasterKernels& kernelsFor(SimdTarget target) {
-    if (target == SimdTarget::Avx512) return avx512::kCasterKernels;
-    return target == SimdTarget::Avx2 ? avx2::kCasterKernels : plain::kCasterKernels;
+    return kernelsOf(target, plain::kCasterKernels, avx2::kCasterKernels, avx512::kCasterKernels);
 }
 
 double exactHit(const void* context, const double* origin, const double* direction, double tMin, int* cell,

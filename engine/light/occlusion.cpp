@@ -15,33 +15,21 @@
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/light/occlusion_kernel_types.h"
+#include "engine/math/kernel_sets.h"
 
 namespace stereonav {
 
-namespace plain {
-void filterOcclusionSlice(const OcclusionBand& band, int k, const OcclusionScratch& scratch);
-void finishOcclusionRow(const OcclusionBand& band, int j, const OcclusionScratch& scratch);
-}  // namespace plain
-namespace avx2 {
-void filterOcclusionSlice(const OcclusionBand& band, int k, const OcclusionScratch& scratch);
-void finishOcclusionRow(const OcclusionBand& band, int j, const OcclusionScratch& scratch);
-}  // namespace avx2
-namespace avx512 {
-void filterOcclusionSlice(const OcclusionBand& band, int k, const OcclusionScratch& scratch);
-void finishOcclusionRow(const OcclusionBand& band, int j, const OcclusionScratch& scratch);
-}  // namespace avx512
+STEREONAV_EACH_SET(void filterOcclusionSlice(const OcclusionBand& band, int k,
+                                             const OcclusionScratch& scratch);
+                   void finishOcclusionRow(const OcclusionBand& band, int j,
+                                           const OcclusionScratch& scratch);)
 
 namespace {
 
 OcclusionKernels kernelsFor(SimdTarget target) {
-    switch (availableTarget(target)) {
-        case SimdTarget::Avx512:
-            return {avx512::filterOcclusionSlice, avx512::finishOcclusionRow};
-        case SimdTarget::Avx2:
-            return {avx2::filterOcclusionSlice, avx2::finishOcclusionRow};
-        default:
-            return {plain::filterOcclusionSlice, plain::finishOcclusionRow};
-    }
+    return kernelsOf<OcclusionKernels>(target, {plain::filterOcclusionSlice, plain::finishOcclusionRow},
+                                       {avx2::filterOcclusionSlice, avx2::finishOcclusionRow},
+                                       {avx512::filterOcclusionSlice, avx512::finishOcclusionRow});
 }
 
 // Cuts pieces off a block of memory; without a block it only counts.

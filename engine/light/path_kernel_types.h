@@ -7,6 +7,8 @@
 
 #include <cstdint>
 
+#include "engine/math/kernel_sets.h"
+
 namespace stereonav {
 
 // Blocks of 2^shift cells a side, two bytes each: how many blocks away (the largest of the three axes'
@@ -110,14 +112,6 @@ struct PathKernels {
     void (*normals)(const PathVolume&, int count, PathStore&, float* const* normals);
 };
 
-namespace plain {
-extern const PathKernels kPathKernels;
-}
-namespace avx2 {
-extern const PathKernels kPathKernels;
-}
-namespace avx512 {
-extern const PathKernels kPathKernels;
-}
+STEREONAV_EACH_SET(extern const PathKernels kPathKernels;)
 
 }  // namespace stereonav

@@ -35,14 +35,7 @@ void appendSums(const std::vector<double>& chances, std::vector<float>& sums) {
 }  // namespace
 
 const PathKernels& pathKernels(SimdTarget target) {
-    switch (availableTarget(target)) {
-        case SimdTarget::Avx512:
-            return avx512::kPathKernels;
-        case SimdTarget::Avx2:
-            return avx2::kPathKernels;
-        default:
-            return plain::kPathKernels;
-    }
+    return kernelsOf(target, plain::kPathKernels, avx2::kPathKernels, avx512::kPathKernels);
 }
 
 double pathUnit(const VolumeFrame& frame) {

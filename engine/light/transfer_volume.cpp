@@ -12,18 +12,11 @@
 #include "engine/base/parallel.h"
 #include "engine/light/spherical_harmonics.h"
 #include "engine/math/half_float.h"
+#include "engine/math/kernel_sets.h"
 
 namespace stereonav {
 
-namespace plain {
-void relight(const TransferGroups&, std::uint32_t*, std::uint32_t*);
-}
-namespace avx2 {
-void relight(const TransferGroups&, std::uint32_t*, std::uint32_t*);
-}
-namespace avx512 {
-void relight(const TransferGroups&, std::uint32_t*, std::uint32_t*);
-}
+STEREONAV_EACH_SET(void relight(const TransferGroups&, std::uint32_t*, std::uint32_t*);)
 
 namespace {
 
@@ -41,14 +34,7 @@ std::uint16_t storedHalf(float v) {
 constexpr int kBrickTexels = 512;
 
 TransferKernels kernelsFor(SimdTarget target) {
-    switch (availableTarget(target)) {
-        case SimdTarget::Avx512:
-            return {avx512::relight};
-        case SimdTarget::Avx2:
-            return {avx2::relight};
-        default:
-            return {plain::relight};
-    }
+    return kernelsOf<TransferKernels>(target, {plain::relight}, {avx2::relight}, {avx512::relight});
 }
 
 // Position of a texel among those of a mask, and whether it is one of them.

@@ -1,17 +1,29 @@
-// The plain backend of simd.h: four lanes as arrays, for processors without AVX2 (and as the readable
-// meaning of the other two). The compiler turns the loops into what the baseline has.
+// The plain backend of simd.h: four lanes in the compiler's own vectors, which are registers of 128 bits on
+// every processor that has them (SSE2, NEON) and scalars elsewhere. Also the readable meaning of the other
+// two. The few steps that the compiler does not find by itself have an SSE2 form with the same bits.
 #pragma once
 
 #include <cstdint>
 #include <cstring>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 namespace stereonav::STEREONAV_ISA {
 
 constexpr int kLanes = 4;
 constexpr const char* kName = "plain";
 
+using FloatLanes = float __attribute__((vector_size(16)));
+using IntLanes = std::int32_t __attribute__((vector_size(16)));
+using WordLanes = std::uint32_t __attribute__((vector_size(16)));  // integers that wrap
+using FloatPairLanes = float __attribute__((vector_size(8)));
+using IntPairLanes = std::int32_t __attribute__((vector_size(8)));
+using DoublePairLanes = double __attribute__((vector_size(16)));
+
 struct M {
-    std::uint32_t v;  // bit k is lane k
+    IntLanes v;  // all bits of a lane set or clear
 };
 STEREONAV_INLINE M operator&(M a, M b) {
     return {a.v & b.v};
@@ -20,96 +32,82 @@ STEREONAV_INLINE M operator|(M a, M b) {
     return {a.v | b.v};
 }
 STEREONAV_INLINE M operator~(M a) {
-    return {~a.v & 15u};
+    return {~a.v};
 }
 STEREONAV_INLINE M andNot(M a, M b) {
     return {a.v & ~b.v};
 }  // a and not b
+STEREONAV_INLINE std::uint32_t bits(M a) {
+#if defined(__SSE2__)
+    return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(a.v)));
+#else
+    const IntLanes each = a.v & IntLanes{1, 2, 4, 8};
+    return static_cast<std::uint32_t>(each[0] | each[1] | each[2] | each[3]);
+#endif
+}
 STEREONAV_INLINE bool any(M a) {
-    return a.v != 0;
+    return bits(a) != 0;
 }
 STEREONAV_INLINE bool all(M a) {
-    return a.v == 15u;
-}
-STEREONAV_INLINE std::uint32_t bits(M a) {
-    return a.v;
+    return bits(a) == 15u;
 }
 STEREONAV_INLINE M maskFromBits(std::uint32_t b) {
-    return {b & 15u};
+    const auto every = static_cast<std::int32_t>(b);
+    return {(IntLanes{every, every, every, every} & IntLanes{1, 2, 4, 8}) != 0};
 }
 STEREONAV_INLINE M firstLanes(int count) {
-    return {count >= 4 ? 15u : (1u << count) - 1u};
+    return {IntLanes{0, 1, 2, 3} < IntLanes{count, count, count, count}};
 }
 
-template <typename T>
-struct Lanes {
-    T v[kLanes];
-};
-template <typename T, typename Op>
-STEREONAV_INLINE Lanes<T> mapLanes(Op op) {
-    Lanes<T> r;
-    for (int k = 0; k < kLanes; ++k) r.v[k] = op(k);
-    return r;
-}
-template <typename Op>
-STEREONAV_INLINE M testLanes(Op op) {
-    std::uint32_t b = 0;
-    for (int k = 0; k < kLanes; ++k) b |= (op(k) ? 1u : 0u) << k;
-    return {b};
-}
-
-struct F : Lanes<float> {
+struct F {
+    FloatLanes v;
     F() = default;
-    STEREONAV_INLINE F(Lanes<float> x) : Lanes<float>(x) {}
-    STEREONAV_INLINE F(float x) : Lanes<float>{{x, x, x, x}} {}
+    STEREONAV_INLINE F(FloatLanes x) : v(x) {}
+    STEREONAV_INLINE F(float x) : v(FloatLanes{x, x, x, x}) {}
 };
-struct I : Lanes<std::int32_t> {
+struct I {
+    IntLanes v;
     I() = default;
-    STEREONAV_INLINE I(Lanes<std::int32_t> x) : Lanes<std::int32_t>(x) {}
-    STEREONAV_INLINE I(int x) : Lanes<std::int32_t>{{x, x, x, x}} {}
+    STEREONAV_INLINE I(IntLanes x) : v(x) {}
+    STEREONAV_INLINE I(WordLanes x) : v(reinterpret_cast<IntLanes>(x)) {}
+    STEREONAV_INLINE I(int x) : v(IntLanes{x, x, x, x}) {}
 };
-struct D : Lanes<double> {
-    D() = default;
-    STEREONAV_INLINE D(Lanes<double> x) : Lanes<double>(x) {}
-    STEREONAV_INLINE D(double x) : Lanes<double>{{x, x, x, x}} {}
-};
+STEREONAV_INLINE WordLanes words(I a) {
+    return reinterpret_cast<WordLanes>(a.v);
+}
 
 STEREONAV_INLINE F operator+(F a, F b) {
-    return mapLanes<float>([&](int k) { return a.v[k] + b.v[k]; });
+    return a.v + b.v;
 }
 STEREONAV_INLINE F operator-(F a, F b) {
-    return mapLanes<float>([&](int k) { return a.v[k] - b.v[k]; });
+    return a.v - b.v;
 }
 STEREONAV_INLINE F operator*(F a, F b) {
-    return mapLanes<float>([&](int k) { return a.v[k] * b.v[k]; });
+    return a.v * b.v;
 }
 STEREONAV_INLINE F operator/(F a, F b) {
-    return mapLanes<float>([&](int k) { return a.v[k] / b.v[k]; });
+    return a.v / b.v;
 }
 STEREONAV_INLINE F mulAdd(F a, F b, F c) {
     return a * b + c;
 }
-// As the processors do: the second where either is NaN.
-STEREONAV_INLINE F min(F a, F b) {
-    return mapLanes<float>([&](int k) { return a.v[k] < b.v[k] ? a.v[k] : b.v[k]; });
+STEREONAV_INLINE I asInt(F a) {
+    return reinterpret_cast<IntLanes>(a.v);
 }
-STEREONAV_INLINE F max(F a, F b) {
-    return mapLanes<float>([&](int k) { return a.v[k] > b.v[k] ? a.v[k] : b.v[k]; });
+STEREONAV_INLINE F asFloat(I a) {
+    return reinterpret_cast<FloatLanes>(a.v);
 }
-STEREONAV_INLINE F sqrt(F a) {
-    return mapLanes<float>([&](int k) { return __builtin_sqrtf(a.v[k]); });
+STEREONAV_INLINE I select(M m, I yes, I no) {
+    return (yes.v & m.v) | (no.v & ~m.v);
 }
-STEREONAV_INLINE F approxReciprocal(F a) {
-    return F(1.0f) / a;
-}
-STEREONAV_INLINE F approxRsqrt(F a) {
-    return F(1.0f) / sqrt(a);
+STEREONAV_INLINE F select(M m, F yes, F no) {
+    return asFloat(select(m, asInt(yes), asInt(no)));
 }
 STEREONAV_INLINE M operator<(F a, F b) {
-    return testLanes([&](int k) { return a.v[k] < b.v[k]; });
+    return {a.v < b.v};
 }
 STEREONAV_INLINE M operator<=(F a, F b) {
-    return testLanes([&](int k) { return a.v[k] <= b.v[k]; });
+    return {a.v <= b.v};
 }
 STEREONAV_INLINE M operator>(F a, F b) {
     return b < a;
@@ -117,132 +115,157 @@ STEREONAV_INLINE M operator>(F a, F b) {
 STEREONAV_INLINE M operator>=(F a, F b) {
     return b <= a;
 }
-STEREONAV_INLINE F select(M m, F yes, F no) {
-    return mapLanes<float>([&](int k) { return (m.v >> k & 1u) != 0 ? yes.v[k] : no.v[k]; });
+#if defined(__SSE2__)
+STEREONAV_INLINE F min(F a, F b) {
+    return _mm_min_ps(a.v, b.v);
+}
+STEREONAV_INLINE F max(F a, F b) {
+    return _mm_max_ps(a.v, b.v);
+}
+STEREONAV_INLINE F sqrt(F a) {
+    return _mm_sqrt_ps(a.v);
+}
+#else
+// As x86 does: the second where either is NaN.
+STEREONAV_INLINE F min(F a, F b) {
+    return select(a < b, a, b);
+}
+STEREONAV_INLINE F max(F a, F b) {
+    return select(a > b, a, b);
+}
+STEREONAV_INLINE F sqrt(F a) {
+    return FloatLanes{__builtin_sqrtf(a.v[0]), __builtin_sqrtf(a.v[1]), __builtin_sqrtf(a.v[2]),
+                      __builtin_sqrtf(a.v[3])};
+}
+#endif
+STEREONAV_INLINE F approxReciprocal(F a) {
+    return F(1.0f) / a;
+}
+STEREONAV_INLINE F approxRsqrt(F a) {
+    return F(1.0f) / sqrt(a);
 }
 STEREONAV_INLINE F loadF(const float* p) {
-    return mapLanes<float>([&](int k) { return p[k]; });
+    F r;
+    std::memcpy(&r.v, p, sizeof r.v);
+    return r;
 }
 STEREONAV_INLINE void store(float* p, F a) {
-    std::memcpy(p, a.v, sizeof a.v);
+    std::memcpy(p, &a.v, sizeof a.v);
 }
 STEREONAV_INLINE void store(float* p, F a, M m) {
-    for (int k = 0; k < kLanes; ++k)
-        if ((m.v >> k & 1u) != 0) p[k] = a.v[k];
+    for (std::uint32_t k = 0, on = bits(m); k < kLanes; ++k)
+        if ((on >> k & 1u) != 0) p[k] = a.v[k];
 }
 STEREONAV_INLINE F laneIndexF() {
-    return Lanes<float>{{0, 1, 2, 3}};
+    return FloatLanes{0, 1, 2, 3};
 }
 
 // Integer arithmetic wraps, as the processors' does.
-template <typename Op>
-STEREONAV_INLINE I wrapLanes(I a, I b, Op op) {
-    return mapLanes<std::int32_t>([&](int k) {
-        return static_cast<std::int32_t>(
-            op(static_cast<std::uint32_t>(a.v[k]), static_cast<std::uint32_t>(b.v[k])));
-    });
-}
 STEREONAV_INLINE I operator+(I a, I b) {
-    return wrapLanes(a, b, [](std::uint32_t x, std::uint32_t y) { return x + y; });
+    return words(a) + words(b);
 }
 STEREONAV_INLINE I operator-(I a, I b) {
-    return wrapLanes(a, b, [](std::uint32_t x, std::uint32_t y) { return x - y; });
+    return words(a) - words(b);
 }
 STEREONAV_INLINE I operator*(I a, I b) {
-    return wrapLanes(a, b, [](std::uint32_t x, std::uint32_t y) { return x * y; });
+    return words(a) * words(b);
 }
 STEREONAV_INLINE I operator&(I a, I b) {
-    return wrapLanes(a, b, [](std::uint32_t x, std::uint32_t y) { return x & y; });
+    return a.v & b.v;
 }
 STEREONAV_INLINE I operator|(I a, I b) {
-    return wrapLanes(a, b, [](std::uint32_t x, std::uint32_t y) { return x | y; });
+    return a.v | b.v;
 }
 STEREONAV_INLINE I operator^(I a, I b) {
-    return wrapLanes(a, b, [](std::uint32_t x, std::uint32_t y) { return x ^ y; });
-}
-STEREONAV_INLINE I shiftLeft(I a, I n) {
-    return wrapLanes(a, n, [](std::uint32_t x, std::uint32_t s) { return s < 32 ? x << s : 0u; });
-}
-STEREONAV_INLINE I shiftRight(I a, I n) {  // arithmetic
-    return mapLanes<std::int32_t>([&](int k) { return a.v[k] >> (n.v[k] < 32 ? n.v[k] : 31); });
-}
-template <int n>
-STEREONAV_INLINE I shiftLeft(I a) {
-    return shiftLeft(a, I(n));
-}
-template <int n>
-STEREONAV_INLINE I shiftRight(I a) {
-    return shiftRight(a, I(n));
-}
-STEREONAV_INLINE I min(I a, I b) {
-    return mapLanes<std::int32_t>([&](int k) { return a.v[k] < b.v[k] ? a.v[k] : b.v[k]; });
-}
-STEREONAV_INLINE I max(I a, I b) {
-    return mapLanes<std::int32_t>([&](int k) { return a.v[k] > b.v[k] ? a.v[k] : b.v[k]; });
+    return a.v ^ b.v;
 }
 STEREONAV_INLINE M operator<(I a, I b) {
-    return testLanes([&](int k) { return a.v[k] < b.v[k]; });
-}
-// 0 <= a <= last
-STEREONAV_INLINE M within(I a, I last) {
-    return andNot(maskFromBits(0xFu), (a < I(0)) | (last < a));
+    return {a.v < b.v};
 }
 STEREONAV_INLINE M operator>(I a, I b) {
     return b < a;
 }
 STEREONAV_INLINE M operator==(I a, I b) {
-    return testLanes([&](int k) { return a.v[k] == b.v[k]; });
+    return {a.v == b.v};
 }
-STEREONAV_INLINE I select(M m, I yes, I no) {
-    return mapLanes<std::int32_t>([&](int k) { return (m.v >> k & 1u) != 0 ? yes.v[k] : no.v[k]; });
+// 0 <= a <= last
+STEREONAV_INLINE M within(I a, I last) {
+    return {(a.v >= 0) & (a.v <= last.v)};
+}
+STEREONAV_INLINE I min(I a, I b) {
+    return select(a < b, a, b);
+}
+STEREONAV_INLINE I max(I a, I b) {
+    return select(a > b, a, b);
+}
+// A shift by 32 and more gives 0, an arithmetic one the sign.
+STEREONAV_INLINE I shiftLeft(I a, I n) {
+    return select(within(n, I(31)), I(words(a) << (words(n) & 31u)), I(0));
+}
+STEREONAV_INLINE I shiftRight(I a, I n) {  // arithmetic
+    return a.v >> select(within(n, I(31)), n, I(31)).v;
+}
+template <int n>
+STEREONAV_INLINE I shiftLeft(I a) {
+    return words(a) << n;
+}
+template <int n>
+STEREONAV_INLINE I shiftRight(I a) {
+    return a.v >> n;
 }
 STEREONAV_INLINE F toFloat(I a) {
-    return mapLanes<float>([&](int k) { return static_cast<float>(a.v[k]); });
+    return __builtin_convertvector(a.v, FloatLanes);
 }
-// Out of range and NaN become the smallest integer, as the processors do.
+// Out of range and NaN become the smallest integer, as x86 does.
 STEREONAV_INLINE I truncateToInt(F a) {
-    return mapLanes<std::int32_t>([&](int k) {
-        return a.v[k] > -2147483648.0f && a.v[k] < 2147483648.0f ? static_cast<std::int32_t>(a.v[k])
-                                                                 : INT32_MIN;
-    });
+#if defined(__SSE2__)
+    return reinterpret_cast<IntLanes>(_mm_cvttps_epi32(a.v));
+#else
+    const M fits = (a > F(-2147483648.0f)) & (a < F(2147483648.0f));
+    return select(fits, I(__builtin_convertvector(select(fits, a, F(0.0f)).v, IntLanes)), I(INT32_MIN));
+#endif
 }
 // Largest integer <= a, for |a| < 2^31.
 STEREONAV_INLINE I floorToInt(F a) {
     const I t = truncateToInt(a);
     return t - select(a < toFloat(t), I(1), I(0));
 }
-STEREONAV_INLINE I asInt(F a) {
-    I r;
-    std::memcpy(r.v, a.v, sizeof r.v);
-    return r;
-}
-STEREONAV_INLINE F asFloat(I a) {
-    F r;
-    std::memcpy(r.v, a.v, sizeof r.v);
-    return r;
-}
 STEREONAV_INLINE I laneIndex() {
-    return Lanes<std::int32_t>{{0, 1, 2, 3}};
+    return IntLanes{0, 1, 2, 3};
 }
 STEREONAV_INLINE I loadI(const void* p) {
     I r;
-    std::memcpy(r.v, p, sizeof r.v);
+    std::memcpy(&r.v, p, sizeof r.v);
     return r;
 }
 STEREONAV_INLINE void store(void* p, I a) {
-    std::memcpy(p, a.v, sizeof a.v);
+    std::memcpy(p, &a.v, sizeof a.v);
 }
 STEREONAV_INLINE void store(void* p, I a, M m) {
-    for (int k = 0; k < kLanes; ++k)
-        if ((m.v >> k & 1u) != 0) static_cast<std::int32_t*>(p)[k] = a.v[k];
+    for (std::uint32_t k = 0, on = bits(m); k < kLanes; ++k)
+        if ((on >> k & 1u) != 0) static_cast<std::int32_t*>(p)[k] = a.v[k];
 }
 // Lanes outside m keep `otherwise` and touch no memory.
+STEREONAV_INLINE I gather(const std::int32_t* base, I index, M m, I otherwise) {
+    const std::uint32_t on = bits(m);
+    std::int32_t a = otherwise.v[0], b = otherwise.v[1], c = otherwise.v[2], d = otherwise.v[3];
+    if ((on & 1u) != 0) a = base[index.v[0]];
+    if ((on & 2u) != 0) b = base[index.v[1]];
+    if ((on & 4u) != 0) c = base[index.v[2]];
+    if ((on & 8u) != 0) d = base[index.v[3]];
+    return IntLanes{a, b, c, d};
+}
 STEREONAV_INLINE F gather(const float* base, I index, M m, F otherwise) {
-    return mapLanes<float>([&](int k) { return (m.v >> k & 1u) != 0 ? base[index.v[k]] : otherwise.v[k]; });
+    const std::uint32_t on = bits(m);
+    float a = otherwise.v[0], b = otherwise.v[1], c = otherwise.v[2], d = otherwise.v[3];
+    if ((on & 1u) != 0) a = base[index.v[0]];
+    if ((on & 2u) != 0) b = base[index.v[1]];
+    if ((on & 4u) != 0) c = base[index.v[2]];
+    if ((on & 8u) != 0) d = base[index.v[3]];
+    return FloatLanes{a, b, c, d};
 }
 STEREONAV_INLINE I gather(const std::uint32_t* base, I index, M m) {
-    return mapLanes<std::int32_t>(
-        [&](int k) { return (m.v >> k & 1u) != 0 ? static_cast<std::int32_t>(base[index.v[k]]) : 0; });
+    return gather(reinterpret_cast<const std::int32_t*>(base), index, m, I(0));
 }
 struct FPair {
     F first, second;
@@ -257,74 +280,101 @@ struct IPair {
 STEREONAV_INLINE IPair gatherPair(const std::uint32_t* base, I index, M m) {
     return {gather(base, index, m), gather(base + 1, index, m)};
 }
+// load(index) of each lane of m, 0 of the others.
+template <typename Load>
+STEREONAV_INLINE I loadLanes(I index, M m, Load load) {
+    const std::uint32_t on = bits(m);
+    return IntLanes{(on & 1u) != 0 ? load(index.v[0]) : 0, (on & 2u) != 0 ? load(index.v[1]) : 0,
+                    (on & 4u) != 0 ? load(index.v[2]) : 0, (on & 8u) != 0 ? load(index.v[3]) : 0};
+}
 // base[index] of bytes.
 STEREONAV_INLINE I gatherByte(const std::uint8_t* base, I index, M m) {
-    return mapLanes<std::int32_t>([&](int k) { return (m.v >> k & 1) ? std::int32_t{base[index.v[k]]} : 0; });
+    return loadLanes(index, m, [&](std::int32_t at) { return std::int32_t{base[at]}; });
 }
 // base[index] and base[index + 1] of 16-bit numbers, the first in the low half.
 STEREONAV_INLINE I gatherHalves(const void* base, I index, M m) {
-    return mapLanes<std::int32_t>([&](int k) {
-        std::int32_t two = 0;
-        if (m.v >> k & 1) std::memcpy(&two, static_cast<const char*>(base) + 2 * std::int64_t{index.v[k]}, 4);
+    return loadLanes(index, m, [&](std::int32_t at) {
+        std::int32_t two;
+        std::memcpy(&two, static_cast<const char*>(base) + 2 * std::int64_t{at}, 4);
         return two;
     });
 }
 // Lanes of m to base[index]; indices differ.
 STEREONAV_INLINE void scatter(float* base, I index, F a, M m) {
-    for (int k = 0; k < kLanes; ++k)
-        if (m.v >> k & 1) base[index.v[k]] = a.v[k];
+    for (std::uint32_t k = 0, on = bits(m); k < kLanes; ++k)
+        if ((on >> k & 1u) != 0) base[index.v[k]] = a.v[k];
 }
 STEREONAV_INLINE void scatter(std::int32_t* base, I index, I a, M m) {
-    for (int k = 0; k < kLanes; ++k)
-        if (m.v >> k & 1) base[index.v[k]] = a.v[k];
+    for (std::uint32_t k = 0, on = bits(m); k < kLanes; ++k)
+        if ((on >> k & 1u) != 0) base[index.v[k]] = a.v[k];
 }
 // table[index] for a table of sixteen entries; index in [0, 16).
 STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {
-    return mapLanes<std::int32_t>([&](int k) { return table[index.v[k]]; });
+    return IntLanes{table[index.v[0]], table[index.v[1]], table[index.v[2]], table[index.v[3]]};
 }
-// Sixteen-bit halves of each lane: a + (b - a) * t / 2^15, rounded; t in [0, 2^15), |b - a| < 2^15.
-STEREONAV_INLINE std::int32_t lerpHalf(std::int32_t a, std::int32_t b, std::int32_t t) {
-    const std::int32_t d = static_cast<std::int16_t>(b - a);
-    return static_cast<std::int16_t>(a + (((d * t >> 14) + 1) >> 1));
-}
+#if defined(__SSE2__)
+// Sixteen-bit halves of each lane: a + (b - a) * t / 2^15, rounded; t in [0, 2^15), |b - a| < 2^15. With the
+// product p = high * 2^16 + low, (p + 2^14) >> 15 is 2 high + ((low >> 14) + 1 >> 1).
 STEREONAV_INLINE I lerpHalves(I a, I b, I t) {
-    return mapLanes<std::int32_t>([&](int k) {
-        const std::int32_t low =
-            lerpHalf(static_cast<std::int16_t>(a.v[k]), static_cast<std::int16_t>(b.v[k]),
-                     static_cast<std::int16_t>(t.v[k]));
-        const std::int32_t high = lerpHalf(a.v[k] >> 16, b.v[k] >> 16, t.v[k] >> 16);
-        return static_cast<std::int32_t>(static_cast<std::uint32_t>(high) << 16 |
-                                         (static_cast<std::uint32_t>(low) & 0xffffu));
-    });
+    const auto from = reinterpret_cast<__m128i>(a.v), by = reinterpret_cast<__m128i>(t.v);
+    const __m128i d = _mm_sub_epi16(reinterpret_cast<__m128i>(b.v), from);
+    const __m128i high = _mm_mulhi_epi16(d, by), low = _mm_srli_epi16(_mm_mullo_epi16(d, by), 14);
+    const __m128i rest = _mm_srli_epi16(_mm_add_epi16(low, _mm_set1_epi16(1)), 1);
+    return reinterpret_cast<IntLanes>(_mm_add_epi16(from, _mm_add_epi16(_mm_add_epi16(high, high), rest)));
 }
 // Sums of the products of sixteen-bit halves.
 STEREONAV_INLINE I dotHalves(I a, I b) {
-    return mapLanes<std::int32_t>([&](int k) {
-        return static_cast<std::int16_t>(a.v[k]) * static_cast<std::int16_t>(b.v[k]) +
-               (a.v[k] >> 16) * (b.v[k] >> 16);
-    });
+    return reinterpret_cast<IntLanes>(
+        _mm_madd_epi16(reinterpret_cast<__m128i>(a.v), reinterpret_cast<__m128i>(b.v)));
 }
+#else
+STEREONAV_INLINE I lowHalf(I a) {
+    return shiftRight<16>(shiftLeft<16>(a));
+}
+STEREONAV_INLINE I lerpHalf(I a, I b, I t) {
+    return a + shiftRight<1>(shiftRight<14>(lowHalf(b - a) * t) + I(1));
+}
+STEREONAV_INLINE I lerpHalves(I a, I b, I t) {
+    const I low = lerpHalf(lowHalf(a), lowHalf(b), lowHalf(t));
+    const I high = lerpHalf(shiftRight<16>(a), shiftRight<16>(b), shiftRight<16>(t));
+    return shiftLeft<16>(high) | (low & I(0xffff));
+}
+STEREONAV_INLINE I dotHalves(I a, I b) {
+    return lowHalf(a) * lowHalf(b) + shiftRight<16>(a) * shiftRight<16>(b);
+}
+#endif
 
+struct D {
+    DoublePairLanes low, high;
+    D() = default;
+    STEREONAV_INLINE D(DoublePairLanes l, DoublePairLanes h) : low(l), high(h) {}
+    STEREONAV_INLINE D(double x) : low(DoublePairLanes{x, x}), high(low) {}
+};
 STEREONAV_INLINE D operator+(D a, D b) {
-    return mapLanes<double>([&](int k) { return a.v[k] + b.v[k]; });
+    return {a.low + b.low, a.high + b.high};
 }
 STEREONAV_INLINE D operator-(D a, D b) {
-    return mapLanes<double>([&](int k) { return a.v[k] - b.v[k]; });
+    return {a.low - b.low, a.high - b.high};
 }
 STEREONAV_INLINE D operator*(D a, D b) {
-    return mapLanes<double>([&](int k) { return a.v[k] * b.v[k]; });
+    return {a.low * b.low, a.high * b.high};
 }
 STEREONAV_INLINE M operator<(D a, D b) {
-    return testLanes([&](int k) { return a.v[k] < b.v[k]; });
+    return {__builtin_shufflevector(reinterpret_cast<IntLanes>(a.low < b.low),
+                                    reinterpret_cast<IntLanes>(a.high < b.high), 0, 2, 4, 6)};
 }
 STEREONAV_INLINE D toDouble(F a) {
-    return mapLanes<double>([&](int k) { return static_cast<double>(a.v[k]); });
+    const FloatPairLanes low{a.v[0], a.v[1]}, high{a.v[2], a.v[3]};
+    return {__builtin_convertvector(low, DoublePairLanes), __builtin_convertvector(high, DoublePairLanes)};
 }
 STEREONAV_INLINE D toDouble(I a) {
-    return mapLanes<double>([&](int k) { return static_cast<double>(a.v[k]); });
+    const IntPairLanes low{a.v[0], a.v[1]}, high{a.v[2], a.v[3]};
+    return {__builtin_convertvector(low, DoublePairLanes), __builtin_convertvector(high, DoublePairLanes)};
 }
 STEREONAV_INLINE F toFloat(D a) {
-    return mapLanes<float>([&](int k) { return static_cast<float>(a.v[k]); });
+    const auto low = __builtin_convertvector(a.low, FloatPairLanes);
+    const auto high = __builtin_convertvector(a.high, FloatPairLanes);
+    return FloatLanes{low[0], low[1], high[0], high[1]};
 }
 
 }  // namespace stereonav::STEREONAV_ISA

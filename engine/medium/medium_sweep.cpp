@@ -22,8 +22,7 @@ namespace stereonav {
 namespace {
 
 const SweepKernels& kernelsFor(SimdTarget target) {
-    if (target == SimdTarget::Avx512) return avx512::kSweepKernels;
-    return target == SimdTarget::Avx2 ? avx2::kSweepKernels : plain::kSweepKernels;
+    return kernelsOf(target, plain::kSweepKernels, avx2::kSweepKernels, avx512::kSweepKernels);
 }
 
 void checkSpans(const SweepGeometry& geometry, std::span<MediumPicture> pictures,

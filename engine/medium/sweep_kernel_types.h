@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "engine/math/kernel_sets.h"
 #include "engine/volume/volume_kernel_types.h"
 
 namespace stereonav {
@@ -211,14 +212,6 @@ struct SweepKernels {
     void (*readTile)(const float* state, const PictureTile&);
 };
 
-namespace plain {
-extern const SweepKernels kSweepKernels;
-}
-namespace avx2 {
-extern const SweepKernels kSweepKernels;
-}
-namespace avx512 {
-extern const SweepKernels kSweepKernels;
-}
+STEREONAV_EACH_SET(extern const SweepKernels kSweepKernels;)
 
 }  // namespace stereonav

@@ -7,19 +7,12 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/math/kernel_sets.h"
 #include "engine/math/simd_target.h"
 
 namespace stereonav {
 
-namespace plain {
-void contrastRow(const ContrastRow&);
-}
-namespace avx2 {
-void contrastRow(const ContrastRow&);
-}
-namespace avx512 {
-void contrastRow(const ContrastRow&);
-}
+STEREONAV_EACH_SET(void contrastRow(const ContrastRow&);)
 
 namespace {
 
@@ -52,14 +45,8 @@ ContrastRow rowOf(const Plane<std::uint32_t>& color, const Plane<std::uint8_t>& 
 }  // namespace
 
 ContrastFunction fastestContrast() {
-    switch (availableTarget(SimdTarget::Auto)) {
-        case SimdTarget::Avx512:
-            return avx512::contrastRow;
-        case SimdTarget::Avx2:
-            return avx2::contrastRow;
-        default:
-            return plain::contrastRow;
-    }
+    return kernelsOf<ContrastFunction>(SimdTarget::Auto, plain::contrastRow, avx2::contrastRow,
+                                       avx512::contrastRow);
 }
 
 ContrastCounts findContrast(const Plane<std::uint32_t>& color, const Plane<std::uint8_t>& holes,

@@ -1,26 +1,18 @@
 // Chooses the widest kernel that the processor has.
 #include "engine/stereo/row_kernels.h"
 
+#include "engine/math/kernel_sets.h"
+#include "engine/math/simd_target.h"
+
 namespace stereonav {
 
-namespace plain {
-void resampleRow(const ResampleRow& row);
-}
-namespace avx2 {
-void resampleRow(const ResampleRow& row);
-}
-namespace avx512 {
-void resampleRow(const ResampleRow& row);
-}
+STEREONAV_EACH_SET(void resampleRow(const ResampleRow& row);)
 
 Resamplers resamplers() {
-    const bool avx2Supported = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    const bool avx512Supported = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                                 __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-                                 __builtin_cpu_supports("avx512cd");
+    const SimdTarget widest = availableTarget(SimdTarget::Auto);
     return {{"plain", plain::resampleRow, true},
-            {"avx2", avx2::resampleRow, avx2Supported},
-            {"avx512", avx512::resampleRow, avx512Supported}};
+            {"avx2", avx2::resampleRow, widest >= SimdTarget::Avx2},
+            {"avx512", avx512::resampleRow, widest >= SimdTarget::Avx512}};
 }
 
 ResampleFunction fastestResampler() {

@@ -10,7 +10,7 @@ namespace stereonav {
 struct NamedResampler {
     std::string_view name;  // plain, avx2, avx512
     ResampleFunction function;
-    bool supported;  // by this processor
+    bool supported;  // by this processor, and not hidden by STEREONAV_SIMD
 };
 
 // Narrowest first; the last supported one is the fastest.

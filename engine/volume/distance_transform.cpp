@@ -13,38 +13,22 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/math/kernel_sets.h"
 #include "engine/math/simd_target.h"
 #include "engine/volume/distance_kernel_types.h"
 
 namespace stereonav {
 
-namespace plain {
-void combineDistances(const DistancePlane& plane, float* to, std::ptrdiff_t stride);
-void finishDistances(const DistancePlane& plane, const DistanceUnits& units, std::uint16_t* to,
-                     std::ptrdiff_t stride, int width);
-}  // namespace plain
-namespace avx2 {
-void combineDistances(const DistancePlane& plane, float* to, std::ptrdiff_t stride);
-void finishDistances(const DistancePlane& plane, const DistanceUnits& units, std::uint16_t* to,
-                     std::ptrdiff_t stride, int width);
-}  // namespace avx2
-namespace avx512 {
-void combineDistances(const DistancePlane& plane, float* to, std::ptrdiff_t stride);
-void finishDistances(const DistancePlane& plane, const DistanceUnits& units, std::uint16_t* to,
-                     std::ptrdiff_t stride, int width);
-}  // namespace avx512
+STEREONAV_EACH_SET(void combineDistances(const DistancePlane& plane, float* to, std::ptrdiff_t stride);
+                   void finishDistances(const DistancePlane& plane, const DistanceUnits& units,
+                                        std::uint16_t* to, std::ptrdiff_t stride, int width);)
 
 namespace {
 
 DistanceKernels kernelsFor(SimdTarget target) {
-    switch (availableTarget(target)) {
-        case SimdTarget::Avx512:
-            return {avx512::combineDistances, avx512::finishDistances};
-        case SimdTarget::Avx2:
-            return {avx2::combineDistances, avx2::finishDistances};
-        default:
-            return {plain::combineDistances, plain::finishDistances};
-    }
+    return kernelsOf<DistanceKernels>(target, {plain::combineDistances, plain::finishDistances},
+                                      {avx2::combineDistances, avx2::finishDistances},
+                                      {avx512::combineDistances, avx512::finishDistances});
 }
 
 // A half-open range of indices; empty ranges join as nothing.

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "engine/math/kernel_sets.h"
+
 namespace stereonav {
 
 // Layout as in surface_cells.h: bricks of 16^3 cells; records of 64 bytes, 16 words: 4 of values, 8 normals.
@@ -102,14 +104,6 @@ struct VolumeKernels {
     void (*shadeRow)(const VolumeData&, const VolumeView&, int y, int x0, int x1, const VolumeTarget&);
 };
 
-namespace plain {
-extern const VolumeKernels kVolumeKernels;
-}
-namespace avx2 {
-extern const VolumeKernels kVolumeKernels;
-}
-namespace avx512 {
-extern const VolumeKernels kVolumeKernels;
-}
+STEREONAV_EACH_SET(extern const VolumeKernels kVolumeKernels;)
 
 }  // namespace stereonav

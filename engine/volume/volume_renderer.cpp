@@ -20,8 +20,7 @@ namespace {
 constexpr int kTileWidth = 64, kTileHeight = 32;
 
 const VolumeKernels& kernelsFor(SimdTarget target) {
-    if (target == SimdTarget::Avx512) return avx512::kVolumeKernels;
-    return target == SimdTarget::Avx2 ? avx2::kVolumeKernels : plain::kVolumeKernels;
+    return kernelsOf(target, plain::kVolumeKernels, avx2::kVolumeKernels, avx512::kVolumeKernels);
 }
 
 CellData cellDataOf(const SurfaceCells& cells, bool leaping) {

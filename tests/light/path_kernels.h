@@ -11,16 +11,6 @@
 
 namespace stereonav::test {
 
-// Those that this processor has.
-inline std::vector<SimdTarget> simdTargets() {
-    std::vector<SimdTarget> targets;
-    for (const SimdTarget target : {SimdTarget::Plain, SimdTarget::Avx2, SimdTarget::Avx512}) try {
-            targets.push_back(availableTarget(target));
-        } catch (const Error&) {
-        }
-    return targets;
-}
-
 struct TestRay {
     glm::dvec3 voxel, direction;  // direction: unit, along the volume's axes
     double isovalue = 0;

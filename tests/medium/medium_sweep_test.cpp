@@ -6,7 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "simd_targets.h"
+#include "engine/math/simd_target.h"
 #include "sweep_scenes.h"
 
 namespace stereonav {
@@ -14,7 +14,6 @@ namespace {
 
 using test::makeField;
 using test::sun;
-using test::targets;
 using test::viewFrom;
 
 // Light that eyes read is kept in 15 bits, weights between voxels in 14; the rest is float. Of light up to 1.
@@ -206,7 +205,7 @@ TEST_P(MediumSweepAgrees, withThePlainSweep) {
     const unsigned seed = 7 * static_cast<unsigned>(c.kind) + c.lamp;
     const Scene scene = sceneOf(c.kind, c.model, c.lamp, c.forward, seed);
     const std::vector<MediumPicture> truth = plain(scene);
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         const Difference d = differenceOf(truth, fast(scene, target));
         EXPECT_GT(d.brightest, 1e-3);
         // Layers have hard edges where heights are unknown, and the nearest one gives the normal: a sample
@@ -258,7 +257,7 @@ TEST(MediumSweep, agreesOnBakedLight) {
             scene.look.baked.lampShare = 0.3f;
             const std::vector<MediumPicture> truth = plain(scene);
             EXPECT_GT(differenceOf(lamp, truth).light, 20 * kTolerance) << static_cast<int>(kind);
-            for (const SimdTarget target : targets()) {
+            for (const SimdTarget target : simdTargets()) {
                 const Difference d = differenceOf(truth, fast(scene, target));
                 // Layers: as above.
                 EXPECT_LE(d.beyond, kind == Kind::Layers ? d.pixels / 100 : 0)
@@ -290,7 +289,7 @@ TEST(MediumSweep, scatteredLightLeavesALampsCone) {
                 beside += straight[0].light.at(x, y).y < 1e-6f && truth[0].light.at(x, y).y > 4 * kTolerance;
             }
         EXPECT_GT(beside, 10) << forward;
-        for (const SimdTarget target : targets()) {
+        for (const SimdTarget target : simdTargets()) {
             MediumSweep sweep(s.medium, target);
             std::vector<MediumPicture> spot(2), after(2);
             sweep.render(s.look, s.setting, s.eyes, s.eyes[0].head, s.time, spot);
@@ -327,7 +326,7 @@ TEST(MediumSweep, agreesWhereSlabsLean) {
                 EXPECT_GT(differenceOf(truth, plainSweep(s.medium, s.look, s.setting, upright, s.time)).light,
                           kTolerance)
                     << "V11 does nothing here";
-                for (const SimdTarget target : targets())
+                for (const SimdTarget target : simdTargets())
                     EXPECT_LE(differenceOf(truth, fast(s, target)).light, kTolerance)
                         << static_cast<int>(kind) << lamp << ' ' << degrees << ' '
                         << static_cast<int>(target);
@@ -358,7 +357,7 @@ TEST(MediumSweep, agreesFromNear) {
             const glm::dvec3 target = glm::mix(box.low, box.high, share);
             for (EyeView& eye : scene.eyes) eye = viewFrom(target - 4.0 * ahead, target, 0.02, 27, 21);
             const std::vector<MediumPicture> truth = plain(scene);
-            for (const SimdTarget simd : targets()) {
+            for (const SimdTarget simd : simdTargets()) {
                 const Difference d = differenceOf(truth, fast(scene, simd));
                 EXPECT_GT(d.brightest, 1e-3);
                 EXPECT_LE(d.light, kTolerance) << static_cast<int>(simd) << ' ' << share.x << ' ' << wide;
@@ -428,7 +427,7 @@ TEST(MediumSweep, startsWhereItIsTold) {
 TEST(MediumSweep, showsNothingOfAnEmptyMedium) {
     const Scene scene = sceneOf(Kind::Grid, MediumModel::Indirect, false, true, 8);
     const Medium empty;
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         MediumSweep sweep(empty, target);
         std::vector<MediumPicture> pictures(2);
         sweep.render(scene.look, scene.setting, scene.eyes, scene.eyes[0].head, 0, pictures);

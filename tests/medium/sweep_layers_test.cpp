@@ -3,8 +3,8 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "engine/math/simd_target.h"
 #include "engine/medium/medium_sweep.h"
-#include "simd_targets.h"
 #include "sweep_scenes.h"
 
 namespace stereonav {
@@ -69,7 +69,7 @@ TEST(SweepLayers, AgreeWithThePlainSweep) {
                     const std::vector<EyeView> eyes{test::viewFrom(view.eye, {0, 0, 0}, view.fov, 21, 18)};
                     const auto truth = plainSweep(
                         shown, look, setting, makeSweepGeometry(shown, look, setting, eyes, eyes[0].head), 0);
-                    for (const SimdTarget target : test::targets()) {
+                    for (const SimdTarget target : simdTargets()) {
                         SCOPED_TRACE(std::string(medium.name) + ", " + view.name + ", model " +
                                      std::to_string(static_cast<int>(model)) + ", side " +
                                      std::to_string(side) + ", target " +

@@ -2,8 +2,8 @@
 #include <limits>
 
 #include "engine/base/parallel.h"
+#include "engine/math/simd_target.h"
 #include "engine/medium/medium_sweep.h"
-#include "simd_targets.h"
 #include "sweep_scenes.h"
 
 namespace stereonav {
@@ -11,7 +11,6 @@ namespace {
 
 using test::makeField;
 using test::sun;
-using test::targets;
 using test::viewFrom;
 
 constexpr int kVoxels = 33;
@@ -119,7 +118,7 @@ TEST(SweepShading, betweenPlacesIsNearlyAsAtEachSample) {
         for (const Bound& bound : c.bounds)
             for (const bool forward : {true, false}) {
                 const Scene scene = sceneOf(c.shape, c.weight, bound.pixel, forward);
-                for (const SimdTarget target : targets()) {
+                for (const SimdTarget target : simdTargets()) {
                     const Plane<glm::vec4> truth = lightOf(scene, 0, target);
                     const Error e = errorOf(truth, lightOf(scene, 1, target));
                     EXPECT_LE(e.rms, bound.rms) << bound.pixel << forward;
@@ -134,7 +133,7 @@ TEST(SweepShading, betweenPlacesIsNearlyAsAtEachSample) {
 TEST(SweepShading, isOfEachSampleWherePlacesLieFarApart) {
     const Scene scene = sceneOf(Shape::Block, Weight::Ramp, 0.15, true);
     const double none = std::numeric_limits<double>::quiet_NaN();
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         const Plane<glm::vec4> truth = lightOf(scene, 0, target);
         for (const double width : {0.1, 1e-30, -1.0, none})
             EXPECT_EQ(errorOf(truth, lightOf(scene, width, target)).worst, 0) << width;
@@ -144,7 +143,7 @@ TEST(SweepShading, isOfEachSampleWherePlacesLieFarApart) {
 
 TEST(SweepShading, isSoundAtAnyWidth) {
     const Scene coarse = sceneOf(Shape::Block, Weight::Column, 3, true);
-    for (const SimdTarget target : targets())
+    for (const SimdTarget target : simdTargets())
         for (const double width : {1e-3, 16.0, 1e30, std::numeric_limits<double>::infinity()}) {
             const Plane<glm::vec4> light = lightOf(coarse, width, target);
             EXPECT_LE(errorOf(lightOf(coarse, 0, target), light).worst, 0.5);
@@ -158,7 +157,7 @@ TEST(SweepShading, isNearFromInside) {
         for (const double side : {-1.0, 1.0}) {
             Scene scene = sceneOf(Shape::Ball, weight, 0.1, true);
             scene.eye = viewFrom({0.1, 0.2, 0.3}, {0.1 + side, 0.5, -side}, 0.4, 41, 35);
-            for (const SimdTarget target : targets()) {
+            for (const SimdTarget target : simdTargets()) {
                 const Error e = errorOf(lightOf(scene, 0, target), lightOf(scene, 1, target));
                 EXPECT_LE(e.rms, 1e-3);
                 EXPECT_LE(e.worst, 0.03);
@@ -173,7 +172,7 @@ TEST(SweepShading, holdsForALamp) {
     scene.look.light.direction = glm::normalize(-scene.look.light.position);
     for (const MediumModel model : {MediumModel::Surface, MediumModel::Direct, MediumModel::Indirect}) {
         scene.look.model = model;
-        for (const SimdTarget target : targets()) {
+        for (const SimdTarget target : simdTargets()) {
             const Plane<glm::vec4> truth = lightOf(scene, 0, target);
             const Error e = errorOf(truth, lightOf(scene, 1, target));
             EXPECT_LE(e.rms, 2e-4);
@@ -186,7 +185,7 @@ TEST(SweepShading, holdsForALamp) {
 // Where nothing changes there is no gradient, and Blinn-Phong gives no light.
 TEST(SweepShading, leavesWhatHasNoGradientDark) {
     const Scene scene = sceneOf(Shape::Same, Weight::Column, 0.1, true);
-    for (const SimdTarget target : targets())
+    for (const SimdTarget target : simdTargets())
         EXPECT_LE(errorOf(lightOf(scene, 0, target), lightOf(scene, 1, target)).worst, 1e-7);
 }
 
@@ -195,7 +194,7 @@ TEST(SweepShading, isNearInPicturesOfAnySize) {
     for (const glm::ivec2& size :
          {glm::ivec2(1, 1), glm::ivec2(17, 9), glm::ivec2(16, 8), glm::ivec2(3, 40)}) {
         const Scene scene = sceneOf(Shape::Ball, Weight::Ramp, 0.15, true, size.x, size.y);
-        for (const SimdTarget target : targets())
+        for (const SimdTarget target : simdTargets())
             EXPECT_LE(errorOf(lightOf(scene, 0, target), lightOf(scene, 1, target)).worst, 1e-3) << size.x;
     }
 }

@@ -5,8 +5,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/math/simd_target.h"
 #include "engine/medium/medium_sweep.h"
-#include "simd_targets.h"
 #include "sweep_scenes.h"
 
 namespace stereonav {
@@ -14,7 +14,6 @@ namespace {
 
 using test::makeField;
 using test::sun;
-using test::targets;
 using test::viewFrom;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -141,7 +140,7 @@ Apart apart(const MediumPicture& a, const MediumPicture& b) {
 
 // Left eyes are the same, right ones within a level on average; the bound for all media.
 void expectAlike(const Scene& s, double mean, double most, const std::string& what) {
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         const auto own = pictures(s, 0, target), shared = pictures(s, kInfinity, target);
         const Apart left = apart(own[0], shared[0]), right = apart(own[1], shared[1]);
         EXPECT_LE(left.most, 1e-5) << what << static_cast<int>(target);
@@ -241,7 +240,7 @@ TEST(SweepSharing, anySizeOfPicture) {
     for (const auto& [width, height] :
          {std::pair{1, 1}, {2, 1}, {1, 40}, {16, 16}, {17, 5}, {31, 33}, {64, 3}}) {
         const Scene s = sceneOf(Kind::Grid, MediumModel::Indirect, true, width, height);
-        for (const SimdTarget target : targets()) {
+        for (const SimdTarget target : simdTargets()) {
             const auto own = pictures(s, 0, target), shared = pictures(s, kInfinity, target);
             EXPECT_LE(apart(own[0], shared[0]).most, 1e-5) << width << 'x' << height;
             // Pixels are wider than the whole blob here: no more than numbers, and no ghosts of one column.

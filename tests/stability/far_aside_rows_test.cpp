@@ -54,7 +54,7 @@ TEST_P(FarAside, OpaquePicturesEndAtTheSurface) {
                      "a ball, eyes " + std::to_string(static_cast<long long>(factor)) +
                          " times the zero-parallax distance apart",
                      "view depth off against the plain walk", bound, "");
-    for (const SimdTarget target : availableTargets())
+    for (const SimdTarget target : simdTargets())
         for (const EyeView* view : {&eyes.left, &eyes.right}) {
             const EyeImage image = castPicture(VolumeRenderer(scene, {target}), *view);
             for (int y = 0; y < view->height; ++y)
@@ -77,7 +77,7 @@ TEST_P(FarAside, TranslucentPicturesEndWithinTheLightThereIs) {
                      "a translucent ball, eyes " + std::to_string(static_cast<long long>(factor)) +
                          " times the zero-parallax distance apart",
                      "pixels whose first light is not in the volume", 0, "pixels");
-    for (const SimdTarget target : availableTargets())
+    for (const SimdTarget target : simdTargets())
         for (const EyeView* view : {&eyes.left, &eyes.right}) {
             const EyeImage image = castPicture(VolumeRenderer(scene, {target}), *view);
             for (int y = 0; y < view->height; ++y)
@@ -97,7 +97,7 @@ TEST(FarAsideEnds, WhateverTheSeparation) {
         for (const double factor : {1e8, 1e12, 1e30}) {
             const VolumeScene scene = ball(translucent);
             const StereoViews eyes = eyesApart(scene, factor * kZeroParallax);
-            for (const SimdTarget target : availableTargets()) {
+            for (const SimdTarget target : simdTargets()) {
                 const EyeImage image = castPicture(VolumeRenderer(scene, {target}), eyes.right);
                 for (int y = 0; y < eyes.right.height; ++y)
                     for (int x = 0; x < eyes.right.width; ++x)

@@ -139,7 +139,7 @@ TEST_P(BoxRow, IsWhatWholeBoxesSay) {
     Progress quiet;
     for (const OcclusionMethod method : {OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn,
                                          OcclusionMethod::Gaussian, OcclusionMethod::Chebyshev})
-        for (const SimdTarget target : availableTargets()) {
+        for (const SimdTarget target : simdTargets()) {
             const OpennessVolume open = estimateOpenness(volume, method, c.radius, quiet, target);
             for (int n = 0; n < 60; ++n) {
                 const auto at = static_cast<int>(static_cast<long long>(n) *

@@ -67,7 +67,7 @@ TEST_P(FastDepthRow, SweptSlabIsTheClosedForm) {
                          "a slab of optical depth " + shortNumber(GetParam()) + ", swept fast " +
                              (forward ? "with" : "against") + " the view in 1, 7 and 64 slices",
                          "error over 15 bits of light, rounding and the early stop", 1, "");
-        for (const SimdTarget target : availableTargets())
+        for (const SimdTarget target : simdTargets())
             for (const int slices : {1, 7, 64})
                 sawErrors(sweptSlab(GetParam(), forward, slices, target), GetParam(), forward, slices, row);
     }
@@ -87,7 +87,7 @@ TEST_P(FastSliceRow, AnyNumberIsTheClosedForm) {
             "a slab of optical depth 1 swept fast in " + std::to_string(GetParam()) + " slices, " +
                 (forward ? "with" : "against") + " the view",
             "error over 15 bits of light and rounding", 1, "");
-        for (const SimdTarget target : availableTargets())
+        for (const SimdTarget target : simdTargets())
             sawErrors(sweptSlab(1, forward, GetParam(), target), 1, forward, GetParam(), row);
     }
 }
@@ -171,7 +171,7 @@ TEST_P(SweepSoundRow, LightStaysWithinItsBounds) {
         for (const glm::dvec3 eye : {glm::dvec3(0, -3, 0), glm::dvec3(0.2, 0.1, 0)}) {
             MediumLook look;
             look.light = light;
-            for (const SimdTarget target : availableTargets())
+            for (const SimdTarget target : simdTargets())
                 for (const MediumPicture& p : sweep(medium, look, target, eye))
                     for (int y = 0; y < p.light.height(); ++y)
                         for (int x = 0; x < p.light.width(); ++x) {
@@ -218,7 +218,7 @@ TEST_P(SweepSizeRow, IsAsByTheBook) {
         for (EyeView& view : eyes) view.xMin = view.yMin = -0.3, view.xMax = view.yMax = 0.3;
         const SweepGeometry geometry = makeSweepGeometry(medium, look, setting, eyes, eye);
         const std::vector<MediumPicture> truth = plainSweep(medium, look, setting, geometry);
-        for (const SimdTarget target : availableTargets()) {
+        for (const SimdTarget target : simdTargets()) {
             std::vector<MediumPicture> pictures(2);
             MediumSweep(medium, target).render(look, setting, geometry, 0, pictures);
             float brightest = 0;

@@ -112,7 +112,7 @@ TEST_P(OpticalDepthRow, CastSlabIsTheClosedForm) {
     const auto level = [](double light) { return std::sqrt(light) * 1023; };
     const double least = level(-std::expm1(-extinction * (length - step))) - (depth > 6 ? 1 : 0.0);
     const double most = level(-std::expm1(-extinction * (length + step)));
-    for (const SimdTarget target : availableTargets()) {
+    for (const SimdTarget target : simdTargets()) {
         const EyeImage image = castPicture(VolumeRenderer(scene, {target}), view);
         for (int y = 0; y < 5; ++y)
             for (int x = 0; x < 5; ++x)

@@ -15,17 +15,6 @@
 
 namespace stereonav::test {
 
-inline std::vector<SimdTarget> availableTargets() {
-    std::vector<SimdTarget> all{SimdTarget::Plain};
-    for (const SimdTarget target : {SimdTarget::Avx2, SimdTarget::Avx512}) {
-        try {
-            all.push_back(availableTarget(target));
-        } catch (const Error&) {  // not on this machine
-        }
-    }
-    return all;
-}
-
 inline VolumeFrame frameOf(const glm::ivec3& size, const glm::dvec3& spacing) {
     VolumeFrame frame;
     frame.size = size;

@@ -16,14 +16,6 @@ namespace {
 
 using namespace test;
 
-std::vector<SimdTarget> targets() {
-    std::vector<SimdTarget> all{SimdTarget::Plain};
-    if (__builtin_cpu_supports("avx2")) all.push_back(SimdTarget::Avx2);
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
-        all.push_back(SimdTarget::Avx512);
-    return all;
-}
-
 using HeightOf = double (*)(int i, int j, std::mt19937& random);
 
 double waves(int i, int j, std::mt19937&) {
@@ -79,7 +71,7 @@ bool grazes(const TerrainScene& scene, const EyeView& view, int x, int y, double
 
 void compare(const TerrainScene& scene, const std::vector<EyeView>& views, StabilityRow& row) {
     long long hits = 0;
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         const TerrainRenderer renderer(scene, target);
         for (const EyeView& view : views) {
             EyeImage image;

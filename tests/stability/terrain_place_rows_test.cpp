@@ -43,7 +43,7 @@ double plainDepth(const TerrainScene& scene, const EyeView& view, double x, doub
 // Pixels, on every instruction set, whose depth differs from the plain walk's by more than a millionth (see
 // terrain_extent_rows_test.cpp) and that no ray within a thousandth of a pixel explains.
 void countOthers(const TerrainScene& scene, const EyeView& view, StabilityRow& row) {
-    for (const SimdTarget target : availableTargets()) {
+    for (const SimdTarget target : simdTargets()) {
         const EyeImage image = castPicture(TerrainRenderer(scene, target), view);
         for (int y = 0; y < view.height; ++y)
             for (int x = 0; x < view.width; ++x) {
@@ -76,7 +76,7 @@ TEST_P(NearPlaneRow, GroundAtTheNearDistance) {
     const Lens lens{31, 23, 0.5, 1.0, near};
     const double depth = near * (1 + share);
     const EyeView view = makeEyeView(poseFromAngles({0.3, 0.2, depth}, 0, -kPi / 2, 0), lens);
-    for (const SimdTarget target : availableTargets()) {
+    for (const SimdTarget target : simdTargets()) {
         const EyeImage image = castPicture(TerrainRenderer(scene, target), view);
         for (int y = 0; y < view.height; ++y)
             for (int x = 0; x < view.width; ++x) {
@@ -108,7 +108,7 @@ TEST_P(GrazingRow, FlatGroundIsMetWhereItIs) {
     Lens lens{5, 40, 0.8, 1.0, 1e-3 * above};
     lens.verticalFov = 2 * std::atan(20 * pixel);
     const EyeView view = makeEyeView(poseFromAngles({0, 0, above}, heading * kPi / 180, 0, 0), lens);
-    for (const SimdTarget target : availableTargets()) {
+    for (const SimdTarget target : simdTargets()) {
         const EyeImage image = castPicture(TerrainRenderer(scene, target), view);
         for (int y = 0; y < view.height; ++y)
             for (int x = 0; x < view.width; ++x) {
@@ -242,7 +242,7 @@ TEST_P(FarRow, NothingJittersFarFromTheOrigin) {
                         "error of the depths' change", 2 * 200 * (1e-7 + 0x1p-24) + 1e-8, "m");
     StabilityRow depths("far/depth/" + way(), "the same ground 1e7 m " + way() + " of the origin and at it",
                         "relative difference of depths, and of the plain walk's", 0x1p-22, "");
-    for (const SimdTarget target : availableTargets()) {
+    for (const SimdTarget target : simdTargets()) {
         const TerrainRenderer renderer(strip.scene, target);
         const EyeView here = makeEyeView(strip.poseAt(kFar, 0), lens),
                       there = makeEyeView(strip.poseAt(kFar, 1e-4), lens),

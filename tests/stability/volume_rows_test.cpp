@@ -53,7 +53,7 @@ bool isSeen(const VolumeScene& scene, const EyeView& view, int x, int y, double 
 
 long long otherPixels(const VolumeScene& scene, const EyeView& view) {
     long long others = 0;
-    for (const SimdTarget target : availableTargets()) {
+    for (const SimdTarget target : simdTargets()) {
         const EyeImage image = castPicture(VolumeRenderer(scene, {target}), view);
         for (int y = 0; y < view.height; ++y)
             for (int x = 0; x < view.width; ++x)
@@ -261,7 +261,7 @@ TEST(VolumePlaceRows, FarFromTheOrigin) {
                         "difference of depths", 4 * 2e-9 + 0.014 * kDepthBound, "m");
     StabilityRow steps("far/volume/step", "eyes in a lumen 1e7 m from the origin move by 1e-4 m",
                        "error of the depths' change", 2 * (4 * 2e-9 + 0.02 * kDepthBound), "m");
-    for (const SimdTarget target : availableTargets()) {
+    for (const SimdTarget target : simdTargets()) {
         const VolumeRenderer there(far, {target}), here(near, {target});
         const auto at = [&](const glm::dvec3& from, double ahead) {
             Pose pose = poseFromAngles(from + glm::dvec3(0.02), 0.4, 0.2, 0.1);
@@ -309,7 +309,7 @@ TEST_P(GrazingVolumeRow, HitsLieOnTheWall) {
     for (const double heading : {0.0, 0.5, 0.785}) {
         const EyeView view =
             makeEyeView(poseFromAngles({0.01, 0.01, above}, heading, -std::atan(slope), 0), lens);
-        for (const SimdTarget target : availableTargets()) {
+        for (const SimdTarget target : simdTargets()) {
             const EyeImage image = castPicture(VolumeRenderer(scene, {target}), view);
             int hits = 0;
             for (int y = 0; y < lens.height; ++y)
@@ -357,7 +357,7 @@ TEST_P(NearWallRow, WallAtTheNearDistance) {
     const double depth = near * (1 + share);
     const EyeView view = makeEyeView(poseFromAngles({0.0323, 0.0317, 8.25e-3 + depth}, 0, -kPi / 2, 0),
                                      {15, 11, 0.4, 1.0, near});
-    for (const SimdTarget target : availableTargets()) {
+    for (const SimdTarget target : simdTargets()) {
         const EyeImage image = castPicture(VolumeRenderer(scene, {target}), view);
         for (int y = 0; y < view.height; ++y)
             for (int x = 0; x < view.width; ++x)
@@ -395,7 +395,7 @@ TEST_P(OffsetRow, TranslucentPictureIsTheSame) {
     const VolumeScene plain = sceneWith(1, 0), moved = sceneWith(scale, offset);
     const EyeView view =
         makeEyeView(poseFromAngles(glm::dvec3(0.02), 0.4, 0.2, 0.1), {33, 27, 1.2, 1.0, 1e-4});
-    for (const SimdTarget target : availableTargets()) {
+    for (const SimdTarget target : simdTargets()) {
         const EyeImage a = castPicture(VolumeRenderer(plain, {target}), view);
         const EyeImage b = castPicture(VolumeRenderer(moved, {target}), view);
         for (int y = 0; y < view.height; ++y)

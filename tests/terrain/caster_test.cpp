@@ -82,16 +82,8 @@ EyeView randomView(const Heightfield& ground, std::mt19937& random, int kind) {
     return makeStereoViews(randomPose(ground, random, kind), lens, stereo).right;
 }
 
-std::vector<SimdTarget> targets() {
-    std::vector<SimdTarget> all{SimdTarget::Plain};
-    if (__builtin_cpu_supports("avx2")) all.push_back(SimdTarget::Avx2);
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
-        all.push_back(SimdTarget::Avx512);
-    return all;
-}
-
 void expectPlainHits(const TerrainScene& scene, int views, unsigned seed) {
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         const TerrainRenderer renderer(scene, target);
         std::mt19937 random(seed);
         Tally tally;
@@ -104,7 +96,7 @@ void expectPlainHits(const TerrainScene& scene, int views, unsigned seed) {
 
 // Scattered pixels of a picture that knows the rest, as holes of a warped image are filled.
 void expectPlainHitsInHoles(const TerrainScene& scene, int views, unsigned seed) {
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         const TerrainRenderer renderer(scene, target);
         std::mt19937 random(seed);
         Tally tally;

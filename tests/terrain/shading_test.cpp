@@ -12,14 +12,6 @@
 namespace stereonav {
 namespace {
 
-std::vector<SimdTarget> targets() {
-    std::vector<SimdTarget> all{SimdTarget::Plain};
-    if (__builtin_cpu_supports("avx2")) all.push_back(SimdTarget::Avx2);
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
-        all.push_back(SimdTarget::Avx512);
-    return all;
-}
-
 TerrainScene plainScene(const glm::vec3& color) {
     TerrainScene scene = test::makeScene(test::makeGround("smooth", 97, 83, 7));
     Plane<PackedColor> image(8, 8);
@@ -37,7 +29,7 @@ TEST(Shading, FogFollowsItsExponentialInLinearLight) {
     TerrainScene scene = plainScene({0.02f, 0.3f, 0.9f});
     scene.look.fogColor = {0.8f, 0.5f, 0.1f};
     for (const double distance : {50.0, 700.0, 1e5})
-        for (const SimdTarget target : targets()) {
+        for (const SimdTarget target : simdTargets()) {
             scene.look.fogDistance = distance;
             const TerrainRenderer renderer(scene, target);
             const EyeView view = viewOf(-0.4);
@@ -67,7 +59,7 @@ TEST(Shading, FogFollowsItsExponentialInLinearLight) {
 TEST(Shading, APlainColourComesBackAtEveryDistance) {
     const PackedColor color = packColor({0.11f, 0.52f, 0.87f});
     const TerrainScene scene = plainScene({0.11f, 0.52f, 0.87f});
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         const TerrainRenderer renderer(scene, target);
         for (const double pitch : {0.0, -0.3, -1.5}) {
             const EyeView view = viewOf(pitch);
@@ -91,7 +83,7 @@ TEST(Shading, TheSkyIsThatOfItsDirection) {
         return glm::vec3(0.5f + 0.4f * d.x, 0.5f + 0.4f * d.y * d.z, 0.5f - 0.4f * d.z);
     };
     scene.sky = SkyMap(1024, radiance);
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         const TerrainRenderer renderer(scene, target);
         for (const double pitch : {0.2, 0.9, 1.5}) {
             const EyeView view = viewOf(pitch);
