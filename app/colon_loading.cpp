@@ -11,12 +11,12 @@
 #include "app/volume_light.h"
 #include "colon/colon_flight.h"
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 #include "engine/volume/volume_renderer.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 // Seconds at normal speed to cross a colon's box, or what is seen from outside.
 constexpr double kColonSeconds = 20.0, kOutsideSeconds = 10.0;
 constexpr double kAirSeen = -500;                   // a study with smaller values is taken for CT in HU
@@ -99,12 +99,6 @@ std::unique_ptr<Flight> flightThrough(const ColonScene& colon, double largestSep
     setting.speed = colon.extent / (colon.isColon() ? kColonSeconds : kOutsideSeconds);
     setting.largestSeparation = largestSeparation;
     return std::make_unique<ColonFlight>(freeDistanceOf(colon), colon.centreline, colon.startPose, setting);
-}
-
-void adjustViews(const SceneOptions& options, LoadedScene& scene) {
-    if (options.separation_m) scene.stereo.separation = *options.separation_m;
-    if (options.zeroParallax_m) scene.stereo.zeroParallax = *options.zeroParallax_m;
-    if (options.fov_deg > 0.0) scene.lens.verticalFov = options.fov_deg * kRadians;
 }
 
 struct Range {

@@ -16,12 +16,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMm = 1000, kMl = 1e6;  // of a metre, of a cubic metre
 
-struct Range {
+struct GreyRange {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
 };
 
-Range rangeOf(const GreyVolume& grey) {
-    Range range;
+GreyRange wholeRange(const GreyVolume& grey) {
+    GreyRange range;
     for (std::size_t n = 0; n < grey.frame.count() && !grey.empty(); ++n) {
         range.lowest = std::min<double>(range.lowest, grey.values[n]);
         range.highest = std::max<double>(range.highest, grey.values[n]);
@@ -74,7 +74,7 @@ double isovalueOf(const ColonScene& colon) {
 Json colonJson(const LoadedScene& scene) {
     const ColonScene& colon = *scene.colon;
     const GreyVolume& field = colon.volume.field;
-    const Range range = rangeOf(field);
+    const GreyRange range = wholeRange(field);
     Json json;
     json["kind"] = colon.isColon() ? "colon" : "isosurface";
     json["format"] = colon.format;
@@ -108,7 +108,7 @@ std::string colonText(const LoadedScene& scene) {
     const ColonScene& colon = *scene.colon;
     const GreyVolume& field = colon.volume.field;
     const VolumeFrame& frame = field.frame;
-    const Range range = rangeOf(field);
+    const GreyRange range = wholeRange(field);
     std::string text;
     const auto line = [&](const char* name, const std::string& value) { text += infoLine(name, value); };
     line("read by", colon.format);

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<Held> heldBy(const LoadedScene& scene) {
+std::vector<Held> heldByTerrain(const LoadedScene& scene) {
     const TerrainScene& terrain = *scene.terrain;
     std::vector<Held> held = {{"heights", sizeof(float) * static_cast<std::size_t>(terrain.ground.width()) *
                                               terrain.ground.height()},
@@ -54,8 +54,8 @@ nlohmann::ordered_json terrainJson(const LoadedScene& scene) {
     json["sky"] = report.skySource;
     json["baked_light"] = report.lightSource;
     json["landmark_triangles"] = terrain.landmarks ? terrain.landmarks->triangleCount() : 0;
-    json["bytes"] = bytesOf(heldBy(scene));
-    json["held"] = heldJson(heldBy(scene));
+    json["bytes"] = bytesOf(heldByTerrain(scene));
+    json["held"] = heldJson(heldByTerrain(scene));
     json["flight_s"] = terrain.path.duration();
     json["clearance_m"] = terrain.clearance;
     return json;
@@ -84,7 +84,7 @@ std::string terrainText(const LoadedScene& scene) {
          terrain.landmarks ? fmt::format("{} triangles", terrain.landmarks->triangleCount()) : "none");
     line("flight", fmt::format("{:.4g} s, at least {:.4g} m above the ground", terrain.path.duration(),
                                terrain.clearance));
-    line("memory", heldText(heldBy(scene)));
+    line("memory", heldText(heldByTerrain(scene)));
     return text;
 }
 

@@ -17,6 +17,7 @@
 #include "colon/built_in_colon.h"
 #include "colon/study.h"
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 #include "engine/medium/built_in_media.h"
 #include "engine/nav/navigator.h"
 #include "terrain/sky_map.h"
@@ -24,11 +25,10 @@
 namespace stereonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kRadians = kPi / 180;
 constexpr double kFov = 40 * kRadians;
 constexpr double kOrbitSeconds = 15;
 constexpr int kOrbitSamples = 180;
-constexpr double kCrossingSeconds = 10;  // at normal speed
+constexpr double kMediumCrossingSeconds = 10;  // at normal speed
 // Where light comes from when nothing is said, seen by one who looks north: from the left, behind and above;
 // of wax from the left and from beyond it, so that it shines through.
 constexpr double kLightAzimuth = 235 * kRadians, kLightElevation = 40 * kRadians;
@@ -62,7 +62,7 @@ std::function<std::unique_ptr<Flight>()> freeFlight(const Pose& home, double ext
         FlightSetting setting;
         setting.clearance = 1e-6 * extent;
         setting.followHeight = 1e-3 * extent;
-        setting.speed = extent / kCrossingSeconds;
+        setting.speed = extent / kMediumCrossingSeconds;
         setting.groundStep = 0.1 * extent;
         const auto noGround = [](const glm::dvec2&) { return std::nan(""); };
         return std::make_unique<Navigator>(noGround, home, setting);
@@ -82,12 +82,6 @@ void seeFromOutside(const WorldBox& box, LoadedScene& scene) {
         samples.push_back({n * kOrbitSeconds / kOrbitSamples,
                            orbitPose(box.center(), distance, 2 * kPi * n / kOrbitSamples)});
     scene.path = RecordedPath(std::move(samples), "the flight around the medium");
-}
-
-void adjustViews(const SceneOptions& options, LoadedScene& scene) {
-    if (options.separation_m) scene.stereo.separation = *options.separation_m;
-    if (options.zeroParallax_m) scene.stereo.zeroParallax = *options.zeroParallax_m;
-    if (options.fov_deg > 0.0) scene.lens.verticalFov = options.fov_deg * kRadians;
 }
 
 void putField(std::shared_ptr<const GreyVolume> field, Perturbation noise, MediumScene& shown) {

@@ -14,15 +14,15 @@
 #include "app/number_text.h"
 #include "app/volume_light.h"
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kBrightest = 1e6;
 constexpr double kFarthest = 1e9;  // metres
 constexpr double kWidestShading = 16;
-constexpr double kLampCone = 2.2;  // radians: wider than what is seen
+constexpr double kHeadLampCone = 2.2;  // radians: wider than what is seen
 
 bool inReach(const std::vector<double>& metres) {
     return std::all_of(metres.begin(), metres.end(), [](double v) { return std::abs(v) <= kFarthest; });
@@ -166,7 +166,7 @@ void applyMediumOptions(const MediumOptions& options, MediumScene& scene) {
         const std::optional<glm::dvec3> place = lampFromText(options.lamp);
         look.light.kind = MediumLight::Kind::Lamp;
         look.light.atHead = !place.has_value();
-        look.light.coneAngle = kLampCone;
+        look.light.coneAngle = kHeadLampCone;
         if (place) {
             const glm::dvec3 way = scene.medium.bounds().center() - *place;
             look.light.position = *place;

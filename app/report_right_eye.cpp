@@ -13,7 +13,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kShare = 1.0 / 30;  // of the zero-parallax distance: the eyes' separation
+constexpr double kSeparationShare = 1.0 / 30;  // of the zero-parallax distance: the eyes' separation
 
 std::vector<Variant> variantsOf(const LoadedScene& scene) {
     std::vector<Variant> variants;
@@ -135,7 +135,7 @@ void reportRightEye(ReportRun& run, double seconds) {
     for (const ReportScene& scene : run.scenes()) {
         run.checkTime();
         StereoSetting stereo = scene.loaded.stereo;
-        stereo.separation = stereo.zeroParallax * kShare;
+        stereo.separation = stereo.zeroParallax * kSeparationShare;
         const std::string what = "right eye, " + scene.title;
         const auto scenesLeft = static_cast<double>(run.scenes().data() + run.scenes().size() - &scene);
         const double each = std::max(0.0, seconds - watch.elapsed_ms() / 1000) / scenesLeft;

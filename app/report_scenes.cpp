@@ -19,7 +19,7 @@
 namespace stereonav {
 namespace {
 
-int loadedLibraries() {
+int librariesInMemory() {
     int count = 0;
     dl_iterate_phdr(
         [](dl_phdr_info* info, std::size_t, void* data) {
@@ -137,7 +137,7 @@ void reportScenes(ReportRun& run, double) {
         "holds all "
         "its scenes at once: {} threads, {} shared libraries loaded. stereonav info SCENE tells the same of "
         "one scene alone.",
-        threadCount(), loadedLibraries());
+        threadCount(), librariesInMemory());
     for (const ReportScene& scene : run.scenes()) section.blocks.emplace_back(sceneTable(run, scene));
     run.checkTime();
     section.blocks.emplace_back(featureTable(run));

@@ -17,11 +17,10 @@
 #include "app/volume_light.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 void checkThreads(int threads) {
     if (threads < 0 || threads > 256)
@@ -208,6 +207,12 @@ SimdTarget simdFromText(const std::string& name) {
         if (known.name == name) return known.target;
     throw Error("--simd", "", "there is no instruction set \"" + name + "\"",
                 "use auto, plain, avx2 or avx512");
+}
+
+void adjustViews(const SceneOptions& options, LoadedScene& scene) {
+    if (options.separation_m) scene.stereo.separation = *options.separation_m;
+    if (options.zeroParallax_m) scene.stereo.zeroParallax = *options.zeroParallax_m;
+    if (options.fov_deg > 0.0) scene.lens.verticalFov = options.fov_deg * kRadians;
 }
 
 FramePlan planScene(const LoadedScene& scene) {

@@ -80,6 +80,8 @@ Pose poseFromText(const std::string& text);
 // what was measured. Throws Error with the known names.
 std::optional<RightEyeMethod> methodFromText(const std::string& name);
 OutputMode modeFromText(const std::string& name);
+// Separation, zero parallax and field of view that were asked for.
+void adjustViews(const SceneOptions& options, LoadedScene& scene);
 SimdTarget simdFromText(const std::string& name);
 
 // The frame plan of a loaded scene: measured at the start pose and along its flight.

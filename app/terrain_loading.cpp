@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 #include "engine/nav/navigator.h"
 #include "terrain/terrain_illumination.h"
 #include "terrain/terrain_loader.h"
@@ -14,7 +15,6 @@
 namespace stereonav {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kCrossingSeconds = 45.0;  // to cross the terrain at normal speed
 
 void setSun(const std::string& text, TerrainLook& look) {

@@ -16,7 +16,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kSamples = 64;  // where nothing is said
+constexpr int kTracedSamples = 64;  // where nothing is said
 
 // The same light in the words of a bake.
 BakeOptions asBake(const SceneOptions& options) {
@@ -38,7 +38,7 @@ BakeOptions asBake(const SceneOptions& options) {
     return bake;
 }
 
-std::string errorText(double error) {
+std::string tracedErrorText(double error) {
     return std::isfinite(error) ? fmt::format("error at most about {:.2g} %", 100 * error)
                                 : "error not known";
 }
@@ -68,7 +68,7 @@ std::string methodUnderLight(const SceneOptions& options, const std::string& met
 TracedLight::TracedLight(const SceneOptions& options, const ColonScene& scene)
     : mOptions(options.volume),
       mScene(scene),
-      mSamples(options.traced.value_or(TracedOptions{}).samples.value_or(kSamples)) {
+      mSamples(options.traced.value_or(TracedOptions{}).samples.value_or(kTracedSamples)) {
     const LightSetup setup = lightSetupOf(scene, asBake(options), mNotes);
     mPaths = std::make_unique<PixelPaths>(scene.volume, setup);
 }
@@ -92,7 +92,7 @@ void TracedLight::light(const StereoViews& views, EyeImage& left, EyeImage& righ
         ++eye;
     }
     mNotes.push_back(fmt::format("both eyes traced in {:.2f} s, {} paths a pixel, {}, exposure {:.4g}",
-                                 watch.elapsed_ms() / 1000, mSamples, errorText(facts.error),
+                                 watch.elapsed_ms() / 1000, mSamples, tracedErrorText(facts.error),
                                  static_cast<double>(exposure)));
 }
 

@@ -17,11 +17,11 @@
 #include "engine/light/occlusion_light.h"
 #include "engine/light/occlusion_modulation.h"
 #include "engine/light/sky_probe.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr float kMeanShown =
     0.45f;  // radiance of white at the mean of the known texels, where nothing is said
 

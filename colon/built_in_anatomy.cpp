@@ -6,9 +6,10 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "engine/math/constants.h"
+
 namespace stereonav {
 namespace {
-constexpr double kPi = std::numbers::pi;
 
 // x, y, z and the radius, mm: rectum, sigmoid, descending, splenic flexure, transverse, hepatic flexure,
 // ascending, caecum.

@@ -10,7 +10,7 @@
 namespace stereonav {
 namespace {
 
-constexpr const char* kAdvice = "write the centreline again";
+constexpr const char* kPolyDataAdvice = "write the centreline again";
 
 void appendArray(std::string& text, const std::string& type, const std::string& name, int components,
                  const std::string& values) {
@@ -51,7 +51,7 @@ public:
         return line;
     }
     [[noreturn]] void fail(std::size_t at, const std::string& problem) const {
-        throw Error(mFile, std::to_string(lineOf(at)), problem, kAdvice);
+        throw Error(mFile, std::to_string(lineOf(at)), problem, kPolyDataAdvice);
     }
 
 private:
@@ -121,7 +121,8 @@ Arrays readArrays(const std::string& text, const std::string& file) {
     if (!poly)
         throw Error(file, "", "expected <VTKFile type=\"PolyData\">, found none",
                     "give a centreline as VTK poly data in XML");
-    if (!closed) throw Error(file, "", "expected </VTKFile> at the end, the file is cut off", kAdvice);
+    if (!closed)
+        throw Error(file, "", "expected </VTKFile> at the end, the file is cut off", kPolyDataAdvice);
     return arrays;
 }
 
@@ -141,12 +142,12 @@ std::vector<std::vector<std::size_t>> linesOf(const std::vector<double>& connect
             throw Error(
                 file, "\"offsets\"",
                 fmt::format("expected numbers that rise to {}, got {:g}", connectivity.size(), offset),
-                kAdvice);
+                kPolyDataAdvice);
         lines.emplace_back();
         for (; at < static_cast<std::size_t>(offset); ++at) {
             if (!(connectivity[at] >= 0 && connectivity[at] < 1e15))
                 throw Error(file, "\"connectivity\"", fmt::format("there is no point {:g}", connectivity[at]),
-                            kAdvice);
+                            kPolyDataAdvice);
             lines.back().push_back(static_cast<std::size_t>(connectivity[at]));
         }
     }
@@ -191,7 +192,7 @@ Centreline centrelineFromVtp(const std::string& text, const std::string& file) {
     const Arrays arrays = readArrays(text, file);
     PolyLines poly;
     poly.coordinates = needed(arrays, "Points", file);
-    if (poly.coordinates.empty()) throw Error(file, "", "expected points, found none", kAdvice);
+    if (poly.coordinates.empty()) throw Error(file, "", "expected points, found none", kPolyDataAdvice);
     poly.radii = needed(arrays, std::string("PointData/") + kRadiusArray, file);
     poly.lines =
         linesOf(needed(arrays, "Lines/connectivity", file), needed(arrays, "Lines/offsets", file), file);

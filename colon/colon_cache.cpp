@@ -154,7 +154,7 @@ Bricks bricksNear(const MaskVolume& lumen) {
 struct Run {
     std::uint32_t value = 0, count = 0;
 };
-std::vector<Run> runsOf(const MaskVolume& mask) {
+std::vector<Run> runsOfMask(const MaskVolume& mask) {
     std::vector<Run> runs;
     const std::size_t count = mask.frame.count();
     for (std::size_t n = 0; n < count;) {
@@ -191,7 +191,7 @@ std::vector<char> packed(const FoundColon& found) {
     out.list(lumen.segments);
     out.list(found.centreline.points);
     out.list(found.polyps);
-    out.list(runsOf(lumen.lumen));
+    out.list(runsOfMask(lumen.lumen));
     const Bricks bricks = bricksNear(lumen.lumen);
     out.list(bricks.kept);
     forKeptRows(bricks, lumen.field.frame, [&](std::size_t first, std::size_t count) {

@@ -16,11 +16,11 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSpacing = 0.001;                            // metres between samples
-constexpr double kMostSamples = 1e6;                          // of a run; longer ones get wider apart
-constexpr double kLookRadii = 1.5;                            // the view aims so many free distances ahead
-constexpr double kNearestLook = 0.008, kFarthestLook = 0.03;  // metres
-constexpr double kSmoothing = 0.02;                           // metres along the line
+constexpr double kSpacing = 0.001;      // metres between samples
+constexpr double kMostSamples = 1e6;    // of a run; longer ones get wider apart
+constexpr double kPathLookRadii = 1.5;  // the view aims so many free distances ahead
+constexpr double kPathNearestLook = 0.008, kPathFarthestLook = 0.03;  // metres
+constexpr double kPathSmoothing = 0.02;                               // metres along the line
 // Cuts lie between the multiples of this, where the frames at all usual rates are.
 constexpr double kFrameGrid = 1.0 / 600, kCut = 0.0005;  // seconds
 
@@ -30,7 +30,7 @@ struct Stop {
 
 // An exponential filter there and back: no shift along the line.
 void smooth(std::vector<Stop>& stops, double spacing) {
-    const double keep = std::exp(-spacing / kSmoothing);
+    const double keep = std::exp(-spacing / kPathSmoothing);
     const auto pass = [keep](auto first, auto last) {
         glm::dvec3 mean = first->direction;
         for (auto stop = first; stop != last; ++stop) {
@@ -50,7 +50,7 @@ std::vector<Stop> stopsOf(const FlightLine& line, const FlightRun& run, bool bac
     std::vector<Stop> stops;
     for (int k = 0; k <= pieces; ++k) {
         const double s = run.first + length * (backwards ? pieces - k : k) / pieces;
-        const double look = std::clamp(kLookRadii * line.widthAt(s), kNearestLook, kFarthestLook);
+        const double look = std::clamp(kPathLookRadii * line.widthAt(s), kPathNearestLook, kPathFarthestLook);
         const glm::dvec3 position = line.at(s);
         const glm::dvec3 way = line.ahead(run, backwards ? s - look : s + look) - position;
         const double distance = glm::length(way);

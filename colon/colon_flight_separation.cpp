@@ -12,7 +12,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kLongestStep = 1.0;  // seconds
+constexpr double kLongestSeparationStep = 1.0;  // seconds
 
 void checkPositive(const char* name, double value) {
     if (!(value > 0 && std::isfinite(value)))
@@ -63,7 +63,7 @@ void SeparationControl::step(double free, double typicalDepth, double dt) {
     if (knowsDepth) target = std::min(target, typicalDepth);
     if (knowsFree) target = std::min(target, kNearest * std::max(free, 0.0));
     target = std::max(target, mSetting.smallest / mSetting.share);
-    const double time = std::min(dt, kLongestStep);
+    const double time = std::min(dt, kLongestSeparationStep);
     const double separation = std::clamp(mSetting.share * target, mSetting.smallest, mSetting.largest);
     mZeroParallax = followed(mZeroParallax, target, time, mSetting.seconds);
     mSeparation = std::clamp(followed(mSeparation, separation, time, mSetting.seconds), mSetting.smallest,

@@ -13,10 +13,10 @@
 
 #include "colon/transfer_presets.h"
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
-constexpr double kPi = std::numbers::pi;
 constexpr double kAirSeen = -500, kBone = 300, kSkin = -300;  // HU
 constexpr double kBoneShare = 0.002;  // of the voxels: less is a contrast agent or a calcification
 constexpr double kOrbitSeconds = 15;
@@ -25,7 +25,7 @@ constexpr int kOrbitSamples = 180;
 double valueOf(const GreyVolume& grey, double stored) {
     return stored * grey.scale + grey.offset;
 }
-float storedOf(const GreyVolume& grey, double value) {
+float storedIsovalue(const GreyVolume& grey, double value) {
     return static_cast<float>((value - grey.offset) / grey.scale);
 }
 
@@ -132,11 +132,11 @@ SurfaceCells cellsAt(const GreyVolume& field, double isovalue, const TransferFun
         throw Error("--isovalue", "", fmt::format("expected a number, got {}", isovalue),
                     "300 shows bone in CT");
     SurfaceSetting setting;
-    setting.isovalue = setting.lowest = setting.highest = storedOf(field, isovalue);
+    setting.isovalue = setting.lowest = setting.highest = storedIsovalue(field, isovalue);
     if (!transfer.empty()) {
         const TransferFunction::Range range = transfer.visibleRange();
-        setting.lowest = std::max(storedOf(field, range.lowest), -32768.0f);
-        setting.highest = std::min(storedOf(field, range.highest), 32767.0f);
+        setting.lowest = std::max(storedIsovalue(field, range.lowest), -32768.0f);
+        setting.highest = std::min(storedIsovalue(field, range.highest), 32767.0f);
         if (setting.lowest > setting.highest) std::swap(setting.lowest, setting.highest);
     }
     SurfaceCells cells = findSurfaceCells(field, setting, progress);

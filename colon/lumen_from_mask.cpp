@@ -12,8 +12,8 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSmallestPiece = 0.5e-6;  // cubic metres: less is a speck
-constexpr std::size_t kMostPieces = 255;   // numbers of segments are bytes
+constexpr double kSmallestMaskPiece = 0.5e-6;  // cubic metres: less is a speck
+constexpr std::size_t kMostSegments = 255;     // numbers of segments are bytes
 
 double voxelVolume(const VolumeFrame& frame) {
     return frame.spacing.x * frame.spacing.y * frame.spacing.z;
@@ -56,8 +56,8 @@ std::vector<int> largePieces(const Pieces& pieces, const VolumeFrame& frame,
     std::size_t dropped = 0, droppedVoxels = 0;
     for (const int piece : bySize) {
         const std::size_t voxels = list[static_cast<std::size_t>(piece)].voxels;
-        const bool large = static_cast<double>(voxels) * voxelVolume(frame) >= kSmallestPiece;
-        if (kept.empty() || (large && kept.size() < kMostPieces)) {
+        const bool large = static_cast<double>(voxels) * voxelVolume(frame) >= kSmallestMaskPiece;
+        if (kept.empty() || (large && kept.size() < kMostSegments)) {
             kept.push_back(piece);
         } else {
             ++dropped;
@@ -66,7 +66,7 @@ std::vector<int> largePieces(const Pieces& pieces, const VolumeFrame& frame,
     }
     if (dropped > 0)
         notes.push_back(fmt::format("left out {} piece(s) of the mask under {:g} ml, {} voxels in all",
-                                    dropped, kSmallestPiece * 1e6, droppedVoxels));
+                                    dropped, kSmallestMaskPiece * 1e6, droppedVoxels));
     std::sort(kept.begin(), kept.end());
     return kept;
 }

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Counts up when the same study and settings give another lumen.
-constexpr std::int64_t kVersion = 1;
+constexpr std::int64_t kSavedVersion = 1;
 constexpr const char *kKeyField = "stereonav lumen key", *kHashField = "stereonav lumen hash";
 constexpr std::size_t kLongestHeader = 64 << 10;
 
@@ -92,7 +92,7 @@ MaskVolume readMask(const fs::path& file, const std::string& header, Progress& p
 
 std::uint64_t savedLumenKey(std::uint64_t study, const SegmentationSetting& setting) {
     Hash hash;
-    hash.add("lumen").add(kVersion).add(static_cast<std::int64_t>(study));
+    hash.add("lumen").add(kSavedVersion).add(static_cast<std::int64_t>(study));
     hash.add(setting.air).add(setting.tagged).add(setting.wall);
     for (const glm::dvec3& seed : setting.seeds) hash.add(seed.x).add(seed.y).add(seed.z);
     return hash.value();

@@ -21,18 +21,18 @@
 namespace stereonav {
 namespace {
 
-constexpr std::int16_t kTissue = 40;
+constexpr std::int16_t kBodyTissue = 40;
 constexpr int kGrowth = 8;                 // voxels that the lumen may reach beyond what was sure
 constexpr double kSmallestPiece = 0.5e-6;  // cubic metres
 constexpr std::uint8_t kColon = 1, kElse = 2;
 
-const glm::ivec3 kSteps[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+const glm::ivec3 kNeighbours[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 
 void checkSetting(const SegmentationSetting& s) {
-    if (!(s.air < s.wall && s.wall < kTissue && s.tagged > kTissue && std::isfinite(s.air) &&
+    if (!(s.air < s.wall && s.wall < kBodyTissue && s.tagged > kBodyTissue && std::isfinite(s.air) &&
           std::isfinite(s.tagged)))
         throw Error("", "thresholds",
-                    fmt::format("expected air < wall < {} < tagged, got {:g}, {:g}, {:g}", kTissue, s.air,
+                    fmt::format("expected air < wall < {} < tagged, got {:g}, {:g}, {:g}", kBodyTissue, s.air,
                                 s.wall, s.tagged),
                     "give them in Hounsfield units");
 }
@@ -83,7 +83,7 @@ GreyVolume cutField(const GreyVolume& study, const LumenCrop& crop) {
                 const glm::ivec3 at = glm::ivec3(i, j, k) + crop.first;
                 const bool face =
                     i == 0 || j == 0 || k == 0 || i == size.x - 1 || j == size.y - 1 || k == size.z - 1;
-                double hu = kTissue;
+                double hu = kBodyTissue;
                 if (!face && study.frame.contains(at)) hu = std::clamp(huAt(study, at), -32768.0, 32767.0);
                 field.at(i, j, k) = static_cast<std::int16_t>(std::lround(hu));
             }
@@ -118,7 +118,7 @@ std::vector<glm::ivec3> markedBorder(const MaskVolume& marks) {
         for (int j = 1; j < size.y - 1; ++j)
             for (int i = 1; i < size.x - 1; ++i) {
                 if (!marks.at(i, j, k)) continue;
-                for (const glm::ivec3& step : kSteps)
+                for (const glm::ivec3& step : kNeighbours)
                     if (!marks.at(glm::ivec3(i, j, k) + step)) {
                         border.push_back({i, j, k});
                         break;
@@ -133,7 +133,7 @@ void growMarks(const GreyVolume& field, double wall, MaskVolume& marks) {
     while (!front.empty()) {
         std::vector<glm::ivec3> next;
         for (const glm::ivec3& voxel : front)
-            for (const glm::ivec3& step : kSteps) {
+            for (const glm::ivec3& step : kNeighbours) {
                 const glm::ivec3 to = voxel + step;
                 if (marks.frame.contains(to) && !marks.at(to) && field.at(to) < wall) {
                     marks.at(to) = marks.at(voxel);
@@ -156,7 +156,7 @@ void wallOff(const MaskVolume& marks, double wall, GreyVolume& field) {
         for (int j = 1; j < size.y - 1; ++j)
             for (int i = 1; i < size.x - 1; ++i) {
                 if (marks.at(i, j, k) != kElse) continue;
-                for (const glm::ivec3& step : kSteps)
+                for (const glm::ivec3& step : kNeighbours)
                     if (marks.at(glm::ivec3(i, j, k) + step) == kColon) field.at(i, j, k) = above;
             }
 }
@@ -227,7 +227,7 @@ AirPieces airInside(const GreyVolume& study, const SegmentationSetting& setting,
 }
 
 bool touchesLumen(const MaskVolume& lumen, const glm::ivec3& voxel) {
-    return std::any_of(std::begin(kSteps), std::end(kSteps), [&](const glm::ivec3& step) {
+    return std::any_of(std::begin(kNeighbours), std::end(kNeighbours), [&](const glm::ivec3& step) {
         return lumen.frame.contains(voxel + step) && lumen.at(voxel + step) != 0;
     });
 }
@@ -279,7 +279,7 @@ std::vector<LumenSegment> segmentsOf(const MaskVolume& lumen) {
 std::optional<LumenField> restoreLumen(const GreyVolume& study, MaskVolume lumen,
                                        const SegmentationSetting& setting) {
     const std::optional<LumenCrop> crop = placeIn(lumen.frame, study.frame);
-    if (!crop || !(setting.wall < kTissue)) return std::nullopt;
+    if (!crop || !(setting.wall < kBodyTissue)) return std::nullopt;
     const auto inside = [&](const glm::ivec3& voxel) {
         return lumen.frame.contains(voxel - crop->first) && lumen.at(voxel - crop->first) != 0;
     };

@@ -15,9 +15,9 @@
 namespace stereonav {
 namespace {
 
-constexpr double kTissue = 40, kAir = -1000;  // HU
-constexpr double kSmallestPool = 0.05e-6;     // cubic metres
-constexpr double kThickestFilm = 0.002;       // metres: walls between bone and air are thicker
+constexpr double kFluidTissue = 40, kFluidAir = -1000;  // HU
+constexpr double kSmallestPool = 0.05e-6;               // cubic metres
+constexpr double kThickestFilm = 0.002;                 // metres: walls between bone and air are thicker
 constexpr std::size_t kFewestColumns = 12;
 constexpr double kLevelShare = 0.75;  // of the film's columns lie within two voxels of their median
 // Of the top that lies under air: 0.11 was seen where a pool of the real anatomy fills loops up to their
@@ -26,7 +26,7 @@ constexpr double kContactShare = 0.05;
 constexpr int kFringe = 3;   // voxels around fluid that it makes brighter
 constexpr int kFilmRim = 4;  // voxels around the film where the wall is interpolated
 
-const glm::ivec3 kSteps[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+const glm::ivec3 kFluidNeighbours[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 
 template <typename Body>
 void forVoxels(const Pieces& pieces, const Body& body) {
@@ -153,7 +153,7 @@ std::vector<glm::ivec3> spread(std::vector<glm::ivec3> front, int reach, MaskVol
     for (int round = 0; round < reach && !front.empty(); ++round) {
         std::vector<glm::ivec3> next;
         for (const glm::ivec3& voxel : front)
-            for (const glm::ivec3& step : kSteps) {
+            for (const glm::ivec3& step : kFluidNeighbours) {
                 const glm::ivec3 to = voxel + step;
                 if (!marks.frame.contains(to) || marks.at(to) != 0 || !enter(to)) continue;
                 marks.at(to) = mark;
@@ -166,14 +166,14 @@ std::vector<glm::ivec3> spread(std::vector<glm::ivec3> front, int reach, MaskVol
 }
 
 std::int16_t mirrored(double hu, double fluid) {
-    const double share = std::clamp((hu - kTissue) / (fluid - kTissue), 0.0, 1.0);
-    return static_cast<std::int16_t>(std::lround(kTissue + share * (kAir - kTissue)));
+    const double share = std::clamp((hu - kFluidTissue) / (fluid - kFluidTissue), 0.0, 1.0);
+    return static_cast<std::int16_t>(std::lround(kFluidTissue + share * (kFluidAir - kFluidTissue)));
 }
 
 // Values of fluid and of the voxels around it that it makes brighter.
 void mirrorPool(const Pool& pool, std::vector<glm::ivec3> core, const SegmentationSetting& setting,
                 GreyVolume& field, MaskVolume& marks) {
-    const double half = 0.5 * (kTissue + pool.hu), hu = std::max(pool.hu, kTissue + 100);
+    const double half = 0.5 * (kFluidTissue + pool.hu), hu = std::max(pool.hu, kFluidTissue + 100);
     for (const glm::ivec3& v : core) marks.at(v) = 1;
     const auto bright = [&](const glm::ivec3& v) { return field.at(v) >= half; };
     const auto grown = spread(core, kFringe, marks, 1, bright);

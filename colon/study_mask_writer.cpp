@@ -13,7 +13,7 @@ namespace stereonav {
 namespace {
 
 constexpr int kLevel = 1;  // masks are long runs: more effort saves little
-constexpr std::size_t kBlock = 1 << 22;
+constexpr std::size_t kWriteBlock = 1 << 22;
 
 std::string oneLine(std::string text) {
     for (char& c : text)
@@ -44,7 +44,7 @@ void writeGzip(std::ostream& out, const std::uint8_t* data, std::size_t bytes) {
     const std::unique_ptr<z_stream, void (*)(z_stream*)> end(&stream, [](z_stream* s) { deflateEnd(s); });
     std::vector<unsigned char> output(1 << 18);
     do {
-        const std::size_t block = std::min(bytes, kBlock);
+        const std::size_t block = std::min(bytes, kWriteBlock);
         stream.next_in = const_cast<Bytef*>(data);  // zlib only reads it
         stream.avail_in = static_cast<uInt>(block);
         data += block;

@@ -5,10 +5,10 @@
 #include <glm/vec2.hpp>
 #include <limits>
 
+#include "engine/math/constants.h"
+
 namespace stereonav {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The part of the ray over the ground's extent, and for a rising ray below its highest sample.
 struct Part {

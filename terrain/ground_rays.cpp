@@ -12,8 +12,8 @@
 namespace stereonav {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr int kBlock = 4096;             // samples a side of one of Embree's grids, which hold 32767
+constexpr float kNoHit = std::numeric_limits<float>::infinity();
+constexpr int kGridSide = 4096;          // samples a side of one of Embree's grids, which hold 32767
 constexpr double kMostSamples = 3e8;     // 12 bytes each: Embree's buffers end at 4 GiB
 constexpr double kLiftOfCell = 1e-4;     // of the finer spacing
 constexpr double kLiftOfSize = 0x1p-21;  // of the terrain's size: a few roundings of float coordinates
@@ -50,7 +50,7 @@ void fill(Ray& ray, const RayPacket& rays, int first) {
     std::copy_n(rays.directionY + first, N, ray.dir_y);
     std::copy_n(rays.directionZ + first, N, ray.dir_z);
     std::copy_n(rays.nearest + first, N, ray.tnear);
-    std::fill_n(ray.tfar, N, kInfinity);
+    std::fill_n(ray.tfar, N, kNoHit);
     std::fill_n(ray.time, N, 0.0f);
     std::fill_n(ray.mask, N, ~0u);
     std::fill_n(ray.flags, N, 0u);
@@ -100,7 +100,7 @@ void intersectBy(RTCScene scene, RayPacket& rays, std::uint32_t active, Intersec
         for (int k = 0; k < N; ++k)
             if (valid[k])
                 rays.distance[first + k] =
-                    ray.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID ? kInfinity : ray.ray.tfar[k];
+                    ray.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID ? kNoHit : ray.ray.tfar[k];
     }
 }
 
@@ -154,17 +154,17 @@ struct GroundRays::State {
     }
 
     static bool setGrids(RTCGeometry geometry, const Heightfield& ground) {
-        const int across = (ground.width() - 2) / (kBlock - 1) + 1,
-                  down = (ground.height() - 2) / (kBlock - 1) + 1;
+        const int across = (ground.width() - 2) / (kGridSide - 1) + 1,
+                  down = (ground.height() - 2) / (kGridSide - 1) + 1;
         auto* grid = static_cast<RTCGrid*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0,
                                                                    RTC_FORMAT_GRID, sizeof(RTCGrid),
                                                                    static_cast<std::size_t>(across) * down));
         if (!grid) return false;
         const auto samples = [](int first, int all) {
-            return static_cast<unsigned short>(std::min(kBlock, all - first));
+            return static_cast<unsigned short>(std::min(kGridSide, all - first));
         };
-        for (int j = 0; j + 1 < ground.height(); j += kBlock - 1)
-            for (int i = 0; i + 1 < ground.width(); i += kBlock - 1)
+        for (int j = 0; j + 1 < ground.height(); j += kGridSide - 1)
+            for (int i = 0; i + 1 < ground.width(); i += kGridSide - 1)
                 *grid++ = {static_cast<unsigned>(j) * ground.width() + i,
                            static_cast<unsigned>(ground.width()), samples(i, ground.width()),
                            samples(j, ground.height())};

@@ -8,8 +8,8 @@ namespace {
 
 // Blocks of 16 x 16 pixels of which at least 3 in 8 are holes are cast as bands: a packet led by its
 // neighbours costs far less than one that starts from scattered knowledge.
-constexpr int kBlock = 16;
-constexpr int kDenseHoles = kBlock * kBlock * 3 / 8;
+constexpr int kHoleBlock = 16;
+constexpr int kDenseHoles = kHoleBlock * kHoleBlock * 3 / 8;
 
 constexpr int kLookBack = 24;  // steps towards lower rays searched for a known depth
 constexpr int kProofs = 3;     // of those, how many are tried as proof
@@ -75,11 +75,12 @@ float startInFront(const CasterView& v, const GroundData& ground, PixelRect boun
 void HoleSort::sort(const CasterView& view, PixelRect bounds, std::span<const PixelIndex> pixels) {
     mDense.clear();
     mSparse.clear();
-    const int across = (bounds.width() + kBlock - 1) / kBlock, down = (bounds.height() + kBlock - 1) / kBlock;
+    const int across = (bounds.width() + kHoleBlock - 1) / kHoleBlock,
+              down = (bounds.height() + kHoleBlock - 1) / kHoleBlock;
     mBlocks.assign(static_cast<std::size_t>(across) * down, 0);
     const auto block = [&](PixelIndex p) -> int& {
-        return mBlocks[static_cast<std::size_t>((p.y - bounds.y0) / kBlock) * across +
-                       (p.x - bounds.x0) / kBlock];
+        return mBlocks[static_cast<std::size_t>((p.y - bounds.y0) / kHoleBlock) * across +
+                       (p.x - bounds.x0) / kHoleBlock];
     };
     // Bands run along columns of the picture; in rolled views, where steps do not, all holes are sparse.
     const bool upright = view.laneX == 1;
@@ -93,9 +94,9 @@ void HoleSort::sort(const CasterView& view, PixelRect bounds, std::span<const Pi
             if (!dense(j)) continue;
             int end = j + 1;
             while (end < down && dense(end)) ++end;
-            const int x0 = bounds.x0 + i * kBlock, y0 = bounds.y0 + j * kBlock;
-            const int x1 = std::min(x0 + kBlock, bounds.x1),
-                      y1 = std::min(bounds.y0 + end * kBlock, bounds.y1);
+            const int x0 = bounds.x0 + i * kHoleBlock, y0 = bounds.y0 + j * kHoleBlock;
+            const int x1 = std::min(x0 + kHoleBlock, bounds.x1),
+                      y1 = std::min(bounds.y0 + end * kHoleBlock, bounds.y1);
             const int first = view.stepY < 0 ? view.firstY - (y1 - 1) : y0;
             mDense.push_back({double(x0), 0, double(x1), 0, first, first + (y1 - y0), bounds.x0, bounds.x1});
             j = end;

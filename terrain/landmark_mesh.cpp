@@ -16,7 +16,7 @@
 namespace stereonav {
 namespace {
 
-constexpr const char* kAdvice = "export the mesh again";
+constexpr const char* kMeshAdvice = "export the mesh again";
 constexpr std::size_t kMaxVertices = 1u << 30;
 
 class MeshReader {
@@ -67,10 +67,10 @@ int MeshReader::readTexture(int index, LandmarkMaterial& material) {
     const auto& model = mFile.model;
     const std::string place = fmt::format("texture {}", index);
     if (static_cast<std::size_t>(index) >= model.textures.size())
-        throw Error(mFile.name, place, fmt::format("expected one of {}", model.textures.size()), kAdvice);
+        throw Error(mFile.name, place, fmt::format("expected one of {}", model.textures.size()), kMeshAdvice);
     const tinygltf::Texture& texture = model.textures[index];
     if (texture.source < 0 || static_cast<std::size_t>(texture.source) >= model.images.size())
-        throw Error(mFile.name, place, "expected a PNG or JPEG image, found none", kAdvice);
+        throw Error(mFile.name, place, "expected a PNG or JPEG image, found none", kMeshAdvice);
     if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) < model.samplers.size()) {
         const tinygltf::Sampler& sampler = model.samplers[texture.sampler];
         material.repeatX = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
@@ -91,7 +91,8 @@ void MeshReader::readNode(const std::vector<int>& chain) {
     if (mesh < 0) return;
     if (static_cast<std::size_t>(mesh) >= model.meshes.size())
         throw Error(mFile.name, fmt::format("node {}", chain.back()),
-                    fmt::format("refers to mesh {}, the file has {}", mesh, model.meshes.size()), kAdvice);
+                    fmt::format("refers to mesh {}, the file has {}", mesh, model.meshes.size()),
+                    kMeshAdvice);
     glm::dmat4 sceneFromNode(1.0);
     for (const int node : chain) sceneFromNode *= placementOf(model.nodes[node]).parentFromNode();
     for (std::size_t p = 0; p < model.meshes[mesh].primitives.size(); ++p)
@@ -119,7 +120,7 @@ std::vector<double> MeshReader::attribute(const tinygltf::Primitive& primitive, 
         throw Error(
             mFile.name, place + ", " + name,
             fmt::format("expected {} elements as POSITION has, got {}", count, values.size() / components),
-            kAdvice);
+            kMeshAdvice);
     return values;
 }
 
@@ -127,7 +128,7 @@ void MeshReader::readVertices(const tinygltf::Primitive& primitive, const glm::d
                               const std::string& place) {
     const auto found = primitive.attributes.find("POSITION");
     if (found == primitive.attributes.end())
-        throw Error(mFile.name, place, "expected the attribute POSITION, found none", kAdvice);
+        throw Error(mFile.name, place, "expected the attribute POSITION, found none", kMeshAdvice);
     const std::vector<double> position = accessorValues(mFile, found->second, 3, place + ", POSITION");
     const std::size_t count = position.size() / 3;
     if (count + mMesh.vertices.size() > kMaxVertices)
@@ -175,7 +176,7 @@ void MeshReader::readTriangles(const tinygltf::Primitive& primitive, std::size_t
                 throw Error(mFile.name, place + ", indices",
                             fmt::format("expected vertices 0 to {}, got {}",
                                         static_cast<long long>(count) - 1, value),
-                            kAdvice);
+                            kMeshAdvice);
             order.push_back(static_cast<std::uint32_t>(base + static_cast<std::size_t>(value)));
         }
     } else {
@@ -184,11 +185,13 @@ void MeshReader::readTriangles(const tinygltf::Primitive& primitive, std::size_t
     const int last = static_cast<int>(mMesh.materials.size()) - 1;
     if (primitive.material >= last)
         throw Error(mFile.name, place,
-                    fmt::format("refers to material {}, the file has {}", primitive.material, last), kAdvice);
+                    fmt::format("refers to material {}, the file has {}", primitive.material, last),
+                    kMeshAdvice);
     const int material = primitive.material >= 0 ? primitive.material : last;
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES && order.size() % 3 != 0)
         throw Error(mFile.name, place,
-                    fmt::format("expected three indices a triangle, got {} indices", order.size()), kAdvice);
+                    fmt::format("expected three indices a triangle, got {} indices", order.size()),
+                    kMeshAdvice);
     const bool fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
     const std::size_t step = primitive.mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
     for (std::size_t k = 0; k + 2 < order.size(); k += step)

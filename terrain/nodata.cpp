@@ -13,14 +13,14 @@ namespace {
 // Beyond this many missing samples (0.9 GB in the solver) the pyramid's guess stays as it is.
 constexpr std::size_t kMostSolved = 10'000'000;
 
-struct Level {
+struct FillLevel {
     int width, height;
     std::vector<float> values;  // NaN: unknown
     float at(int i, int j) const { return values[static_cast<std::size_t>(j) * width + i]; }
 };
 
-Level averaged(const Level& fine) {
-    Level coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
+FillLevel averaged(const FillLevel& fine) {
+    FillLevel coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
     coarse.values.reserve(static_cast<std::size_t>(coarse.width) * coarse.height);
     for (int j = 0; j < coarse.height; ++j)
         for (int i = 0; i < coarse.width; ++i) {
@@ -38,7 +38,7 @@ Level averaged(const Level& fine) {
 }
 
 // Bilinear between the centres of the coarse samples; clamped at the border.
-float between(const Level& coarse, int fineI, int fineJ) {
+float between(const FillLevel& coarse, int fineI, int fineJ) {
     const double x = std::clamp(0.5 * fineI - 0.25, 0.0, coarse.width - 1.0);
     const double y = std::clamp(0.5 * fineJ - 0.25, 0.0, coarse.height - 1.0);
     const int i = static_cast<int>(x), j = static_cast<int>(y);
@@ -48,16 +48,16 @@ float between(const Level& coarse, int fineI, int fineJ) {
                               v * ((1 - u) * coarse.at(i, j1) + u * coarse.at(i1, j1)));
 }
 
-void fillFromPyramid(Level& finest) {
-    std::vector<Level> coarser;
-    const Level* level = &finest;
+void fillFromPyramid(FillLevel& finest) {
+    std::vector<FillLevel> coarser;
+    const FillLevel* level = &finest;
     while (
         std::any_of(level->values.begin(), level->values.end(), [](float h) { return !std::isfinite(h); })) {
         coarser.push_back(averaged(*level));
         level = &coarser.back();
     }
     for (int k = static_cast<int>(coarser.size()) - 1; k >= 0; --k) {
-        Level& fine = k > 0 ? coarser[k - 1] : finest;
+        FillLevel& fine = k > 0 ? coarser[k - 1] : finest;
         for (int j = 0; j < fine.height; ++j)
             for (int i = 0; i < fine.width; ++i)
                 if (float& h = fine.values[static_cast<std::size_t>(j) * fine.width + i]; !std::isfinite(h))
@@ -79,7 +79,7 @@ long long fillMissing(std::vector<float>& heights, int width, int height, const 
     missing.reserve(missingCount);
     for (std::size_t k = 0; k < heights.size(); ++k)
         if (!std::isfinite(heights[k])) missing.push_back(k);
-    Level finest{width, height, std::move(heights)};
+    FillLevel finest{width, height, std::move(heights)};
     fillFromPyramid(finest);
     heights = std::move(finest.values);
     if (missing.size() <= kMostSolved) solveMembrane(missing, heights, width, height, spacing, progress);

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/constants.h"
+
 namespace stereonav {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A ray in grid coordinates; z stays in metres.
 struct GridRay {

@@ -18,7 +18,7 @@ constexpr int kWindow = 75;      // segments to each side over which the height 
 
 // The spiral, in shares of the ground's half extents: from near the border inwards, counter-clockwise
 // by a good half turn.
-constexpr double kOuterRadius = 0.74, kInnerRadius = 0.32, kTurn = 1.25 * pi;
+constexpr double kOuterRadius = 0.74, kInnerRadius = 0.32, kFlightTurn = 1.25 * pi;
 // The view: inwards of the direction of flight, below the horizon, banked for an even turn; radians.
 constexpr double kLookInwards = 0.55, kLookDown = 0.10, kBank = 0.12;
 // And further down from high above the mean ground: by this share of the angle under which it lies half
@@ -116,7 +116,8 @@ struct Plan {
     double startAngle, meanGround;
 
     glm::dvec2 at(double u) const {
-        return onEllipse(ground, kOuterRadius + (kInnerRadius - kOuterRadius) * u, startAngle + kTurn * u);
+        return onEllipse(ground, kOuterRadius + (kInnerRadius - kOuterRadius) * u,
+                         startAngle + kFlightTurn * u);
     }
     // Of the flight at u; continuous, not wrapped.
     glm::dvec2 direction(double u) const {
@@ -127,7 +128,7 @@ struct Plan {
     double bend(double u) const {
         constexpr double kStep = 1e-3;
         const double turned = headingOf(direction(u - kStep)) - headingOf(direction(u + kStep));
-        return std::remainder(turned, 2 * pi) / (2 * kStep * kTurn);
+        return std::remainder(turned, 2 * pi) / (2 * kStep * kFlightTurn);
     }
 };
 

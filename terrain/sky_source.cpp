@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/image/radiance_file.h"
+#include "engine/math/luminance.h"
 #include "terrain/raster_file.h"
 
 namespace stereonav {
@@ -35,10 +36,6 @@ LinearImage halved(const LinearImage& fine) {
             coarse.pixels.push_back(0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) +
                                              at(2 * x + 1, 2 * y + 1)));
     return coarse;
-}
-
-float luminance(const glm::vec3& c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 
 void toneMap(LinearImage& probe, bool sphere) {

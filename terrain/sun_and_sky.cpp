@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/light/spherical_harmonics.h"
+#include "engine/math/luminance.h"
 #include "terrain/terrain_light.h"
 
 namespace stereonav {
@@ -20,10 +21,6 @@ constexpr double kReference = 45 * kDegree;  // elevation at which the light is 
 constexpr glm::dvec3 kExtinction(0.11, 0.15, 0.25);
 constexpr float kDarkest = 0.25f;  // level light below which the exposure no longer follows
 constexpr float kNight = 0.01f;    // of the sky's light, what never goes
-
-float luminance(const glm::vec3& c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
-}
 
 // Relative air mass: Kasten and Young 1989, eq. 3; elevation in radians, at least -0.5 degrees.
 double airMass(double elevation) {

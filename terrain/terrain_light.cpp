@@ -21,8 +21,8 @@
 namespace stereonav {
 namespace {
 
-constexpr int kVersion = 1;  // of what is baked: a change gives other keys
-constexpr int kBand = 16;    // rows between two looks at the progress
+constexpr int kBakeVersion = 1;  // of what is baked: a change gives other keys
+constexpr int kBand = 16;        // rows between two looks at the progress
 
 void checkRange(const char* name, double value, double low, double high, int step = 1) {
     const bool whole = step <= 1 || std::fmod(value, step) == 0;
@@ -72,7 +72,7 @@ std::int16_t quantized(float value) {
 
 Hash hashOf(const Heightfield& ground) {
     Hash hash;
-    hash.add("terrain light").add(std::int64_t{kVersion});
+    hash.add("terrain light").add(std::int64_t{kBakeVersion});
     hash.add(std::int64_t{ground.width()}).add(std::int64_t{ground.height()});
     hash.add(ground.spacing().x).add(ground.spacing().y);
     hash.add(ground.data(), sizeof(float) * static_cast<std::size_t>(ground.width()) * ground.height());

@@ -19,37 +19,37 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr char kMagic[8] = {'S', 'N', 'T', 'L', 'I', 'G', 'H', 'T'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kFileVersion = 1;
 constexpr const char* kBakeAgain = "bake it again with stereonav bake";
 
-struct Header {
+struct LightHeader {
     char magic[8];
     std::uint32_t version, kind, order, bounces, rays, azimuths, stride, groundWidth, groundHeight, width,
         height, reserved;
     double albedo;
     std::uint64_t seed, key;
 };
-static_assert(sizeof(Header) == 80);
+static_assert(sizeof(LightHeader) == 80);
 
-Header headerOf(const TerrainLight& light) {
+LightHeader headerOf(const TerrainLight& light) {
     const TerrainLightSettings& s = light.settings;
     const auto u = [](int value) { return static_cast<std::uint32_t>(value); };
-    Header h{{},
-             kVersion,
-             static_cast<std::uint32_t>(s.kind),
-             u(s.order),
-             u(s.bounces),
-             u(s.rays),
-             u(s.azimuths),
-             u(s.stride),
-             u(light.grid.groundWidth),
-             u(light.grid.groundHeight),
-             u(light.grid.width),
-             u(light.grid.height),
-             0,
-             s.albedo,
-             s.seed,
-             light.key};
+    LightHeader h{{},
+                  kFileVersion,
+                  static_cast<std::uint32_t>(s.kind),
+                  u(s.order),
+                  u(s.bounces),
+                  u(s.rays),
+                  u(s.azimuths),
+                  u(s.stride),
+                  u(light.grid.groundWidth),
+                  u(light.grid.groundHeight),
+                  u(light.grid.width),
+                  u(light.grid.height),
+                  0,
+                  s.albedo,
+                  s.seed,
+                  light.key};
     std::memcpy(h.magic, kMagic, sizeof kMagic);
     return h;
 }
@@ -60,7 +60,7 @@ struct Sizes {
     std::size_t bytes() const { return samples + horizon + 4 * transfer; }
 };
 
-bool plausible(const Header& h) {
+bool plausible(const LightHeader& h) {
     const auto side = [](std::uint32_t samples, std::uint32_t ground, std::uint32_t stride) {
         return ground >= 2 && ground <= 1u << 28 && samples == (ground - 2) / stride + 2;
     };
@@ -70,7 +70,7 @@ bool plausible(const Header& h) {
            side(h.height, h.groundHeight, h.stride);
 }
 
-Sizes sizesOf(const Header& h) {
+Sizes sizesOf(const LightHeader& h) {
     Sizes sizes;
     sizes.samples = static_cast<std::size_t>(h.width) * h.height;
     if (h.kind == static_cast<std::uint32_t>(TerrainLightKind::Openness)) return sizes;
@@ -84,7 +84,7 @@ void addArray(Hash& hash, const std::vector<T>& values) {
     hash.add(values.data(), values.size() * sizeof(T));
 }
 
-std::uint64_t checksum(const Header& h, const TerrainLight& light) {
+std::uint64_t checksum(const LightHeader& h, const TerrainLight& light) {
     Hash hash;
     hash.add(&h, sizeof h);
     addArray(hash, light.openness);
@@ -106,7 +106,7 @@ void read(std::istream& in, std::size_t count, std::vector<T>& values) {
     in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(count * sizeof(T)));
 }
 
-TerrainLight emptyLight(const Header& h) {
+TerrainLight emptyLight(const LightHeader& h) {
     TerrainLight light;
     const auto i = [](std::uint32_t value) { return static_cast<int>(value); };
     light.settings = {static_cast<TerrainLightKind>(h.kind),
@@ -126,14 +126,15 @@ TerrainLight emptyLight(const Header& h) {
     return light;
 }
 
-Header readHeader(std::istream& in, const std::string& name, std::uintmax_t fileSize) {
-    Header h;
+LightHeader readHeader(std::istream& in, const std::string& name, std::uintmax_t fileSize) {
+    LightHeader h;
     in.read(reinterpret_cast<char*>(&h), sizeof h);
     if (!in || std::memcmp(h.magic, kMagic, sizeof kMagic) != 0)
         throw Error(name, "", "expected light baked for a terrain, found something else",
                     "make one with stereonav bake");
-    if (h.version != kVersion)
-        throw Error(name, "version", fmt::format("expected {}, found {}", kVersion, h.version), kBakeAgain);
+    if (h.version != kFileVersion)
+        throw Error(name, "version", fmt::format("expected {}, found {}", kFileVersion, h.version),
+                    kBakeAgain);
     if (!plausible(h)) throw Error(name, "header", "expected sizes of baked light, found damage", kBakeAgain);
     const std::uintmax_t expected = sizeof h + sizesOf(h).bytes() + sizeof(std::uint64_t);
     if (fileSize != expected)
@@ -154,7 +155,7 @@ void checkGround(const std::string& name, const TerrainLight& light, const Heigh
 }  // namespace
 
 void saveTerrainLight(const std::filesystem::path& file, const TerrainLight& light) {
-    const Header header = headerOf(light);
+    const LightHeader header = headerOf(light);
     const std::uint64_t sum = checksum(header, light);
     writeFileAtomically(file, [&](const std::filesystem::path& temporary) {
         std::ofstream out(temporary, std::ios::binary);
@@ -182,7 +183,7 @@ TerrainLight loadTerrainLight(const std::filesystem::path& file, const Heightfie
     const std::uintmax_t size = std::filesystem::file_size(file, code);
     std::ifstream in(file, std::ios::binary);
     if (code || !in) throw Error(name, "", "can not be read", "make it with stereonav bake");
-    const Header header = readHeader(in, name, size);
+    const LightHeader header = readHeader(in, name, size);
     const Sizes sizes = sizesOf(header);
     TerrainLight light = emptyLight(header);
     read(in, sizes.samples, light.openness);

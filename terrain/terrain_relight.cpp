@@ -6,14 +6,13 @@
 
 #include "engine/base/parallel.h"
 #include "engine/light/spherical_harmonics.h"
+#include "engine/math/constants.h"
 #include "terrain/terrain_horizon.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-const RelightKernels& kernelsFor(SimdTarget target) {
+const RelightKernels& relightKernels(SimdTarget target) {
     return kernelsOf(target, plain::kRelightKernels, avx2::kRelightKernels, avx512::kRelightKernels);
 }
 
@@ -60,7 +59,7 @@ Azimuths azimuthsOf(const glm::dvec3& toSun, int azimuths) {
 }  // namespace
 
 TerrainRelight::TerrainRelight(const Heightfield& ground, TerrainLight light, SimdTarget target)
-    : mLight(std::move(light)), mKernels(&kernelsFor(availableTarget(target))) {
+    : mLight(std::move(light)), mKernels(&relightKernels(availableTarget(target))) {
     const LightGrid& grid = mLight.grid;
     mNormals.resize(3 * grid.count());
     parallelFor(grid.height, [&](int j) {

@@ -7,11 +7,10 @@
 #include <numbers>
 
 #include "engine/light/spherical_harmonics.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // The integral of sqrt(1 - z^2) from -1 to z.
 double circlePart(double z) {

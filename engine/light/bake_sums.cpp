@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/math/luminance.h"
 
 namespace stereonav {
 namespace {
@@ -28,10 +29,6 @@ void checkMemory(std::size_t texels, const BakeShape& shape) {
                     fmt::format("{} texels need {:.1f} GB, more than half of this machine's {:.1f} GB",
                                 texels, bytes / 1e9, memoryBytes() / 1e9),
                     "choose a lower resolution or fewer isovalues");
-}
-
-double luminance(const glm::vec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
 }
 
 template <typename T>
@@ -171,7 +168,7 @@ BrickEstimate estimateOf(std::span<const TexelSum> texels) {
     BrickEstimate estimate;
     for (const TexelSum& t : texels) {
         if (t.samples < 0) continue;
-        const double n = t.samples, y = luminance(t.mean);
+        const double n = t.samples, y = luminance(glm::dvec3(t.mean));
         estimate.variance += n >= 2 ? t.squares / (n * (n - 1)) : kUnknown;
         estimate.square += y * y;
     }

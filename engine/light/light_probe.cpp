@@ -9,15 +9,11 @@
 
 #include "engine/base/error.h"
 #include "engine/image/image_file.h"
+#include "engine/math/constants.h"
+#include "engine/math/luminance.h"
 
 namespace stereonav {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-double luminance(const glm::vec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-}
 
 void checkSize(int width, int height, std::size_t pixels, const std::string& name) {
     if (width > 0 && height > 0 && pixels == static_cast<std::size_t>(width) * height) return;
@@ -94,7 +90,7 @@ LightProbe::LightProbe(int width, int height, std::vector<glm::vec3> radiance, c
 
 void LightProbe::fillRow(int row) {
     double* columns = &mColumns[(static_cast<std::size_t>(mWidth) + 1) * row];
-    for (int i = 0; i < mWidth; ++i) columns[i + 1] = luminance(mRadiance[index({i, row})]);
+    for (int i = 0; i < mWidth; ++i) columns[i + 1] = luminance(glm::dvec3(mRadiance[index({i, row})]));
     mRows[row + 1] = accumulate(columns, columns + mWidth + 1) * (mEdges[row] - mEdges[row + 1]);
 }
 

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/constants.h"
+
 namespace stereonav {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kUndecided = 0.5;
 
 // Where all values lie at `place`.

@@ -21,9 +21,9 @@ constexpr float kSum = 2 + 8 * kEdge + 8 * kCorner;
 using Row = std::vector<std::int32_t>;  // a row with one more column at either end
 
 // The nine rows around one, and sums and differences of them.
-class RowSums {
+class GradientRowSums {
 public:
-    explicit RowSums(int width) : mWidth(width) {
+    explicit GradientRowSums(int width) : mWidth(width) {
         for (Row* row : {&mMiddle, &mSides, &mCorners}) row->resize(static_cast<std::size_t>(width) + 2);
         for (auto& pair : mSteps)
             for (Row& row : pair) row.resize(static_cast<std::size_t>(width) + 2);
@@ -90,7 +90,7 @@ Volume<std::uint8_t> gradientModulation(const OpennessVolume& openness, double g
     const glm::ivec3 size = openness.frame.size;
     const auto perLength = static_cast<float>(std::min(1.0 / (kSum * gradientMax), 1e6));
     parallelFor(size.z, [&](int k) {
-        RowSums sums(size.x);
+        GradientRowSums sums(size.x);
         for (int j = 0; j < size.y; ++j) {
             sums.gather(openness, j, k);
             std::uint8_t* to = modulation.values.data() + modulation.frame.index(0, j, k);

@@ -15,7 +15,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kBrick = 8;  // texels along an edge
+constexpr int kLightBrick = 8;  // texels along an edge
 
 // Stored numbers [low, high] that values [lowest, highest] come from.
 struct StoredRange {
@@ -74,9 +74,9 @@ IlluminationVolume ambientLight(const GreyVolume& volume, const OpennessVolume& 
     if (std::min({size.x, size.y, size.z}) < 2) return light;
     const StoredRange range(volume, lowest, highest);
     const std::array<PackedTexel, 256> packed = packAll(k);
-    parallelFor((size.z + kBrick - 1) / kBrick, [&](int brick) {
+    parallelFor((size.z + kLightBrick - 1) / kLightBrick, [&](int brick) {
         std::vector<std::uint8_t> touched(static_cast<std::size_t>(size.x) * size.y);
-        for (int z = brick * kBrick; z < std::min((brick + 1) * kBrick, size.z); ++z) {
+        for (int z = brick * kLightBrick; z < std::min((brick + 1) * kLightBrick, size.z); ++z) {
             std::fill(touched.begin(), touched.end(), std::uint8_t{0});
             if (z > 0) markCells(volume, range, z - 1, touched);
             if (z + 1 < size.z) markCells(volume, range, z, touched);

@@ -15,12 +15,11 @@
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/light/isovalue_surface.h"
+#include "engine/math/constants.h"
 #include "engine/volume/plain_volume_caster.h"
 
 namespace stereonav {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 double smallestSpacing(const VolumeFrame& frame) {
     return std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z});

@@ -9,12 +9,11 @@
 
 #include "engine/light/isovalue_surface.h"
 #include "engine/light/path_numbers.h"
+#include "engine/math/constants.h"
 #include "engine/volume/plain_volume_caster.h"
 
 namespace stereonav {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // The unit square onto the unit disc, areas kept (Shirley and Chiu 1997).
 glm::dvec2 onDisc(const glm::dvec2& u) {

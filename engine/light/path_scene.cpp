@@ -8,11 +8,10 @@
 #include <numbers>
 
 #include "engine/light/path_plain.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 int stepsToFind(int entries) {
     return std::bit_width(static_cast<unsigned>(entries));

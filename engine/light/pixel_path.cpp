@@ -8,17 +8,13 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
+#include "engine/math/luminance.h"
 
 namespace stereonav {
 namespace {
 
 bool showsSurface(float depth) {
     return depth > 0 && depth < kMissDepth;
-}
-
-double luminance(const glm::vec3& c) {
-    return 0.2126 * static_cast<double>(c.x) + 0.7152 * static_cast<double>(c.y) +
-           0.0722 * static_cast<double>(c.z);
 }
 
 }  // namespace
@@ -68,7 +64,7 @@ PixelLightFacts factsOf(const Plane<TexelSum>& sums) {
         for (int x = 0; x < sums.width(); ++x) {
             const TexelSum& sum = sums.at(x, y);
             if (!(sum.samples > 0)) continue;
-            const double n = sum.samples, light = luminance(sum.mean);
+            const double n = sum.samples, light = luminance(glm::dvec3(sum.mean));
             ++facts.pixels;
             facts.mean += light;
             squares += light * light;

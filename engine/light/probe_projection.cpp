@@ -10,11 +10,11 @@
 #include "engine/base/error.h"
 #include "engine/light/light_probe.h"
 #include "engine/light/spherical_harmonics.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kTurns = 2 * kMaxHarmonicsOrder - 1;  // m from 1 - order to order - 1
 
 using PolarIntegrals = std::array<double, kMaxHarmonics>;  // l (l + 1) + m, m >= 0

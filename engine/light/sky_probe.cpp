@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSunRadius = 0.5 * 0.533 * kPi / 180;  // at the mean distance
 constexpr double kSunAboveTheAir_klx = 128;             // across the rays
 const glm::dvec3 kWavelengths_um(0.61, 0.55, 0.465);

@@ -14,6 +14,7 @@
 #include "engine/light/path_numbers.h"
 #include "engine/light/path_scene.h"
 #include "engine/light/spherical_harmonics.h"
+#include "engine/math/luminance.h"
 #include "engine/volume/plain_volume_caster.h"
 
 namespace stereonav {
@@ -52,10 +53,6 @@ void checkVolume(const GreyVolume& volume) {
     require(std::min({size.x, size.y, size.z}) >= 2, "volume",
             fmt::format("expected at least 2 voxels along each axis, got {}x{}x{}", size.x, size.y, size.z),
             "a single slice has no surface");
-}
-
-float luminance(const glm::vec3& c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 
 constexpr float kMostSquares = 1e38f;

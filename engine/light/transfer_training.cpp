@@ -277,7 +277,7 @@ CompressedTransfer compressTransfer(std::span<const float> vectors, const Transf
     check(vectors, shape, settings);
     TransferCompression asHalves = settings;
     asHalves.weights = Weights::Half;
-    TransferCodebook book = trainCodebook(vectors, shape, asHalves);
+    TransferCodebook book = stereonav::trainCodebook(vectors, shape, asHalves);
     const std::vector<std::uint8_t> clusters = clustersOf(book, vectors);
     if (settings.clusters > 0 && settings.weights == Weights::Byte) book = withBytes(book, vectors, clusters);
     CompressedTransfer compressed{std::move(book), {}};

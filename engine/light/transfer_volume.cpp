@@ -33,7 +33,7 @@ std::uint16_t storedHalf(float v) {
 
 constexpr int kBrickTexels = 512;
 
-TransferKernels kernelsFor(SimdTarget target) {
+TransferKernels transferKernels(SimdTarget target) {
     return kernelsOf<TransferKernels>(target, {plain::relight}, {avx2::relight}, {avx512::relight});
 }
 
@@ -139,7 +139,7 @@ void TransferVolume::relightBrick(std::size_t n, const Light& light, Illuminatio
 void TransferVolume::relight(std::span<const glm::vec3> light, std::span<const std::uint32_t> which,
                              IlluminationVolume& to, SimdTarget target) const {
     Light prepared;
-    prepared.kernels = kernelsFor(target);
+    prepared.kernels = transferKernels(target);
     const std::size_t count = std::min(light.size(), static_cast<std::size_t>(mOrder * mOrder));
     for (std::size_t c = 0; c < count; ++c)
         for (int channel = 0; channel < 3; ++channel)

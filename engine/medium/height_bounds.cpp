@@ -12,7 +12,7 @@ constexpr double kSamplesOff = 0.01;      // by which places are off at most, in
 constexpr double kFootprintsOff = 1.001;  // factor
 constexpr double kHeightsOff = 2e-6;      // of how far the layer reaches
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNoHeight = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
@@ -34,7 +34,7 @@ HeightBounds::HeightBounds(const HeightLayer& layer, double displacement)
         level.blocks.reserve(static_cast<std::size_t>(level.width) * level.height);
         for (int y = 0; y < height; y += 2)
             for (int x = 0; x < width; x += 2) {
-                Range all{kInfinity, -kInfinity};
+                Range all{kNoHeight, -kNoHeight};
                 for (int j = y; j < std::min(y + 2, height); ++j)
                     for (int i = x; i < std::min(x + 2, width); ++i) {
                         const Range r = rangeAt(i, j);
@@ -48,7 +48,7 @@ HeightBounds::HeightBounds(const HeightLayer& layer, double displacement)
     const Plane<float>& finest = layer.levels[0];
     mLevels.push_back(blocksOf(mWidth, mHeight, [&](int x, int y) {
         const float h = finest.at(x, y);
-        return std::isfinite(h) ? Range{h, h} : Range{kInfinity, -kInfinity};
+        return std::isfinite(h) ? Range{h, h} : Range{kNoHeight, -kNoHeight};
     }));
     while (std::max(mLevels.back().width, mLevels.back().height) > 1) {
         const Level& fine = mLevels.back();
@@ -88,7 +88,7 @@ bool HeightBounds::meets(const glm::dvec3& low, const glm::dvec3& high, double f
     const int shift = std::clamp(static_cast<int>(std::bit_width(static_cast<unsigned>(span))) - 1, 1,
                                  static_cast<int>(mLevels.size()));
     const Level& level = mLevels[shift - 1];
-    Range all{kInfinity, -kInfinity};
+    Range all{kNoHeight, -kNoHeight};
     for (int y = first[1] >> shift; y <= last[1] >> shift; ++y)
         for (int x = first[0] >> shift; x <= last[0] >> shift; ++x) {
             const Range& r = level.blocks[static_cast<std::size_t>(y) * level.width + x];

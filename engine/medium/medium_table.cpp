@@ -6,11 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/constants.h"
+
 namespace stereonav {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kColumns = MediumTable::kValues + 1;
+constexpr int kTableColumns = MediumTable::kValues + 1;
 
 // Lower entry and the share of the one above. NaN counts as 0.
 struct Place {
@@ -59,12 +60,12 @@ void spreadColors(MediumTable& table) {
         reached.push_back(to);
     };
     for (std::size_t next = 0; next < reached.size(); ++next) {
-        const std::size_t n = reached[next], column = n % kColumns;
+        const std::size_t n = reached[next], column = n % kTableColumns;
         const OpticalProperties from = table.entries[n];
         if (column > 0) give(from, n - 1);
-        if (column + 1 < kColumns) give(from, n + 1);
-        if (n >= kColumns) give(from, n - kColumns);
-        if (n + kColumns < known.size()) give(from, n + kColumns);
+        if (column + 1 < kTableColumns) give(from, n + 1);
+        if (n >= kTableColumns) give(from, n - kTableColumns);
+        if (n + kTableColumns < known.size()) give(from, n + kTableColumns);
     }
 }
 
@@ -85,9 +86,9 @@ void fillEntries(MediumTable& table, const MediumTransfer& transfer, double last
     const double step = table.perValue > 0 ? 1 / table.perValue : 0;
     for (int row = 0; row < table.rows; ++row) {
         const double gradient = table.rows > 1 ? row / table.perGradient : 0;
-        for (int i = 0; i < kColumns; ++i) {
+        for (int i = 0; i < kTableColumns; ++i) {
             const double value = i == MediumTable::kValues ? lastValue : table.firstValue + i * step;
-            OpticalProperties& entry = table.entries[static_cast<std::size_t>(row) * kColumns + i];
+            OpticalProperties& entry = table.entries[static_cast<std::size_t>(row) * kTableColumns + i];
             entry = transfer.at(value, gradient);
             table.largest[i] = std::max(table.largest[i], entry.extinction);
         }
@@ -100,7 +101,7 @@ OpticalProperties MediumTable::at(double value, double gradient) const {
     if (entries.empty()) return {};
     const Place column = placeOf((value - firstValue) * perValue, kValues);
     const auto alongRow = [&](int row) {
-        const OpticalProperties* entry = &entries[static_cast<std::size_t>(row) * kColumns + column.low];
+        const OpticalProperties* entry = &entries[static_cast<std::size_t>(row) * kTableColumns + column.low];
         return mix(entry[0], entry[1], column.share);
     };
     if (rows == 1) return alongRow(0);
@@ -131,13 +132,13 @@ MediumTable makeMediumTable(const MediumTransfer& transfer, double lowest, doubl
     const MediumTransfer::Range visible = transfer.visibleRange(), changing = transfer.changingRange();
     lowest = std::max(lowest, visible.lowest);
     highest = std::min(highest, visible.highest);
-    table.largest.assign(kColumns, 0.0f);
+    table.largest.assign(kTableColumns, 0.0f);
     const bool empty = !(lowest <= highest);
     if (!empty && transfer.largestGradient() > 0) {
         table.rows = MediumTable::kGradients + 1;
         table.perGradient = MediumTable::kGradients / transfer.largestGradient();
     }
-    table.entries.resize(static_cast<std::size_t>(table.rows) * kColumns);
+    table.entries.resize(static_cast<std::size_t>(table.rows) * kTableColumns);
     if (empty) return table;
     const double last = layOut(table, std::clamp(lowest, changing.lowest, changing.highest),
                                std::clamp(highest, changing.lowest, changing.highest));

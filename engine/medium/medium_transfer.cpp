@@ -11,12 +11,12 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 #include "engine/medium/medium_check.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kShortest = 1e-12, kLongest = 1e12;  // metres of reference: extinctions stay normal floats
 constexpr float kLeastTransport = static_cast<float>(1.0 - MediumTransfer::kDensest);
 

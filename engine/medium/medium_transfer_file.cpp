@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/image/packed_color.h"
+#include "engine/math/constants.h"
 #include "engine/medium/medium_check.h"
 #include "engine/medium/medium_transfer.h"
 #include "engine/medium/text_words.h"
@@ -16,7 +17,6 @@
 namespace stereonav {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPerMillimetre = 1e3;  // a metre; gradients in files are a millimetre's
 
 constexpr const char* kPointForm =

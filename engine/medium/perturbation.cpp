@@ -14,8 +14,8 @@
 namespace stereonav {
 namespace {
 
-constexpr int kSize = NoiseVolume::kSize;
-constexpr int kTexels = kSize * kSize * kSize;
+constexpr int kNoiseSize = NoiseVolume::kSize;
+constexpr int kTexels = kNoiseSize * kNoiseSize * kNoiseSize;
 using Channel = std::vector<int>;
 
 // Steele, Lea and Flood 2014: splitmix64's finishing step, of a counter.
@@ -40,9 +40,9 @@ Channel whiteNoise(std::uint32_t seed, int channel) {
 Channel blurred(const Channel& values, int stride) {
     Channel sums(kTexels);
     for (int n = 0; n < kTexels; ++n) {
-        const int at = n / stride % kSize, start = n - at * stride;
-        const int before = start + (at + kSize - 1) % kSize * stride,
-                  after = start + (at + 1) % kSize * stride;
+        const int at = n / stride % kNoiseSize, start = n - at * stride;
+        const int before = start + (at + kNoiseSize - 1) % kNoiseSize * stride,
+                  after = start + (at + 1) % kNoiseSize * stride;
         sums[n] = values[before] + 2 * values[n] + values[after];
     }
     return sums;
@@ -62,14 +62,15 @@ std::vector<std::uint8_t> stretched(const Channel& values) {
 }
 
 int wrapped(double texel) {
-    return static_cast<int>(texel - kSize * std::floor(texel / kSize)) & (kSize - 1);
+    return static_cast<int>(texel - kNoiseSize * std::floor(texel / kNoiseSize)) & (kNoiseSize - 1);
 }
 
 }  // namespace
 
 NoiseVolume::NoiseVolume(std::uint32_t seed) : mBytes(4 * static_cast<std::size_t>(kTexels)) {
     for (int c = 0; c < 4; ++c) {
-        const Channel smooth = blurred(blurred(blurred(whiteNoise(seed, c), 1), kSize), kSize * kSize);
+        const Channel smooth =
+            blurred(blurred(blurred(whiteNoise(seed, c), 1), kNoiseSize), kNoiseSize * kNoiseSize);
         const std::vector<std::uint8_t> bytes = stretched(smooth);
         for (int n = 0; n < kTexels; ++n) mBytes[4 * static_cast<std::size_t>(n) + c] = bytes[n];
     }
@@ -90,7 +91,7 @@ glm::vec4 NoiseVolume::at(const glm::dvec3& texel) const {
         for (int a = 2; a >= 0; --a) {
             const int up = corner >> a & 1;
             weight *= up ? share[a] : 1 - share[a];
-            index = index * kSize + ((low[a] + up) & (kSize - 1));
+            index = index * kNoiseSize + ((low[a] + up) & (kNoiseSize - 1));
         }
         for (int c = 0; c < 4; ++c) sum[c] += weight * mBytes[4 * static_cast<std::size_t>(index) + c];
     }

@@ -10,11 +10,11 @@
 #include <numbers>
 
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kStep = kPi / PhaseFunction::kEntries;
 constexpr double kMostAsymmetry = 0.999;
 

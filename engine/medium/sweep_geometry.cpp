@@ -13,11 +13,11 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Eye rays stay below it where a wide lamp would lean the axis further: radians.
 constexpr double kSteepest = 85.0 / 180.0 * glm::pi<double>();
 constexpr double kWidestLight = 1;  // tangent: a lamp's buffer grows no further beyond its cone

@@ -13,7 +13,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kSide = LightTile::kSide, kStrips = kSide / LightTile::kStrip;
+constexpr int kLightSide = LightTile::kSide, kStrips = kLightSide / LightTile::kStrip;
 constexpr unsigned kAllStrips = (1u << kStrips) - 1;
 constexpr int kBorder = 16;                       // columns of 1 to both sides of a plane
 constexpr std::size_t kMostPacked = 32u << 20;    // bytes that the eyes' light may take
@@ -22,18 +22,19 @@ constexpr std::uint32_t kAllLight = 0x7fff7fffu;  // both halves 1
 constexpr int kPieces = 16;                       // of a slab's tiles, for threads
 constexpr double kSigmas = 5;                     // light that spreads further is below 1e-6 of what there is
 
-constexpr int kLine = 16;  // numbers of a cache line: rows start with one, so that no packet lies across two
+constexpr int kLineNumbers =
+    16;  // numbers of a cache line: rows start with one, so that no packet lies across two
 
 // The first whole line of numbers.
 template <typename T>
 T* linesOf(std::vector<T>& numbers) {
-    const std::size_t bytes = kLine * sizeof(T),
+    const std::size_t bytes = kLineNumbers * sizeof(T),
                       past = reinterpret_cast<std::uintptr_t>(numbers.data()) % bytes;
     return numbers.data() + (past ? (bytes - past) / sizeof(T) : 0);
 }
 
 std::int32_t strideOf(int width) {
-    return (width + kSide - 1) / kSide * kSide + 2 * kBorder;
+    return (width + kLightSide - 1) / kLightSide * kLightSide + 2 * kBorder;
 }
 
 // Largest of each tile's neighbourhood, along one axis and then the other.
@@ -58,7 +59,7 @@ void spreadLargest(std::vector<int>& values, int across, int down, int reach) {
 
 void SweepLightBuffers::setPlanes(SweepLight& light) {
     const std::int32_t stride = strideOf(light.width);
-    mPlanes.assign(7 * static_cast<std::size_t>(stride) * (light.height + 4) + kLine, 1.0f);
+    mPlanes.assign(7 * static_cast<std::size_t>(stride) * (light.height + 4) + kLineNumbers, 1.0f);
     light.stride = stride;
     light.direct = linesOf(mPlanes) + stride + kBorder;
     mSwapped = false;
@@ -66,18 +67,18 @@ void SweepLightBuffers::setPlanes(SweepLight& light) {
 
 // From column -1 to width + 1, row -1 to height + 1.
 void SweepLightBuffers::setPacked(SweepLight& light) {
-    light.packedStride = (light.width + 4 + kLine - 1) / kLine * kLine;
-    light.packedPlane = static_cast<std::int64_t>(light.packedStride) * (light.height + 3) + kLine;
+    light.packedStride = (light.width + 4 + kLineNumbers - 1) / kLineNumbers * kLineNumbers;
+    light.packedPlane = static_cast<std::int64_t>(light.packedStride) * (light.height + 3) + kLineNumbers;
     if (mPackedWidth != light.width || mPackedHeight != light.height) {
         const std::size_t bytes = 2 * sizeof(std::uint32_t) * static_cast<std::size_t>(light.packedPlane);
         mChunk = static_cast<int>(std::clamp<std::size_t>(kMostPacked / bytes, 1, SweepChunk::kMost));
-        mPacked.assign(2 * mChunk * static_cast<std::size_t>(light.packedPlane) + kBorder + 2 * kLine,
+        mPacked.assign(2 * mChunk * static_cast<std::size_t>(light.packedPlane) + kBorder + 2 * kLineNumbers,
                        kAllLight);
         mPackedWidth = light.width;
         mPackedHeight = light.height;
         mRingSet = false;
     }
-    light.packed = linesOf(mPacked) + kLine - 1;  // column 0 starts a line
+    light.packed = linesOf(mPacked) + kLineNumbers - 1;  // column 0 starts a line
 }
 
 // Scattered light as it sets out, in both turns.
@@ -91,7 +92,7 @@ void SweepLightBuffers::setStart(const SweepLight& light) {
             for (std::size_t k = 1; k <= 6; ++k)
                 light.direct[static_cast<std::ptrdiff_t>(k * plane) + at] = value;
             const int i = std::clamp(x, 0, light.width - 1), j = std::clamp(y, 0, light.height - 1);
-            mTouched[static_cast<std::size_t>(j / kSide) * mAcross + i / kSide] = 1;
+            mTouched[static_cast<std::size_t>(j / kLightSide) * mAcross + i / kLightSide] = 1;
         }
 }
 
@@ -120,8 +121,8 @@ void SweepLightBuffers::setRing(const SweepLight& light) {
 }
 
 int SweepLightBuffers::start(SweepScene& scene, const SweepGeometry& geometry, const SweepSpace* space) {
-    mAcross = (scene.light.width + kSide - 1) / kSide;
-    mDown = (scene.light.height + kSide - 1) / kSide;
+    mAcross = (scene.light.width + kLightSide - 1) / kLightSide;
+    mDown = (scene.light.height + kLightSide - 1) / kLightSide;
     setPlanes(scene.light);
     setPacked(scene.light);
     mTouched.assign(tiles(), 0);
@@ -131,8 +132,8 @@ int SweepLightBuffers::start(SweepScene& scene, const SweepGeometry& geometry, c
     mLeans = scattered && scene.light.leaning > 0 && scene.light.blur > 0;
     mDeep.assign(tiles(), 0);
     if (mLeans)
-        mDepths.assign(3 * static_cast<std::size_t>(scene.light.stride) * (scene.light.height + 4) + kLine,
-                       0.0f);
+        mDepths.assign(
+            3 * static_cast<std::size_t>(scene.light.stride) * (scene.light.height + 4) + kLineNumbers, 0.0f);
     if (!mStart.empty() || mRingSet) setRing(scene.light);
     findStrips(geometry, space);
     return mChunk;
@@ -141,11 +142,12 @@ int SweepLightBuffers::start(SweepScene& scene, const SweepGeometry& geometry, c
 // Strips of a tile, with a texel around each, that meet cells which may not be empty.
 void SweepLightBuffers::findStripsOf(const SweepGeometry& geometry, const SweepSpace& space, int tile,
                                      const std::vector<double>& middles) {
-    const double x0 = tile % mAcross * kSide - 1, x1 = x0 + kSide + 2, y0 = tile / mAcross * kSide - 1;
+    const double x0 = tile % mAcross * kLightSide - 1, x1 = x0 + kLightSide + 2,
+                 y0 = tile / mAcross * kLightSide - 1;
     const auto beamOf = [&](double top, double bottom) {
         return space.lightBeamOf(geometry, x0, top, x1, bottom);
     };
-    const SweepBeam whole = beamOf(y0, y0 + kSide + 2);
+    const SweepBeam whole = beamOf(y0, y0 + kLightSide + 2);
     SweepBeam beams[kStrips];
     for (int n = 0; n < kStrips; ++n)
         beams[n] = beamOf(y0 + n * LightTile::kStrip, y0 + (n + 1) * LightTile::kStrip + 2);
@@ -195,7 +197,7 @@ void SweepLightBuffers::findNeeded(const SweepLight& light, const SweepGeometry&
     // Texels of a lamp differ in size: any may be reached.
     const double spread =
         light.parallel ? std::sqrt(0.5 * length * light.length) * light.blur / light.perX : 1e6;
-    const double reach = 1 + kSigmas * spread / kSide;
+    const double reach = 1 + kSigmas * spread / kLightSide;
     spreadLargest(mNeeded, mAcross, mDown,
                   static_cast<int>(std::min(std::ceil(reach), 1.0 * std::max(mAcross, mDown))));
 }
@@ -214,8 +216,8 @@ long long SweepLightBuffers::beginChunk(const SweepScene& scene, const SweepGeom
     else
         mNeeded = mRead;
     if (!scene.gridAlone) return 0;
-    constexpr std::size_t kTexels = kSide * kSide;
-    const std::size_t needed = columnsOfTile() * tiles() + kLine;
+    constexpr std::size_t kTexels = kLightSide * kLightSide;
+    const std::size_t needed = columnsOfTile() * tiles() + kLineNumbers;
     if (mColumns.size() < needed) mColumns.resize(needed);
     std::atomic<long long> texels = 0;
     parallelFor(tiles(), [&](int tile) {
@@ -231,13 +233,13 @@ long long SweepLightBuffers::beginChunk(const SweepScene& scene, const SweepGeom
             strips += std::popcount(at.strips[n]);
         }
         if (!any) return;
-        at.x0 = tile % mAcross * kSide;
-        at.y0 = tile / mAcross * kSide;
+        at.x0 = tile % mAcross * kLightSide;
+        at.y0 = tile / mAcross * kLightSide;
         at.count = count;
         at.columns = columnsOf(0, at.x0, at.y0);
         at.next = kTexels;
         kernels.findColumns(scene, at);
-        texels += strips * kSide * LightTile::kStrip;
+        texels += strips * kLightSide * LightTile::kStrip;
     });
     return texels;
 }
@@ -249,7 +251,7 @@ void SweepLightBuffers::findDepths(const SweepScene& scene, const SweepGeometry&
     for (int tile = 0; tile < tiles(); ++tile) {
         const unsigned here = mNeeded[tile] < pass.slab ? 0u : stripsAt(geometry, pass.slab, tile);
         if (here || mDeep[tile])
-            mTiles.push_back({tile % mAcross * kSide, tile / mAcross * kSide, here, nullptr});
+            mTiles.push_back({tile % mAcross * kLightSide, tile / mAcross * kLightSide, here, nullptr});
         mDeep[tile] = here != 0;
     }
     const int count = static_cast<int>(mTiles.size()), pieces = std::min(count, kPieces);
@@ -263,11 +265,12 @@ void SweepLightBuffers::findDepths(const SweepScene& scene, const SweepGeometry&
 
 // A tile's slabs lie together, and tiles a line apart from where their numbers would meet in the caches.
 std::size_t SweepLightBuffers::columnsOfTile() const {
-    return static_cast<std::size_t>(kSide * kSide) * mChunk + kLine;
+    return static_cast<std::size_t>(kLightSide * kLightSide) * mChunk + kLineNumbers;
 }
 float* SweepLightBuffers::columnsOf(int inChunk, int x0, int y0) {
-    const std::size_t tile = static_cast<std::size_t>(y0 / kSide) * mAcross + x0 / kSide;
-    return linesOf(mColumns) + tile * columnsOfTile() + static_cast<std::size_t>(inChunk) * kSide * kSide;
+    const std::size_t tile = static_cast<std::size_t>(y0 / kLightSide) * mAcross + x0 / kLightSide;
+    return linesOf(mColumns) + tile * columnsOfTile() +
+           static_cast<std::size_t>(inChunk) * kLightSide * kLightSide;
 }
 
 // Those where something may be, and those to which light may spread that is needed later.
@@ -286,7 +289,7 @@ void SweepLightBuffers::chooseTiles(const SweepGeometry& geometry, int slab, int
         if (mNeeded[tile] < slab) continue;
         const unsigned here = stripsAt(geometry, slab, tile);
         if (here || spread[tile])
-            mTiles.push_back({tile % mAcross * kSide, tile / mAcross * kSide, here, nullptr});
+            mTiles.push_back({tile % mAcross * kLightSide, tile / mAcross * kLightSide, here, nullptr});
     }
 }
 
@@ -314,7 +317,7 @@ long long SweepLightBuffers::pass(const SweepScene& scene, const SweepGeometry& 
     // Texels of a lamp differ in size: any may be reached.
     const double offset =
         light.parallel ? std::sqrt(pass.thickness * light.length) * light.blur / light.perX : 1e6;
-    const double reach = std::ceil((std::max(offset, 1.0) + 1) / kSide);
+    const double reach = std::ceil((std::max(offset, 1.0) + 1) / kLightSide);
     chooseTiles(geometry, slab, static_cast<int>(std::min(reach, 1.0 * std::max(mAcross, mDown))));
     const int count = static_cast<int>(mTiles.size()), pieces = std::min(count, kPieces);
     parallelFor(pieces, [&](int piece) {
@@ -325,9 +328,9 @@ long long SweepLightBuffers::pass(const SweepScene& scene, const SweepGeometry& 
         }
     });
     for (int n = 0; n < count; ++n)
-        if (mChanged[n]) mTouched[mTiles[n].y0 / kSide * mAcross + mTiles[n].x0 / kSide] = 1;
+        if (mChanged[n]) mTouched[mTiles[n].y0 / kLightSide * mAcross + mTiles[n].x0 / kLightSide] = 1;
     mSwapped = !mSwapped;
-    return scene.gridAlone ? 0 : static_cast<long long>(count) * kSide * kSide;
+    return scene.gridAlone ? 0 : static_cast<long long>(count) * kLightSide * kLightSide;
 }
 
 std::size_t SweepLightBuffers::heldBytes() const {

@@ -8,10 +8,11 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "engine/math/constants.h"
+
 namespace stereonav {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // What both eyes see under a larger angle (tangent) is not shared: phase functions, highlights and the length
 // of ways through a slab are the first eye's, or nearly.
 constexpr double kMostParallax = 1.0 / 8;

@@ -25,7 +25,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kRowsOfTask = 8;  // rows of a warp task: some ten microseconds
+constexpr int kRowsOfWarpTask = 8;  // rows of a warp task: some ten microseconds
 
 struct Scratch {
     std::vector<float> column, inverse, accumulators;
@@ -302,10 +302,11 @@ struct RightEye::State {
 
 void RightEye::State::warp(const EyeRenderer& renderer, const WarpJob& job) {
     const int height = job.left.height();
-    const int tasks = (height + kRowsOfTask - 1) / kRowsOfTask;
+    const int tasks = (height + kRowsOfWarpTask - 1) / kRowsOfWarpTask;
     forEachPiece(tasks, job.setting.warpSchedule, [&](int worker, int task) {
-        const int end = std::min(height, (task + 1) * kRowsOfTask);
-        for (int y = task * kRowsOfTask; y < end; ++y) warpRow(renderer, job, resample, scratch[worker], y);
+        const int end = std::min(height, (task + 1) * kRowsOfWarpTask);
+        for (int y = task * kRowsOfWarpTask; y < end; ++y)
+            warpRow(renderer, job, resample, scratch[worker], y);
     });
     if (job.setting.method != RightEyeMethod::McMillan)
         markBorderOccluders(renderer, job.views, mask, job.right);
@@ -329,9 +330,10 @@ void RightEye::State::refine(const WarpJob& job, RightEyeTimings& timings) {
     timings.refinedPixels = std::accumulate(counts.begin() + lowest, counts.end(), 0ll);
     timings.boundPsnr_db = wanted.calibration->boundPsnr_db(counts, pixels, lowest);
     if (timings.refinedPixels == 0) return;
-    const int tasks = (job.right.height() + kRowsOfTask - 1) / kRowsOfTask;
+    const int tasks = (job.right.height() + kRowsOfWarpTask - 1) / kRowsOfWarpTask;
     parallelFor(tasks, [&](int task) {
-        for (int y = task * kRowsOfTask; y < std::min((task + 1) * kRowsOfTask, job.right.height()); ++y) {
+        for (int y = task * kRowsOfWarpTask; y < std::min((task + 1) * kRowsOfWarpTask, job.right.height());
+             ++y) {
             std::uint8_t* holes = mask.row(y);
             const std::uint8_t* classes = contrast.row(y);
             float* depth = job.right.viewDepth.row(y);

@@ -25,7 +25,7 @@ STEREONAV_EACH_SET(void combineDistances(const DistancePlane& plane, float* to, 
 
 namespace {
 
-DistanceKernels kernelsFor(SimdTarget target) {
+DistanceKernels distanceKernels(SimdTarget target) {
     return kernelsOf<DistanceKernels>(target, {plain::combineDistances, plain::finishDistances},
                                       {avx2::combineDistances, avx2::finishDistances},
                                       {avx512::combineDistances, avx512::finishDistances});
@@ -67,7 +67,7 @@ Range rangeOf(const std::uint8_t* row, int count) {
 class Transform {
 public:
     Transform(const MaskVolume& mask, bool outsideIsSeed, double unit, SimdTarget target)
-        : mMask(mask), mOutsideIsSeed(outsideIsSeed), mUnit(unit), mKernels(kernelsFor(target)) {}
+        : mMask(mask), mOutsideIsSeed(outsideIsSeed), mUnit(unit), mKernels(distanceKernels(target)) {}
 
     DistanceVolume run() {
         DistanceVolume result;

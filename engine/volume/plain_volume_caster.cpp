@@ -8,12 +8,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/math/constants.h"
 #include "engine/volume/surface_cells.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastLeft = 1.0 / 1024;
 
 using Corners = std::array<double, 8>;  // at x + 2 y + 4 z

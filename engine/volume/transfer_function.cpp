@@ -13,11 +13,10 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/image/packed_color.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool isShare(double x) {
     return x >= 0 && x <= 1;  // false for NaN

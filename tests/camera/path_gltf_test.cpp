@@ -14,6 +14,7 @@
 #include "engine/base/file.h"
 #include "engine/camera/gltf_file.h"
 #include "engine/camera/recorded_path.h"
+#include "engine/math/constants.h"
 #include "tests/camera/temporary_folder.h"
 
 namespace stereonav {
@@ -23,8 +24,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-constexpr double kPi = std::numbers::pi;
 
 // A glTF text over one buffer file. Placeholders @name@ of the text are replaced by `set`.
 struct HandMade {

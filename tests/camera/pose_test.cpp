@@ -8,10 +8,10 @@
 #include <numbers>
 #include <random>
 
+#include "engine/math/constants.h"
+
 namespace stereonav {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-12) {
     EXPECT_LT(glm::distance(a, b), tolerance)

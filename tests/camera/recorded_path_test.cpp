@@ -43,7 +43,7 @@ std::string constructMessage(std::vector<PathSample> samples) {
     return messageOf([&] { RecordedPath(std::move(samples), "made"); });
 }
 
-RecordedPath someFlight(int count, double start = 0) {
+RecordedPath someRecordedFlight(int count, double start = 0) {
     std::mt19937 random(4);
     std::uniform_real_distribution<double> metres(-20000, 20000), angle(-3, 3), step(0.01, 2);
     std::vector<PathSample> samples;
@@ -76,7 +76,7 @@ TEST(RecordedPath, TurnsTheShortWayWhateverTheSign) {
 }
 
 TEST(RecordedPath, FramesIncludeBothEnds) {
-    const RecordedPath path = someFlight(7);
+    const RecordedPath path = someRecordedFlight(7);
     const auto frames = path.frames(5);
     ASSERT_EQ(frames.size(), 5u);
     EXPECT_EQ(frames.front().position, path.samples().front().pose.position);
@@ -108,7 +108,7 @@ TEST(RecordedPath, TheLastFrameOfAWholeNumberOfFramesIsNotLost) {
 }
 
 TEST(RecordedPath, RefusesRatesThatAreNoRates) {
-    const RecordedPath path = someFlight(3);
+    const RecordedPath path = someRecordedFlight(3);
     for (const double fps : {0.0, -1.0, kNan, std::numeric_limits<double>::infinity(), 1e12})
         EXPECT_THAT(messageOf([&] { path.framesAtRate(fps); }), HasSubstr("--fps")) << fps;
 }
@@ -135,7 +135,7 @@ TEST(RecordedPath, RefusesBadSamplesByPose) {
 
 TEST(OsgPath, RoundTripIsExact) {
     const TemporaryFolder folder;
-    const RecordedPath path = someFlight(200, -3.7);
+    const RecordedPath path = someRecordedFlight(200, -3.7);
     writePath(folder / "flight.path", path);
     const RecordedPath again = readPath(folder / "flight.path");
     ASSERT_EQ(again.samples().size(), 200u);
@@ -196,7 +196,7 @@ TEST(OsgPath, BadFilesAreNamedOnOneLine) {
     const auto missing = messageOf([&] { readPath(folder / "none.path"); });
     EXPECT_THAT(missing, AllOf(HasSubstr("none.path"), HasSubstr("can not be opened"), Not(HasSubstr("\n"))));
     EXPECT_THAT(messageOf([&] { readPath(folder / "none.csv"); }), HasSubstr("expected a path named .gltf"));
-    EXPECT_THAT(messageOf([&] { writePath(folder / "none.csv", someFlight(2)); }),
+    EXPECT_THAT(messageOf([&] { writePath(folder / "none.csv", someRecordedFlight(2)); }),
                 HasSubstr("expected a path named"));
     EXPECT_THAT(messageOf([&] { writePath(folder / "none.path", RecordedPath()); }),
                 HasSubstr("no path to write"));

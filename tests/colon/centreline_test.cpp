@@ -9,6 +9,7 @@
 #include "centreline_lumens.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
@@ -18,14 +19,12 @@ using test::lumenOfVoxels;
 using test::Shape;
 using testing::HasSubstr;
 
-constexpr double kPi = std::numbers::pi;
-
 Centreline lineOf(const LumenField& lumen, const CentrelineSetting& setting = {}) {
     Progress progress;
     return findCentreline(lumen, distanceToOutside(lumen.lumen), setting, progress);
 }
 
-double valueAt(const LumenField& lumen, const glm::dvec3& world) {
+double lumenValueAt(const LumenField& lumen, const glm::dvec3& world) {
     const glm::dvec3 v = lumen.field.frame.voxelFromWorld(world);
     const glm::ivec3 low = glm::clamp(glm::ivec3(glm::floor(v)), glm::ivec3(0), lumen.field.frame.size - 1);
     const glm::dvec3 t = v - glm::dvec3(low);
@@ -46,7 +45,7 @@ void expectSound(const LumenField& lumen, const Centreline& line, double spacing
         const glm::ivec3 nearest(glm::round(lumen.lumen.frame.voxelFromWorld(p.position)));
         ASSERT_TRUE(lumen.lumen.frame.contains(nearest)) << n;
         EXPECT_EQ(lumen.lumen.at(nearest), p.segment) << n;
-        EXPECT_LT(valueAt(lumen, p.position), lumen.isovalue) << n;
+        EXPECT_LT(lumenValueAt(lumen, p.position), lumen.isovalue) << n;
         EXPECT_GE(p.radius, 0) << n;
         if (n == 0 || line.points[n - 1].segment != p.segment) continue;
         EXPECT_NEAR(glm::length(p.position - line.points[n - 1].position), spacing, 0.2 * spacing) << n;
@@ -365,7 +364,7 @@ TEST(Centreline, SpacingIsKept) {
     }
 }
 
-std::string errorOf(const LumenField& lumen, const DistanceVolume& distance, double spacing) {
+std::string lineErrorOf(const LumenField& lumen, const DistanceVolume& distance, double spacing) {
     CentrelineSetting setting;
     setting.spacing = spacing;
     Progress progress;
@@ -379,18 +378,18 @@ std::string errorOf(const LumenField& lumen, const DistanceVolume& distance, dou
 
 TEST(Centreline, RefusesWhatHasNone) {
     const LumenField empty = lumenOfVoxels({}, glm::ivec3(4));
-    EXPECT_THAT(errorOf(empty, distanceToOutside(empty.lumen), 0.001), HasSubstr("the lumen is empty"));
-    EXPECT_THAT(errorOf(LumenField{}, DistanceVolume{}, 0.001), HasSubstr("the lumen is empty"));
+    EXPECT_THAT(lineErrorOf(empty, distanceToOutside(empty.lumen), 0.001), HasSubstr("the lumen is empty"));
+    EXPECT_THAT(lineErrorOf(LumenField{}, DistanceVolume{}, 0.001), HasSubstr("the lumen is empty"));
     LumenField hollow = lumenOfVoxels({}, glm::ivec3(4));
     hollow.segments.emplace_back();
-    EXPECT_THAT(errorOf(hollow, distanceToOutside(hollow.lumen), 0.001),
+    EXPECT_THAT(lineErrorOf(hollow, distanceToOutside(hollow.lumen), 0.001),
                 HasSubstr("segment 1 of the lumen has no voxels"));
     const LumenField good = lumenOfVoxels({{1, 1, 1}, {1, 1, 2}}, glm::ivec3(4));
-    EXPECT_THAT(errorOf(good, DistanceVolume{}, 0.001), HasSubstr("distances do not belong"));
+    EXPECT_THAT(lineErrorOf(good, DistanceVolume{}, 0.001), HasSubstr("distances do not belong"));
     for (const double spacing : {0.0, -1.0, double(NAN), double(INFINITY)})
-        EXPECT_THAT(errorOf(good, distanceToOutside(good.lumen), spacing),
+        EXPECT_THAT(lineErrorOf(good, distanceToOutside(good.lumen), spacing),
                     HasSubstr("expected metres, more than 0"));
-    EXPECT_THAT(errorOf(good, distanceToOutside(good.lumen), 1e-11),
+    EXPECT_THAT(lineErrorOf(good, distanceToOutside(good.lumen), 1e-11),
                 HasSubstr("more than ten million points"));
 }
 

@@ -7,13 +7,13 @@
 
 #include "colon/colon_flight.h"
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
 
 using Setting = SeparationControl::Setting;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(SeparationControl, StepResponseIsMonotone) {
     for (const double depth : {0.008, 0.09}) {

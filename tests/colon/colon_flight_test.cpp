@@ -10,13 +10,13 @@
 #include <random>
 
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 #include "tests/support/analytic_lumen.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 using std::numbers::pi;
 
 ColonFlight flightIn(const AnalyticLumen& lumen, double separation = 0.004, double clearance = 0.002) {
@@ -306,15 +306,16 @@ TEST(ColonFlight, WithoutALineThereIsOneMode) {
 }
 
 TEST(ColonFlight, NonsenseChangesNothing) {
-    const FlightInput all{1, 1, 1, 1, 1, 1, 1}, none{kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN},
+    const FlightInput all{1, 1, 1, 1, 1, 1, 1},
+        none{kNotANumber, kNotANumber, kNotANumber, kNotANumber, kNotANumber, kNotANumber, kNotANumber},
         most{kInfinity, -kInfinity, kInfinity, kInfinity, -kInfinity, kInfinity, kInfinity};
     for (const int mode : {0, 1}) {
         ColonFlight flight = flightIn(torus());
         flight.setMode(mode);
         const Pose before = flight.pose();
-        for (const double dt : {-1.0, 0.0, kNaN, -kInfinity}) flight.step(all, dt);
+        for (const double dt : {-1.0, 0.0, kNotANumber, -kInfinity}) flight.step(all, dt);
         flight.step(none, 0.5);
-        flight.turnBy(kNaN, kNaN);
+        flight.turnBy(kNotANumber, kNotANumber);
         for (const int unknown : {-1, 2, 77}) flight.setMode(unknown);
         EXPECT_EQ(flight.mode(), mode);
         EXPECT_EQ(flight.pose().position, before.position);
@@ -345,10 +346,11 @@ TEST(ColonFlight, RefusesSettingsThatMeanNothing) {
     };
     using testing::HasSubstr;
     EXPECT_THAT(with({0, 0.03, 0}, lumen.home), HasSubstr("clearance: expected a number above 0, got 0"));
-    EXPECT_THAT(with({0.002, kNaN, 0}, lumen.home), HasSubstr("speed: expected a number above 0, got nan"));
+    EXPECT_THAT(with({0.002, kNotANumber, 0}, lumen.home),
+                HasSubstr("speed: expected a number above 0, got nan"));
     EXPECT_THAT(with({0.002, 0.03, -1}, lumen.home), HasSubstr("expected a number of at least 0, got -1"));
     Pose lost = lumen.home;
-    lost.position.x = kNaN;
+    lost.position.x = kNotANumber;
     EXPECT_THAT(with({0.002, 0.03, 0}, lost), HasSubstr("pose: expected finite numbers"));
     EXPECT_EQ(with({0.002, 0.03, 0}, lumen.home), "");
     EXPECT_THAT(with({0.05, 0.03, 0}, lumen.home), HasSubstr("")) << "a clearance that nothing leaves";

@@ -43,7 +43,7 @@ LumenField lumenOf(const MaskVolume& mask, const std::vector<glm::dvec3>& seeds 
     return lumenFromMask(mask, setting, progress);
 }
 
-std::string errorOf(const MaskVolume& mask, const std::vector<glm::dvec3>& seeds = {}) {
+std::string maskErrorOf(const MaskVolume& mask, const std::vector<glm::dvec3>& seeds = {}) {
     try {
         lumenOf(mask, seeds);
     } catch (const Error& e) {
@@ -166,15 +166,15 @@ TEST(LumenFromMask, TheSameOnAnyNumberOfThreads) {
 
 TEST(LumenFromMask, BadMasksAndSeedsAreNamed) {
     const VolumeFrame frame = frameOf({20, 20, 20});
-    EXPECT_THAT(errorOf(maskWhere(frame, [](glm::dvec3) { return false; })), HasSubstr("found none"));
-    EXPECT_THAT(errorOf(maskWhere(frame, [](glm::dvec3) { return true; })), HasSubstr("all are inside"));
+    EXPECT_THAT(maskErrorOf(maskWhere(frame, [](glm::dvec3) { return false; })), HasSubstr("found none"));
+    EXPECT_THAT(maskErrorOf(maskWhere(frame, [](glm::dvec3) { return true; })), HasSubstr("all are inside"));
     const MaskVolume ball =
         maskWhere(frame, [](glm::dvec3 p) { return glm::distance(p, glm::dvec3(0.01)) < 0.005; });
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THAT(errorOf(ball, {{0.11, nan, 0.31}}), HasSubstr("finite"));
-    EXPECT_THAT(errorOf(ball, {{1e30, 0, 0}}), HasSubstr("outside the volume"));
-    EXPECT_THAT(errorOf(ball, {{0.101, -0.199, 0.301}}), HasSubstr("--seed 101,-199,301"));
-    EXPECT_EQ(errorOf(ball, {{0.11, -0.19, 0.31}}), "no error");
+    EXPECT_THAT(maskErrorOf(ball, {{0.11, nan, 0.31}}), HasSubstr("finite"));
+    EXPECT_THAT(maskErrorOf(ball, {{1e30, 0, 0}}), HasSubstr("outside the volume"));
+    EXPECT_THAT(maskErrorOf(ball, {{0.101, -0.199, 0.301}}), HasSubstr("--seed 101,-199,301"));
+    EXPECT_EQ(maskErrorOf(ball, {{0.11, -0.19, 0.31}}), "no error");
 }
 
 TEST(LumenFromMask, OneVoxelIsALumen) {

@@ -117,7 +117,7 @@ LumenField lumenOf(const GreyVolume& scan) {
     return segmentColon(scan, {}, progress);
 }
 
-Centreline lineOf(const LumenField& lumen) {
+Centreline lineOfBody(const LumenField& lumen) {
     Progress progress;
     return findCentreline(lumen, distanceToOutside(lumen.lumen), {}, progress);
 }
@@ -200,7 +200,7 @@ TEST(SegmentBodyWithoutColon, IsRefusedWithWhatWasFound) {
 // The same body under a grid that is turned: the same lumen and line in the world.
 TEST_P(SegmentBody, ObliqueAxesChangeNothingInTheWorld) {
     const LumenField straight = lumenOf(scanOf(GetParam(), glm::dmat3(1.0)));
-    const Centreline reference = lineOf(straight);
+    const Centreline reference = lineOfBody(straight);
     EXPECT_NEAR(reference.length(), 0.47, 0.05);  // the way of 0.47 m, ends and corners a little shorter
     for (const glm::dmat3& turn :
          {turned(15, {0, 0, 1}), turned(-12, {1, 0, 0}), turned(20, {0, 1, 0}), turned(14, {1, 1, 1})}) {
@@ -208,7 +208,7 @@ TEST_P(SegmentBody, ObliqueAxesChangeNothingInTheWorld) {
         const LumenField lumen = lumenOf(scan);
         ASSERT_EQ(lumen.segments.size(), 1u);
         const double dice = diceOf(lumen, scan.frame);
-        const Centreline line = lineOf(lumen);
+        const Centreline line = lineOfBody(lumen);
         double most = 0;
         for (const CentrelinePoint& point : line.points) {
             double least = 1;

@@ -31,7 +31,7 @@ LumenField segment(const GreyVolume& study, const std::vector<glm::dvec3>& seeds
     return segmentColon(study, setting, progress);
 }
 
-std::string errorOf(const GreyVolume& study, const std::vector<glm::dvec3>& seeds = {}) {
+std::string segmentationErrorOf(const GreyVolume& study, const std::vector<glm::dvec3>& seeds = {}) {
     try {
         segment(study, seeds);
     } catch (const Error& e) {
@@ -40,16 +40,16 @@ std::string errorOf(const GreyVolume& study, const std::vector<glm::dvec3>& seed
     return "no error";
 }
 
-struct Overlap {
+struct PartOverlap {
     std::size_t truth = 0, found = 0, both = 0;
     double dice() const { return 2.0 * static_cast<double>(both) / static_cast<double>(truth + found); }
 };
 
 // inColon and counted: by voxel of the study.
-Overlap overlap(const LumenField& lumen, const VolumeFrame& study,
-                const std::function<bool(glm::ivec3)>& inColon,
-                const std::function<bool(glm::ivec3)>& counted) {
-    Overlap sum;
+PartOverlap overlap(const LumenField& lumen, const VolumeFrame& study,
+                    const std::function<bool(glm::ivec3)>& inColon,
+                    const std::function<bool(glm::ivec3)>& counted) {
+    PartOverlap sum;
     const glm::ivec3 first(
         glm::floor(study.voxelFromWorld(lumen.lumen.frame.worldFromVoxel(glm::dvec3(0))) + 0.5));
     for (int k = 0; k < study.size.z; ++k)
@@ -104,10 +104,12 @@ TEST(SegmentColon, TaggedFluidBelongsToTheLumenAndBoneDoesNot) {
 
 TEST(SegmentColon, SeedsChooseThePieces) {
     const GreyVolume study = test::scanned(filled({120, 110, 120}, 0.001, TubeBody::hu), 0.0007, 20);
-    EXPECT_EQ(errorOf(study, {{0.06, 0.050, 0.05}}), "no error");
-    EXPECT_THAT(errorOf(study, {{0.03, 0.055, 0.05}}), HasSubstr("--seed 30,55,50: lies in tissue"));
-    EXPECT_THAT(errorOf(study, {{0.03, 0.055, 5}}), HasSubstr("outside the volume"));
-    EXPECT_THAT(errorOf(study, {{0.03, std::numeric_limits<double>::quiet_NaN(), 0}}), HasSubstr("finite"));
+    EXPECT_EQ(segmentationErrorOf(study, {{0.06, 0.050, 0.05}}), "no error");
+    EXPECT_THAT(segmentationErrorOf(study, {{0.03, 0.055, 0.05}}),
+                HasSubstr("--seed 30,55,50: lies in tissue"));
+    EXPECT_THAT(segmentationErrorOf(study, {{0.03, 0.055, 5}}), HasSubstr("outside the volume"));
+    EXPECT_THAT(segmentationErrorOf(study, {{0.03, std::numeric_limits<double>::quiet_NaN(), 0}}),
+                HasSubstr("finite"));
 }
 
 TEST(SegmentColon, TwoPiecesAreTwoSegments) {
@@ -126,13 +128,17 @@ TEST(SegmentColon, TwoPiecesAreTwoSegments) {
 
 TEST(SegmentColon, WhatHoldsNoColonIsRefused) {
     const glm::ivec3 size(30, 30, 30);
-    EXPECT_THAT(errorOf(filled(size, 0.001, [](glm::dvec3) { return -1000; })), HasSubstr("nothing but air"));
-    EXPECT_THAT(errorOf(filled(size, 0.001, [](glm::dvec3) { return 40; })), HasSubstr("no air"));
-    EXPECT_THAT(errorOf(filled(size, 0.001, [](glm::dvec3 p) { return p.x < 0.01 ? -1000 : 40; })),
-                HasSubstr("nothing like a colon"));
-    EXPECT_THAT(errorOf(filled({1, 1, 1}, 0.001, [](glm::dvec3) { return 40; })), HasSubstr("no air"));
-    EXPECT_THAT(errorOf(filled({2, 1, 1}, 0.001, [](glm::dvec3 p) { return p.x > 0 ? -1000 : 40; })),
-                HasSubstr("nothing like a colon"));
+    EXPECT_THAT(segmentationErrorOf(filled(size, 0.001, [](glm::dvec3) { return -1000; })),
+                HasSubstr("nothing but air"));
+    EXPECT_THAT(segmentationErrorOf(filled(size, 0.001, [](glm::dvec3) { return 40; })), HasSubstr("no air"));
+    EXPECT_THAT(
+        segmentationErrorOf(filled(size, 0.001, [](glm::dvec3 p) { return p.x < 0.01 ? -1000 : 40; })),
+        HasSubstr("nothing like a colon"));
+    EXPECT_THAT(segmentationErrorOf(filled({1, 1, 1}, 0.001, [](glm::dvec3) { return 40; })),
+                HasSubstr("no air"));
+    EXPECT_THAT(
+        segmentationErrorOf(filled({2, 1, 1}, 0.001, [](glm::dvec3 p) { return p.x > 0 ? -1000 : 40; })),
+        HasSubstr("nothing like a colon"));
 }
 
 std::filesystem::path realMask() {

@@ -68,12 +68,12 @@ bool sameLight(const IlluminationVolume& a, const IlluminationVolume& b) {
     return true;
 }
 
-struct Subject {
+struct SkySubject {
     TransferVolume transfer = wall();  // to compare with
     std::vector<glm::vec3> straight = harmonicsOf(glm::normalize(glm::dvec3(0.3, -0.5, 0.7)));
     std::shared_ptr<IlluminationVolume> light = std::make_shared<IlluminationVolume>(transfer.frame());
     ViewSky sky;
-    Subject() : sky(wall(), straight, light, {}) { transfer.relightAll(straight, *light); }
+    SkySubject() : sky(wall(), straight, light, {}) { transfer.relightAll(straight, *light); }
 
     IlluminationVolume all(const SkyTurn& turn) const {
         IlluminationVolume whole(transfer.frame());
@@ -102,7 +102,7 @@ TEST(ViewSky, TurnsAsItSays) {
 }
 
 TEST(ViewSky, WhatIsSeenIsLitBeforeTheFrame) {
-    Subject s;
+    SkySubject s;
     const Frame here({0.6, 0.04, 0.6});
     s.sky.seen(here.view, here.image);
     EXPECT_EQ(s.sky.changes(), 0u) << "nothing has turned";
@@ -123,7 +123,7 @@ TEST(ViewSky, WhatIsSeenIsLitBeforeTheFrame) {
 }
 
 TEST(ViewSky, TurnedAgainAndAgainIsAsTurnedOnce) {
-    Subject s;
+    SkySubject s;
     for (int n = 0; n <= 20; ++n) {
         const SkyTurn turn{0.3 * n, 0.05 * n};
         s.sky.turnTo(turn);

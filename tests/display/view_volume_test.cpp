@@ -78,31 +78,31 @@ protected:
     std::shared_ptr<SliceStudy> mStudy = std::make_shared<SliceStudy>();
 };
 
-constexpr double kFrame = 1.0 / 60;
+constexpr double kFrameSeconds = 1.0 / 60;
 
 TEST_F(ViewVolume, EyesFollowTheRoomUntilTheyAreSetByHand) {
     ViewSession s = session();
     EXPECT_TRUE(s.followsClearance());
     s.observe(frameOf(0.05));
-    s.step({}, kFrame);
+    s.step({}, kFrameSeconds);
     EXPECT_DOUBLE_EQ(s.stereo().separation, 0.001);
     EXPECT_DOUBLE_EQ(s.stereo().zeroParallax, 0.05);
     mClearance = 0.02;
-    s.step({}, kFrame);
+    s.step({}, kFrameSeconds);
     EXPECT_DOUBLE_EQ(s.stereo().separation, 0.002);
     EXPECT_TRUE(s.moving());
     s.act({ViewCommand::MoreSeparation});
     EXPECT_FALSE(s.followsClearance());
     mClearance = 0.005;
-    for (int i = 0; i < 600; ++i) s.step({}, kFrame);
+    for (int i = 0; i < 600; ++i) s.step({}, kFrameSeconds);
     EXPECT_NEAR(s.stereo().separation, 0.0022, 1e-6) << "by hand means by hand";
     EXPECT_DOUBLE_EQ(s.stereo().zeroParallax, 0.05);
     for (int i = 0; i < 100; ++i) s.act({ViewCommand::MoreSeparation});
-    for (int i = 0; i < 600; ++i) s.step({}, kFrame);
+    for (int i = 0; i < 600; ++i) s.step({}, kFrameSeconds);
     EXPECT_NEAR(s.stereo().separation, 0.004, 1e-6) << "what the flight keeps clear";
     s.act({ViewCommand::FollowClearance});
     EXPECT_TRUE(s.followsClearance());
-    s.step({}, kFrame);
+    s.step({}, kFrameSeconds);
     EXPECT_DOUBLE_EQ(s.stereo().separation, 0.0005);
 }
 
@@ -117,7 +117,7 @@ TEST_F(ViewVolume, FollowingKeepsTheParallaxComfortable) {
         frame.nearParallax = -60 * s.stereo().separation;
         frame.farParallax = 10 * s.stereo().separation;
         s.observe(frame);
-        s.step({}, kFrame);
+        s.step({}, kFrameSeconds);
         EXPECT_LE(s.stereo().separation, before * 1.0000001);
         EXPECT_GT(s.stereo().separation, before * 0.97) << "no jump";
         before = s.stereo().separation;
@@ -130,7 +130,7 @@ TEST_F(ViewVolume, FollowingKeepsTheParallaxComfortable) {
         frame.request.stereo = s.stereo();
         frame.nearParallax = -10 * s.stereo().separation;
         s.observe(frame);
-        s.step({}, kFrame);
+        s.step({}, kFrameSeconds);
     }
     EXPECT_NEAR(s.stereo().separation, 0.001, 1e-6);
 }
@@ -139,7 +139,7 @@ TEST_F(ViewVolume, EyesThatWereGivenAreNotMoved) {
     mScene->followsAtStart = false;
     ViewSession s = session();
     s.observe(frameOf(0.05));
-    for (int i = 0; i < 60; ++i) s.step({}, kFrame);
+    for (int i = 0; i < 60; ++i) s.step({}, kFrameSeconds);
     EXPECT_EQ(s.stereo().separation, 0.001);
     s.act({ViewCommand::FollowClearance});
     EXPECT_TRUE(s.followsClearance());
@@ -199,9 +199,9 @@ TEST_F(ViewVolume, TheSurfaceMovesWhereThereIsOne) {
     // The keys that move the surface do not roll as well.
     FlightInput roll;
     roll.rollRate = 1;
-    s.step(roll, kFrame);
+    s.step(roll, kFrameSeconds);
     EXPECT_EQ(dynamic_cast<const Hover&>(s.flight()).rolled(), 0);
-    without.step(roll, kFrame);
+    without.step(roll, kFrameSeconds);
     EXPECT_GT(dynamic_cast<const Hover&>(without.flight()).rolled(), 0);
     // What could not be done is forgotten.
     s.forgetSceneChange();
@@ -226,7 +226,7 @@ TEST_F(ViewVolume, AnotherSceneTakesThePlaceAndTheFlightGoesOn) {
     s.act({ViewCommand::NextFlightMode});
     FlightInput forward;
     forward.forward = 1;
-    for (int i = 0; i < 60; ++i) s.step(forward, kFrame);
+    for (int i = 0; i < 60; ++i) s.step(forward, kFrameSeconds);
     const glm::dvec3 here = s.pose().position;
     EXPECT_GT(here.x, 0.02);
     const StereoSetting eyes = s.stereo();

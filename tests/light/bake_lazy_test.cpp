@@ -20,10 +20,10 @@ std::uint32_t brickOf(const TexelLayout& layout, const glm::ivec3& t) {
     return static_cast<std::uint32_t>(((t.z >> 3) * layout.bricks.y + (t.y >> 3)) * layout.bricks.x +
                                       (t.x >> 3));
 }
-bool dead(const glm::ivec3& t) {
+bool isDead(const glm::ivec3& t) {
     return (3 * t.x + t.y + t.z) % 11 == 5;
 }
-double truth(const glm::ivec3& t) {
+double lazyTruth(const glm::ivec3& t) {
     return 0.5 + 0.01 * t.x + 0.02 * t.y;
 }
 
@@ -45,12 +45,12 @@ struct Background {
     static void add(std::span<const glm::ivec3> texels, int count, std::span<TexelSum> sums) {
         for (std::size_t n = 0; n < texels.size(); ++n)
             for (int k = 0; k < count; ++k) {
-                if (dead(texels[n])) {
+                if (isDead(texels[n])) {
                     sums[n].samples = -1;
                     break;
                 }
                 const double noise = 0.1 * std::sin(12.9898 * sums[n].samples + texels[n].z);
-                const auto value = static_cast<float>(truth(texels[n]) + noise);
+                const auto value = static_cast<float>(lazyTruth(texels[n]) + noise);
                 sums[n].samples += 1;
                 sums[n].mean += (glm::vec3(value) - sums[n].mean) / sums[n].samples;
             }
@@ -100,9 +100,9 @@ TEST(LazyBake, WhatIsAskedForBecomesKnown) {
         std::size_t known = 0;
         for (const TexelBrick& brick : wantedBricks(b.volume, b.volume.frame, b.choice, progress))
             for (const glm::ivec3& t : texelsIn(b.to.layout, brick)) {
-                ASSERT_EQ(texelWeight(b.at(t)), dead(t) ? 0.0f : 1.0f);
-                ASSERT_NEAR(texelLight(b.at(t)).x, dead(t) ? 0 : truth(t), 0.05);
-                known += !dead(t);
+                ASSERT_EQ(texelWeight(b.at(t)), isDead(t) ? 0.0f : 1.0f);
+                ASSERT_NEAR(texelLight(b.at(t)).x, isDead(t) ? 0 : lazyTruth(t), 0.05);
+                known += !isDead(t);
             }
         EXPECT_EQ(lazy.texelsLit(), known);
         EXPECT_GT(lazy.changes(), 0u);
@@ -187,7 +187,7 @@ TEST(LazyBake, UnknownTexelsBorrowFromTheirBlock) {
             own += weight == 1;
             borrowed += weight > 0 && weight < 0.1f;
             unknown += weight == 0;
-            ASSERT_NEAR(texelLight(b.at(t)).x, weight > 0 ? truth(t) : 0, 0.25);
+            ASSERT_NEAR(texelLight(b.at(t)).x, weight > 0 ? lazyTruth(t) : 0, 0.25);
         }
     EXPECT_GT(own, holding.size());
     EXPECT_GT(borrowed, 5 * own);
@@ -288,7 +288,7 @@ TEST(LazyBake, OtherSurfacesWantOtherTexelsAndKeepWhatIsLit) {
     Progress progress;
     for (const TexelBrick& brick : wantedBricks(b.volume, b.volume.frame, b.choice, progress))
         for (const glm::ivec3& t : texelsIn(b.to.layout, brick))
-            ASSERT_EQ(texelWeight(b.at(t)), dead(t) ? 0.0f : 1.0f);
+            ASSERT_EQ(texelWeight(b.at(t)), isDead(t) ? 0.0f : 1.0f);
     // And back: nothing is left to do.
     const std::size_t calls = b.seen().size();
     b.choice.lowest = b.choice.highest = 160;
@@ -308,7 +308,7 @@ TEST(LazyBake, GoesOnToMoreSamples) {
     Progress progress;
     for (const TexelBrick& brick : wantedBricks(b.volume, b.volume.frame, b.choice, progress)) {
         long long needed = 0;
-        for (const glm::ivec3& t : texelsIn(b.to.layout, brick)) needed += dead(t) ? 16 : 100;
+        for (const glm::ivec3& t : texelsIn(b.to.layout, brick)) needed += isDead(t) ? 16 : 100;
         ASSERT_EQ(samples[brick.number], needed);
     }
 }
@@ -327,11 +327,11 @@ TEST(LazyBake, WhatIsBakedAlreadyStays) {
 
 // --- transfer
 
-constexpr int kOrder = 3;
-const LazyBakeSetting kTransfer{48, 48, 2, {BakeKind::Transfer, kOrder, 1}};
+constexpr int kLazyOrder = 3;
+const LazyBakeSetting kTransfer{48, 48, 2, {BakeKind::Transfer, kLazyOrder, 1}};
 
 std::vector<glm::vec3> skyOf(float turn) {
-    std::vector<glm::vec3> sky(kOrder * kOrder, glm::vec3(0.02f));
+    std::vector<glm::vec3> sky(kLazyOrder * kLazyOrder, glm::vec3(0.02f));
     sky[0] = {1.0f, 0.8f, 0.6f};
     sky[1] = glm::vec3(0.3f * std::cos(turn), 0.1f, 0.3f * std::sin(turn));
     return sky;
@@ -343,7 +343,7 @@ struct TransferBackground : Background {
         source = {};
         source.addTransfer = [this](std::span<const glm::ivec3> texels, int first, int count, int order,
                                     int channels, std::span<float> sums, std::span<std::uint8_t> alive) {
-            EXPECT_EQ(order, kOrder);
+            EXPECT_EQ(order, kLazyOrder);
             {
                 const std::lock_guard lock(mutex);
                 calls.push_back({brickOf(to.layout, texels[0]), static_cast<int>(texels.size()), count});
@@ -351,11 +351,11 @@ struct TransferBackground : Background {
             if (pause > 0) std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(pause));
             const std::size_t each = static_cast<std::size_t>(order * order * channels);
             for (std::size_t n = 0; n < texels.size(); ++n) {
-                alive[n] = !dead(texels[n]);
+                alive[n] = !isDead(texels[n]);
                 for (std::size_t c = 0; alive[n] && c < each; ++c)
                     for (int k = first; k < first + count; ++k)
                         sums[n * each + c] +=
-                            static_cast<float>((c == 0 ? truth(texels[n]) : 0.1) +
+                            static_cast<float>((c == 0 ? lazyTruth(texels[n]) : 0.1) +
                                                0.1 * std::sin(12.9 * k + 3.1 * c + texels[n].z));
             }
         };
@@ -429,7 +429,7 @@ TEST(LazyTransfer, GoesOnWhereItWasLeft) {
         samples += static_cast<long long>(call.texels) * call.samples;
     Progress progress;
     for (const TexelBrick& brick : wantedBricks(b.volume, b.volume.frame, b.choice, progress))
-        for (const glm::ivec3& t : texelsIn(b.to.layout, brick)) needed += dead(t) ? 24 : 48;
+        for (const glm::ivec3& t : texelsIn(b.to.layout, brick)) needed += isDead(t) ? 24 : 48;
     // The bake without a window added its own calls, once.
     EXPECT_EQ(samples, 2 * needed) << "no sample is made twice";
 }

@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 #include "probe_pictures.h"
 #include "sphere_quadrature.h"
 
@@ -25,8 +26,6 @@ using test::randomProbe;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr double kPi = std::numbers::pi;
 
 double solidAngle(int row, int width, int height) {
     return 2 * kPi / width * (std::cos(kPi * row / height) - std::cos(kPi * (row + 1) / height));

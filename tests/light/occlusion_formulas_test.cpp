@@ -9,10 +9,11 @@
 #include <random>
 #include <vector>
 
+#include "engine/math/constants.h"
+
 namespace stereonav {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(OcclusionFormulas, ErrorFunctionIsWithinThePapersBound) {

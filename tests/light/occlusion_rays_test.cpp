@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/math/constants.h"
 #include "light_scenes.h"
 
 namespace stereonav {
@@ -18,7 +19,6 @@ using test::bowlVolume;
 using test::cubeFrame;
 using test::solidVolume;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kVoxel = 1e-3;
 
 GreyVolume ramp(const glm::dvec3& down) {

@@ -12,6 +12,7 @@
 #include "engine/light/isovalue_surface.h"
 #include "engine/light/path_numbers.h"
 #include "engine/light/path_plain.h"
+#include "engine/math/constants.h"
 #include "engine/volume/volume_renderer.h"
 #include "tests/light/light_scenes.h"
 
@@ -19,7 +20,6 @@ namespace stereonav {
 namespace {
 
 using namespace test;
-constexpr double kPi = std::numbers::pi;
 
 VolumeScene sceneOf(GreyVolume field) {
     VolumeScene scene;

@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/light/light_probe.h"
 #include "engine/light/spherical_harmonics.h"
+#include "engine/math/constants.h"
 #include "probe_pictures.h"
 #include "turns.h"
 
@@ -17,8 +18,6 @@ namespace {
 
 using test::probeOf;
 using test::randomProbe;
-
-constexpr double kPi = std::numbers::pi;
 
 // Every pixel in cuts x cuts pieces, each by three Gauss-Legendre nodes a side in the polar angle and the
 // azimuth: visit(direction, weight in steradians, radiance).

@@ -11,13 +11,12 @@
 #include <numbers>
 
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double kPi = std::numbers::pi;
 
 double luminance(const glm::dvec3& c) {
     return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722));

@@ -10,12 +10,11 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "engine/math/constants.h"
 #include "sphere_quadrature.h"
 
 namespace stereonav {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 double factorial(int n) {
     return std::tgamma(n + 1.0);

@@ -5,13 +5,13 @@
 #include <numbers>
 
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 #include "tests/light/light_scenes.h"
 
 namespace stereonav {
 namespace {
 
 using namespace test;
-constexpr double kPi = std::numbers::pi;
 
 LightSetup skySetup(int bounces, float albedo = 0.7f) {
     LightSetup setup;

@@ -7,11 +7,11 @@
 #include <memory>
 #include <vector>
 
+#include "engine/math/constants.h"
 #include "engine/medium/delta_tracking.h"
 
 namespace stereonav {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kReference = 0.01;  // metres: opacity 1 - 1e-6 is 1381 / m
 // Two-sided: a right estimate fails once in 16,000. Seeds are fixed, so tests pass or fail for good.
 constexpr double kStated_z = 4.0;

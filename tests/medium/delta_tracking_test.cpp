@@ -15,12 +15,12 @@
 namespace stereonav {
 namespace {
 
-const glm::dvec3 kDown{0, 0, -1};
+const glm::dvec3 kDownward{0, 0, -1};
 
 TEST(DeltaTracking, TransmittanceOfHomogeneousSlabsIsExact) {
     for (const double depth : {1e-6, 0.01, 0.5, 2.0, 8.0, 50.0}) {
         const Medium slab = homogeneousSlab(depth / 3, 3, glm::vec3(0.0f));
-        const Estimate seen = track(slab, litLook(kDown), narrowView(kDown), 4);
+        const Estimate seen = track(slab, litLook(kDownward), narrowView(kDownward), 4);
         // The float extinction of the table, and the margin of the bounds, 1e-5 of the depth.
         EXPECT_NEAR(seen.seen / std::exp(-depth), 1, 2e-5 * depth + 1e-6) << depth;
         EXPECT_EQ(seen.light, glm::dvec3(0.0)) << depth;
@@ -29,9 +29,9 @@ TEST(DeltaTracking, TransmittanceOfHomogeneousSlabsIsExact) {
 
 TEST(DeltaTracking, TransmittanceOfALinearRampIsWithinItsNoise) {
     const Medium ramp = rampSlab(2, 1.5, glm::vec3(1.0f));
-    MediumLook look = litLook(kDown, MediumModel::Emission);
+    MediumLook look = litLook(kDownward, MediumModel::Emission);
     // Emission of colour 1: every path that collides brings 1, so light is 1 - T with a binomial's variance.
-    const Estimate seen = track(ramp, look, narrowView(kDown), 2000);
+    const Estimate seen = track(ramp, look, narrowView(kDownward), 2000);
     const double truth = std::exp(-2 * 1.5 / 2);
     const double n = 64 * 2000;
     EXPECT_NEAR(seen.error.x / std::sqrt(truth * (1 - truth) / n), 1, 0.02);
@@ -87,7 +87,7 @@ TEST(DeltaTracking, PhaseFunctionScalesSingleScattering) {
         const glm::dvec3 lightWay{std::sqrt(1 - cosine * cosine), 0, cosine};
         MediumLook look = litLook(lightWay);
         look.phase = PhaseFunction::henyeyGreenstein(g);
-        const Estimate seen = track(slab, look, narrowView(kDown), 2000);
+        const Estimate seen = track(slab, look, narrowView(kDownward), 2000);
         const double y = 1 / std::abs(cosine);
         const double share = cosine < 0 ? forwardShare(1, y) : backwardShare(1, y);
         for (int c = 0; c < 3; ++c) {
@@ -102,7 +102,7 @@ TEST(DeltaTracking, GlowAddsWhereItIsOpaque) {
     const glm::vec3 glow{1e-6f, 1, 1e6f};
     for (const double depth : {1e-3, 1.0, 40.0}) {
         const Medium slab = homogeneousSlab(depth, 1, glm::vec3(0.0f), glow);
-        const Estimate seen = track(slab, litLook(kDown), narrowView(kDown), 4000);
+        const Estimate seen = track(slab, litLook(kDownward), narrowView(kDownward), 4000);
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(seen.light[c] / glow[c], -std::expm1(-depth),
                         kStated_z * seen.error[c] / glow[c] + 1e-5)
@@ -120,8 +120,8 @@ TEST(DeltaTracking, LampInsideLightsItsConeOnly) {
     look.light.coneAngle = 1.0;
     look.light.falloff = falloff;
     look.light.position = {0, 0, -length};
-    look.light.direction = kDown;
-    EyeView view = narrowView(kDown, 1e-3, {0, 0, -length});
+    look.light.direction = kDownward;
+    EyeView view = narrowView(kDownward, 1e-3, {0, 0, -length});
     const auto lit = [&](double s) {
         return extinction * std::exp(-2 * extinction * s) / (1 + s * s / (falloff * falloff));
     };
@@ -366,35 +366,35 @@ TEST(DeltaTracking, DoesNotDependOnTheThreadCount) {
 }
 
 TEST(DeltaTracking, EmptyMediumShowsTheBackground) {
-    const Estimate seen = track(Medium(), litLook(kDown), narrowView(kDown), 2, 8);
+    const Estimate seen = track(Medium(), litLook(kDownward), narrowView(kDownward), 2, 8);
     EXPECT_EQ(seen.light, glm::dvec3(0.0));
     EXPECT_EQ(seen.seen, 1);
 }
 
 TEST(DeltaTracking, ViewsFromNowhereSeeNothing) {
-    EyeView view = narrowView(kDown);
+    EyeView view = narrowView(kDownward);
     view.eye.y = std::numeric_limits<double>::quiet_NaN();
-    const Estimate seen = track(homogeneousSlab(1, 1, glm::vec3(1.0f)), litLook(kDown), view, 2);
+    const Estimate seen = track(homogeneousSlab(1, 1, glm::vec3(1.0f)), litLook(kDownward), view, 2);
     EXPECT_EQ(seen.light, glm::dvec3(0.0));
     EXPECT_EQ(seen.seen, 1);
 }
 
 TEST(DeltaTracking, OneSampleHasNoKnownVariance) {
-    EXPECT_TRUE(std::isinf(track(Medium(), litLook(kDown), narrowView(kDown), 1).error.x));
+    EXPECT_TRUE(std::isinf(track(Medium(), litLook(kDownward), narrowView(kDownward), 1).error.x));
 }
 
 TEST(DeltaTracking, RefusesWhatHasNoPaths) {
     const Medium slab = homogeneousSlab(1, 1, glm::vec3(1.0f));
     const auto message = [&](const Medium& medium, const MediumLook& look, int samples, int scatters) {
         try {
-            track(medium, look, narrowView(kDown), samples, scatters);
+            track(medium, look, narrowView(kDownward), samples, scatters);
         } catch (const Error& e) {
             return std::string(e.what());
         }
         return std::string();
     };
-    const MediumLook look = litLook(kDown);
-    EXPECT_THAT(message(slab, litLook(kDown, MediumModel::Surface), 1, 1),
+    const MediumLook look = litLook(kDownward);
+    EXPECT_THAT(message(slab, litLook(kDownward, MediumModel::Surface), 1, 1),
                 testing::HasSubstr("surface model"));
     EXPECT_THAT(message(slab, look, 0, 1), testing::HasSubstr("at least 1 sample, got 0"));
     EXPECT_THAT(message(slab, look, 1, 0), testing::HasSubstr("at least 1 scatter, got 0"));

@@ -8,10 +8,10 @@
 #include <limits>
 #include <random>
 
+#include "engine/math/constants.h"
+
 namespace stereonav {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 GreyVolume randomField(std::mt19937& random, double scale, double offset) {
     VolumeFrame frame;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 #include "engine/medium/medium_table.h"
 #include "tests/support/error_of.h"
 
@@ -18,10 +19,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
-MediumMaterial material(double opacity, const glm::vec3& color = glm::vec3(1.0f)) {
+MediumMaterial materialOf(double opacity, const glm::vec3& color = glm::vec3(1.0f)) {
     MediumMaterial m;
     m.opacity = opacity;
     m.color = color;
@@ -32,12 +32,13 @@ using test::errorOf;
 
 MediumTransfer ramp() {
     return MediumTransfer(
-        {{-100, material(0, {0, 0, 1})}, {0, material(0.5, {1, 0, 0})}, {50, material(0.9)}}, 0.002, "test");
+        {{-100, materialOf(0, {0, 0, 1})}, {0, materialOf(0.5, {1, 0, 0})}, {50, materialOf(0.9)}}, 0.002,
+        "test");
 }
 
 TEST(MediumTransfer, ALayerOfTheReferenceLengthTakesItsOpacity) {
     for (const double opacity : {0.0, 1e-6, 0.1, 0.5, 0.999, 1.0}) {
-        const MediumTransfer function({{0, material(opacity)}}, 0.002, "test");
+        const MediumTransfer function({{0, materialOf(opacity)}}, 0.002, "test");
         const double tau = function.at(0, 0).extinction;
         EXPECT_NEAR(1 - std::exp(-tau * 0.002), std::min(opacity, MediumTransfer::kDensest), 1e-7) << opacity;
         EXPECT_NEAR(std::exp(-function.at(0, 0).indirectExtinction.y * 0.002), opacity > 0 ? 0.5 : 1, 1e-6)
@@ -67,7 +68,7 @@ TEST(MediumTransfer, TransparentNeighboursDoNotBleed) {
 }
 
 MediumRegion region(double a, double b, double c, double d, double opacity, const glm::vec3& color) {
-    return {{a, b, c, d}, {0, 0, kInfinity, kInfinity}, material(opacity, color)};
+    return {{a, b, c, d}, {0, 0, kInfinity, kInfinity}, materialOf(opacity, color)};
 }
 
 TEST(MediumTransfer, RegionsAddUpByExtinction) {
@@ -90,7 +91,7 @@ TEST(MediumTransfer, RegionsAddUpByExtinction) {
 }
 
 TEST(MediumTransfer, SurfaceRampFollowsTheGradient) {
-    MediumMaterial m = material(0.5);
+    MediumMaterial m = materialOf(0.5);
     m.surface = 0.8;
     MediumTransfer function({{0, m}}, 1, "test");
     EXPECT_FLOAT_EQ(function.at(0, 0).surface, 0.8f);
@@ -100,7 +101,7 @@ TEST(MediumTransfer, SurfaceRampFollowsTheGradient) {
     EXPECT_FLOAT_EQ(function.at(0, 99).surface, 0.8f);
     EXPECT_EQ(makeMediumTable(function, 0, 255).rows, MediumTable::kGradients + 1);
     EXPECT_NE(errorOf([&] { function.setSurfaceRamp(3, 3, "x"); }), "no error");
-    EXPECT_NE(errorOf([&] { function.setSurfaceRamp(kNaN, 3, "x"); }), "no error");
+    EXPECT_NE(errorOf([&] { function.setSurfaceRamp(kNotANumber, 3, "x"); }), "no error");
 }
 
 TEST(MediumTransfer, KnowsWhereSomethingIsVisible) {
@@ -111,24 +112,24 @@ TEST(MediumTransfer, KnowsWhereSomethingIsVisible) {
 
 TEST(MediumTransfer, RefusesBadNumbers) {
     const auto pointError = [](MediumMaterial m, double value = 0, double length = 1) {
-        return errorOf([&] { MediumTransfer({{-5, material(0)}, {value, m}}, length, "wax.txt"); });
+        return errorOf([&] { MediumTransfer({{-5, materialOf(0)}, {value, m}}, length, "wax.txt"); });
     };
-    EXPECT_EQ(pointError(material(0.5)), "no error");
-    EXPECT_THAT(pointError(material(1.5)),
+    EXPECT_EQ(pointError(materialOf(0.5)), "no error");
+    EXPECT_THAT(pointError(materialOf(1.5)),
                 AllOf(HasSubstr("wax.txt:point 2"), HasSubstr("opacity"), HasSubstr("1.5")));
-    EXPECT_THAT(pointError(material(kNaN)), AllOf(HasSubstr("opacity"), Not(HasSubstr("\n"))));
-    EXPECT_THAT(pointError(material(0.5, {0, 2, 0})), HasSubstr("colour"));
-    EXPECT_THAT(pointError(material(0.5), -5), HasSubstr("expected a value above -5"));
-    EXPECT_THAT(pointError(material(0.5), kNaN), HasSubstr("finite value"));
-    for (const double length : {0.0, -1.0, kNaN, kInfinity, 1e-30})
-        EXPECT_THAT(pointError(material(0.5), 0, length), HasSubstr("reference length")) << length;
-    MediumMaterial bad = material(0.5);
+    EXPECT_THAT(pointError(materialOf(kNotANumber)), AllOf(HasSubstr("opacity"), Not(HasSubstr("\n"))));
+    EXPECT_THAT(pointError(materialOf(0.5, {0, 2, 0})), HasSubstr("colour"));
+    EXPECT_THAT(pointError(materialOf(0.5), -5), HasSubstr("expected a value above -5"));
+    EXPECT_THAT(pointError(materialOf(0.5), kNotANumber), HasSubstr("finite value"));
+    for (const double length : {0.0, -1.0, kNotANumber, kInfinity, 1e-30})
+        EXPECT_THAT(pointError(materialOf(0.5), 0, length), HasSubstr("reference length")) << length;
+    MediumMaterial bad = materialOf(0.5);
     bad.glow.y = -1;
     EXPECT_THAT(pointError(bad), HasSubstr("glow"));
-    bad = material(0.5);
+    bad = materialOf(0.5);
     bad.surface = 2;
     EXPECT_THAT(pointError(bad), HasSubstr("surface weight"));
-    bad = material(0.5);
+    bad = materialOf(0.5);
     bad.transport.z = -0.1f;
     EXPECT_THAT(pointError(bad), HasSubstr("transport"));
 }
@@ -142,7 +143,7 @@ TEST(MediumTransfer, RefusesRegionsWithoutRamps) {
     EXPECT_THAT(error(region(0, 2, 1, 3, 0.5, {})), HasSubstr("A < B <= C < D"));
     EXPECT_THAT(error(region(0, 1, 2, kInfinity, 0.5, {})), HasSubstr("A < B <= C < D"));
     MediumRegion r = region(0, 1, 1, 2, 0.5, {});
-    r.gradient[3] = kNaN;
+    r.gradient[3] = kNotANumber;
     r.gradient[2] = 5;
     EXPECT_THAT(error(r), HasSubstr("gradient magnitudes"));
     r.gradient[3] = kInfinity;
@@ -153,7 +154,8 @@ TEST(MediumTransfer, RefusesRegionsWithoutRamps) {
 
 TEST(MediumTable, WholeNumbersAreLookedUpExactly) {
     const MediumTransfer function(
-        {{20, material(0)}, {21, material(0.5)}, {30, material(0.1)}, {200, material(0.9)}}, 0.001, "test");
+        {{20, materialOf(0)}, {21, materialOf(0.5)}, {30, materialOf(0.1)}, {200, materialOf(0.9)}}, 0.001,
+        "test");
     const MediumTable table = makeMediumTable(function, 0, 255);
     for (int value = 0; value <= 255; ++value)
         EXPECT_EQ(table.at(value, 0).extinction, function.at(value, 0).extinction) << value;
@@ -163,7 +165,8 @@ TEST(MediumTable, WholeNumbersAreLookedUpExactly) {
 
 TEST(MediumTable, FollowsTheFunctionOverWideAndNarrowRanges) {
     for (const double scale : {1e-6, 1e-3, 1.0, 13.7, 1e6}) {
-        const MediumTransfer function({{-10 * scale, material(0)}, {70 * scale, material(0.9)}}, 1, "test");
+        const MediumTransfer function({{-10 * scale, materialOf(0)}, {70 * scale, materialOf(0.9)}}, 1,
+                                      "test");
         const MediumTable table = makeMediumTable(function, -100 * scale, 90 * scale);
         const double slope = function.at(70 * scale, 0).extinction / 80;
         for (double x = -100; x <= 90; x += 1.7)
@@ -175,8 +178,8 @@ TEST(MediumTable, FollowsTheFunctionOverWideAndNarrowRanges) {
 }
 
 TEST(MediumTable, AStepIsWithinTwoEntries) {
-    const MediumTransfer function({{100, material(0)}, {100.001, material(0.5)}, {2000, material(0.5)}}, 1,
-                                  "test");
+    const MediumTransfer function({{100, materialOf(0)}, {100.001, materialOf(0.5)}, {2000, materialOf(0.5)}},
+                                  1, "test");
     const MediumTable table = makeMediumTable(function, -1000, 3000);
     const double step = 1 / table.perValue;
     EXPECT_LE(step, 3000.0 / 1024);
@@ -186,7 +189,7 @@ TEST(MediumTable, AStepIsWithinTwoEntries) {
 
 TEST(MediumTable, TheLargestExtinctionIsABound) {
     const MediumTransfer function(
-        {{0, material(0.1)}, {3, material(0.9)}, {7, material(0)}, {9, material(0.3)}}, 1, "test");
+        {{0, materialOf(0.1)}, {3, materialOf(0.9)}, {7, materialOf(0)}, {9, materialOf(0.3)}}, 1, "test");
     const MediumTable table = makeMediumTable(function, -2.5, 11.25);
     for (double low = -4; low < 13; low += 0.31)
         for (double high = low; high < 13; high += 0.47) {
@@ -222,14 +225,14 @@ TEST(MediumTable, TwoDimensionsAgreeWithTheFunctionAtTheEntries) {
 }
 
 TEST(MediumTable, NothingVisibleAndOneValue) {
-    const MediumTransfer function({{0, material(0)}, {10, material(0.5)}}, 1, "test");
+    const MediumTransfer function({{0, materialOf(0)}, {10, materialOf(0.5)}}, 1, "test");
     const MediumTable none = makeMediumTable(function, -50, -10);
     EXPECT_EQ(none.at(5, 0).extinction, 0.0f);
     EXPECT_GT(none.visibleRange().lowest, none.visibleRange().highest);
     EXPECT_FLOAT_EQ(makeMediumTable(function, 5, 5).at(5, 0).extinction, function.at(5, 0).extinction);
     EXPECT_FLOAT_EQ(makeMediumTable(function, 50, 60).at(55, 0).extinction, function.at(55, 0).extinction);
     EXPECT_EQ(MediumTable().at(5, 0).extinction, 0.0f);
-    EXPECT_EQ(makeMediumTable(MediumTransfer(), 0, 1).at(kNaN, 0).extinction, 0.0f);
+    EXPECT_EQ(makeMediumTable(MediumTransfer(), 0, 1).at(kNotANumber, 0).extinction, 0.0f);
 }
 
 }  // namespace

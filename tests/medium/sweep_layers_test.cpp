@@ -10,7 +10,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kTolerance = 5e-4;  // as of grids: medium_sweep_test.cpp
+constexpr double kLayerTolerance = 5e-4;  // as of grids: medium_sweep_test.cpp
 
 MediumMaterial materialOf(float color, double opacity) {
     MediumMaterial m;
@@ -87,7 +87,7 @@ TEST(SweepLayers, AgreeWithThePlainSweep) {
                                 }
                                 brightest = std::max<double>(brightest, b.x);
                             }
-                        EXPECT_LE(worst, kTolerance);
+                        EXPECT_LE(worst, kLayerTolerance);
                         EXPECT_GT(brightest, 1e-3);
                     }
                 }

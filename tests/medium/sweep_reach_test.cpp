@@ -17,13 +17,13 @@ using test::viewFrom;
 
 constexpr int kChunk = 8, kTile = 16;
 
-struct Case {
+struct ReachCase {
     const char* name;
     glm::dvec3 eye, target, light;
     double half;  // tangent of half the view
     bool lamp;
 };
-const Case kCases[] = {
+const ReachCase kCases[] = {
     {"whole", {0.5, -3, 0.7}, {0, 0, 0}, {0.6, 0.3, -0.8}, 0.4, false},
     {"narrow", {0.5, -3, 0.7}, {0.2, 0, 0.1}, {0.6, 0.8, -0.3}, 0.06, false},
     {"against", {0.5, -3, 0.7}, {0.2, 0, 0.1}, {0.3, -0.9, -0.3}, 0.06, false},
@@ -34,7 +34,7 @@ const Case kCases[] = {
     {"lamp inside", {0.5, -3, 0.7}, {0.2, 0, 0.1}, {0.9, -0.5, -0.3}, 0.2, true},
 };
 
-Slab sceneOf(const Case& c, MediumModel model, int slices) {
+Slab sceneOf(const ReachCase& c, MediumModel model, int slices) {
     Slab s = ball(model, slices);
     s.look.light = sun(c.light);
     if (c.lamp) {
@@ -55,7 +55,7 @@ Slab sceneOf(const Case& c, MediumModel model, int slices) {
 TEST(SweepReach, holdsWhatRaysRead) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> u(0, 1);
-    for (const Case& c : kCases) {
+    for (const ReachCase& c : kCases) {
         const Slab s = sceneOf(c, MediumModel::Indirect, 70);
         const SweepGeometry& g = s.geometry;
         const SweepSpace space(s.medium);
@@ -89,7 +89,7 @@ TEST(SweepReach, holdsWhatRaysRead) {
 }
 
 TEST(SweepReach, picturesAreTheSameToTheBit) {
-    for (const Case& c : kCases)
+    for (const ReachCase& c : kCases)
         for (const MediumModel model : {MediumModel::Direct, MediumModel::Indirect}) {
             const Slab s = sceneOf(c, model, 70);
             MediumSweep sweep(s.medium);

@@ -44,7 +44,7 @@ Medium mediumOf(Shape shape, Weight weight) {
     return Medium(fieldOf(shape), transfer);
 }
 
-struct Scene {
+struct ShadedScene {
     Medium medium;
     MediumLook look;
     SweepSetting setting;
@@ -53,12 +53,12 @@ struct Scene {
 
 // Pixels of so many voxels at the medium's middle; the light comes over the viewer's shoulder or from behind
 // the medium.
-Scene sceneOf(Shape shape, Weight weight, double pixel, bool forward, int width = 50, int height = 37) {
+ShadedScene sceneOf(Shape shape, Weight weight, double pixel, bool forward, int width = 50, int height = 37) {
     const glm::dvec3 way = glm::normalize(glm::dvec3(-0.5, 0.7, -0.4));
     const double half = 0.5 * width * pixel * kVoxel / 4;
     // To the surface, so that it fills narrow views.
     const glm::dvec3 target = shape == Shape::Ball ? glm::dvec3(0.2, 0.1, 0.6) : glm::dvec3(0.1, 0.2, 0.5);
-    Scene s{mediumOf(shape, weight), {}, {}, viewFrom(target - 4.0 * way, target, half, width, height)};
+    ShadedScene s{mediumOf(shape, weight), {}, {}, viewFrom(target - 4.0 * way, target, half, width, height)};
     s.look.light = sun(glm::normalize((forward ? 1.0 : -1.0) * way + glm::dvec3(0.3, 0.2, -0.4)));
     s.look.light.radiance = glm::vec3(0.4f);
     s.setting.slices = 60;
@@ -66,7 +66,8 @@ Scene sceneOf(Shape shape, Weight weight, double pixel, bool forward, int width 
     return s;
 }
 
-Plane<glm::vec4> lightOf(const Scene& scene, double shadingWidth, SimdTarget target = SimdTarget::Auto) {
+Plane<glm::vec4> lightOf(const ShadedScene& scene, double shadingWidth,
+                         SimdTarget target = SimdTarget::Auto) {
     MediumSweep sweep(scene.medium, target);
     SweepSetting setting = scene.setting;
     setting.shadingWidth = shadingWidth;
@@ -117,7 +118,7 @@ TEST(SweepShading, betweenPlacesIsNearlyAsAtEachSample) {
     for (const Case& c : cases)
         for (const Bound& bound : c.bounds)
             for (const bool forward : {true, false}) {
-                const Scene scene = sceneOf(c.shape, c.weight, bound.pixel, forward);
+                const ShadedScene scene = sceneOf(c.shape, c.weight, bound.pixel, forward);
                 for (const SimdTarget target : simdTargets()) {
                     const Plane<glm::vec4> truth = lightOf(scene, 0, target);
                     const Error e = errorOf(truth, lightOf(scene, 1, target));
@@ -131,7 +132,7 @@ TEST(SweepShading, betweenPlacesIsNearlyAsAtEachSample) {
 
 // Places further apart than the width are not used: each sample is shaded itself then, to the bit.
 TEST(SweepShading, isOfEachSampleWherePlacesLieFarApart) {
-    const Scene scene = sceneOf(Shape::Block, Weight::Ramp, 0.15, true);
+    const ShadedScene scene = sceneOf(Shape::Block, Weight::Ramp, 0.15, true);
     const double none = std::numeric_limits<double>::quiet_NaN();
     for (const SimdTarget target : simdTargets()) {
         const Plane<glm::vec4> truth = lightOf(scene, 0, target);
@@ -142,7 +143,7 @@ TEST(SweepShading, isOfEachSampleWherePlacesLieFarApart) {
 }
 
 TEST(SweepShading, isSoundAtAnyWidth) {
-    const Scene coarse = sceneOf(Shape::Block, Weight::Column, 3, true);
+    const ShadedScene coarse = sceneOf(Shape::Block, Weight::Column, 3, true);
     for (const SimdTarget target : simdTargets())
         for (const double width : {1e-3, 16.0, 1e30, std::numeric_limits<double>::infinity()}) {
             const Plane<glm::vec4> light = lightOf(coarse, width, target);
@@ -155,7 +156,7 @@ TEST(SweepShading, isSoundAtAnyWidth) {
 TEST(SweepShading, isNearFromInside) {
     for (const Weight weight : {Weight::Column, Weight::Ramp})
         for (const double side : {-1.0, 1.0}) {
-            Scene scene = sceneOf(Shape::Ball, weight, 0.1, true);
+            ShadedScene scene = sceneOf(Shape::Ball, weight, 0.1, true);
             scene.eye = viewFrom({0.1, 0.2, 0.3}, {0.1 + side, 0.5, -side}, 0.4, 41, 35);
             for (const SimdTarget target : simdTargets()) {
                 const Error e = errorOf(lightOf(scene, 0, target), lightOf(scene, 1, target));
@@ -166,7 +167,7 @@ TEST(SweepShading, isNearFromInside) {
 }
 
 TEST(SweepShading, holdsForALamp) {
-    Scene scene = sceneOf(Shape::Ball, Weight::Ramp, 0.15, true);
+    ShadedScene scene = sceneOf(Shape::Ball, Weight::Ramp, 0.15, true);
     scene.look.light.kind = MediumLight::Kind::Lamp;
     scene.look.light.position = scene.eye.eye + glm::dvec3(0.5, 0.3, 1);
     scene.look.light.direction = glm::normalize(-scene.look.light.position);
@@ -184,7 +185,7 @@ TEST(SweepShading, holdsForALamp) {
 
 // Where nothing changes there is no gradient, and Blinn-Phong gives no light.
 TEST(SweepShading, leavesWhatHasNoGradientDark) {
-    const Scene scene = sceneOf(Shape::Same, Weight::Column, 0.1, true);
+    const ShadedScene scene = sceneOf(Shape::Same, Weight::Column, 0.1, true);
     for (const SimdTarget target : simdTargets())
         EXPECT_LE(errorOf(lightOf(scene, 0, target), lightOf(scene, 1, target)).worst, 1e-7);
 }
@@ -193,7 +194,7 @@ TEST(SweepShading, leavesWhatHasNoGradientDark) {
 TEST(SweepShading, isNearInPicturesOfAnySize) {
     for (const glm::ivec2& size :
          {glm::ivec2(1, 1), glm::ivec2(17, 9), glm::ivec2(16, 8), glm::ivec2(3, 40)}) {
-        const Scene scene = sceneOf(Shape::Ball, Weight::Ramp, 0.15, true, size.x, size.y);
+        const ShadedScene scene = sceneOf(Shape::Ball, Weight::Ramp, 0.15, true, size.x, size.y);
         for (const SimdTarget target : simdTargets())
             EXPECT_LE(errorOf(lightOf(scene, 0, target), lightOf(scene, 1, target)).worst, 1e-3) << size.x;
     }
@@ -201,7 +202,7 @@ TEST(SweepShading, isNearInPicturesOfAnySize) {
 
 TEST(SweepShading, doesNotDependOnTheThreadCount) {
     const int before = threadCount();
-    const Scene scene = sceneOf(Shape::Block, Weight::Ramp, 0.15, false);
+    const ShadedScene scene = sceneOf(Shape::Block, Weight::Ramp, 0.15, false);
     setThreadCount(1);
     const Plane<glm::vec4> one = lightOf(scene, 1);
     setThreadCount(3);

@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/math/constants.h"
 #include "engine/math/simd_target.h"
 #include "engine/medium/medium_sweep.h"
 #include "sweep_scenes.h"
@@ -16,9 +17,7 @@ using test::makeField;
 using test::sun;
 using test::viewFrom;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct Scene {
+struct SharedScene {
     Medium medium;
     MediumLook look;
     SweepSetting setting;
@@ -52,7 +51,7 @@ MediumTransfer materials(double surface) {
     return transfer;
 }
 
-Perturbation noisy() {
+Perturbation noisyShared() {
     Perturbation p;
     NoiseScale scale;
     scale.size = 4;
@@ -79,30 +78,31 @@ Medium hills(double taper) {
     return Medium(std::vector<HeightLayer>{layer});
 }
 
-enum class Kind { Grid, Askew, Surface, Noise, Layers };
-Medium mediumOf(Kind kind) {
-    if (kind == Kind::Layers) return hills(0.15);
-    if (kind == Kind::Noise) return Medium(blob(false), materials(0), noisy());
-    return Medium(blob(kind == Kind::Askew), materials(kind == Kind::Surface ? 1 : 0));
+enum class SharedKind { Grid, Askew, Surface, Noise, Layers };
+Medium mediumOf(SharedKind kind) {
+    if (kind == SharedKind::Layers) return hills(0.15);
+    if (kind == SharedKind::Noise) return Medium(blob(false), materials(0), noisyShared());
+    return Medium(blob(kind == SharedKind::Askew), materials(kind == SharedKind::Surface ? 1 : 0));
 }
 
 // Pixels about two fifths of a voxel, from 4 m.
-Scene sceneOf(Kind kind, MediumModel model = MediumModel::Indirect, bool forward = true, int width = 75,
-              int height = 53) {
-    Scene s{mediumOf(kind), {}, {}, {}};
+SharedScene sceneOf(SharedKind kind, MediumModel model = MediumModel::Indirect, bool forward = true,
+                    int width = 75, int height = 53) {
+    SharedScene s{mediumOf(kind), {}, {}, {}};
     const glm::dvec3 view = glm::normalize(glm::dvec3(0.5, 0.7, -0.4));
     s.look.model = model;
     s.look.light = sun((forward ? 1.0 : -1.0) * view + glm::dvec3(0.5, 0.1, -0.3));
     s.setting.slices = 40;
     s.setting.lightSize = 32;
     // Layers end abruptly beyond the picture.
-    const double half = kind == Kind::Layers ? 0.12 : 0.35;
+    const double half = kind == SharedKind::Layers ? 0.12 : 0.35;
     s.eyes.assign(2, viewFrom(-4.0 * view, {0, 0, 0}, half, width, height));
     s.eyes[1].eye += 0.13 * s.eyes[1].right;
     return s;
 }
 
-std::vector<MediumPicture> pictures(const Scene& s, double width, SimdTarget target = SimdTarget::Auto) {
+std::vector<MediumPicture> pictures(const SharedScene& s, double width,
+                                    SimdTarget target = SimdTarget::Auto) {
     MediumSweep sweep(s.medium, target);
     SweepSetting setting = s.setting;
     setting.sharedWidth = width;
@@ -139,7 +139,7 @@ Apart apart(const MediumPicture& a, const MediumPicture& b) {
 }
 
 // Left eyes are the same, right ones within a level on average; the bound for all media.
-void expectAlike(const Scene& s, double mean, double most, const std::string& what) {
+void expectAlike(const SharedScene& s, double mean, double most, const std::string& what) {
     for (const SimdTarget target : simdTargets()) {
         const auto own = pictures(s, 0, target), shared = pictures(s, kInfinity, target);
         const Apart left = apart(own[0], shared[0]), right = apart(own[1], shared[1]);
@@ -153,9 +153,10 @@ void expectAlike(const Scene& s, double mean, double most, const std::string& wh
 }
 
 void expectAllAlike(bool forward) {
-    for (const Kind kind : {Kind::Grid, Kind::Askew, Kind::Surface, Kind::Noise, Kind::Layers})
+    for (const SharedKind kind :
+         {SharedKind::Grid, SharedKind::Askew, SharedKind::Surface, SharedKind::Noise, SharedKind::Layers})
         // Slabs of layers end in steps, which few slices show.
-        expectAlike(sceneOf(kind, MediumModel::Indirect, forward), 0.2, kind == Kind::Layers ? 60 : 20,
+        expectAlike(sceneOf(kind, MediumModel::Indirect, forward), 0.2, kind == SharedKind::Layers ? 60 : 20,
                     std::to_string(static_cast<int>(kind)) + " ");
 }
 TEST(SweepSharing, differsLittleFromOwnSamplesForwards) {
@@ -167,7 +168,7 @@ TEST(SweepSharing, differsLittleFromOwnSamplesBackwards) {
 
 // The first eye's angle to the light is the second's, but for their parallax, here 0.03.
 TEST(SweepSharing, phaseFunctionsOfBothEyes) {
-    Scene s = sceneOf(Kind::Grid);
+    SharedScene s = sceneOf(SharedKind::Grid);
     s.look.phase = PhaseFunction::henyeyGreenstein({0.3f, 0.0f, -0.4f});
     expectAlike(s, 0.5, 20, "phase ");
 }
@@ -175,14 +176,14 @@ TEST(SweepSharing, phaseFunctionsOfBothEyes) {
 TEST(SweepSharing, everyModelShares) {
     for (const MediumModel model : {MediumModel::Emission, MediumModel::Surface, MediumModel::Direct})
         for (const bool forward : {true, false})
-            expectAlike(sceneOf(Kind::Surface, model, forward), 0.2, 20,
+            expectAlike(sceneOf(SharedKind::Surface, model, forward), 0.2, 20,
                         std::to_string(static_cast<int>(model)) + (forward ? " forward " : " backward "));
 }
 
 // Also where eyes lie the other way round, and their pictures' windows differ.
 TEST(SweepSharing, eyesMayLookPastEachOther) {
     for (const double sign : {-1.0, 1.0}) {
-        Scene s = sceneOf(Kind::Grid);
+        SharedScene s = sceneOf(SharedKind::Grid);
         s.eyes[1].eye = s.eyes[0].eye + sign * 0.2 * s.eyes[0].right;
         s.eyes[1].xMin -= sign * 0.05;
         s.eyes[1].xMax -= sign * 0.05;
@@ -193,7 +194,7 @@ TEST(SweepSharing, eyesMayLookPastEachOther) {
 // Each eye finds what it reads some tiles to the left or to the right.
 TEST(SweepSharing, placesLieTilesAway) {
     for (const double sign : {-1.0, 1.0}) {
-        Scene s = sceneOf(Kind::Grid, MediumModel::Indirect, true, 320, 9);
+        SharedScene s = sceneOf(SharedKind::Grid, MediumModel::Indirect, true, 320, 9);
         s.eyes[1].eye = s.eyes[0].eye + sign * 0.3 * s.eyes[0].right;
         expectAlike(s, 0.2, 20, sign > 0 ? "right " : "left ");
     }
@@ -201,7 +202,7 @@ TEST(SweepSharing, placesLieTilesAway) {
 
 // Their rims would be softened by a pixel.
 TEST(SweepSharing, layersWithSharpFacesAreNotShared) {
-    Scene s = sceneOf(Kind::Layers);
+    SharedScene s = sceneOf(SharedKind::Layers);
     s.medium = hills(0);
     const auto own = pictures(s, 0), shared = pictures(s, 1e9);
     for (std::size_t n = 0; n < 2; ++n) EXPECT_EQ(apart(own[n], shared[n]).most, 0) << n;
@@ -209,7 +210,7 @@ TEST(SweepSharing, layersWithSharpFacesAreNotShared) {
 
 TEST(SweepSharing, eyesInTheMedium) {
     for (const bool forward : {true, false}) {
-        Scene s = sceneOf(Kind::Grid, MediumModel::Indirect, forward);
+        SharedScene s = sceneOf(SharedKind::Grid, MediumModel::Indirect, forward);
         for (EyeView& eye : s.eyes) eye.eye += 3.8 * eye.forward;
         s.eyes[1].eye = s.eyes[0].eye + 0.01 * s.eyes[0].right;
         expectAlike(s, 0.6, 40, forward ? "forward " : "backward ");
@@ -220,14 +221,14 @@ TEST(SweepSharing, eyesInTheMedium) {
 // them.
 TEST(SweepSharing, anySeparation) {
     for (const double separation : {0.0, -0.0, 1e-12, 1e-3}) {
-        Scene s = sceneOf(Kind::Grid);
+        SharedScene s = sceneOf(SharedKind::Grid);
         s.eyes[1].eye = s.eyes[0].eye + separation * s.eyes[0].right;
         const auto shared = pictures(s, kInfinity);
         const Apart eyes = apart(shared[0], shared[1]);
         EXPECT_LE(eyes.most, separation < 1e-6 ? 0.01 : 3) << separation;
     }
     for (const double separation : {40.0, -40.0, 1e9}) {
-        Scene s = sceneOf(Kind::Grid);
+        SharedScene s = sceneOf(SharedKind::Grid);
         s.eyes[1].eye = s.eyes[0].eye + separation * s.eyes[0].right;
         s.eyes[1].xMin -= separation / 4;
         s.eyes[1].xMax -= separation / 4;
@@ -239,7 +240,7 @@ TEST(SweepSharing, anySeparation) {
 TEST(SweepSharing, anySizeOfPicture) {
     for (const auto& [width, height] :
          {std::pair{1, 1}, {2, 1}, {1, 40}, {16, 16}, {17, 5}, {31, 33}, {64, 3}}) {
-        const Scene s = sceneOf(Kind::Grid, MediumModel::Indirect, true, width, height);
+        const SharedScene s = sceneOf(SharedKind::Grid, MediumModel::Indirect, true, width, height);
         for (const SimdTarget target : simdTargets()) {
             const auto own = pictures(s, 0, target), shared = pictures(s, kInfinity, target);
             EXPECT_LE(apart(own[0], shared[0]).most, 1e-5) << width << 'x' << height;
@@ -252,7 +253,7 @@ TEST(SweepSharing, anySizeOfPicture) {
 }
 
 TEST(SweepSharing, doesNotDependOnThreads) {
-    const Scene s = sceneOf(Kind::Noise);
+    const SharedScene s = sceneOf(SharedKind::Noise);
     const int threads = threadCount();
     const auto some = pictures(s, kInfinity);
     setThreadCount(1);
@@ -263,11 +264,11 @@ TEST(SweepSharing, doesNotDependOnThreads) {
 
 // Only where pixels are narrow enough beside what is told apart in the medium.
 TEST(SweepSharing, keepsToItsWidth) {
-    const Scene s = sceneOf(Kind::Grid);
+    const SharedScene s = sceneOf(SharedKind::Grid);
     const auto own = pictures(s, 0);
     EXPECT_EQ(apart(own[1], pictures(s, 0.1)[1]).most, 0);
     EXPECT_GT(apart(own[1], pictures(s, 1)[1]).most, 0);
-    Scene bad = s;
+    SharedScene bad = s;
     for (const double width : {-1.0, std::nan("")}) {
         bad.setting.sharedWidth = width;
         EXPECT_THROW(pictures(bad, width), Error);
@@ -276,7 +277,7 @@ TEST(SweepSharing, keepsToItsWidth) {
     EXPECT_DOUBLE_EQ(finestDetail(hills(0.15)), 0.1);
     EXPECT_DOUBLE_EQ(finestDetail(hills(0.01)), 0.01);
     EXPECT_EQ(finestDetail(Medium()), kInfinity);
-    Perturbation fine = noisy();
+    Perturbation fine = noisyShared();
     fine.scales[0].size = 0.32;
     EXPECT_DOUBLE_EQ(finestDetail(Medium(blob(false), materials(0), fine)), 0.01);
     fine.scales[0].displacement = 0;
@@ -286,34 +287,34 @@ TEST(SweepSharing, keepsToItsWidth) {
 
 // Eyes that do not lie beside each other along their rows, or look elsewhere.
 TEST(SweepSharing, otherEyesTakeTheirOwn) {
-    const auto expectOwn = [](const Scene& s, const char* what) {
+    const auto expectOwn = [](const SharedScene& s, const char* what) {
         const auto own = pictures(s, 0), shared = pictures(s, kInfinity);
         for (std::size_t n = 0; n < s.eyes.size(); ++n) EXPECT_EQ(apart(own[n], shared[n]).most, 0) << what;
     };
-    Scene s = sceneOf(Kind::Grid);
+    SharedScene s = sceneOf(SharedKind::Grid);
     s.eyes[1].eye += 0.01 * s.eyes[1].up;
     expectOwn(s, "higher");
-    s = sceneOf(Kind::Grid);
+    s = sceneOf(SharedKind::Grid);
     s.eyes[1].eye += 0.01 * s.eyes[1].forward;
     expectOwn(s, "nearer");
-    s = sceneOf(Kind::Grid);
+    s = sceneOf(SharedKind::Grid);
     s.eyes[1] = viewFrom(s.eyes[1].eye, {0, 0, 0}, 0.35, 75, 53);
     expectOwn(s, "turned");
-    s = sceneOf(Kind::Grid);
+    s = sceneOf(SharedKind::Grid);
     s.eyes[1].width = 74;
     expectOwn(s, "narrower");
-    s = sceneOf(Kind::Grid);
+    s = sceneOf(SharedKind::Grid);
     s.eyes[1].yMax += 0.01;
     s.eyes[1].yMin += 0.01;
     expectOwn(s, "other rows");
-    s = sceneOf(Kind::Grid);
+    s = sceneOf(SharedKind::Grid);
     s.eyes.push_back(s.eyes[1]);
     expectOwn(s, "three");
 }
 
 // Depths that are handed in: each eye by itself.
 TEST(SweepSharing, notFromStartDepths) {
-    Scene s = sceneOf(Kind::Grid);
+    SharedScene s = sceneOf(SharedKind::Grid);
     MediumSweep sweep(s.medium);
     std::vector<MediumPicture> own = pictures(s, 0), started(2);
     const std::vector<Plane<float>> depths{own[0].viewDepth, own[1].viewDepth};
@@ -324,7 +325,7 @@ TEST(SweepSharing, notFromStartDepths) {
 
 // What is kept between the eyes: eight rows of a chunk's slabs for each thread, however many slices.
 TEST(SweepSharing, holdsLittle) {
-    Scene s = sceneOf(Kind::Grid, MediumModel::Emission, true, 320, 16);
+    SharedScene s = sceneOf(SharedKind::Grid, MediumModel::Emission, true, 320, 16);
     std::size_t held[2];
     for (const int many : {0, 1}) {
         s.setting.slices = many ? 2000 : 40;

@@ -23,14 +23,14 @@ using test::Uniform;
 using test::viewFrom;
 using test::Way;
 
-MediumLight sunAt(double cosine) {
+MediumLight sunAtCosine(double cosine) {
     return sun({std::sqrt(std::max(0.0, 1 - cosine * cosine)), 0, cosine});
 }
 Slab slab(const std::vector<Uniform>& layers, double thick, MediumModel model, double eyeCosine,
           double lightCosine, bool forward, int slices) {
     Slab s{slabOf(layers, thick), {}, {}, {}};
     s.look.model = model;
-    s.look.light = sunAt(lightCosine);
+    s.look.light = sunAtCosine(lightCosine);
     s.setting.slices = slices;
     s.geometry = slabGeometry(s.medium, s.look, s.setting, eyeCosine, forward, thick);
     return s;
@@ -39,12 +39,12 @@ glm::dvec4 seen(const Slab& s, Way way) {
     return glm::dvec4(pictureOf(s, way).light.at(1, 1));
 }
 
-double mean(double z) {
+double meanOfExp(double z) {
     return z == 0 ? 1 : -std::expm1(-z) / z;
 }
-double shareOf(double x, double y, bool forward) {
-    if (forward) return x * mean(x + y);
-    return y > x ? x * std::exp(-x) * mean(y - x) : x * std::exp(-y) * mean(x - y);
+double slabShareOf(double x, double y, bool forward) {
+    if (forward) return x * meanOfExp(x + y);
+    return y > x ? x * std::exp(-x) * meanOfExp(y - x) : x * std::exp(-y) * meanOfExp(x - y);
 }
 
 std::string number(double v) {
@@ -94,7 +94,7 @@ TEST_P(HomogeneousSlab, isTheClosedForm) {
     const double thick = 1, tau = c.depth * c.slices / thick;
     const Slab s = slab({{tau}}, thick, MediumModel::Direct, 1, c.lightCosine, c.forward, c.slices);
     const glm::dvec4 light = seen(s, c.way);
-    const double x = tau * thick, y = tau * thick / c.lightCosine, expected = shareOf(x, y, c.forward);
+    const double x = tau * thick, y = tau * thick / c.lightCosine, expected = slabShareOf(x, y, c.forward);
     RecordProperty("error", std::to_string(std::abs(light.x - expected)));
     // Forward rays stop where less than 1/1024 is left. The fast sweep keeps light in 15 bits for the eyes
     // and adds floats: a relative rounding a slab.
@@ -158,10 +158,10 @@ TEST_P(TwoLayers, areTheClosedForm) {
                         const Slab s = slab({{a}, {b}}, 1, MediumModel::Direct, 0.7, 0.9, forward, slices);
                         const double x1 = 0.5 * a / 0.7, y1 = 0.5 * a / 0.9, x2 = 0.5 * b / 0.7,
                                      y2 = 0.5 * b / 0.9;
-                        const double expected =
-                            forward ? shareOf(x1, y1, true) + std::exp(-x1 - y1) * shareOf(x2, y2, true)
-                                    : std::exp(-y1) * shareOf(x2, y2, false) +
-                                          std::exp(-x2) * shareOf(x1, y1, false);
+                        const double expected = forward ? slabShareOf(x1, y1, true) +
+                                                              std::exp(-x1 - y1) * slabShareOf(x2, y2, true)
+                                                        : std::exp(-y1) * slabShareOf(x2, y2, false) +
+                                                              std::exp(-x2) * slabShareOf(x1, y1, false);
                         const double light = seen(s, GetParam()).x;
                         EXPECT_LE(light, expected + 6e-5) << a << " " << b << " " << slices << forward;
                         EXPECT_GE(light, expected - 6e-5 - (forward ? 1.0 / 1024 : 0))
@@ -262,7 +262,7 @@ TEST_P(Bounds, anEyeInsideSeesWhatIsBeforeIt) {
         s.geometry.eyes[0].origin = -s.geometry.anchor;
         const glm::dvec4 light = seen(s, GetParam());
         EXPECT_NEAR(light.w, std::exp(-1.0), 1e-5);
-        const double expected = forward ? std::exp(-1.0) * shareOf(1, 1, true) : shareOf(1, 1, false);
+        const double expected = forward ? std::exp(-1.0) * slabShareOf(1, 1, true) : slabShareOf(1, 1, false);
         EXPECT_NEAR(light.x, expected, 1e-4);
     }
 }
@@ -353,8 +353,8 @@ TEST(Blur, spreadsTheSameForAnyNumberOfSlabs) {
         EXPECT_GE(m.least, 0) << finer;
         EXPECT_LE(m.most, 1) << finer;
     }
-    // On circles each texel gathers by its own turn: what is kept of one point differs, the mean of many does
-    // not.
+    // On circles each texel gathers by its own turn: what is kept of one point differs, the meanOfExp of many
+    // does not.
     for (const int finer : {1, 2, 4}) {
         constexpr int kPoints = 24;
         double sum = 0, variance = 0;

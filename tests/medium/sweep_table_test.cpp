@@ -11,7 +11,7 @@ namespace {
 
 using test::makeField;
 
-constexpr double kTolerance = 2e-6;  // approximate reciprocals differ; of light up to 1
+constexpr double kTableTolerance = 2e-6;  // approximate reciprocals differ; of light up to 1
 
 // Points at every fourth entry or so, each of its own material: a wrong entry would be seen.
 MediumTransfer raggedTransfer(bool ramp) {
@@ -80,7 +80,7 @@ TEST(SweepTable, readsTheSameInRegistersAsGathered) {
             for (const double half : {0.01, 0.1, 0.4}) {
                 const MediumPicture gathered = pictureOf(medium, half, fused.front());
                 for (const SimdTarget target : fused)
-                    EXPECT_LE(differenceOf(gathered, pictureOf(medium, half, target)), kTolerance)
+                    EXPECT_LE(differenceOf(gathered, pictureOf(medium, half, target)), kTableTolerance)
                         << nameOf(target) << ' ' << c.name << ' ' << half << ' ' << ramp;
             }
         }

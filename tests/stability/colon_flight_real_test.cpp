@@ -19,9 +19,9 @@ namespace stereonav {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kShare = 50;  // sanitized, one step in so many
+constexpr int kShareOfPath = 50;  // sanitized, one step in so many
 #else
-constexpr int kShare = 1;
+constexpr int kShareOfPath = 1;
 #endif
 
 constexpr double kTolerance = 2e-5;  // metres, of the distances looked up
@@ -97,37 +97,37 @@ const Anatomy& anatomy() {
     return *loaded;
 }
 
-double uniform(std::mt19937_64& random, double low, double high) {
+double between(std::mt19937_64& random, double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-void changeWish(FlightInput& input, std::mt19937_64& random) {
-    const double key = random() % 3 == 0 ? 0.0 : uniform(random, -1, 1);
+void changeOneWish(FlightInput& input, std::mt19937_64& random) {
+    const double key = random() % 3 == 0 ? 0.0 : between(random, -1, 1);
     double* const wishes[] = {&input.forward, &input.right,     &input.up,
                               &input.yawRate, &input.pitchRate, &input.rollRate};
     const std::size_t which = random() % 7;
     if (which < 6)
         *wishes[which] = which < 3 ? key : 3 * key;
     else
-        input.speedMultiplier = random() % 4 == 0 ? uniform(random, 0, 8) : 1;
+        input.speedMultiplier = random() % 4 == 0 ? between(random, 0, 8) : 1;
     if (random() % 3 == 0) input.forward = random() % 3 == 0 ? -1 : 1;
 }
 
-void steer(ColonFlight& flight, const FlightInput& input, double dt, std::mt19937_64& random) {
+void steerAnywhere(ColonFlight& flight, const FlightInput& input, double dt, std::mt19937_64& random) {
     const std::vector<CentrelinePoint>& points = anatomy().line.points;
-    if (random() % 40 == 0) flight.turnBy(uniform(random, -2, 2), uniform(random, -1, 1));
+    if (random() % 40 == 0) flight.turnBy(between(random, -2, 2), between(random, -1, 1));
     if (random() % 300 == 0) flight.setMode(static_cast<int>(random() % 2));
     if (random() % 2000 == 0) {  // anywhere along the colon, in its wall too
         Pose pose = flight.pose();
         pose.position = points[random() % points.size()].position;
-        for (int axis = 0; axis < 3; ++axis) pose.position[axis] += uniform(random, -0.02, 0.02);
+        for (int axis = 0; axis < 3; ++axis) pose.position[axis] += between(random, -0.02, 0.02);
         flight.setPose(pose);
     }
     flight.step(input, dt);
 }
 
 // The wall itself is looked up every `every` steps, where the bound says that it may be near.
-void steerAtRandom(const char* name, const FreeDistance& asked, int steps, int every) {
+void steerRealAtRandom(const char* name, const FreeDistance& asked, int steps, int every) {
     const Anatomy& a = anatomy();
     const ColonFlightSetting setting{0.002, 0.03, 0.004};
     ColonFlight flight(asked, a.line, a.home(), setting);
@@ -136,9 +136,9 @@ void steerAtRandom(const char* name, const FreeDistance& asked, int steps, int e
     double leastFree = 1, leastOver = 1, leastAllowed = 1, travelled = 0;
     const auto start = std::chrono::steady_clock::now();
     for (int k = 0; k < steps; ++k) {
-        if (random() % 3 == 0) changeWish(input, random);
+        if (random() % 3 == 0) changeOneWish(input, random);
         const glm::dvec3 before = flight.pose().position;
-        steer(flight, input, std::pow(10.0, uniform(random, -3, 0)), random);
+        steerAnywhere(flight, input, std::pow(10.0, between(random, -3, 0)), random);
         const Pose pose = flight.pose();
         const double allowed = flight.allowedClearance();
         for (const double side : {-0.002, 0.0, 0.002}) {
@@ -165,14 +165,14 @@ void steerAtRandom(const char* name, const FreeDistance& asked, int steps, int e
 
 TEST(ColonFlightInRealAnatomy, RandomSteeringKeepsTheClearance) {
     if (!std::filesystem::exists(maskFile())) GTEST_SKIP() << maskFile() << " is absent";
-    steerAtRandom("by a bound", anatomy().asked(), 100000 / kShare, 5);
+    steerRealAtRandom("by a bound", anatomy().asked(), 100000 / kShareOfPath, 5);
 }
 
 // With the distances of the wall itself, which take longer, the eyes come as near as they may.
 TEST(ColonFlightInRealAnatomy, RandomSteeringByTheWallItselfKeepsTheClearance) {
     if (!std::filesystem::exists(maskFile())) GTEST_SKIP() << maskFile() << " is absent";
     const auto exact = [](const glm::dvec3& p, double upTo) { return anatomy().free(p, upTo, kTolerance); };
-    steerAtRandom("by the wall", exact, 100 / kShare + 1, 1);
+    steerRealAtRandom("by the wall", exact, 100 / kShareOfPath + 1, 1);
 }
 
 TEST(ColonFlightInRealAnatomy, GuidedFlightGoesThroughTheWholeColon) {

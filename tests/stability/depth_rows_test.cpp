@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/math/constants.h"
 #include "engine/stereo/right_eye.h"
 #include "engine/stereo/row_kernels.h"
 #include "engine/stereo/warp_oracle.h"
@@ -18,7 +19,6 @@ namespace {
 using namespace test;
 
 constexpr int kWidth = 1920;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 StereoViews wideViews(double zeroParallax) {
     Lens lens;

@@ -8,6 +8,7 @@
 
 #include "engine/light/light_probe.h"
 #include "engine/light/spherical_harmonics.h"
+#include "engine/math/constants.h"
 #include "engine/stereo/right_eye.h"
 #include "terrain/terrain_renderer.h"
 #include "tests/light/occlusion_brute.h"
@@ -20,8 +21,6 @@ namespace stereonav {
 namespace {
 
 using namespace test;
-
-constexpr double kPi = std::numbers::pi;
 
 // ---- probes
 

@@ -9,6 +9,7 @@
 #include "engine/medium/medium_sweep.h"
 #include "engine/medium/plain_sweep.h"
 #include "tests/medium/sweep_scenes.h"
+#include "tests/stability/slab_formulas.h"
 #include "tests/stability/stability_scenes.h"
 #include "tests/support/stability_row.h"
 
@@ -16,18 +17,6 @@ namespace stereonav {
 namespace {
 
 using namespace test;
-
-constexpr double kEyeCosine = 0.7, kLightCosine = 0.8, kThick = 0.3;
-
-double mean(double z) {
-    return z == 0 ? 1 : -std::expm1(-z) / z;
-}
-
-// As in optical_depth_rows_test.cpp.
-double shareOf(double x, double y, bool forward) {
-    if (forward) return x * mean(x + y);
-    return x * std::exp(-std::min(x, y)) * mean(std::abs(x - y));
-}
 
 // Light that eyes read is kept in 15 bits: of what a slab takes in, at most the medium's opacity, each
 // reading is off by 2^-16, and by as much again where it is interpolated. The rest is float: each slab rounds

@@ -31,8 +31,8 @@ GreyVolume readReal(const char* name) {
     return readStudy(file, {}, progress).grey;
 }
 
-OpennessVolume estimate(const GreyVolume& volume, OcclusionMethod method, const glm::ivec3& radius,
-                        SimdTarget target = SimdTarget::Auto) {
+OpennessVolume estimateReal(const GreyVolume& volume, OcclusionMethod method, const glm::ivec3& radius,
+                            SimdTarget target = SimdTarget::Auto) {
     Progress progress;
     return estimateOpenness(volume, method, radius, progress, target);
 }
@@ -47,14 +47,14 @@ TEST(OcclusionReal, SameBytesFromEveryThreadCountAndInstructionSet) {
     const int threads = threadCount();
     for (const OcclusionMethod method :
          {OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn, OcclusionMethod::Gaussian}) {
-        const OpennessVolume first = estimate(trunk, method, glm::ivec3(9), SimdTarget::Plain);
+        const OpennessVolume first = estimateReal(trunk, method, glm::ivec3(9), SimdTarget::Plain);
         for (int n = 1; n <= 4; ++n) {
             setThreadCount(n);
-            EXPECT_TRUE(same(first, estimate(trunk, method, glm::ivec3(9)))) << n;
+            EXPECT_TRUE(same(first, estimateReal(trunk, method, glm::ivec3(9)))) << n;
         }
         setThreadCount(threads);
         for (const SimdTarget target : simdTargets())
-            EXPECT_TRUE(same(first, estimate(trunk, method, glm::ivec3(9), target)));
+            EXPECT_TRUE(same(first, estimateReal(trunk, method, glm::ivec3(9), target)));
     }
 }
 
@@ -64,7 +64,7 @@ TEST(OcclusionReal, IsWhatWholeBoxesSay) {
     std::mt19937 engine(5);
     for (const int radius : {1, 5, 24}) {
         for (const OcclusionMethod method : test::kOcclusionMethods) {
-            const OpennessVolume openness = estimate(trunk, method, glm::ivec3(radius));
+            const OpennessVolume openness = estimateReal(trunk, method, glm::ivec3(radius));
             for (int n = 0; n < 60; ++n) {
                 const glm::ivec3 size = trunk.frame.size;
                 const auto below = [&](int count) {
@@ -94,7 +94,7 @@ void expectBetterThanChebyshev(const GreyVolume& volume, double isovalue) {
         truth[i] = traceOpenness(volume, texels[i], metres, 64).obscurance;
     });
     const auto accuracy = [&](OcclusionMethod method) {
-        const OpennessVolume openness = estimate(volume, method, occlusionRadius(volume.frame, metres));
+        const OpennessVolume openness = estimateReal(volume, method, occlusionRadius(volume.frame, metres));
         bench::Numbers values;
         for (const glm::ivec3& texel : texels) values.push_back(openness.at(texel) / 255.0);
         return Accuracy{bench::rootMeanSquare(values, 1, truth), bench::rankCorrelation(values, truth)};

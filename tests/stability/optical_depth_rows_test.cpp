@@ -6,6 +6,7 @@
 
 #include "engine/volume/plain_volume_caster.h"
 #include "tests/medium/sweep_scenes.h"
+#include "tests/stability/slab_formulas.h"
 #include "tests/stability/stability_scenes.h"
 #include "tests/support/stability_row.h"
 
@@ -15,20 +16,7 @@ namespace {
 using namespace test;
 
 // (1 - exp(-z)) / z
-double mean(double z) {
-    return z == 0 ? 1 : -std::expm1(-z) / z;
-}
-
-// What a slab of optical depths x (eye) and y (light) sends to the eye of a light of 1, from the integral of
-// exp(-t) over both ways (docs/volume_light.md, V5 and V6 for a single slab).
-double shareOf(double x, double y, bool forward) {
-    if (forward) return x * mean(x + y);
-    return x * std::exp(-std::min(x, y)) * mean(std::abs(x - y));
-}
-
-constexpr double kEyeCosine = 0.7, kLightCosine = 0.8, kThick = 0.3;
-
-glm::dvec4 sweptSlab(double depth, bool forward, int slices) {
+glm::dvec4 plainSlab(double depth, bool forward, int slices) {
     const Medium medium = slabOf({{depth / kThick}}, kThick);
     MediumLook look;
     look.model = MediumModel::Direct;
@@ -66,7 +54,7 @@ TEST_P(OpticalDepthRow, SweptSlabIsTheClosedForm) {
                 (forward ? "with" : "against") + " the view in 1, 7 and 64 slices",
             "error over rounding and the early stop", 1, "");
         for (const int slices : {1, 7, 64})
-            sawErrors(sweptSlab(GetParam(), forward, slices), GetParam(), forward, row);
+            sawErrors(plainSlab(GetParam(), forward, slices), GetParam(), forward, row);
     }
 }
 
@@ -139,7 +127,7 @@ TEST_P(SliceRow, AnyNumberIsTheClosedForm) {
             "a slab of optical depth 1 in " + std::to_string(GetParam()) + " slices, " +
                 (forward ? "with" : "against") + " the view",
             "error over rounding", 1, "");
-        sawErrors(sweptSlab(1, forward, GetParam()), 1, forward, row);
+        sawErrors(plainSlab(1, forward, GetParam()), 1, forward, row);
     }
 }
 

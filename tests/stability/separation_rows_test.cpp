@@ -19,7 +19,7 @@ namespace {
 
 using namespace test;
 
-struct Stage {
+struct OpaqueStage {
     std::shared_ptr<void> scene;
     std::unique_ptr<EyeRenderer> renderer;
     Pose head;
@@ -32,7 +32,7 @@ Lens lensOf(double nearDepth) {
     return {160, 24, 0.25, 1.0, nearDepth};
 }
 
-void findNearest(Stage& stage, double nearDepth) {
+void findNearest(OpaqueStage& stage, double nearDepth) {
     const EyeImage image = castPicture(*stage.renderer, makeEyeView(stage.head, lensOf(nearDepth)));
     stage.nearest = HUGE_VAL;
     for (int y = 0; y < image.height(); ++y)
@@ -41,8 +41,8 @@ void findNearest(Stage& stage, double nearDepth) {
 }
 
 // Hills, seen from above their tops with a little sky.
-Stage terrainStage() {
-    Stage stage;
+OpaqueStage terrainStage() {
+    OpaqueStage stage;
     auto scene = std::make_shared<TerrainScene>(makeScene(makeGround("smooth", 129, 129, 1)));
     stage.renderer = std::make_unique<TerrainRenderer>(*scene);
     stage.head = poseFromAngles({100, -900, scene->ground.maxHeight() + 25.0}, 0.3, -0.35, 0);
@@ -55,8 +55,8 @@ Stage terrainStage() {
 }
 
 // A cavity with a polyp before the eyes: ten times the nearest distance still fits into it.
-Stage colonStage() {
-    Stage stage;
+OpaqueStage colonStage() {
+    OpaqueStage stage;
     const glm::dvec3 middle(0.028, 0.028, 0.028);
     const auto wall = [=](const glm::dvec3& p) {
         const double cavity = glm::length(p - middle) - 0.026;
@@ -75,12 +75,12 @@ Stage colonStage() {
     return stage;
 }
 
-const Stage& stageOf(bool terrain) {
-    static const Stage kTerrain = terrainStage(), kColon = colonStage();
+const OpaqueStage& stageOf(bool terrain) {
+    static const OpaqueStage kTerrain = terrainStage(), kColon = colonStage();
     return terrain ? kTerrain : kColon;
 }
 
-StereoViews viewsOf(const Stage& stage, double factor) {
+StereoViews viewsOf(const OpaqueStage& stage, double factor) {
     return makeStereoViews(stage.head, lensOf(0.2 * stage.nearest),
                            {factor * stage.nearest, 4 * std::max(1.0, factor) * stage.nearest});
 }
@@ -96,7 +96,7 @@ struct Range {
 };
 
 // What double precision, one ray at a time, sees within `reach` pixels of a place of the right picture.
-Range seenAround(const Stage& stage, const EyeView& view, double x, double y, double reach) {
+Range seenAround(const OpaqueStage& stage, const EyeView& view, double x, double y, double reach) {
     Range range;
     for (int k = -2; k <= 2; ++k) range.add(stage.castPlainly(view, x + reach * k / 2, y));
     return range;
@@ -105,7 +105,7 @@ Range seenAround(const Stage& stage, const EyeView& view, double x, double y, do
 // A warped pixel has the depth of a left pixel that comes to lie beside it (or where splats are two pixels
 // wide, up to two away), or one between it and the next. Those are seen there, but for what the left eye has
 // no sample of: the last pixel before an edge.
-bool isRightlyShown(const Stage& stage, const StereoViews& views, const EyeImage& left, int x, int y,
+bool isRightlyShown(const OpaqueStage& stage, const StereoViews& views, const EyeImage& left, int x, int y,
                     float depth) {
     const float* row = left.viewDepth.row(y);
     const auto seen = [&](int i) {
@@ -177,7 +177,7 @@ TEST_P(SeparationRow, EveryPixelIsSound) {
     StabilityRow row(id("sound"), words() + ", all methods", "pixels of no depth or of a depth that is none",
                      0, "pixels");
     row.count(0);
-    const Stage& stage = stageOf(terrain());
+    const OpaqueStage& stage = stageOf(terrain());
     const StereoViews views = viewsOf(stage, factor());
     const EyeImage left = castPicture(*stage.renderer, views.left);
     for (const NamedMethod& named : kRightEyeMethods) {
@@ -198,7 +198,7 @@ TEST_P(SeparationRow, EveryPixelIsSound) {
 }
 
 TEST_P(SeparationRow, WhatIsShownIsThere) {
-    const Stage& stage = stageOf(terrain());
+    const OpaqueStage& stage = stageOf(terrain());
     const StereoViews views = viewsOf(stage, factor());
     const EyeImage left = castPicture(*stage.renderer, views.left);
     for (const RightEyeMethod method :
@@ -226,7 +226,7 @@ TEST_P(SeparationRow, WhatIsShownIsThere) {
 }
 
 TEST_P(SeparationRow, HolesAreWhatDepthsLeaveOpen) {
-    const Stage& stage = stageOf(terrain());
+    const OpaqueStage& stage = stageOf(terrain());
     const StereoViews views = viewsOf(stage, factor());
     const EyeImage left = castPicture(*stage.renderer, views.left);
     WarpSetting setting;

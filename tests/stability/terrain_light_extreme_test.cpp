@@ -7,13 +7,12 @@
 #include <numbers>
 
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 #include "terrain/terrain_relight.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TerrainLight bake(const Heightfield& ground, const TerrainLightSettings& settings) {
     Progress quiet;

@@ -16,7 +16,7 @@ namespace stereonav {
 namespace {
 
 // Pixels that are compared, and pixels cast for each: far ground is then not averaged over its hidden sides.
-constexpr int kWidth = 60, kHeight = 40, kFine = 16;
+constexpr int kRealWidth = 60, kHeight = 40, kFine = 16;
 
 double luminance(const glm::dvec3& c) {
     return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
@@ -46,9 +46,9 @@ Found compare(const TerrainScene& scene, const EyeView& view, const EyeImage& im
     const double scale = luminance(glm::dvec3(now.sky.level)) / luminance(glm::dvec3(shape.level));
     const GroundRays rays(scene.ground);
     const PathLightSetting base{0.3, 2, 256, 1};
-    std::vector<double> seen(kWidth * kHeight, -1), truth(seen), noise(seen);
-    parallelFor(kWidth * kHeight, [&](int k) {
-        const int x = k % kWidth * kFine + kFine / 2, y = k / kWidth * kFine + kFine / 2;
+    std::vector<double> seen(kRealWidth * kHeight, -1), truth(seen), noise(seen);
+    parallelFor(kRealWidth * kHeight, [&](int k) {
+        const int x = k % kRealWidth * kFine + kFine / 2, y = k / kRealWidth * kFine + kFine / 2;
         const float depth = image.viewDepth.at(x, y);
         if (!std::isfinite(depth)) return;
         const glm::dvec2 place(view.pointAt(x + 0.5, y + 0.5, depth));
@@ -64,7 +64,7 @@ Found compare(const TerrainScene& scene, const EyeView& view, const EyeImage& im
     });
     Found found{0, 0, 0};
     double mean = 0, square = 0;
-    for (int k = 0; k < kWidth * kHeight; ++k) {
+    for (int k = 0; k < kRealWidth * kHeight; ++k) {
         if (seen[k] < 0) continue;
         ++found.pixels;
         mean += truth[k];
@@ -88,11 +88,11 @@ void expectTrue(const char* name, int stride, double rms, double bias) {
         scene.ground, scene.color, scene.sky, bakeTerrainLight(scene.ground, settings, quiet), 1.0f);
     scene.illumination->apply(scene.look, scene.color);
     Lens lens = scene.lens;
-    lens.width = kWidth * kFine;
+    lens.width = kRealWidth * kFine;
     lens.height = kHeight * kFine;
     const EyeView view = makeEyeView(scene.startPose, lens);
     EyeImage image;
-    image.resize(kWidth * kFine, kHeight * kFine);
+    image.resize(kRealWidth * kFine, kHeight * kFine);
     renderEye(TerrainRenderer(scene), view, image);
     const Found found = compare(scene, view, image);
     std::printf("%s, every %d. sample: %d pixels, rms %.3f, bias %.3f of the mean\n", name, stride,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/math/constants.h"
 #include "terrain/plain_caster.h"
 #include "terrain/terrain_loader.h"
 #include "terrain/terrain_renderer.h"
@@ -17,8 +18,6 @@ namespace stereonav {
 namespace {
 
 using namespace test;
-
-constexpr double kPi = std::numbers::pi;
 
 using HeightAt = std::function<double(int i, int j)>;
 

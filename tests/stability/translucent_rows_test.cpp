@@ -43,10 +43,10 @@ VolumeScene cavity(bool glass) {
     return scene;
 }
 
-struct Stage {
+struct GlassStage {
     VolumeScene scene;
     VolumeRenderer renderer;
-    explicit Stage(bool glass) : scene(cavity(glass)), renderer(scene) {}
+    explicit GlassStage(bool glass) : scene(cavity(glass)), renderer(scene) {}
 
     // factor: separation over the distance of the polyp, 3.5 mm.
     StereoViews views(double factor) const {
@@ -57,12 +57,12 @@ struct Stage {
     }
 };
 
-const Stage& stageOf(bool glass) {
-    static const Stage kGlass(true), kWall(false);
+const GlassStage& glassStageOf(bool glass) {
+    static const GlassStage kGlass(true), kWall(false);
     return glass ? kGlass : kWall;
 }
 
-EyeImage rightEye(const Stage& stage, const StereoViews& views, const EyeImage& left,
+EyeImage rightEye(const GlassStage& stage, const StereoViews& views, const EyeImage& left,
                   const WarpSetting& setting, RightEyeTimings* timings = nullptr) {
     RightEye eye;
     EyeImage right;
@@ -91,7 +91,7 @@ TEST_P(TranslucentRow, EveryPixelIsSound) {
     StabilityRow row(id("sound"), words() + ", all methods", "pixels of no depth or of a depth that is none",
                      0, "pixels");
     row.count(0);
-    const Stage& stage = stageOf(true);
+    const GlassStage& stage = glassStageOf(true);
     ASSERT_TRUE(stage.renderer.translucent());
     const StereoViews views = stage.views(GetParam());
     const EyeImage left = castPicture(stage.renderer, views.left);
@@ -108,7 +108,7 @@ TEST_P(TranslucentRow, EveryPixelIsSound) {
 TEST_P(TranslucentRow, SelectiveIsNoWorseThanLinear) {
     StabilityRow row(id("selective"), words() + ", squared error of selective over that of linear",
                      "ratio above 1, or pixels that differ where nothing shifts", 1, "");
-    const Stage& stage = stageOf(true);
+    const GlassStage& stage = glassStageOf(true);
     const StereoViews views = stage.views(GetParam());
     const EyeImage left = castPicture(stage.renderer, views.left);
     const EyeImage full = rightEye(stage, views, left, settingOf(RightEyeMethod::Full));
@@ -152,7 +152,7 @@ TEST_P(DialRow, EveryPixelIsWarpedOrCast) {
                      "a lumen, " + scene + ", refined with " + wish().name,
                      "pixels neither as warped nor as cast, or more of them cast than allowed", 0, "pixels");
     row.count(0);
-    const Stage& stage = stageOf(glass());
+    const GlassStage& stage = glassStageOf(glass());
     const StereoViews views = stage.views(0.3);
     const EyeImage left = castPicture(stage.renderer, views.left);
     WarpSetting setting = settingOf(defaultMethodFor(stage.renderer));
@@ -206,7 +206,7 @@ TEST_P(PlanRow, WhatIsPlannedIsWithinItsRanges) {
                      "a lumen, " + scene + ", planned for " + shortNumber(target_ms) + " ms a frame",
                      "scales, shares and errors that are none", 0, "");
     row.count(0);
-    const Stage& stage = stageOf(glass);
+    const GlassStage& stage = glassStageOf(glass);
     const StereoViews views = stage.views(0.3);
     const std::vector<NamedWarp> warps = warpsWorthTrying(stage.renderer);
     const MeasuredWarps measured = measureWarps(stage.renderer, {&views, 1}, warps, 1);

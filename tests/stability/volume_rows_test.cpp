@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "engine/math/constants.h"
 #include "engine/volume/plain_volume_caster.h"
 #include "tests/stability/stability_scenes.h"
 #include "tests/support/stability_row.h"
@@ -17,15 +18,13 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = std::numbers::pi;
-
 double plainDepth(const VolumeScene& scene, const EyeView& view, double x, double y) {
     return castPlainVolume(scene.field, scene.cells.isovalue,
                            {view.eye, view.rayDirection(x, y), view.nearDepth})
         .t;
 }
 
-struct Range {
+struct DepthRange {
     double least = HUGE_VAL, most = 0;
     void add(double depth) {
         least = std::min(least, depth);
@@ -39,16 +38,16 @@ struct Range {
 // Positions in single precision are off by some 2^-24 of the grid's width: 2e-5 of a depth of a voxel and
 // more (as the tests of the renderer have it). A ray that passes an edge within a hundredth of a pixel may
 // show either side of it.
-constexpr double kDepthBound = 2e-5;
+constexpr double kVolumeDepthBound = 2e-5;
 
 bool isSeen(const VolumeScene& scene, const EyeView& view, int x, int y, double got) {
-    Range range;
+    DepthRange range;
     range.add(plainDepth(scene, view, x + 0.5, y + 0.5));
-    if (got == range.most || range.holds(got, kDepthBound)) return true;
+    if (got == range.most || range.holds(got, kVolumeDepthBound)) return true;
     for (const double dx : {-0.01, 0.0, 0.01})
         for (const double dy : {-0.01, 0.0, 0.01})
             range.add(plainDepth(scene, view, x + 0.5 + dx, y + 0.5 + dy));
-    return range.holds(got, kDepthBound);
+    return range.holds(got, kVolumeDepthBound);
 }
 
 long long otherPixels(const VolumeScene& scene, const EyeView& view) {
@@ -258,9 +257,9 @@ TEST(VolumePlaceRows, FarFromTheOrigin) {
     const Lens lens{33, 27, 1.2, 1.0, 1e-4};
     // The eye's place is rounded to 2^-53 of 1e7 m, 2e-9 m, each way; a ray across the wall takes it over.
     StabilityRow depths("far/volume", "a lumen 1e7 m from the origin and the same at it",
-                        "difference of depths", 4 * 2e-9 + 0.014 * kDepthBound, "m");
+                        "difference of depths", 4 * 2e-9 + 0.014 * kVolumeDepthBound, "m");
     StabilityRow steps("far/volume/step", "eyes in a lumen 1e7 m from the origin move by 1e-4 m",
-                       "error of the depths' change", 2 * (4 * 2e-9 + 0.02 * kDepthBound), "m");
+                       "error of the depths' change", 2 * (4 * 2e-9 + 0.02 * kVolumeDepthBound), "m");
     for (const SimdTarget target : simdTargets()) {
         const VolumeRenderer there(far, {target}), here(near, {target});
         const auto at = [&](const glm::dvec3& from, double ahead) {
@@ -352,7 +351,8 @@ TEST_P(NearWallRow, WallAtTheNearDistance) {
     const double near = 4e-3, share = GetParam();
     StabilityRow row("near/volume/" + shortNumber(share),
                      "a flat wall straight below at 1 + " + shortNumber(share) + " of the near distance",
-                     "relative depth error; where the wall is nearer rays begin in it", kDepthBound, "");
+                     "relative depth error; where the wall is nearer rays begin in it", kVolumeDepthBound,
+                     "");
     const VolumeScene scene = flatScene();
     const double depth = near * (1 + share);
     const EyeView view = makeEyeView(poseFromAngles({0.0323, 0.0317, 8.25e-3 + depth}, 0, -kPi / 2, 0),

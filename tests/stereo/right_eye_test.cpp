@@ -16,7 +16,7 @@ using namespace test;
 using testing::HasSubstr;
 
 // The head at the origin looks along -z (see Pose), x to the right.
-StereoViews viewsOf(int width, int height, double separation, double zeroParallax = 6) {
+StereoViews eyesOf(int width, int height, double separation, double zeroParallax = 6) {
     Lens lens;
     lens.width = width;
     lens.height = height;
@@ -89,7 +89,7 @@ constexpr RightEyeMethod kFilled[] = {RightEyeMethod::Paper, RightEyeMethod::Lin
 
 TEST(RightEye, fullIsTheCastOfTheRightView) {
     const AnalyticScene scene = ballsBeforeWall();
-    const Rendered r = renderMethod(scene, viewsOf(120, 80, 0.3), RightEyeMethod::Full);
+    const Rendered r = renderMethod(scene, eyesOf(120, 80, 0.3), RightEyeMethod::Full);
     EXPECT_TRUE(sameImage(r.right, r.full));
     EXPECT_EQ(r.timings.holePixels, 120 * 80);
     EXPECT_EQ(r.timings.warp_ms, 0);
@@ -97,7 +97,7 @@ TEST(RightEye, fullIsTheCastOfTheRightView) {
 
 TEST(RightEye, warpedAndFilledIsNearTheFullCast) {
     const AnalyticScene scene = ballsBeforeWall();
-    const StereoViews views = viewsOf(320, 240, 0.3);
+    const StereoViews views = eyesOf(320, 240, 0.3);
     const double least[] = {30, 36, 40};
     double before = 0;
     for (int m = 0; m < 3; ++m) {
@@ -115,7 +115,7 @@ TEST(RightEye, warpedAndFilledIsNearTheFullCast) {
 TEST(RightEye, everyPixelIsSetAndHolesAreExact) {
     const AnalyticScene scene = ballsBeforeWall();
     for (const RightEyeMethod method : kFilled) {
-        const Rendered r = renderMethod(scene, viewsOf(200, 150, 0.4), method);
+        const Rendered r = renderMethod(scene, eyesOf(200, 150, 0.4), method);
         long long holes = 0;
         for (int y = 0; y < 150; ++y)
             for (int x = 0; x < 200; ++x) {
@@ -130,7 +130,7 @@ TEST(RightEye, everyPixelIsSetAndHolesAreExact) {
 
 TEST(RightEye, noFillIsTheDefaultWarpWithBlackHoles) {
     const AnalyticScene scene = ballsBeforeWall();
-    const StereoViews views = viewsOf(160, 120, 0.3);
+    const StereoViews views = eyesOf(160, 120, 0.3);
     const Rendered open = renderMethod(scene, views, RightEyeMethod::NoFill);
     const Rendered filled = renderMethod(scene, views, kDefaultRightEyeMethod);
     int holes = 0;
@@ -152,7 +152,7 @@ TEST(RightEye, noFillIsTheDefaultWarpWithBlackHoles) {
 TEST(RightEye, withoutParallaxIsTheLeftEye) {
     const AnalyticScene scene = ballsBeforeWall();
     for (const NamedMethod& named : kRightEyeMethods) {
-        const Rendered r = renderMethod(scene, viewsOf(101, 67, 0), named.method);
+        const Rendered r = renderMethod(scene, eyesOf(101, 67, 0), named.method);
         EXPECT_TRUE(sameImage(r.right, r.left)) << named.name;
     }
 }
@@ -160,7 +160,7 @@ TEST(RightEye, withoutParallaxIsTheLeftEye) {
 TEST(RightEye, anInclinedPlaneIsResampledFinely) {
     // No silhouettes: all that differs is the resampling of a smooth pattern.
     const AnalyticScene scene({plane({0, 0, -8}, {0.4, 0.5, 1})}, 2.0);
-    const Rendered r = renderMethod(scene, viewsOf(320, 240, 0.2), RightEyeMethod::Cubic);
+    const Rendered r = renderMethod(scene, eyesOf(320, 240, 0.2), RightEyeMethod::Cubic);
     EXPECT_GT(psnr(r.right, r.full), 52);
     for (int y = 0; y < 240; ++y)
         for (int x = 0; x < 320; ++x) {
@@ -172,7 +172,7 @@ TEST(RightEye, anInclinedPlaneIsResampledFinely) {
 
 TEST(RightEye, skyMovesByTheShiftAtInfinity) {
     const AnalyticScene scene({});
-    const Rendered r = renderMethod(scene, viewsOf(160, 90, 0.3, 6), RightEyeMethod::Cubic);
+    const Rendered r = renderMethod(scene, eyesOf(160, 90, 0.3, 6), RightEyeMethod::Cubic);
     EXPECT_GT(psnr(r.right, r.full), 55);
     EXPECT_LT(r.timings.holePixels, 160 * 90 / 10);
 }
@@ -182,7 +182,7 @@ TEST(RightEye, extremeSeparationsAndSizesAreNearTheFullCast) {
     for (const double separation : {1e-9, 1e-3, 5.0, 50.0})
         for (const int width : {1, 2, 15, 16, 17, 33, 200})
             for (const RightEyeMethod method : kFilled) {
-                const Rendered r = renderMethod(scene, viewsOf(width, 24, separation), method);
+                const Rendered r = renderMethod(scene, eyesOf(width, 24, separation), method);
                 for (int y = 0; y < 24; ++y)
                     for (int x = 0; x < width; ++x) {
                         ASSERT_GT(r.right.viewDepth.at(x, y), 0) << width << " " << separation;
@@ -195,7 +195,7 @@ TEST(RightEye, extremeSeparationsAndSizesAreNearTheFullCast) {
 
 TEST(RightEye, resultsDoNotDependOnThreadsOrSchedules) {
     const AnalyticScene scene = ballsBeforeWall();
-    const StereoViews views = viewsOf(211, 157, 0.35);
+    const StereoViews views = eyesOf(211, 157, 0.35);
     for (const RightEyeMethod method : kFilled) {
         setThreadCount(1);
         WarpSetting setting;
@@ -215,7 +215,7 @@ TEST(RightEye, resultsDoNotDependOnThreadsOrSchedules) {
 
 TEST(RightEye, keepsItsBuffersBetweenFrames) {
     const AnalyticScene scene = ballsBeforeWall();
-    const StereoViews views = viewsOf(100, 60, 0.3);
+    const StereoViews views = eyesOf(100, 60, 0.3);
     const EyeImage left = castEye(scene, views.left);
     RightEye eye;
     EyeImage right;
@@ -233,11 +233,11 @@ TEST(RightEye, keepsItsBuffersBetweenFrames) {
 
 TEST(RightEye, refusesALeftEyeOfAnotherSize) {
     const AnalyticScene scene = ballsBeforeWall();
-    const EyeImage left = castEye(scene, viewsOf(32, 24, 0.3).left);
+    const EyeImage left = castEye(scene, eyesOf(32, 24, 0.3).left);
     EyeImage right;
     RightEye eye;
     try {
-        eye.render(scene, viewsOf(33, 24, 0.3), left, {}, right);
+        eye.render(scene, eyesOf(33, 24, 0.3), left, {}, right);
         FAIL() << "accepted";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("expected an image of 33x24"));
@@ -270,7 +270,7 @@ int exposedPixels(const Rendered& r) {
 
 TEST(McMillan, hasTheExposureErrorAndOursHasNot) {
     const AnalyticScene scene = steepBeforeWall();
-    const StereoViews views = viewsOf(240, 60, 1.2, 4);
+    const StereoViews views = eyesOf(240, 60, 1.2, 4);
     EXPECT_GT(exposedPixels(renderMethod(scene, views, RightEyeMethod::McMillan)), 500)
         << "the wall shows through the slope";
     for (const RightEyeMethod method : kFilled)
@@ -287,7 +287,7 @@ AnalyticScene spireAtTheRight(const StereoViews& views) {
 }
 
 TEST(RegionV, aSpireThatOnlyTheRightEyeSeesAppears) {
-    const StereoViews views = viewsOf(200, 120, 0.4, 6);
+    const StereoViews views = eyesOf(200, 120, 0.4, 6);
     const AnalyticScene scene = spireAtTheRight(views);
     const EyeImage left = castEye(scene, views.left), full = castEye(scene, views.right);
     int spire = 0;
@@ -309,7 +309,7 @@ TEST(RegionV, aSpireThatOnlyTheRightEyeSeesAppears) {
 
 TEST(ViewDependent, warpedPixelsAreShadedForTheRightEye) {
     const AnalyticScene scene({plane({0, 0, -12}, {0.1, 0.2, 1}), sphere({0.2, 0, -5}, 1.5)}, 1.0, true);
-    const StereoViews views = viewsOf(320, 240, 0.6);
+    const StereoViews views = eyesOf(320, 240, 0.6);
     for (const RightEyeMethod method : kFilled) {
         const Rendered r = renderMethod(scene, views, method);
         ASSERT_FALSE(r.right.normal.empty());
@@ -329,7 +329,7 @@ TEST(ViewDependent, warpedPixelsAreShadedForTheRightEye) {
 
 TEST(ViewDependent, planesAreNotAllocatedOtherwise) {
     const AnalyticScene scene = ballsBeforeWall();
-    const Rendered r = renderMethod(scene, viewsOf(64, 48, 0.3), RightEyeMethod::Cubic);
+    const Rendered r = renderMethod(scene, eyesOf(64, 48, 0.3), RightEyeMethod::Cubic);
     EXPECT_TRUE(r.right.baseColor.empty());
     EXPECT_TRUE(r.right.normal.empty());
 }
@@ -341,7 +341,7 @@ LitScene litBallsBeforeWall() {
 
 TEST(NormalDependent, warpedPixelsAreShadedForTheRightEye) {
     const LitScene scene = litBallsBeforeWall();
-    const StereoViews views = viewsOf(320, 240, 0.3);
+    const StereoViews views = eyesOf(320, 240, 0.3);
     const double least[] = {28, 60, 66};  // splats smear silhouettes
     for (int m = 0; m < 3; ++m) {
         const RightEyeMethod method = kFilled[m];
@@ -369,7 +369,7 @@ TEST(NormalDependent, everyMethodGivesEveryPixelItsColor) {
     const LitScene scene({sphere({-0.3, 0.1, -5}, 1.0), sphere({0.7, -0.2, -3.5}, 0.4)});
     for (const int width : {1, 2, 17, 160})
         for (const NamedMethod& named : kRightEyeMethods) {
-            const Rendered r = renderMethod(scene, viewsOf(width, 60, 0.3), named.method);
+            const Rendered r = renderMethod(scene, eyesOf(width, 60, 0.3), named.method);
             int lit = 0, dark = 0;
             for (int y = 0; y < 60; ++y)
                 for (int x = 0; x < width; ++x) {
@@ -392,7 +392,7 @@ TEST(NormalDependent, everyMethodGivesEveryPixelItsColor) {
 TEST(NormalDependent, depthIsThatOfTheSurface) {
     // Seen at a slant, so that neighbours differ in depth; the light falls off with the distance.
     const LitScene scene({plane({0, 0, -8}, {0.9, 0.3, 1})}, 1.0, 0.0);
-    const Rendered r = renderMethod(scene, viewsOf(320, 240, 0.2), RightEyeMethod::Linear);
+    const Rendered r = renderMethod(scene, eyesOf(320, 240, 0.2), RightEyeMethod::Linear);
     for (int y = 0; y < 240; ++y)
         for (int x = 0; x < 320; ++x) {
             const float truth = r.full.viewDepth.at(x, y);
@@ -404,7 +404,7 @@ TEST(NormalDependent, depthIsThatOfTheSurface) {
 
 TEST(NormalDependent, threadsAndSchedulesDoNotMatter) {
     const LitScene scene = litBallsBeforeWall();
-    const StereoViews views = viewsOf(211, 100, 0.35);
+    const StereoViews views = eyesOf(211, 100, 0.35);
     for (const RightEyeMethod method : kFilled) {
         setThreadCount(1);
         const Rendered one = renderMethod(scene, views, method);

@@ -16,6 +16,7 @@
 #include "engine/camera/gltf_file.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/image/image_file.h"
+#include "engine/math/constants.h"
 #include "tests/camera/temporary_folder.h"
 
 namespace stereonav {
@@ -25,7 +26,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kPi = std::numbers::pi;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // A shape in glTF's own space (y up).

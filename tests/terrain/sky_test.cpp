@@ -69,7 +69,7 @@ TEST(SkyMap, GradientIsBlueAboveAndHazyBelow) {
     EXPECT_NEAR(colorTowards(sky.map, {0.01f, 0.01f, 0.999f}).z, zenith.z, 0.02);
 }
 
-RasterSpec pictureSpec(int width, int height) {
+RasterSpec skyPictureSpec(int width, int height) {
     RasterSpec spec;
     spec.driver = "PNG";
     spec.type = GDT_Byte;
@@ -82,7 +82,7 @@ RasterSpec pictureSpec(int width, int height) {
 
 TEST(SkySource, WholeSphereStandsUprightWithNorthInTheMiddle) {
     const TempFolder folder;
-    RasterSpec spec = pictureSpec(256, 128);
+    RasterSpec spec = skyPictureSpec(256, 128);
     // Red: above the horizon. Green: the eastern half. Blue: within 45 degrees of north.
     spec.value = [](int c, int r, int band) {
         const bool on = band == 0 ? r < 64 : band == 1 ? c >= 128 : std::abs(c - 127.5) < 32;
@@ -103,7 +103,7 @@ TEST(SkySource, WholeSphereStandsUprightWithNorthInTheMiddle) {
 
 TEST(SkySource, OtherAspectsArePanoramasAboveTheHorizon) {
     const TempFolder folder;
-    RasterSpec spec = pictureSpec(400, 90);
+    RasterSpec spec = skyPictureSpec(400, 90);
     spec.value = [](int, int r, int band) { return band == 0 ? 255.0 * (r < 45) : 255.0 * (r >= 45); };
     const SkySource sky = readSky(writeRaster(folder / "panorama.png", spec));
     EXPECT_THAT(sky.source, HasSubstr("panorama"));

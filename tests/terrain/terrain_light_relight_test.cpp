@@ -30,7 +30,7 @@ Heightfield groundOf(int width, int height, glm::dvec2 spacing,
     return Heightfield(width, height, spacing, std::move(heights), "test");
 }
 
-TerrainLight bake(const Heightfield& ground, const TerrainLightSettings& settings = {}) {
+TerrainLight bakeForRelight(const Heightfield& ground, const TerrainLightSettings& settings = {}) {
     Progress quiet;
     return bakeTerrainLight(ground, settings, quiet);
 }
@@ -94,7 +94,7 @@ TEST(TerrainRelight, LevelGroundGetsExactlyTheSunAndTheSky) {
     for (const TerrainLightKind kind : {TerrainLightKind::Transfer, TerrainLightKind::Openness}) {
         TerrainLightSettings settings;
         settings.kind = kind;
-        const TerrainRelight relight(ground, bake(ground, settings));
+        const TerrainRelight relight(ground, bakeForRelight(ground, settings));
         for (const double elevation : {90.0, 33.0, 2.0, -1.0})
             for (const double azimuth : {0.0, 123.0, 359.9}) {
                 const SunAndSky now = lightAt(azimuth, elevation);
@@ -120,7 +120,7 @@ TEST(TerrainRelight, AWallsShadowEndsWhereTheSunClearsIt) {
         groundOf(81, 41, {10, 10}, [&](double x, double) { return x > 295 ? wall : 0.0; });
     TerrainLightSettings settings;
     settings.bounces = 0;
-    const TerrainRelight relight(ground, bake(ground, settings));
+    const TerrainRelight relight(ground, bakeForRelight(ground, settings));
     GroundBrightness brightness;
     int dark = 0, lit = 0;
     for (const double elevation : {10.0, 20.0, 40.0}) {
@@ -151,7 +151,7 @@ TEST(TerrainRelight, AgreesWithPathTracing) {
     });
     TerrainLightSettings settings;
     settings.albedo = 0.5;
-    const TerrainLight light = bake(ground, settings);
+    const TerrainLight light = bakeForRelight(ground, settings);
     const TerrainRelight relight(ground, light);
     const GroundRays rays(ground);
     for (const double elevation : {50.0, 15.0}) {
@@ -187,7 +187,7 @@ TEST(TerrainRelight, AgreesWithPathTracing) {
 
 TEST(TerrainRelight, EveryInstructionSetGivesTheSameLight) {
     const Heightfield ground = test::makeGround("rough", 75, 31, 5);
-    const TerrainLight light = bake(ground);
+    const TerrainLight light = bakeForRelight(ground);
     const SunAndSky now = lightAt(30, 35);
     const ColorTexture albedo = test::makeScene(test::makeGround("rough", 75, 31, 5)).color;
     GroundBrightness plain;
@@ -216,7 +216,7 @@ TEST(TerrainRelight, EveryInstructionSetGivesTheSameLight) {
 TEST(TerrainRelight, TexelsAreColoursTimesLight) {
     const Heightfield ground = test::makeGround("smooth", 33, 29, 1);
     const TerrainScene scene = test::makeScene(test::makeGround("smooth", 33, 29, 1));
-    const TerrainRelight relight(ground, bake(ground));
+    const TerrainRelight relight(ground, bakeForRelight(ground));
     GroundBrightness brightness;
     relight.relight(lightAt(100, 40), brightness);
     for (const float share : {0.0f, 0.5f, 1.0f}) {
@@ -247,7 +247,7 @@ TEST(TerrainRelight, TexelsAreColoursTimesLight) {
 TerrainScene litScene(SimdTarget target = SimdTarget::Auto) {
     TerrainScene scene = test::makeScene(test::makeGround("smooth", 65, 65, 3));
     scene.illumination = std::make_unique<TerrainIllumination>(scene.ground, scene.color, scene.sky,
-                                                               bake(scene.ground), 1.0f, target);
+                                                               bakeForRelight(scene.ground), 1.0f, target);
     scene.illumination->apply(scene.look, scene.color);
     return scene;
 }

@@ -12,15 +12,15 @@
 
 #include "engine/base/parallel.h"
 #include "engine/light/spherical_harmonics.h"
+#include "engine/math/constants.h"
 #include "terrain/terrain_horizon.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using HeightAt = std::function<double(double x, double y)>;
 
-Heightfield groundOf(int width, int height, glm::dvec2 spacing, const HeightAt& at) {
+Heightfield groundOfHeights(int width, int height, glm::dvec2 spacing, const HeightAt& at) {
     std::vector<float> heights;
     for (int j = 0; j < height; ++j)
         for (int i = 0; i < width; ++i)
@@ -29,7 +29,7 @@ Heightfield groundOf(int width, int height, glm::dvec2 spacing, const HeightAt& 
     return Heightfield(width, height, spacing, std::move(heights), "test");
 }
 
-TerrainLight bake(const Heightfield& ground, const TerrainLightSettings& settings) {
+TerrainLight bakeGround(const Heightfield& ground, const TerrainLightSettings& settings) {
     Progress quiet;
     return bakeTerrainLight(ground, settings, quiet);
 }
@@ -49,10 +49,10 @@ double openness(const TerrainLight& light, int i, int j) {
 }
 
 TEST(TerrainLight, LevelGroundSeesTheWholeSky) {
-    const Heightfield ground = groundOf(21, 17, {30, 20}, [](double, double) { return 812.5; });
+    const Heightfield ground = groundOfHeights(21, 17, {30, 20}, [](double, double) { return 812.5; });
     TerrainLightSettings settings;
     settings.order = 6;
-    const TerrainLight light = bake(ground, settings);
+    const TerrainLight light = bakeGround(ground, settings);
     ASSERT_EQ(light.openness.size(), 21u * 17u);
     for (const std::uint8_t o : light.openness) EXPECT_EQ(o, 255);
     for (const std::uint8_t h : light.horizon) EXPECT_EQ(h, 0);
@@ -75,11 +75,11 @@ TEST(TerrainLight, LevelGroundSeesTheWholeSky) {
 
 TEST(TerrainLight, ATiltedPlaneLosesWhatLiesBelowTheHorizontal) {
     for (const double slope : {0.1, 0.5, 1.0, 3.0}) {
-        const Heightfield ground =
-            groundOf(33, 33, {10, 10}, [&](double x, double y) { return slope * (0.6 * x + 0.8 * y); });
+        const Heightfield ground = groundOfHeights(
+            33, 33, {10, 10}, [&](double x, double y) { return slope * (0.6 * x + 0.8 * y); });
         TerrainLightSettings settings;
         settings.azimuths = 64;
-        const TerrainLight light = bake(ground, settings);
+        const TerrainLight light = bakeGround(ground, settings);
         const double expected = 0.5 * (1 + 1 / std::sqrt(1 + slope * slope));
         for (int j = 4; j < 29; j += 6)
             for (int i = 4; i < 29; i += 6) {
@@ -95,11 +95,11 @@ TEST(TerrainLight, ATiltedPlaneLosesWhatLiesBelowTheHorizontal) {
 TEST(TerrainLight, AStepTakesAwayTheClosedFormShare) {
     const double wall = 50;
     const Heightfield ground =
-        groundOf(41, 1601, {5, 5}, [&](double x, double) { return x > 2.6 ? wall : 0.0; });
+        groundOfHeights(41, 1601, {5, 5}, [&](double x, double) { return x > 2.6 ? wall : 0.0; });
     TerrainLightSettings settings;
     settings.azimuths = 64;
     settings.bounces = 0;
-    const TerrainLight light = bake(ground, settings);
+    const TerrainLight light = bakeGround(ground, settings);
     const int middle = 800;
     for (const int i : {4, 8, 12, 16, 18}) {
         const double distance = (20 - i) * 5.0 + 5;  // the wall's upper edge is at the sample x = 5
@@ -144,8 +144,8 @@ TEST(TerrainLight, AValleyIsLitByItsOtherSide) {
     const int cells = 32, n = 320, rows = 401;
     for (const double tilt : {kPi / 9, kPi / 4}) {
         const Valley valley{tilt, 160};
-        const Heightfield ground = groundOf(2 * cells + 1, rows, {5, 20},
-                                            [&](double x, double) { return std::abs(x) * std::tan(tilt); });
+        const Heightfield ground = groundOfHeights(
+            2 * cells + 1, rows, {5, 20}, [&](double x, double) { return std::abs(x) * std::tan(tilt); });
         for (const int bounces : {0, 3}) {
             TerrainLightSettings settings;
             settings.azimuths = 64;
@@ -153,7 +153,7 @@ TEST(TerrainLight, AValleyIsLitByItsOtherSide) {
             settings.albedo = 0.8;
             settings.stride = 2;
             settings.rays = 128;
-            const TerrainLight light = bake(ground, settings);
+            const TerrainLight light = bakeGround(ground, settings);
             const std::vector<double> truth = valley.light(n, settings.albedo, bounces);
             // Not the axis, whose smoothed normal is level, nor the samples beside it, whose hits mix with
             // it.
@@ -200,13 +200,13 @@ double walkedHorizon(const Heightfield& ground, int i, int j, const glm::dvec2& 
 }
 
 TEST(TerrainLight, HorizonsAreThoseOfTheMesh) {
-    const Heightfield ground = groundOf(65, 61, {10, 12}, [](double x, double y) {
+    const Heightfield ground = groundOfHeights(65, 61, {10, 12}, [](double x, double y) {
         return 60 * std::sin(x / 41) * std::cos(y / 57) + 25 * std::sin(x / 13 + y / 17);
     });
     TerrainLightSettings settings;
     settings.azimuths = 20;
     settings.bounces = 0;
-    const TerrainLight light = bake(ground, settings);
+    const TerrainLight light = bakeGround(ground, settings);
     int high = 0;
     for (int j = 1; j < 60; j += 3)
         for (int i = 1; i < 64; i += 4)

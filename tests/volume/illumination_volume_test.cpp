@@ -15,7 +15,7 @@ namespace stereonav {
 namespace {
 
 using Lookup = IlluminationVolume::Lookup;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 constexpr Lookup kLookups[] = {Lookup::Nearest, Lookup::Trilinear, Lookup::Tricubic};
 
 // What the bits of a half stand for, from the definition of the format.
@@ -58,7 +58,7 @@ TEST(PackedTexel, RoundsToTheNearestAndTiesToEven) {
 }
 
 TEST(PackedTexel, WhatIsNoLightCountsAsNone) {
-    for (const float bad : {-1.0f, -0.0f, -kInfinity, kInfinity, std::nanf("")}) {
+    for (const float bad : {-1.0f, -0.0f, -kFloatInfinity, kFloatInfinity, std::nanf("")}) {
         EXPECT_EQ(red(bad), 0.0f) << bad;
         EXPECT_EQ(texelWeight(packTexel({1, 1, 1}, bad)), 0.0f) << bad;
     }

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/math/constants.h"
 #include "tests/support/error_of.h"
 
 namespace stereonav {
@@ -19,7 +20,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TransferFunction ramp() {

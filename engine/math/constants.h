@@ -1,0 +1,13 @@
+// Numbers that many places need.
+#pragma once
+
+#include <limits>
+#include <numbers>
+
+namespace stereonav {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRadians = std::numbers::pi / 180;  // of one degree
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace stereonav
