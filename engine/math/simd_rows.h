@@ -7,13 +7,16 @@
 namespace stereonav::STEREONAV_ISA {
 
 // lanesFrom<n>(low, high): of low's lanes and then high's, those from the n-th on; 0 < n < kLanes.
-// everyLane<n>(a): lane n in all lanes.
-// roundToInt: the nearest integer, ties to even, for |a| < 2^22. ceilToInt: smallest integer >= a, |a| <
-// 2^31. storeBytes: 255 for lanes of m, 0 for the others, to kLanes bytes. scatterEach: lanes of m to
-// base[index], which differ; base[spare] may be overwritten too. Of halves: sums and differences wrap;
-// scaledHalves is (a * b + 2^14) >> 15, for |a|, |b| < 2^15. loadEach: base[index] of every lane;
-// loadEachPair: base[index] and base[index + 1]. permuted: lane index of low's lanes and then high's (modulo
-// 2 kLanes), where there is such an instruction.
+// everyLane<n>(a): lane n in all lanes. firstLane, lastLane: as a number.
+// roundToInt(a): the nearest integer, ties to even, for |a| < 2^22.
+// ceilToInt(a): the smallest integer >= a, for |a| < 2^31.
+// storeBytes(p, m): 255 for lanes of m, 0 for the others, to kLanes bytes.
+// scatterNumbers(base, index, first, m, spare): first + k to base[index] for each lane k of m, whose indices
+//   differ; base[spare] may be overwritten.
+// addHalves, subtractHalves: of the sixteen-bit halves of each lane; they wrap.
+// scaledHalves: (a * b + 2^14) >> 15 of halves, for |a|, |b| < 2^15. clampHalves: signed.
+// loadEach(base, index): base[index] of every lane; loadEachPair: base[index] and base[index + 1].
+// permuted(low, high, index), where the processor has it: lane index % (2 kLanes) of low's and then high's.
 
 #if defined(STEREONAV_ISA_avx512)
 
@@ -62,8 +65,8 @@ STEREONAV_INLINE I loadEach(const void* base, I index) {
 STEREONAV_INLINE IPair loadEachPair(const void* base, I index) {
     return {loadEach(base, index), loadEach(static_cast<const std::int32_t*>(base) + 1, index)};
 }
-STEREONAV_INLINE void scatterEach(std::int32_t* base, I index, I a, M m, int) {
-    scatter(base, index, a, m);
+STEREONAV_INLINE void scatterNumbers(std::int32_t* base, I index, int first, M m, int) {
+    scatter(base, index, laneIndex() + I(first), m);
 }
 #define STEREONAV_PERMUTES 1
 STEREONAV_INLINE I permuted(I low, I high, I index) {
@@ -124,11 +127,13 @@ STEREONAV_INLINE I loadEach(const void* base, I index) {
 STEREONAV_INLINE IPair loadEachPair(const void* base, I index) {
     return {loadEach(base, index), loadEach(static_cast<const std::int32_t*>(base) + 1, index)};
 }
-STEREONAV_INLINE void scatterEach(std::int32_t* base, I index, I a, M m, int spare) {
-    alignas(32) std::int32_t places[kLanes], values[kLanes];
+STEREONAV_INLINE void scatterNumbers(std::int32_t* base, I index, int first, M m, int spare) {
+    alignas(32) std::int32_t places[kLanes];
     store(places, select(m, index, I(spare)));
-    store(values, a);
-    for (int k = 0; k < kLanes; ++k) base[places[k]] = values[k];
+    // Through memory: to take each lane out of a register costs more.
+    __asm__("" : "+m"(places));
+#pragma GCC unroll 8
+    for (int k = 0; k < kLanes; ++k) base[places[k]] = first + k;
 }
 #define STEREONAV_PERMUTES 1
 STEREONAV_INLINE I permuted(I low, I high, I index) {
@@ -221,11 +226,13 @@ STEREONAV_INLINE IPair loadEachPair(const void* base, I index) {
     return {loadEach(base, index), loadEach(static_cast<const std::int32_t*>(base) + 1, index)};
 }
 #endif
-STEREONAV_INLINE void scatterEach(std::int32_t* base, I index, I a, M m, int spare) {
-    alignas(32) std::int32_t places[kLanes], values[kLanes];
+STEREONAV_INLINE void scatterNumbers(std::int32_t* base, I index, int first, M m, int spare) {
+    alignas(32) std::int32_t places[kLanes];
     store(places, select(m, index, I(spare)));
-    store(values, a);
-    for (int k = 0; k < kLanes; ++k) base[places[k]] = values[k];
+    // Through memory: to take each lane out of a register costs more.
+    __asm__("" : "+m"(places));
+#pragma GCC unroll 8
+    for (int k = 0; k < kLanes; ++k) base[places[k]] = first + k;
 }
 
 #endif

@@ -79,7 +79,7 @@ void findSources(const ResampleRow row) {
         const I begin = ceilToInt(clamp(minimum - F(0.5f), F(0.0f), width));
         // Of survivors with the same first pixel the rightmost has it: the others end before it.
         const M owns = begin < lanesFrom<1>(begin, right.begin);
-        scatterEach(row.source, begin, laneIndex() + I(i), owns, row.width + kRowPadding - 1);
+        scatterNumbers(row.source, begin, i, owns, row.width + kRowPadding - 1);
         const F gap = lanesFrom<1>(column, right.column) - column;
         const M link = linksOf(row, i, depth, gap, survives, right);
         storeInverses(row, i, gap, link, right);
