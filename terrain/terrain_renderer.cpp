@@ -253,12 +253,13 @@ Box frustumBox(const glm::dvec3& eye, const Box& corners, double from, double to
 
 // Whether any ground below the box's footprint reaches up to its lower side.
 bool reachesGround(const Heightfield& ground, const HeightPyramid& pyramid, const Box& box) {
+    if (box.low.z > ground.maxHeight()) return false;
     const glm::dvec2 low = ground.gridFromWorld(glm::dvec2(box.low)),
                      high = ground.gridFromWorld(glm::dvec2(box.high));
     const int lastI = ground.width() - 2, lastJ = ground.height() - 2;
     if (high.x < 0 || high.y < 0 || low.x > lastI + 1 || low.y > lastJ + 1) return false;
     const auto cell = [](double g, int last) {
-        return std::clamp(static_cast<int>(std::floor(std::clamp(g, -1.0, 1e9))), 0, last);
+        return std::min(static_cast<int>(std::clamp(g, 0.0, 1e9)), last);
     };
     const int i0 = cell(low.x, lastI), i1 = cell(high.x, lastI), j0 = cell(low.y, lastJ),
               j1 = cell(high.y, lastJ);
