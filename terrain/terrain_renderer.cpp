@@ -233,27 +233,33 @@ struct Box {
     glm::dvec3 low, high;
 };
 
-// Bounds of the part of the rectangle's frustum between two depths.
-Box frustumBox(const EyeView& view, PixelRect rect, double from, double to) {
+// Of the rectangle's corners at unit view depth, from the eye.
+Box cornerBox(const EyeView& view, PixelRect rect) {
     Box box{glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
     for (const double x : {double(rect.x0), double(rect.x1)})
-        for (const double y : {double(rect.y0), double(rect.y1)})
-            for (const double depth : {from, to}) {
-                const glm::dvec3 p = view.pointAt(x, y, depth);
-                box.low = glm::min(box.low, p);
-                box.high = glm::max(box.high, p);
-            }
+        for (const double y : {double(rect.y0), double(rect.y1)}) {
+            const glm::dvec3 direction = view.rayDirection(x, y);
+            box.low = glm::min(box.low, direction);
+            box.high = glm::max(box.high, direction);
+        }
     return box;
+}
+
+// Bounds of the part of a frustum between two depths.
+Box frustumBox(const glm::dvec3& eye, const Box& corners, double from, double to) {
+    return {eye + glm::min(from * corners.low, to * corners.low),
+            eye + glm::max(from * corners.high, to * corners.high)};
 }
 
 // Whether any ground below the box's footprint reaches up to its lower side.
 bool reachesGround(const Heightfield& ground, const HeightPyramid& pyramid, const Box& box) {
+    if (box.low.z > ground.maxHeight()) return false;
     const glm::dvec2 low = ground.gridFromWorld(glm::dvec2(box.low)),
                      high = ground.gridFromWorld(glm::dvec2(box.high));
     const int lastI = ground.width() - 2, lastJ = ground.height() - 2;
     if (high.x < 0 || high.y < 0 || low.x > lastI + 1 || low.y > lastJ + 1) return false;
     const auto cell = [](double g, int last) {
-        return std::clamp(static_cast<int>(std::floor(std::clamp(g, -1.0, 1e9))), 0, last);
+        return std::min(static_cast<int>(std::clamp(g, 0.0, 1e9)), last);
     };
     const int i0 = cell(low.x, lastI), i1 = cell(high.x, lastI), j0 = cell(low.y, lastJ),
               j1 = cell(high.y, lastJ);
@@ -273,10 +279,11 @@ bool TerrainRenderer::mayHitBeyondEdge(const EyeView& view, PixelRect rect, doub
                                        double parallaxScale) const {
     if (rect.x1 >= column) return true;
     const double end = parallaxScale / (column - rect.x1);
+    const Box corners = cornerBox(view, rect);
     double from = view.nearDepth;
     while (from < end) {
         const double to = std::min(end, from * 2);
-        const Box box = frustumBox(view, rect, from, to);
+        const Box box = frustumBox(view.eye, corners, from, to);
         if (reachesGround(mScene.ground, mState->pyramid, box)) return true;
         if (mScene.landmarks) {
             const glm::dvec3 low = mScene.landmarks->boundsMin(), high = mScene.landmarks->boundsMax();

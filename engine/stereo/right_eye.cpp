@@ -30,15 +30,12 @@ constexpr int kRowsOfWarpTask = 8;  // rows of a warp task: some ten microsecond
 struct Scratch {
     std::vector<float> column, inverse, accumulators;
     std::vector<std::int32_t> source;
-    std::vector<std::uint16_t> survivors, links;
 
     void resize(int width, bool splats) {
         const std::size_t size = static_cast<std::size_t>(width) + kRowPadding;
         column.resize(size);
         inverse.resize(size);
         source.resize(size);
-        survivors.resize(size);
-        links.resize(size);
         if (splats) accumulators.resize(static_cast<std::size_t>(splatScratchSize(width)));
     }
 };
@@ -86,8 +83,6 @@ ResampleRow resampleRowOf(const WarpJob& job, Scratch& scratch, int y) {
     row.column = scratch.column.data();
     row.inverse = scratch.inverse.data();
     row.source = scratch.source.data();
-    row.survivors = scratch.survivors.data();
-    row.links = scratch.links.data();
     row.surface = job.movesNormals();
     if (job.setting.method == RightEyeMethod::Selective && !job.left.depthSpread.empty()) {
         row.leftSpread = job.left.depthSpread.row(y);
@@ -284,7 +279,7 @@ struct RightEye::State {
     Plane<std::uint8_t> contrast;  // only where warped pixels are refined
     std::vector<Scratch> scratch;  // one for each worker
     HoleFill holeFill;
-    ResampleFunction resample = fastestResampler();
+    ResampleFunction resample = resampler();
 
     void resize(int width, int height, bool splats) {
         mask.resize(width, height);

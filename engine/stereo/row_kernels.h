@@ -1,23 +1,12 @@
 // The vector kernels of the inverse warp, one for each instruction set, and the choice at run time.
 #pragma once
 
-#include <string_view>
-
+#include "engine/math/simd_target.h"
 #include "engine/stereo/warp_row.h"
 
 namespace stereonav {
 
-struct NamedResampler {
-    std::string_view name;  // plain, avx2, avx512
-    ResampleFunction function;
-    bool supported;  // by this processor, and not hidden by STEREONAV_SIMD
-};
-
-// Narrowest first; the last supported one is the fastest.
-struct Resamplers {
-    NamedResampler plain, avx2, avx512;
-};
-Resamplers resamplers();
-ResampleFunction fastestResampler();
+// Of the set that availableTarget() gives, which throws for one that can not be used here.
+ResampleFunction resampler(SimdTarget target = SimdTarget::Auto);
 
 }  // namespace stereonav

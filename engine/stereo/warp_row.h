@@ -31,8 +31,6 @@ struct ResampleRow {
     float* column;
     float* inverse;
     std::int32_t* source;
-    std::uint16_t* survivors;  // flags of left pixels; their layout is the kernel's own
-    std::uint16_t* links;      // the same
 
     // The colours are normals, to be shaded at the depth given: a link never joins surface and sky, and
     // depth is linear between the two linked pixels. Between neighbours whose depths differ by a share d

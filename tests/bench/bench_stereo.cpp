@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "engine/stereo/right_eye.h"
 #include "engine/stereo/row_kernels.h"
@@ -112,12 +113,8 @@ BENCHMARK_CAPTURE(warp, cubic_interleaved, RightEyeMethod::Cubic, Schedule::Inte
 BENCHMARK_CAPTURE(warp, cubic_contiguous, RightEyeMethod::Cubic, Schedule::Contiguous, kNoScene)
     ->Apply(sizes);
 
-// One thread, row after row, by instruction set.
-void rows(benchmark::State& state, NamedResampler kernel, bool cubic, bool surface) {
-    if (!kernel.supported) {
-        state.SkipWithError("not supported by this processor");
-        return;
-    }
+// One thread, row after row.
+void rows(benchmark::State& state, ResampleFunction kernel, bool cubic, bool surface) {
     const StereoViews views = viewsOf(1280, 180);
     const EyeImage left = groundImage(views.left);
     EyeImage right;
@@ -125,23 +122,32 @@ void rows(benchmark::State& state, NamedResampler kernel, bool cubic, bool surfa
     Plane<std::uint8_t> holes(1280, 180);
     std::vector<float> column(1280 + kRowPadding), inverse(1280 + kRowPadding);
     std::vector<std::int32_t> source(1280 + kRowPadding);
-    std::vector<std::uint16_t> survivors(1280 + kRowPadding), links(1280 + kRowPadding);
     for (auto _ : state)
         for (int y = 0; y < 180; ++y)
-            kernel.function({left.color.row(y), left.viewDepth.row(y), right.color.row(y),
-                             right.viewDepth.row(y), holes.row(y), 1280, left.color.stride(),
-                             static_cast<float>(views.shiftAtInfinity),
-                             static_cast<float>(views.parallaxScale), 0.6f, 1.1f, 1, cubic, column.data(),
-                             inverse.data(), source.data(), survivors.data(), links.data(), surface});
+            kernel({left.color.row(y), left.viewDepth.row(y), right.color.row(y), right.viewDepth.row(y),
+                    holes.row(y), 1280, left.color.stride(), static_cast<float>(views.shiftAtInfinity),
+                    static_cast<float>(views.parallaxScale), 0.6f, 1.1f, cubic ? 2 : 1, cubic, column.data(),
+                    inverse.data(), source.data(), surface});
     state.counters["Mpix/s"] =
         benchmark::Counter(1e-6 * 1280 * 180, benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK_CAPTURE(rows, plain_cubic, resamplers().plain, true, false);
-BENCHMARK_CAPTURE(rows, avx2_cubic, resamplers().avx2, true, false);
-BENCHMARK_CAPTURE(rows, avx512_cubic, resamplers().avx512, true, false);
-BENCHMARK_CAPTURE(rows, avx512_linear, resamplers().avx512, false, false);
-BENCHMARK_CAPTURE(rows, avx512_linear_normals, resamplers().avx512, false, true);
+
+// For each instruction set that may be used here.
+void registerRows() {
+    for (const SimdTarget target : simdTargets()) {
+        const std::string set = "rows/" + std::string(nameOf(target));
+        const ResampleFunction kernel = resampler(target);
+        benchmark::RegisterBenchmark((set + "/linear").c_str(), rows, kernel, false, false);
+        benchmark::RegisterBenchmark((set + "/linear_normals").c_str(), rows, kernel, false, true);
+        benchmark::RegisterBenchmark((set + "/cubic").c_str(), rows, kernel, true, false);
+    }
+}
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    registerRows();
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

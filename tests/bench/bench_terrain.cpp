@@ -9,10 +9,12 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
+#include "engine/math/simd_target.h"
 #include "engine/stereo/right_eye.h"
 #include "terrain/built_in_terrain.h"
 #include "terrain/equidistant_caster.h"
@@ -64,13 +66,12 @@ void castAll(const TerrainRenderer& renderer, const std::vector<StereoViews>& al
     for (const StereoViews& v : all) renderEye(renderer, v.left, image);
 }
 
-// Embree casts blocks of 4 x 4 pixels (its best case; the sides are multiples of 4), our kernels colour: the
-// same shading for both.
-void embreeAll(const EmbreeGround& embree, const TerrainRenderer* shading,
+// Embree casts, our kernels colour: the same shading for both.
+void embreeAll(const EmbreeGround& embree, int width, const TerrainRenderer* shading,
                const std::vector<StereoViews>& all, EyeImage& image) {
     for (const StereoViews& v : all)
         for (int y = 0; y < v.left.height; y += 4) {
-            for (int x = 0; x < v.left.width; x += 4) embree.castBlock(v.left, x, y, image.viewDepth);
+            embree.castRows(v.left, y, y + 4, width, image.viewDepth);
             if (shading != nullptr) shading->shadeRows(v.left, y, y + 4, image);
         }
 }
@@ -86,10 +87,17 @@ double time_ms(const std::function<void()>& work) {
     return watch.elapsed_ms();
 }
 
-// Milliseconds a picture of ours and of Embree's faster geometry, in turn; medians of `rounds`.
+// Milliseconds a picture of ours, and of Embree's fastest geometry and packet, in turn; medians of `rounds`.
 struct Duel {
     double ours_ms, embree_ms;
+    int embreeWidth;
     double ratio() const { return embree_ms / ours_ms; }
+};
+
+struct EmbreeWay {
+    const EmbreeGround* ground;
+    int width;
+    std::vector<double> times;
 };
 
 Duel castAgainstEmbree(Attitude attitude, int rounds) {
@@ -100,23 +108,32 @@ Duel castAgainstEmbree(Attitude attitude, int rounds) {
     const EmbreeGround triangles(scene().ground, EmbreeGeometry::Triangles);
     EyeImage image;
     image.resize(kWidth, kHeight);
-    std::vector<double> ours, gridTimes, triangleTimes;
+    std::vector<EmbreeWay> ways;
+    for (const int width : embreeWidths())
+        for (const EmbreeGround* ground : {&grid, &triangles}) ways.push_back({ground, width, {}});
+    std::vector<double> ours;
     for (int k = 0; k < rounds; ++k) {
         ours.push_back(time_ms([&] { castAll(renderer, all, image); }));
-        gridTimes.push_back(time_ms([&] { embreeAll(grid, &renderer, all, image); }));
-        triangleTimes.push_back(time_ms([&] { embreeAll(triangles, &renderer, all, image); }));
+        for (EmbreeWay& way : ways)
+            way.times.push_back(time_ms([&] { embreeAll(*way.ground, way.width, &renderer, all, image); }));
     }
     const double views = static_cast<double>(all.size());
-    return {medianOf(ours) / views, std::min(medianOf(gridTimes), medianOf(triangleTimes)) / views};
+    Duel duel{medianOf(ours) / views, HUGE_VAL, 0};
+    for (const EmbreeWay& way : ways)
+        if (const double ms = medianOf(way.times) / views; ms < duel.embree_ms)
+            duel.embree_ms = ms, duel.embreeWidth = way.width;
+    return duel;
 }
+
+constexpr int kRightThreads = 2;
 
 struct RightEyeMarks {
     double warpMpixPerSecond, rightVsFull;
 };
 
-// The default right eye on two threads at 1280 x 720, and a full cast of the same eye, in turn.
+// The default right eye at 1280 x 720, and a full cast of the same eye, in turn.
 RightEyeMarks rightEyeMarks(int rounds) {
-    setThreadCount(2);
+    setThreadCount(kRightThreads);
     constexpr int kWide = 1280, kHigh = 720;
     const auto all = views(Attitude::Level, kWide, kHigh);
     const TerrainRenderer renderer(scene());
@@ -143,26 +160,27 @@ int printMarks() {
     const Duel level = castAgainstEmbree(Attitude::Level, 15);
     const Duel pitched = castAgainstEmbree(Attitude::Pitched, 15);
     const RightEyeMarks marks = rightEyeMarks(12);
-    const nlohmann::ordered_json json = {{"left_vs_embree16", level.ratio()},
-                                         {"left_vs_embree16_pitched", pitched.ratio()},
+    const nlohmann::ordered_json json = {{"simd", nameOf(availableTarget(SimdTarget::Auto))},
+                                         {"cast_threads", 1},
+                                         {"right_threads", kRightThreads},
+                                         {"left_vs_embree", level.ratio()},
+                                         {"left_vs_embree_pitched", pitched.ratio()},
                                          {"warp_mpix_per_s", marks.warpMpixPerSecond},
                                          {"right_vs_full", marks.rightVsFull},
                                          {"left_ms", level.ours_ms},
-                                         {"embree16_ms", level.embree_ms},
+                                         {"embree_ms", level.embree_ms},
+                                         {"embree_width", level.embreeWidth},
                                          {"left_pitched_ms", pitched.ours_ms},
-                                         {"embree16_pitched_ms", pitched.embree_ms}};
+                                         {"embree_pitched_ms", pitched.embree_ms},
+                                         {"embree_pitched_width", pitched.embreeWidth}};
     std::printf("%s\n", json.dump().c_str());
     return 0;
 }
 
-SimdTarget targetOf(const benchmark::State& state) {
-    return static_cast<SimdTarget>(state.range(1));
-}
-
-void BM_LeftEye(benchmark::State& state) {
+void BM_LeftEye(benchmark::State& state, SimdTarget target) {
     setThreadCount(1);
     const auto all = views(static_cast<Attitude>(state.range(0)), kWidth, kHeight);
-    const TerrainRenderer renderer(scene(), targetOf(state));
+    const TerrainRenderer renderer(scene(), target);
     EyeImage image;
     image.resize(kWidth, kHeight);
     for (auto _ : state) castAll(renderer, all, image);
@@ -171,13 +189,13 @@ void BM_LeftEye(benchmark::State& state) {
                            benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-void BM_Embree16(benchmark::State& state) {
+void BM_Embree(benchmark::State& state, int width) {
     const auto all = views(static_cast<Attitude>(state.range(0)), kWidth, kHeight);
     const TerrainRenderer renderer(scene());
     const EmbreeGround embree(scene().ground, static_cast<EmbreeGeometry>(state.range(1)));
     EyeImage image;
     image.resize(kWidth, kHeight);
-    for (auto _ : state) embreeAll(embree, state.range(2) != 0 ? &renderer : nullptr, all, image);
+    for (auto _ : state) embreeAll(embree, width, state.range(2) != 0 ? &renderer : nullptr, all, image);
     state.counters["ms_a_picture"] =
         benchmark::Counter(static_cast<double>(all.size()) * 1e-3,
                            benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
@@ -221,10 +239,21 @@ void BM_PlainWalk(benchmark::State& state) {
 }
 BENCHMARK(BM_PlainWalk)->Unit(benchmark::kMillisecond)->Iterations(3);
 
-// attitude: 0 level, 1 pitched by 30 and rolled by 20 degrees; target: 1 plain, 2 AVX2, 3 AVX-512.
-BENCHMARK(BM_LeftEye)->ArgsProduct({{0, 1}, {1, 2, 3}})->Unit(benchmark::kMillisecond);
-// geometry: 0 grid, 1 triangles; shaded: 0 traversal alone.
-BENCHMARK(BM_Embree16)->ArgsProduct({{0, 1}, {0, 1}, {0, 1}})->Unit(benchmark::kMillisecond);
+// attitude: 0 level, 1 pitched by 30 and rolled by 20 degrees; geometry: 0 grid, 1 triangles; shaded: 0
+// traversal alone.
+void registerCasts() {
+    for (const SimdTarget target : simdTargets())
+        benchmark::RegisterBenchmark(("BM_LeftEye/" + std::string(nameOf(target))).c_str(), BM_LeftEye,
+                                     target)
+            ->ArgNames({"attitude"})
+            ->ArgsProduct({{0, 1}})
+            ->Unit(benchmark::kMillisecond);
+    for (const int width : embreeWidths())
+        benchmark::RegisterBenchmark(("BM_Embree" + std::to_string(width)).c_str(), BM_Embree, width)
+            ->ArgNames({"attitude", "geometry", "shaded"})
+            ->ArgsProduct({{0, 1}, {0, 1}, {0, 1}})
+            ->Unit(benchmark::kMillisecond);
+}
 
 }  // namespace
 }  // namespace stereonav::bench
@@ -233,6 +262,9 @@ int main(int argc, char** argv) {
     for (int k = 1; k < argc; ++k)
         if (std::strcmp(argv[k], "--marks") == 0) return stereonav::bench::printMarks();
     benchmark::Initialize(&argc, argv);
+    stereonav::bench::registerCasts();
+    benchmark::AddCustomContext(
+        "simd", std::string(stereonav::nameOf(stereonav::availableTarget(stereonav::SimdTarget::Auto))));
     benchmark::RunSpecifiedBenchmarks();
     return 0;
 }

@@ -3,24 +3,20 @@
 // cubes make, about two a cell. What the casters of bench_colon are compared with.
 #pragma once
 
-#include <embree3/rtcore.h>
-
+#include <algorithm>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <vector>
 
-#include "engine/camera/eye_view.h"
 #include "engine/image/eye_image.h"
 #include "engine/volume/surface_cells.h"
+#include "tests/bench/embree_packets.h"
 
 namespace stereonav {
 
 class WallMesh {
 public:
-    explicit WallMesh(const SurfaceCells& cells) : mDevice(rtcNewDevice("threads=2")) {
-        mScene = rtcNewScene(mDevice);
-        rtcSetSceneBuildQuality(mScene, RTC_BUILD_QUALITY_HIGH);
-        RTCGeometry geometry = rtcNewGeometry(mDevice, RTC_GEOMETRY_TYPE_TRIANGLE);
+    explicit WallMesh(const SurfaceCells& cells) : mScene(2) {
+        RTCGeometry geometry = rtcNewGeometry(mScene.device(), RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), cells.records.size()));
         addCells(cells, vertices);
@@ -28,65 +24,39 @@ public:
                                                                      RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
                                                                      mTriangles.size() / 3));
         std::copy(mTriangles.begin(), mTriangles.end(), index);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(mScene, geometry);
-        rtcReleaseGeometry(geometry);
-        rtcCommitScene(mScene);
+        mScene.take(geometry);
     }
-    ~WallMesh() {
-        rtcReleaseScene(mScene);
-        rtcReleaseDevice(mDevice);
-    }
-    WallMesh(const WallMesh&) = delete;
-    WallMesh& operator=(const WallMesh&) = delete;
 
     std::size_t triangles() const { return mTriangles.size() / 3; }
 
-    // View depths and packed normals of the 4 x 4 pixels from (x0, y0) on, all inside the picture: the
-    // triangle's own normal, which costs less than one between its corners.
-    __attribute__((target_clones("avx512f", "avx2", "default"))) void castBlock(const EyeView& view, int x0,
-                                                                                int y0,
-                                                                                EyeImage& image) const {
-        alignas(64) static constexpr int kAll[16] = {-1, -1, -1, -1, -1, -1, -1, -1,
-                                                     -1, -1, -1, -1, -1, -1, -1, -1};
-        alignas(64) RTCRayHit16 rays;
-        const glm::vec3 eye(view.eye), base(view.rayDirection(x0 + 0.5, y0 + 0.5));
-        const glm::vec3 perX(view.right * view.pixelWidth()), perY(-view.up * view.pixelHeight());
-        for (int k = 0; k < 16; ++k) {
-            const float across = static_cast<float>(k % 4), down = static_cast<float>(k / 4);
-            rays.ray.org_x[k] = eye.x;
-            rays.ray.org_y[k] = eye.y;
-            rays.ray.org_z[k] = eye.z;
-            rays.ray.dir_x[k] = base.x + perX.x * across + perY.x * down;
-            rays.ray.dir_y[k] = base.y + perX.y * across + perY.y * down;
-            rays.ray.dir_z[k] = base.z + perX.z * across + perY.z * down;
-            rays.ray.tnear[k] = static_cast<float>(view.nearDepth);
-            rays.ray.tfar[k] = std::numeric_limits<float>::infinity();
-            rays.ray.mask[k] = ~0u;
-            rays.ray.time[k] = 0;
-            rays.ray.flags[k] = 0;
-            rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-        }
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        rtcIntersect16(kAll, mScene, &context, &rays);
-        alignas(64) std::uint32_t normal[16];
-        for (int k = 0; k < 16; ++k) {
-            const float x = rays.hit.Ng_x[k], y = rays.hit.Ng_y[k], z = rays.hit.Ng_z[k];
-            const float facing = x * rays.ray.dir_x[k] + y * rays.ray.dir_y[k] + z * rays.ray.dir_z[k];
-            const float scale = (facing > 0 ? -511.5f : 511.5f) / __builtin_sqrtf(x * x + y * y + z * z);
-            normal[k] = static_cast<std::uint32_t>(static_cast<int>(x * scale + 511.5f)) |
-                        static_cast<std::uint32_t>(static_cast<int>(y * scale + 511.5f)) << 10 |
-                        static_cast<std::uint32_t>(static_cast<int>(z * scale + 511.5f)) << 20;
-        }
-        for (int j = 0; j < 4; ++j) {
-            __builtin_memcpy(image.normal.row(y0 + j) + x0, normal + 4 * j, 16);
-            __builtin_memcpy(image.viewDepth.row(y0 + j) + x0, rays.ray.tfar + 4 * j, 16);
-        }
+    // View depths and packed normals of a picture, in packets of `width` rays (see EmbreeScene::castRows):
+    // the triangle's own normal, which costs less than one between its corners.
+    void cast(const EyeView& view, int width, EyeImage& image) const {
+        const auto put = [&](int x, int y, int across, const auto& rays, int first)
+            __attribute__((always_inline)) {
+            float* depth = image.viewDepth.row(y) + x;
+            std::uint32_t* normal = image.normal.row(y) + x;
+            for (int k = 0; k < across; ++k) {
+                const int n = first + k;
+                depth[k] = rays.ray.tfar[n];
+                normal[k] = packed(rays.hit.Ng_x[n], rays.hit.Ng_y[n], rays.hit.Ng_z[n], rays.ray.dir_x[n],
+                                   rays.ray.dir_y[n], rays.ray.dir_z[n]);
+            }
+        };
+        mScene.castRows(view, 0, view.height, width, put);
     }
 
 private:
+    // Of a normal of any length, turned against the ray.
+    __attribute__((always_inline)) static std::uint32_t packed(float x, float y, float z, float rayX,
+                                                               float rayY, float rayZ) {
+        const float facing = x * rayX + y * rayY + z * rayZ;
+        const float scale = (facing > 0 ? -511.5f : 511.5f) / __builtin_sqrtf(x * x + y * y + z * z);
+        return static_cast<std::uint32_t>(static_cast<int>(x * scale + 511.5f)) |
+               static_cast<std::uint32_t>(static_cast<int>(y * scale + 511.5f)) << 10 |
+               static_cast<std::uint32_t>(static_cast<int>(z * scale + 511.5f)) << 20;
+    }
+
     void addCells(const SurfaceCells& cells, float* vertices) {
         const glm::ivec3 last = cells.frame.size - 2;
         for (int k = 0; k <= last.z; ++k)
@@ -135,8 +105,7 @@ private:
         for (const int n : {0, 1, 2, 0, 2, 3}) mTriangles.push_back(corner[n]);
     }
 
-    RTCDevice mDevice;
-    RTCScene mScene;
+    bench::EmbreeScene mScene;
     std::vector<unsigned> mTriangles;
 };
 

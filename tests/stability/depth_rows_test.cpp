@@ -35,12 +35,8 @@ struct OneRow {
     Plane<std::uint8_t> holes{kWidth, 1};
     std::vector<float> column, inverse;
     std::vector<std::int32_t> source;
-    std::vector<std::uint16_t> survivors, links;
 
-    OneRow() : column(kWidth + kRowPadding), inverse(column), source(column.size()) {
-        survivors.resize(column.size());
-        links.resize(column.size());
-    }
+    OneRow() : column(kWidth + kRowPadding), inverse(column), source(column.size()) {}
     ResampleRow of(const StereoViews& views) {
         ResampleRow row{};
         row.leftColor = leftColor.row(0);
@@ -58,8 +54,6 @@ struct OneRow {
         row.column = column.data();
         row.inverse = inverse.data();
         row.source = source.data();
-        row.survivors = survivors.data();
-        row.links = links.data();
         return row;
     }
 };
@@ -81,11 +75,10 @@ TEST_P(DepthRow, ColumnsAreThoseOfDoublePrecision) {
                      "error of the right eye's column over the rounding of its terms", 1, "");
     for (const double zeroParallax : {1.95, 0.5 * std::clamp(depth, 1e-3, 1e9)}) {
         const StereoViews views = wideViews(zeroParallax);
-        for (const NamedResampler& kernel : {resamplers().plain, resamplers().avx2, resamplers().avx512}) {
-            if (!kernel.supported) continue;
+        for (const SimdTarget target : simdTargets()) {
             OneRow buffers;
             for (int i = 0; i < kWidth; ++i) buffers.leftDepth.at(i, 0) = static_cast<float>(depth);
-            kernel.function(buffers.of(views));
+            resampler(target)(buffers.of(views));
             for (int i = 0; i < kWidth; ++i) {
                 const double truth = views.rightColumn(i + 0.5, depth);
                 row.saw(std::abs(buffers.column[i] - truth) / roundingOf(views, truth, depth));

@@ -1,5 +1,5 @@
-// The row warps: vector kernels against the scalar oracle bit for bit, the hidden-pixel rule against a
-// depth buffer, the three kinds of gap, the fixed-point arithmetic.
+// The row warps: vector kernels against the scalar oracle bit for bit, the three kinds of gap, the
+// fixed-point arithmetic.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -8,82 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "engine/image/plane.h"
 #include "engine/stereo/packed_resample.h"
 #include "engine/stereo/paint_row.h"
 #include "engine/stereo/row_kernels.h"
-#include "engine/stereo/splat_row.h"
 #include "engine/stereo/warp_oracle.h"
+#include "tests/stereo/row_buffers.h"
 
 namespace stereonav {
 namespace {
-
-constexpr float kSky = std::numeric_limits<float>::infinity();
-
-std::uint32_t gray(int level) {
-    return static_cast<std::uint32_t>(level) * 0x00100401u;
-}
-
-// Everything a row needs, owned.
-struct RowBuffers {
-    explicit RowBuffers(int w)
-        : width(w), leftColor(w, 1), color(w, 1), leftDepth(w, 1), depth(w, 1), spread(w, 1), holes(w, 1) {
-        for (auto* floats : {&column, &inverse}) floats->assign(w + kRowPadding, 0.0f);
-        source.assign(w + kRowPadding, 0);
-        survivors.assign(w + kRowPadding, 0);
-        links.assign(w + kRowPadding, 0);
-        accumulators.assign(splatScratchSize(w), 0.0f);
-    }
-    ResampleRow resample(float shift, float scale, bool cubic, int reach = 2, bool surface = false,
-                         float minStretch = 0.5f, float maxStretch = 1.1f) {
-        return {leftColor.row(0),
-                leftDepth.row(0),
-                color.row(0),
-                depth.row(0),
-                holes.row(0),
-                width,
-                leftColor.stride(),
-                shift,
-                scale,
-                minStretch,
-                maxStretch,
-                reach,
-                cubic,
-                column.data(),
-                inverse.data(),
-                source.data(),
-                survivors.data(),
-                links.data(),
-                surface};
-    }
-    SplatRow splat(float shift, float scale, float threshold = 0.5f) {
-        return {leftColor.row(0),
-                leftDepth.row(0),
-                color.row(0),
-                depth.row(0),
-                holes.row(0),
-                width,
-                shift,
-                scale,
-                threshold,
-                accumulators.data(),
-                source.data()};
-    }
-    PaintRow paint(float shift, float scale) {
-        return {
-            leftColor.row(0), leftDepth.row(0), color.row(0), depth.row(0), holes.row(0), width, shift, scale,
-            source.data()};
-    }
-    bool hole(int p) const { return holes.at(p, 0) != 0; }
-
-    int width;
-    Plane<std::uint32_t> leftColor, color;
-    Plane<float> leftDepth, depth, spread;
-    Plane<std::uint8_t> holes;
-    std::vector<float> column, inverse, accumulators;
-    std::vector<std::int32_t> source;
-    std::vector<std::uint16_t> survivors, links;
-};
 
 // Smooth ground with jumps, spikes and sky.
 void fillRandomly(RowBuffers& row, std::mt19937& random, double skyShare) {
@@ -130,41 +62,72 @@ void expectSameRow(const RowBuffers& expected, const RowBuffers& actual, const s
     }
 }
 
-void compareWithOracle(const NamedResampler& kernel) {
-    if (!kernel.supported) GTEST_SKIP() << "this processor has no " << kernel.name;
-    std::mt19937 random(1);
+struct Found {
     long long warped = 0, holes = 0;
-    for (const KernelCase& c : kernelCases())
-        for (int mode = 0; mode < 18; ++mode) {
-            const bool cubic = mode % 2 == 1, surface = mode / 6 == 1, spreads = mode / 6 == 2;
-            const int reach = cubic ? 2 : mode / 2 % 3;
-            RowBuffers oracle(c.width);
-            fillRandomly(oracle, random, c.skyShare);
-            RowBuffers actual = oracle;
-            const auto rowOf = [&](RowBuffers& buffers) {
-                ResampleRow row = buffers.resample(c.shift, c.scale, cubic, reach, surface);
-                if (spreads) row.leftSpread = buffers.spread.row(0), row.mostSpread = 0.5f;
-                return row;
-            };
-            resampleRowOracle(rowOf(oracle));
-            kernel.function(rowOf(actual));
-            for (int p = 0; p < c.width; ++p) ++(oracle.hole(p) ? holes : warped);
-            expectSameRow(oracle, actual,
-                          "width " + std::to_string(c.width) + " scale " + std::to_string(c.scale));
-            if (testing::Test::HasFatalFailure()) return;
-        }
-    EXPECT_GT(warped, 50000);
-    EXPECT_GT(holes, 50000);
+};
+
+// mode: 18 ways to link and to mix; minStretch and maxStretch as given.
+void compareWithOracle(ResampleFunction kernel, const RowBuffers& given, const KernelCase& c, int mode,
+                       float minStretch, float maxStretch, Found& found) {
+    const bool cubic = mode % 2 == 1, surface = mode / 6 == 1, spreads = mode / 6 == 2;
+    const int reach = cubic ? 2 : mode / 2 % 3;
+    RowBuffers oracle = given, actual = given;
+    const auto rowOf = [&](RowBuffers& buffers) {
+        ResampleRow row = buffers.resample(c.shift, c.scale, cubic, reach, surface, minStretch, maxStretch);
+        if (spreads) row.leftSpread = buffers.spread.row(0), row.mostSpread = 0.5f;
+        return row;
+    };
+    resampleRowOracle(rowOf(oracle));
+    kernel(rowOf(actual));
+    for (int p = 0; p < c.width; ++p) ++(oracle.hole(p) ? found.holes : found.warped);
+    expectSameRow(oracle, actual,
+                  "width " + std::to_string(c.width) + " scale " + std::to_string(c.scale) + " mode " +
+                      std::to_string(mode));
 }
 
-TEST(ResampleKernels, plainGivesTheBitsOfTheOracle) {
-    compareWithOracle(resamplers().plain);
+TEST(ResampleKernels, everySetGivesTheBitsOfTheOracle) {
+    for (const SimdTarget target : simdTargets()) {
+        SCOPED_TRACE(nameOf(target));
+        std::mt19937 random(1);
+        Found found;
+        for (const KernelCase& c : kernelCases())
+            for (int mode = 0; mode < 18; ++mode) {
+                RowBuffers row(c.width);
+                fillRandomly(row, random, c.skyShare);
+                compareWithOracle(resampler(target), row, c, mode, 0.5f, 1.1f, found);
+                if (HasFatalFailure()) return;
+            }
+        EXPECT_GT(found.warped, 50000);
+        EXPECT_GT(found.holes, 50000);
+    }
 }
-TEST(ResampleKernels, avx2GivesTheBitsOfTheOracle) {
-    compareWithOracle(resamplers().avx2);
-}
-TEST(ResampleKernels, avx512GivesTheBitsOfTheOracle) {
-    compareWithOracle(resamplers().avx512);
+
+// Sources of one block come from far apart: many left pixels to a right one, as many links as there can be,
+// and depths down to what divides to infinity.
+TEST(ResampleKernels, crowdedRowsAndExtremeDepthsGiveTheBitsOfTheOracle) {
+    constexpr float kMost = std::numeric_limits<float>::infinity();
+    const float extremes[] = {1e-42f, 1e-30f, 1e-3f, 1.0f, 1e6f, 1e30f, kSky};
+    for (const SimdTarget target : simdTargets()) {
+        SCOPED_TRACE(nameOf(target));
+        std::mt19937 random(5);
+        Found found;
+        for (int width = 1; width <= 70; ++width)
+            for (int mode = 0; mode < 18; ++mode) {
+                RowBuffers row(width);
+                fillRandomly(row, random, 0.1);
+                const bool crowded = mode % 3 != 0;
+                for (int i = 0; i < width; ++i)
+                    if (crowded)  // five left pixels to a right one
+                        row.leftDepth.at(i, 0) = 100 / (10 + 0.8f * static_cast<float>(i));
+                    else if (random() % 3 == 0)
+                        row.leftDepth.at(i, 0) = extremes[random() % 7];
+                const KernelCase c{width, crowded ? 20.0f : 3.0f, 100, 0};
+                compareWithOracle(resampler(target), row, c, mode, 0.0f, kMost, found);
+                if (HasFatalFailure()) return;
+            }
+        EXPECT_GT(found.warped, 2000);
+        EXPECT_GT(found.holes, 2000);
+    }
 }
 
 TEST(PackedResample, interpolatesWithinHalfALevelOfTheExactValue) {
@@ -198,48 +161,6 @@ TEST(PackedResample, keepsTheEndsExactly) {
         ASSERT_EQ(lerpPacked(taps[1], taps[2], 0), taps[1]);
         ASSERT_EQ(lerpPacked(taps[1], taps[2], 1), taps[2]);
     }
-}
-
-// Draws every left pixel as a segment one pixel wide into a finely sampled right row with a depth
-// buffer: who is visible where. A warped pixel must show the surface that wins there.
-TEST(HiddenPixels, survivorsAreWhatADepthBufferShows) {
-    std::mt19937 random(4);
-    int checked = 0;
-    for (int n = 0; n < 200; ++n) {
-        RowBuffers row(300);
-        const float scale = 60, shift = 6;
-        // Two surfaces of constant depth each: a far one and near blocks before it.
-        std::uniform_int_distribution<int> length(8, 60);
-        bool near = false;
-        for (int i = 0; i < row.width;) {
-            const int end = std::min(row.width, i + length(random));
-            for (; i < end; ++i) {
-                row.leftDepth.at(i, 0) = near ? 4.0f : 20.0f;
-                row.leftColor.at(i, 0) = near ? gray(1000) : gray(100);
-            }
-            near = !near;
-        }
-        resampleRowOracle(row.resample(shift, scale, true));
-        const float nearMove = shift - scale / 4, farMove = shift - scale / 20;
-        for (int p = 0; p < row.width; ++p) {
-            if (row.hole(p)) continue;
-            const auto nearAt = [&](float x) {  // is the near surface seen by the right eye at x?
-                const int i = static_cast<int>(std::floor(x - nearMove));
-                return i >= 0 && i < row.width && row.leftDepth.at(i, 0) == 4.0f;
-            };
-            const float centre = static_cast<float>(p) + 0.5f;
-            if (nearAt(centre - 1) != nearAt(centre + 1)) continue;  // at a silhouette either is right
-            const float expected = nearAt(centre) ? 4.0f : 20.0f;
-            ASSERT_EQ(row.depth.at(p, 0), expected) << "row " << n << " pixel " << p;
-            ASSERT_EQ(row.color.at(p, 0), nearAt(centre) ? gray(1000) : gray(100));
-            if (expected == 20.0f) {
-                const int i = static_cast<int>(std::floor(centre - farMove));
-                ASSERT_TRUE(i >= 0 && i < row.width) << "the far surface was outside the left eye";
-            }
-            ++checked;
-        }
-    }
-    EXPECT_GT(checked, 20000);
 }
 
 // A near block before a far wall, as drawn by each method. Far moves by +1, near by -4.

@@ -1,0 +1,40 @@
+// Included by resample_kernel.cpp only: how the left row is read at the sources of a block of right pixels.
+// They nearly always lie so close together that two neighbouring registers and a permutation stand for a
+// gather.
+#pragma once
+
+#include "engine/math/simd_rows.h"
+
+namespace stereonav::STEREONAV_ISA {
+namespace {
+
+// Anywhere; index and what is read beside it lie in the tables.
+struct FarWindow {
+    I index;
+
+    STEREONAV_INLINE I read(const void* table) const { return loadEach(table, index); }
+    // At the sources and one further right.
+    STEREONAV_INLINE IPair readPair(const void* table, int offset = 0) const {
+        return loadEachPair(static_cast<const std::int32_t*>(table) + offset, index);
+    }
+};
+
+#if defined(STEREONAV_PERMUTES)
+// All that is read lies within 2 * kLanes elements from `base` on.
+struct NearWindow {
+    int base;
+    I index;  // from base on
+
+    STEREONAV_INLINE I readAt(const void* table, I at) const {
+        const std::int32_t* first = static_cast<const std::int32_t*>(table) + base;
+        return permuted(loadI(first), loadI(first + kLanes), at);
+    }
+    STEREONAV_INLINE I read(const void* table) const { return readAt(table, index); }
+    STEREONAV_INLINE IPair readPair(const void* table, int offset = 0) const {
+        return {readAt(table, index + I(offset)), readAt(table, index + I(offset + 1))};
+    }
+};
+#endif
+
+}  // namespace
+}  // namespace stereonav::STEREONAV_ISA
