@@ -51,12 +51,14 @@ double shareFromText(const std::string& text) {
     return number(text.substr(0, slash)) / number(text.substr(slash + 1));
 }
 
+constexpr const char* kImageHelp = "colour of the ground";
+constexpr const char* kSunHelp = "azimuth,elevation of a terrain's sun in degrees, clockwise from north";
 constexpr const char* kStudyGroup = "Options of CT studies";
 constexpr const char* kUpHelp =
     "x, -x, y, -y, z or -z: the axis of a study's file that is to point up, by quarter turns; not where a "
     "colon is looked for";
 
-// What is read, and which surface of it.
+// Which study, and where the colon is in it.
 void addStudy(CLI::App& command, VolumeOptions& options) {
     const auto add = [&](const char* name, auto& value, const std::string& help) {
         return command.add_option(name, value, help)->group(kStudyGroup);
@@ -71,12 +73,19 @@ void addStudy(CLI::App& command, VolumeOptions& options) {
         "show them (RAS ones: turn the first two signs); may be given several times")
         ->allow_extra_args(false);
     flag("--resample", options.resample, "mend missing, uneven or tilted slices");
-    flag("--isosurface", options.isosurface, "show the volume from outside, without looking for a colon");
-    add("--isovalue", options.isovalue, "the value of that surface");
-    add("--up", options.up, kUpHelp);
     flag("--backwards", options.backwards, "fly from the caecum to the rectum");
     command.add_flag("!--no-cache", options.cache, "neither read nor keep what was computed")
         ->group(kStudyGroup);
+}
+
+// Which surface is shown instead of a colon.
+void addSurface(CLI::App& command, VolumeOptions& options) {
+    command
+        .add_flag("--isosurface", options.isosurface,
+                  "show the volume from outside, without looking for a colon")
+        ->group(kStudyGroup);
+    command.add_option("--isovalue", options.isovalue, "the value of that surface")->group(kStudyGroup);
+    command.add_option("--up", options.up, kUpHelp)->group(kStudyGroup);
 }
 
 void addVolumeLook(CLI::App& command, VolumeOptions& options) {
@@ -99,6 +108,22 @@ void addVolumeLook(CLI::App& command, VolumeOptions& options) {
         "degrees by which that sky is tilted before it is turned, -90 to 90: what lies north rises");
 }
 
+constexpr const char* kTerrainHelp = "a scene (.toml) or an elevation model; left out: the built-in terrain";
+constexpr const char* kStudyHelp =
+    "a CT study (.nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd, a folder of DICOM slices), or colon, which is "
+    "built in";
+
+void addThreads(CLI::App& command, SceneOptions& options) {
+    command.add_option("--threads", options.threads, "threads to use, 0 for all processors");
+}
+
+// How the ground of a terrain is read.
+void addGround(CLI::App& command, SceneOptions& options) {
+    command.add_option("--vertical-scale", options.verticalScale, "factor on heights")
+        ->check(CLI::PositiveNumber);
+    command.add_flag("--open-holes", options.openHoles, "leave missing ground open instead of filling it");
+}
+
 // Which scene, and how it is read.
 void addSource(CLI::App& command, SceneOptions& options) {
     command.add_option(
@@ -106,25 +131,23 @@ void addSource(CLI::App& command, SceneOptions& options) {
         "a scene (.toml), an elevation model, a CT study (.nrrd, .nhdr, .nii, .nii.gz, .mha, "
         ".mhd, a folder of DICOM slices), or colon, cloud or wax, which are built in; left out: the "
         "built-in terrain");
-    command.add_option("--vertical-scale", options.verticalScale, "factor on heights")
-        ->check(CLI::PositiveNumber);
-    command.add_flag("--open-holes", options.openHoles, "leave missing ground open instead of filling it");
-    command.add_option("--threads", options.threads, "threads to use, 0 for all processors");
+    addGround(command, options);
+    addThreads(command, options);
     command.add_option("--simd", options.simd, "instruction set: auto, plain, avx2, avx512");
     addStudy(command, options.volume);
+    addSurface(command, options.volume);
 }
 
 void addScene(CLI::App& command, SceneOptions& options) {
     addSource(command, options);
-    command.add_option("--image", options.image, "colour of the ground");
+    command.add_option("--image", options.image, kImageHelp);
     command.add_option("--sky", options.sky, "an equirectangular picture or a light probe (.hdr)");
     command.add_option(
         "--light", options.light,
         "baked light: a file; of a terrain also auto, for the one that bake has put by; of a "
         "volume in view also lazy, worked out while one flies, or lazy-transfer, for a sky that turns; in "
         "render also traced, paths from every pixel");
-    command.add_option("--sun", options.sun,
-                       "azimuth,elevation of a terrain's sun in degrees, clockwise from north");
+    command.add_option("--sun", options.sun, kSunHelp);
     command.add_option("--separation", options.separation_m,
                        "of the eyes, in metres: 0.001 is a millimetre, and usual in a colon");
     command.add_option("--zero-parallax", options.zeroParallax_m, "distance seen in the screen, in metres");
@@ -240,7 +263,7 @@ void addRender(CLI::App& app, Parsed& parsed) {
                        "x,y,z,heading,pitch,roll in metres and degrees; left out: the start pose");
     command.add_option("--method", options.method, "how the right eye is made, auto: the best");
     command.add_option("--mode", options.mode, kModeHelp);
-    command.add_option("--out", options.out, "the picture's file")->required();
+    command.add_option("--out", options.out, "the picture's file; -: PNG to standard output")->required();
     command.callback([&parsed] {
         parsed.run = [&parsed] {
             parsed.takeSize(parsed.render.size);
@@ -288,8 +311,8 @@ void addCompare(CLI::App& app, Parsed& parsed) {
         ->allow_extra_args(false);  // the next word is the scene's, not another method
     command.add_option("--relative-separation", parsed.relativeSeparation,
                        "separation as a share of the zero-parallax distance, as in 1/30");
-    command.add_option("--json", options.json, "figures as JSON");
-    command.add_option("--csv", options.csv, "figures as CSV");
+    command.add_option("--json", options.json, "figures as JSON; -: to standard output");
+    command.add_option("--csv", options.csv, "figures as CSV; -: to standard output");
     command.add_option("--images", options.images, "folder for pictures of the flight's middle frame");
     command.add_option("--plot", options.plot, "error against time as a picture");
     command.add_option("--repeats", options.repeats,
@@ -334,7 +357,11 @@ void addReport(CLI::App& app, Parsed& parsed) {
 void addMesh(CLI::App& app, Parsed& parsed) {
     MeshOptions& options = parsed.mesh;
     CLI::App& command = *app.add_subcommand("mesh", "the ground with its colour as a glTF mesh");
-    addScene(command, options.scene);
+    command.add_option("SCENE", options.scene.scene, kTerrainHelp);
+    addGround(command, options.scene);
+    command.add_option("--image", options.scene.image, kImageHelp);
+    command.add_option("--sun", options.scene.sun, kSunHelp);
+    addThreads(command, options.scene);
     command.add_option("--out", options.out, "the mesh's file, .glb or .gltf")->required();
     command
         .add_option("--error", options.error_m,
@@ -347,10 +374,13 @@ void addCentreline(CLI::App& app, Parsed& parsed) {
     CentrelineOptions& options = parsed.centreline;
     CLI::App& command =
         *app.add_subcommand("centreline", "the way through a colon, with its radii, as a file");
-    addScene(command, options.scene);
+    command.add_option("SCENE", options.scene.scene, kStudyHelp);
+    addThreads(command, options.scene);
+    addStudy(command, options.scene.volume);
     command
-        .add_option("--out", options.out,
-                    "the line's file, .vtp or .vtk (poly data) or .txt; millimetres, LPS, from the rectum")
+        .add_option(
+            "--out", options.out,
+            "the line's file, .vtp or .vtk (poly data) or .txt, or -; millimetres, LPS, from the rectum")
         ->required();
     command.callback([&parsed] { parsed.run = [&parsed] { return runCentreline(parsed.centreline); }; });
 }

@@ -78,6 +78,18 @@ void refuseOtherOptions(const BakeOptions& options) {
                         "a terrain's sun and sky are chosen when it is shown: --sun, --sky");
 }
 
+void refuseBesideOpenness(const BakeOptions& options, TerrainLightKind kind) {
+    if (kind != TerrainLightKind::Openness) return;
+    const std::pair<const char*, bool> given[] = {{"--samples", options.samples.has_value()},
+                                                  {"--order", options.order.has_value()},
+                                                  {"--bounces", options.bounces.has_value()},
+                                                  {"--albedo", !options.albedo.empty()}};
+    for (const auto& [option, is] : given)
+        if (is)
+            throw Error(option, "", "has no effect on a terrain's openness, which is without bounced light",
+                        "leave it out, or bake --what transfer");
+}
+
 // Whether the file holds the same bake already.
 bool holds(const std::filesystem::path& file, const Heightfield& ground,
            const TerrainLightSettings& settings) {
@@ -98,7 +110,8 @@ bool holds(const std::filesystem::path& file, const Heightfield& ground,
 int bakeTerrain(const BakeOptions& options) {
     refuseOtherOptions(options);
     const TerrainLightSettings settings = settingsOf(options);
-    if (!options.out.empty()) checkOutputFile("--out", options.out);
+    refuseBesideOpenness(options, settings.kind);
+    if (!options.out.empty()) checkOutputToReadAgain("--out", options.out);
     ProgressBar bar;
     SceneOptions unlit = options.scene;
     unlit.light.clear();

@@ -8,20 +8,20 @@
 #include "app/progress_bar.h"
 #include "app/scene_loading.h"
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 
 namespace stereonav {
 namespace {
 
 void checkCentrelineOptions(const CentrelineOptions& options) {
-    if (!isCentrelineFileName(options.out))
+    if (!isStandardOutput(options.out) && !isCentrelineFileName(options.out))
         throw Error("--out", "", "expected a file named .txt, .vtp or .vtk, got \"" + options.out + "\"",
                     "name it centreline.vtp");
+    checkNoInput({"--out", options.out}, inputsOf(options.scene));
     checkOutputFile("--out", options.out);
     if (kindOf(options.scene.scene) != SceneKind::Volume)
         throw Error(options.scene.scene.empty() ? "SCENE" : options.scene.scene, "",
                     "expected a CT study, found a terrain", "name a study, or colon for the built-in one");
-    if (options.scene.volume.isosurface)
-        throw Error("--isosurface", "", "shows a surface, which has no centreline", "leave it out");
 }
 
 }  // namespace
@@ -40,9 +40,10 @@ int runCentreline(const CentrelineOptions& options) {
         return a.radius < b.radius;
     };
     const auto [least, most] = std::minmax_element(line.points.begin(), line.points.end(), narrower);
-    std::printf("%s: %zu points along %.1f mm in %zu segment(s), radius %.1f to %.1f mm\n",
-                options.out.c_str(), line.points.size(), line.length() * 1e3,
-                scene.colon->lumen.segments.size(), least->radius * 1e3, most->radius * 1e3);
+    std::fprintf(messagesBeside({{"--out", options.out}}),
+                 "%s: %zu points along %.1f mm in %zu segment(s), radius %.1f to %.1f mm\n",
+                 options.out.c_str(), line.points.size(), line.length() * 1e3,
+                 scene.colon->lumen.segments.size(), least->radius * 1e3, most->radius * 1e3);
     return 0;
 }
 

@@ -33,6 +33,11 @@ void checkOptions(const CompareOptions& options) {
     if (!(options.relativeSeparation >= 0.0 && options.relativeSeparation <= 10.0))
         throw Error("--relative-separation", "",
                     fmt::format("expected 0 to 10, got {}", options.relativeSeparation), "1/30 is 0.0333");
+    if (options.relativeSeparation > 0 && options.scene.separation_m)
+        throw Error("--separation", "", "does not go with --relative-separation", "leave one of them out");
+    for (const NamedPlace& place :
+         {NamedPlace{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}})
+        checkNoInput(place, inputsOf(options.scene));
     if (!options.json.empty()) checkOutputFile("--json", options.json);
     if (!options.csv.empty()) checkOutputFile("--csv", options.csv);
     if (!options.plot.empty()) checkOutputPicture("--plot", options.plot);
@@ -99,7 +104,9 @@ std::vector<MethodFigures> comparedPairs(const CompareOptions& options, const Lo
     const std::vector<TimedPose> poses = timedFrames(path, options.frames);
     const int shown = static_cast<int>(poses.size()) / 2;
     const auto listener = [&](const ComparedPair& pair) {
-        if (!options.images.empty() && pair.index == shown) writePictures(pair, options.images);
+        if (options.images.empty() || pair.index != shown) return;
+        makeOutputFolder(options.images);
+        writePictures(pair, options.images);
     };
     return comparePairs(*scene.pair, poses, scene.lens, scene.stereo, setting, progress, listener);
 }
@@ -112,7 +119,9 @@ std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const 
     const std::vector<Pose> poses = path.frames(options.frames);
     const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
     const auto listener = [&](const ComparedFrame& frame) {
-        if (!options.images.empty() && frame.index == shown) writePictures(frame, options.images);
+        if (options.images.empty() || frame.index != shown) return;
+        makeOutputFolder(options.images);
+        writePictures(frame, options.images);
     };
     return compareMethods(*scene.renderer, poses, scene.lens, scene.stereo, setting, progress, listener);
 }
@@ -145,6 +154,8 @@ ComparisonReport describe(const CompareOptions& options, const LoadedScene& scen
 int runCompare(const CompareOptions& options) {
     refuseLazyLight(options.scene);
     checkOptions(options);
+    std::FILE* const messages =
+        messagesBeside({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
     ProgressBar bar;
@@ -157,7 +168,7 @@ int runCompare(const CompareOptions& options) {
                                 : comparedMethods(options, scene, flight, bar.progress());
     writeResults(options, report);
     bar.clear();
-    std::fputs(tableOf(report).c_str(), stdout);
+    std::fputs(tableOf(report).c_str(), messages);
     return 0;
 }
 

@@ -21,6 +21,7 @@ void checkMeshOptions(const MeshOptions& options) {
     if (!std::isfinite(options.error_m))
         throw Error("--error", "", fmt::format("expected metres, 0 or more, got {:g}", options.error_m),
                     "leave it out for half a sample spacing");
+    checkNoInput({"--out", options.out}, inputsOf(options.scene));
     checkOutputFile("--out", options.out);
     if (kindOf(options.scene.scene) != SceneKind::Terrain)
         throw Error(options.scene.scene, "", "expected a terrain, found a volume",

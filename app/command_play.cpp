@@ -17,13 +17,23 @@ namespace {
 
 constexpr int kMostFrames = 1'000'000;
 
+double fpsOf(const PlayOptions& options) {
+    return options.fps.value_or(25);
+}
+
 void checkOptions(const PlayOptions& options) {
     if (options.out.empty() && options.video.empty() && !options.hash)
         throw Error("play", "", "expected a place for the frames", "give --out DIR, --video FILE or --hash");
     if (!options.out.empty()) checkOutputFolder("--out", options.out);
     if (!options.video.empty()) checkVideoFile("--video", options.video);
-    if (!(options.fps > 0.0 && options.fps <= 1000.0))
-        throw Error("--fps", "", fmt::format("expected more than 0 and at most 1000, got {}", options.fps),
+    checkNoInput({"--video", options.video}, inputsOf(options.scene));
+    if (options.fps && options.frames > 0 && options.video.empty())
+        throw Error("--fps", "", "has no effect beside --frames, which says how many pictures there are",
+                    "leave one of them out, or give --video");
+    if (!options.mode.empty() && options.out.empty() && options.video.empty())
+        throw Error("--mode", "", "has no effect on --hash, which is of both eyes", "leave it out");
+    if (!(fpsOf(options) > 0.0 && fpsOf(options) <= 1000.0))
+        throw Error("--fps", "", fmt::format("expected more than 0 and at most 1000, got {}", fpsOf(options)),
                     "25 is common");
     if (options.frames < 0 || options.frames > kMostFrames)
         throw Error("--frames", "", fmt::format("expected 1 to {}, got {}", kMostFrames, options.frames),
@@ -33,21 +43,23 @@ void checkOptions(const PlayOptions& options) {
 
 std::vector<TimedPose> posesOf(const PlayOptions& options, const RecordedPath& path) {
     if (options.frames > 0) return timedFrames(path, options.frames);
-    if (path.duration() * options.fps > kMostFrames)
-        throw Error("--fps", "",
-                    fmt::format("{} s at {} frames a second are over {} frames", path.duration(), options.fps,
-                                kMostFrames),
-                    "give --frames or fewer frames a second");
-    return timedFramesAtRate(path, options.fps);
+    const double fps = fpsOf(options);
+    if (path.duration() * fps > kMostFrames)
+        throw Error(
+            "--fps", "",
+            fmt::format("{} s at {} frames a second are over {} frames", path.duration(), fps, kMostFrames),
+            "give --frames or fewer frames a second");
+    return timedFramesAtRate(path, fps);
 }
 
 // Where composed frames go; what was not asked for stays unused.
 class FrameSink {
 public:
     FrameSink(const PlayOptions& options, const OutputMode mode) : mFolder(options.out), mMode(mode) {
+        if (!options.out.empty()) makeOutputFolder(options.out);
         if (options.video.empty()) return;
         const auto [width, height] = composedSize(mode, options.size.width, options.size.height);
-        mVideo = std::make_unique<VideoFile>(options.video, options.fps, width, height);
+        mVideo = std::make_unique<VideoFile>(options.video, fpsOf(options), width, height);
     }
 
     void add(const StereoFrame& frame, int index) {
@@ -79,7 +91,7 @@ double medianOf(std::vector<double> values) {
 int runPlay(const PlayOptions& options) {
     refuseLazyLight(options.scene);
     checkOptions(options);
-    const OutputMode mode = modeFromText(options.mode);
+    const OutputMode mode = modeFromText(options.mode.empty() ? "sbsl" : options.mode);
     checkMethod(options.scene, options.method);
     // the path first: a bad one should not cost the reading of a large scene
     std::optional<RecordedPath> path;

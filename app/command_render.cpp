@@ -12,25 +12,28 @@ namespace stereonav {
 
 namespace {
 
-void printEyes(const StereoFrame& frame, const Plane<PackedColor>& picture, const std::string& file) {
+void printEyes(std::FILE* to, const StereoFrame& frame, const Plane<PackedColor>& picture,
+               const std::string& file) {
     const double pixels = static_cast<double>(frame.madeIn().width) * frame.madeIn().height;
     const RightEyeTimings& t = frame.timings();
-    std::printf("%s: %dx%d, left %.2f ms, right %.2f ms, holes %.2f %%\n", file.c_str(), picture.width(),
-                picture.height(), frame.left_ms(), t.right_ms(),
-                100.0 * static_cast<double>(t.holePixels) / pixels);
-    if (!frame.way().empty()) std::printf("  by %s\n", frame.way().c_str());
+    std::fprintf(to, "%s: %dx%d, left %.2f ms, right %.2f ms, holes %.2f %%\n", file.c_str(), picture.width(),
+                 picture.height(), frame.left_ms(), t.right_ms(),
+                 100.0 * static_cast<double>(t.holePixels) / pixels);
+    if (!frame.way().empty()) std::fprintf(to, "  by %s\n", frame.way().c_str());
     if (t.boundPsnr_db > 0)
-        std::printf("  of them %.2f %% were warped before; 95 of 100 frames reach %.1f dB\n",
-                    100.0 * static_cast<double>(t.refinedPixels) / pixels, t.boundPsnr_db);
+        std::fprintf(to, "  of them %.2f %% were warped before; 95 of 100 frames reach %.1f dB\n",
+                     100.0 * static_cast<double>(t.refinedPixels) / pixels, t.boundPsnr_db);
     if (frame.isSmaller())
-        std::printf("  made in %dx%d and enlarged, to take the time that was asked for\n",
-                    frame.madeIn().width, frame.madeIn().height);
+        std::fprintf(to, "  made in %dx%d and enlarged, to take the time that was asked for\n",
+                     frame.madeIn().width, frame.madeIn().height);
 }
 
 }  // namespace
 
 int runRender(const RenderOptions& options) {
     checkOutputPicture("--out", options.out);
+    checkNoInput({"--out", options.out}, inputsOf(options.scene));
+    std::FILE* const messages = messagesBeside({{"--out", options.out}});
     checkSize(options.size);
     const OutputMode mode = modeFromText(options.mode);
     const std::string method = methodUnderLight(options.scene, options.method);
@@ -52,7 +55,7 @@ int runRender(const RenderOptions& options) {
         scene.lazyLight->waitUntilDone();
         frame.render(head);
         bar.clear();
-        std::printf("lit in %.2f s\n", watch.elapsed_ms() / 1000);
+        std::fprintf(messages, "lit in %.2f s\n", watch.elapsed_ms() / 1000);
     }
     if (scene.tracedLight)
         scene.tracedLight->light(scene.viewsAt(head), frame.left(), frame.right(), bar.progress());
@@ -60,13 +63,14 @@ int runRender(const RenderOptions& options) {
     writeColorImage(options.out, picture);
     bar.clear();
     if (scene.pair) {
-        std::printf("%s: %dx%d, both eyes %.2f ms\n", options.out.c_str(), picture.width(), picture.height(),
-                    frame.both_ms());
+        std::fprintf(messages, "%s: %dx%d, both eyes %.2f ms\n", options.out.c_str(), picture.width(),
+                     picture.height(), frame.both_ms());
         return 0;
     }
-    printEyes(frame, picture, options.out);
+    printEyes(messages, frame, picture, options.out);
     if (scene.tracedLight)
-        for (const std::string& note : scene.tracedLight->notes()) std::printf("  %s\n", note.c_str());
+        for (const std::string& note : scene.tracedLight->notes())
+            std::fprintf(messages, "  %s\n", note.c_str());
     return 0;
 }
 

@@ -90,6 +90,7 @@ void describeRun(ReportRun& run) {
 
 // All at the end, each in one go: a report that is stopped leaves nothing.
 void writeReport(const Report& report, const fs::path& folder) {
+    makeOutputFolder(folder);
     writeTextFile(folder / "report.csv", figuresCsv(report));
     writeTextFile(folder / "report.json", figuresJson(report));
     writeTextFile(folder / "index.html", pageOf(report));

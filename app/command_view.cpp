@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/medium_options.h"
+#include "app/output_place.h"
 #include "app/screenshots.h"
 #include "app/stereo_frame.h"
 #include "app/view_input.h"
@@ -71,6 +72,7 @@ public:
                   [] { Window::wake(); }) {}
 
     void run() {
+        if (!mOptions.shots.empty()) makeOutputFolder(mOptions.shots);
         while (!mWindow.shouldClose() && !mQuitWhileLoading && !(mSession && mSession->quit())) {
             mWindow.handleEvents(waitSeconds());
             const double dt = mClock.lap_ms() / 1000;
@@ -331,7 +333,9 @@ int runView(const ViewOptions& options) {
     checkSize(options.size);
     checkMethod(options.scene, options.method);
     checkSweep(options);
+    if (!options.shots.empty()) checkOutputFolder("--shots", options.shots);
     ViewOptions shown = options;
+    shown.scene.inWindow = true;
     shown.scene.skyTurns = !showsMedium(options.scene);  // a medium's keys turn its own light
     Viewer(shown).run();
     return 0;

@@ -89,6 +89,7 @@ struct SceneOptions {
     MediumOptions medium;
     std::optional<TracedOptions> traced;  // none: of commands that trace no pictures
     bool skyTurns = false;  // set by a window: keep what turning the sky over baked transfer takes
+    bool inWindow = false;  // set by a window, whose keys change what is shown
 };
 
 struct SizeOption {
@@ -117,12 +118,12 @@ struct PlayOptions {
     SizeOption size;
     std::string path;             // "": the scene's own
     std::string method = "auto";  // as in RenderOptions: files do not depend on measured times
-    std::string mode = "sbsl";
-    std::string out;    // folder for frame_00000.png ...; "" with --video or --hash
-    std::string video;  // .mp4, .avi or .mkv
-    double fps = 25;
-    int frames = 0;     // 0: the whole path at fps; else this many, evenly
-    bool hash = false;  // print one content hash of all frames
+    std::string mode;             // "": sbsl
+    std::string out;              // folder for frame_00000.png ...; "" with --video or --hash
+    std::string video;            // .mp4, .avi or .mkv
+    std::optional<double> fps;    // none: 25
+    int frames = 0;               // 0: the whole path at fps; else this many, evenly
+    bool hash = false;            // print one content hash of all frames
 };
 int runPlay(const PlayOptions& options);
 

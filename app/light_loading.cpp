@@ -261,7 +261,7 @@ void checkBakeOptions(const BakeOptions& options) {
     checkNumbers(options);
     checkTogether(options, kind);
     if (options.out.empty()) return;
-    checkOutputFile("--out", options.out);
+    checkOutputToReadAgain("--out", options.out);
     require(!isForeignFile(options.out), "--out", "\"" + options.out + "\" is there and is no bake",
             "name another file, or take it away first");
 }

@@ -21,7 +21,11 @@ std::string printable(std::string text) {
 int main(int argc, char** argv) {
     stereonav::noteStart();
     try {
-        return stereonav::runCommandLine(argc, argv);
+        const int status = stereonav::runCommandLine(argc, argv);
+        // What was printed has arrived, or the run has failed.
+        if (std::fflush(stdout) != 0 || std::ferror(stdout))
+            throw stereonav::Error("standard output", "", "can not be written", "is the disk full?");
+        return status;
     } catch (const stereonav::Cancelled&) {
         std::fprintf(stderr, "stereonav: stopped\n");
     } catch (const std::exception& error) {

@@ -100,7 +100,7 @@ void refuseWithBuiltIn(const SceneOptions& options) {
         {"--seed", !options.volume.seeds.empty()},     {"--resample", options.volume.resample},
         {"--backwards", options.volume.backwards},     {"--exposure", options.volume.exposure.has_value()},
         {"--turn", options.volume.turn_deg != 0},      {"--tilt", options.volume.tilt_deg != 0},
-        {"--up", options.volume.up.has_value()}};
+        {"--up", options.volume.up.has_value()},       {"--no-cache", !options.volume.cache}};
     for (const auto& [option, is] : given)
         if (is)
             throw Error(option, "", "expected with a CT study, " + options.scene + " is built in",
@@ -186,9 +186,23 @@ LoadedScene volumeMedium(const SceneOptions& options, SimdTarget simd, Progress&
     return scene;
 }
 
+// A medium other than the ground has colours of its own.
+void refuseUnseenColors(const SceneOptions& options) {
+    if (options.medium.medium == kGroundMedium) return;
+    const char* advice = "leave it out, or choose --medium ground";
+    if (!options.image.empty())
+        throw Error("--image", "", "has no effect on a terrain shown as another medium than ground", advice);
+    if (!options.sun.empty() && !(options.medium.lightFrom.empty() && options.medium.lamp.empty()))
+        throw Error(
+            "--sun", "",
+            "has no effect on a terrain shown as another medium than ground, under --light-from or --lamp",
+            advice);
+}
+
 LoadedScene terrainAsMedium(const SceneOptions& options, SimdTarget simd, Progress& progress) {
     if (!options.light.empty())
         throw Error("--light", "", "does not go with a terrain shown as a medium", "leave one of them out");
+    refuseUnseenColors(options);
     LoadedScene scene = loadTerrainScene(options, simd, progress);
     const TerrainScene& terrain = *scene.terrain;
     scene.medium = std::make_unique<MediumScene>();

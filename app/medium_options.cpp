@@ -96,6 +96,20 @@ void refuseWithoutMedium(const MediumOptions& m) {
               "expected with a medium", "add --medium, or show cloud or wax");
 }
 
+// What a model leaves out; in a window a key chooses another one.
+void refuseBesideModel(const SceneOptions& options) {
+    const MediumOptions& m = options.medium;
+    if (m.model.empty() || options.inWindow) return;
+    const MediumModel model = modelFromText(m.model);
+    const bool spreads = model == MediumModel::Indirect, scatters = spreads || model == MediumModel::Direct;
+    const bool lit = model != MediumModel::Emission;
+    const std::string problem = "has no effect on the model " + m.model;
+    constexpr const char* kAdvice = "leave it out, or choose another --model";
+    if (!lit) refuseAll({{"--light-color", !m.lightColor.empty()}}, problem, kAdvice);
+    if (!scatters) refuseAll({{"--phase", !m.phase.empty()}}, problem, kAdvice);
+    if (!spreads) refuseAll({{"--cone", m.cone_deg.has_value()}}, problem, kAdvice);
+}
+
 void refuseOfOtherKinds(const SceneOptions& options) {
     const VolumeOptions& v = options.volume;
     refuseAll({{"--transfer", !v.transfer.empty()},
@@ -128,6 +142,7 @@ void checkMediumOptions(const SceneOptions& options) {
     const MediumOptions& m = options.medium;
     if (!showsMedium(options)) return refuseWithoutMedium(m);
     refuseOfOtherKinds(options);
+    refuseBesideModel(options);
     checkWhole("--slices", m.slices, 1, 65536, "256 is the default; finer is slower");
     checkWhole("--light-size", m.lightSize, 8, 4096, "256 is the default");
     if (m.cone_deg && !(*m.cone_deg >= 0 && *m.cone_deg < 180))

@@ -136,6 +136,21 @@ bool isStudy(const std::string& name) {
     return kindOf(name) == SceneKind::Volume && name != "colon";
 }
 
+std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
+    const MediumOptions& m = options.medium;
+    std::vector<NamedPlace> inputs{{"SCENE", options.scene},
+                                   {"--image", options.image},
+                                   {"--sky", options.sky},
+                                   {"--light", options.light},
+                                   {"--transfer", options.volume.transfer},
+                                   {"--medium", m.medium},
+                                   {"--phase", m.phase},
+                                   {"--noise", m.noise}};
+    if (options.scene.ends_with(".toml"))
+        for (NamedPlace& file : filesOfTerrain(options.scene)) inputs.push_back(std::move(file));
+    return inputs;
+}
+
 LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress) {
     checkSize(size);
     checkOptions(options);

@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/lazy_light.h"
 #include "app/medium_scene.h"
+#include "app/output_place.h"
 #include "app/pair_renderer.h"
 #include "app/traced_light.h"
 #include "app/view_sky.h"
@@ -56,6 +57,9 @@ enum class SceneKind { Terrain, Volume, Medium };  // Medium: a built-in one
 SceneKind kindOf(const std::string& name);
 // From files: not the built-in colon.
 bool isStudy(const std::string& name);
+
+// What the options name to be read; words that are no files are among them.
+std::vector<NamedPlace> inputsOf(const SceneOptions& options);
 
 // Checks options and size, sets the thread count, reads the scene. Throws Error, Cancelled.
 LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress);

@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
 #include "engine/nav/navigator.h"
+#include "terrain/scene_file.h"
 #include "terrain/terrain_illumination.h"
 #include "terrain/terrain_loader.h"
 #include "terrain/terrain_renderer.h"
@@ -57,6 +58,16 @@ FlightSetting flightSettingOf(const TerrainScene& terrain) {
 }
 
 }  // namespace
+
+std::vector<NamedPlace> filesOfTerrain(const std::string& toml) {
+    const SceneFile scene = readSceneFile(toml);
+    std::vector<NamedPlace> files;
+    for (const std::filesystem::path& file : {scene.dem, scene.image, scene.sky, scene.light, scene.path})
+        files.push_back({"a file of SCENE", file.string()});
+    for (const LandmarkFile& landmark : scene.landmarks)
+        files.push_back({"a landmark of SCENE", landmark.mesh.string()});
+    return files;
+}
 
 LoadedScene loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
     LoadedScene scene;

@@ -1,10 +1,12 @@
 #include "app/video_file.h"
 
-#include <unistd.h>
+#include <fstream>
+#include <string>
 
 #include "app/output_place.h"
 #include "app/video_sink.h"
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "engine/base/module.h"
 
 namespace stereonav {
@@ -20,11 +22,21 @@ const char* codecOf(const fs::path& file) {
     return nullptr;
 }
 
-fs::path besides(const fs::path& file) {
-    fs::path temporary = file;
-    temporary.replace_filename("." + file.stem().string() + "." + std::to_string(getpid()) + ".part" +
-                               file.extension().string());
-    return temporary;
+// What a writer holds back for the end of the file, at most.
+constexpr std::size_t kWritersBuffer = 1 << 16;
+
+// Whether so much more fits. Where it does not, the disk is full, and an index or the like at the end, which
+// nobody counts, may be missing.
+bool takesMore(const fs::path& file) {
+    std::error_code code;
+    const std::uintmax_t bytes = fs::file_size(file, code);
+    if (code) return false;
+    std::ofstream out(file, std::ios::binary | std::ios::app);
+    out << std::string(kWritersBuffer, '\0');
+    out.close();
+    const bool fits = out.good();
+    fs::resize_file(file, bytes, code);
+    return fits && !code;
 }
 
 }  // namespace
@@ -36,57 +48,47 @@ std::unique_ptr<VideoSink> openVideoSink(const fs::path& file, const char* codec
 }
 
 struct VideoFile::State {
-    fs::path file, temporary;
-    std::unique_ptr<VideoSink> sink;
-    int width = 0, height = 0;  // of a frame as given
-    bool finished = false;
+    State(const fs::path& file, int wide, int high) : place(file), pending(file), width(wide), height(high) {}
+    fs::path place;
+    PendingFile pending;
+    std::unique_ptr<VideoSink> sink;  // before `pending` goes
+    int width, height;                // of a frame as given
 };
 
 void checkVideoFile(const std::string& option, const fs::path& file) {
     if (!codecOf(file))
         throw Error(option, "", "\"" + file.string() + "\" is not a kind of video that can be written",
                     "use .mp4, .avi or .mkv (lossless)");
+    std::error_code code;
+    if (fs::exists(file, code) && !fs::is_regular_file(file, code))
+        throw Error(option, "", "\"" + file.string() + "\" is no file, and a video is not written in one go",
+                    "name a file");
     checkOutputFile(option, file);
 }
 
-VideoFile::VideoFile(const fs::path& file, double framesPerSecond, int width, int height)
-    : mState(std::make_unique<State>()) {
+VideoFile::VideoFile(const fs::path& file, double framesPerSecond, int width, int height) {
     const Error failed(file.string(), "", "can not be written as a video", "try another extension or folder");
     const char* codec = codecOf(file);
     if (!codec) throw failed;
-    mState->file = file;
-    mState->temporary = besides(file);
-    mState->width = width;
-    mState->height = height;
-    std::error_code code;
-    if (file.has_parent_path()) fs::create_directories(file.parent_path(), code);
-    mState->sink = openVideoSink(mState->temporary, codec, framesPerSecond, width, height);
-    if (mState->sink) return;
-    fs::remove(mState->temporary, code);
-    throw failed;
+    mState = std::make_unique<State>(file, width, height);
+    mState->sink = openVideoSink(mState->pending.temporary(), codec, framesPerSecond, width, height);
+    if (!mState->sink) throw failed;
 }
 
-VideoFile::~VideoFile() {
-    if (mState->finished) return;
-    mState->sink.reset();
-    std::error_code code;
-    fs::remove(mState->temporary, code);
-}
+VideoFile::~VideoFile() = default;
 
 void VideoFile::add(const Plane<PackedColor>& frame) {
     if (frame.width() != mState->width || frame.height() != mState->height)
-        throw Error(mState->file.string(), "", "expected frames of one size",
+        throw Error(mState->place.string(), "", "expected frames of one size",
                     "keep the size while recording");
     mState->sink->add(frame);
 }
 
 void VideoFile::finish() {
-    mState->sink->close();
-    std::error_code code;
-    fs::rename(mState->temporary, mState->file, code);
-    if (code)
-        throw Error(mState->file.string(), "", "can not be written", "check that the folder can be written");
-    mState->finished = true;
+    if (!mState->sink->close() || !takesMore(mState->pending.temporary()))
+        throw Error(mState->place.string(), "", "can not be written: not all of it arrived",
+                    "check that the disk has room");
+    mState->pending.finish();
 }
 
 }  // namespace stereonav

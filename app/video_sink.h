@@ -15,7 +15,8 @@ public:
     virtual ~VideoSink() = default;
     // Frames of the size that it was opened with.
     virtual void add(const Plane<PackedColor>& frame) = 0;
-    virtual void close() = 0;
+    // Ends the file. False where it does not hold every frame that was added: the disk was full.
+    virtual bool close() = 0;
 };
 
 // Null where `file` can not be written. codec: four letters. Odd sizes get a repeated last column or row.

@@ -57,6 +57,9 @@ std::shared_ptr<ViewSky> applyBaked(const SceneOptions& options, ColonScene& sce
         baked.transfer.relightAll(turnedSky(straight, skyTurnOf(options)), *light);
     }
     if (baked.kind == BakeKind::Openness) {
+        if (options.volume.exposure)
+            throw Error("--exposure", "", "has no effect on openness, which weakens the lamp's light",
+                        "leave it out");
         look.use = BakedLook::Use::Openness;
     } else {
         look.exposure = exposureOf(options.volume, meanLight(*light));

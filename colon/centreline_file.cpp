@@ -155,7 +155,7 @@ bool isCentrelineFileName(const std::filesystem::path& file) {
 }
 
 void writeCentreline(const std::filesystem::path& file, const Centreline& line) {
-    const std::string extension = extensionOf(file);
+    const std::string extension = isStandardOutput(file) ? ".txt" : extensionOf(file);
     if (line.points.empty())
         throw Error(file.string(), "", "the centreline has no points to write", "find it first");
     writeTextFile(file, extension == ".txt"   ? textOf(line)

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <span>
 
+#include "engine/base/cache.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
@@ -235,7 +236,7 @@ FoundColon unpacked(std::span<const char> bytes) {
 }
 
 fs::path cacheFile(std::uint64_t key) {
-    return cacheFolder() / fmt::format("colon-v{}-{:016x}.bin", kVersion, key);
+    return keptFile(fmt::format("colon-v{}-{:016x}.bin", kVersion, key));
 }
 }  // namespace
 
@@ -270,6 +271,7 @@ std::optional<FoundColon> readColonCache(std::uint64_t key, bool& damaged) {
     try {
         FoundColon found = unpacked(bytes);
         damaged = false;
+        noteUse(file);
         return found;
     } catch (const Damaged&) {
         return std::nullopt;
@@ -290,12 +292,7 @@ bool writeColonCache(std::uint64_t key, const FoundColon& found) {
         if (!out)
             throw Error(cacheFile(key).string(), "", "can not be written", "check the room on the disk");
     };
-    try {
-        writeFileAtomically(cacheFile(key), write);
-        return true;
-    } catch (const Error&) {
-        return false;
-    }
+    return keep(cacheFile(key), [&](const fs::path& file) { writeFileAtomically(file, write); });
 }
 
 }  // namespace stereonav

@@ -55,7 +55,7 @@ LumenField lumenOfGrey(const Study& study, const ColonOptions& options, std::vec
         if (saved.lumen) return std::move(*saved.lumen);
     }
     LumenField lumen = segmentColon(study.grey, options.segmentation, progress);
-    if (keeps) notes.push_back(saveLumen(options.study, lumen.lumen, key));
+    if (keeps) notes.push_back(saveLumen(lumen.lumen, key));
     return lumen;
 }
 
@@ -187,6 +187,20 @@ void refuseTurned(const ColonOptions& options) {
                     "leave it out: a colon follows the patient's axes; or add --isosurface");
 }
 
+// What only the search for a colon asks for, of a volume in which there is nothing to search.
+void refuseOfColons(const ColonOptions& options) {
+    const auto refuse = [](bool given, const char* option) {
+        if (given)
+            throw Error(
+                option, "",
+                "expected with a colon, this volume has no values near those of air and is shown from "
+                "outside",
+                "leave it out");
+    };
+    refuse(!options.segmentation.seeds.empty(), "--seed");
+    refuse(options.centreline.reversed, "--backwards");
+}
+
 Study readOrMake(const ColonOptions& options, std::vector<Polyp>& polyps, Progress& progress) {
     if (!options.study.empty()) return readStudy(options.study, options.reading, progress);
     BuiltInColon colon = builtInColon(options.builtIn, progress);
@@ -231,6 +245,7 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
     Study study = readOrMake(options, polyps, progress);
     const bool foreign = !study.isMask && !looksLikeHounsfield(study.grey);
     if (options.isosurface || foreign) {
+        if (foreign && !options.isosurface) refuseOfColons(options);
         const std::string note = foreign && !options.isosurface
                                      ? "no values near those of air: shown from outside, as a surface"
                                      : "";

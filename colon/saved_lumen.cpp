@@ -9,8 +9,8 @@
 
 #include "colon/study.h"
 #include "colon/study_parts.h"
+#include "engine/base/cache.h"
 #include "engine/base/error.h"
-#include "engine/base/file.h"
 #include "engine/base/hash.h"
 
 namespace stereonav {
@@ -53,28 +53,8 @@ std::string fieldOf(const std::string& header, const std::string& name) {
     return header.substr(from, header.find('\n', from) - from);
 }
 
-bool isOurs(const fs::path& file) {
-    return !fieldOf(headerText(file), kKeyField).empty();
-}
-
-bool isThere(const fs::path& file) {
-    std::error_code code;
-    return fs::symlink_status(file, code).type() != fs::file_type::not_found && !code;
-}
-
 fs::path fileInCache(std::uint64_t key) {
-    return cacheFolder() / fmt::format("lumen-{}.nrrd", hexOf(key));
-}
-
-bool write(const fs::path& file, const MaskVolume& lumen, std::uint64_t key) {
-    const HeaderFields fields = {{kKeyField, hexOf(key)},
-                                 {kHashField, hashOf(lumen.frame, lumen.values.data())}};
-    try {
-        writeMask(file, lumen, "the lumen of a colon, segments numbered from the rectum", fields);
-        return true;
-    } catch (const Error&) {
-        return false;
-    }
+    return keptFile(fmt::format("lumen-{}.nrrd", hexOf(key)));
 }
 
 MaskVolume readMask(const fs::path& file, const std::string& header, Progress& progress) {
@@ -98,7 +78,7 @@ std::uint64_t savedLumenKey(std::uint64_t study, const SegmentationSetting& sett
     return hash.value();
 }
 
-fs::path savedLumenFile(const fs::path& study) {
+fs::path lumenBeside(const fs::path& study) {
     fs::path whole = fs::absolute(study).lexically_normal();
     if (!whole.has_filename()) whole = whole.parent_path();  // "folder/"
     std::error_code code;
@@ -111,32 +91,32 @@ fs::path savedLumenFile(const fs::path& study) {
     return whole.parent_path() / (name.string() + "_lumen.nrrd");
 }
 
-std::string saveLumen(const fs::path& study, const MaskVolume& lumen, std::uint64_t key) {
-    const fs::path beside = savedLumenFile(study), cached = fileInCache(key);
-    if ((!isThere(beside) || isOurs(beside)) && write(beside, lumen, key))
-        return "lumen saved as " + beside.string();
-    if (write(cached, lumen, key))
-        return fmt::format("{} can not be written: lumen saved as {}", beside.string(), cached.string());
-    return fmt::format("the lumen could not be saved: neither {} nor {} can be written", beside.string(),
-                       cached.string());
+std::string saveLumen(const MaskVolume& lumen, std::uint64_t key) {
+    const fs::path file = fileInCache(key);
+    const HeaderFields fields = {{kKeyField, hexOf(key)},
+                                 {kHashField, hashOf(lumen.frame, lumen.values.data())}};
+    const bool kept = keep(file, [&](const fs::path& place) {
+        writeMask(place, lumen, "the lumen of a colon, segments numbered from the rectum", fields);
+    });
+    if (kept) return "lumen kept as " + file.string();
+    return "the lumen could not be kept: " + file.string() + " can not be written";
 }
 
 SavedLumen readSavedLumen(const fs::path& study, const GreyVolume& grey, const SegmentationSetting& setting,
                           std::uint64_t key, Progress& progress) {
     SavedLumen saved;
-    for (const fs::path& file : {savedLumenFile(study), fileInCache(key)}) {
-        if (!isThere(file)) continue;
+    for (const fs::path& file : {fileInCache(key), lumenBeside(study)}) {
         const std::string header = headerText(file), found = fieldOf(header, kKeyField);
+        if (found.empty()) continue;  // nothing, or another's
         if (found != hexOf(key)) {
-            saved.notes.push_back(file.string() + (found.empty()
-                                                       ? " is not a lumen kept by this program: left as it is"
-                                                       : " is of another study or other settings"));
+            saved.notes.push_back(file.string() + " is of another study or other settings");
             continue;
         }
         try {
             saved.lumen = restoreLumen(grey, readMask(file, header, progress), setting);
             if (saved.lumen) {
                 saved.notes.push_back("lumen read back from " + file.string());
+                noteUse(fileInCache(key));
                 return saved;
             }
             saved.notes.push_back(file.string() + " does not fit the study: the lumen is found again");

@@ -1,5 +1,5 @@
-// The lumen found in a study as a file of its own beside it: a mask for other programs, which is read back
-// when the same study is opened with the same settings and the cache no longer holds what was found.
+// The lumen found in a study as a file of its own in the cache: a mask for other programs, which is read back
+// when the same study is opened with the same settings and what was found with them is not in the cache.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@ namespace stereonav {
 // Of everything that the lumen depends on: the study (its content's key) and the settings.
 std::uint64_t savedLumenKey(std::uint64_t study, const SegmentationSetting& setting);
 
-// Beside the study: NAME_lumen.nrrd. A folder's lumen lies beside the folder.
-std::filesystem::path savedLumenFile(const std::filesystem::path& study);
+// NAME_lumen.nrrd beside the study, a folder's beside the folder: where such a file is read from as well, but
+// never written to.
+std::filesystem::path lumenBeside(const std::filesystem::path& study);
 
-// Writes the segments' numbers (compressed NRRD, with the key and a hash of the voxels in its header) beside
-// the study; where that can not be written, or holds a file that is not a lumen kept by this program, into
-// the cache folder. Says in one line where it is, or that it could not be kept.
-std::string saveLumen(const std::filesystem::path& study, const MaskVolume& lumen, std::uint64_t key);
+// Keeps the segments' numbers (compressed NRRD, with the key and a hash of the voxels in its header) in the
+// cache. Says in one line where, or that it could not be kept.
+std::string saveLumen(const MaskVolume& lumen, std::uint64_t key);
 
 struct SavedLumen {
     std::optional<LumenField> lumen;
-    std::vector<std::string> notes;  // where it was read from; files that are foreign, outdated or damaged
+    std::vector<std::string> notes;  // where it was read from; files that are outdated or damaged
 };
 // Never throws for what the files hold. Throws Cancelled.
 SavedLumen readSavedLumen(const std::filesystem::path& study, const GreyVolume& grey,

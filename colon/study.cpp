@@ -120,6 +120,17 @@ bool isFolder(const fs::path& path) {
     return false;
 }
 
+// True for a folder; also throws Error for a series where there are none to choose from.
+bool isFolder(const fs::path& path, const StudyOptions& options) {
+    const bool folder = isFolder(path);
+    if (!folder && !options.series.empty())
+        throw Error(
+            "--series", "",
+            "expected with a folder of DICOM slices, \"" + path.filename().string() + "\" holds one volume",
+            "leave it out");
+    return folder;
+}
+
 }  // namespace
 
 std::vector<SeriesInfo> listSeries(const fs::path& folder) {
@@ -139,11 +150,11 @@ bool looksLikeStudy(const fs::path& path) {
 }
 
 std::uint64_t studyKey(const fs::path& path, const StudyOptions& options) {
-    return keyOfFiles(isFolder(path) ? filesOfFolder(path, options) : filesOfVolume(path), options);
+    return keyOfFiles(isFolder(path, options) ? filesOfFolder(path, options) : filesOfVolume(path), options);
 }
 
 Study readStudy(const fs::path& path, const StudyOptions& options, Progress& progress) {
-    const bool folder = isFolder(path);
+    const bool folder = isFolder(path, options);
     Study study;
     VolumeFile file = folder ? readDicom(path, options, progress) : readVolumeFile(path, options, progress);
     progress.report(0.8, "looking at the values");

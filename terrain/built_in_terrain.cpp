@@ -10,6 +10,7 @@
 #include <fstream>
 #include <optional>
 
+#include "engine/base/cache.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "terrain/built_in_color.h"
@@ -56,7 +57,7 @@ Header headerOf(const BuiltInTerrain& terrain, std::uint64_t seed) {
 }
 
 fs::path cacheFile(std::uint64_t seed, int size) {
-    return cacheFolder() / fmt::format("terrain-v{}-{}-{:016x}.bin", kVersion, size, seed);
+    return keptFile(fmt::format("terrain-v{}-{}-{:016x}.bin", kVersion, size, seed));
 }
 
 // nullopt when there is none, or it is not whole.
@@ -79,6 +80,7 @@ std::optional<BuiltInTerrain> readCache(const fs::path& file, std::uint64_t seed
         in.read(reinterpret_cast<char*>(terrain.color.row(y)), static_cast<std::streamsize>(rowBytes(size)));
     const Header whole = headerOf(terrain, seed);
     if (!in || std::memcmp(&header, &whole, sizeof header) != 0) return std::nullopt;
+    noteUse(file);
     return terrain;
 }
 
@@ -96,10 +98,7 @@ void writeCache(const fs::path& file, const BuiltInTerrain& terrain, std::uint64
         out.close();
         if (!out) throw Error(file.string(), "", "can not be written", "check the room on the disk");
     };
-    try {
-        writeFileAtomically(file, write);
-    } catch (const Error&) {
-    }
+    keep(file, [&](const fs::path& place) { writeFileAtomically(place, write); });
 }
 
 void checkSize(int size) {

@@ -20,6 +20,10 @@ LoadedScene loadTerrainScene(const SceneOptions&, SimdTarget, Progress&) {
     without();
 }
 
+std::vector<NamedPlace> filesOfTerrain(const std::string&) {
+    without();
+}
+
 int bakeTerrain(const BakeOptions&) {
     without();
 }

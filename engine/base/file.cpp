@@ -1,15 +1,130 @@
 #include "engine/base/file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "engine/base/error.h"
 
 namespace stereonav {
 namespace fs = std::filesystem;
+namespace {
+
+constexpr int kMostLinks = 40;  // as Linux: more go round in circles
+constexpr std::size_t kBlock = 1 << 20;
+constexpr const char* kCheckPlace = "check that the folder exists and has room and write permission";
+
+Error unwritable(const fs::path& path, int reason) {
+    return {path.string(), "",
+            reason ? std::string("can not be written: ") + std::strerror(reason) : "can not be written",
+            kCheckPlace};
+}
+
+// What bytes are written into, since it can not be replaced by a file.
+bool isStream(const fs::path& path) {
+    std::error_code code;
+    const fs::file_type type = fs::status(path, code).type();
+    return type == fs::file_type::fifo || type == fs::file_type::character || type == fs::file_type::block ||
+           type == fs::file_type::socket;
+}
+
+// What a chain of links ends at, which need not be there.
+fs::path endOfLinks(const fs::path& path) {
+    std::error_code code;
+    fs::path at = path;
+    for (int n = 0; n < kMostLinks; ++n) {
+        if (fs::symlink_status(at, code).type() != fs::file_type::symlink) return at;
+        const fs::path to = fs::read_symlink(at, code);
+        if (code) break;
+        at = to.is_absolute() ? to : at.parent_path() / to;
+    }
+    throw Error(path.string(), "", "is a link that leads nowhere", "take it away, or name another file");
+}
+
+fs::path folderOf(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+fs::path besides(const fs::path& file) {
+    fs::path temporary = file;
+    temporary.replace_filename("." + file.stem().string() + "." + std::to_string(getpid()) + ".part" +
+                               file.extension().string());
+    return temporary;
+}
+
+// Closed once, so that what the system says at the end is heard.
+class OpenFile {
+public:
+    // place: what errors name.
+    OpenFile(fs::path place, const fs::path& path, int flags)
+        : mPlace(std::move(place)), mFile(open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666)) {
+        if (mFile < 0) throw unwritable(mPlace, errno);
+    }
+    ~OpenFile() {
+        if (mFile >= 0) close(mFile);
+    }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+
+    void write(const char* data, std::size_t bytes) const {
+        while (bytes > 0) {
+            const ssize_t written = ::write(mFile, data, bytes);
+            if (written < 0 && errno == EINTR) continue;
+            if (written < 0) throw unwritable(mPlace, errno);
+            data += written;
+            bytes -= static_cast<std::size_t>(written);
+        }
+    }
+    void finish() {
+        const int file = std::exchange(mFile, -1);
+        if (close(file) != 0 && errno != EINTR) throw unwritable(mPlace, errno);
+    }
+
+private:
+    fs::path mPlace;
+    int mFile;
+};
+
+// Calls put(write), with write(data, bytes) to a stream or to standard output.
+template <typename Put>
+void intoStream(const fs::path& place, const Put& put) {
+    if (isStandardOutput(place)) {
+        put([](const char* data, std::size_t bytes) {
+            if (std::fwrite(data, 1, bytes, stdout) != bytes || std::fflush(stdout) != 0)
+                throw unwritable("standard output", errno);
+        });
+        return;
+    }
+    OpenFile out(place, place, 0);
+    put([&](const char* data, std::size_t bytes) { out.write(data, bytes); });
+    out.finish();
+}
+
+// Throws Error unless a file can be made, or what is there be replaced.
+void checkFolder(const fs::path& path, const fs::path& target) {
+    std::error_code code;
+    const fs::path folder = folderOf(target);
+    if (folder == cacheFolder() && fs::create_directories(folder, code))
+        fs::permissions(folder, fs::perms::owner_all, code);  // what lies there tells of patients
+    if (!fs::exists(folder, code))
+        throw Error(path.string(), "", "can not be written: there is no folder \"" + folder.string() + "\"",
+                    "make it, or name another place");
+    if (!fs::is_directory(folder, code))
+        throw Error(path.string(), "", "can not be written: \"" + folder.string() + "\" is no folder",
+                    "name another place");
+    if (fs::is_directory(target, code))
+        throw Error(path.string(), "", "can not be written: it is a folder", "name a file");
+    if (fs::exists(target, code) && access(target.c_str(), W_OK) != 0) throw unwritable(path, errno);
+}
+
+}  // namespace
 
 std::string readTextFile(const fs::path& path) {
     std::error_code code;
@@ -22,38 +137,93 @@ std::string readTextFile(const fs::path& path) {
     return content.str();
 }
 
-void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-    std::error_code code;
-    if (path.has_parent_path()) fs::create_directories(path.parent_path(), code);
-    fs::path temporary = path;
-    temporary.replace_filename("." + path.stem().string() + "." + std::to_string(getpid()) + ".part" +
-                               path.extension().string());
-    try {
-        write(temporary);
-        fs::rename(temporary, path);
-    } catch (const fs::filesystem_error&) {
-        fs::remove(temporary, code);
-        throw Error(path.string(), "", "can not be written",
-                    "check that the folder exists and has room and write permission");
-    } catch (...) {
-        fs::remove(temporary, code);
-        throw;
-    }
+bool isStandardOutput(const fs::path& path) {
+    for (const char* name : {"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"})
+        if (path == name) return true;
+    return false;
 }
 
-void writeTextFile(const fs::path& path, const std::string& content) {
-    writeFileAtomically(path, [&](const fs::path& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
-        out << content;
-        out.close();
-        if (!out)
-            throw Error(path.string(), "", "can not be written",
-                        "check that the folder exists and has room and write permission");
+void checkPlaceForFile(const fs::path& path) {
+    if (isStandardOutput(path)) return;
+    if (isStream(path)) {
+        if (access(path.c_str(), W_OK) != 0) throw unwritable(path, errno);
+        return;
+    }
+    const fs::path target = endOfLinks(path), probe = besides(target);
+    checkFolder(path, target);
+    try {
+        OpenFile(path, probe, O_CREAT | O_TRUNC);
+    } catch (const Error&) {
+        throw Error(path.string(), "",
+                    "can not be written: \"" + folderOf(target).string() + "\" takes no new file",
+                    kCheckPlace);
+    }
+    std::error_code code;
+    fs::remove(probe, code);
+}
+
+PendingFile::PendingFile(const fs::path& place) : mPlace(place) {
+    if (!isStandardOutput(place) && !isStream(place)) {
+        mTarget = endOfLinks(place);
+        checkFolder(place, mTarget);
+        mTemporary = besides(mTarget);
+        return;
+    }
+    std::error_code code;
+    std::string folder = (fs::temp_directory_path(code) / "stereonav-XXXXXX").string();
+    if (!mkdtemp(folder.data())) throw unwritable(folder, errno);
+    mOwnFolder = folder;
+    mTemporary = mOwnFolder / ("part" + place.extension().string());
+}
+
+PendingFile::~PendingFile() {
+    std::error_code code;
+    fs::remove(mTemporary, code);
+    if (!mOwnFolder.empty()) fs::remove_all(mOwnFolder, code);
+}
+
+void PendingFile::finish() {
+    std::error_code code;
+    if (mOwnFolder.empty()) {
+        if (const fs::file_status was = fs::status(mTarget, code); fs::is_regular_file(was))
+            fs::permissions(mTemporary, was.permissions(), code);
+        fs::rename(mTemporary, mTarget, code);
+        if (code) throw unwritable(mPlace, code.value());
+        return;
+    }
+    std::ifstream in(mTemporary, std::ios::binary);
+    if (!in) throw unwritable(mPlace, 0);
+    intoStream(mPlace, [&](const auto& write) {
+        std::string block(kBlock, '\0');
+        while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
+            write(block.data(), static_cast<std::size_t>(in.gcount()));
     });
 }
 
+void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+    PendingFile file(path);
+    try {
+        write(file.temporary());
+    } catch (const fs::filesystem_error& error) {
+        throw unwritable(path, error.code().value());
+    }
+    file.finish();
+}
+
+void writeTextFile(const fs::path& path, const std::string& content) {
+    if (isStandardOutput(path) || isStream(path))
+        return intoStream(path, [&](const auto& write) { write(content.data(), content.size()); });
+    PendingFile file(path);
+    OpenFile out(path, file.temporary(), O_CREAT | O_TRUNC);
+    out.write(content.data(), content.size());
+    out.finish();
+    file.finish();
+}
+
 fs::path cacheFolder() {
-    if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg) return fs::path(xdg) / "stereonav";
+    // Elsewhere than from the root its value does not count (XDG base directory specification).
+    if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg == '/')
+        return fs::path(xdg) / "stereonav";
     if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "stereonav";
     return fs::temp_directory_path() / "stereonav-cache";
 }

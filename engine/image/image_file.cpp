@@ -1,4 +1,5 @@
 // Picture files, handed on to their module; writing PNG and reading Radiance files need none.
+#include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/module.h"
 #include "engine/image/picture_module.h"
@@ -16,11 +17,6 @@ const PictureFunctions& pictures() {
 
 bool isPng(const std::string& extension) {
     return extension == ".png" || extension == ".PNG";
-}
-
-void writePng(const std::filesystem::path& file, const Plane<PackedColor>& image) {
-    const std::vector<unsigned char> bytes = pngBytes(image);
-    writeTextFile(file, {bytes.begin(), bytes.end()});
 }
 
 }  // namespace
@@ -43,8 +39,11 @@ LinearImage readLinearImage(const std::filesystem::path& file) {
 }
 
 void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image) {
-    if (isPng(file.extension().string())) return writePng(file, image);
-    pictures().writeColorImage(file, image);
+    const std::string extension = isStandardOutput(file) ? ".png" : file.extension().string();
+    if (extension.empty() || !canWritePicture(extension))
+        throw Error(file.string(), "", "can not be written as a picture", "use .png or .jpg");
+    const std::vector<unsigned char> bytes = encodeColorImage(image, extension);
+    writeTextFile(file, {bytes.begin(), bytes.end()});
 }
 
 bool canWritePicture(const std::string& extension) {

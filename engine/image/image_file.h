@@ -29,7 +29,8 @@ struct LinearImage {
 };
 LinearImage readLinearImage(const std::filesystem::path& file);
 
-// By extension (.png, .jpg, ...), 8-bit sRGB; written beside and renamed. Throws Error.
+// By extension (.png, .jpg, ...), 8-bit sRGB; "-" is PNG to standard output. Written as all files are
+// (engine/base/file.h). Throws Error.
 void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image);
 // Whether there is a way to write pictures with this extension, as in ".png".
 bool canWritePicture(const std::string& extension);

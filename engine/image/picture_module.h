@@ -10,7 +10,6 @@ struct PictureFunctions {
     decltype(&stereonav::decodeColorImage) decodeColorImage;
     decltype(&stereonav::encodeColorImage) encodeColorImage;
     decltype(&stereonav::readLinearImage) readLinearImage;  // but for .hdr
-    decltype(&stereonav::writeColorImage) writeColorImage;
     decltype(&stereonav::canWritePicture) canWritePicture;
 };
 

@@ -55,7 +55,7 @@ TEST_F(CentrelineCommand, BadOptionsGiveOneLineAndNoFile) {
     expectRefused({"centreline", "--out", "line.vtp"}, {"expected a CT study"});
     expectRefused({"centreline", "nowhere.nrrd", "--out", "line.vtp"}, {"nowhere.nrrd"});
     expectRefused({"centreline", mask, "--isosurface", "--out", "line.vtp"},
-                  {"--isosurface", "no centreline"});
+                  {"--isosurface", "centreline --help"});
 }
 
 }  // namespace

@@ -74,6 +74,7 @@ TEST_F(Commands, InfoCountsMissingSamples) {
 }
 
 TEST_F(Commands, RenderWritesThePictureAndNothingElse) {
+    fs::create_directories(place() / "deep/er");
     runWell({"render", hills(), "--size", "60x40", "--mode", "sbsl", "--out", "deep/er/pair.png"});
     runWell({"render", hills(), "--size", "60x40", "--mode", "arcd", "--pose", "-20,0,400,30,-20,5", "--out",
              "red.jpg"});

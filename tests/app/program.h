@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/own_cache.h"
+
 namespace stereonav::test {
 
 struct Outcome {
@@ -41,6 +43,7 @@ protected:
         ASSERT_NE(mkdtemp(pattern.data()), nullptr);
         mFolder = pattern;
         std::filesystem::create_directory(place());
+        useOwnCache();
     }
     void TearDown() override { std::filesystem::remove_all(mFolder); }
 

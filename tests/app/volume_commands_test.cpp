@@ -113,22 +113,29 @@ TEST_F(VolumeCommands, TheWayBackIsAnotherFlight) {
     EXPECT_EQ(hashOf({maskedTube(), "--no-cache"}), there);
 }
 
-// Grey values: the lumen is written beside the study, read back when the cache is gone, found again when the
-// file is damaged; what the commands make of it stays the same.
-TEST_F(VolumeCommands, TheLumenOfACtIsKeptBesideIt) {
+// Grey values: the lumen is kept in the cache, never beside the study; read back where what was found is
+// gone, found again where it is damaged; what the commands make of it stays the same.
+TEST_F(VolumeCommands, TheLumenOfACtIsKeptInTheCache) {
+    fs::create_directory(mFolder / "studies");
     const std::string study =
-        nrrd("ct.nrrd", {}, [](int i, int j, int k) { return inTube(i, j, k) ? -1000 : 40; });
-    const fs::path lumen = mFolder / "ct_lumen.nrrd";
+        nrrd("studies/ct.nrrd", {}, [](int i, int j, int k) { return inTube(i, j, k) ? -1000 : 40; });
+    const fs::path cache = mFolder / "cache/stereonav";
+    const auto keptAs = [&](const std::string& start) {
+        for (const auto& entry : fs::directory_iterator(cache))
+            if (entry.path().filename().string().starts_with(start)) return entry.path();
+        return fs::path();
+    };
     const auto openedSaying = [&](const std::string& words) {
-        fs::remove_all(mFolder / "cache");
         const Json volume = info({study}).at("volume");
         EXPECT_EQ(volume.at("kind"), "colon");
         std::string notes;
         for (const Json& note : volume.at("notes")) notes += note.get<std::string>() + "\n";
         EXPECT_NE(notes.find(words), std::string::npos) << notes;
+        fs::remove(keptAs("colon-"));
         return volume.at("segments").dump() + volume.at("centreline_mm").dump();
     };
-    const std::string first = openedSaying("lumen saved as " + lumen.string());
+    const std::string first = openedSaying("lumen kept as " + cache.string());
+    const fs::path lumen = keptAs("lumen-");
     ASSERT_TRUE(fs::exists(lumen));
     EXPECT_EQ(openedSaying("lumen read back from " + lumen.string()), first);
     const std::string whole = contentOf(lumen);
@@ -138,6 +145,23 @@ TEST_F(VolumeCommands, TheLumenOfACtIsKeptBesideIt) {
     EXPECT_EQ(info({lumen.string()}).at("volume").at("segments")[0].at("voxels"),
               Json::parse(first.substr(0, first.find(']') + 1))[0].at("voxels"))
         << "other programs, and this one, read it as a mask";
+    EXPECT_EQ(std::distance(fs::directory_iterator(mFolder / "studies"), fs::directory_iterator()), 1)
+        << "something was written beside the study";
+}
+
+// Every command on a study in a folder that nobody may write to leaves it as it is, cache or no cache.
+TEST_F(VolumeCommands, NothingIsWrittenBesideAnyStudy) {
+    fs::create_directory(mFolder / "studies");
+    const std::string ct =
+        nrrd("studies/ct.nrrd", {}, [](int i, int j, int k) { return inTube(i, j, k) ? -1000 : 40; });
+    for (const char* cache : {"cache", "no/cache"}) {
+        if (std::string(cache) == "no/cache") input("no", "a file where a folder should be");
+        setenv("XDG_CACHE_HOME", (mFolder / cache).c_str(), 1);
+        info({ct});
+        runWell({"render", ct, "--size", "32x24", "--out", "a.png"});
+        runWell({"centreline", ct, "--out", "a.txt"});
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(mFolder / "studies"), fs::directory_iterator()), 1);
 }
 
 TEST_F(VolumeCommands, AMaskOfSeveralLabelsOpensWithOne) {

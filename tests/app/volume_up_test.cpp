@@ -95,7 +95,7 @@ TEST_F(VolumeUp, RefusesWhatItCanNotMean) {
         expectRefused({"render", club(), "--up", axis, "--out", "a.png"}, {"--up", "x, -x, y, -y, z or -z"});
     for (const std::string& scene : {std::string("colon"), maskedTube()}) {
         expectRefused({"render", scene, "--up", "-z", "--out", "a.png"}, {"--up", "colon", "--isosurface"});
-        expectRefused({"centreline", scene, "--up", "x", "--out", "a.txt"}, {"--up", "colon"});
+        expectRefused({"centreline", scene, "--up", "x", "--out", "a.txt"}, {"--up", "centreline --help"});
     }
     EXPECT_NE(picture(maskedTube(), {"--up", "x", "--isosurface"}), "");
     std::filesystem::remove(place() / "up.png");

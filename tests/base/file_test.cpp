@@ -3,12 +3,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
+#include <utility>
 
 #include "engine/base/error.h"
 
@@ -16,6 +22,16 @@ namespace stereonav {
 namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+
+template <typename Call>
+std::string messageOf(const Call& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
 
 class FileTest : public testing::Test {
 protected:
@@ -50,9 +66,123 @@ TEST_F(FileTest, ReplacesWhatWasThere) {
     EXPECT_EQ(readTextFile(in("a.txt")), "short");
 }
 
-TEST_F(FileTest, MakesMissingFolders) {
-    writeTextFile(in("one/two/a.txt"), "x");
-    EXPECT_EQ(readTextFile(in("one/two/a.txt")), "x");
+TEST_F(FileTest, MissingFoldersAreNamedAndNotMade) {
+    for (const auto& [name, folder] : {std::pair{"one/a.txt", "one"}, {"one/two/a.txt", "one/two"}}) {
+        const std::string message = messageOf([&] { writeTextFile(in(name), "x"); });
+        EXPECT_THAT(message, HasSubstr("there is no folder \"" + in(folder).string() + "\""));
+        EXPECT_EQ(messageOf([&] { checkPlaceForFile(in(name)); }), message);
+    }
+    EXPECT_EQ(entries(), 0);
+}
+
+TEST_F(FileTest, TheCachesFolderAloneIsMade) {
+    const char* before = std::getenv("XDG_CACHE_HOME");
+    const std::string kept = before ? before : "";
+    setenv("XDG_CACHE_HOME", in("new/cache").c_str(), 1);
+    writeTextFile(cacheFolder() / "a.bin", "x");
+    EXPECT_EQ(readTextFile(cacheFolder() / "a.bin"), "x");
+    EXPECT_EQ(fs::status(cacheFolder()).permissions(), fs::perms::owner_all) << "others can look in";
+    EXPECT_THROW(writeTextFile(cacheFolder() / "below/a.bin", "x"), Error);
+    before ? setenv("XDG_CACHE_HOME", kept.c_str(), 1) : unsetenv("XDG_CACHE_HOME");
+}
+
+TEST_F(FileTest, KeepsThePermissionsOfWhatItReplaces) {
+    writeTextFile(in("a.txt"), "old");
+    fs::permissions(in("a.txt"), fs::perms(0640));
+    writeTextFile(in("a.txt"), "new");
+    EXPECT_EQ(fs::status(in("a.txt")).permissions(), fs::perms(0640));
+}
+
+TEST_F(FileTest, LinksAreWrittenThrough) {
+    fs::create_directories(in("far"));
+    writeTextFile(in("far/a.txt"), "old");
+    fs::create_symlink("far/a.txt", in("one.txt"));
+    fs::create_symlink(in("one.txt"), in("two.txt"));
+    fs::create_symlink("far/none.txt", in("new.txt"));
+    writeTextFile(in("two.txt"), "through two");
+    writeTextFile(in("new.txt"), "through one to nothing");
+    for (const char* link : {"one.txt", "two.txt", "new.txt"}) EXPECT_TRUE(fs::is_symlink(in(link))) << link;
+    EXPECT_EQ(readTextFile(in("far/a.txt")), "through two");
+    EXPECT_EQ(readTextFile(in("far/none.txt")), "through one to nothing");
+    writeFileAtomically(in("one.txt"), [&](const fs::path& temporary) {
+        EXPECT_EQ(temporary.parent_path(), in("far")) << "not beside the target";
+        std::ofstream(temporary) << "by a writer";
+    });
+    EXPECT_EQ(readTextFile(in("far/a.txt")), "by a writer");
+    EXPECT_EQ(entries(), 6);
+}
+
+TEST_F(FileTest, LinksThatLeadNowhereAreNamed) {
+    fs::create_symlink("b", in("a"));
+    fs::create_symlink("a", in("b"));
+    fs::create_symlink("none/file", in("c"));
+    EXPECT_THAT(messageOf([&] { writeTextFile(in("a"), "x"); }), HasSubstr("leads nowhere"));
+    EXPECT_THAT(messageOf([&] { writeTextFile(in("c"), "x"); }), HasSubstr("there is no folder"));
+    EXPECT_EQ(entries(), 3);
+}
+
+TEST_F(FileTest, PipesAreWrittenInto) {
+    ASSERT_EQ(mkfifo(in("pipe.txt").c_str(), 0600), 0);
+    EXPECT_NO_THROW(checkPlaceForFile(in("pipe.txt")));
+    for (const bool whole : {true, false}) {
+        std::string read;
+        std::thread reader([&] { read = readTextFile(in("pipe.txt")); });
+        if (whole)
+            writeTextFile(in("pipe.txt"), "a line");
+        else
+            writeFileAtomically(in("pipe.txt"), [&](const fs::path& temporary) {
+                EXPECT_EQ(temporary.extension(), ".txt");
+                std::ofstream(temporary) << "a line";
+            });
+        reader.join();
+        EXPECT_EQ(read, "a line");
+        EXPECT_TRUE(fs::is_fifo(in("pipe.txt")));
+    }
+    EXPECT_EQ(entries(), 1);
+}
+
+// As the superuser too, who could put a file in its place.
+TEST_F(FileTest, AFullDeviceIsAnErrorAndStays) {
+    fs::create_symlink("/dev/full", in("link"));
+    for (const fs::path& place : {fs::path("/dev/full"), in("link")}) {
+        EXPECT_THAT(messageOf([&] { writeTextFile(place, "x"); }), HasSubstr("No space left"));
+        const auto writer = [](const fs::path& temporary) { std::ofstream(temporary) << "x"; };
+        EXPECT_THAT(messageOf([&] { writeFileAtomically(place, writer); }), HasSubstr("No space left"));
+    }
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+    EXPECT_TRUE(fs::is_symlink(in("link")));
+    EXPECT_NO_THROW(writeTextFile("/dev/null", "x"));
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+// What a full disk does to a file that is written in one go or by a writer of its own: a limit stands for it.
+TEST_F(FileTest, AFullDiskLeavesTheOldFile) {
+    writeTextFile(in("a.txt"), "old");
+    const pid_t child = fork();
+    if (child == 0) {
+        signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{1000, 1000};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        const std::string message = messageOf([&] { writeTextFile(in("a.txt"), std::string(5000, 'x')); });
+        _exit(message.find("a.txt: can not be written: File too large") != std::string::npos ? 0 : 1);
+    }
+    int status = 1;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(readTextFile(in("a.txt")), "old");
+    EXPECT_EQ(entries(), 1);
+}
+
+TEST(StandardOutput, HasSeveralNames) {
+    for (const char* name : {"-", "/dev/stdout", "/dev/fd/1"}) EXPECT_TRUE(isStandardOutput(name)) << name;
+    for (const char* name : {"", "./-", "--", "a-", "/dev/stderr"})
+        EXPECT_FALSE(isStandardOutput(name)) << name;
+    testing::internal::CaptureStdout();
+    std::printf("before ");
+    writeTextFile("-", "a line");
+    writeFileAtomically("-", [](const fs::path& temporary) { std::ofstream(temporary) << ", another"; });
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "before a line, another");
+    EXPECT_FALSE(fs::exists("-"));
 }
 
 TEST_F(FileTest, TemporaryLiesBesideWithTheSameExtension) {
@@ -120,9 +250,11 @@ TEST(CacheFolder, FollowsTheEnvironment) {
     const std::string kept = before ? before : "";
     setenv("XDG_CACHE_HOME", "/some/where", 1);
     EXPECT_EQ(cacheFolder(), fs::path("/some/where/stereonav"));
-    setenv("XDG_CACHE_HOME", "", 1);
-    EXPECT_EQ(cacheFolder().filename().string().rfind("stereonav", 0), 0u);
-    EXPECT_TRUE(cacheFolder().is_absolute());
+    for (const char* none : {"", "some/where"}) {
+        setenv("XDG_CACHE_HOME", none, 1);
+        EXPECT_EQ(cacheFolder().filename().string().rfind("stereonav", 0), 0u);
+        EXPECT_TRUE(cacheFolder().is_absolute());
+    }
     before ? setenv("XDG_CACHE_HOME", kept.c_str(), 1) : unsetenv("XDG_CACHE_HOME");
 }
 

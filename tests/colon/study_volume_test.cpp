@@ -219,6 +219,7 @@ TEST(StudyMask, IsWrittenAndReadBackEqual) {
     unsigned state = 1;
     for (std::size_t n = 0; n < frame.count(); ++n)
         mask.values[n] = (state = state * 1664525 + 1013904223) >> 30 == 0;
+    fs::create_directory(folder / "new");
     writeMask(folder / "new" / "m.nrrd", mask, "made\nby a test");
     const Study study = read(folder / "new/m.nrrd");
     ASSERT_TRUE(study.isMask);

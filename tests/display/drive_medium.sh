@@ -7,21 +7,15 @@
 shift 2
 
 open_window "$@"
-sleep 1
 shot start
 keys i
-sleep 1
-shot emission
+settled emission start
 keys i i i
-sleep 1
-shot again
+settled again emission
 keys k k k k k k k k k k k k k k k k k k k k
-sleep 1
-shot turned
+settled turned again
 keys n
-sleep 1
-shot two_sweeps
+settled two_sweeps
 hold w 0.8
-sleep 2
-shot flown
+settled flown two_sweeps
 close_window

@@ -14,10 +14,8 @@ for sweep in $sweeps; do
     shots=$out/shots
     mkdir -p "$shots"
     open_window "$@" --sweep "$sweep"
-    sleep 1
     shot indirect
     keys i i
-    sleep 1
-    shot surface
+    settled surface indirect
     close_window
 done

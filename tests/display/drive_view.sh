@@ -4,17 +4,20 @@
 # Leaves pictures (one for each step, named in steps.txt), the window's own pixels, the log and the
 # exit status in FOLDER; view_window_test.cpp judges them.
 . "$(dirname "$0")/drive_window.sh"
-rest() { sleep 2.5; }
+# The window's own pixels: it is drawn after its picture was made.
+pixels() {
+    sleep 1
+    import -window "$window" "$out/$1.png" 2>/dev/null
+}
 
 open_window terrain --method cubic
-sleep 1
-shot start
+settled start
 keys x
 shot swapped F12
 keys x
 keys 9
 shot anaglyph
-import -window "$window" "$out/window_anaglyph.png" 2>/dev/null
+pixels window_anaglyph
 keys m
 shot anaglyph_next
 keys 0
@@ -25,38 +28,32 @@ keys 3
 keys 5
 shot top_bottom
 keys 1
-sleep 0.5
-import -window "$window" "$out/window_side_by_side.png" 2>/dev/null
+shot side_by_side
+pixels window_side_by_side
 hold w 1.0
-rest
-shot moved
+settled moved side_by_side
 keys bracketright bracketright bracketright bracketright
-rest
-shot separated
+settled separated moved
 keys z
-hold Right 1.0
-rest
+hold Right 3.0
+settled turned separated
 keys z
 shot recorded
 keys Z
-sleep 0.9
+sleep 0.5
 shot playing
-sleep 5
-shot played
+settled played playing
 xdotool mousemove --window "$window" 200 100
 xdotool mousedown 1
 sleep 0.2
 xdotool mousemove_relative -- 60 20
 sleep 0.2
 xdotool mouseup 1
-rest
-shot dragged
+settled dragged played
 keys space
-rest
-shot home
+settled home dragged
 xdotool windowsize "$window" 500 200
-sleep 1
-shot resized
+settled resized home
 keys F1
 sleep 0.5
 close_window

@@ -6,39 +6,36 @@
 . "$(dirname "$0")/drive_window.sh"
 shift 2
 
+# A colon has one wall; that of other volumes moves.
+case "$*" in
+    *--isosurface*) moves() { settled "$1" "$2"; } ;;
+    *) moves() { settled "$1"; } ;;
+esac
+
 open_window "$@"
-sleep 3
-shot start
+settled start
 hold w 0.6
-sleep 3
-shot flown
+settled flown start
 keys period period period period period period period period
-sleep 2
-shot surface
+moves surface flown
 keys t
-sleep 3
-shot translucent
+settled translucent surface
 keys t
-sleep 3
+settled opaque translucent
 keys v
-sleep 2
-shot axial
+settled axial opaque
 xdotool mousemove --window "$window" 160 120
 sleep 0.2
 xdotool mousedown 1
 sleep 0.15
 xdotool mouseup 1
-sleep 0.5
-shot seeded
+settled seeded axial
 keys Next Next Next Next
-sleep 0.3
-shot paged
+settled paged seeded
 keys v
-sleep 0.3
-shot coronal
+settled coronal paged
 keys Return
 sleep 3
 keys Escape
-sleep 1
-shot back
+settled back coronal
 close_window

@@ -25,41 +25,72 @@ open_window() {
     "$program" view "$@" --size 320x240 --mode sbsl --shots "$shots" >"$out/log.txt" 2>&1 &
     pid=$!
     window=
-    for _ in $(seq 300); do
+    for _ in $(seq 1200); do
         window=$(xdotool search --onlyvisible --name '^stereonav' 2>/dev/null | head -n 1)
         [ -n "$window" ] && break
         kill -0 "$pid" 2>/dev/null || fail "the program ended before its window opened"
         sleep 0.1
     done
-    [ -n "$window" ] || fail "no window within 30 seconds"
+    [ -n "$window" ] || fail "no window within two minutes"
     xdotool windowfocus --sync "$window"
     # Keys that come while the scene loads are dropped: ask until the first picture is there.
-    for _ in $(seq 120); do
-        keys p
-        sleep 0.5
+    for n in $(seq 1200); do
+        [ $((n % 20)) -eq 1 ] && keys p
+        sleep 0.1
         [ "$(pictures)" -gt 0 ] && break
         kill -0 "$pid" 2>/dev/null || fail "the program ended while it loaded"
     done
+    [ "$(pictures)" -gt 0 ] || fail "no picture within two minutes"
+    # Those that were asked for once it was loaded, so that none of them is taken for a step's.
+    local before=0
+    while [ "$(pictures)" -gt "$before" ]; do
+        before=$(pictures)
+        sleep 2
+    done
 }
 
-# shot STEP [KEY]: the picture after everything pressed so far, named in steps.txt.
-shot() {
+# take [KEY]: the picture after everything pressed so far; its file in $picture.
+take() {
     local before
     before=$(pictures)
-    keys "${2:-p}"
-    for _ in $(seq 600); do
+    keys "${1:-p}"
+    for _ in $(seq 1200); do
         [ "$(pictures)" -gt "$before" ] && break
-        kill -0 "$pid" 2>/dev/null || fail "the program ended before the picture of step $1"
+        kill -0 "$pid" 2>/dev/null || fail "the program ended before a picture"
         sleep 0.05
     done
-    [ "$(pictures)" -gt "$before" ] || fail "no picture for step $1"
-    echo "$1 $(find "$shots" -name 'stereonav_*.png' | sort | tail -n 1)" >>"$out/steps.txt"
+    [ "$(pictures)" -gt "$before" ] || fail "no picture within a minute"
+    picture=$(find "$shots" -name 'stereonav_*.png' | sort | tail -n 1)
+}
+
+# shot STEP [KEY]: the picture at once, named in steps.txt: of what keys change in the next picture.
+shot() {
+    take "${2:-p}"
+    echo "$1 $picture" >>"$out/steps.txt"
+}
+
+# settled STEP [OTHER]: the picture once three in a row are the same, named in steps.txt: of what moves by itself, or
+# takes longer than a picture. Not before it differs from that of step OTHER.
+settled() {
+    local same=0 last='' other=''
+    [ $# -gt 1 ] && other=$(sed -n "s/^$2 //p" "$out/steps.txt")
+    for _ in $(seq 100); do
+        take
+        if [ -n "$last" ] && cmp -s "$last" "$picture"; then same=$((same + 1)); else same=0; fi
+        if [ "$same" -ge 2 ] && ! { [ -n "$other" ] && cmp -s "$other" "$picture"; }; then
+            echo "$1 $picture" >>"$out/steps.txt"
+            return
+        fi
+        last=$picture
+        sleep 0.3
+    done
+    fail "step $1 does not come to rest${2:+, or shows what step $2 does}"
 }
 
 # Escape, and the exit status in status.txt.
 close_window() {
     keys Escape
-    for _ in $(seq 200); do
+    for _ in $(seq 1200); do
         kill -0 "$pid" 2>/dev/null || break
         sleep 0.05
     done

@@ -28,7 +28,7 @@ TEST_F(ViewWindow, ObeysKeysAndMouse) {
         shots[step] = readColorImage(file);
         names[step] = file.stem().string().substr(std::string("stereonav_0001_").size());
     }
-    ASSERT_EQ(shots.size(), 15u);
+    ASSERT_EQ(shots.size(), 17u);
     const Picture& start = shots["start"];
     ASSERT_EQ(start.width(), 640);
     ASSERT_EQ(start.height(), 240);
@@ -49,11 +49,14 @@ TEST_F(ViewWindow, ObeysKeysAndMouse) {
     EXPECT_GT(difference(shots["anaglyph"], shots["left"]), kDifferent);
     EXPECT_GT(difference(shots["one_eye"], shots["left"]), 0.1) << "the head lies between the eyes";
 
+    EXPECT_EQ(difference(start, shots["side_by_side"]), 0.0) << "back in the first mode";
+
     // Flight and stereo settings change the picture; keys that change nothing do not.
     EXPECT_GT(difference(start, shots["moved"]), kDifferent);
     EXPECT_GT(difference(shots["moved"], shots["separated"]), 0.1);
     EXPECT_GT(difference(shots["separated"], shots["recorded"]), kDifferent);
     EXPECT_GT(difference(shots["playing"], shots["recorded"]), kDifferent);
+    EXPECT_LT(difference(shots["turned"], shots["recorded"]), kSame) << "the end of recording moves nothing";
     EXPECT_LT(difference(shots["played"], shots["recorded"]), kSame) << "the flight ends where it ended";
     EXPECT_GT(difference(shots["dragged"], shots["played"]), kDifferent);
     EXPECT_GT(difference(shots["home"], shots["dragged"]), kDifferent);

@@ -67,7 +67,7 @@ protected:
         const std::string display = std::to_string(200 + getpid() % 30000);
         const std::string command =
             "XDG_CACHE_HOME='" + mFolder.string() + "/cache' xvfb-run -a -n " + display +
-            " -s '-screen 0 1280x1024x24' "
+            " -s '-noreset -screen 0 1280x1024x24' "
             "'" STEREONAV_SOURCE_DIR "/tests/display/" +
             script + "' '" STEREONAV_PROGRAM "' '" + mFolder.string() + "' " + arguments;
         const int status = std::system(command.c_str());

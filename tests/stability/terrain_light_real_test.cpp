@@ -10,6 +10,7 @@
 #include "terrain/terrain_loader.h"
 #include "terrain/terrain_path_light.h"
 #include "terrain/terrain_renderer.h"
+#include "tests/support/own_cache.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav {

@@ -10,6 +10,7 @@
 #include "terrain/terrain_loader.h"
 #include "terrain/terrain_renderer.h"
 #include "tests/stability/stability_scenes.h"
+#include "tests/support/own_cache.h"
 #include "tests/support/stability_row.h"
 #include "tests/support/test_grounds.h"
 #include "tests/terrain/raster_files.h"

@@ -14,6 +14,7 @@
 #include "terrain/scene_file.h"
 #include "terrain/terrain_loader.h"
 #include "terrain/terrain_renderer.h"
+#include "tests/support/own_cache.h"
 
 namespace stereonav {
 namespace {

@@ -13,6 +13,7 @@
 #include "terrain/plain_caster.h"
 #include "terrain/terrain_loader.h"
 #include "terrain/terrain_renderer.h"
+#include "tests/support/own_cache.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav {

@@ -6,6 +6,7 @@
 
 #include "raster_files.h"
 #include "terrain/landmark.h"
+#include "tests/support/own_cache.h"
 
 namespace stereonav {
 namespace {

@@ -18,6 +18,7 @@
 #include "terrain/mesh_triangulation.h"
 #include "terrain/terrain_loader.h"
 #include "tests/camera/temporary_folder.h"
+#include "tests/support/own_cache.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav {

@@ -120,20 +120,6 @@ static LinearImage decodeLinearImage(const std::filesystem::path& file) {
     return linear;
 }
 
-void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image) {
-    const cv::Mat bytes = bytesFromPlane(image);
-    writeFileAtomically(file, [&](const std::filesystem::path& temporary) {
-        bool written = false;
-        try {
-            written = cv::imwrite(temporary.string(), bytes);
-        } catch (const cv::Exception&) {
-        }
-        if (!written)
-            throw Error(file.string(), "", "can not be written as a picture",
-                        "use .png or .jpg and a folder that can be written");
-    });
-}
-
 bool canWritePicture(const std::string& extension) {
     try {
         return cv::haveImageWriter("picture" + extension);
@@ -142,8 +128,8 @@ bool canWritePicture(const std::string& extension) {
     }
 }
 
-static constexpr PictureFunctions kFunctions = {readColorImage,    decodeColorImage, encodeColorImage,
-                                                decodeLinearImage, writeColorImage,  canWritePicture};
+static constexpr PictureFunctions kFunctions = {readColorImage, decodeColorImage, encodeColorImage,
+                                                decodeLinearImage, canWritePicture};
 const ModuleEntry stereonavModule = moduleEntry(kFunctions);
 
 }  // namespace stereonav

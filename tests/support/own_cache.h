@@ -1,0 +1,21 @@
+// Tests keep what they make out of the user's cache: in a folder of the build, which all tests share, so that
+// built-in scenes are made once; those that look at the cache itself set one of their own.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace stereonav::test {
+
+inline void useOwnCache() {
+    const std::filesystem::path build = std::filesystem::path(STEREONAV_PROGRAM).parent_path().parent_path();
+    const std::filesystem::path cache = build / "test_cache";
+    std::error_code code;
+    std::filesystem::create_directories(cache, code);
+    setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+}
+
+// To include this is enough.
+inline const bool kOwnCacheUsed = (useOwnCache(), true);
+
+}  // namespace stereonav::test
