@@ -9,11 +9,18 @@
 namespace stereonav::STEREONAV_ISA {
 namespace {
 
-// Not inlined: all kinds of rays go through one copy.
+// Not inlined: all rays of a kind go through one copy.
+template <bool Places, bool Limited>
+__attribute__((noinline)) void traceAll(const PathVolume& volume, const PathField& field, PathStore& store,
+                                        const RayQueue& queue) {
+    RayTracer<Places, Limited>(volume, field, store, queue).run();
+}
 template <bool Places>
-__attribute__((noinline)) void traceRays(const PathVolume& volume, const PathField& field, PathStore& store,
-                                         const RayQueue& queue) {
-    RayTracer(volume, field, store, queue).template run<Places>();
+void traceRays(const PathVolume& volume, const PathField& field, PathStore& store, const RayQueue& queue) {
+    if (queue.limit)
+        traceAll<Places, true>(volume, field, store, queue);
+    else
+        traceAll<Places, false>(volume, field, store, queue);
 }
 
 class Wave {
