@@ -41,9 +41,11 @@ STEREONAV_INLINE int lanesIn(M m) {
 }
 
 // The values of cells at their corners less the isovalue.
-STEREONAV_INLINE Corners cornersIn(const PathVolume& volume, const I3& cell, F isovalue, M m) {
+STEREONAV_INLINE I firstCorner(const PathVolume& volume, const I3& cell) {
+    return (cell.z * I(volume.size[1]) + cell.y) * I(volume.size[0]) + cell.x;
+}
+STEREONAV_INLINE Corners cornersFrom(const PathVolume& volume, I index, F isovalue, M m) {
     const I row(volume.size[0]), slice(volume.size[0] * volume.size[1]);
-    const I index = (cell.z * I(volume.size[1]) + cell.y) * row + cell.x;
     const I at[4] = {index, index + row, index + slice, index + slice + row};
     Corners corners;
     for (int n = 0; n < 4; ++n) {
@@ -52,6 +54,10 @@ STEREONAV_INLINE Corners cornersIn(const PathVolume& volume, const I3& cell, F i
         corners.v[2 * n + 1] = toFloat(shiftRight<16>(both)) - isovalue;
     }
     return corners;
+}
+
+STEREONAV_INLINE Corners cornersIn(const PathVolume& volume, const I3& cell, F isovalue, M m) {
+    return cornersFrom(volume, firstCorner(volume, cell), isovalue, m);
 }
 
 // Rays along one axis. Those towards smaller cells are mirrored (cell c is `flip` ^ c), so that all go
@@ -104,6 +110,7 @@ struct Rays3 {
     F t, limit, isovalue;
     I path, field;
     I block, octant;  // where the walking ones are
+    I corner;         // of the cells
     M walking, fresh, parked;
 };
 
@@ -121,6 +128,9 @@ struct EndCells {
 constexpr int kRaysAtOnce = 48;
 constexpr int kPackets = kRaysAtOnce / kLanes > 2 ? kRaysAtOnce / kLanes : 2;
 constexpr int kRefill = kLanes / 4 > 0 ? kLanes / 4 : 1;  // idle lanes that are worth filling
+// Whether corners are fetched before they are asked for. Sixteen lanes ask for so many at once that it costs
+// more than it saves.
+constexpr bool kFetchAhead = kLanes <= 8;
 // Walking lanes for each that waits, below which these do not wait any longer.
 constexpr int kWorthWaiting = 2;
 
@@ -164,7 +174,7 @@ private:
         const I none(0);
         const Rail rail{zero, one, one, zero, none, none, none, none, none, none};
         const M no = maskFromBits(0);
-        return {rail, rail, rail, zero, zero, zero, none, none, none, none, no, no, no};
+        return {rail, rail, rail, zero, zero, zero, none, none, none, none, none, no, no, no};
     }
 
     // Whether lanes that wait (for their cells to be tried, or for a ray) may wait for those that walk.
@@ -233,11 +243,13 @@ private:
         r.fresh = maskFromBits(0);
         const I one(1), less(mField.shift - 1);
         // Octants, and with one bit less blocks.
-        const I3 octant{shiftRight(r.x.at ^ r.x.flip, less), shiftRight(r.y.at ^ r.y.flip, less),
-                        shiftRight(r.z.at ^ r.z.flip, less)};
+        const I3 cell{r.x.at ^ r.x.flip, r.y.at ^ r.y.flip, r.z.at ^ r.z.flip};
+        r.corner = firstCorner(mVolume, cell);
+        const I3 octant{shiftRight(cell.x, less), shiftRight(cell.y, less), shiftRight(cell.z, less)};
         const I3 block{shiftRight<1>(octant.x), shiftRight<1>(octant.y), shiftRight<1>(octant.z)};
         const I index = (block.z * I(mField.across[1]) + block.y) * I(mField.across[0]) + block.x;
         r.block = index + r.field;
+        if constexpr (kFetchAhead) fetchBlocks(keep(r.walking, r.block));
         r.octant = (octant.x & one) | shiftLeft<1>(octant.y & one) | shiftLeft<2>(octant.z & one);
     }
 
@@ -252,6 +264,7 @@ private:
         const M here = andNot(r.walking & full, leaps);
         r.parked = r.parked | here;
         r.walking = andNot(r.walking, here);
+        if constexpr (kFetchAhead) fetchAhead(keep(here, r.corner));
         // Boxes of whole blocks, of an octant, or, where something is to be tried, of a cell.
         const I half(1 << (mField.shift - 1));
         const I side = half - keep(r.parked, half - one) + keep(leaps, half);
@@ -259,6 +272,26 @@ private:
         r.x.plane = (r.x.at & low) + count;
         r.y.plane = (r.y.at & low) + count;
         r.z.plane = (r.z.at & low) + count;
+    }
+
+    STEREONAV_INLINE void fetchBlocks(I block) const {
+        alignas(64) std::int32_t lanes[kLanes];
+        store(lanes, block);
+        for (const std::int32_t lane : lanes) __builtin_prefetch(mField.blocks + 2 * std::int64_t{lane});
+    }
+    // Corners that will be asked for when it is their packet's turn. All lanes alike: a loop over those that
+    // need it would be guessed wrong.
+    STEREONAV_INLINE void fetchAhead(I corner) const {
+        alignas(64) std::int32_t lanes[kLanes];
+        store(lanes, corner);
+        const std::int64_t row = mVolume.size[0], slice = row * mVolume.size[1];
+        for (int k = 0; k < kLanes; ++k) {
+            const std::int16_t* first = mVolume.values + lanes[k];
+            __builtin_prefetch(first);
+            __builtin_prefetch(first + row);
+            __builtin_prefetch(first + slice);
+            __builtin_prefetch(first + slice + row);
+        }
     }
 
     // Rays whose cells hold nothing walk on.
@@ -277,7 +310,7 @@ private:
         const V3 start{place(r.x, fromX), place(r.y, fromY), place(r.z, fromZ)};
         const V3 way{span * r.x.direction, span * r.y.direction, span * r.z.direction};
         const I3 cell{r.x.at ^ r.x.flip, r.y.at ^ r.y.flip, r.z.at ^ r.z.flip};
-        const Cubic cubic = cubicAlong(cornersIn(mVolume, cell, r.isovalue, r.parked), start, way);
+        const Cubic cubic = cubicAlong(cornersFrom(mVolume, r.corner, r.isovalue, r.parked), start, way);
         const M ends = hasRoot(cubic, r.parked);
         if (any(ends)) {
             keepEnds(r.path, cubic, in, span, start, way, cell, ends);

@@ -239,25 +239,31 @@ STEREONAV_INLINE I gatherHalves(const void* base, I index, M m) {
     return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), static_cast<const int*>(base), index.v,
                                        _mm256_castps_si256(m.v), 2);
 }
-// Lanes of m to base[index]; indices differ.
-STEREONAV_INLINE void scatter(std::int32_t* base, I index, I a, M m) {
-    alignas(32) std::int32_t values[kLanes], places[kLanes];
-    _mm256_store_si256(reinterpret_cast<__m256i*>(values), a.v);
-    _mm256_store_si256(reinterpret_cast<__m256i*>(places), index.v);
-    for (std::uint32_t left = bits(m); left; left &= left - 1) {
+template <typename T>
+STEREONAV_INLINE void scatterStored(T* base, const std::int32_t* places, const T* values, M m) {
+    std::uint32_t left = bits(m);
+    if (left == 0xff) {  // mostly so, and then without a loop to guess the end of
+        for (int k = 0; k < kLanes; ++k) base[places[k]] = values[k];
+        return;
+    }
+    for (; left; left &= left - 1) {
         const int k = __builtin_ctz(left);
         base[places[k]] = values[k];
     }
 }
+// Lanes of m to base[index]; indices differ.
+STEREONAV_INLINE void scatter(std::int32_t* base, I index, I a, M m) {
+    alignas(32) std::int32_t values[kLanes], places[kLanes];
+    store(values, a);
+    store(places, index);
+    scatterStored(base, places, values, m);
+}
 STEREONAV_INLINE void scatter(float* base, I index, F a, M m) {
     alignas(32) float values[kLanes];
     alignas(32) std::int32_t places[kLanes];
-    _mm256_store_ps(values, a.v);
-    _mm256_store_si256(reinterpret_cast<__m256i*>(places), index.v);
-    for (std::uint32_t left = bits(m); left; left &= left - 1) {
-        const int k = __builtin_ctz(left);
-        base[places[k]] = values[k];
-    }
+    store(values, a);
+    store(places, index);
+    scatterStored(base, places, values, m);
 }
 // By mask: of eight lanes in a byte each, those of the mask first, and where in the mask's order each is.
 struct LaneOrders {
