@@ -9,11 +9,18 @@
 namespace stereonav::STEREONAV_ISA {
 namespace {
 
-// Not inlined: all kinds of rays go through one copy.
+// Not inlined: all rays of a kind go through one copy.
+template <bool Places, bool Limited>
+__attribute__((noinline)) void traceAll(const PathVolume& volume, const PathField& field, PathStore& store,
+                                        const RayQueue& queue) {
+    RayTracer<Places, Limited>(volume, field, store, queue).run();
+}
 template <bool Places>
-__attribute__((noinline)) void traceRays(const PathVolume& volume, const PathField& field, PathStore& store,
-                                         const RayQueue& queue) {
-    RayTracer(volume, field, store, queue).template run<Places>();
+void traceRays(const PathVolume& volume, const PathField& field, PathStore& store, const RayQueue& queue) {
+    if (queue.limit)
+        traceAll<Places, true>(volume, field, store, queue);
+    else
+        traceAll<Places, false>(volume, field, store, queue);
 }
 
 class Wave {
@@ -22,10 +29,8 @@ public:
         : mVolume(volume), mField(field), mLights(lights), mStore(store) {}
 
     void begin(const PathStart* starts, int texels, int samples) {
-        int path = 0;
-        for (int n = 0; n < texels; ++n)
-            for (int s = 0; s < samples; ++s, ++path) beginOne(starts[n], s, path);
-        mCount = path;
+        for (int n = 0; n < texels; ++n) beginTexel(starts[n], n * samples, samples);
+        mCount = texels * samples;
     }
 
     // Leaves in `light` what each sample brings.
@@ -41,19 +46,25 @@ public:
     }
 
 private:
-    void beginOne(const PathStart& start, int sample, int path) {
+    // Rows one after the other: whole vectors of the same number.
+    void beginTexel(const PathStart& start, int first, int samples) {
+        const auto fill = [&](auto* row, auto value) {
+            for (int s = 0; s < samples; ++s) row[first + s] = value;
+        };
         for (int k = 0; k < 3; ++k) {
-            mStore.cell[k][path] = start.cell[k];
-            mStore.local[k][path] = start.local[k];
-            mStore.normal[k][path] = start.normal[k];
-            mStore.throughput[k][path] = 1;
-            mStore.light[k][path] = 0;
+            fill(mStore.cell[k], start.cell[k]);
+            fill(mStore.local[k], start.local[k]);
+            fill(mStore.normal[k], start.normal[k]);
+            fill(mStore.throughput[k], 1.0f);
+            fill(mStore.light[k], 0.0f);
         }
-        mStore.isovalue[path] = start.isovalue;
-        mStore.field[path] = start.field;
-        mStore.key[path] = static_cast<std::int32_t>(start.key);
-        mStore.sample[path] = static_cast<std::int32_t>(start.firstSample) + sample;
-        mStore.alive[path] = path;
+        fill(mStore.isovalue, start.isovalue);
+        fill(mStore.field, start.field);
+        fill(mStore.key, static_cast<std::int32_t>(start.key));
+        for (int s = 0; s < samples; ++s) {
+            mStore.sample[first + s] = static_cast<std::int32_t>(start.firstSample) + s;
+            mStore.alive[first + s] = first + s;
+        }
     }
 
     template <typename AtVertex, typename Ended>
@@ -287,7 +298,12 @@ private:
             if (any(hit)) append(mStore.next, count, path, reflect(path, vertex, hit));
         });
         for (int n = 0; n < count; n += kLanes) store(mStore.alive + n, loadI(mStore.next + n));
-        eachPacket(mStore.alive, count, [&](I path, M m) { settle(path, m); });
+        for (int n = 0; n < count; n += kLanes) {
+            const int ahead = n + kAhead;
+            if (kFetchAhead && ahead < count)
+                fetchAround(loadI(mStore.alive + ahead), firstLanes(count - ahead));
+            settle(loadI(mStore.alive + n), firstLanes(count - n));
+        }
         mAlive = count;
     }
 
@@ -311,6 +327,18 @@ private:
         return on;
     }
 
+    // The voxels that settle() will read, of which most are in no near cache yet.
+    STEREONAV_INLINE void fetchAround(I path, M m) const {
+        alignas(64) std::int32_t corners[kLanes];
+        store(corners, keep(m, firstCorner(mVolume, gatherRows(mStore.metCell, path, m))));
+        const std::int64_t row = mVolume.size[0], slice = row * mVolume.size[1];
+        for (const std::int32_t corner : corners) {
+            const std::int16_t* first = mVolume.values + corner;
+            for (int z = -1; z <= 2; ++z)
+                for (int y = -1; y <= 2; ++y) __builtin_prefetch(first + z * slice + y * row);
+        }
+    }
+
     STEREONAV_INLINE void settle(I path, M m) {
         const Place met{gatherRows(mStore.metCell, path, m), gatherRows(mStore.metLocal, path, m)};
         const F isovalue = gatherRow(mStore.isovalue, path, m);
@@ -326,6 +354,7 @@ private:
     }
 
     // PathPair of path_numbers.h
+    static constexpr int kAhead = 4 * kLanes;  // paths by which their voxels are fetched ahead
     static constexpr int kPairs = 3, kDirectionPair = 0, kProbePair = 1, kRoulettePair = 2;
 
     const PathVolume& mVolume;

@@ -99,6 +99,10 @@ STEREONAV_INLINE M operator>=(F a, F b) {
 STEREONAV_INLINE F select(M m, F yes, F no) {
     return _mm256_blendv_ps(no.v, yes.v, m.v);
 }
+// 0 where m is clear; cheaper than select.
+STEREONAV_INLINE F keep(M m, F a) {
+    return _mm256_and_ps(m.v, a.v);
+}
 STEREONAV_INLINE F loadF(const float* p) {
     return _mm256_loadu_ps(p);
 }
@@ -172,6 +176,9 @@ STEREONAV_INLINE M operator==(I a, I b) {
 STEREONAV_INLINE I select(M m, I yes, I no) {
     return _mm256_blendv_epi8(no.v, yes.v, _mm256_castps_si256(m.v));
 }
+STEREONAV_INLINE I keep(M m, I a) {
+    return _mm256_and_si256(_mm256_castps_si256(m.v), a.v);
+}
 STEREONAV_INLINE F toFloat(I a) {
     return _mm256_cvtepi32_ps(a.v);
 }
@@ -232,25 +239,57 @@ STEREONAV_INLINE I gatherHalves(const void* base, I index, M m) {
     return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), static_cast<const int*>(base), index.v,
                                        _mm256_castps_si256(m.v), 2);
 }
-// Lanes of m to base[index]; indices differ.
-STEREONAV_INLINE void scatter(std::int32_t* base, I index, I a, M m) {
-    alignas(32) std::int32_t values[kLanes], places[kLanes];
-    _mm256_store_si256(reinterpret_cast<__m256i*>(values), a.v);
-    _mm256_store_si256(reinterpret_cast<__m256i*>(places), index.v);
-    for (std::uint32_t left = bits(m); left; left &= left - 1) {
+template <typename T>
+STEREONAV_INLINE void scatterStored(T* base, const std::int32_t* places, const T* values, M m) {
+    std::uint32_t left = bits(m);
+    if (left == 0xff) {  // mostly so, and then without a loop to guess the end of
+        for (int k = 0; k < kLanes; ++k) base[places[k]] = values[k];
+        return;
+    }
+    for (; left; left &= left - 1) {
         const int k = __builtin_ctz(left);
         base[places[k]] = values[k];
     }
 }
+// Lanes of m to base[index]; indices differ.
+STEREONAV_INLINE void scatter(std::int32_t* base, I index, I a, M m) {
+    alignas(32) std::int32_t values[kLanes], places[kLanes];
+    store(values, a);
+    store(places, index);
+    scatterStored(base, places, values, m);
+}
 STEREONAV_INLINE void scatter(float* base, I index, F a, M m) {
     alignas(32) float values[kLanes];
     alignas(32) std::int32_t places[kLanes];
-    _mm256_store_ps(values, a.v);
-    _mm256_store_si256(reinterpret_cast<__m256i*>(places), index.v);
-    for (std::uint32_t left = bits(m); left; left &= left - 1) {
-        const int k = __builtin_ctz(left);
-        base[places[k]] = values[k];
+    store(values, a);
+    store(places, index);
+    scatterStored(base, places, values, m);
+}
+// By mask: of eight lanes in a byte each, those of the mask first, and where in the mask's order each is.
+struct LaneOrders {
+    std::uint64_t front[256] = {}, rank[256] = {};
+    constexpr LaneOrders() {
+        for (unsigned mask = 0; mask < 256; ++mask)
+            for (unsigned lane = 0, n = 0; lane < 8; ++lane) {
+                rank[mask] |= std::uint64_t{n < 7 ? n : 7} << 8 * lane;
+                if (mask >> lane & 1) front[mask] |= std::uint64_t{lane} << 8 * n++;
+            }
     }
+};
+inline constexpr LaneOrders kLaneOrders;
+STEREONAV_INLINE __m256i lanesOfBytes(const std::uint64_t& bytes) {
+    return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&bytes)));
+}
+// Brings the lanes of m to the front, in their order; what is behind them is any of a's numbers.
+struct ToFront {
+    __m256i order;
+    STEREONAV_INLINE explicit ToFront(M m) : order(lanesOfBytes(kLaneOrders.front[bits(m)])) {}
+    STEREONAV_INLINE F operator()(F a) const { return _mm256_permutevar8x32_ps(a.v, order); }
+    STEREONAV_INLINE I operator()(I a) const { return _mm256_permutevar8x32_epi32(a.v, order); }
+};
+// The other way: the lanes of m get a's first, in their order; the others any of a's numbers.
+STEREONAV_INLINE I fromFront(I a, M m) {
+    return _mm256_permutevar8x32_epi32(a.v, lanesOfBytes(kLaneOrders.rank[bits(m)]));
 }
 // table[index] for a table of sixteen entries; index in [0, 16).
 STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {

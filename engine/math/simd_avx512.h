@@ -96,6 +96,10 @@ STEREONAV_INLINE M operator>=(F a, F b) {
 STEREONAV_INLINE F select(M m, F yes, F no) {
     return _mm512_mask_blend_ps(m.v, no.v, yes.v);
 }
+// 0 where m is clear.
+STEREONAV_INLINE F keep(M m, F a) {
+    return _mm512_maskz_mov_ps(m.v, a.v);
+}
 STEREONAV_INLINE F loadF(const float* p) {
     return _mm512_loadu_ps(p);
 }
@@ -168,6 +172,9 @@ STEREONAV_INLINE M operator==(I a, I b) {
 }
 STEREONAV_INLINE I select(M m, I yes, I no) {
     return _mm512_mask_blend_epi32(m.v, no.v, yes.v);
+}
+STEREONAV_INLINE I keep(M m, I a) {
+    return _mm512_maskz_mov_epi32(m.v, a.v);
 }
 STEREONAV_INLINE F toFloat(I a) {
     return _mm512_cvtepi32_ps(a.v);
@@ -246,6 +253,17 @@ STEREONAV_INLINE void scatter(float* base, I index, F a, M m) {
 }
 STEREONAV_INLINE void scatter(std::int32_t* base, I index, I a, M m) {
     _mm512_mask_i32scatter_epi32(base, m.v, index.v, a.v, 4);
+}
+// Brings the lanes of m to the front, in their order; what is behind them is any number.
+struct ToFront {
+    __mmask16 lanes;
+    STEREONAV_INLINE explicit ToFront(M m) : lanes(m.v) {}
+    STEREONAV_INLINE F operator()(F a) const { return _mm512_maskz_compress_ps(lanes, a.v); }
+    STEREONAV_INLINE I operator()(I a) const { return _mm512_maskz_compress_epi32(lanes, a.v); }
+};
+// The other way: the lanes of m get a's first, in their order; the others any number.
+STEREONAV_INLINE I fromFront(I a, M m) {
+    return _mm512_maskz_expand_epi32(m.v, a.v);
 }
 // table[index] for a table of sixteen entries; index in [0, 16).
 STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {

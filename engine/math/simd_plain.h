@@ -103,6 +103,13 @@ STEREONAV_INLINE I select(M m, I yes, I no) {
 STEREONAV_INLINE F select(M m, F yes, F no) {
     return asFloat(select(m, asInt(yes), asInt(no)));
 }
+// 0 where m is clear.
+STEREONAV_INLINE I keep(M m, I a) {
+    return a.v & m.v;
+}
+STEREONAV_INLINE F keep(M m, F a) {
+    return asFloat(keep(m, asInt(a)));
+}
 STEREONAV_INLINE M operator<(F a, F b) {
     return {a.v < b.v};
 }
@@ -307,6 +314,29 @@ STEREONAV_INLINE void scatter(float* base, I index, F a, M m) {
 STEREONAV_INLINE void scatter(std::int32_t* base, I index, I a, M m) {
     for (std::uint32_t k = 0, on = bits(m); k < kLanes; ++k)
         if ((on >> k & 1u) != 0) base[index.v[k]] = a.v[k];
+}
+// Brings the lanes of m to the front, in their order; what is behind them is any of a's numbers.
+struct ToFront {
+    std::int32_t order[kLanes] = {};
+    STEREONAV_INLINE explicit ToFront(M m) {
+        const std::uint32_t set = bits(m);
+        int n = 0;
+        for (int lane = 0; lane < kLanes; ++lane) {
+            order[n & (kLanes - 1)] = lane;
+            n += static_cast<int>(set >> lane & 1);
+        }
+    }
+    STEREONAV_INLINE F operator()(F a) const {
+        return FloatLanes{a.v[order[0]], a.v[order[1]], a.v[order[2]], a.v[order[3]]};
+    }
+    STEREONAV_INLINE I operator()(I a) const {
+        return IntLanes{a.v[order[0]], a.v[order[1]], a.v[order[2]], a.v[order[3]]};
+    }
+};
+// The other way: the lanes of m get a's first, in their order; the others any of a's numbers.
+STEREONAV_INLINE I fromFront(I a, M m) {
+    const std::uint32_t set = bits(m);
+    return IntLanes{a.v[0], a.v[set & 1], a.v[__builtin_popcount(set & 3)], a.v[__builtin_popcount(set & 7)]};
 }
 // table[index] for a table of sixteen entries; index in [0, 16).
 STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {

@@ -63,24 +63,43 @@ struct Root {
     M found;
 };
 
+// Where a cubic turns: its local minimum and maximum, where they are.
+struct Turns {
+    F low, high;
+    M bent;  // there are any
+};
+STEREONAV_INLINE Turns turnsOf(const Cubic& f) {
+    const F zero(0.0f);
+    const F discriminant = mulAdd(f.c2, f.c2, F(-3.0f) * f.c1 * f.c3);
+    const F root = sqrt(max(discriminant, zero));
+    const M falling = f.c2 < zero;
+    // Both extrema without cancelling: one from the sum of equal signs, the other from their product.
+    const F q = select(falling, root - f.c2, zero - f.c2 - root);
+    const F first = q * approxReciprocal(F(3.0f) * f.c3), second = f.c1 * approxReciprocal(q);
+    return {select(falling, first, second), select(falling, second, first), discriminant > zero};
+}
+// Whether the local maximum lies in (0, 1) and is >= 0.
+STEREONAV_INLINE M topsOut(const Cubic& f, const Turns& turns) {
+    const F zero(0.0f);
+    return turns.bent & (turns.high > zero) & (turns.high < F(1.0f)) & (f.at(turns.high) >= zero);
+}
+
+// Whether firstRoot finds one.
+STEREONAV_INLINE M hasRoot(const Cubic& f, M m) {
+    const F zero(0.0f);
+    return m & ((f.c0 >= zero) | (f.at(F(1.0f)) >= zero) | topsOut(f, turnsOf(f)));
+}
+
 // The first s in [0, 1] where the cubic is >= 0. Between its local minimum and maximum a cubic rises, so one
 // bracket holds the first root, in which Newton's steps are kept by bisection.
 STEREONAV_INLINE Root firstRoot(const Cubic& f, M m) {
     const F zero(0.0f), one(1.0f);
     const M atOnce = m & (f.c0 >= zero);
-    const F discriminant = mulAdd(f.c2, f.c2, F(-3.0f) * f.c1 * f.c3);
-    const F root = sqrt(max(discriminant, zero));
-    const M bent = discriminant > zero;
-    const M falling = f.c2 < zero;
-    // Both extrema without cancelling: one from the sum of equal signs, the other from their product.
-    const F q = select(falling, root - f.c2, zero - f.c2 - root);
-    const F first = q * approxReciprocal(F(3.0f) * f.c3), second = f.c1 * approxReciprocal(q);
-    const F low = select(falling, first, second), high = select(falling, second, first);
-    const M hasLow = bent & (low > zero) & (low < one);
-    const M hasHigh = bent & (high > zero) & (high < one);
-    const M tops = hasHigh & (f.at(high) >= zero);
-    F to = select(tops, high, one);
-    F from = select(hasLow & (low < to), low, zero);
+    const Turns turns = turnsOf(f);
+    const M hasLow = turns.bent & (turns.low > zero) & (turns.low < one);
+    const M tops = topsOut(f, turns);
+    F to = select(tops, turns.high, one);
+    F from = select(hasLow & (turns.low < to), turns.low, zero);
     const M found = andNot(m, atOnce) & (tops | (f.at(one) >= zero));
     F s = zero;
     if (any(found)) {
