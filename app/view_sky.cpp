@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/light/light_beyond.h"
 #include "engine/light/seen_bricks.h"
 #include "engine/light/spherical_harmonics.h"
 
@@ -29,10 +30,12 @@ std::vector<glm::vec3> turnedSky(const std::vector<glm::vec3>& straight, const S
 }
 
 ViewSky::ViewSky(TransferVolume transfer, std::vector<glm::vec3> straight,
-                 std::shared_ptr<IlluminationVolume> light, const SkyTurn& turn)
+                 std::shared_ptr<IlluminationVolume> light, const SkyTurn& turn,
+                 std::shared_ptr<IlluminationVolume> beyond)
     : mTransfer(std::move(transfer)),
       mStraight(std::move(straight)),
       mLight(std::move(light)),
+      mBeyond(std::move(beyond)),
       mTurn(turn),
       mLitAt(mTransfer.bricks().size(), 0),
       mNext(mTransfer.bricks().size()) {}
@@ -53,8 +56,12 @@ void ViewSky::seen(const EyeView& view, const EyeImage& image) {
     std::vector<std::uint32_t> stale;
     addStale(mSeen, stale);
     addRest(stale);
-    if (stale.empty()) return;
-    mTransfer.relight(mNow, stale, *mLight);
+    if (!stale.empty()) {
+        mTransfer.relight(mNow, stale, *mLight);
+        ++mChanges;
+    }
+    if (!mBeyond || mNext < mLitAt.size() || std::exchange(mBeyondLitAt, mTurns) == mTurns) return;
+    updateLightBeyond(*mLight, *mBeyond);
     ++mChanges;
 }
 

@@ -28,9 +28,10 @@ std::vector<glm::vec3> turnedSky(const std::vector<glm::vec3>& straight, const S
 class ViewSky {
 public:
     // straight: the sky's harmonics before it is turned; light: lit by it at `turn`, all of it, of the
-    // transfer's frame.
+    // transfer's frame; beyond: of light (lightBeyond), brought up to date once all of that is; null: none.
     ViewSky(TransferVolume transfer, std::vector<glm::vec3> straight,
-            std::shared_ptr<IlluminationVolume> light, const SkyTurn& turn);
+            std::shared_ptr<IlluminationVolume> light, const SkyTurn& turn,
+            std::shared_ptr<IlluminationVolume> beyond = nullptr);
 
     const SkyTurn& turn() const { return mTurn; }
     // Before a frame: lights what the last one saw. Cheap where the sky stands there already.
@@ -48,9 +49,10 @@ private:
 
     TransferVolume mTransfer;
     std::vector<glm::vec3> mStraight, mNow;
-    std::shared_ptr<IlluminationVolume> mLight;
+    std::shared_ptr<IlluminationVolume> mLight, mBeyond;
     SkyTurn mTurn;
     std::uint32_t mTurns = 0;
+    std::uint32_t mBeyondLitAt = 0;     // the turn that mBeyond is of
     std::vector<std::uint32_t> mLitAt;  // by brick: the turn that it is lit by
     std::vector<std::uint32_t> mSeen;   // of the transfer's bricks: by the last frame
     std::size_t mNext = 0;              // bricks before this one are lit

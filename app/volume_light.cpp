@@ -14,6 +14,7 @@
 
 #include "app/light_loading.h"
 #include "engine/base/error.h"
+#include "engine/light/light_beyond.h"
 #include "engine/light/occlusion_light.h"
 #include "engine/light/occlusion_modulation.h"
 #include "engine/light/sky_probe.h"
@@ -65,9 +66,11 @@ std::shared_ptr<ViewSky> applyBaked(const SceneOptions& options, ColonScene& sce
         look.exposure = exposureOf(options.volume, meanLight(*light));
     }
     look.light = light;
+    auto beyond = std::make_shared<IlluminationVolume>(lightBeyond(*light));
+    look.beyond = beyond;
     if (!transfer || !options.skyTurns) return nullptr;
     return std::make_shared<ViewSky>(std::move(baked.transfer), std::move(straight), std::move(light),
-                                     skyTurnOf(options));
+                                     skyTurnOf(options), std::move(beyond));
 }
 
 // The lamp's light times the openness of a box around each voxel: the whole light that a lamp at the head

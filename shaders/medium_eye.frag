@@ -4,7 +4,7 @@
 // In: the light's buffer before the slab, as medium_light.frag leaves it. Out: linear light in rgb and the
 // share seen through in a, for blending (forward: behind what is there, backward: before it); the view depth
 // of the slab's sample in metres, of which the least is kept. Pixel (x, y) of an eye, y downwards.
-// Defined by the program, beside what the files before it need: PHASE, EYES, BAKED, OPENNESS.
+// Defined by the program, beside what the files before it need: PHASE, EYES, BAKED, BEYOND, OPENNESS, LEAST_KNOWN.
 uniform int uEye;
 uniform ivec2 uEyeAt;           // corner of its region in the target
 uniform vec3 uEyeOrigin[EYES];
@@ -25,6 +25,10 @@ uniform vec4 uShading;  // ambient, diffuse, specular, shininess
 layout(binding = 5) uniform sampler3D uBaked;  // linear light times weight, and the weight
 uniform mat4x3 uBakedFromPlace;                // to texture coordinates
 uniform vec2 uBakedShares;                     // exposure, share of the lamp beside it
+#if BEYOND
+layout(binding = 6) uniform sampler3D uBeyond;  // light where those texels are not known, known everywhere
+uniform mat4x3 uBeyondFromPlace;
+#endif
 #endif
 layout(location = 0) out vec4 sent;
 layout(location = 1) out float viewDepth;
@@ -61,8 +65,16 @@ vec3 surfaceLight(Properties p, vec3 place, vec3 way, vec3 view) {
     vec3 shaded = vec3(shading(p.gradient, way, view));
 #if BAKED
     vec4 sum = textureLod(uBaked, uBakedFromPlace * vec4(place, 1.0), 0.0);
-    if (!(sum.a > 0.0)) return shaded;
-    vec3 known = sum.rgb / sum.a;
+    // Texels are at most 65504 times their weight: finite.
+    vec3 known = sum.rgb / max(sum.a, LEAST_KNOWN);
+#if BEYOND
+    if (sum.a < 1.0) {
+        vec3 far = textureLod(uBeyond, uBeyondFromPlace * vec4(place, 1.0), 0.0).rgb;
+        known = sum.a < LEAST_KNOWN ? far : mix(far, known, sum.a);
+    }
+#else
+    if (sum.a < LEAST_KNOWN) return shaded;
+#endif
 #if OPENNESS
     return shaded * known.r;
 #else

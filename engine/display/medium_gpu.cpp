@@ -21,6 +21,7 @@
 #include "engine/display/medium_gpu_textures.h"
 #include "engine/display/shader_program.h"
 #include "engine/display/texture_upload.h"
+#include "engine/volume/baked_data.h"
 
 namespace stereonav {
 namespace {
@@ -106,7 +107,7 @@ struct MediumGpu::State {
     const Medium& medium;
     MediumTextures textures;
     PhaseTexture phase;
-    BakedTexture baked;
+    BakedTexture baked, beyond;
     GlVertexArray vertices;
     std::map<std::string, Programs> programs;  // by what was defined
     std::optional<ShaderProgram> ender;
@@ -153,12 +154,12 @@ std::string MediumGpu::State::definesOf(const MediumLook& look) const {
            fmt::format(
                "#define MODEL {}\n#define FORWARD {}\n#define LAMP {}\n#define PHASE {}\n"
                "#define SURFACE {}\n#define GLOW {}\n#define EYES {}\n#define INDIRECT {}\n#define BAKED "
-               "{}\n#define OPENNESS {}\n#define LEANS {}\n",
+               "{}\n#define BEYOND {}\n#define LEAST_KNOWN {}\n#define OPENNESS {}\n#define LEANS {}\n",
                static_cast<int>(look.model), flag(geometry->forward),
                flag(look.light.kind == MediumLight::Kind::Lamp), flag(!look.phase.isotropic()), flag(surface),
                flag(textures.hasGlow()), kMostEyes, flag(look.model == MediumModel::Indirect),
-               flag(surface && baked.any()), flag(look.baked.use == BakedLook::Use::Openness),
-               flag(leans(look)));
+               flag(surface && baked.any()), flag(beyond.any()), kLeastKnown,
+               flag(look.baked.use == BakedLook::Use::Openness), flag(leans(look)));
 }
 
 const Programs& MediumGpu::State::programsFor(const MediumLook& look) {
@@ -215,7 +216,10 @@ void MediumGpu::State::setEye(const MediumLook& look) const {
     const glm::mat4x3 buffer = bufferFromPlace(geometry->light);
     glUniformMatrix4x3fv(program.location("uLightFromPlace"), 1, GL_FALSE, glm::value_ptr(buffer));
     glUniform2fv(program.location("uPhaseScale"), 1, glm::value_ptr(PhaseTexture::scale()));
-    baked.setUniforms(program, look.baked, geometry->anchor);
+    baked.setPlace(program, "uBakedFromPlace", geometry->anchor);
+    beyond.setPlace(program, "uBeyondFromPlace", geometry->anchor);
+    if (baked.any())
+        glUniform2f(program.location("uBakedShares"), shownExposure(look.baked), look.baked.lampShare);
     set(program, "uIndirectShare", look.indirectShare);
     glUniform4f(program.location("uShading"), look.ambient, look.diffuse, look.specular, look.shininess);
 }
@@ -235,6 +239,7 @@ void MediumGpu::State::setFrame(const MediumLook& look, const SweepSetting& sett
     phase.set(look.phase);
     const bool wantsBaked = textures.hasSurface() && look.model != MediumModel::Emission;
     baked.set(wantsBaked ? look.baked.light : nullptr);
+    beyond.set(wantsBaked ? look.baked.beyond : nullptr);
     used = &programsFor(look);
     const auto start = [&](const ShaderProgram& program) {
         program.use();
@@ -250,7 +255,8 @@ void MediumGpu::State::setFrame(const MediumLook& look, const SweepSetting& sett
     }
     textures.bind();
     phase.bind();
-    baked.bind();
+    baked.bind(GlUnit::kBaked);
+    beyond.bind(GlUnit::kBeyond);
     glBindVertexArray(vertices.name());
 }
 

@@ -71,21 +71,19 @@ void BakedTexture::upload() {
     expectAccepted("baked light");
 }
 
-void BakedTexture::bind() const {
-    if (mTexture) bindTo(GlUnit::kBaked, GL_TEXTURE_3D, *mTexture);
+void BakedTexture::bind(GLuint unit) const {
+    if (mTexture) bindTo(unit, GL_TEXTURE_3D, *mTexture);
 }
 
-void BakedTexture::setUniforms(const ShaderProgram& program, const BakedLook& look,
-                               const glm::dvec3& anchor) const {
+void BakedTexture::setPlace(const ShaderProgram& program, const char* name, const glm::dvec3& anchor) const {
     if (!mLight) return;
     const VolumeFrame& frame = mLight->frame;
     const glm::dvec3 size(frame.size);
     const glm::dmat3 turn = glm::transpose(frame.axes);
-    glm::mat4x3 bakedFromPlace;
-    for (int axis = 0; axis < 3; ++axis) bakedFromPlace[axis] = glm::vec3(turn[axis] / frame.spacing / size);
-    bakedFromPlace[3] = glm::vec3((frame.voxelFromWorld(anchor) + 0.5) / size);
-    glUniformMatrix4x3fv(program.location("uBakedFromPlace"), 1, GL_FALSE, glm::value_ptr(bakedFromPlace));
-    glUniform2f(program.location("uBakedShares"), look.exposure, look.lampShare);
+    glm::mat4x3 fromPlace;
+    for (int axis = 0; axis < 3; ++axis) fromPlace[axis] = glm::vec3(turn[axis] / frame.spacing / size);
+    fromPlace[3] = glm::vec3((frame.voxelFromWorld(anchor) + 0.5) / size);
+    glUniformMatrix4x3fv(program.location(name), 1, GL_FALSE, glm::value_ptr(fromPlace));
 }
 
 }  // namespace stereonav

@@ -31,9 +31,10 @@ public:
     // Throws Error where it does not fit. Null: none.
     void set(const std::shared_ptr<const IlluminationVolume>& light);
     bool any() const { return mLight != nullptr; }
-    void bind() const;
-    // The program is in use; places are relative to the anchor.
-    void setUniforms(const ShaderProgram& program, const BakedLook& look, const glm::dvec3& anchor) const;
+    void bind(GLuint unit) const;
+    // `name`: the uniform that gets texture coordinates of places relative to the anchor; the program is in
+    // use.
+    void setPlace(const ShaderProgram& program, const char* name, const glm::dvec3& anchor) const;
 
 private:
     void upload();

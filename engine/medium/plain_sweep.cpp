@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/base/parallel.h"
+#include "engine/volume/baked_data.h"
 
 namespace stereonav {
 namespace {
@@ -232,10 +233,10 @@ private:
         const glm::dvec3 shaded(blinnPhong(world, at, light));
         const BakedLook& baked = mLook.baked;
         if (!baked.light) return shaded;
-        const IlluminationVolume::Light known = baked.light->at(world);
+        const IlluminationVolume::Light known = bakedLightAt(baked, world);
         if (!(known.weight > 0)) return shaded;
         if (baked.use == BakedLook::Use::Openness) return shaded * static_cast<double>(known.value.x);
-        return glm::dvec3(known.value) * static_cast<double>(baked.exposure) +
+        return glm::dvec3(known.value) * static_cast<double>(shownExposure(baked)) +
                static_cast<double>(baked.lampShare) * shaded;
     }
     // Of both sides alike, since which of them the gradient points to depends on the data: the highlight is

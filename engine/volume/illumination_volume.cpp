@@ -15,6 +15,7 @@
 #include "engine/base/error.h"
 #include "engine/base/pages.h"
 #include "engine/math/half_float.h"
+#include "engine/volume/volume_kernel_types.h"
 
 namespace stereonav {
 namespace {
@@ -79,7 +80,7 @@ IlluminationVolume::Light weighted(const IlluminationVolume& volume, const std::
                 sum += w * glm::dvec3(texelLight(texel));
                 weight += w;
             }
-    if (!(weight > 0)) return {};
+    if (!(weight >= static_cast<double>(kLeastKnown))) return {};
     return {glm::vec3(sum / weight), static_cast<float>(std::min(weight, 1.0))};
 }
 

@@ -45,7 +45,9 @@ struct IlluminationVolume {
     enum class Lookup { Nearest, NearestIsovalue, Trilinear, Tricubic };
     struct Light {
         glm::vec3 value{0.0f};
-        float weight = 0;  // of the texels that are known, 0..1; value is theirs alone; 0: nothing known
+        // Of the texels that are known, 0..1; value is theirs alone. 0: nothing known, or of less weight than
+        // places are exact to (kLeastKnown).
+        float weight = 0;
     };
     // Scalar oracle of the kernels' lookup; world: any point, clamped to the grid. Not for NearestIsovalue.
     Light at(const glm::dvec3& world, Lookup lookup = Lookup::Trilinear) const;

@@ -60,7 +60,8 @@ STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, 
     const M seen = m & (density > F(0.0f));
     if (!any(seen)) return;
     const I color = gather(transfer.color, entry, seen);
-    const Falling lit = fallingOn(data, view, r, w.t, seen, [&] {
+    // Lanes that are not seen have a share of 0, and light that is finite: nothing of it stays.
+    const Falling lit = fallingOn(data, view, r, w.t, seen, kLeastKnown, [&] {
         const V3 n = directionOf(mixCorners(grid.data.records + 4, word, local, seen));
         return litBy(data, view, r, w.t, n, F(1.0f));
     });

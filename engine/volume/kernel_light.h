@@ -87,7 +87,8 @@ struct Light {
 };
 
 // The lamp's share that reaches a point and what the surface sends to the eye: factor * (albedo * diffuse
-// part + highlight). t: view depth; normals of any length but 0; lit: share of the lamp that is seen.
+// part + highlight), finite for every finite t and n. t: view depth; n: normals of any length but 0; lit:
+// share of the lamp that is seen.
 struct Lit {
     F diffuse, highlight;
 };
@@ -97,7 +98,8 @@ STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const
     };
     const V3 way{world(0), world(1), world(2)};
     const V3 lamp{F(view.head[0]) - t * way.x, F(view.head[1]) - t * way.y, F(view.head[2]) - t * way.z};
-    const F square = max(dot(lamp, lamp), F(1e-20f));
+    // Times the falloff, at most kMostFalloff, still finite, and so is its reciprocal.
+    const F square = clamp(dot(lamp, lamp), F(1e-20f), F(1e29f));
     const F inverse = approxRsqrt(square);
     const F normalSquare = max(dot(n, n), F(1e-12f));
     const F cosine = dot(n, lamp) * inverse * approxRsqrt(normalSquare);
@@ -142,14 +144,12 @@ STEREONAV_INLINE Falling ofLamp(const Lit& lamp, F share) {
     return {{light, light, light}, lamp.highlight * share};
 }
 
-// Where less than this of what a lookup weighs is known, a neighbour may know nothing and ask for the lamp.
-constexpr float kWhollyKnown = 0.999f;
-
 // lampAt(): litBy of these points, asked for only where the lamp counts: its normals take as many loads as
-// half a lookup of baked light, and its shadows rays.
+// half a lookup of baked light, and its shadows rays. It does where less than `enough` of a lookup is known:
+// 1 asks for what a neighbour may need, who knows nothing. t: finite, of all lanes; so is what comes back.
 template <typename Lamp>
 STEREONAV_INLINE Falling fallingOn(const VolumeData& data, const VolumeView& view, const Rays& r, F t, M m,
-                                   const Lamp& lampAt) {
+                                   float enough, const Lamp& lampAt) {
     const F one(1.0f), zero(0.0f);
     if (!data.baked.texels) return ofLamp(lampAt(), one);
     const auto voxel = [&](int k, F direction) {
@@ -159,7 +159,7 @@ STEREONAV_INLINE Falling fallingOn(const VolumeData& data, const VolumeView& vie
         bakedAt(data.baked, {voxel(0, r.direction.x), voxel(1, r.direction.y), voxel(2, r.direction.z)}, m);
     const M known = m & (baked.known > zero);
     if (data.baked.openness) return ofLamp(lampAt(), select(known, baked.red, one));
-    if (!(data.baked.lampShare > 0) && !any(m & (baked.known < F(kWhollyKnown))))
+    if (!(data.baked.lampShare > 0) && !any(m & (baked.known < F(enough))))
         return {{baked.red, baked.green, baked.blue}, zero};
     const Lit lamp = lampAt();
     const F share = select(known, F(data.baked.lampShare), one);
@@ -173,7 +173,7 @@ STEREONAV_INLINE I surfaceColor(const VolumeData& data, const VolumeView& view, 
                                 const Lamp& lampAt) {
     const LightData& light = data.light;
     const F t = select(hit, depth, F(1.0f));
-    const Falling falling = fallingOn(data, view, r, t, hit, [&] { return lampAt(t); });
+    const Falling falling = fallingOn(data, view, r, t, hit, 1.0f, [&] { return lampAt(t); });
     Light sent{mulAdd(falling.diffuse.red, F(light.albedo[0]), falling.highlight),
                mulAdd(falling.diffuse.green, F(light.albedo[1]), falling.highlight),
                mulAdd(falling.diffuse.blue, F(light.albedo[2]), falling.highlight)};

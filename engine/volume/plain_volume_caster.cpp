@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/math/constants.h"
+#include "engine/volume/baked_data.h"
 #include "engine/volume/surface_cells.h"
 
 namespace stereonav {
@@ -233,6 +234,16 @@ glm::dvec3 shadePlain(const VolumeLook& look, const glm::dvec3& position, const 
     return light * (albedo * (look.ambient + look.diffuse * std::max(facing, 0.0)) + highlight);
 }
 
+glm::dvec3 shadeBakedPlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,
+                           const glm::dvec3& head, const glm::dvec3& eye, const glm::dvec3& albedo) {
+    const IlluminationVolume::Light known = bakedLightAt(look.baked, position);
+    const glm::dvec3 lamp = shadePlain(look, position, normal, head, eye, albedo);
+    if (!(known.weight > 0)) return lamp;
+    if (look.baked.use == BakedLook::Use::Openness) return lamp * static_cast<double>(known.value.x);
+    const auto exposure = static_cast<double>(shownExposure(look.baked));
+    return albedo * glm::dvec3(known.value) * exposure + static_cast<double>(look.baked.lampShare) * lamp;
+}
+
 namespace {
 
 double plainModulation(const Volume<std::uint8_t>& modulation, const glm::dvec3& voxel) {
@@ -272,8 +283,9 @@ PlainComposite compositePlain(const GreyVolume& volume, const VolumeLook& look, 
         if (result.firstDepth == kInfinity) result.firstDepth = tAt(k);
         const glm::dvec3 position = worldRay.eye + tAt(k) * worldRay.direction;
         const glm::dvec3 albedo(look.transfer.at(value).color);
-        result.color += result.left * opacity *
-                        shadePlain(look, position, plainNormal(volume, voxel), head, worldRay.eye, albedo);
+        result.color +=
+            result.left * opacity *
+            shadeBakedPlain(look, position, plainNormal(volume, voxel), head, worldRay.eye, albedo);
         const double behind = tAt(k) - result.firstDepth;
         square += result.left * opacity * behind * behind;
         result.left *= 1 - opacity;

@@ -20,22 +20,34 @@ struct CellData {
     bool leaping = true;
 };
 
+// Where less than this of what a lookup weighs is known, nothing counts as known: places in single precision
+// are no nearer.
+constexpr float kLeastKnown = 1e-4f;
+// What multiplies baked light at most, so that no light overflows; 65504 times that and all weights is
+// finite.
+constexpr float kMostExposure = 1e18f;
+
 // An illumination volume; places in voxels of the scene's grid.
-struct BakedData {
+struct TexelGrid {
     const std::uint32_t* texels = nullptr;  // two words each; null: none
     std::int32_t brickStride[3] = {};       // texels from a brick to the next along each axis
     std::int32_t last[3] = {};              // the last texel
     float offset[3] = {}, perVoxel[3] = {};
-    bool openness = false;
-    float exposure = 1, lampShare = 0;
 };
+struct BakedData : TexelGrid {
+    TexelGrid beyond;  // light where these texels are not known, itself known everywhere; texels null: none
+    bool openness = false;
+    float exposure = 1, lampShare = 0;  // exposure: at most kMostExposure
+};
+
+constexpr float kMostFalloff = 1e8f;  // of a lamp that reaches 0.1 mm
 
 // Linear RGB; see volume_look.h.
 struct LightData {
     float albedo[3] = {}, background[3] = {};
     float ambient = 0, diffuse = 0, specular = 0, shininess = 1;
     int wholeHalf = 0;                // half the shininess where that is a whole number: cheaper; else 0
-    float inverseFalloffSquared = 0;  // 1 / metres^2
+    float inverseFalloffSquared = 0;  // 1 / metres^2, at most kMostFalloff
     bool shadows = false;
     float largestSpacing = 0;                  // metres
     float varyingAmbient = 0, inverseFog = 0;  // 1 / metres

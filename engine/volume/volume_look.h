@@ -13,14 +13,16 @@
 
 namespace stereonav {
 
-// Light that was computed beforehand, and what it stands for. Where no texel around a point is known the lamp
-// shows it, as if nothing were baked.
+// Light that was computed beforehand, and what it stands for. Where no texel around a point is known,
+// `beyond` shows it; without that the lamp, as if nothing were baked.
 struct BakedLook {
     enum class Use {
         Irradiance,  // all the light there is, beside lampShare of the lamp
         Openness     // weakens the lamp: its light, ambient and direct, times the openness
     };
     std::shared_ptr<const IlluminationVolume> light;  // null: none
+    // Known everywhere, coarser (engine/light/light_beyond.h); null: none.
+    std::shared_ptr<const IlluminationVolume> beyond;
     Use use = Use::Irradiance;
     float exposure = 1;   // factor on irradiance
     float lampShare = 0;  // of the lamp that is added to irradiance

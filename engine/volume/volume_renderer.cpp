@@ -53,8 +53,8 @@ LightData lightDataOf(const VolumeLook& look, const VolumeFrame& frame) {
     d.shadows = look.shadows && look.lampAt;
     d.largestSpacing = static_cast<float>(std::max({frame.spacing.x, frame.spacing.y, frame.spacing.z}));
     d.varyingAmbient = look.varyingAmbient;
-    d.inverseFog = look.fog > 0 ? 1 / look.fog : 0.0f;
-    d.inverseFalloffSquared = look.falloff > 0 ? 1 / (look.falloff * look.falloff) : 0.0f;
+    d.inverseFog = look.fog > 0 ? std::min(1 / look.fog, std::numeric_limits<float>::max()) : 0.0f;
+    if (look.falloff > 0) d.inverseFalloffSquared = std::min(1 / (look.falloff * look.falloff), kMostFalloff);
     return d;
 }
 
@@ -229,9 +229,7 @@ void VolumeRenderer::lookUpAgain(const EyeView& view, PixelRect rect, EyeImage& 
             if (!(depth < kMissDepth)) continue;
             const glm::dvec3 world = view.eye + depth * view.rayDirection(x + 0.5, y + 0.5);
             const IlluminationVolume::Light light =
-                baked.lookup == Lookup::NearestIsovalue
-                    ? baked.light->nearestIsovalue(world, mScene.field, mScene.cells.isovalue)
-                    : baked.light->at(world, baked.lookup);
+                bakedLightAt(baked, world, &mScene.field, mScene.cells.isovalue);
             if (light.weight > 0)
                 image.color.at(x, y) = packColor(mScene.look.surface * light.value * baked.exposure);
         }

@@ -1,8 +1,8 @@
 // Volume light through the real program: media that are built in, volumes and terrain shown as media.
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "tests/app/picture_values.h"
 #include "tests/app/volume_input.h"
 
 namespace stereonav::test {
@@ -41,6 +41,10 @@ protected:
         runSmall(std::move(options));
         return contentOf(file);
     }
+    Shown shown(const std::string& scene, const std::vector<std::string>& options) const {
+        picture(scene, options);
+        return readLinearImage(mFolder / "picture.png");
+    }
     std::string hashOf(const std::string& scene, std::vector<std::string> options) const {
         options.insert(options.begin(), {"play", scene, "--hash"});
         const std::string out = runSmall(std::move(options)).out;
@@ -50,43 +54,136 @@ protected:
     }
 };
 
-TEST_F(MediumCommands, EveryModelPhaseFunctionAndLightLooksDifferent) {
+// From the south, at the height of the ball's middle: what is to the left and to the right is alike.
+const std::vector<std::string> kFromTheSouth{"--pose", "-0.001,-0.15,-0.001,0,0,0"};
+
+// Emission sends on what arrives everywhere; surface that times the light's radiance (0.85 where nothing is
+// said) and Blinn-Phong; direct what of the radiance gets there, indirect as much and more.
+TEST_F(MediumCommands, EachModelIsAKnownPartOfTheOthers) {
     const std::string milk = input("milk.txt", kMilk);
-    const std::vector<std::vector<std::string>> ways{{"--model", "emission"},
-                                                     {"--model", "surface"},
-                                                     {"--model", "direct"},
-                                                     {"--model", "indirect"},
-                                                     {"--phase", "hg 0.7"},
-                                                     {"--phase", "hg 0.2 0.5 0.8"},
-                                                     {"--light-from", "90,10"},
-                                                     {"--light-from", "0,20"},
-                                                     {"--lamp", "head"},
-                                                     {"--lamp", "0.1,0.1,0.2"},
-                                                     {"--light-color", "1,0.5,0.2"},
-                                                     {"--cone", "90"},
-                                                     {"--slices", "48"},
-                                                     {"--noise", "fur"},
-                                                     {"--method", "depthsplat"}};
-    std::set<std::string> pictures;
-    for (std::vector<std::string> way : ways) {
-        const std::string name = way[0] + " " + way[1];
-        way.insert(way.end(), {"--medium", milk});
-        if (way[0] == "--slices") {
-            way.insert(way.begin(), {"render", ball(), "--size", "40x30", "--light-size", "24", "--out",
-                                     (mFolder / "picture.png").string()});
-            runWell(way);
-            EXPECT_TRUE(pictures.insert(contentOf(mFolder / "picture.png")).second) << name;
-        } else if (way[0] == "--method") {
-            runWell({"render", ball(), "--size", "40x30", "--medium", milk, "--slices", "24", "--method",
-                     "depthsplat", "--out", (mFolder / "picture.png").string()});
-        } else {
-            EXPECT_TRUE(pictures.insert(picture(ball(), way)).second) << name << " shows nothing new";
+    const auto model = [&](const char* name, const char* color) {
+        return shown(ball(), {"--medium", milk, "--model", name, "--light-color", color});
+    };
+    const Shown dark = model("surface", "0"), emission = model("emission", "1"),
+                surface = model("surface", "0.85");
+    const Shown direct = model("direct", "0.85"), indirect = model("indirect", "0.85");
+    EXPECT_GT(sumOf(emission).x, 1.3f * sumOf(dark).x) << "there is something to compare";
+    // As much as is sent on, times a factor.
+    const auto times = [&](float factor) {
+        return mapped(dark, emission,
+                      [=](const glm::vec3& d, const glm::vec3& e) { return d + factor * (e - d); });
+    };
+    constexpr float kAmbient = 0.1f, kDiffuse = 0.9f, kSpecular = 0.2f;  // MediumLook's
+    expectNoBrighter(times(0.85f * kAmbient), surface, "surface, away from the light");
+    expectNoBrighter(surface, times(0.85f * (kAmbient + kDiffuse + kSpecular)), "surface, facing it");
+    expectNoBrighter(dark, direct, "direct");
+    expectNoBrighter(direct, times(0.85f), "direct");
+    expectNoBrighter(direct, indirect, "indirect");
+    EXPECT_LT(sumOf(direct).y, 0.95f * sumOf(times(0.85f)).y) << "light is lost on its way";
+    EXPECT_GT(sumOf(indirect).y, 1.02f * sumOf(direct).y) << "a part of it by scattering";
+    expectAlike(shown(ball(), {"--medium", milk}), indirect, 0, "the default");
+    expectAlike(model("emission", "0.2"), emission, 0, "emission has no light");
+}
+
+TEST_F(MediumCommands, LightAddsUpAndIsAsItsColourSays) {
+    const std::string milk = input("milk.txt", kMilk);
+    const auto lit = [&](const char* color) {
+        return shown(ball(), {"--medium", milk, "--light-color", color});
+    };
+    const Shown dark = lit("0"), white = lit("1");
+    const glm::vec3 color(1, 0.5f, 0.2f);
+    expectAlike(
+        lit("1,0.5,0.2"),
+        mapped(dark, white, [&](const glm::vec3& d, const glm::vec3& w) { return d + color * (w - d); }), 2,
+        "coloured light");
+}
+
+// Light from the eye's own side turns straight back: Henyey-Greenstein's (1 - g^2) / (1 + g)^3 of it for
+// direct light (within 1 % at the picture's edges), and of a sum of three g, one for each colour.
+TEST_F(MediumCommands, APhaseFunctionScalesWhatTurnsBack) {
+    const std::string milk = input("milk.txt", kMilk);
+    const auto seen = [&](const char* phase) {
+        std::vector<std::string> options{"--medium", milk,      "--model", "direct",        "--light-from",
+                                         "180,0",    "--phase", phase,     "--light-color", "1.5"};
+        options.insert(options.end(), kFromTheSouth.begin(), kFromTheSouth.end());
+        return shown(ball(), options);
+    };
+    std::vector<std::string> noLight{"--medium", milk, "--model", "direct", "--light-color", "0"};
+    noLight.insert(noLight.end(), kFromTheSouth.begin(), kFromTheSouth.end());
+    const Shown dark = shown(ball(), noLight), even = seen("none");
+    const auto back = [](float g) { return (1 - g * g) / std::pow(1 + g, 3.0f); };
+    const auto scaled = [&](const glm::vec3& g) {
+        const glm::vec3 share(back(g.x), back(g.y), back(g.z));
+        return mapped(dark, even,
+                      [=](const glm::vec3& d, const glm::vec3& e) { return d + share * (e - d); });
+    };
+    expectAlike(seen("hg 0"), even, 1.1f, "hg 0");
+    expectAlike(seen("hg 0.2"), scaled(glm::vec3(0.2f)), 2.5f, "hg 0.2");
+    expectAlike(seen("hg -0.1 0.2 0.5"), scaled({-0.1f, 0.2f, 0.5f}), 2.5f, "hg by colour");
+}
+
+TEST_F(MediumCommands, LightComesFromWhereItIsSaid) {
+    const std::string milk = input("milk.txt", kMilk);
+    const auto from = [&](std::vector<std::string> options) {
+        options.insert(options.end(), {"--medium", milk});
+        options.insert(options.end(), kFromTheSouth.begin(), kFromTheSouth.end());
+        return shown(ball(), options);
+    };
+    const Shown east = from({"--light-from", "90,10"}), above = from({"--light-from", "90,89"});
+    expectAlike(mirrored(from({"--light-from", "270,10"})), east, 1.1f, "west is east mirrored");
+    // Of one eye: the half on the light's side is brighter.
+    const auto halves = [](const Shown& picture, bool across) {
+        glm::vec2 sum(0);
+        for (int y = 0; y < picture.height; ++y)
+            for (int x = 0; x < picture.width / 2; ++x) {
+                const float light = picture.pixels[static_cast<std::size_t>(y) * picture.width + x].x;
+                sum[across ? (x >= picture.width / 4) : (y >= picture.height / 2)] += light;
+            }
+        return sum;
+    };
+    EXPECT_GT(halves(east, true)[1], 1.1f * halves(east, true)[0]);
+    EXPECT_GT(halves(above, false)[0], 1.1f * halves(above, false)[1]);
+    expectAlike(from({"--lamp", "head"}), from({"--lamp", "-0.001,-0.15,-0.001"}), 1.1f, "the head's lamp");
+    // A cone's width is scattered light's alone.
+    expectAlike(from({"--model", "direct", "--cone", "90"}), from({"--model", "direct"}), 0, "the cone");
+    EXPECT_NE(picture(ball(), {"--medium", milk, "--cone", "90"}), picture(ball(), {"--medium", milk}));
+}
+
+// Twice the slices are half as far from many.
+TEST_F(MediumCommands, SlicesConverge) {
+    const std::string milk = input("milk.txt", kMilk);
+    const auto sliced = [&](const char* count) {
+        const std::string file = (mFolder / "picture.png").string();
+        runWell({"render", ball(), "--medium", milk, "--slices", count, "--size", "40x30", "--light-size",
+                 "24", "--out", file});
+        return readLinearImage(file);
+    };
+    const Shown many = sliced("384");
+    const auto awayOf = [&](const Shown& some) {
+        double sum = 0;
+        for (std::size_t n = 0; n < some.pixels.size(); ++n)
+            sum += std::abs(static_cast<double>(some.pixels[n].x - many.pixels[n].x));
+        return sum;
+    };
+    const double few = awayOf(sliced("6")), twice = awayOf(sliced("12"));
+    EXPECT_GT(few, 0);
+    EXPECT_LT(twice, 0.75 * few);
+}
+
+TEST_F(MediumCommands, WhatIsTheDefaultChangesNothingAndNoiseDoes) {
+    const std::string milk = input("milk.txt", kMilk);
+    const std::string usual = picture(ball(), {"--medium", milk});
+    EXPECT_EQ(picture(ball(), {"--medium", milk, "--phase", "none"}), usual);
+    EXPECT_EQ(picture(ball(), {"--medium", milk, "--noise", "none"}), usual);
+    EXPECT_NE(picture(ball(), {"--medium", milk, "--noise", "fur"}), usual);
+    // The other way to two eyes: the left one is the same, the right one nearly.
+    const Shown both = shown(ball(), {"--medium", milk}),
+                splat = shown(ball(), {"--medium", milk, "--method", "depthsplat"});
+    for (int y = 0; y < both.height; ++y)
+        for (int x = 0; x < both.width / 2; ++x) {
+            const std::size_t n = static_cast<std::size_t>(y) * both.width + x;
+            ASSERT_LE(std::abs(levels(both.pixels[n].x) - levels(splat.pixels[n].x)), 1.1f) << x << " " << y;
         }
-    }
-    // What is the default, said aloud.
-    EXPECT_FALSE(pictures.insert(picture(ball(), {"--medium", milk})).second);
-    EXPECT_FALSE(pictures.insert(picture(ball(), {"--medium", milk, "--phase", "none"})).second);
-    EXPECT_FALSE(pictures.insert(picture(ball(), {"--medium", milk, "--noise", "none"})).second);
 }
 
 // The same frames twice and with one thread, to the byte; the cloud moves between frames though the eye

@@ -171,8 +171,8 @@ TEST_F(MediumGpuTest, SurfaceWeightHighlightGlowAndColouredPhase) {
         }
 }
 
-// Some texels are not known, and not all count alike.
-std::shared_ptr<IlluminationVolume> bakedLight() {
+// Some texels are not known, and not all count alike; or all are.
+std::shared_ptr<IlluminationVolume> bakedLight(bool all = false) {
     VolumeFrame frame = blobs()->frame;
     frame.size = {9, 8, 10};
     frame.spacing *= 1.9;
@@ -183,9 +183,10 @@ std::shared_ptr<IlluminationVolume> bakedLight() {
         for (int j = 0; j < 8; ++j)
             for (int i = 0; i < 9; ++i) {
                 const glm::vec3 value(number(random), number(random), 2 * number(random));
-                if (number(random) < 0.7f || k > 6)
+                const float weight = all ? 1.0f : k > 7 ? 0.0f : 0.5f + 0.5f * value.x;
+                if (all || number(random) < 0.7f || k > 6)
                     light->texels[light->layout.index(i, j, k)] =
-                        packTexel(k > 7 ? glm::vec3(0) : value, k > 7 ? 0 : 0.5f + 0.5f * value.x);
+                        packTexel(weight > 0 ? value : glm::vec3(0), weight);
             }
     return light;
 }
@@ -199,6 +200,8 @@ TEST_F(MediumGpuTest, BakedLightOnSurfaces) {
     // Its texels are half floats here, times their weights.
     expectAsByTheBook(subject, look, {viewFrom(kEye, kMiddle)}, smallSetting());
     look.baked.use = BakedLook::Use::Openness;
+    expectAsByTheBook(subject, look, {viewFrom(kEye, kMiddle)}, smallSetting());
+    look.baked.beyond = bakedLight(true);
     expectAsByTheBook(subject, look, {viewFrom(kEye, kMiddle)}, smallSetting());
     std::vector<MediumPicture> with(1), without(1);
     subject.gpu.render(look, smallSetting(), {{viewFrom(kEye, kMiddle)}}, kEye, 0, with);

@@ -10,6 +10,7 @@
 
 #include "engine/camera/pose.h"
 #include "engine/camera/stereo_rig.h"
+#include "engine/light/light_beyond.h"
 #include "engine/light/spherical_harmonics.h"
 
 namespace stereonav {
@@ -81,6 +82,29 @@ struct SkySubject {
         return whole;
     }
 };
+
+// What lies beyond the texels that are known follows them, once all of them are lit.
+TEST(ViewSky, LightBeyondTurnsToo) {
+    const Subject by;
+    auto beyond = std::make_shared<IlluminationVolume>(lightBeyond(*by.light));
+    const IlluminationVolume before = lightBeyond(*by.light);
+    ViewSky sky(wall(), by.straight, by.light, {}, beyond);
+    const SkyTurn turn{1.1, 0.3};
+    sky.turnTo(turn);
+    EyeImage nothing;
+    for (int n = 0; n < 50; ++n) sky.seen(EyeView(), nothing);
+    const IlluminationVolume wanted = lightBeyond(by.all(turn));
+    int moved = 0;
+    ASSERT_EQ(beyond->layout.count(), wanted.layout.count());
+    for (std::size_t n = 0; n < wanted.layout.count(); ++n) {
+        ASSERT_EQ(beyond->texels[n], wanted.texels[n]) << n;
+        moved += wanted.texels[n] != before.texels[n];
+    }
+    EXPECT_GT(moved, 0);
+    const std::uint64_t changes = sky.changes();
+    sky.seen(EyeView(), nothing);
+    EXPECT_EQ(sky.changes(), changes) << "and then it rests";
+}
 
 TEST(ViewSky, TurnsAsItSays) {
     constexpr double kQuarter = std::numbers::pi / 2;

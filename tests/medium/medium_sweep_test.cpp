@@ -222,8 +222,10 @@ TEST_P(MediumSweepAgrees, withThePlainSweep) {
 }
 INSTANTIATE_TEST_SUITE_P(All, MediumSweepAgrees, testing::ValuesIn(cases()), nameOfCase);
 
-// Baked light on a grid that lies askew, a part of its texels unknown.
-std::shared_ptr<IlluminationVolume> bakedTexels(std::mt19937& random) {
+// Baked light on a grid that lies askew, a part of its texels unknown where `holes`, the others of this
+// weight.
+std::shared_ptr<IlluminationVolume> bakedTexels(std::mt19937& random, bool holes = true, float weight = 1,
+                                                float brightest = 1) {
     VolumeFrame frame;
     frame.size = {6, 7, 5};
     frame.spacing = {0.4, 0.35, 0.45};
@@ -235,14 +237,16 @@ std::shared_ptr<IlluminationVolume> bakedTexels(std::mt19937& random) {
     for (int k = 0; k < frame.size.z; ++k)
         for (int j = 0; j < frame.size.y; ++j)
             for (int i = 0; i < frame.size.x; ++i)
-                light->texels[light->layout.index(i, j, k)] =
-                    packTexel({u(random), u(random), u(random)}, i == 1 ? 0.0f : 1.0f);
+                light->texels[light->layout.index(i, j, k)] = packTexel(
+                    brightest * glm::vec3(u(random), u(random), u(random)), holes && i == 1 ? 0.0f : weight);
     return light;
 }
 
 TEST(MediumSweep, agreesOnBakedLight) {
     for (const Kind kind : {Kind::Surface, Kind::Ramp, Kind::Noise, Kind::Layers})
-        for (const BakedLook::Use use : {BakedLook::Use::Irradiance, BakedLook::Use::Openness}) {
+        for (const auto& [use, beyond] :
+             {std::pair{BakedLook::Use::Irradiance, false}, std::pair{BakedLook::Use::Openness, false},
+              std::pair{BakedLook::Use::Irradiance, true}}) {
             std::mt19937 random(11);
             Scene scene = sceneOf(kind, MediumModel::Indirect, false, true, 9);
             if (kind == Kind::Noise) {
@@ -252,11 +256,13 @@ TEST(MediumSweep, agreesOnBakedLight) {
             }
             const std::vector<MediumPicture> lamp = plain(scene);
             scene.look.baked.light = bakedTexels(random);
+            if (beyond) scene.look.baked.beyond = bakedTexels(random, false);
             scene.look.baked.use = use;
             scene.look.baked.exposure = 0.8f;
             scene.look.baked.lampShare = 0.3f;
             const std::vector<MediumPicture> truth = plain(scene);
-            EXPECT_GT(differenceOf(lamp, truth).light, 20 * kTolerance) << static_cast<int>(kind);
+            EXPECT_GT(differenceOf(lamp, truth).light, (beyond ? 10 : 20) * kTolerance)
+                << static_cast<int>(kind);
             for (const SimdTarget target : simdTargets()) {
                 const Difference d = differenceOf(truth, fast(scene, target));
                 // Layers: as above.
@@ -266,6 +272,33 @@ TEST(MediumSweep, agreesOnBakedLight) {
                     << static_cast<int>(kind) << ' ' << static_cast<int>(target);
             }
         }
+}
+
+// Weights of nearly nothing, dim light under a high exposure, light beyond half floats: all finite, and as
+// the plain sweep has it.
+TEST(MediumSweep, agreesOnBakedLightAtTheEndsOfItsNumbers) {
+    const struct {
+        float weight, brightest, exposure;
+        double most;  // of the light, which may be far above 1
+    } cases[] = {{1.0f / 1024, 0x1p-18f, 0x1p18f, kTolerance},
+                 {1, 0x1p-20f, 0x1p19f, 2 * kTolerance},
+                 {1, 1e30f, 1e-6f, kTolerance},
+                 {1, 1e30f, 1e6f, 1e8},
+                 {1, 1, std::numeric_limits<float>::quiet_NaN(), kTolerance},
+                 {1, 1, std::numeric_limits<float>::infinity(), 1e16}};
+    for (const auto& c : cases) {
+        std::mt19937 random(13);
+        Scene scene = sceneOf(Kind::Surface, MediumModel::Indirect, false, true, 9);
+        scene.look.baked.light = bakedTexels(random, true, c.weight, c.brightest);
+        scene.look.baked.exposure = c.exposure;
+        scene.look.baked.beyond = bakedTexels(random, false, 1, c.brightest);
+        const std::vector<MediumPicture> truth = plain(scene);
+        for (const SimdTarget target : simdTargets()) {
+            const Difference d = differenceOf(truth, fast(scene, target));
+            EXPECT_TRUE(std::isfinite(d.brightest)) << c.exposure;
+            EXPECT_LE(d.light, c.most) << c.exposure << ' ' << static_cast<int>(target);
+        }
+    }
 }
 
 // A narrow spot: scattered light gets beside the cone, direct light does not; the fast sweep agrees there

@@ -18,13 +18,6 @@ namespace {
 using namespace test;
 using Lookup = IlluminationVolume::Lookup;
 
-std::vector<SimdTarget> targets() {
-    std::vector<SimdTarget> all;
-    for (const SimdTarget t : {SimdTarget::Plain, SimdTarget::Avx2, SimdTarget::Avx512})
-        if (availableTarget(t) == t) all.push_back(t);
-    return all;
-}
-
 // Two balls of 4 and 2.5 voxels; the small one to the left of the large one.
 VolumeScene balls() {
     VolumeFrame frame = slantedFrame({26, 22, 24}, {0.8e-3, 0.7e-3, 0.9e-3});
@@ -94,7 +87,7 @@ TEST(BakedLook, packetsLookUpAsTheScalarDoes) {
             scene.look.baked.light = randomLight(scene.field.frame, perVoxel, 0.3);
             scene.look.baked.lookup = lookup;
             const EyeView view = viewOf(scene.field.frame, {12, -18, 14});
-            for (const SimdTarget target : targets()) {
+            for (const SimdTarget target : simdTargets()) {
                 const VolumeRenderer renderer(scene, {target});
                 EXPECT_EQ(renderer.viewDependence(),
                           lookup == Lookup::Trilinear ? ViewDependence::Normal : ViewDependence::None);
@@ -125,7 +118,7 @@ TEST(BakedLook, rowsLookUpAgainWhatWasCast) {
     VolumeScene scene = balls();
     scene.look.baked.light = randomLight(scene.field.frame, 1, 0.3);
     const EyeView view = viewOf(scene.field.frame, {12, -18, 14});
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         const VolumeRenderer renderer(scene, {target});
         EyeImage image = cast(renderer, view);
         const Plane<PackedColor> wanted = image.color;
@@ -171,7 +164,7 @@ TEST(HardShadow, fallsWhereThePlainCasterMeetsSomething) {
         scene.look.shadows = false;
         const EyeImage bright = cast(VolumeRenderer(scene), view);
         scene.look.shadows = true;
-        for (const SimdTarget target : targets()) {
+        for (const SimdTarget target : simdTargets()) {
             const EyeImage shaded = cast(VolumeRenderer(scene, {target}), view);
             int shadow = 0, lit = 0;
             for (int y = 0; y < view.height; ++y)
