@@ -1,8 +1,9 @@
 # The program: its commands, the modules that only it uses, and what it is built without (app/without).
 stereonav_module(video app/opencv LINK engine_byte_image opencv_imgproc opencv_videoio)
-add_executable(stereonav)
-add_dependencies(stereonav stereonav_video)
-target_link_libraries(stereonav PRIVATE engine_light engine_metrics engine_stereo engine_nav
+# All but main(): tests of the program's own functions link it too, so that nothing is compiled twice.
+add_library(program STATIC)
+add_dependencies(program stereonav_video)
+target_link_libraries(program PUBLIC engine_light engine_metrics engine_stereo engine_nav
   CLI11::CLI11 nlohmann_json::nlohmann_json)
 
 set(left_out "")   # sources of app/ that need what is left out
@@ -12,10 +13,10 @@ set(without "")    # its names; app/without/<name>.cpp stands in for it
 function(stereonav_part name)
   cmake_parse_arguments(ARG "" "OPTION" "LINK;SOURCES" ${ARGN})
   if(${ARG_OPTION})
-    target_link_libraries(stereonav PRIVATE ${ARG_LINK})
+    target_link_libraries(program PUBLIC ${ARG_LINK})
     return()
   endif()
-  target_sources(stereonav PRIVATE ${CMAKE_SOURCE_DIR}/app/without/${name}.cpp)
+  target_sources(program PRIVATE ${CMAKE_SOURCE_DIR}/app/without/${name}.cpp)
   list(TRANSFORM ARG_SOURCES PREPEND ${CMAKE_SOURCE_DIR}/app/)
   file(GLOB files CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/app ${ARG_SOURCES})
   set(left_out ${left_out} ${files} PARENT_SCOPE)
@@ -25,7 +26,7 @@ endfunction()
 stereonav_part(terrain OPTION STEREONAV_TERRAIN LINK terrain
   SOURCES terrain_loading.cpp bake_terrain.cpp info_terrain.cpp command_mesh.cpp medium_terrain.cpp)
 if(NOT STEREONAV_TERRAIN)
-  target_sources(stereonav PRIVATE ${CMAKE_SOURCE_DIR}/terrain/sky_map.cpp)  # the sky over media, too
+  target_sources(program PRIVATE ${CMAKE_SOURCE_DIR}/terrain/sky_map.cpp)  # the sky over media, too
 endif()
 stereonav_part(colon OPTION STEREONAV_COLON LINK colon
   SOURCES colon_loading.cpp bake_volume.cpp bake_peers_*.cpp info_colon.cpp command_centreline.cpp volume_light.cpp
@@ -46,7 +47,7 @@ else()
 endif()
 if(STEREONAV_MPI AND STEREONAV_COLON)
   find_package(MPI REQUIRED COMPONENTS CXX)
-  target_link_libraries(stereonav PRIVATE MPI::MPI_CXX)
+  target_link_libraries(program PUBLIC MPI::MPI_CXX)
   list(APPEND left_out bake_peers_single.cpp)
 else()
   list(APPEND left_out bake_peers_mpi.cpp)
@@ -54,7 +55,9 @@ endif()
 if(NOT STEREONAV_MPI)
   list(APPEND without MPI)
 endif()
-stereonav_sources(stereonav app EXCLUDE ${left_out})
+stereonav_sources(program app EXCLUDE main.cpp ${left_out})
+add_executable(stereonav app/main.cpp)
+target_link_libraries(stereonav PRIVATE stereonav_options program)
 list(JOIN without ", " without)
 set_source_files_properties(app/built_without.cpp PROPERTIES COMPILE_DEFINITIONS
   "STEREONAV_VERSION=\"${PROJECT_VERSION}\";STEREONAV_WITHOUT=\"${without}\"")
