@@ -4,6 +4,6 @@ set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.ci/setup.sh"
 
 install_missing build
-configure release ${STEREONAV_CMAKE_ARGS:-}
+configure release -DCMAKE_UNITY_BUILD=ON ${STEREONAV_CMAKE_ARGS:-}
 build release stereonav
 exec "$root/build/release/bin/stereonav" "$@"

@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds the release and runs every test under a virtual display.
-# Arguments go to ctest: ./test.sh -R warp
+# Installs what is missing, builds the release and runs every test under a virtual display; the last lines say what was
+# skipped. Arguments go to ctest: ./test.sh -R warp
 set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.ci/setup.sh"
 
 install_missing build test
-configure release ${STEREONAV_CMAKE_ARGS:-}
+configure release -DCMAKE_UNITY_BUILD=ON ${STEREONAV_CMAKE_ARGS:-}
 build release
-cd "$root"
-with_display ctest --preset release --no-tests=error -j "$(nproc)" "$@"
+run_tests release "$@"

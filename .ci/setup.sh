@@ -77,5 +77,14 @@ build() {
 
 # with_display COMMAND...: under a virtual display of its own, so that no window opens on the user's
 with_display() {
-    env -u WAYLAND_DISPLAY xvfb-run -a -n "$((200 + $$ % 30000))" -s "-screen 0 1280x1024x24" "$@"
+    env -u WAYLAND_DISPLAY xvfb-run -a -n "$((200 + $$ % 30000))" -s "-noreset -screen 0 1280x1024x24" "$@"
+}
+
+# run_tests PRESET [CTEST ARGUMENTS...]: under a virtual display; then how many tests there were and what was skipped
+run_tests() {
+    local preset="$1" status=0
+    shift
+    (cd "$root" && with_display ctest --preset "$preset" --no-tests=error -j "$(nproc)" "$@") || status=$?
+    "$root/.ci/skipped" "$root/build/$preset/Testing/Temporary/LastTest.log"
+    return "$status"
 }

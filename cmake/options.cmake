@@ -3,6 +3,9 @@ add_library(stereonav_options INTERFACE)
 target_compile_options(stereonav_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wno-unknown-pragmas
   -ffp-contract=off -fno-math-errno -fno-trapping-math
   -Wno-restrict)  # false positives of g++ 12 on std::string operator+ (gcc bug 105651)
+if(CMAKE_UNITY_BUILD)  # g++ takes a source that a unity source includes for a header
+  target_compile_options(stereonav_options INTERFACE -Wno-subobject-linkage)
+endif()
 if(STEREONAV_WERROR)
   target_compile_options(stereonav_options INTERFACE -Werror)
 endif()

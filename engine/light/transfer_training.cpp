@@ -19,7 +19,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kBlock = 256;      // vectors a task
+constexpr int kTrainingBlock = 256;      // vectors a task
 constexpr int kMeansRounds = 5;  // of plain k-means, before components take part
 
 using Parts = TransferCodebook::Parts;
@@ -52,10 +52,10 @@ void check(std::span<const float> vectors, const TransferShape& shape, const Tra
 
 // body(first, last) over blocks of 0..count.
 void forBlocks(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
-    const auto blocks = static_cast<int>((count + kBlock - 1) / kBlock);
+    const auto blocks = static_cast<int>((count + kTrainingBlock - 1) / kTrainingBlock);
     parallelFor(blocks, [&](int b) {
-        const std::size_t first = static_cast<std::size_t>(b) * kBlock;
-        body(first, std::min(count, first + kBlock));
+        const std::size_t first = static_cast<std::size_t>(b) * kTrainingBlock;
+        body(first, std::min(count, first + kTrainingBlock));
     });
 }
 
