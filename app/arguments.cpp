@@ -52,6 +52,8 @@ double shareFromText(const std::string& text) {
 }
 
 constexpr const char* kImageHelp = "colour of the ground";
+constexpr const char* kShadeImageHelp =
+    "light that picture by the sun, though it holds the light of its own day";
 constexpr const char* kSunHelp = "azimuth,elevation of a terrain's sun in degrees, clockwise from north";
 constexpr const char* kStudyGroup = "Options of CT studies";
 constexpr const char* kUpHelp =
@@ -141,6 +143,7 @@ void addSource(CLI::App& command, SceneOptions& options) {
 void addScene(CLI::App& command, SceneOptions& options) {
     addSource(command, options);
     command.add_option("--image", options.image, kImageHelp);
+    command.add_flag("--shade-image", options.shadeImage, kShadeImageHelp);
     command.add_option("--sky", options.sky, "an equirectangular picture or a light probe (.hdr)");
     command.add_option(
         "--light", options.light,
@@ -360,6 +363,7 @@ void addMesh(CLI::App& app, Parsed& parsed) {
     command.add_option("SCENE", options.scene.scene, kTerrainHelp);
     addGround(command, options.scene);
     command.add_option("--image", options.scene.image, kImageHelp);
+    command.add_flag("--shade-image", options.scene.shadeImage, kShadeImageHelp);
     command.add_option("--sun", options.scene.sun, kSunHelp);
     addThreads(command, options.scene);
     command.add_option("--out", options.out, "the mesh's file, .glb or .gltf")->required();

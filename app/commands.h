@@ -75,7 +75,8 @@ struct SceneOptions {
     std::string scene;
     double verticalScale = 0;  // 0: as the scene says
     bool openHoles = false;
-    std::string image, sky;  // "": as the scene says
+    std::string image, sky;   // "": as the scene says
+    bool shadeImage = false;  // the picture is lit by the sun too
     // Baked light: a file; of a terrain also "auto", for the cache's; of a volume in a window also "lazy",
     // worked out while one flies, and in a picture "traced", at every pixel; "": none.
     std::string light;

@@ -1,5 +1,4 @@
-// Heights are copied onto a grid of one spacing; colours are the means of the ground's picture at each
-// height.
+// Heights are copied onto a grid of one spacing; colours are read where they are, in the scene's texture.
 #include "app/medium_terrain.h"
 
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -19,13 +19,11 @@
 namespace stereonav {
 namespace {
 
-constexpr int kColors = 64;               // heights with a colour of their own
-constexpr int kColorSamples = 1'000'000;  // samples of the ground looked at, about
-constexpr double kGroundOpacity = 0.9;    // of a layer one sample spacing thick, or kSoftSlices slices
-constexpr double kSoftSlices = 3;         // fewer, and each slice shows as a terrace
-constexpr double kThickness = 0.02;       // of the longer side: how far down the ground is solid
-constexpr double kTaper = 0.5;            // sample spacings over which it begins at least
-constexpr double kMistTaper = 0.3;        // of the mist's thickness
+constexpr double kGroundOpacity = 0.9;  // of a layer one sample spacing thick, or kSoftSlices slices
+constexpr double kSoftSlices = 3;       // fewer, and each slice shows as a terrace
+constexpr double kThickness = 0.02;     // of the longer side: how far down the ground is solid
+constexpr double kTaper = 0.5;          // sample spacings over which it begins at least
+constexpr double kMistTaper = 0.3;      // of the mist's thickness
 constexpr float kMistAlbedo = 0.97f;
 constexpr glm::vec3 kMistColor{0.62f};  // beside ground whose colours are as the eye is used to them
 
@@ -42,60 +40,17 @@ Plane<float> heightsOf(const Heightfield& ground, double spacing) {
     return heights;
 }
 
-glm::vec3 colorAt(const ColorTexture& color, const glm::dvec2& grid) {
-    if (color.levelCount() == 0) return glm::vec3(0.5f);
-    const ColorTexture::Level level = color.level(0);
-    const glm::dvec2 texel = (grid - color.gridOrigin()) / color.gridPerTexel();
-    const auto index = [](double t, int size) {
-        return static_cast<int>(std::clamp(t, 0.0, static_cast<double>(size - 1)));
-    };
-    return unpackColor(level.at(index(texel.x, level.width()), index(texel.y, level.height())));
-}
-
-// The mean colour of the ground in kColors equal ranges of height; ranges without any ground take the one
-// below.
-std::vector<glm::vec3> meanColors(const TerrainScene& terrain) {
-    const Heightfield& ground = terrain.ground;
-    std::vector<glm::dvec3> sums(kColors, glm::dvec3(0.0));
-    std::vector<double> counts(kColors, 0.0);
-    const double range = static_cast<double>(ground.maxHeight()) - ground.minHeight();
-    const double samples = static_cast<double>(ground.width()) * ground.height();
-    const int step = std::max(1, static_cast<int>(std::sqrt(samples / kColorSamples)));
-    for (int j = 0; j < ground.height(); j += step)
-        for (int i = 0; i < ground.width(); i += step) {
-            const double height = ground.sample(i, j);
-            if (!std::isfinite(height)) continue;
-            const double share = range > 0 ? (height - ground.minHeight()) / range : 0.0;
-            const int bin = std::min(static_cast<int>(share * kColors), kColors - 1);
-            sums[bin] += glm::dvec3(colorAt(terrain.color, glm::dvec2(i, j)));
-            counts[bin] += 1;
-        }
-    std::vector<glm::vec3> colors;
-    for (int n = 0; n < kColors; ++n) {
-        const glm::vec3 before = colors.empty() ? glm::vec3(0.5f) : colors.back();
-        colors.push_back(counts[n] > 0 ? glm::vec3(sums[n] / counts[n]) : before);
-    }
-    return colors;
-}
-
-// Light that scatters in the ground goes no further than light that falls straight in.
-MediumMaterial groundMaterial(const glm::vec3& color) {
+// White: the colour is the place's. Light that scatters in the ground goes no further than light that falls
+// straight in.
+MediumTransfer groundTransfer(const Heightfield& ground, double length) {
     MediumMaterial material;
-    material.color = glm::clamp(color, 0.0f, 1.0f);
+    material.color = glm::vec3(1.0f);
     material.opacity = kGroundOpacity;
     material.transport = glm::vec3(static_cast<float>(1 - kGroundOpacity));
-    return material;
-}
-
-MediumTransfer groundTransfer(const TerrainScene& terrain, double length) {
-    const std::vector<glm::vec3> colors = meanColors(terrain);
-    const double lowest = terrain.ground.minHeight();
-    const double range = std::max<double>(terrain.ground.maxHeight() - lowest, 1.0);
-    std::vector<MediumPoint> points{{lowest - 0.1 * range, groundMaterial(colors.front())}};
-    for (int n = 0; n < kColors; ++n)
-        points.push_back({lowest + (n + 0.5) / kColors * range, groundMaterial(colors[n])});
-    points.push_back({lowest + 1.1 * range, groundMaterial(colors.back())});
-    return MediumTransfer(std::move(points), length, "the ground's colours");
+    const double range = std::max<double>(ground.maxHeight() - ground.minHeight(), 1.0);
+    return MediumTransfer(std::vector<MediumPoint>{{ground.minHeight() - 0.1 * range, material},
+                                                   {ground.maxHeight() + 0.1 * range, material}},
+                          length, "the ground's colours");
 }
 
 HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& options,
@@ -112,10 +67,14 @@ HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& option
     const double slice = glm::length(extent) / sweep.slices;
     const double step = std::max(slice, glm::length(extent) / sweep.lightSize);
     layer.taper = std::min(std::max(kTaper * layer.spacing, step), 0.5 * layer.below);
-    const MediumTransfer transfer =
-        options.medium == kGroundMedium
-            ? groundTransfer(terrain, std::max(layer.spacing, kSoftSlices * slice))
-            : findMediumTransfer(options.medium);
+    const bool ownColors = options.medium == kGroundMedium;
+    const MediumTransfer transfer = ownColors
+                                        ? groundTransfer(ground, std::max(layer.spacing, kSoftSlices * slice))
+                                        : findMediumTransfer(options.medium);
+    if (ownColors) {  // of the scene, which lives as long
+        layer.color = std::shared_ptr<const ColorTexture>(std::shared_ptr<void>(), &terrain.color);
+        layer.colorSpacing = ground.spacing();
+    }
     const double margin = 1 + 0.05 * (static_cast<double>(ground.maxHeight()) - ground.minHeight());
     layer.table = makeMediumTable(transfer, ground.minHeight() - margin, ground.maxHeight() + margin);
     makeMipLevels(layer);

@@ -8,8 +8,9 @@
 
 namespace stereonav {
 
-// The ground as a layer in its own colours, or under a transfer function over the height; with --mist a
-// second layer. The ground begins as gradually as the sweep is coarse. Throws Error.
+// The ground as a layer in its own colours, read at the place from the scene's texture, or under a transfer
+// function over the height; with --mist a second layer. The ground begins as gradually as the sweep is
+// coarse. The scene must outlive it. Throws Error.
 Medium terrainMedium(const TerrainScene& terrain, const MediumOptions& options, const SweepSetting& sweep);
 
 // The scene's sky by a unit world direction, linear RGB, bilinear between the map's texels.

@@ -77,6 +77,7 @@ void refuseTerrainOptions(const SceneOptions& options) {
     const std::pair<const char*, bool> given[] = {{"--vertical-scale", options.verticalScale != 0},
                                                   {"--open-holes", options.openHoles},
                                                   {"--image", !options.image.empty()},
+                                                  {"--shade-image", options.shadeImage},
                                                   {"--sun", !options.sun.empty()}};
     for (const auto& [option, is] : given)
         if (is) throw Error(option, "", "expected with a terrain, the scene is a CT study", "leave it out");

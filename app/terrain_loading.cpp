@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "app/medium_options.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
 #include "engine/nav/navigator.h"
@@ -30,19 +31,51 @@ void setSun(const std::string& text, TerrainLook& look) {
     look.sunElevation = elevation * kRadians;
 }
 
+// Options that a scene of this kind would not show.
+void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
+    const auto refuse = [](bool is, const char* option, const char* problem, const char* advice) {
+        if (is) throw Error(option, "", problem, advice);
+    };
+    const MediumOptions& m = options.medium;
+    const bool medium = showsMedium(options);
+    refuse(options.openHoles && scene.builtIn, "--open-holes", "the built-in terrain has no holes",
+           "leave it out, or name an elevation model");
+    refuse(options.shadeImage && scene.image.empty(), "--shade-image", "there is no picture to light",
+           "name one with --image, or leave it out");
+    refuse(options.shadeImage && medium, "--shade-image",
+           "a medium's own light falls on the picture's colours as they are", "leave it out");
+    refuse(medium && m.shadingWidth.has_value(), "--shading-width",
+           "is of surfaces in volumes, a terrain's are shaded at each sample", "leave it out");
+    refuse(!options.sun.empty() && !m.lightFrom.empty(), "--sun", "does not go with --light-from",
+           "leave one of them out: both say where a medium's light comes from");
+    refuse(!options.sun.empty() && !m.lamp.empty(), "--sun", "does not go with --lamp",
+           "leave one of them out: a lamp takes the sun's place");
+}
+
 // The scene's file with what the options change.
 SceneFile describeTerrain(const SceneOptions& options) {
     SceneFile scene = sceneFileFromName(options.scene);
     if (options.verticalScale > 0.0) scene.verticalScale = options.verticalScale;
     if (options.openHoles) scene.openHoles = true;
     if (!options.image.empty()) scene.image = options.image;
+    if (options.shadeImage) scene.look.shadeImage = true;
     if (!options.sky.empty()) scene.sky = options.sky;
     if (!options.light.empty()) scene.light = options.light;
     if (!options.sun.empty()) setSun(options.sun, scene.look);
     if (options.separation_m) scene.separation = options.separation_m;
     if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;
     if (options.fov_deg > 0.0) scene.verticalFov = options.fov_deg * kRadians;
+    scene.colorsAlone = showsMedium(options);
+    refuseWithoutEffect(options, scene);
     return scene;
+}
+
+// What can only be told once the colours are there.
+void refuseSunWithoutEffect(const SceneOptions& options, const TerrainScene& terrain) {
+    if (options.sun.empty() || showsMedium(options) || terrain.illumination || terrain.landmarks) return;
+    if (terrain.report.colorHoldsSun || terrain.look.specular > 0) return;
+    throw Error("--sun", "", "turns nothing: the ground's picture holds the light of its own day",
+                "add --shade-image, or --light auto once stereonav bake has baked this ground's light");
 }
 
 FlightSetting flightSettingOf(const TerrainScene& terrain) {
@@ -74,6 +107,7 @@ LoadedScene loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progr
     scene.name = options.scene.empty() ? "terrain" : options.scene;
     scene.terrain = std::make_unique<TerrainScene>(loadTerrain(describeTerrain(options), progress));
     const TerrainScene& terrain = *scene.terrain;
+    refuseSunWithoutEffect(options, terrain);
     auto renderer = std::make_unique<TerrainRenderer>(terrain, simd);
     scene.simd = renderer->target();
     if (terrain.illumination)

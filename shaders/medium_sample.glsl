@@ -2,9 +2,11 @@
 // and medium_light.frag (the vertex shader gets it too and uses none of it).
 // Spaces: a place is relative to the sweep's anchor, metres, world axes; voxel (i, j, k) is a voxel's centre.
 // Encodings: the field holds grey values as they are stored; the tables hold, three layers each, (colour,
-// extinction), (indirect extinction, surface weight) and (glow, 0), extinctions in 1/m.
-// Defined by the program: FIELD, GRADIENT (its table has a second axis), LAYERS and NOISE (how many), SURFACE
-// (the gradient is wanted), GLOW, INDIRECT (indirect extinction is wanted).
+// extinction), (indirect extinction, surface weight) and (glow, 0), extinctions in 1/m; a layer's own colours
+// are square roots of linear ones, filtered as such.
+// Defined by the program: FIELD, GRADIENT (its table has a second axis), LAYERS and NOISE (how many), COLORS
+// (how many layers have their own), SURFACE (the gradient is wanted), GLOW, INDIRECT (indirect extinction is
+// wanted).
 
 struct Properties {
     float extinction;
@@ -104,6 +106,30 @@ float heightAt(int layer, vec2 at, float footprint) {
     return share > 0.0 ? mix(height, heightIn(layer, fine + 1, at), share) : height;
 }
 
+#if COLORS > 0
+layout(binding = 16) uniform sampler2D uColors[COLORS];  // mip levels side by side
+uniform ivec4 uColorLevels[COLORS * LEVELS];             // corner and size of each
+uniform vec4 uColorFrame[COLORS];  // texel = place.xy * xy + zw
+uniform vec2 uColorSize[COLORS];   // texels a metre, coarsest level
+uniform int uColorOf[LAYERS];      // which of them; -1: none
+
+vec3 rootIn(int n, int level, vec2 texel) {
+    vec4 part = vec4(uColorLevels[n * LEVELS + level]);
+    vec2 inside = clamp(texel * exp2(-float(level)), vec2(0.5), part.zw - 0.5);
+    return textureLod(uColors[n], (part.xy + inside) / vec2(textureSize(uColors[n], 0)), 0.0).rgb;
+}
+// ColorTexture::at: from level to level over the middle half between them.
+vec3 colorAt(int n, vec2 place, float footprint) {
+    vec2 texel = place * uColorFrame[n].xy + uColorFrame[n].zw;
+    float level = clamp(log2(max(footprint * uColorSize[n].x, 1.0)), 0.0, uColorSize[n].y);
+    int fine = int(level);
+    float share = clamp(2.0 * (level - float(fine)) - 0.5, 0.0, 1.0);
+    vec3 root = rootIn(n, fine, texel);
+    if (share > 0.0) root = mix(root, rootIn(n, min(fine + 1, int(uColorSize[n].y)), texel), share);
+    return root * root;
+}
+#endif
+
 #if SURFACE
 // Slopes by the neighbours one sample away; 0 where they are not known.
 float slopeAlong(int layer, vec2 at, vec2 way) {
@@ -116,7 +142,8 @@ vec3 normalOf(int layer, vec2 at) {
 }
 #endif
 
-void addLayer(inout Properties sum, int layer, float height, float z) {
+void addLayer(inout Properties sum, int layer, float height, vec3 place, float footprint) {
+    float z = place.z + uHeightReach[layer].w;
     vec4 reach = uHeightReach[layer];
     float inside = min(z - height + reach.x, height + reach.y - z);
     if (!(inside >= 0.0)) return;
@@ -124,6 +151,9 @@ void addLayer(inout Properties sum, int layer, float height, float z) {
     Properties p = entryAt(height * uHeightTable[layer].x + uHeightTable[layer].y, 0.0, float(3 * layer));
     p.extinction *= weight;
     if (!(p.extinction > 0.0)) return;
+#if COLORS > 0
+    if (uColorOf[layer] >= 0) p.color *= colorAt(uColorOf[layer], place.xy, footprint);
+#endif
     sum.extinction += p.extinction;
     sum.indirectExtinction += weight * p.indirectExtinction;
     float share = p.extinction / sum.extinction;
@@ -137,11 +167,10 @@ Properties unperturbed(vec3 place, float footprint) {
     float least = 1e30;
     for (int layer = 0; layer < LAYERS; ++layer) {
         vec2 at = uHeightFrame[layer].yz + place.xy * uHeightFrame[layer].x;
-        float z = place.z + uHeightReach[layer].w;
         if (!overLayer(layer, at)) continue;
-        addLayer(sum, layer, heightAt(layer, at, footprint), z);
+        addLayer(sum, layer, heightAt(layer, at, footprint), place, footprint);
 #if SURFACE
-        float away = abs(z - heightIn(layer, 0, at));
+        float away = abs(place.z + uHeightReach[layer].w - heightIn(layer, 0, at));
         if (!(away < least)) continue;
         least = away;
         sum.gradient = normalOf(layer, at);

@@ -48,8 +48,7 @@ private:
     int mSize;
 };
 
-vec3 directionToSun() {
-    const TerrainLook look;
+vec3 directionToSun(const TerrainLook& look) {
     const auto azimuth = static_cast<float>(look.sunAzimuth), up = static_cast<float>(look.sunElevation);
     return {std::cos(up) * std::sin(azimuth), std::cos(up) * std::cos(azimuth), std::sin(up)};
 }
@@ -91,10 +90,9 @@ struct Light {
     std::vector<float> sun, sky;  // shares at the samples, 0 to 1
 };
 
-Light bakeLight(const Relief& relief) {
+Light bakeLight(const Relief& relief, const vec3& sun) {
     Light light{std::vector<float>(relief.heights.size()), std::vector<float>(relief.heights.size())};
     const Sampler height(relief.heights, relief.size);
-    const vec3 sun = directionToSun();
     parallelFor(relief.size, [&](int j) {
         for (int i = 0; i < relief.size; ++i) {
             const std::size_t k = static_cast<std::size_t>(j) * relief.size + i;
@@ -220,13 +218,14 @@ vec3 litBy(const Site& s, const vec3& normal, const vec3& toSun) {
 
 }  // namespace
 
-Plane<PackedColor> makeBuiltInColor(const Relief& relief, std::uint64_t seed, bool lit, Progress& progress) {
+Plane<PackedColor> makeBuiltInColor(const Relief& relief, std::uint64_t seed, const TerrainLook* look,
+                                    Progress& progress) {
     const Noise cover(seed * 31 + 11), bumps(seed * 31 + 12), grain(seed * 31 + 13);
-    const std::vector<Site> sites = surveyed(relief, bakeLight(relief), cover);
+    const vec3 toSun = directionToSun(look ? *look : TerrainLook());
+    const std::vector<Site> sites = surveyed(relief, bakeLight(relief, toSun), cover);
     progress.report(0.75, "painting the ground");
     const int n = kBuiltInTexels * relief.size;
     Plane<PackedColor> color(n, n);
-    const vec3 toSun = directionToSun();
     const float scale = static_cast<float>(relief.size - 1) / static_cast<float>(n);
     parallelFor(n, [&](int row) {
         const float y = (static_cast<float>(n - 1 - row) + 0.5f) * scale;
@@ -238,7 +237,7 @@ Plane<PackedColor> makeBuiltInColor(const Relief& relief, std::uint64_t seed, bo
             const Detail detail{mx, my, 1.4f * grain.fractal(mx / 34, my / 34, 2),
                                 texelNormal(site, bumps, mx, my)};
             const vec3 ground = groundCover(site, detail, cover);
-            color.at(column, row) = packColor(lit ? ground * litBy(site, detail.normal, toSun) : ground);
+            color.at(column, row) = packColor(look ? ground * litBy(site, detail.normal, toSun) : ground);
         }
     });
     progress.report(1.0, "painting the ground");

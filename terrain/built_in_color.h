@@ -13,7 +13,8 @@ namespace stereonav {
 
 // kBuiltInTexels * size texels a side over the relief's extent, row 0 northernmost. Reports the last 40 % of
 // the job.
-// lit: false leaves the light away, and the small-scale relief with it.
-Plane<PackedColor> makeBuiltInColor(const Relief& relief, std::uint64_t seed, bool lit, Progress& progress);
+// look: with the sun; null leaves the light away, and the small-scale relief with it.
+Plane<PackedColor> makeBuiltInColor(const Relief& relief, std::uint64_t seed, const TerrainLook* look,
+                                    Progress& progress);
 
 }  // namespace stereonav

@@ -110,13 +110,14 @@ void checkSize(int size) {
 
 }  // namespace
 
-BuiltInTerrain generateBuiltInTerrain(std::uint64_t seed, int size, Progress& progress, bool lit) {
+BuiltInTerrain generateBuiltInTerrain(std::uint64_t seed, int size, Progress& progress,
+                                      const std::optional<TerrainLook>& look) {
     checkSize(size);
     const Relief relief = makeRelief(seed, size, progress);
     BuiltInTerrain terrain;
     terrain.size = size;
     terrain.spacing = static_cast<double>(kBuiltInExtent) / (size - 1);
-    terrain.color = makeBuiltInColor(relief, seed, lit, progress);
+    terrain.color = makeBuiltInColor(relief, seed, look ? &*look : nullptr, progress);
     terrain.heights = relief.heights;
     return terrain;
 }

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/base/progress.h"
 #include "engine/image/packed_color.h"
 #include "engine/image/plane.h"
+#include "terrain/scene_file.h"
 
 namespace stereonav {
 
@@ -18,8 +20,8 @@ struct BuiltInTerrain {
     int size = 0;                // samples a side
     double spacing = 30.0;       // metres between samples, both ways
     std::vector<float> heights;  // metres, size * size, row 0 southernmost
-    // Base colour with the sun's light baked in, kBuiltInTexels * size texels a side over the same extent as
-    // the samples (outer edges of the texels on the outer samples), row 0 northernmost.
+    // Base colour with the light of the default look's sun baked in, kBuiltInTexels * size texels a side over
+    // the same extent as the samples (outer edges of the texels on the outer samples), row 0 northernmost.
     Plane<PackedColor> color;
 };
 
@@ -29,7 +31,8 @@ struct BuiltInTerrain {
 // cache that can not be written is done without. Throws Cancelled.
 BuiltInTerrain builtInTerrain(std::uint64_t seed, int size, Progress& progress);
 
-// The same without the cache. lit: false leaves the light out of the colours.
-BuiltInTerrain generateBuiltInTerrain(std::uint64_t seed, int size, Progress& progress, bool lit = true);
+// The same without the cache, under the sun of a look; without one the light is left out of the colours.
+BuiltInTerrain generateBuiltInTerrain(std::uint64_t seed, int size, Progress& progress,
+                                      const std::optional<TerrainLook>& look = TerrainLook());
 
 }  // namespace stereonav

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "engine/image/texture_data.h"
 #include "engine/math/kernel_sets.h"
 
 namespace stereonav {
@@ -23,14 +24,6 @@ struct GroundData {
     double (*exactHit)(const void* context, const double* origin, const double* direction, double tMin,
                        int* cell, double* position) = nullptr;
     const void* context = nullptr;
-};
-
-struct TextureData {
-    const std::uint32_t* texels = nullptr;
-    std::int32_t offset[16] = {};
-    int levels = 0, width = 0, height = 0;
-    float scaleX = 1, scaleY = 1, shiftX = 0, shiftY = 0;  // texel = grid * scale + shift
-    float texelsPerMetre = 1;
 };
 
 struct SkyData {

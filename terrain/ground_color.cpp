@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <glm/common.hpp>
@@ -15,6 +16,7 @@
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "terrain/raster_file.h"
+#include "terrain/sun_and_sky.h"
 
 namespace stereonav {
 namespace {
@@ -183,7 +185,7 @@ GroundLight::GroundLight(const TerrainLook& look) {
     const double level = look.ambient + (1 - look.ambient) * std::max(0.0, up);
     if (level <= 0) return;  // a sun below the horizon and no ambient light: night
     mAmbient = look.ambient / level;
-    mDirect = (1 - look.ambient) / level *
+    mDirect = sunUp(up) * (1 - look.ambient) / level *
               glm::dvec3(across * std::sin(look.sunAzimuth), across * std::cos(look.sunAzimuth), up);
 }
 
@@ -195,7 +197,7 @@ GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Pro
     const Tint tint(ground, look);
     const TextureSize size = textureSize(ground, glm::dvec2(kLitDensity));
     const auto color = [&](int, int, const glm::dvec2& grid) { return tint.at(grid); };
-    return {bake(ground, size.width, size.height, color, progress), "tint by height, lit"};
+    return {bake(ground, size.width, size.height, color, progress), "tint by height, lit", look.ambient < 1};
 }
 
 GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& dem, const Heightfield& ground,
@@ -221,14 +223,18 @@ GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& de
     const GroundPicture picture = opened->read(window, shrink);
     const Tint tint(ground, look);
     const GroundLight light(look);
+    std::atomic<bool> lit{look.shadeImage};
     const auto color = [&](int column, int row, const glm::dvec2& grid) {
         const GroundPicture::Sample sample = picture.at(map.at(column, row));
         glm::vec3 seen = sample.color;
         if (look.shadeImage && sample.cover > 0)
             seen *= light.at(ground.normalAt(ground.worldFromGrid(grid)));
-        return sample.cover >= 1 ? seen : glm::mix(tint.at(grid), seen, sample.cover);
+        if (sample.cover >= 1) return seen;
+        lit = true;
+        return glm::mix(tint.at(grid), seen, sample.cover);
     };
-    return {bake(ground, size.width, size.height, color, progress), describe(file, image, look.shadeImage)};
+    ColorTexture laid = bake(ground, size.width, size.height, color, progress);
+    return {std::move(laid), describe(file, image, look.shadeImage), lit && look.ambient < 1};
 }
 
 }  // namespace stereonav

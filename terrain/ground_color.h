@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/base/progress.h"
-#include "terrain/color_texture.h"
+#include "engine/image/color_texture.h"
 #include "terrain/dem_reader.h"
 #include "terrain/heightfield.h"
 #include "terrain/scene_file.h"
@@ -16,11 +16,12 @@ namespace stereonav {
 
 struct GroundColor {
     ColorTexture texture;
-    std::string source;  // for `info`: "image winter.jpg 457x499 over the same extent", ...
+    std::string source;     // for `info`: "image winter.jpg 457x499 over the same extent", ...
+    bool holdsSun = false;  // some of it is lit by the look's sun
 };
 
 // Light on ground as a factor on its colour: 1 on level ground, less on slopes turned away, down to
-// the ambient share where the sun does not reach (Lambert).
+// the ambient share where the sun does not reach (Lambert), everywhere once it has set.
 class GroundLight {
 public:
     explicit GroundLight(const TerrainLook& look);

@@ -1,60 +1,13 @@
-// Colour of a packet: the ground's texture filtered by the ray's footprint, fog, or the sky. Texels are
-// mixed as they are stored, as square roots of linear light in 14-bit fixed point; the mip levels
-// themselves are averaged in linear light. Included by kernels only.
+// Colour of a packet: the ground's texture filtered by the ray's footprint, fog, or the sky. Included by
+// kernels only.
 #pragma once
 
+#include "engine/image/kernel_texture.h"
 #include "engine/math/simd.h"
 #include "terrain/caster_types.h"
 #include "terrain/kernel_cast.h"
 
 namespace stereonav::STEREONAV_ISA {
-
-// A packed colour opened into 16-bit halves, each channel times 16: red and blue, and green.
-struct Channels {
-    I redBlue, green;
-};
-
-STEREONAV_INLINE Channels openColor(I packed) {
-    return {(shiftLeft<4>(packed) & I(0x3FF0)) | (packed & I(0x3FF00000)), shiftRight<6>(packed) & I(0x3FF0)};
-}
-
-STEREONAV_INLINE I closeColor(Channels c) {
-    const I redBlue = c.redBlue + I(0x00080008), green = c.green + I(8);
-    return (shiftRight<4>(redBlue) & I(0x3FF)) | (redBlue & I(0x3FF00000)) |
-           (shiftLeft<6>(green) & I(0xFFC00));
-}
-
-STEREONAV_INLINE Channels mix(Channels a, Channels b, I weight) {
-    return {lerpHalves(a.redBlue, b.redBlue, weight), lerpHalves(a.green, b.green, weight)};
-}
-
-// A weight in [0, 1] as 15-bit fixed point in both halves of a lane.
-STEREONAV_INLINE I weightOf(F w) {
-    const I fixed = truncateToInt(w * F(32767.0f));
-    return fixed | shiftLeft<16>(fixed);
-}
-
-STEREONAV_INLINE Channels bilinear(const std::uint32_t* texels, I index, I stride, F fractionX, F fractionY,
-                                   M m) {
-    const float* base = reinterpret_cast<const float*>(texels);
-    const FPair south = gatherPair(base, index, m), north = gatherPair(base, index + stride, m);
-    const I x = weightOf(fractionX), y = weightOf(fractionY);
-    return mix(mix(openColor(asInt(south.first)), openColor(asInt(south.second)), x),
-               mix(openColor(asInt(north.first)), openColor(asInt(north.second)), x), y);
-}
-
-// x, y: level-0 texel coordinates, texel centres at halves.
-STEREONAV_INLINE Channels sampleLevel(const TextureData& texture, F x, F y, I level, M m) {
-    const I one = shiftLeft(I(1), level);
-    const I width = shiftRight(I(texture.width - 1) + one, level);
-    const I height = shiftRight(I(texture.height - 1) + one, level);
-    const F scale = asFloat(shiftLeft<23>(I(127) - level));  // 2^-level
-    const F tx = mulAdd(x, scale, F(-0.5f)), ty = mulAdd(y, scale, F(-0.5f));
-    const I i = clamp(floorToInt(tx), I(0), width - I(1)), j = clamp(floorToInt(ty), I(0), height - I(1));
-    const F fx = clamp(tx - toFloat(i), F(0.0f), F(1.0f)), fy = clamp(ty - toFloat(j), F(0.0f), F(1.0f));
-    const I stride = width + I(1);
-    return bilinear(texture.texels, lookup16(texture.offset, level) + j * stride + i, stride, fx, fy, m);
-}
 
 // Base-2 logarithm within 0.01, for positive normal numbers.
 STEREONAV_INLINE F approxLog2(F x) {
@@ -75,25 +28,8 @@ STEREONAV_INLINE F mipLevel(const TextureData& texture, const CasterView& view, 
     return clamp(level, F(0.0f), F(static_cast<float>(texture.levels - 1)));
 }
 
-STEREONAV_INLINE Channels groundColor(const TextureData& texture, F gx, F gy, F level, M m) {
-    const F x = mulAdd(gx, F(texture.scaleX), F(texture.shiftX));
-    const F y = mulAdd(gy, F(texture.scaleY), F(texture.shiftY));
-    // The step from one level to the next is taken in the middle half between them: outside it one level
-    // is enough, and neighbours mostly agree on which.
-    const F nearest =
-        clamp(mulAdd(level - toFloat(truncateToInt(level)), F(2.0f), F(-0.5f)), F(0.0f), F(1.0f));
-    const M whole = nearest >= F(1.0f);
-    const I fine = truncateToInt(level) + select(whole, I(1), I(0));
-    const F fraction = select(whole, F(0.0f), nearest);
-    const Channels sharp = sampleLevel(texture, x, y, fine, m);
-    const M between = m & (fraction > F(0.0f));
-    if (!any(between)) return sharp;
-    const I coarse = min(fine + I(1), I(texture.levels - 1));
-    return mix(sharp, sampleLevel(texture, x, y, coarse, between), weightOf(fraction));
-}
-
 // directions in metres, any length.
-STEREONAV_INLINE Channels skyColor(const SkyData& sky, F x, F y, F z, M m) {
+STEREONAV_INLINE ColorHalves skyColor(const SkyData& sky, F x, F y, F z, M m) {
     const F scale = approxReciprocal(max(abs(x) + abs(y) + abs(z), F(1e-30f)));
     const F px = x * scale, py = y * scale;
     const M below = z < F(0.0f);
@@ -105,7 +41,7 @@ STEREONAV_INLINE Channels skyColor(const SkyData& sky, F x, F y, F z, M m) {
     const I last(sky.size - 2);
     const I i = clamp(floorToInt(tx), I(0), last), j = clamp(floorToInt(ty), I(0), last);
     const F fx = clamp(tx - toFloat(i), F(0.0f), F(1.0f)), fy = clamp(ty - toFloat(j), F(0.0f), F(1.0f));
-    return bilinear(sky.texels, j * I(sky.stride) + i, I(sky.stride), fx, fy, m);
+    return bilinearColor(sky.texels, j * I(sky.stride) + i, I(sky.stride), fx, fy, m);
 }
 
 // e^-x for x >= 0, relative error below 1e-5: a power of two, and the square of a series to the fifth
@@ -130,7 +66,7 @@ STEREONAV_INLINE I fogChannel(I root, float fog, F through) {
 }
 
 // Fog mixes in linear light, unlike texels, which hardly differ from their neighbours.
-STEREONAV_INLINE Channels fogged(const FogData& fog, Channels c, F through) {
+STEREONAV_INLINE ColorHalves fogged(const FogData& fog, ColorHalves c, F through) {
     const I low(0xFFFF);
     const I red = fogChannel(c.redBlue & low, fog.linear[0], through);
     const I green = fogChannel(c.green & low, fog.linear[1], through);
@@ -144,13 +80,14 @@ STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view,
     const F y = rays.y * F(static_cast<float>(scene.ground.spacingY));
     const M ground = lanes & (hits.t < infinity());
     const M sky = andNot(lanes, ground);
-    Channels color{I(0), I(0)};
+    ColorHalves color{I(0), I(0)};
     if (any(ground)) {
         const F square = mulAdd(x, x, mulAdd(y, y, rays.z * rays.z));
         const F length = square * approxRsqrt(square);
         const F t = select(ground, hits.t, F(1.0f));
         const F level = mipLevel(scene.texture, view, length, t, hits.approach);
-        color = groundColor(scene.texture, toFloat(hits.i) + hits.u, toFloat(hits.j) + hits.v, level, ground);
+        color =
+            textureColor(scene.texture, toFloat(hits.i) + hits.u, toFloat(hits.j) + hits.v, level, ground);
         if (scene.fog.perMetre > 0) {
             color = fogged(scene.fog, color, expMinus(t * length * F(scene.fog.perMetre)));
         }

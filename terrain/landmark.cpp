@@ -249,7 +249,7 @@ LandmarkSet::LandmarkSet(const std::vector<LandmarkFile>& files, const Heightfie
 LandmarkSet::~LandmarkSet() = default;
 
 void LandmarkSet::cast(const EyeView& view, int count, const glm::dvec3* direction, float* viewDepth,
-                       PackedColor* color) const {
+                       PackedColor* color, bool throughFog) const {
     const glm::dvec3 origin = view.eye - mState->centre;
     const auto nearDepth = static_cast<float>(view.nearDepth);
     const Silhouette silhouette(view, mState->low, mState->high);
@@ -265,7 +265,8 @@ void LandmarkSet::cast(const EyeView& view, int count, const glm::dvec3* directi
             const auto depth = static_cast<float>(hit.t);
             if (!(depth < viewDepth[first + k]) || depth < nearDepth) continue;
             viewDepth[first + k] = depth;
-            color[first + k] = mState->shader.color(hit, direction[first + k], view.pixelHeight());
+            color[first + k] =
+                mState->shader.color(hit, direction[first + k], view.pixelHeight(), throughFog);
         }
     }
 }

@@ -21,9 +21,10 @@ public:
 
     // Casts `count` rays from view.eye: where a mesh is hit in front of viewDepth[k], replaces
     // viewDepth[k] and color[k]. direction: unit length along the view axis (rayDirection()). A
-    // negative viewDepth[k] marks a lane to leave alone. Safe from several threads.
+    // negative viewDepth[k] marks a lane to leave alone. throughFog: colours as the eye sees them; else as
+    // they are. Safe from several threads.
     void cast(const EyeView& view, int count, const glm::dvec3* direction, float* viewDepth,
-              PackedColor* color) const;
+              PackedColor* color, bool throughFog = true) const;
 
     // Light and fog of another look. No cast() may run meanwhile.
     void setLook(const TerrainLook& look);

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "terrain/color_texture.h"
+#include "engine/image/color_texture.h"
 
 namespace stereonav {
 

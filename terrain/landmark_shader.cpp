@@ -7,6 +7,8 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
+#include "terrain/sun_and_sky.h"
+
 namespace stereonav {
 namespace {
 
@@ -52,12 +54,9 @@ LandmarkShader::LandmarkShader(LandmarkMesh&& mesh, const TerrainLook& look) : m
 }
 
 void LandmarkShader::setLook(const TerrainLook& look) {
-    const double across = std::cos(look.sunElevation);
-    mSun = {across * std::sin(look.sunAzimuth), across * std::cos(look.sunAzimuth),
-            std::sin(look.sunElevation)};
+    mSun = sunUp(std::sin(look.sunElevation)) * directionToSun(look.sunAzimuth, look.sunElevation);
     mAmbient = look.ambient;
-    mFogPerMetre = look.fogDistance > 0 ? 1 / look.fogDistance : 0;
-    mFogColor = look.fogColor;
+    mFog = Fog(look);
 }
 
 void LandmarkShader::recentre(const glm::dvec3& centre) {
@@ -104,13 +103,12 @@ glm::vec3 LandmarkShader::textureColor(const LandmarkHit& hit, const LandmarkMat
                     static_cast<float>(level - fine));
 }
 
-PackedColor LandmarkShader::color(const LandmarkHit& hit, const glm::dvec3& direction,
-                                  double pixelSize) const {
+PackedColor LandmarkShader::color(const LandmarkHit& hit, const glm::dvec3& direction, double pixelSize,
+                                  bool throughFog) const {
     const auto& triangle = mMesh.triangles[hit.triangle];
     const auto &a = mMesh.vertices[triangle.vertex[0]], &b = mMesh.vertices[triangle.vertex[1]],
                &c = mMesh.vertices[triangle.vertex[2]];
     const LandmarkMaterial& material = mMesh.materials[triangle.material];
-    const double distance = hit.t * glm::length(direction);
     const double facing = std::abs(glm::dot(hit.faceNormal, direction)) / glm::length(direction);
     glm::vec3 color = material.baseColor * blend(a.color, b.color, c.color, hit.weight);
     // A pixel is pixelSize across and longer along a slanted face: the geometric mean of both.
@@ -125,11 +123,8 @@ PackedColor LandmarkShader::color(const LandmarkHit& hit, const glm::dvec3& dire
     if ((glm::dot(normal, hit.faceNormal) > 0) == behind) normal = -normal;
     const double light = mAmbient + (1 - mAmbient) * std::max(0.0, glm::dot(normal, mSun));
     color *= static_cast<float>(light);
-    if (mFogPerMetre > 0) {
-        const auto through = static_cast<float>(std::exp(-distance * mFogPerMetre));
-        color = glm::mix(mFogColor, glm::clamp(color, 0.0f, 1.0f), through);
-    }
-    return packColor(color);
+    if (!throughFog || !mFog.any()) return packColor(color);
+    return packColor(mFog.seen(glm::clamp(color, 0.0f, 1.0f), hit.t * glm::length(direction)));
 }
 
 }  // namespace stereonav

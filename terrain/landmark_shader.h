@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/image/packed_color.h"
+#include "terrain/fog.h"
 #include "terrain/landmark_mesh.h"
 #include "terrain/scene_file.h"
 
@@ -27,17 +28,18 @@ public:
     // origin: relative to the centre. t: the parameter to keep where the ray runs along the face.
     LandmarkHit hitAt(std::uint32_t triangle, const glm::dvec3& origin, const glm::dvec3& direction,
                       float t) const;
-    // pixelSize: side of a pixel at unit ray parameter, metres; it chooses the mip level.
-    PackedColor color(const LandmarkHit& hit, const glm::dvec3& direction, double pixelSize) const;
+    // pixelSize: side of a pixel at unit ray parameter, metres; it chooses the mip level. throughFog: as the
+    // eye sees it; else as it is.
+    PackedColor color(const LandmarkHit& hit, const glm::dvec3& direction, double pixelSize,
+                      bool throughFog) const;
 
 private:
     glm::vec3 textureColor(const LandmarkHit& hit, const LandmarkMaterial& material, double footprint) const;
 
     LandmarkMesh mMesh;
-    glm::dvec3 mSun;  // towards it, unit
+    glm::dvec3 mSun;  // towards it, as long as its light is strong: a unit, nothing once it has set
     float mAmbient;
-    double mFogPerMetre;
-    glm::vec3 mFogColor;  // linear
+    Fog mFog;
 };
 
 }  // namespace stereonav

@@ -23,11 +23,15 @@ STEREONAV_INLINE void directSun(const RelightRow& row, int first, int count, flo
     }
     if (!row.horizon[0]) return;
     const std::uint8_t *before = row.horizon[0] + first, *after = row.horizon[1] + first;
+    float shown[kBlock];
     for (int i = 0; i < count; ++i) {
         const float horizon = static_cast<float>(before[i]) * row.horizonWeight[0] +
                               static_cast<float>(after[i]) * row.horizonWeight[1];
-        sun[i] *= clampShare((row.toSun[2] - horizon) * row.inverseSoftness + 0.5f);
+        shown[i] = clampShare((row.toSun[2] - horizon) * row.inverseSoftness + 0.5f);
+        sun[i] *= shown[i];
     }
+    if (row.sunShown)
+        __builtin_memcpy(row.sunShown + first, shown, static_cast<std::size_t>(count) * sizeof *shown);
 }
 
 struct Block {

@@ -28,6 +28,7 @@ struct RelightRow {
     float horizonWeight[2] = {};  // of the two azimuths' bytes
     float inverseSoftness = 1;    // a sine
     float sunUp = 1;              // share of the disc above the horizontal
+    float* sunShown = nullptr;    // where not null: the share of the disc above each sample's horizon
     float* light = nullptr;       // three planes of `lightPlane` floats: red, green, blue
     std::size_t lightPlane = 0;
 };

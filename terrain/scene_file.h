@@ -42,6 +42,7 @@ struct SceneFile {
     std::filesystem::path image;  // "" for hypsometric tint
     std::filesystem::path sky;    // "" for the built-in gradient
     std::filesystem::path light;  // baked light; "auto": the cache's; "" for none
+    bool colorsAlone = false;     // the ground's, without the sun's light: whoever shows it lights it
     TerrainLook look;
     std::vector<LandmarkFile> landmarks;
     std::optional<glm::dvec3> startPosition;  // world metres; z above the ground when startAboveGround

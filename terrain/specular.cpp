@@ -4,12 +4,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "terrain/sun_and_sky.h"
+
 namespace stereonav {
 
-Specular::Specular(const TerrainLook& look) : mStrength(look.specular) {
-    const double c = std::cos(look.sunElevation);
-    mToSun = {c * std::sin(look.sunAzimuth), c * std::cos(look.sunAzimuth), std::sin(look.sunElevation)};
+Specular::Specular(const TerrainLook& look, const glm::vec3& sunlight)
+    : mStrength(look.specular), mToSun(directionToSun(look.sunAzimuth, look.sunElevation)) {
     if (!active()) return;
+    mColor = mStrength * static_cast<float>(sunUp(mToSun.z)) * sunlight;
     mPower.resize(kEntries + 1);
     for (int k = 0; k <= kEntries; ++k)
         mPower[k] = std::pow(static_cast<float>(k) / kEntries, look.shininess);
@@ -21,12 +23,11 @@ float Specular::power(float cosine) const {
     return mPower[k] + (mPower[k + 1] - mPower[k]) * (at - static_cast<float>(k));
 }
 
-PackedColor Specular::shade(PackedColor base, const glm::dvec3& normal, const glm::dvec3& toEye) const {
+glm::vec3 Specular::highlight(const glm::dvec3& normal, const glm::dvec3& toEye) const {
     const glm::dvec3 sum = mToSun + toEye;
     const double length = glm::length(sum);
-    if (!(length > 0) || !(glm::dot(normal, mToSun) > 0)) return base;
-    const float highlight = mStrength * power(static_cast<float>(glm::dot(normal, sum) / length));
-    return packColor(unpackColor(base) + glm::vec3(highlight));
+    if (!(length > 0) || !(glm::dot(normal, mToSun) > 0)) return glm::vec3(0.0f);
+    return mColor * power(static_cast<float>(glm::dot(normal, sum) / length));
 }
 
 }  // namespace stereonav

@@ -82,6 +82,10 @@ glm::vec3 SunAndSky::level() const {
     return sky.level + sun * static_cast<float>(std::max(0.0, toSun.z));
 }
 
+double sunUp(double sine, double radius) {
+    return std::clamp(sine / (2 * std::sin(radius)) + 0.5, 0.0, 1.0);
+}
+
 SunAndSky sunAndSky(const TerrainLook& look, const SkyRadiance& sky) {
     SunAndSky light;
     light.toSun = directionToSun(look.sunAzimuth, look.sunElevation);
@@ -92,8 +96,8 @@ SunAndSky sunAndSky(const TerrainLook& look, const SkyRadiance& sky) {
     const glm::vec3 sunLevel = glm::max(glm::vec3(1.0f) - ambient * tint, glm::vec3(0.0f));
     if (light.toSun.z > -std::sin(light.sunRadius)) {
         const double mass = airMass(look.sunElevation) - airMass(kReference);
-        light.sun =
-            sunLevel / static_cast<float>(std::sin(kReference)) * glm::vec3(glm::exp(-kExtinction * mass));
+        light.sunThroughAir = glm::vec3(glm::exp(-kExtinction * mass));
+        light.sun = sunLevel / static_cast<float>(std::sin(kReference)) * light.sunThroughAir;
     }
     const float scale = ambient * skyStrength(look.sunElevation);
     light.sky.level = scale * tint;

@@ -21,11 +21,18 @@ struct SkyRadiance {
 SkyRadiance skyRadiance(const std::function<glm::vec3(const glm::dvec3&)>& radiance);
 SkyRadiance skyRadiance(const SkyMap& sky);
 
+constexpr double kSunRadius = 0.00465;  // radians
+
+// The share of a disc of that radius above the horizontal, 0..1, by the sine of its middle's elevation.
+double sunUp(double sine, double radius = kSunRadius);
+
 struct SunAndSky {
     glm::dvec3 toSun{0, 0, 1};  // unit
     glm::vec3 sun{0.0f};        // irradiance / pi of a surface that faces the sun
+    glm::vec3 sunThroughAir{
+        0.0f};  // of the same sun 45 degrees high, by colour: what the air leaves; 0 once it has set
     SkyRadiance sky;
-    double sunRadius = 0.00465;  // radians; edges of shadows are at least a step of the baked horizon soft
+    double sunRadius = kSunRadius;  // edges of shadows are at least a step of the baked horizon soft
 
     glm::vec3 level() const;  // of both on open level ground, irradiance / pi
 };

@@ -12,12 +12,14 @@ TerrainIllumination::TerrainIllumination(const Heightfield& ground, const ColorT
 
 void TerrainIllumination::apply(const TerrainLook& look, ColorTexture& lit) {
     const SunAndSky now = sunAndSky(look, mSky);
-    mRelight.relight(now, mBrightness);
+    mRelight.relight(now, mBrightness, look.specular > 0);
+    mHighlightLight = exposureOf(now) * now.sunThroughAir;
     mRelight.lightTexture(mAlbedo, mBrightness, {exposureOf(now), mShare}, lit);
 }
 
 std::size_t TerrainIllumination::byteCount() const {
-    return mAlbedo.byteCount() + mRelight.light().byteCount() + mBrightness.planes.size() * sizeof(float);
+    return mAlbedo.byteCount() + mRelight.light().byteCount() +
+           (mBrightness.planes.size() + mBrightness.sunShown.size()) * sizeof(float);
 }
 
 void moveSun(TerrainScene& scene, double azimuth, double elevation) {

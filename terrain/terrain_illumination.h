@@ -20,6 +20,13 @@ public:
     // Writes the colours under the look's sun into `lit`, which is of albedo's size.
     void apply(const TerrainLook& look, ColorTexture& lit);
 
+    // Of the last apply(): what the sun's highlights have of their strength, by colour, as the ground's own
+    // light is shown: 1 with the sun 45 degrees high. It does not know of shadows.
+    const glm::vec3& highlightLight() const { return mHighlightLight; }
+    // The share of the sun's disc that is seen from the ground at a grid coordinate, 0..1. Of a look with
+    // highlights; 1 where no horizons were baked.
+    float sunShownAt(const glm::dvec2& grid) const { return mRelight.sunShownAt(mBrightness, grid); }
+
     const TerrainLight& light() const { return mRelight.light(); }
     const GroundBrightness& brightness() const { return mBrightness; }  // of the last apply()
     std::size_t byteCount() const;
@@ -29,6 +36,7 @@ private:
     SkyRadiance mSky;
     TerrainRelight mRelight;
     GroundBrightness mBrightness;
+    glm::vec3 mHighlightLight{1.0f};
     float mShare;
 };
 

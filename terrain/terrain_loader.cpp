@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <string_view>
 
 #include "engine/base/error.h"
 #include "terrain/built_in_terrain.h"
@@ -33,10 +34,20 @@ struct LoadedGround {
     std::optional<Plane<PackedColor>> ownColor;
 };
 
+// Whether the ground's colours are to be without light.
+bool litLater(const SceneFile& file) {
+    return file.colorsAlone || !file.light.empty();
+}
+
 LoadedGround loadBuiltIn(const SceneFile& file, TerrainScene& scene, Progress& progress) {
-    BuiltInTerrain built = file.light.empty()
-                               ? builtInTerrain(file.seed, file.builtInSize, progress)
-                               : generateBuiltInTerrain(file.seed, file.builtInSize, progress, false);
+    const TerrainLook usual;
+    const bool usualSun =
+        file.look.sunAzimuth == usual.sunAzimuth && file.look.sunElevation == usual.sunElevation;
+    BuiltInTerrain built =
+        usualSun && !litLater(file)
+            ? builtInTerrain(file.seed, file.builtInSize, progress)
+            : generateBuiltInTerrain(file.seed, file.builtInSize, progress,
+                                     litLater(file) ? std::nullopt : std::optional(file.look));
     if (file.verticalScale != 1.0)
         for (float& h : built.heights) h = static_cast<float>(h * file.verticalScale);
     scene.ground = Heightfield(built.size, built.size, glm::dvec2(built.spacing), std::move(built.heights),
@@ -69,19 +80,23 @@ LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progr
 void loadColor(const SceneFile& file, LoadedGround& loaded, TerrainScene& scene, Progress& progress) {
     GroundColor color;
     TerrainLook look = file.look;
-    if (!file.light.empty()) look.ambient = 1;  // colours alone: light comes later
+    if (litLater(file)) look.ambient = 1;
     if (!file.image.empty()) {
         color = groundFromImage(file.image, loaded.place, scene.ground, look, progress);
     } else if (loaded.ownColor) {
         const Plane<PackedColor>& texels = *loaded.ownColor;
         const glm::dvec2 cells(scene.ground.width() - 1, scene.ground.height() - 1);
         color = {ColorTexture(texels, glm::dvec2(0.0), cells / glm::dvec2(texels.width(), texels.height())),
-                 "generated, lit"};
+                 "generated, lit", true};
     } else {
         color = tintedGround(scene.ground, look, progress);
     }
     scene.color = std::move(color.texture);
     scene.report.colorSource = std::move(color.source);
+    scene.report.colorHoldsSun = color.holdsSun && !litLater(file);
+    constexpr std::string_view kLit = ", lit";
+    if (litLater(file) && scene.report.colorSource.ends_with(kLit))
+        scene.report.colorSource.resize(scene.report.colorSource.size() - kLit.size());
 }
 
 void loadLight(const SceneFile& file, TerrainScene& scene, Progress& progress) {

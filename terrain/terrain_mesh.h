@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/progress.h"
-#include "terrain/color_texture.h"
+#include "engine/image/color_texture.h"
 #include "terrain/heightfield.h"
 
 namespace stereonav {

@@ -29,7 +29,7 @@ RelightRow lightOf(const SunAndSky& now, const TerrainLight& light) {
     const double across = std::sqrt(std::max(0.0, 1 - now.toSun.z * now.toSun.z));
     const double softness = std::max(2 * std::sin(now.sunRadius) * across, 1.0 / 255);
     row.inverseSoftness = static_cast<float>(1 / softness);
-    row.sunUp = static_cast<float>(std::clamp(now.toSun.z / (2 * std::sin(now.sunRadius)) + 0.5, 0.0, 1.0));
+    row.sunUp = static_cast<float>(sunUp(now.toSun.z, now.sunRadius));
     if (light.settings.kind != TerrainLightKind::Transfer) return row;
     row.harmonics = lightHarmonics(light.settings.order);
     double towards[kMaxHarmonics];
@@ -77,11 +77,13 @@ TerrainRelight::TerrainRelight(const Heightfield& ground, TerrainLight light, Si
                 mHoles.push_back(static_cast<std::uint32_t>(j) * grid.width + i);
 }
 
-void TerrainRelight::relight(const SunAndSky& now, GroundBrightness& brightness) const {
+void TerrainRelight::relight(const SunAndSky& now, GroundBrightness& brightness, bool withSunShown) const {
     const LightGrid& grid = mLight.grid;
     brightness.width = grid.width;
     brightness.height = grid.height;
     brightness.planes.resize(3 * grid.count());
+    const bool horizons = mLight.settings.kind == TerrainLightKind::Transfer;
+    brightness.sunShown.resize(withSunShown && horizons ? grid.count() : 0);
     const RelightRow all = lightOf(now, mLight);
     const Azimuths azimuths = azimuthsOf(now.toSun, mLight.settings.azimuths);
     parallelFor(grid.height, [&](int j) {
@@ -98,6 +100,7 @@ void TerrainRelight::relight(const SunAndSky& now, GroundBrightness& brightness)
         }
         for (int c = 0; c < 3; ++c) row.normal[c] = mNormals.data() + c * grid.count() + first;
         row.light = brightness.planes.data() + first;
+        if (!brightness.sunShown.empty()) row.sunShown = brightness.sunShown.data() + first;
         mKernels->relight(row);
     });
     closeHoles(brightness);
@@ -112,16 +115,32 @@ void TerrainRelight::closeHoles(GroundBrightness& brightness) const {
     for (const std::uint32_t at : mHoles) {
         const int i0 = static_cast<int>(at % grid.width), j0 = static_cast<int>(at / grid.width);
         glm::vec3 sum(0.0f);
+        float shown = 0;
         int known = 0;
         for (int j = std::max(0, j0 - 1); j <= std::min(grid.height - 1, j0 + 1); ++j)
             for (int i = std::max(0, i0 - 1); i <= std::min(grid.width - 1, i0 + 1); ++i) {
                 if (hole(i, j)) continue;
                 sum += brightness.at(i, j);
+                if (!brightness.sunShown.empty())
+                    shown += brightness.sunShown[static_cast<std::size_t>(j) * grid.width + i];
                 ++known;
             }
         for (int c = 0; c < 3; ++c)
             brightness.planes[c * grid.count() + at] = known ? sum[c] / static_cast<float>(known) : 0.0f;
+        if (!brightness.sunShown.empty())
+            brightness.sunShown[at] = known ? shown / static_cast<float>(known) : 0.0f;
     }
+}
+
+float TerrainRelight::sunShownAt(const GroundBrightness& brightness, const glm::dvec2& at) const {
+    if (brightness.sunShown.empty()) return 1;
+    const LightGrid& grid = mLight.grid;
+    const LightGrid::Place x = grid.placeX(at.x), y = grid.placeY(at.y);
+    const float* south =
+        brightness.sunShown.data() + static_cast<std::size_t>(y.index) * grid.width + x.index;
+    const float* north = south + grid.width;
+    const float a = south[0] + x.next * (south[1] - south[0]), b = north[0] + x.next * (north[1] - north[0]);
+    return a + y.next * (b - a);
 }
 
 void TerrainRelight::lightTexture(const ColorTexture& albedo, const GroundBrightness& brightness,

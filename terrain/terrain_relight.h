@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/math/simd_target.h"
-#include "terrain/color_texture.h"
+#include "engine/image/color_texture.h"
 #include "terrain/heightfield.h"
 #include "terrain/relight_kernel_types.h"
 #include "terrain/sun_and_sky.h"
@@ -18,6 +18,8 @@ namespace stereonav {
 struct GroundBrightness {
     int width = 0, height = 0;
     std::vector<float> planes;
+    // The share of the sun's disc above the baked horizon, 0..1. Empty: not asked for, or not baked.
+    std::vector<float> sunShown;
 
     std::size_t planeSize() const { return static_cast<std::size_t>(width) * height; }
     const float* row(int channel, int j) const {
@@ -30,8 +32,10 @@ class TerrainRelight {
 public:
     TerrainRelight(const Heightfield& ground, TerrainLight light, SimdTarget target = SimdTarget::Auto);
 
-    // Samples in holes get the mean of those known beside them, or none.
-    void relight(const SunAndSky& now, GroundBrightness& brightness) const;
+    // Samples in holes get the mean of those known beside them, or none. withSunShown: that is wanted too.
+    void relight(const SunAndSky& now, GroundBrightness& brightness, bool withSunShown = false) const;
+    // Between the baked samples, at a grid coordinate of the ground; 1 where it was not asked for or baked.
+    float sunShownAt(const GroundBrightness& brightness, const glm::dvec2& grid) const;
 
     struct Display {
         float exposure = 1;

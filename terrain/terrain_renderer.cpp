@@ -12,15 +12,19 @@
 
 #include "engine/base/error.h"
 #include "terrain/caster_types.h"
+#include "terrain/fog.h"
 #include "terrain/height_pyramid.h"
 #include "terrain/hole_rays.h"
 #include "terrain/landmark.h"
 #include "terrain/plain_caster.h"
 #include "terrain/specular.h"
+#include "terrain/terrain_illumination.h"
 #include "terrain/terrain_view.h"
 
 namespace stereonav {
 namespace {
+
+constexpr float kUnseen = 1e-7f;  // a tenth of the first step of a packed channel, linear
 
 const CasterKernels& kernelsFor(SimdTarget target) {
     return kernelsOf(target, plain::kCasterKernels, avx2::kCasterKernels, avx512::kCasterKernels);
@@ -58,17 +62,8 @@ GroundData groundData(const Heightfield& ground, const HeightPyramid& pyramid) {
 }
 
 TextureData textureData(const ColorTexture& color, const glm::dvec2& spacing, const GroundFilter& filter) {
-    TextureData t;
-    t.texels = color.data();
-    t.levels = filter.mipLevels ? color.levelCount() : 1;
-    t.width = color.level(0).width();
-    t.height = color.level(0).height();
-    for (int k = 0; k < ColorTexture::kMaxLevels; ++k) t.offset[k] = color.offset(std::min(k, t.levels - 1));
-    const glm::dvec2 scale = 1.0 / color.gridPerTexel(), shift = -color.gridOrigin() * scale;
-    t.scaleX = static_cast<float>(scale.x);
-    t.scaleY = static_cast<float>(scale.y);
-    t.shiftX = static_cast<float>(shift.x);
-    t.shiftY = static_cast<float>(shift.y);
+    TextureData t = color.forKernels(glm::dvec2(0.0), glm::dvec2(1.0));  // places are grid coordinates
+    if (!filter.mipLevels) t.levels = 1;
     const glm::dvec2 texel = color.gridPerTexel() * spacing;
     t.texelsPerMetre =
         static_cast<float>(std::exp2(std::clamp(filter.levelBias, -8.0, 8.0)) / std::sqrt(texel.x * texel.y));
@@ -90,24 +85,35 @@ std::vector<PixelIndex> pixelsOf(const CasterView& view, const CasterBand& band)
     return pixels;
 }
 
+// The highlights of a scene under the light that it has now.
+Specular specularOf(const TerrainScene& terrain) {
+    if (!terrain.illumination) return Specular(terrain.look);
+    return Specular(terrain.look, terrain.illumination->highlightLight());
+}
+
 }  // namespace
 
 struct TerrainRenderer::State {
     HeightPyramid pyramid;
-    CasterScene scene;
+    CasterScene scene, clear;  // clear: without its fog
     const CasterKernels* kernels;
     Specular specular;
+    Fog fog;
     SimdTarget target;
 
     State(const TerrainScene& terrain, SimdTarget wanted, const GroundFilter& filter)
-        : pyramid(terrain.ground), specular(terrain.look), target(availableTarget(wanted)) {
+        : pyramid(terrain.ground),
+          specular(specularOf(terrain)),
+          fog(terrain.look),
+          target(availableTarget(wanted)) {
         kernels = &kernelsFor(target);
         scene.ground = groundData(terrain.ground, pyramid);
         scene.texture = textureData(terrain.color, terrain.ground.spacing(), filter);
         scene.sky = {terrain.sky.map().row(0), terrain.sky.map().width(), terrain.sky.map().stride()};
-        const glm::vec3& fog = terrain.look.fogColor;
+        clear = scene;
+        const glm::vec3& color = terrain.look.fogColor;
         if (terrain.look.fogDistance > 0)
-            scene.fog = {static_cast<float>(1 / terrain.look.fogDistance), {fog.x, fog.y, fog.z}};
+            scene.fog = {static_cast<float>(1 / terrain.look.fogDistance), {color.x, color.y, color.z}};
     }
 };
 
@@ -128,14 +134,15 @@ void TerrainRenderer::renderTile(const EyeView& view, int tile, EyeImage& image)
     const CasterBand band = bandOf(caster, tile);
     thread_local std::vector<float> scratch;
     scratch.resize(8 * (static_cast<std::size_t>(caster.lanes) + 128));
-    mState->kernels->castBand(mState->scene, caster, band, targetOf(image), scratch.data());
+    const CasterScene& scene = keepsBase(image) ? mState->clear : mState->scene;
+    mState->kernels->castBand(scene, caster, band, targetOf(image), scratch.data());
     if (mScene.landmarks || viewDependent()) finish(view, pixelsOf(caster, band), image);
 }
 
 void TerrainRenderer::finish(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const {
     std::vector<bool> onLandmark(pixels.size(), false);
     if (mScene.landmarks) castLandmarks(view, pixels, image, onLandmark);
-    if (!viewDependent() || image.normal.empty()) return;
+    if (!keepsBase(image)) return;
     for (std::size_t k = 0; k < pixels.size(); ++k) {
         const PixelIndex p = pixels[k];
         const float depth = image.viewDepth.at(p.x, p.y);
@@ -163,7 +170,7 @@ void TerrainRenderer::castLandmarks(const EyeView& view, std::span<const PixelIn
             depth[k] = image.viewDepth.at(p.x, p.y);
             color[k] = image.color.at(p.x, p.y);
         }
-        mScene.landmarks->cast(view, count, direction, depth, color);
+        mScene.landmarks->cast(view, count, direction, depth, color, !keepsBase(image));
         for (int k = 0; k < count; ++k) {
             const PixelIndex p = pixels[first + k];
             hit[first + k] = depth[k] < image.viewDepth.at(p.x, p.y);
@@ -175,12 +182,26 @@ void TerrainRenderer::castLandmarks(const EyeView& view, std::span<const PixelIn
 
 void TerrainRenderer::shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const {
     for (int x = x0; x < x1; ++x) {
-        const bool ground = std::isfinite(image.viewDepth.at(x, y));
+        const double depth = image.viewDepth.at(x, y);
         const PackedColor base = image.baseColor.at(x, y);
-        const glm::dvec3 toEye = -glm::normalize(view.rayDirection(x + 0.5, y + 0.5));
-        image.color.at(x, y) =
-            ground ? mState->specular.shade(base, unpackNormal(image.normal.at(x, y)), toEye) : base;
+        image.color.at(x, y) = base;
+        if (!std::isfinite(depth)) continue;
+        const glm::dvec3 ray = view.rayDirection(x + 0.5, y + 0.5);
+        const double length = glm::length(ray);
+        glm::vec3 highlight = mState->specular.highlight(unpackNormal(image.normal.at(x, y)), -ray / length);
+        if (glm::all(glm::lessThan(highlight, glm::vec3(kUnseen)))) {
+            if (!mState->fog.any()) continue;
+            highlight = glm::vec3(0.0f);
+        } else {
+            highlight *= sunShownAt(view.eye + depth * ray);
+        }
+        image.color.at(x, y) = packColor(mState->fog.seen(unpackColor(base) + highlight, depth * length));
     }
+}
+
+float TerrainRenderer::sunShownAt(const glm::dvec3& place) const {
+    if (!mScene.illumination) return 1;
+    return mScene.illumination->sunShownAt(mScene.ground.gridFromWorld(glm::dvec2(place)));
 }
 
 void TerrainRenderer::shadeRows(const EyeView& view, int y0, int y1, EyeImage& image) const {
@@ -192,7 +213,7 @@ ViewDependence TerrainRenderer::viewDependence() const {
     return mState->specular.active() ? ViewDependence::Highlight : ViewDependence::None;
 }
 void TerrainRenderer::sunMoved() {
-    mState->specular = Specular(mScene.look);
+    mState->specular = specularOf(mScene);
 }
 SimdTarget TerrainRenderer::target() const {
     return mState->target;
@@ -204,10 +225,11 @@ void TerrainRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::s
     thread_local HoleSort holes;
     holes.sort(caster, bounds, pixels);
     const CasterTarget target = targetOf(image);
+    const CasterScene& scene = keepsBase(image) ? mState->clear : mState->scene;
     thread_local std::vector<float> scratch;
     scratch.resize(8 * (static_cast<std::size_t>(caster.lanes) + 128));
     for (const CasterBand& band : holes.dense()) {
-        mState->kernels->castBand(mState->scene, caster, band, target, scratch.data());
+        mState->kernels->castBand(scene, caster, band, target, scratch.data());
         if (mScene.landmarks || viewDependent()) finish(view, pixelsOf(caster, band), image);
     }
     // Long enough to keep all lanes busy, short enough for later pixels to start from earlier ones.
@@ -222,7 +244,7 @@ void TerrainRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::s
             chunk[k] = {p.x, p.y};
             start[k] = startInFront(caster, mState->scene.ground, bounds, image, p);
         }
-        mState->kernels->castPixels(mState->scene, caster, {chunk, start, count}, target);
+        mState->kernels->castPixels(scene, caster, {chunk, start, count}, target);
     }
     if (mScene.landmarks || viewDependent()) finish(view, sparse, image);
 }

@@ -45,10 +45,15 @@ public:
 
 private:
     struct State;
-    // What the kernels leave out: landmarks, normals, highlights.
+    // Whether a picture keeps what shading again needs. Its base colours are without the fog then, which each
+    // eye sees through its own distances.
+    bool keepsBase(const EyeImage& image) const { return viewDependent() && !image.normal.empty(); }
+    // What the kernels leave out: landmarks, normals, highlights and the fog before them.
     void finish(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const;
     void castLandmarks(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image,
                        std::vector<bool>& hit) const;
+    // The share of the sun's disc that is seen at a place on the ground; 1 without baked light.
+    float sunShownAt(const glm::dvec3& place) const;
 
     const TerrainScene& mScene;
     std::unique_ptr<State> mState;

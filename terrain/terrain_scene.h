@@ -8,7 +8,7 @@
 
 #include "engine/camera/recorded_path.h"
 #include "engine/camera/stereo_rig.h"
-#include "terrain/color_texture.h"
+#include "engine/image/color_texture.h"
 #include "terrain/heightfield.h"
 #include "terrain/scene_file.h"
 #include "terrain/sky_map.h"
@@ -27,6 +27,7 @@ struct TerrainReport {
     long long filledSamples = 0;   // of them, filled
     glm::dvec2 sourceOffset{0.0};  // source x, y of the world's origin (metres in the local projection)
     std::string colorSource;       // "image winter.jpg 457x499", "hypsometric tint", ...
+    bool colorHoldsSun = false;    // some of the colours hold the light of the look's sun
     std::string skySource;
     std::string lightSource;  // of baked light, "" without
 };

@@ -42,6 +42,20 @@ void uploadTable(const MediumTable& table, int firstLayer, int rows) {
     }
 }
 
+// Where mip levels lie in one texture: the finest, and right of it the others, one above another. Gives its
+// size.
+glm::ivec2 placeLevels(const std::vector<glm::ivec2>& sizes, std::vector<glm::ivec4>& levels) {
+    glm::ivec2 size(0), at(0);
+    for (const glm::ivec2& level : sizes) {
+        if (levels.size() == MediumTextures::kMostLevels) break;
+        levels.emplace_back(at, level);
+        size = glm::max(size, at + level);
+        at = {sizes[0].x, levels.size() == 1 ? 0 : at.y + level.y};
+    }
+    if (levels.empty()) levels.emplace_back(0);
+    return size;
+}
+
 // Over `lowest`, so that floats near it have their digits for what counts.
 void uploadHeights(const Plane<float>& level, double lowest, const glm::ivec4& place) {
     std::vector<float> row(static_cast<std::size_t>(level.width()));
@@ -66,13 +80,16 @@ MediumTextures::MediumTextures(const Medium& medium) : mMedium(medium) {
                                 medium.layers().size()),
                     "use the CPU");
     for (const HeightLayer& layer : medium.layers()) uploadLayer(layer);
+    for (const HeightLayer& layer : medium.layers())
+        if (layer.color) uploadColors(*layer.color);
     uploadTables();
     uploadNoise();
     mDefines = fmt::format(
-        "#define FIELD {}\n#define LAYERS {}\n#define NOISE {}\n#define GRADIENT {}\n#define LEVELS {}\n",
+        "#define FIELD {}\n#define LAYERS {}\n#define NOISE {}\n#define GRADIENT {}\n#define LEVELS {}\n"
+        "#define COLORS {}\n",
         medium.field() ? 1 : 0, medium.layers().size(),
         medium.noise() ? medium.perturbation().scales.size() : 0,
-        medium.field() && medium.table().usesGradient() ? 1 : 0, kMostLevels);
+        medium.field() && medium.table().usesGradient() ? 1 : 0, kMostLevels, mColors.size());
 }
 
 void MediumTextures::uploadField() {
@@ -92,17 +109,11 @@ void MediumTextures::uploadField() {
     expectAccepted("volume");
 }
 
-// The finest level, and right of it the others, one above another.
 void MediumTextures::uploadLayer(const HeightLayer& layer) {
-    Heights& heights = mHeights.emplace_back();
-    glm::ivec2 size(0), at(0);
-    for (const Plane<float>& level : layer.levels) {
-        if (heights.levels.size() == kMostLevels) break;
-        heights.levels.emplace_back(at, level.width(), level.height());
-        size = glm::max(size, at + glm::ivec2(level.width(), level.height()));
-        at = {layer.levels[0].width(), heights.levels.size() == 1 ? 0 : at.y + level.height()};
-    }
-    if (heights.levels.empty()) heights.levels.emplace_back(0);
+    Levels& heights = mHeights.emplace_back();
+    std::vector<glm::ivec2> sizes;
+    for (const Plane<float>& level : layer.levels) sizes.emplace_back(level.width(), level.height());
+    const glm::ivec2 size = placeLevels(sizes, heights.levels);
     expectAtMost(GL_MAX_TEXTURE_SIZE, std::max(size.x, size.y), "height layer");
     glBindTexture(GL_TEXTURE_2D, heights.texture.name());
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_R32F, std::max(size.x, 1), std::max(size.y, 1));
@@ -113,6 +124,32 @@ void MediumTextures::uploadLayer(const HeightLayer& layer) {
         uploadHeights(level, layer.lowest, heights.levels[n]);
     }
     expectAccepted("height layer");
+}
+
+void MediumTextures::uploadColors(const ColorTexture& color) {
+    if (mColors.size() == kMostColors)
+        throw Error(
+            "", "height layers",
+            fmt::format("expected at most {} with colours of their own on a graphics card", kMostColors),
+            "use the CPU");
+    Levels& colors = mColors.emplace_back();
+    std::vector<glm::ivec2> sizes;
+    for (int k = 0; k < color.levelCount(); ++k)
+        sizes.emplace_back(color.level(k).width(), color.level(k).height());
+    const glm::ivec2 size = placeLevels(sizes, colors.levels);
+    expectAtMost(GL_MAX_TEXTURE_SIZE, std::max(size.x, size.y), "ground's colours");
+    glBindTexture(GL_TEXTURE_2D, colors.texture.name());
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGB10_A2, size.x, size.y);
+    setFilter(GL_TEXTURE_2D, GL_LINEAR, GL_CLAMP_TO_EDGE);
+    for (int k = 0; k < static_cast<int>(colors.levels.size()); ++k) {
+        const ColorTexture::Level level = color.level(k);
+        const glm::ivec4& place = colors.levels[static_cast<std::size_t>(k)];
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, level.stride());
+        glTexSubImage2D(GL_TEXTURE_2D, 0, place.x, place.y, level.width(), level.height(), GL_RGBA,
+                        GL_UNSIGNED_INT_2_10_10_10_REV, level.row(0));
+    }
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    expectAccepted("ground's colours");
 }
 
 void MediumTextures::addTable(const MediumTable& table) {
@@ -162,6 +199,8 @@ void MediumTextures::bind() const {
     bindTo(GlUnit::kTable, mTableKind, mTables);
     for (std::size_t n = 0; n < mHeights.size(); ++n)
         bindTo(GlUnit::kHeights + static_cast<GLuint>(n), GL_TEXTURE_2D, mHeights[n].texture);
+    for (std::size_t n = 0; n < mColors.size(); ++n)
+        bindTo(GlUnit::kColors + static_cast<GLuint>(n), GL_TEXTURE_2D, mColors[n].texture);
     if (mMedium.noise()) bindTo(GlUnit::kNoise, GL_TEXTURE_3D, mNoise);
     glActiveTexture(GL_TEXTURE0);
 }
@@ -171,6 +210,7 @@ void MediumTextures::setUniforms(const ShaderProgram& program, const glm::dvec3&
                 1.0f / static_cast<float>(mTableSize.y));
     if (mMedium.field()) setFieldUniforms(program, anchor);
     setLayerUniforms(program, anchor);
+    setColorUniforms(program, anchor);
     if (mMedium.noise()) setNoiseUniforms(program, anchor, time);
 }
 
@@ -215,6 +255,28 @@ void MediumTextures::setLayerUniforms(const ShaderProgram& program, const glm::d
         const MediumTable& table = layer.table;
         glUniform2f(at("uHeightTable", n), f(table.perValue),
                     f((layer.lowest - table.firstValue) * table.perValue));
+    }
+}
+
+void MediumTextures::setColorUniforms(const ShaderProgram& program, const glm::dvec3& anchor) const {
+    if (mColors.empty()) return;
+    int n = 0;
+    for (std::size_t of = 0; of < mMedium.layers().size(); ++of) {
+        const HeightLayer& layer = mMedium.layers()[of];
+        glUniform1i(program.location(fmt::format("uColorOf[{}]", of)), layer.color ? n : -1);
+        if (!layer.color) continue;
+        const auto at = [&](const char* name, int k) {
+            return program.location(fmt::format("{}[{}]", name, k));
+        };
+        const std::vector<glm::ivec4>& levels = mColors[static_cast<std::size_t>(n)].levels;
+        const TextureData data = layer.color->forKernels(
+            glm::dvec2(layer.originX, layer.originY) - glm::dvec2(anchor), layer.colorSpacing);
+        glUniform1i(at("uColors", n), static_cast<GLint>(GlUnit::kColors) + n);
+        glUniform4iv(at("uColorLevels", n * kMostLevels), static_cast<GLsizei>(levels.size()),
+                     glm::value_ptr(levels[0]));
+        glUniform4f(at("uColorFrame", n), data.scaleX, data.scaleY, data.shiftX, data.shiftY);
+        glUniform2f(at("uColorSize", n), data.texelsPerMetre, static_cast<float>(levels.size() - 1));
+        ++n;
     }
 }
 

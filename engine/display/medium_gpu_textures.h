@@ -16,12 +16,13 @@ namespace stereonav {
 struct GlUnit {
     static constexpr GLuint kField = 0, kTable = 1, kNoise = 2, kPhase = 3, kBefore = 4, kBaked = 5,
                             kBeyond = 6,
-                            kHeights = 8;  // one a layer from there on
+                            kHeights = 8,  // one a layer from there on
+        kColors = 16;                      // one a layer with its own colours
 };
 
 class MediumTextures {
 public:
-    static constexpr int kMostLayers = 8, kMostLevels = 16;
+    static constexpr int kMostLayers = 8, kMostColors = 3, kMostLevels = 16;
 
     // medium must outlive it. Throws Error where a texture would be larger than the driver allows.
     explicit MediumTextures(const Medium& medium);
@@ -40,9 +41,11 @@ private:
     void uploadTables();
     void uploadNoise();
     void uploadLayer(const HeightLayer& layer);
+    void uploadColors(const ColorTexture& color);
     void addTable(const MediumTable& table);
     void setFieldUniforms(const ShaderProgram& program, const glm::dvec3& anchor) const;
     void setLayerUniforms(const ShaderProgram& program, const glm::dvec3& anchor) const;
+    void setColorUniforms(const ShaderProgram& program, const glm::dvec3& anchor) const;
     void setNoiseUniforms(const ShaderProgram& program, const glm::dvec3& anchor, double time) const;
 
     const Medium& mMedium;
@@ -53,11 +56,12 @@ private:
     GLenum mTableKind =
         GL_TEXTURE_1D_ARRAY;  // of one row each, read with half the taps; or GL_TEXTURE_2D_ARRAY
     // Mip levels of a layer side by side, and where each lies: corner and size.
-    struct Heights {
-        GlTexture texture;  // R32F
+    struct Levels {
+        GlTexture texture;
         std::vector<glm::ivec4> levels;
     };
-    std::vector<Heights> mHeights;
+    std::vector<Levels> mHeights;  // R32F
+    std::vector<Levels> mColors;   // RGB10_A2, of the layers that have their own
     bool mHasGlow = false, mHasSurface = false;
     std::string mDefines;
 };

@@ -104,6 +104,18 @@ double HeightLayer::heightAt(double x, double y, double footprint) const {
     return share > 0 ? heightIn(fine) * (1 - share) + heightIn(fine + 1) * share : heightIn(fine);
 }
 
+double HeightLayer::colorTexel() const {
+    const glm::dvec2 texel = color->gridPerTexel() * colorSpacing;
+    return std::sqrt(texel.x * texel.y);
+}
+
+glm::vec3 HeightLayer::colorAt(double x, double y, double footprint) const {
+    if (!color) return glm::vec3(1.0f);
+    const double texels = footprint / colorTexel();
+    return color->at((glm::dvec2(x, y) - glm::dvec2(originX, originY)) / colorSpacing,
+                     texels > 1 ? std::log2(texels) : 0.0);
+}
+
 OpticalProperties HeightLayer::at(const glm::dvec3& world, double footprint) const {
     if (!(world.z >= lowest && world.z <= highest)) return {};
     const double height = heightAt(world.x, world.y, footprint);
@@ -113,6 +125,7 @@ OpticalProperties HeightLayer::at(const glm::dvec3& world, double footprint) con
     OpticalProperties properties = table.at(height, 0);
     properties.extinction *= weight;
     properties.indirectExtinction *= weight;
+    properties.color *= colorAt(world.x, world.y, footprint);
     return properties;
 }
 

@@ -2,9 +2,12 @@
 // its height, tapered at both faces, from mip levels that suit the footprint of a sample.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
+#include "engine/image/color_texture.h"
 #include "engine/image/plane.h"
 #include "engine/medium/medium_table.h"
 
@@ -18,12 +21,19 @@ struct HeightLayer {
     double below = 1, above = 0;  // metres: the layer reaches from height - below to height + above
     double taper = 0;             // metres at both faces over which extinction falls to 0 linearly
     MediumTable table;            // over the height in metres
+    // Null: none. Else the table's colours are multiplied by this one's at the place, whose grid coordinates
+    // count from the origin, colorSpacing metres each.
+    std::shared_ptr<const ColorTexture> color;
+    glm::dvec2 colorSpacing{1.0};
 
     double lowest = 0, highest = 0;  // of what is not empty, world z
 
     // Height at a place by the level of that footprint (metres; 0: the finest), linear within and between
     // levels; beyond the edge there is none: NaN.
     double heightAt(double x, double y, double footprint) const;
+    // By the level of the texture whose texels are as large as the footprint; 1 without one.
+    glm::vec3 colorAt(double x, double y, double footprint) const;
+    double colorTexel() const;  // metres across a texel: the mean of both sides; needs a texture
     OpticalProperties at(const glm::dvec3& world, double footprint) const;
 };
 // Fills levels 1, 2, .. of level 0 and lowest, highest.

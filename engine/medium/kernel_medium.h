@@ -2,6 +2,7 @@
 // short way; noise, layers and gradients take the long one. Included by kernels only.
 #pragma once
 
+#include "engine/image/kernel_texture.h"
 #include "engine/medium/kernel_block.h"
 #include "engine/medium/kernel_heights.h"
 #include "engine/medium/kernel_table.h"
@@ -171,11 +172,29 @@ STEREONAV_INLINE Disturbance disturbanceAt(const SweepNoise& noise, const V3& pl
     return d;
 }
 
+// A layer's own colours, of lanes m: what HeightLayer::colorAt says.
+struct PlaceColor {
+    F linear[3];
+};
+[[gnu::noinline]] inline PlaceColor colorAtPlace(const TextureData& texture, const V3& place, F footprint,
+                                                 M m) {
+    const F zero(0.0f), one(1.0f), scale(1.0f / (1023 * 16));
+    const F texels = select(m, footprint * F(texture.texelsPerMetre), one);
+    const F level = min(log2(max(texels, one)), F(static_cast<float>(texture.levels - 1)));
+    const ColorHalves c = textureColor(texture, select(m, place.x, zero), select(m, place.y, zero), level, m);
+    const auto square = [&](I half) {
+        const F root = toFloat(half) * scale;
+        return root * root;
+    };
+    const I low(0xFFFF);
+    return {{square(c.redBlue & low), square(c.green & low), square(shiftRight<16>(c.redBlue) & low)}};
+}
+
 // What lanes m, where a layer has this extinction, add to what is there. read: a member, where its table is
-// read.
+// read. tint: what its colours are multiplied by; null: nothing.
 template <bool kColors, bool kIndirect, typename Read>
 STEREONAV_INLINE void addProperties(const SweepTable& table, F extinction, F weight, M m, const Read& read,
-                                    Properties& sum) {
+                                    const PlaceColor* tint, Properties& sum) {
     const F zero(0.0f);
     sum.extinction = sum.extinction + extinction;
     if constexpr (kIndirect)
@@ -183,7 +202,10 @@ STEREONAV_INLINE void addProperties(const SweepTable& table, F extinction, F wei
             sum.indirect[k] = mulAdd(select(m, weight, zero), read(table.indirect[k]), sum.indirect[k]);
     if constexpr (kColors) {
         const F share = select(m, extinction / max(sum.extinction, F(1e-30f)), zero);
-        for (int k = 0; k < 3; ++k) sum.color[k] = lerp(sum.color[k], read(table.color[k]), share);
+        for (int k = 0; k < 3; ++k) {
+            const F color = read(table.color[k]);
+            sum.color[k] = lerp(sum.color[k], tint ? color * tint->linear[k] : color, share);
+        }
         sum.surface = lerp(sum.surface, table.surface ? read(table.surface) : zero, share);
         for (int k = 0; k < 3; ++k)
             sum.glow[k] = lerp(sum.glow[k], table.glow[k] ? read(table.glow[k]) : zero, share);
@@ -191,7 +213,8 @@ STEREONAV_INLINE void addProperties(const SweepTable& table, F extinction, F wei
 }
 // Adds a layer to what is there; extinctions add up, the rest by its share of them. Light that passes needs
 // no colours, and eyes not always what scattered light meets. Layers have no gradient: a table's first row.
-template <bool kColors, bool kIndirect>
+// kTinted: the layer has colours of its own.
+template <bool kColors, bool kIndirect, bool kTinted>
 [[gnu::noinline]] void addLayer(const SweepLayer& layer, const V3& place, F footprint, M m, Properties& sum) {
     const F zero(0.0f), one(1.0f);
     const M near = m & (place.z >= F(layer.lowest)) & (place.z <= F(layer.highest));
@@ -203,11 +226,18 @@ template <bool kColors, bool kIndirect>
     if (!any(in)) return;
     const F weight = layer.perTaper > 0 ? min(inside * F(layer.perTaper), one) : one;
     const SweepTable& table = layer.table;
+    PlaceColor tint;
+    const auto tintOf = [&](M counts) -> const PlaceColor* {
+        if constexpr (!kTinted) return nullptr;
+        tint = colorAtPlace(layer.color, place, footprint, counts);
+        return &tint;
+    };
     if (table.uniform) {
         const auto first = [](const float* member) { return F(member[0]); };
         const F extinction = select(in, weight * first(table.extinction), zero);
         const M counts = in & (extinction > zero);
-        if (any(counts)) addProperties<kColors, kIndirect>(table, extinction, weight, counts, first, sum);
+        if (any(counts))
+            addProperties<kColors, kIndirect>(table, extinction, weight, counts, first, tintOf(counts), sum);
         return;
     }
     TablePlaces places(columnOf(table, select(in, height, zero)), in);
@@ -215,8 +245,9 @@ template <bool kColors, bool kIndirect>
     const M counts = in & (extinction > zero);
     if (!any(counts)) return;
     places.leave(counts);
+    const PlaceColor* own = tintOf(counts);
     places.read([&](const auto& read) {
-        addProperties<kColors, kIndirect>(table, extinction, weight, counts, read, sum);
+        addProperties<kColors, kIndirect>(table, extinction, weight, counts, read, own, sum);
     });
 }
 
@@ -245,7 +276,10 @@ template <bool kColors, bool kIndirect>
         }
     }
     for (int n = 0; n < scene.layerCount; ++n)
-        addLayer<kColors, kIndirect>(scene.layers[n], there, footprint, m, p);
+        if (kColors && scene.layers[n].color.texels)
+            addLayer<kColors, kIndirect, kColors>(scene.layers[n], there, footprint, m, p);
+        else
+            addLayer<kColors, kIndirect, false>(scene.layers[n], there, footprint, m, p);
     if (scene.noise.texels) {
         p.extinction = p.extinction * max(d.extinction, zero);
         for (int k = 0; k < 3; ++k) {

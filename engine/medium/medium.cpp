@@ -93,6 +93,9 @@ void checkLayer(const HeightLayer& layer, const std::string& place) {
         fail(fmt::format("expected a layer with a thickness, got {} m below and {} m above the height",
                          layer.below, layer.above),
              "give distances whose sum is above 0");
+    if (layer.color &&
+        (layer.color->levelCount() == 0 || !(layer.colorSpacing.x > 0 && layer.colorSpacing.y > 0)))
+        fail("expected a texture with texels, some metres across", "leave the texture out");
     if (!(layer.taper >= 0 && std::isfinite(layer.taper)))
         fail(fmt::format("expected a taper of 0 m or more, got {}", layer.taper), "0 has sharp faces");
 }

@@ -212,6 +212,9 @@ void SweepData::setLayers(const glm::dvec3& anchor) {
         SweepLayer& d = mLayers[n++];
         d.zero[0] = static_cast<float>((anchor.x - layer.originX) / layer.spacing);
         d.zero[1] = static_cast<float>((anchor.y - layer.originY) / layer.spacing);
+        if (layer.color)
+            d.color = layer.color->forKernels(glm::dvec2(layer.originX, layer.originY) - glm::dvec2(anchor),
+                                              layer.colorSpacing);
         d.base = static_cast<float>(mBase - anchor.z);
         d.lowest = static_cast<float>(layer.lowest - anchor.z);
         d.highest = static_cast<float>(layer.highest - anchor.z);

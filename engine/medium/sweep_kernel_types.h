@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "engine/image/texture_data.h"
 #include "engine/math/kernel_sets.h"
 #include "engine/volume/volume_kernel_types.h"
 
@@ -54,6 +55,7 @@ struct SweepLayer {
     bool flat = false;                         // every height is like the first
     bool holes = false;                        // some are unknown, or too large to be subtracted
     SweepTable table;
+    TextureData color;  // by places; its colours multiply the table's
 };
 
 struct SweepNoise {

@@ -36,7 +36,10 @@ double finestDetail(const Medium& medium) {
     double finest = kInfinity;
     if (const GreyVolume* field = medium.field())
         finest = std::min({field->frame.spacing.x, field->frame.spacing.y, field->frame.spacing.z});
-    for (const HeightLayer& layer : medium.layers()) finest = std::min({finest, layer.spacing, layer.taper});
+    for (const HeightLayer& layer : medium.layers()) {
+        finest = std::min({finest, layer.spacing, layer.taper});
+        if (layer.color) finest = std::min(finest, layer.colorTexel());
+    }
     if (!medium.noise()) return finest;
     for (const NoiseScale& scale : medium.perturbation().scales) {
         const bool counts = scale.displacement != 0 || scale.extinction != 0 ||

@@ -10,7 +10,8 @@
 namespace stereonav {
 
 // The width of what is told apart in a medium: of a voxel, a texel of noise that does something, a sample of
-// a height layer or its taper. Metres; 0 where a layer has sharp faces, infinite where nothing is.
+// a height layer, its taper or a texel of its colours. Metres; 0 where a layer has sharp faces, infinite
+// where nothing is.
 double finestDetail(const Medium& medium);
 
 class SweepSharing {

@@ -27,7 +27,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 const BuiltInTerrain& built() {
     static const BuiltInTerrain terrain = [] {
         Progress quiet;
-        return generateBuiltInTerrain(1, 161, quiet, false);
+        return generateBuiltInTerrain(1, 161, quiet, std::nullopt);
     }();
     return terrain;
 }

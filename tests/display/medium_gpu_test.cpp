@@ -382,6 +382,29 @@ TEST_F(MediumGpuTest, LayersOverHeightFields) {
     }
 }
 
+// One layer of two has colours of its own, finer than its samples.
+TEST_F(MediumGpuTest, LayersWithColoursOfTheirOwn) {
+    std::vector<HeightLayer> layers = hillsUnderMist();
+    Plane<PackedColor> picture(61, 47);
+    for (int y = 0; y < 47; ++y)
+        for (int x = 0; x < 61; ++x)
+            picture.at(x, y) = packColor({0.5 + 0.5 * std::sin(0.3 * x), 0.5 + 0.5 * std::cos(0.4 * y), 0.3});
+    layers[0].color = std::make_shared<ColorTexture>(picture, glm::dvec2(0), glm::dvec2(0.4, 0.4));
+    layers[0].colorSpacing = glm::dvec2(0.08);
+    Subject subject{Medium(layers)}, plain{Medium(hillsUnderMist())};
+    const glm::dvec3 eye = kMiddle + glm::dvec3(0.3, -1.6, 1.1);
+    const std::vector<EyeView> eyes{viewFrom(eye, kMiddle, 12, 10)};
+    for (const MediumModel model : {MediumModel::Emission, MediumModel::Indirect})
+        for (const glm::dvec3& direction : {kWithView, kAgainstView}) {
+            const MediumLook look = lookOf(model, direction);
+            expectAsByTheBook(subject, look, eyes, smallSetting());
+            std::vector<MediumPicture> with(1), without(1);
+            subject.gpu.render(look, smallSetting(), eyes, eyes[0].head, 0, with);
+            plain.gpu.render(look, smallSetting(), eyes, eyes[0].head, 0, without);
+            EXPECT_GT(differenceOf(with[0], without[0]).worst, 0.01);
+        }
+}
+
 bool equal(const MediumPicture& a, const MediumPicture& b, double most = 0) {
     if (a.light.width() != b.light.width() || a.light.height() != b.light.height()) return false;
     const Difference d = differenceOf(a, b);

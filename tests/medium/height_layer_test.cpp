@@ -136,5 +136,31 @@ TEST(HeightLayer, EmptyAndTiny) {
     EXPECT_EQ(none.lowest, none.highest);
 }
 
+// Half of the ground red, half green, and a place has the colour that lies there: times the table's.
+TEST(HeightLayer, ReadsItsColourAtThePlace) {
+    HeightLayer layer = layerOf(41, 41, 10, plane);
+    Plane<PackedColor> picture(32, 32);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x)
+            picture.at(x, y) = packColor(x < 16 ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0));
+    const glm::vec3 own = layer.at({1100, -300, plane(1100, -300) - 0.5}, 0).color;
+    EXPECT_EQ(layer.colorAt(1100, -300, 0), glm::vec3(1.0f)) << "none yet";
+    layer.color = std::make_shared<ColorTexture>(picture, glm::dvec2(0), glm::dvec2(0.5, 0.5));
+    layer.colorSpacing = {25, 25};
+    EXPECT_DOUBLE_EQ(layer.colorTexel(), 12.5);
+    for (const double y : {-480.0, -300.0, -120.0}) {
+        EXPECT_EQ(layer.colorAt(1100, y, 0), glm::vec3(1, 0, 0));
+        EXPECT_EQ(layer.colorAt(1300, y, 0), glm::vec3(0, 1, 0));
+        EXPECT_EQ(layer.at({1100, y, plane(1100, y) - 0.5}, 0).color, own * glm::vec3(1, 0, 0));
+    }
+    // Over all of it both are as much.
+    const glm::vec3 all = layer.colorAt(1200, -300, 1e6);
+    EXPECT_NEAR(all.x, 0.5f, 0.01f);
+    EXPECT_NEAR(all.y, 0.5f, 0.01f);
+    // What is coarser than the texels blurs, what is finer does not.
+    EXPECT_EQ(layer.colorAt(1190, -300, 10), layer.colorAt(1190, -300, 0));
+    EXPECT_GT(layer.colorAt(1180, -300, 80).y, 0.02f);
+}
+
 }  // namespace
 }  // namespace stereonav

@@ -277,6 +277,10 @@ TEST(SweepSharing, keepsToItsWidth) {
     EXPECT_DOUBLE_EQ(finestDetail(hills(0.15)), 0.1);
     EXPECT_DOUBLE_EQ(finestDetail(hills(0.01)), 0.01);
     EXPECT_EQ(finestDetail(Medium()), kInfinity);
+    std::vector<HeightLayer> painted = hills(0.15).layers();
+    painted[0].color = std::make_shared<ColorTexture>(Plane<PackedColor>(8, 8), glm::dvec2(0), glm::dvec2(1));
+    painted[0].colorSpacing = {0.03, 0.03};
+    EXPECT_DOUBLE_EQ(finestDetail(Medium(painted)), 0.03);
     Perturbation fine = noisyShared();
     fine.scales[0].size = 0.32;
     EXPECT_DOUBLE_EQ(finestDetail(Medium(blob(false), materials(0), fine)), 0.01);

@@ -212,6 +212,18 @@ TEST(GroundColor, LightIsLambertOverAmbient) {
     }
 }
 
+TEST(GroundColor, NoSlopeIsLitByASunThatHasSet) {
+    TerrainLook look;
+    look.sunAzimuth = M_PI / 2;
+    for (const double elevation : {-0.01, -0.3, -1.5}) {
+        look.sunElevation = elevation;
+        const GroundLight light(look);
+        for (double slope = -1.4; slope <= 1.4; slope += 0.2)
+            EXPECT_NEAR(light.at({std::sin(slope), 0, std::cos(slope)}), 1, 1e-6)
+                << elevation << " " << slope;
+    }
+}
+
 // A valley running north: its western side falls towards the sun in the east.
 TEST(GroundColor, ShadedImageIsDarkerOnSlopesTurnedAway) {
     const TempFolder folder;

@@ -40,12 +40,25 @@ TEST(Specular, ShinesTowardsTheMirroredSunOnly) {
     look.specular = 0.5f;
     look.sunElevation = 1.5707963267948966;  // straight above
     const Specular specular(look);
-    const PackedColor base = packColor({0.1f, 0.2f, 0.3f});
     const glm::dvec3 up(0, 0, 1), level(1, 0, 0);
-    EXPECT_NEAR(unpackColor(specular.shade(base, up, up)).x, 0.6f, 2e-3f);
-    EXPECT_EQ(specular.shade(base, -up, up), base);  // turned away from the sun
-    EXPECT_LT(unpackColor(specular.shade(base, up, level)).x, 0.11f);
+    EXPECT_NEAR(specular.highlight(up, up).x, 0.5f, 1e-6f);
+    EXPECT_EQ(specular.highlight(-up, up), glm::vec3(0.0f));  // turned away from the sun
+    EXPECT_LT(specular.highlight(up, level).x, 0.01f);
     EXPECT_FALSE(Specular(TerrainLook()).active());
+}
+
+TEST(Specular, HasTheSunsLightAndSetsWithIt) {
+    TerrainLook look;
+    look.specular = 0.5f;
+    const glm::vec3 red(1.0f, 0.5f, 0.25f);
+    const auto towardsTheSun = [&](double elevation) {
+        look.sunElevation = elevation;
+        const Specular specular(look, red);
+        return specular.highlight(specular.toSun(), specular.toSun());
+    };
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(towardsTheSun(0.3)[c], 0.5f * red[c], 1e-6f);
+    EXPECT_NEAR(towardsTheSun(0).x, 0.25f, 1e-6f) << "half of the disc";
+    for (const double set : {-0.01, -0.3, -1.5}) EXPECT_EQ(towardsTheSun(set), glm::vec3(0.0f)) << set;
 }
 
 }  // namespace

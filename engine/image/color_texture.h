@@ -1,5 +1,4 @@
-// The ground's colour: an image over the heightfield's extent with its mip levels, ready for
-// bilinear lookup by the ray's footprint.
+// A colour over an extent: an image with its mip levels, ready for bilinear lookup by a footprint.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +8,7 @@
 
 #include "engine/image/packed_color.h"
 #include "engine/image/plane.h"
+#include "engine/image/texture_data.h"
 
 namespace stereonav {
 
@@ -48,6 +48,14 @@ public:
     // memory stays where it is. No one may read meanwhile.
     void refill(const std::function<void(int y, PackedColor* row)>& fillRow);
 
+    // Linear, at a grid coordinate; beyond the edge its texels count on. level: 0 the finest, clamped to
+    // those there are. Bilinear in texels as they are stored, and from level to level over the middle half
+    // between them: the plain statement of what kernels and shaders read.
+    glm::vec3 at(const glm::dvec2& grid, double level) const;
+    // As kernels read it by places, which lie at the grid coordinates (place - origin) / spacing. It must
+    // outlive what is given.
+    TextureData forKernels(const glm::dvec2& origin, const glm::dvec2& spacing) const;
+
     int levelCount() const { return static_cast<int>(mOffsets.size()); }
     Level level(int k) const { return {mTexels.data() + mOffsets[k], widthOf(k), heightOf(k)}; }
     std::int32_t offset(int k) const { return mOffsets[k]; }
@@ -60,6 +68,7 @@ public:
 private:
     int widthOf(int k) const { return (mWidth + (1 << k) - 1) >> k; }
     int heightOf(int k) const { return (mHeight + (1 << k) - 1) >> k; }
+    glm::vec3 rootAt(int k, const glm::dvec2& texel) const;
     PackedColor* texels(int k) { return mTexels.data() + mOffsets[k]; }
     void pad(int k);
     void halve(int k);

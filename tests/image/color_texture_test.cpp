@@ -1,9 +1,11 @@
 // The ground's texture: orientation, sizes of the levels, and light kept through them.
-#include "terrain/color_texture.h"
+#include "engine/image/color_texture.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <random>
 
 namespace stereonav {
@@ -70,6 +72,41 @@ TEST(ColorTexture, AveragesInLinearLight) {
     const ColorTexture striped(stripes, {}, {1, 1});
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x) EXPECT_NEAR(unpackColor(striped.level(1).at(x, y)).x, 0.5f, 1e-3f);
+}
+
+TEST(ColorTexture, ReadsPlacesBetweenTexelsAndLevels) {
+    const ColorTexture texture(randomImage(13, 6), {-0.5, 2}, {0.5, 0.25});
+    const auto root = [](const glm::vec3& linear) { return glm::sqrt(linear); };
+    for (int k = 0; k < texture.levelCount(); ++k) {
+        const ColorTexture::Level level = texture.level(k);
+        const double size = 1 << k;
+        const auto gridOf = [&](double x, double y) {  // of texels of that level
+            return glm::dvec2(-0.5, 2) + glm::dvec2(x, y) * size * glm::dvec2(0.5, 0.25);
+        };
+        for (int y = 0; y < level.height(); ++y)
+            for (int x = 0; x < level.width(); ++x) {
+                const glm::vec3 here = unpackColor(level.at(x, y));
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(texture.at(gridOf(x + 0.5, y + 0.5), k)[c], here[c], 1e-5);
+                // Halfway to the east, in roots; the last texel counts on.
+                const glm::vec3 between =
+                    0.5f * (root(here) + root(unpackColor(level.at(std::min(x + 1, level.width() - 1), y))));
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(texture.at(gridOf(x + 1, y + 0.5), k)[c], between[c] * between[c], 1e-5);
+            }
+    }
+    // A level holds on for a quarter of the way to the next, and from three quarters on it is that.
+    const glm::dvec2 place(1.1, 2.7);
+    EXPECT_EQ(texture.at(place, 0.25), texture.at(place, 0));
+    EXPECT_EQ(texture.at(place, 0.75), texture.at(place, 1));
+    EXPECT_EQ(texture.at(place, -3), texture.at(place, 0));
+    EXPECT_EQ(texture.at(place, 99), texture.at(place, texture.levelCount() - 1));
+    const glm::vec3 middle = 0.5f * (root(texture.at(place, 1)) + root(texture.at(place, 2)));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(texture.at(place, 1.5)[c], middle[c] * middle[c], 1e-5);
+    for (const glm::dvec2& outside : {glm::dvec2(-90, 2.1), glm::dvec2(900, 2.1)})
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(texture.at(outside, 0)[c],
+                        texture.at({outside.x < 0 ? -0.25 : 5.75, outside.y}, 0)[c], 1e-5);
 }
 
 }  // namespace
