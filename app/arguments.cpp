@@ -354,6 +354,11 @@ void addReport(CLI::App& app, Parsed& parsed) {
     command.add_option("--parts", options.parts, "some of it, as in right-eye,light; left out: all")
         ->delimiter(',')
         ->allow_extra_args(false);
+    command.add_flag("--papers", options.papers,
+                     "the papers' own tables beside what this program does, in the place of the charts");
+    command.add_option(
+        "--data", options.data,
+        "folder with real data for --papers, as docs/testing.md lists it; built-in scenes stand in");
     command.callback([&parsed] { parsed.run = [&parsed] { return runReport(parsed.report); }; });
 }
 

@@ -11,6 +11,8 @@
 #include "app/report_json.h"
 #include "app/report_machine.h"
 #include "app/report_page.h"
+#include "app/report_papers_data.h"
+#include "app/report_papers_run.h"
 #include "app/report_run.h"
 #include "app/report_stability.h"
 #include "engine/base/error.h"
@@ -28,6 +30,7 @@ struct Part {
     double weight;         // of the time
     bool surfaces = true;  // measured on scenes whose rays are cast
     bool media = false;    // ... and on those that are swept
+    bool papers = false;   // of --papers, which load what they need themselves
 };
 constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0},
                            {"quality", reportQuality, 1.5},
@@ -38,19 +41,29 @@ constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0},
                            {"plan", reportPlan, 2.0},
                            {"time", reportStages, 2.0},
                            {"left-out", reportScenes, 0.3},
-                           {"stability", reportStability, 0.0, false}};
+                           {"stability", reportStability, 0.0, false},
+                           {"papers-stereo", reportPapersStereo, 3.0, false, false, true},
+                           {"papers-light", reportPapersLight, 5.0, false, false, true},
+                           {"papers-media", reportPapersMedia, 2.0, false, false, true},
+                           {"papers-occlusion", reportPapersOcclusion, 1.0, false, false, true},
+                           {"papers-scaling", reportPapersScaling, 1.0, false, false, true}};
 
 std::vector<Part> partsOf(const ReportOptions& options) {
     std::string names;
-    for (const Part& part : kParts) names += (names.empty() ? "" : ", ") + std::string(part.id);
-    for (const std::string& id : options.parts)
-        if (std::none_of(std::begin(kParts), std::end(kParts), [&](const Part& p) { return id == p.id; }))
-            throw Error("--parts", "", "there is no part \"" + id + "\"", "the parts are " + names);
-    std::vector<Part> parts;
     for (const Part& part : kParts)
-        if (options.parts.empty() ||
-            std::find(options.parts.begin(), options.parts.end(), part.id) != options.parts.end())
-            parts.push_back(part);
+        if (part.papers == options.papers) names += (names.empty() ? "" : ", ") + std::string(part.id);
+    for (const std::string& id : options.parts)
+        if (std::none_of(std::begin(kParts), std::end(kParts),
+                         [&](const Part& p) { return id == p.id && p.papers == options.papers; }))
+            throw Error("--parts", "", "there is no part \"" + id + "\"",
+                        std::string("the parts ") + (options.papers ? "of --papers " : "") + "are " + names);
+    std::vector<Part> parts;
+    const auto wanted = [&](const Part& part) {
+        return options.parts.empty() ||
+               std::find(options.parts.begin(), options.parts.end(), part.id) != options.parts.end();
+    };
+    for (const Part& part : kParts)
+        if (part.papers == options.papers && wanted(part)) parts.push_back(part);
     return parts;
 }
 
@@ -92,6 +105,7 @@ void describeRun(ReportRun& run) {
 void writeReport(const Report& report, const fs::path& folder) {
     makeOutputFolder(folder);
     writeTextFile(folder / "report.csv", figuresCsv(report));
+    if (!report.papers.empty()) writeTextFile(folder / "papers.csv", papersCsv(report.papers));
     writeTextFile(folder / "report.json", figuresJson(report));
     writeTextFile(folder / "index.html", pageOf(report));
 }
@@ -108,6 +122,11 @@ int runReport(const ReportOptions& options) {
     // what can not be read is told before minutes are spent
     if (!options.stability.empty()) stabilitySection(readTextFile(options.stability), options.stability);
     const std::vector<Part> parts = partsOf(options);
+    if (options.papers && !options.scenes.empty())
+        throw Error("--scene", "", "expected without --papers, which has scenes of its own", "name --data");
+    if (!options.papers && !options.data.empty())
+        throw Error("--data", "", "expected with --papers", "add it, or name scenes with --scene");
+    const PaperData checked(options.data);
     ProgressBar bar;
     ReportRun run(options, bar.progress());
     if (options.threads > 0) setThreadCount(options.threads);
@@ -115,7 +134,7 @@ int runReport(const ReportOptions& options) {
     const auto any = [&](bool Part::*what) {
         return std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.*what; });
     };
-    loadReportScenes(run, any(&Part::surfaces), any(&Part::media));
+    if (!options.papers) loadReportScenes(run, any(&Part::surfaces), any(&Part::media));
     measureAll(run, parts);
     Report& report = run.report();
     if (!run.hurriedParts().empty())

@@ -151,6 +151,8 @@ struct ReportOptions {
     std::uint64_t seed = 1;           // of everything random
     std::optional<double> minutes;    // for all of it
     std::vector<std::string> parts;   // sections by id; empty: all
+    bool papers = false;              // the papers' tables beside ours, in the place of the charts
+    std::string data;                 // folder with real data for them; "": where tests find it
 };
 // Exit status 1 where a figure got worse than in the earlier run.
 int runReport(const ReportOptions& options);

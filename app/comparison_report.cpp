@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -24,7 +26,7 @@ double rmsFromPsnr(double psnr_db) {
 }
 
 using F = const MethodFigures&;
-constexpr std::array<Field, 14> kFields{{
+constexpr std::array<Field, 16> kFields{{
     {"left_ms", [](F f) { return f.left_ms; }, 2},
     {"warp_ms", [](F f) { return f.warp_ms; }, 2},
     {"fill_ms", [](F f) { return f.fill_ms; }, 2},
@@ -39,7 +41,14 @@ constexpr std::array<Field, 14> kFields{{
     {"rgb_max", [](F f) { return f.difference.rgb_max; }, 0},
     {"edge_psnr_db", [](F f) { return f.difference.edge_psnr_db; }, 2},
     {"true_psnr_db", [](F f) { return f.true_psnr_db; }, 2},
+    {"holes_of_warped_percent", [](F f) { return f.holesOfWarped_percent; }, 2},
+    {"surface_psnr_db", [](F f) { return f.surface_psnr_db; }, 2},
 }};
+
+// Of its column in the table.
+int widthOf(const Field& field) {
+    return std::max(13, static_cast<int>(std::strlen(field.name)));
+}
 
 // The figures of a scene, in one line under a plot or a table.
 std::string captionOf(const ComparisonReport& report) {
@@ -63,13 +72,13 @@ std::string tableOf(const ComparisonReport& report) {
                                                         report.stereo.zeroParallax / report.stereo.separation,
                                                         report.stereo.zeroParallax);
     table += fmt::format("{:<10}", "method");
-    for (const Field& field : kFields) table += fmt::format(" {:>13}", field.name);
+    for (const Field& field : kFields) table += fmt::format(" {:>{}}", field.name, widthOf(field));
     for (const MethodFigures& method : report.methods) {
         table += fmt::format("\n{:<10}", method.name);
         for (const Field& field : kFields) {
             const double value = field.value(method);
-            table += std::isnan(value) ? fmt::format(" {:>13}", "-")
-                                       : fmt::format(" {:>13.{}f}", value, field.decimals);
+            table += std::isnan(value) ? fmt::format(" {:>{}}", "-", widthOf(field))
+                                       : fmt::format(" {:>{}.{}f}", value, widthOf(field), field.decimals);
         }
     }
     return table + "\n";

@@ -107,6 +107,8 @@ std::vector<MethodFigures> comparePairs(PairRenderer& renderer, const std::vecto
     for (const auto& frames : byMethod) {
         result.push_back(medianOf(frames));
         result.back().true_psnr_db = std::numeric_limits<double>::quiet_NaN();
+        result.back().holesOfWarped_percent = std::numeric_limits<double>::quiet_NaN();
+        result.back().surface_psnr_db = std::numeric_limits<double>::quiet_NaN();
     }
     return result;
 }

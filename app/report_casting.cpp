@@ -233,6 +233,8 @@ void reportCasting(ReportRun& run, double) {
         else
             addLeaping(run, leaping, scene);
     }
+    run.checkTime();
+    addChart(run.report(), section, normalsChart(run));
     section.blocks.emplace_back(std::move(leaping));
     section.blocks.emplace_back(ReportText{
         "Fixed, with nothing to choose: opaque surfaces are met exactly (bilinear cells of terrain, "

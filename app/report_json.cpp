@@ -35,6 +35,30 @@ std::string quoted(const std::string& text) {
     return result + "\"";
 }
 
+Json papersJson(const std::vector<PaperRow>& rows) {
+    Json list = Json::array();
+    for (const PaperRow& row : rows) {
+        const bool has = row.ours.count > 0;
+        const auto ours = [has](double value) { return has ? Json(value) : Json(); };
+        list.push_back({{"paper", row.paper},
+                        {"table", row.table},
+                        {"row", row.row},
+                        {"column", row.column},
+                        {"theirs", row.theirs ? Json(*row.theirs) : Json()},
+                        {"said", row.said},
+                        {"ours", ours(row.ours.median)},
+                        {"low", ours(row.ours.low)},
+                        {"high", ours(row.ours.high)},
+                        {"count", row.ours.count},
+                        {"none", row.none},
+                        {"unit", row.unit},
+                        {"measured", row.measured},
+                        {"how", row.how},
+                        {"why", row.why}});
+    }
+    return list;
+}
+
 ReportFigure figureFrom(const Json& json) {
     ReportFigure figure;
     figure.id = json.at("id").get<std::string>();
@@ -122,6 +146,7 @@ std::string figuresJson(const Report& report) {
                                    {"count", f.value.count},
                                    {"unit", f.unit},
                                    {"setting", f.setting}});
+    if (!report.papers.empty()) json["papers"] = papersJson(report.papers);
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -232,6 +232,8 @@ void reportLight(ReportRun& run, double) {
     addChart(run.report(), section, transferChart(run, subject));
     addChart(run.report(), section, relightChart(run, subject));
     addPixelCharts(run, section);
+    run.checkTime();
+    addChart(run.report(), section, terrainLightChart(run));
     run.report().sections.push_back(std::move(section));
 }
 

@@ -53,6 +53,8 @@ WayChart lightChart(ReportRun& run, const LightSubject& subject, const char* id,
 
 // Dotting transfer with a turned sky, by order and compression.
 WayChart relightChart(ReportRun& run, const LightSubject& subject);
+// A terrain's bake by its settings.
+WayChart terrainLightChart(ReportRun& run);
 // Whole pictures against paths traced from every pixel: by samples, and by lookup.
 void addPixelCharts(ReportRun& run, ReportSection& section);
 

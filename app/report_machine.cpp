@@ -12,6 +12,7 @@
 
 #include "app/scene_loading.h"
 #include "engine/base/parallel.h"
+#include "engine/math/simd_target.h"
 
 // Set by CMake when it configures, for this file alone.
 #ifndef STEREONAV_COMMIT
@@ -31,6 +32,14 @@ std::string systemName() {
     utsname names{};
     return uname(&names) == 0 ? fmt::format("{} {} {}", names.sysname, names.release, names.machine)
                               : "unknown";
+}
+
+// Of all figures: the widest that the program may use here.
+std::string instructionSetText() {
+    const SimdTarget used = availableTarget(SimdTarget::Auto), widest = widestOfProcessor();
+    std::string text(nameOf(used));
+    if (used != widest) text += fmt::format(" (STEREONAV_SIMD hides {})", nameOf(widest));
+    return text;
 }
 
 std::string memoryText() {
@@ -64,6 +73,7 @@ ReportFacts machineFacts() {
             {"compiler", fmt::format("g++ or like it, {}", __VERSION__)},
             {"libraries", STEREONAV_LIBRARIES},
             {"processor", machineName()},
+            {"instruction set", instructionSetText()},
             {"processors", std::to_string(processors)},
             {"memory", memoryText()},
             {"system", systemName()},

@@ -196,6 +196,8 @@ void reportMedium(ReportRun& run, double) {
         againstPaths(run, section, subject, MediumModel::Indirect);
         againstManySlices(run, section, subject);
     }
+    run.checkTime();
+    addChart(run.report(), section, shadingWidthChart(run));
     reportPairs(run, section);
     run.report().sections.push_back(std::move(section));
 }

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/report_papers.h"
 #include "engine/metrics/pareto_verdict.h"
 #include "engine/metrics/svg_chart.h"
 
@@ -47,6 +48,7 @@ struct ReportTable {
     std::string title, text;
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows;
+    int joined = 0;  // last columns whose equal cells one below the other are drawn as one
 };
 struct ReportPicture {
     std::string title;
@@ -75,6 +77,7 @@ struct Report {
     std::vector<std::string> warnings;  // shown on top: a noisy machine, what was not measured
     std::vector<ReportSection> sections;
     std::vector<ReportFigure> figures;
+    std::vector<PaperRow> papers;  // beside the papers' own
 };
 
 // Puts a chart with its figures (ID/NAME/time and so on) into the report.

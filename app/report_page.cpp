@@ -51,20 +51,34 @@ std::string heading(const std::string& title) {
 }
 
 // Cells of many letters may be broken into lines.
-std::string cell(const std::string& text, const char* element) {
+std::string cell(const std::string& text, const char* element, int rows = 1) {
     constexpr std::size_t kLongCell = 36;
     const char* kind = text.size() > kLongCell ? " class=\"words\"" : text == "FAIL" ? " class=\"fail\"" : "";
-    return fmt::format("<{0}{1}>{2}</{0}>", element, kind, escapedXml(text));
+    const std::string span = rows > 1 ? fmt::format(" rowspan=\"{}\"", rows) : "";
+    return fmt::format("<{0}{1}{2}>{3}</{0}>", element, kind, span, escapedXml(text));
+}
+
+// Rows from `row` on with the same text in a column.
+int equalCells(const std::vector<std::vector<std::string>>& rows, std::size_t row, std::size_t column) {
+    std::size_t end = row + 1;
+    while (end < rows.size() && rows[end][column] == rows[row][column]) ++end;
+    return static_cast<int>(end - row);
 }
 
 std::string tableOf(const std::vector<std::string>& columns,
-                    const std::vector<std::vector<std::string>>& rows, const std::vector<bool>& marked = {}) {
+                    const std::vector<std::vector<std::string>>& rows, const std::vector<bool>& marked = {},
+                    int joined = 0) {
     std::string html = "<div class=\"scroll\"><table><thead><tr>";
     for (const std::string& column : columns) html += cell(column, "th");
     html += "</tr></thead><tbody>\n";
     for (std::size_t n = 0; n < rows.size(); ++n) {
         html += n < marked.size() && marked[n] ? "<tr class=\"default\">" : "<tr>";
-        for (const std::string& text : rows[n]) html += cell(text, "td");
+        const std::size_t firstJoined = columns.size() - static_cast<std::size_t>(joined);
+        for (std::size_t c = 0; c < rows[n].size(); ++c) {
+            const bool joins = c >= firstJoined;
+            if (joins && n > 0 && rows[n - 1][c] == rows[n][c]) continue;
+            html += cell(rows[n][c], "td", joins ? equalCells(rows, n, c) : 1);
+        }
         html += "</tr>\n";
     }
     return html + "</tbody></table></div>\n";
@@ -131,7 +145,7 @@ std::string blockOf(const LineChart& chart) {
 
 std::string blockOf(const ReportTable& table) {
     return "<div class=\"card wide\">" + heading(table.title) + paragraph(table.text, "soft") +
-           tableOf(table.columns, table.rows) + "</div>\n";
+           tableOf(table.columns, table.rows, {}, table.joined) + "</div>\n";
 }
 
 std::string blockOf(const ReportPictures& pictures) {

@@ -87,6 +87,8 @@ void reportScenes(ReportRun& run, double seconds);
 void reportStability(ReportRun& run, double seconds);
 // Charts that stand in sections of others: of casting, and of volume light.
 WayChart filteringChart(ReportRun& run, const ReportScene& terrain);
+WayChart normalsChart(ReportRun& run);
+WayChart shadingWidthChart(ReportRun& run);
 void reportPairs(ReportRun& run, ReportSection& section);
 
 }  // namespace stereonav

@@ -1,5 +1,4 @@
-// The report's part on where the time goes: stages by thread count, speed-up and what limits it, beside the
-// figures of Wan et al. 2004.
+// The report's part on where the time goes: stages by thread count, speed-up and what limits it.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -9,6 +8,7 @@
 #include <map>
 
 #include "app/report_mood.h"
+#include "app/report_papers_trial.h"
 #include "app/report_run.h"
 #include "engine/base/parallel.h"
 
@@ -31,12 +31,6 @@ std::vector<int> threadCounts(int all) {
     counts.push_back(all);
     return counts;
 }
-
-// Puts the thread count back, whatever happens.
-struct ThreadsBack {
-    int before = threadCount();
-    ~ThreadsBack() { setThreadCount(before); }
-};
 
 class StageTrial {
 public:
@@ -236,50 +230,6 @@ void addSpeedups(ReportSection& section, const std::string& title, const TimesBy
     section.blocks.emplace_back(std::move(chart));
 }
 
-// Table 2 of the paper beside the same on this machine; its table 1 is the algorithm, without figures.
-void addPaperTables(ReportSection& section, const ReportScene& scene, const TimesByThreads& times) {
-    ReportTable table{"Beside Wan et al. 2004, table 2",
-                      fmt::format("Seconds for a 500x400 picture of a terrain: theirs on an SGI Power "
-                                  "Challenge with up to 16 R10000 of "
-                                  "194 MHz, a shaded terrain (fig. 6) and one with a photo (fig. 7), both "
-                                  "512x512; ours, {}x{}, the "
-                                  "generated terrain, by the default way and by the paper's. Saved: of the "
-                                  "right eye against the left.",
-                                  scene.loaded.lens.width, scene.loaded.lens.height),
-                      {"", "1", "2", "4", "8", "12", "16", "saved"},
-                      {{"theirs, left (6a)", "3.21", "-", "0.85", "0.44", "0.33", "0.23", ""},
-                       {"theirs, right (6b)", "0.38", "-", "0.10", "0.06", "0.04", "0.03", "88 %"},
-                       {"theirs, left (7a)", "0.97", "-", "0.27", "0.14", "0.11", "0.07", ""},
-                       {"theirs, right (7b)", "0.32", "-", "0.09", "0.05", "0.04", "0.03", "65 %"}}};
-    const auto ours = [&](const char* name, auto value, bool saves) {
-        std::vector<std::string> row{name};
-        for (const int threads : {1, 2, 4, 8, 12, 16})
-            row.push_back(times.contains(threads) ? fmt::format("{:.5f}", value(times.at(threads)) / 1000)
-                                                  : "-");
-        const StageTimes& one = times.begin()->second;
-        row.push_back(saves ? fmt::format("{:.0f} %", 100 * (1 - value(one) / one.ms[kLeft].low)) : "");
-        table.rows.push_back(std::move(row));
-    };
-    ours(
-        "ours, left", [](const StageTimes& t) { return t.ms[kLeft].low; }, false);
-    ours(
-        "ours, right, default", [](const StageTimes& t) { return t.ms[kWarp].low + t.ms[kFill].low; }, true);
-    ours(
-        "ours, right, paper's",
-        [](const StageTimes& t) { return t.ms[kPaperWarp].low + t.ms[kPaperFill].low; }, true);
-    section.blocks.emplace_back(std::move(table));
-    const StageTimes& one = times.begin()->second;
-    section.blocks.emplace_back(
-        ReportTable{"Beside their table 1",
-                    "Their table 1 lists the serial algorithm and has no figures. What its steps take here "
-                    "on one thread:",
-                    {"step", "default way, ms", "paper's way, ms"},
-                    {{"reproject, clip, drop hidden pixels, splat or resample (each pixel of the left image)",
-                      numberText(one.ms[kWarp].low), numberText(one.ms[kPaperWarp].low)},
-                     {"fill right-end, middle and left-end gaps by casting", numberText(one.ms[kFill].low),
-                      numberText(one.ms[kPaperFill].low)}}});
-}
-
 }  // namespace
 
 void reportStages(ReportRun& run, double seconds) {
@@ -307,7 +257,6 @@ void reportStages(ReportRun& run, double seconds) {
         const TimesByThreads times = measureStages(run, scene, counts, 0.9 * each);
         addStageTable(run, section, scene, times, triad);
         if (counts.size() > 1) addSpeedups(section, scene.title, times);
-        if (scene.id == "terrain") addPaperTables(section, scene, times);
     }
     run.report().sections.push_back(std::move(section));
 }

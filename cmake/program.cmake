@@ -34,7 +34,7 @@ stereonav_part(colon OPTION STEREONAV_COLON LINK colon
 stereonav_part(medium OPTION STEREONAV_MEDIUM LINK engine_medium SOURCES medium_*.cpp info_medium.cpp view_sweep.cpp)
 stereonav_part(display OPTION STEREONAV_DISPLAY LINK engine_display
   SOURCES command_view.cpp view_input.cpp view_loading.cpp view_session*.cpp view_slices.cpp view_stereo.cpp
-    view_sweep.cpp view_worker.cpp screenshots.cpp slice_picture.cpp)
+    view_sweep.cpp view_worker.cpp screenshots.cpp slice_picture.cpp report_papers_gpu.cpp)
 if(STEREONAV_TERRAIN AND STEREONAV_COLON AND STEREONAV_MEDIUM)
   set(whole ON)
 endif()

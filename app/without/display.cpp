@@ -2,6 +2,7 @@
 
 #include "app/built_without.h"
 #include "app/commands.h"
+#include "app/report_papers_gpu.h"
 #include "engine/display/window.h"
 
 namespace stereonav {
@@ -16,6 +17,21 @@ namespace {
 int runView(const ViewOptions&) {
     without();
 }
+
+// The report says so in the rows that are drawn.
+struct PaperGpu::State {};
+PaperGpu::PaperGpu() = default;
+PaperGpu::~PaperGpu() = default;
+std::string PaperGpu::problem() const {
+    return "built without the window";
+}
+std::string PaperGpu::renderer() const {
+    return "none";
+}
+Spread PaperGpu::time(const Medium&, const MediumLook&, const SweepSetting&, std::span<const EyeView>, int) {
+    without();
+}
+void PaperGpu::forget() {}
 
 // So that the program without a command plays the flight to out/.
 bool hasDisplay() {

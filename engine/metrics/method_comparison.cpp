@@ -1,10 +1,13 @@
 #include "engine/metrics/method_comparison.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/metrics/supersampled_picture.h"
+#include "engine/metrics/surface_difference.h"
 
 namespace stereonav {
 namespace {
@@ -95,6 +98,10 @@ private:
                                (static_cast<double>(mLeft.width()) * mLeft.height());
         figures.difference = differenceOf(mFull.right.color, runner.right.color, mask);
         figures.true_psnr_db = psnrOf(truth, runner.right.color);
+        const SurfaceDifference surface =
+            surfaceDifference(mFull.right, runner.right, runner.eye.holeMask(), leavesHoles(runner.method));
+        figures.holesOfWarped_percent = surface.holesOfWarped_percent;
+        figures.surface_psnr_db = surface.psnr_db;
         return figures;
     }
 
@@ -107,6 +114,8 @@ private:
 };
 
 double median(std::vector<double> values) {
+    std::erase_if(values, [](double value) { return std::isnan(value); });
+    if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
     std::sort(values.begin(), values.end());
     const std::size_t middle = values.size() / 2;
     return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
@@ -138,6 +147,8 @@ MethodFigures medianOf(const std::vector<MethodFigures>& frames) {
     result.difference.rgb_max = field([](F f) { return f.difference.rgb_max; });
     result.difference.edge_psnr_db = field([](F f) { return f.difference.edge_psnr_db; });
     result.true_psnr_db = field([](F f) { return f.true_psnr_db; });
+    result.holesOfWarped_percent = field([](F f) { return f.holesOfWarped_percent; });
+    result.surface_psnr_db = field([](F f) { return f.surface_psnr_db; });
     return result;
 }
 

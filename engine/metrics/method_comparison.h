@@ -27,9 +27,13 @@ struct MethodFigures {
     double left_ms = 0;  // the left eye, which every method needs
     double warp_ms = 0, fill_ms = 0, right_ms = 0;
     double full_right_ms = 0;    // the right eye cast in full, in the same run
-    double hole_percent = 0;     // pixels cast again (or left open) of all
+    double hole_percent = 0;     // pixels cast again, of all
     ImageDifference difference;  // from the full right cast
     double true_psnr_db = 0;     // from the truth with many rays a pixel
+    // As Wan et al. 2004 count (surface_difference.h); NaN where no pixel that shows the scene was warped, or
+    // made.
+    double holesOfWarped_percent = 0;
+    double surface_psnr_db = 0;
 };
 
 // What one method made of one frame. The edge mask of every method is that of the default method's
@@ -54,7 +58,8 @@ std::vector<MethodFigures> compareMethods(const EyeRenderer& renderer, const std
                                           const ComparisonSetting& setting, Progress& progress,
                                           const ComparedFrameListener& listener);
 
-// The median of each field (the mean of the middle two for an even count). frames: not empty.
+// The median of each field (the mean of the middle two for an even count), of frames that have it: NaN where
+// none has. frames: not empty.
 MethodFigures medianOf(const std::vector<MethodFigures>& frames);
 
 }  // namespace stereonav

@@ -210,10 +210,6 @@ void startHoles(const WarpJob& job, int y) {
     }
 }
 
-bool leavesHoles(RightEyeMethod method) {
-    return method == RightEyeMethod::McMillan || method == RightEyeMethod::NoFill;
-}
-
 void shadeAgain(const EyeRenderer& renderer, const WarpJob& job, const Scratch& scratch, int y) {
     if (job.dependence == ViewDependence::Highlight) {
         warpHighlight(job, scratch, y);
@@ -273,6 +269,10 @@ void fillMask(Plane<std::uint8_t>& mask, int value) {
 }
 
 }  // namespace
+
+bool leavesHoles(RightEyeMethod method) {
+    return method == RightEyeMethod::McMillan || method == RightEyeMethod::NoFill;
+}
 
 struct RightEye::State {
     Plane<std::uint8_t> mask;

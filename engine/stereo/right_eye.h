@@ -115,6 +115,8 @@ private:
     std::unique_ptr<State> mState;
 };
 
+// Whether pixels that the warp does not reach are left as they are: nothing is cast.
+bool leavesHoles(RightEyeMethod method);
 // nullopt for an unknown name.
 std::optional<RightEyeMethod> rightEyeMethodFromName(std::string_view name);
 std::string_view nameOf(RightEyeMethod method);

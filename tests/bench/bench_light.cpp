@@ -62,7 +62,7 @@ struct Marks {
 void printBakes(const Marks& marks) {
     constexpr double kSeconds = 20;
     const OneView view = viewOf900(marks.subject);
-    const std::vector<Brick> all = inPieces(marks.bricks);
+    const std::vector<Brick> all = inSmallPieces(marks.bricks);
     const TexelLighter light = marks.lighter();
     irradianceRate(light, all, 1, 1.5);  // finds what rays leap by
     std::printf("one view of 900x900: %zu texels, %zu pixels on the surface\n", view.texelCount,
@@ -89,7 +89,7 @@ void printBakes(const Marks& marks) {
     row("irradiance, of one view", 0, irradiance(view.texels));
     row("irradiance, all", marks.found_s, irradiance(all));
     row("paths from pixels, of one view", 0,
-        [&](int samples) { return tracedRate(light, view, samples, kSeconds); });
+        [&](int samples) { return pointRate(light, view.pixels, samples, kSeconds); });
 }
 
 void printGains(const Marks& marks) {

@@ -49,9 +49,9 @@ inline GainPoint measureError(const LightSubject& subject, TexelSampling samplin
         sampling.seed = static_cast<std::uint64_t>(100 + run);
         const TexelLighter lighter(subject.volume, subject.volume.frame, subject.setup, sampling);
         bakeOnce(lighter, bricks, 1);  // finds the fields
-        const double before = processor_s();
+        const double before = processorSeconds();
         const std::vector<double> light = bakeOnce(lighter, bricks, samples);
-        point.processor_s = std::min(point.processor_s, processor_s() - before);
+        point.processor_s = std::min(point.processor_s, processorSeconds() - before);
         sum.resize(light.size());
         squares.resize(light.size());
         for (std::size_t n = 0; n < light.size(); ++n) {

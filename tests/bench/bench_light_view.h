@@ -12,23 +12,10 @@
 namespace stereonav::bench {
 
 struct OneView {
-    std::vector<Brick> texels;  // of bricks seen, those on the surface shown
-    std::vector<std::vector<TexelLighter::SurfacePoint>> pixels;  // that show a surface, 64 together
+    std::vector<Brick> texels;       // of bricks seen, those on the surface shown
+    std::vector<PointPiece> pixels;  // that show a surface, 64 together
     std::size_t texelCount = 0, pixelCount = 0;
 };
-
-// Bricks in pieces of 64 texels, in a random order: with many samples a few seconds would see few bricks.
-inline std::vector<Brick> inPieces(const std::vector<Brick>& bricks) {
-    constexpr std::size_t kPiece = 64;
-    std::vector<Brick> pieces;
-    for (const Brick& brick : bricks)
-        for (std::size_t n = 0; n < brick.size(); n += kPiece)
-            pieces.emplace_back(
-                brick.begin() + static_cast<std::ptrdiff_t>(n),
-                brick.begin() + static_cast<std::ptrdiff_t>(std::min(n + kPiece, brick.size())));
-    std::shuffle(pieces.begin(), pieces.end(), std::mt19937(2));
-    return pieces;
-}
 
 inline OneView viewOf900(const LightSubject& subject) {
     constexpr int kSide = 900;
@@ -58,18 +45,9 @@ inline OneView viewOf900(const LightSubject& subject) {
                                          static_cast<double>(isovalue), -glm::normalize(ray),
                                          static_cast<std::uint64_t>(y * kSide + x)});
         }
-    one.texels = inPieces(one.texels);
+    one.texels = inSmallPieces(one.texels);
     std::shuffle(one.pixels.begin(), one.pixels.end(), std::mt19937(1));
     return one;
-}
-
-// Paths from the pixels.
-inline BakeRate tracedRate(const TexelLighter& lighter, const OneView& view, int samples, double seconds) {
-    return bakeRate(view.pixels, seconds, samples, [&](const auto& points) {
-        std::vector<TexelSum> sums(points.size());
-        lighter.addIrradianceAt(points, samples, sums);
-        return points.size();
-    });
 }
 
 }  // namespace stereonav::bench
