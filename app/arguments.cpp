@@ -8,6 +8,7 @@
 #include "app/built_without.h"
 #include "app/commands.h"
 #include "app/medium_options.h"
+#include "app/volume_ambient.h"
 #include "app/volume_light.h"
 #include "colon/transfer_presets.h"
 #include "engine/base/error.h"
@@ -99,10 +100,22 @@ void addVolumeLook(CLI::App& command, VolumeOptions& options) {
     add("--opacity", options.opacity, "a translucent wall that takes this share of light a millimetre, 0..1");
     add("--shading", options.shading, "to compare: " + shadingNames());
     add("--ambient", options.ambient_mm,
-        "how far ambient occlusion looks around, in millimetres (Ruiz et al. 2010); not with --light");
+        "ambient light, k times openness times colour in place of the lamp's (Ruiz et al. 2010): how far "
+        "openness looks around, in millimetres; not with --light");
+    add("--ambient-method", options.ambientMethod,
+        "how openness is estimated, gaussian when left out: " + occlusionMethodNames() +
+            "; B: an exponent in place of the fitted one; S: standard deviations, 3 when left out");
+    add("--ambient-strength", options.ambientStrength,
+        "k of ambient light, 1 when left out; 2 shows a flat wall in its own colour");
+    add("--ambient-lamp", options.ambientLamp, "0 to 1: share of the lamp's direct light beside it");
     add("--modulate", options.modulate,
-        "opacity of translucent volumes by the variance of the values within 10 voxels, or within --ambient, "
-        "or by the gradient of their openness (Ruiz et al. 2010): variance, gradient or none");
+        "opacity of translucent volumes by the variance of the values around, or by the gradient of their "
+        "openness (Ruiz et al. 2010): variance, gradient or none");
+    add("--modulate-radius", options.modulateRadius_mm,
+        "how far that looks around, in millimetres; left out: as --ambient, or 10 voxels");
+    add("--modulate-sigma", options.modulateSigma,
+        "from where on opacity stays whole: a standard deviation in the volume's values, or for gradient a "
+        "change of openness a voxel; left out: such that a tenth of what differs stays whole");
     add("--exposure", options.exposure, "factor on baked light; left out: by its mean");
     add("--turn", options.turn_deg,
         "degrees by which the sky over baked transfer is turned about the vertical");

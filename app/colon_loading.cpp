@@ -8,8 +8,10 @@
 #include <numbers>
 #include <sstream>
 
+#include "app/volume_ambient.h"
 #include "app/volume_light.h"
 #include "colon/colon_flight.h"
+#include "colon/transfer_presets.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
 #include "engine/volume/volume_renderer.h"
@@ -191,23 +193,9 @@ void tellOf(Light& light, ViewScene& view) {
     view.lightChanges = [&light] { return light.changes(); };
 }
 
-}  // namespace
-
-LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    checkVolumeLight(options);
-    checkTracedLight(options);
-    LoadedScene scene;
-    scene.name = options.scene;
-    scene.colon = std::make_unique<ColonScene>(loadColon(colonOptionsOf(options), progress));
-    scene.sky = applyVolumeLight(options, *scene.colon, progress);
-    if (isLazyLight(options.light))
-        scene.lazyLight = std::make_shared<LazyLight>(options, *scene.colon, progress);
-    if (options.light == kTracedLight)
-        scene.tracedLight = std::make_shared<TracedLight>(options, *scene.colon);
+// What is cast, from where, and the flight.
+void setViews(const SceneOptions& options, SimdTarget simd, LoadedScene& scene) {
     const ColonScene& colon = *scene.colon;
-    if (options.volume.isovalue && colon.isColon())
-        throw Error("--isovalue", "", "expected with a volume seen from outside, this one is a colon",
-                    "add --isosurface, or leave it out");
     VolumeCasting casting;
     casting.target = simd;
     auto renderer = std::make_unique<VolumeRenderer>(colon.volume, casting);
@@ -222,6 +210,47 @@ LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progres
     std::erase(scene.methods, RightEyeMethod::Cubic);
     const double largest = separationOf(scene).largest;
     scene.makeFlight = [&colon, largest] { return flightThrough(colon, largest); };
+}
+
+}  // namespace
+
+LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
+    checkVolumeLight(options);
+    checkTracedLight(options);
+    LoadedScene scene;
+    scene.name = options.scene;
+    scene.colon = std::make_unique<ColonScene>(loadColon(colonOptionsOf(options), progress));
+    scene.sky = applyVolumeLight(options, *scene.colon, progress);
+    applyAmbient(options.volume, nullptr, *scene.colon, progress);
+    scene.modulateSigma = applyModulation(options.volume, nullptr, std::nullopt, *scene.colon, progress);
+    if (scene.modulateSigma)
+        scene.colon->notes.push_back(fmt::format("opacity modulated by {}, whole from {:.4g} on",
+                                                 options.volume.modulate, *scene.modulateSigma));
+    if (isLazyLight(options.light))
+        scene.lazyLight = std::make_shared<LazyLight>(options, *scene.colon, progress);
+    if (options.light == kTracedLight)
+        scene.tracedLight = std::make_shared<TracedLight>(options, *scene.colon);
+    if (options.volume.isovalue && scene.colon->isColon())
+        throw Error("--isovalue", "", "expected with a volume seen from outside, this one is a colon",
+                    "add --isosurface, or leave it out");
+    setViews(options, simd, scene);
+    return scene;
+}
+
+LoadedScene changedColonScene(const LoadedScene& now, const SceneOptions& made, const SceneOptions& options,
+                              Progress& progress) {
+    checkVolumeLight(options);
+    LoadedScene scene;
+    scene.name = now.name;
+    scene.colon = std::make_shared<ColonScene>(changedScene(*now.colon, colonOptionsOf(options), progress));
+    scene.sky = now.sky;
+    applyAmbient(options.volume, &made.volume, *scene.colon, progress);
+    scene.modulateSigma =
+        applyModulation(options.volume, &made.volume, now.modulateSigma, *scene.colon, progress);
+    scene.lazyLight = now.lazyLight;
+    setViews(options, now.simd, scene);
+    scene.lens = now.lens;
+    if (scene.lazyLight) scene.lazyLight->showSurface(scene.colon->volume.cells.isovalue);
     return scene;
 }
 
@@ -236,6 +265,43 @@ void checkInLumen(const ColonScene& colon, const RecordedPath& path, const std::
                         "play flights that were recorded in this study");
     }
 }
+
+namespace {
+
+// That of the options, and those that go by names.
+void addTransfers(const VolumeOptions& options, ViewScene& view) {
+    view.transfers = {""};
+    for (const TransferPreset& preset : transferPresets()) {
+        view.transfers.emplace_back(preset.name);
+        if (options.transfer == preset.name) view.transfer = preset.name;
+    }
+}
+
+void addAmbient(const LoadedScene& scene, const SceneOptions& options, ViewScene& view) {
+    const VolumeOptions& volume = options.volume;
+    const VolumeFrame& frame = scene.colon->volume.field.frame;
+    const glm::dvec3 extent = glm::dvec3(frame.size) * frame.spacing;
+    view.smallestRadius = std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z});
+    view.largestRadius = std::min(largestOcclusionRadius(frame), std::max({extent.x, extent.y, extent.z}));
+    ViewAmbient ambient;
+    ambient.lit = volume.ambient_mm.has_value();
+    ambient.method = textOf(occlusionEstimateFromText(volume.ambientMethod));
+    ambient.modulateRadius = std::min(modulationRadius(volume, frame), view.largestRadius);
+    ambient.radius = ambient.lit ? *volume.ambient_mm / 1000 : ambient.modulateRadius;
+    ambient.modulate = modulates(volume) ? volume.modulate : "";
+    ambient.sigma = volume.modulateSigma.value_or(0);
+    view.ambient = ambient;
+    view.chosenSigma = scene.modulateSigma.value_or(0);
+    if (!options.light.empty()) return;
+    for (const OcclusionMethod method : {OcclusionMethod::Gaussian, OcclusionMethod::Reconstructed,
+                                         OcclusionMethod::DrawnIn, OcclusionMethod::Chebyshev})
+        view.ambientMethods.push_back(textOf(method));
+    if (std::find(view.ambientMethods.begin(), view.ambientMethods.end(), ambient.method) ==
+        view.ambientMethods.end())
+        view.ambientMethods.push_back(ambient.method);
+}
+
+}  // namespace
 
 void addVolume(const LoadedScene& scene, const SceneOptions& options, ViewScene& view) {
     const ColonScene& colon = *scene.colon;
@@ -258,6 +324,7 @@ void addVolume(const LoadedScene& scene, const SceneOptions& options, ViewScene&
     view.followsAtStart = !options.separation_m && !options.zeroParallax_m;
     view.canBeTranslucent = true;
     view.translucent = scene.renderer && scene.renderer->translucent();
+    if (scene.renderer) addTransfers(options.volume, view);
     view.seeds = colonOptions.segmentation.seeds;
     view.readSlices = [colonOptions](Progress& progress) { return readSlices(colonOptions, progress); };
     if (colon.isColon()) {
@@ -270,6 +337,10 @@ void addVolume(const LoadedScene& scene, const SceneOptions& options, ViewScene&
         const Range range = rangeOf(field);
         view.isovalue = colon.volume.cells.isovalue * field.scale + field.offset;
         view.isovalueStep = (range.highest - range.lowest) / kIsovalueSteps;
+        if (scene.renderer) {
+            view.largestSigma = std::max(0.5 * (range.highest - range.lowest), 1e-9);
+            addAmbient(scene, options, view);
+        }
     }
 }
 

@@ -13,6 +13,12 @@ ColonOptions colonOptionsOf(const SceneOptions& options);
 // Reads or makes the study that the options name. Throws Error, Cancelled.
 LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progress& progress);
 
+// The same study seen as the options say, whose isovalue, transfer function, opacity, ambient light and
+// opacity modulation may differ from those that `now` was made with, `made`. Nothing is read again; what is
+// large and still holds is shared, light that is worked out while one flies goes on. Throws Error, Cancelled.
+LoadedScene changedColonScene(const LoadedScene& now, const SceneOptions& made, const SceneOptions& options,
+                              Progress& progress);
+
 // Throws Error naming `file` where a pose lies outside the lumen; any path goes around what is no colon.
 void checkInLumen(const ColonScene& colon, const RecordedPath& path, const std::string& file);
 

@@ -157,9 +157,14 @@ private:
     void followWishes() {
         if (const auto change = mSession->takeSceneChange()) {
             applyChange(*change, mOptions, mChanged.scene);
-            mWorker.reload([options = mChanged, sweep = mSweep.get()](Progress& progress) {
-                return viewSceneOf(options, false, sweep, progress);
-            });
+            if (mScene->change && !change->seeds)
+                mWorker.change([options = mChanged.scene](const ViewScene& now, Progress& progress) {
+                    return now.change(options, progress);
+                });
+            else
+                mWorker.reload([options = mChanged, sweep = mSweep.get()](Progress& progress) {
+                    return viewSceneOf(options, false, sweep, progress);
+                });
         }
         if (const std::string problem = mWorker.takeReloadProblem(); !problem.empty()) {
             mSession->forgetSceneChange();

@@ -17,16 +17,20 @@ struct VolumeOptions {
     bool resample = false;           // mend uneven or tilted slices
     bool isosurface = false;         // seen from outside, without looking for a colon
     std::optional<double> isovalue;
-    std::string transfer;              // a transfer function's file or name; "": none
-    std::optional<double> opacity;     // of a translucent wall a millimetre, in (0, 1]
-    bool backwards = false;            // from the caecum
-    std::optional<std::string> up;     // the file's axis that is to point up; none: z
-    std::string shading;               // a lighting model by name; "": a lamp at the head
-    std::optional<double> exposure;    // factor on baked light; none: by its mean
-    std::optional<double> ambient_mm;  // radius of ambient occlusion; none: without
-    std::string modulate;              // opacity: variance or gradient; "": none
-    double turn_deg = 0;               // of the sky about the vertical, with baked transfer
-    double tilt_deg = 0;               // of it before that: what lies north rises
+    std::string transfer;                                // a transfer function's file or name; "": none
+    std::optional<double> opacity;                       // of a translucent wall a millimetre, in (0, 1]
+    bool backwards = false;                              // from the caecum
+    std::optional<std::string> up;                       // the file's axis that is to point up; none: z
+    std::string shading;                                 // a lighting model by name; "": a lamp at the head
+    std::optional<double> exposure;                      // factor on baked light; none: by its mean
+    std::optional<double> ambient_mm;                    // radius of ambient occlusion; none: without
+    std::string ambientMethod;                           // that estimates it; "": gaussian
+    std::optional<double> ambientStrength, ambientLamp;  // k of it, and the lamp's share beside it
+    std::string modulate;                                // opacity: variance or gradient; "": none
+    std::optional<double> modulateRadius_mm;             // none: ambient_mm's, or ten voxels
+    std::optional<double> modulateSigma;                 // none: chosen
+    double turn_deg = 0;                                 // of the sky about the vertical, with baked transfer
+    double tilt_deg = 0;                                 // of it before that: what lies north rises
     bool cache = true;
 
     bool skyMoved() const { return turn_deg != 0 || tilt_deg != 0; }

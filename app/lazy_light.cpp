@@ -20,7 +20,8 @@ double luminance(const glm::vec3& c) {
 
 }  // namespace
 
-LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& progress) {
+LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& progress)
+    : mField(scene.volume.field.share()), mRegion(scene.lumen.lumen.share()) {
     BakeOptions bake;
     bake.scene = options;
     bake.probe = options.sky;
@@ -34,12 +35,13 @@ LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& p
     if (transfer) bake.what = nameOf(BakeKind::Transfer);
     const VolumeBakePlan plan = planVolumeBake(scene, bake, progress);
     mLight = std::make_shared<IlluminationVolume>(plan.inputs.texels);
-    mLighter = std::make_unique<TexelLighter>(scene.volume.field, plan.inputs.texels, plan.inputs.light,
-                                              plan.inputs.sampling);
+    mChoice = plan.inputs.choice;
+    if (mChoice.region) mChoice.region = &mRegion;
+    mLighter =
+        std::make_unique<TexelLighter>(mField, plan.inputs.texels, plan.inputs.light, plan.inputs.sampling);
     LazyBakeSetting setting;
     setting.shape = plan.inputs.shape;
-    mBake = std::make_unique<LazyBake>(scene.volume.field, plan.inputs.choice, sourceOf(*mLighter), *mLight,
-                                       setting);
+    mBake = std::make_unique<LazyBake>(mField, mChoice, sourceOf(*mLighter), *mLight, setting);
     double mean = 1;  // of the sky
     if (const auto& probe = plan.inputs.light.probe) mean = luminance(probe->mean());
     if (transfer) {
@@ -52,6 +54,12 @@ LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& p
     look.light = mLight;
     // As bright as under a sky of 1 all around: what will have been lit is not known yet.
     look.exposure = static_cast<float>(options.volume.exposure.value_or(mean > 0 ? 1 / mean : 1.0));
+}
+
+void LazyLight::showSurface(float isovalue) {
+    if (mChoice.lowest == isovalue && mChoice.highest == isovalue) return;
+    mChoice.lowest = mChoice.highest = isovalue;
+    mBake->setChoice(mChoice);
 }
 
 void LazyLight::turnTo(const SkyTurn& turn) {

@@ -23,9 +23,13 @@ void refuseLazyLight(const SceneOptions& options);
 
 class LazyLight {
 public:
-    // scene must outlive this; its look is set to show the light. Irradiance is lit by --sky, or by what bake
+    // scene's look is set to show the light. Irradiance is lit by --sky, or by what bake
     // takes where nothing is said; transfer as baked one is. Throws Error, Cancelled.
     LazyLight(const SceneOptions& options, ColonScene& scene, Progress& progress);
+
+    // Another surface of the same volume is shown, at an isovalue in stored numbers: what is lit stays so,
+    // and what it lacks is lit next. Any thread.
+    void showSurface(float isovalue);
 
     // Of transfer: where the sky stands; before a frame, that it stands elsewhere.
     bool turns() const { return !mStraight.empty(); }
@@ -40,6 +44,9 @@ public:
     void waitUntilDone() const;
 
 private:
+    GreyVolume mField;  // the scene's, and its lumen: scenes come and go
+    MaskVolume mRegion;
+    TexelChoice mChoice;
     std::shared_ptr<IlluminationVolume> mLight;
     std::unique_ptr<TexelLighter> mLighter;
     std::vector<glm::vec3> mStraight;  // the sky's harmonics before it is turned; of irradiance none

@@ -116,7 +116,12 @@ void refuseOfOtherKinds(const SceneOptions& options) {
                {"--opacity", v.opacity.has_value()},
                {"--shading", !v.shading.empty()},
                {"--modulate", !v.modulate.empty()},
-               {"--ambient", v.ambient_mm.has_value()}},
+               {"--modulate-radius", v.modulateRadius_mm.has_value()},
+               {"--modulate-sigma", v.modulateSigma.has_value()},
+               {"--ambient", v.ambient_mm.has_value()},
+               {"--ambient-method", !v.ambientMethod.empty()},
+               {"--ambient-strength", v.ambientStrength.has_value()},
+               {"--ambient-lamp", v.ambientLamp.has_value()}},
               "does not go with a medium, which has its own", "leave it out, or leave out --medium");
     if (isLazyLight(options.light))
         throw Error("--light", "", options.light + " expects an opaque surface, this is a medium",

@@ -8,7 +8,7 @@
 #include "app/report_run.h"
 #include "app/report_subjects.h"
 #include "engine/base/parallel.h"
-#include "engine/light/occlusion_light.h"
+#include "engine/light/occlusion.h"
 #include "engine/light/occlusion_rays.h"
 
 namespace stereonav {

@@ -31,6 +31,7 @@ struct LoadedScene {
     std::shared_ptr<TerrainScene> terrain;
     std::shared_ptr<ColonScene> colon;
     std::shared_ptr<MediumScene> medium;       // null where rays are cast
+    std::optional<double> modulateSigma;       // of opacity modulation, given or chosen; none: without
     std::shared_ptr<LazyLight> lazyLight;      // of a volume lit while it is shown; else null
     std::shared_ptr<TracedLight> tracedLight;  // of one lit at every pixel of a picture; else null
     std::shared_ptr<ViewSky> sky;              // over baked transfer, where SceneOptions::skyTurns; else null

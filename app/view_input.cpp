@@ -64,7 +64,7 @@ std::optional<OutputMode> modeOfDigit(int key) {
     }
 }
 
-std::optional<ViewCommand> repeatableOfLetter(char letter) {
+std::optional<ViewCommand> repeatableOfLetter(char letter, bool shift) {
     switch (letter) {
         case '[':
             return ViewCommand::LessSeparation;
@@ -78,6 +78,12 @@ std::optional<ViewCommand> repeatableOfLetter(char letter) {
             return ViewCommand::LowerIsovalue;
         case '.':
             return ViewCommand::HigherIsovalue;
+        case '-':
+            return ViewCommand::SmallerRadius;
+        case '=':
+            return ViewCommand::LargerRadius;
+        case 'g':
+            return shift ? ViewCommand::LessSigma : ViewCommand::MoreSigma;
         case 'h':
             return ViewCommand::LowerSun;
         case 'u':
@@ -110,7 +116,11 @@ std::optional<ViewCommand> commandOfLetter(char letter, bool shift) {
         case 'c':
             return ViewCommand::FollowClearance;
         case 't':
-            return ViewCommand::ToggleTranslucent;
+            return shift ? ViewCommand::NextTransfer : ViewCommand::ToggleTranslucent;
+        case 'o':
+            return shift ? ViewCommand::PreviousAmbient : ViewCommand::NextAmbient;
+        case 'b':
+            return ViewCommand::NextModulation;
         case 'v':
             return ViewCommand::Slices;
         case 'p':
@@ -133,6 +143,12 @@ std::optional<ViewCommand> repeatableOfKey(int key) {
             return ViewCommand::NearerZeroParallax;
         case GLFW_KEY_APOSTROPHE:
             return ViewCommand::FartherZeroParallax;
+        case GLFW_KEY_MINUS:
+        case GLFW_KEY_KP_SUBTRACT:
+            return ViewCommand::SmallerRadius;
+        case GLFW_KEY_EQUAL:
+        case GLFW_KEY_KP_ADD:
+            return ViewCommand::LargerRadius;
         case GLFW_KEY_PAGE_UP:
             return ViewCommand::PreviousSlice;
         case GLFW_KEY_PAGE_DOWN:
@@ -146,7 +162,7 @@ std::optional<ViewCommand> repeatableOfKey(int key) {
 
 std::optional<ViewAction> actionOf(const KeyPress& press) {
     const char letter = static_cast<char>(std::tolower(static_cast<unsigned char>(press.letter)));
-    if (const auto command = repeatableOfLetter(letter)) return ViewAction{*command};
+    if (const auto command = repeatableOfLetter(letter, press.shift)) return ViewAction{*command};
     if (const auto command = repeatableOfKey(press.key);
         command && !std::isalpha(static_cast<unsigned char>(letter)))
         return ViewAction{*command};
@@ -180,7 +196,11 @@ const std::vector<std::pair<std::string, std::string>>& viewHelp() {
         {"L", "anaglyphs in linear light, or on encoded values"},
         {"z Z", "record the flight, play it"},
         {"U H J K", "light or sky higher, lower, round (where it turns)"},
-        {"T", "translucent wall, or opaque (volumes)"},
+        {"T Shift+T", "translucent, or opaque; next transfer function"},
+        {"O Shift+O", "ambient light: next, previous method, or none"},
+        {"- =", "what it looks at around: nearer, farther"},
+        {"B", "opacity by variance, by gradient, as it is"},
+        {"G Shift+G", "sigma of that: larger, smaller"},
         {"V", "slices (volumes): clicks set seeds, Enter looks again"},
         {"P F12", "save a picture"},
         {"F1 Esc", "this help, back or quit"},

@@ -24,10 +24,8 @@ std::string whyLightStays(const LoadedScene& scene, const SceneOptions& options)
     return "the sky is baked into this light: bake --what transfer for one that turns";
 }
 
-}  // namespace
-
-ViewScene viewSceneOf(const ViewOptions& options, bool measure, ViewSweep* sweep, Progress& progress) {
-    auto loaded = std::make_shared<LoadedScene>(loadScene(options.scene, options.size, progress));
+ViewScene viewOf(const std::shared_ptr<LoadedScene>& loaded, const ViewOptions& options, bool measure,
+                 ViewSweep* sweep, Progress& progress) {
     ViewScene scene;
     scene.owner = loaded;
     scene.renderer = loaded->renderer.get();
@@ -55,6 +53,18 @@ ViewScene viewSceneOf(const ViewOptions& options, bool measure, ViewSweep* sweep
                 owner->moveSun(sun.azimuth, sun.elevation);
         };
     }
+    if (loaded->colon)
+        scene.change = [loaded, options, methods = scene.ambientMethods](const SceneOptions& to,
+                                                                         Progress& p) {
+            ViewOptions next = options;
+            next.scene = to;
+            ViewScene changed =
+                viewOf(std::make_shared<LoadedScene>(changedColonScene(*loaded, options.scene, to, p)), next,
+                       false, nullptr, p);
+            changed.changed = true;
+            changed.ambientMethods = methods;  // one that was given stays among them
+            return changed;
+        };
     scene.method = methodFromText(options.method).value_or(loaded->defaultMethod());
     // A study is opened quickly: it gets its default.
     if (const auto plan = qualityOf(options.scene, *loaded, options.method, progress)) {
@@ -67,17 +77,49 @@ ViewScene viewSceneOf(const ViewOptions& options, bool measure, ViewSweep* sweep
     return scene;
 }
 
+void setTransfer(const SceneChange& change, const VolumeOptions& first, VolumeOptions& volume) {
+    volume.transfer.clear();
+    volume.opacity.reset();
+    if (!change.translucent.value_or(false)) return;
+    volume.transfer = change.transfer.value_or("");
+    if (!volume.transfer.empty()) return;
+    volume.transfer = first.transfer;
+    volume.opacity = first.opacity;
+    if (volume.transfer.empty() && !volume.opacity) volume.opacity = kUsualOpacity;
+}
+
+// What has no effect is left out, since it would be refused.
+void setAmbient(const ViewAmbient& to, bool translucent, const VolumeOptions& first, VolumeOptions& volume) {
+    const bool modulated = translucent && !to.modulate.empty();
+    volume.ambient_mm.reset();
+    volume.ambientStrength.reset();
+    volume.ambientLamp.reset();
+    volume.modulateRadius_mm.reset();
+    volume.modulateSigma.reset();
+    volume.ambientMethod = to.lit || (modulated && to.modulate == "gradient") ? to.method : "";
+    volume.modulate = modulated ? to.modulate : "";
+    if (to.lit) {
+        volume.ambient_mm = 1000 * to.radius;
+        volume.ambientStrength = first.ambientStrength;
+        volume.ambientLamp = first.ambientLamp;
+    }
+    if (modulated) volume.modulateRadius_mm = 1000 * to.modulateRadius;
+    if (modulated && to.sigma > 0) volume.modulateSigma = to.sigma;
+}
+
+}  // namespace
+
+ViewScene viewSceneOf(const ViewOptions& options, bool measure, ViewSweep* sweep, Progress& progress) {
+    return viewOf(std::make_shared<LoadedScene>(loadScene(options.scene, options.size, progress)), options,
+                  measure, sweep, progress);
+}
+
 void applyChange(const SceneChange& change, const ViewOptions& first, SceneOptions& options) {
     VolumeOptions& volume = options.volume;
     if (change.isovalue) volume.isovalue = change.isovalue;
-    if (change.translucent && !*change.translucent) {
-        volume.transfer.clear();
-        volume.opacity.reset();
-    } else if (change.translucent) {
-        volume.transfer = first.scene.volume.transfer;
-        volume.opacity = first.scene.volume.opacity;
-        if (volume.transfer.empty() && !volume.opacity) volume.opacity = kUsualOpacity;
-    }
+    if (change.translucent) setTransfer(change, first.scene.volume, volume);
+    if (change.ambient)
+        setAmbient(*change.ambient, change.translucent.value_or(false), first.scene.volume, volume);
     if (!change.seeds) return;
     volume.seeds.clear();
     for (const glm::dvec3& seed : *change.seeds) volume.seeds.push_back(seedText(seed));

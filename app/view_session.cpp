@@ -57,6 +57,9 @@ ViewSession::ViewSession(std::shared_ptr<const ViewScene> scene, const Options& 
       mSun(mScene->sun),
       mIsovalue(mScene->isovalue),
       mTranslucent(mScene->translucent),
+      mTransfer(mScene->transfer),
+      mTriedTransfer(mScene->transfer),
+      mAmbient(mScene->ambient),
       mMode(options.mode),
       mFirstMode(options.mode),
       mMethod(mScene->method),
@@ -64,7 +67,7 @@ ViewSession::ViewSession(std::shared_ptr<const ViewScene> scene, const Options& 
       mModel(mScene->model) {}
 
 void ViewSession::replaceScene(std::shared_ptr<const ViewScene> scene) {
-    stopPlaying();
+    if (!scene->changed) stopPlaying();
     const Pose here = mFlight->pose();
     const int mode = mFlight->mode();
     std::unique_ptr<Flight> flight = scene->makeFlight();
@@ -73,14 +76,16 @@ void ViewSession::replaceScene(std::shared_ptr<const ViewScene> scene) {
     mFlight = std::move(flight);
     // Light that was turned stays so over the same study.
     const bool lightStays = mScene->moveSun && scene->moveSun && mScene->turnsSky == scene->turnsSky;
+    const bool methodStays = scene->changed && scene->method == mScene->method;
     mScene = std::move(scene);
     if (mOwnPath) mPath = mScene->path;
     mStereo.replaceScene(*mScene);
     if (!lightStays) mSun = mScene->sun;
-    mMethod = mScene->method;
+    if (!methodStays) mMethod = mScene->method;
     mPairMethod = mScene->pairMethod;
     mModel = mScene->model;
-    forgetSceneChange();
+    // More may be asked for than a scene made in between shows.
+    if (!mScene->changed) forgetSceneChange();
     mResting = false;
     mLooked = true;  // one step at least shows it
     ++mRequest.version;
@@ -94,6 +99,12 @@ void ViewSession::forgetSceneChange() {
     if (mChange) return;  // asked for since
     mIsovalue = mScene->isovalue;
     mTranslucent = mScene->translucent;
+    mTransfer = mScene->transfer;
+    const std::optional<ViewAmbient> before = std::exchange(mAmbient, mScene->ambient);
+    if (!before || !mAmbient) return;
+    // What is not shown keeps its radius for when it is.
+    if (!mAmbient->lit) mAmbient->radius = before->radius;
+    if (mAmbient->modulate.empty() && !mAmbient->lit) mAmbient->modulateRadius = before->modulateRadius;
 }
 
 void ViewSession::act(const ViewAction& action) {
@@ -372,7 +383,7 @@ std::string ViewSession::statusLine(const ViewFrame& frame, double framesPerSeco
         const PlaceOnLine place = mScene->placeOnLine(pose().position);
         line += fmt::format("  at {:.0f} of {:.0f} mm", 1000 * place.along, 1000 * place.length);
     }
-    if (mIsovalue) line += fmt::format("  surface at {:.6g}", *mIsovalue);
+    line += volumeText();
     if (mPlaying) line += fmt::format("  playing {:.1f} of {:.1f} s", mPlayTime, mPath.duration());
     if (recording()) line += fmt::format("  recording {:.1f} s", mRecorder.duration());
     return line;

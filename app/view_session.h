@@ -43,6 +43,14 @@ enum class ViewCommand {
     LowerIsovalue,
     HigherIsovalue,
     ToggleTranslucent,
+    NextTransfer,
+    NextAmbient,
+    PreviousAmbient,
+    SmallerRadius,
+    LargerRadius,
+    NextModulation,
+    LessSigma,
+    MoreSigma,
     Slices,
     NextSlice,
     PreviousSlice,
@@ -63,6 +71,8 @@ struct ViewAction {
 struct SceneChange {
     std::optional<double> isovalue;
     std::optional<bool> translucent;
+    std::optional<std::string> transfer;  // a name, "" for that of the options
+    std::optional<ViewAmbient> ambient;
     std::optional<std::vector<glm::dvec3>> seeds;  // world
 };
 
@@ -136,7 +146,18 @@ private:
     void turnSun(double azimuth, double elevation);
     bool actOnSlices(ViewCommand command);
     void actOnFlight(ViewCommand command);
+    bool actOnAmbient(ViewCommand command);
     void moveIsovalue(double steps);
+    void nextTransfer();
+    void stepAmbient(int by);
+    void scaleRadius(double factor);
+    void nextModulation();
+    void scaleSigma(double factor);
+    double sigmaNow() const;
+    std::string ambientText() const;
+    std::string modulationText() const;
+    std::string volumeText() const;
+    void askForChange();
     void openSlices();
     void fly(const FlightInput& input, double dt);
     void stepMode(int by);
@@ -164,6 +185,8 @@ private:
     SunPlace mSun;
     std::optional<double> mIsovalue;
     bool mTranslucent = false;
+    std::string mTransfer, mTriedTransfer;  // the second may not have gone
+    std::optional<ViewAmbient> mAmbient;
     std::optional<SceneChange> mChange;
     std::optional<SliceView> mSlices;
     std::shared_ptr<const SliceStudy> mStudy;

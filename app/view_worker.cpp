@@ -152,15 +152,23 @@ void ViewWorker::loadScenes() {
 
 std::optional<ViewWorker::Load> ViewWorker::nextLoad() {
     std::unique_lock lock(mMutex);
-    mLoading.busy = mLoad.has_value();
-    mAsked.wait(lock, [this] { return mStop || mLoad; });
+    mLoading.busy = mLoad || mChange;
+    mAsked.wait(lock, [this] { return mStop || mLoad || mChange; });
     if (mStop) return std::nullopt;
     mLoading = {true, 0, ""};
     mProgress = std::make_shared<Progress>([this](double fraction, const std::string& what) {
         const std::lock_guard guard(mMutex);
         mLoading = {true, fraction, what};
     });
-    return std::exchange(mLoad, std::nullopt);
+    return takeWish();
+}
+
+// Under the mutex.
+ViewWorker::Load ViewWorker::takeWish() {
+    if (mLoad) return *std::exchange(mLoad, std::nullopt);
+    return [change = *std::exchange(mChange, std::nullopt), now = mScene](Progress& progress) {
+        return change(*now, progress);
+    };
 }
 
 void ViewWorker::loadOne(const Load& load) {
@@ -183,8 +191,18 @@ void ViewWorker::reload(Load load) {
     {
         const std::lock_guard lock(mMutex);
         mLoad = std::move(load);
+        mChange.reset();  // it is part of the newer wish
         mLoading = {true, 0, ""};
         if (mProgress && mScene) mProgress->cancel();
+    }
+    mAsked.notify_all();
+}
+
+void ViewWorker::change(Change change) {
+    {
+        const std::lock_guard lock(mMutex);
+        mChange = std::move(change);
+        mLoading.busy = true;
     }
     mAsked.notify_all();
 }

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/commands.h"
 #include "app/pair_renderer.h"
 #include "engine/base/progress.h"
 #include "engine/camera/recorded_path.h"
@@ -40,6 +41,17 @@ using StereoFollower = std::function<StereoSetting(double free, double depth, do
 struct SunPlace {
     double azimuth = 0, elevation = 0;
     bool operator==(const SunPlace&) const = default;
+};
+
+// How what surrounds a volume's voxels lights them and takes their opacity (app/volume_ambient.h).
+struct ViewAmbient {
+    bool lit = false;           // ambient light in place of the lamp's
+    std::string method;         // that estimates openness, as --ambient-method; "": gaussian
+    double radius = 0;          // metres, of ambient light
+    std::string modulate;       // opacity by this: variance, gradient; "": not modulated
+    double modulateRadius = 0;  // metres
+    double sigma = 0;           // from where on opacity stays whole; 0: chosen
+    bool operator==(const ViewAmbient&) const = default;
 };
 
 struct PlaceOnLine {
@@ -87,6 +99,18 @@ struct ViewScene {
     std::optional<double> isovalue;  // of a surface that can be moved
     double isovalueStep = 0;
     bool canBeTranslucent = false, translucent = false;
+    std::vector<std::string> transfers;  // functions to choose from; "": that of the options
+    std::string transfer;                // of them: where translucent
+    // Of volumes seen from outside; none for others.
+    std::optional<ViewAmbient> ambient;
+    std::vector<std::string> ambientMethods;       // to choose from
+    double smallestRadius = 0, largestRadius = 0;  // metres
+    double largestSigma = 0;                       // by variance
+    double chosenSigma = 0;                        // where ambient->sigma is 0 and opacity is modulated
+    // Of volumes that are cast: the same study seen as other options say, made from what is there; on the
+    // thread that loads. Throws Error, Cancelled. Empty: it is to be loaded again.
+    std::function<ViewScene(const SceneOptions& options, Progress&)> change;
+    bool changed = false;  // made so
     // Reads the study again for its slices; takes seconds, on a thread of the caller's.
     std::function<std::shared_ptr<const SliceStudy>(Progress&)> readSlices;
     const MaskVolume* lumen = nullptr;  // to be outlined in the slices
@@ -131,6 +155,10 @@ public:
     // Loads another scene while the present one is shown; it takes its place when it is there. The newest
     // wish replaces one that is not done.
     void reload(Load load);
+    // Makes a scene from the newest one, after what is being loaded. The newest wish replaces one that is not
+    // begun; one at work is finished first, so that a key held down shows every scene that there is time for.
+    using Change = std::function<ViewScene(const ViewScene& now, Progress&)>;
+    void change(Change change);
 
     struct Loading {
         bool busy = true;
@@ -156,6 +184,7 @@ private:
     };
     void loadScenes();
     std::optional<Load> nextLoad();
+    Load takeWish();
     void loadOne(const Load& load);
     void renderFrames();
     // last: what was drawn last, under the light of that many changes.
@@ -167,6 +196,7 @@ private:
     mutable std::mutex mMutex;  // guards what follows
     std::condition_variable mAsked;
     std::optional<Load> mLoad;            // not begun
+    std::optional<Change> mChange;        // not begun; after mLoad
     std::shared_ptr<Progress> mProgress;  // of the load at work
     Loading mLoading;
     std::string mReloadProblem;

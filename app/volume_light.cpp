@@ -13,10 +13,9 @@
 #include <numbers>
 
 #include "app/light_loading.h"
+#include "app/volume_ambient.h"
 #include "engine/base/error.h"
 #include "engine/light/light_beyond.h"
-#include "engine/light/occlusion_light.h"
-#include "engine/light/occlusion_modulation.h"
 #include "engine/light/sky_probe.h"
 #include "engine/math/constants.h"
 
@@ -71,39 +70,6 @@ std::shared_ptr<ViewSky> applyBaked(const SceneOptions& options, ColonScene& sce
     if (!transfer || !options.skyTurns) return nullptr;
     return std::make_shared<ViewSky>(std::move(baked.transfer), std::move(straight), std::move(light),
                                      skyTurnOf(options), std::move(beyond));
-}
-
-// The lamp's light times the openness of a box around each voxel: the whole light that a lamp at the head
-// gives weakens in folds, as its ambient part alone would hardly show there.
-void applyAmbient(double radius_mm, ColonScene& scene, Progress& progress) {
-    if (scene.isColon())
-        throw Error("--ambient", "", "expected with a volume seen from outside, this one is a colon",
-                    "add --isosurface, or leave it out");
-    const GreyVolume& field = scene.volume.field;
-    const double isovalue = scene.volume.cells.isovalue * field.scale + field.offset;
-    const glm::ivec3 radius = occlusionRadius(field.frame, radius_mm / 1000);
-    const OpennessVolume openness = estimateOpenness(field, OcclusionMethod::Gaussian, radius, progress);
-    BakedLook& look = scene.volume.look.baked;
-    look.light = std::make_shared<IlluminationVolume>(ambientLight(field, openness, isovalue, isovalue));
-    look.use = BakedLook::Use::Openness;
-}
-
-// Opacity by what the surroundings of each voxel hold (Ruiz et al. 2010, section 4.2: 10 voxels).
-void applyModulation(const VolumeOptions& options, ColonScene& scene, Progress& progress) {
-    if (scene.isColon())
-        throw Error("--modulate", "", "expected with a volume seen from outside, this one is a colon",
-                    "add --isosurface, or leave it out");
-    const GreyVolume& field = scene.volume.field;
-    const glm::dvec3 spacing = field.frame.spacing;
-    const double usual = 10 * std::min({spacing.x, spacing.y, spacing.z});
-    const double reach = options.ambient_mm ? *options.ambient_mm / 1000 : usual;
-    const ModulatedBy by = options.modulate == "variance" ? ModulatedBy::Variance : ModulatedBy::Gradient;
-    scene.volume.look.modulation = std::make_shared<Volume<std::uint8_t>>(opacityModulation(
-        field, by, occlusionRadius(field.frame, reach), scene.volume.look.transfer, progress));
-}
-
-bool modulates(const VolumeOptions& options) {
-    return !options.modulate.empty() && options.modulate != "none";
 }
 
 // Up and to the left behind the one who looks, as far away as what is looked at is large.
@@ -181,9 +147,6 @@ void checkVolumeLight(const SceneOptions& options) {
     if (volume.exposure && !(*volume.exposure > 0 && *volume.exposure < 1e6))
         throw Error("--exposure", "", fmt::format("expected a number above 0, got {}", *volume.exposure),
                     "1 shows a white sky of 1 as white");
-    if (volume.ambient_mm && !(*volume.ambient_mm > 0 && *volume.ambient_mm <= 1e6))
-        throw Error("--ambient", "", fmt::format("expected millimetres above 0, got {}", *volume.ambient_mm),
-                    "try ten voxels' worth");
     if (!std::isfinite(volume.turn_deg))
         throw Error("--turn", "", fmt::format("expected degrees, got {}", volume.turn_deg),
                     "90 turns a quarter");
@@ -200,17 +163,8 @@ void checkVolumeLight(const SceneOptions& options) {
         throw Error("--sky, --turn, --tilt, --exposure", "",
                     "expected with light that was baked for a CT study",
                     "name it with --light, or leave them out");
-    if (!options.light.empty() && volume.ambient_mm)
-        throw Error("--ambient", "", "expected without baked light, --light was given too",
-                    "leave one of them out");
     if (!volume.shading.empty()) shadingOf(volume.shading);
-    const std::string& by = volume.modulate;
-    if (!by.empty() && by != "none" && by != "variance" && by != "gradient")
-        throw Error("--modulate", "", fmt::format("\"{}\" is not known", by),
-                    "expected one of variance, gradient, none");
-    if (modulates(volume) && volume.transfer.empty() && !volume.opacity)
-        throw Error("--modulate", "", "expected with a translucent volume",
-                    "add --transfer or --opacity, or leave it out");
+    checkAmbientLight(volume, options.light);
 }
 
 std::shared_ptr<ViewSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene,
@@ -220,8 +174,6 @@ std::shared_ptr<ViewSky> applyVolumeLight(const SceneOptions& options, ColonScen
     const bool file = !options.light.empty() && !isLazyLight(options.light) && options.light != kTracedLight;
     std::shared_ptr<ViewSky> sky;
     if (file) sky = applyBaked(options, scene, progress);
-    if (volume.ambient_mm) applyAmbient(*volume.ambient_mm, scene, progress);
-    if (modulates(volume)) applyModulation(volume, scene, progress);
     return sky;
 }
 

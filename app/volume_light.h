@@ -15,8 +15,9 @@ namespace stereonav {
 // What can be checked without the volume. Throws Error.
 void checkVolumeLight(const SceneOptions& options);
 
-// --light, --sky, --turn, --exposure, --ambient, --modulate and --shading into the scene's look. Gives the
-// sky, where it is one that turns and options.skyTurns; else null. Throws Error, Cancelled.
+// --light, --sky, --turn, --exposure and --shading into the scene's look (--ambient and --modulate: see
+// volume_ambient.h). Gives the sky, where it is one that turns and options.skyTurns; else null. Throws Error,
+// Cancelled.
 std::shared_ptr<ViewSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& progress);
 
 // The harmonics of --sky, or of an overcast one, before they are turned. Throws Error.

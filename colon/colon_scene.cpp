@@ -201,6 +201,36 @@ void refuseOfColons(const ColonOptions& options) {
     refuse(options.centreline.reversed, "--backwards");
 }
 
+// Of the lumen's field nothing is left: it is the volume's.
+LumenField sharing(const LumenField& lumen) {
+    LumenField same;
+    same.isovalue = lumen.isovalue;
+    same.lumen = lumen.lumen.share();
+    same.segments = lumen.segments;
+    same.notes = lumen.notes;
+    return same;
+}
+
+ColonScene sharing(const ColonScene& scene) {
+    ColonScene same;
+    same.name = scene.name;
+    same.format = scene.format;
+    same.notes = scene.notes;
+    same.volume = {scene.volume.field.share(), scene.volume.cells.share(), scene.volume.look};
+    same.lumen = sharing(scene.lumen);
+    static_cast<Volume<std::uint16_t>&>(same.distance) = scene.distance.share();
+    same.distance.unit = scene.distance.unit;
+    same.centreline = scene.centreline;
+    same.polyps = scene.polyps;
+    same.startPose = scene.startPose;
+    same.path = scene.path;
+    same.lens = scene.lens;
+    same.stereo = scene.stereo;
+    same.clearance = scene.clearance;
+    same.extent = scene.extent;
+    return same;
+}
+
 Study readOrMake(const ColonOptions& options, std::vector<Polyp>& polyps, Progress& progress) {
     if (!options.study.empty()) return readStudy(options.study, options.reading, progress);
     BuiltInColon colon = builtInColon(options.builtIn, progress);
@@ -224,6 +254,22 @@ double ColonScene::freeDistanceAt(const glm::dvec3& world, double upTo) const {
         if (away > 0) return std::min(away, upTo);
     }
     return freeDistance(volume.cells, world, upTo, tolerance);
+}
+
+ColonScene changedScene(const ColonScene& scene, const ColonOptions& options, Progress& progress) {
+    ColonScene next = sharing(scene);
+    VolumeLook& look = next.volume.look;
+    if (!next.isColon()) {
+        setSurface(next, options.isovalue, options, progress);
+        return next;
+    }
+    const GreyVolume& field = next.volume.field;
+    const double wall = next.lumen.isovalue * field.scale + field.offset;
+    TransferFunction transfer = wallTransfer(options, wall, look.surface);
+    if (transfer == look.transfer) return next;
+    look.transfer = std::move(transfer);
+    next.volume.cells = wallCells(next, progress);
+    return next;
 }
 
 ColonScene loadColon(const ColonOptions& options, Progress& progress) {

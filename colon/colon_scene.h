@@ -61,4 +61,9 @@ struct ColonScene {
 // Throws Error, Cancelled.
 ColonScene loadColon(const ColonOptions& options, Progress& progress);
 
+// The same study with the isovalue (of a volume seen from outside; none: the present one), the transfer
+// function and the opacity of the options; the rest is the scene's own, in the same memory where it is large.
+// Places and paths stay where they are. Throws Error, Cancelled.
+ColonScene changedScene(const ColonScene& scene, const ColonOptions& options, Progress& progress);
+
 }  // namespace stereonav

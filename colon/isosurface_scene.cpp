@@ -126,6 +126,14 @@ void placeViewer(ColonScene& scene) {
     scene.extent = 2 * ball.radius;
 }
 
+// Of --transfer or, around the isovalue, of --opacity; empty: opaque.
+TransferFunction transferOf(const ColonOptions& options, double isovalue, const glm::vec3& color) {
+    if (!options.transfer.empty()) return findTransferFunction(options.transfer);
+    if (!options.opacity) return {};
+    return TransferFunction({{isovalue - 1, color, 0.0}, {isovalue + 1, color, *options.opacity}}, 0.001,
+                            "--opacity");
+}
+
 SurfaceCells cellsAt(const GreyVolume& field, double isovalue, const TransferFunction& transfer,
                      Progress& progress) {
     if (!std::isfinite(isovalue))
@@ -183,11 +191,7 @@ ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progres
     look.ambient = 0.12f;
     look.diffuse = 0.88f;
     look.background = {0.012f, 0.014f, 0.018f};
-    if (!options.transfer.empty()) look.transfer = findTransferFunction(options.transfer);
-    if (options.opacity)
-        look.transfer = TransferFunction(
-            {{isovalue - 1, look.surface, 0.0}, {isovalue + 1, look.surface, *options.opacity}}, 0.001,
-            "--opacity");
+    look.transfer = transferOf(options, isovalue, look.surface);
     scene.volume.field = padded(grey);
     scene.volume.cells = cellsAt(scene.volume.field, isovalue, look.transfer, progress);
     placeViewer(scene);
@@ -195,8 +199,16 @@ ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progres
     return scene;
 }
 
-void setIsovalue(ColonScene& scene, double isovalue, Progress& progress) {
-    scene.volume.cells = cellsAt(scene.volume.field, isovalue, scene.volume.look.transfer, progress);
+void setSurface(ColonScene& scene, const std::optional<double>& isovalue, const ColonOptions& options,
+                Progress& progress) {
+    const GreyVolume& field = scene.volume.field;
+    VolumeLook& look = scene.volume.look;
+    const float now = scene.volume.cells.isovalue;
+    const double value = isovalue.value_or(valueOf(field, now));
+    TransferFunction transfer = transferOf(options, value, look.surface);
+    if ((!isovalue || storedIsovalue(field, value) == now) && transfer == look.transfer) return;
+    scene.volume.cells = cellsAt(field, value, transfer, progress);
+    look.transfer = std::move(transfer);
 }
 
 }  // namespace stereonav

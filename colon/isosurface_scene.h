@@ -24,8 +24,10 @@ IsovalueChoice chooseIsovalue(const GreyVolume& grey);
 // Throws Error when nothing or all of the volume reaches the isovalue; Cancelled.
 ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress);
 
-// Another isovalue (of the volume's values) for a scene made by isosurfaceScene, which no one may be
-// rendering meanwhile. Throws as isosurfaceScene, and leaves the scene as it was.
-void setIsovalue(ColonScene& scene, double isovalue, Progress& progress);
+// Another isovalue (of the volume's values; none: the present one), and the transfer function of the options,
+// for a scene made by isosurfaceScene, which no one may be rendering meanwhile. Where that is what it shows
+// nothing is done. Throws as isosurfaceScene, and leaves the scene as it was.
+void setSurface(ColonScene& scene, const std::optional<double>& isovalue, const ColonOptions& options,
+                Progress& progress);
 
 }  // namespace stereonav

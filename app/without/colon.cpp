@@ -6,6 +6,7 @@
 #include "app/built_without.h"
 #include "app/colon_loading.h"
 #include "app/info_text.h"
+#include "app/volume_ambient.h"
 #include "app/volume_light.h"
 #include "colon/study.h"
 #include "colon/transfer_presets.h"
@@ -20,6 +21,10 @@ namespace {
 }  // namespace
 
 LoadedScene loadColonScene(const SceneOptions&, SimdTarget, Progress&) {
+    without();
+}
+
+LoadedScene changedColonScene(const LoadedScene&, const SceneOptions&, const SceneOptions&, Progress&) {
     without();
 }
 
@@ -61,6 +66,10 @@ bool looksLikeStudy(const std::filesystem::path& path) {
 }
 
 std::string transferPresetNames() {
+    return "none";
+}
+
+std::string occlusionMethodNames() {
     return "none";
 }
 

@@ -1,10 +1,11 @@
 // A large array of zeros whose memory is taken page by page as it is written: volumes that are used in a
-// few places cost little. Move-only.
+// few places cost little. Copied only by asking for it: see share().
 #pragma once
 
 #include <sys/mman.h>
 
 #include <cstddef>
+#include <memory>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -26,10 +27,7 @@ public:
         void* p = mmap(nullptr, bytes(), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE,
                        -1, 0);
         if (p == MAP_FAILED) throw std::bad_alloc();
-        mData = static_cast<T*>(p);
-    }
-    ~LazyArray() {
-        if (mData) munmap(mData, bytes());
+        mData = std::shared_ptr<T>(static_cast<T*>(p), [size = bytes()](T* data) { munmap(data, size); });
     }
     LazyArray(LazyArray&& other) noexcept { swap(other); }
     LazyArray& operator=(LazyArray&& other) noexcept {
@@ -37,17 +35,26 @@ public:
         return *this;
     }
 
+    // The same elements again, in the same memory, which is kept as long as one array of it is there. Nobody
+    // writes to any of them from then on.
+    LazyArray share() const {
+        LazyArray same;
+        same.mData = mData;
+        same.mCount = mCount;
+        return same;
+    }
+
     // Asks for large pages: fewer address translations where rays jump about, but memory in steps of 2 MB.
     void preferLargePages() {
-        if (mData) madvise(mData, bytes(), MADV_HUGEPAGE);
+        if (mData) madvise(mData.get(), bytes(), MADV_HUGEPAGE);
     }
 
     std::size_t size() const { return mCount; }
     bool empty() const { return mCount == 0; }
-    T* data() { return mData; }
-    const T* data() const { return mData; }
-    T& operator[](std::size_t i) { return mData[i]; }
-    const T& operator[](std::size_t i) const { return mData[i]; }
+    T* data() { return mData.get(); }
+    const T* data() const { return mData.get(); }
+    T& operator[](std::size_t i) { return mData.get()[i]; }
+    const T& operator[](std::size_t i) const { return mData.get()[i]; }
 
 private:
     std::size_t bytes() const { return mCount * sizeof(T) + kPadding; }
@@ -55,7 +62,7 @@ private:
         std::swap(mData, other.mData);
         std::swap(mCount, other.mCount);
     }
-    T* mData = nullptr;
+    std::shared_ptr<T> mData;
     std::size_t mCount = 0;
 };
 

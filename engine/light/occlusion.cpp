@@ -105,8 +105,7 @@ constexpr int kLeastBandRows = 8;
 
 class BoxFilter {
 public:
-    BoxFilter(const GreyVolume& volume, BoxResult result, const glm::ivec3& radius, double perVariance,
-              SimdTarget target)
+    BoxFilter(const GreyVolume& volume, BoxResult result, const glm::ivec3& radius, SimdTarget target)
         : mKernels(kernelsFor(target)), mTo(volume.frame) {
         const glm::ivec3 size = volume.frame.size;
         mBand.values = volume.values.data();
@@ -118,10 +117,16 @@ public:
         }
         mBand.result = result;
         mBand.turned = volume.scale < 0;
-        mBand.perVariance = static_cast<float>(perVariance);
         mBand.stride = (size.x + kOcclusionStrip - 1) / kOcclusionStrip * kOcclusionStrip;
         countColumns();
         takeMemory();
+    }
+
+    // Of Variance: the result of a squared stored number. Of the others: see OcclusionEstimate.
+    void setPerVariance(double perVariance) { mBand.perVariance = static_cast<float>(perVariance); }
+    void setShape(double beta, double deviations) {
+        mBand.beta = static_cast<float>(beta);
+        mBand.deviations = static_cast<float>(deviations);
     }
 
     Volume<std::uint8_t> run(Progress& progress) {
@@ -215,6 +220,19 @@ void checkPositive(double value, const char* name) {
         throw Error("", name, fmt::format("expected a number above 0, got {}", value), "choose a larger one");
 }
 
+void checkEstimate(const OcclusionEstimate& estimate) {
+    const bool fitted = estimate.beta == 0;
+    if (!fitted && !(estimate.beta >= kLeastBeta && estimate.beta <= kMostBeta))
+        throw Error("", "beta of t^beta",
+                    fmt::format("expected {:g} to {:g}, got {:g}", kLeastBeta, kMostBeta, estimate.beta),
+                    "leave it out to fit it to the mean");
+    if (!(estimate.deviations >= kLeastDeviations && estimate.deviations <= kMostDeviations))
+        throw Error("", "deviations of drawn-in ends",
+                    fmt::format("expected {:g} to {:g}, got {:g}", kLeastDeviations, kMostDeviations,
+                                estimate.deviations),
+                    "3 is usual");
+}
+
 BoxResult resultOf(OcclusionMethod method) {
     switch (method) {
         case OcclusionMethod::Gaussian:
@@ -232,12 +250,27 @@ constexpr std::uint8_t kHalfOpen = 128;  // 1/2, rounded as the kernels do
 
 }  // namespace
 
+double largestOcclusionRadius(const VolumeFrame& frame) {
+    double largest = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis)
+        if (frame.size[axis] - 1 > kMostOcclusionRadius)
+            largest = std::min(largest, kMostOcclusionRadius * frame.spacing[axis]);
+    return largest;
+}
+
 glm::ivec3 occlusionRadius(const VolumeFrame& frame, double radius) {
     checkPositive(radius, "occlusion radius");
+    constexpr double kRounding = 1 + 1e-6;  // a figure that was printed is taken again
+    if (const double largest = largestOcclusionRadius(frame); radius > largest * kRounding)
+        throw Error("", "occlusion radius",
+                    fmt::format("expected at most {:.6g} mm in this volume, {} voxels, got {:.6g}",
+                                1000 * largest, kMostOcclusionRadius, 1000 * radius),
+                    "choose a smaller one");
     glm::ivec3 voxels(0);
     for (int axis = 0; axis < 3; ++axis) {
-        const double exact = radius / frame.spacing[axis];
-        voxels[axis] = static_cast<int>(std::lround(std::min<double>(exact, kMostOcclusionRadius)));
+        const double exact = std::min<double>(radius / frame.spacing[axis], kMostOcclusionRadius);
+        const int whole = static_cast<int>(std::lround(exact));
+        voxels[axis] = whole < kMostOcclusionRadius ? whole : std::clamp(frame.size[axis] - 1, 1, whole);
     }
     if (voxels == glm::ivec3(0))
         for (int axis = 0; axis < 3; ++axis)
@@ -246,15 +279,18 @@ glm::ivec3 occlusionRadius(const VolumeFrame& frame, double radius) {
     return voxels;
 }
 
-OpennessVolume estimateOpenness(const GreyVolume& volume, OcclusionMethod method, const glm::ivec3& radius,
-                                Progress& progress, SimdTarget target) {
+OpennessVolume estimateOpenness(const GreyVolume& volume, const OcclusionEstimate& estimate,
+                                const glm::ivec3& radius, Progress& progress, SimdTarget target) {
     checkInput(volume, radius);
+    checkEstimate(estimate);
     if (volume.scale == 0) {
         OpennessVolume even(volume.frame);
         std::fill_n(even.values.data(), even.values.size(), kHalfOpen);
         return even;
     }
-    return BoxFilter(volume, resultOf(method), radius, 0, target).run(progress);
+    BoxFilter filter(volume, resultOf(estimate.method), radius, target);
+    filter.setShape(estimate.beta, estimate.deviations);
+    return filter.run(progress);
 }
 
 Volume<std::uint8_t> varianceModulation(const GreyVolume& volume, const glm::ivec3& radius, double sigmaMax,
@@ -263,8 +299,9 @@ Volume<std::uint8_t> varianceModulation(const GreyVolume& volume, const glm::ive
     checkPositive(sigmaMax, "sigma of the opacity modulation");
     const double ratio = volume.scale / sigmaMax;
     const double most = std::numeric_limits<float>::max();
-    return BoxFilter(volume, BoxResult::Variance, radius, std::min(ratio * ratio, most), target)
-        .run(progress);
+    BoxFilter filter(volume, BoxResult::Variance, radius, target);
+    filter.setPerVariance(std::min(ratio * ratio, most));
+    return filter.run(progress);
 }
 
 }  // namespace stereonav

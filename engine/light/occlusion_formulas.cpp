@@ -25,20 +25,22 @@ double errorFunction(double x) {
     return std::copysign(std::sqrt(-std::expm1(-exponent)), x);
 }
 
-double reconstructedOpenness(double value, double minimum, double maximum, double mean) {
+double reconstructedOpenness(double value, double minimum, double maximum, double mean, double beta) {
     if (!std::isfinite(value) || !std::isfinite(maximum - minimum) || !std::isfinite(mean)) return kUndecided;
     if (!(maximum > minimum)) return step(value, minimum);
     const double below = std::max(mean - minimum, 0.0), above = std::max(maximum - mean, 0.0);
     if (value >= maximum) return 1;
     if (value < minimum) return 0;
+    if (beta > 0) return std::pow((value - minimum) / (maximum - minimum), beta);
     if (below == 0) return 1;
     if (above == 0 || value == minimum) return 0;
     return std::pow((value - minimum) / (maximum - minimum), below / above);
 }
 
-double drawnInOpenness(double value, double minimum, double maximum, double mean, double variance) {
+double drawnInOpenness(double value, double minimum, double maximum, double mean, double variance,
+                       double deviations) {
     if (!std::isfinite(maximum - minimum) || !std::isfinite(variance)) return kUndecided;
-    const double reach = kDrawnInDeviations * std::sqrt(std::max(variance, 0.0));
+    const double reach = deviations * std::sqrt(std::max(variance, 0.0));
     return reconstructedOpenness(value, std::max(minimum, mean - reach), std::min(maximum, mean + reach),
                                  mean);
 }

@@ -10,17 +10,18 @@
 namespace stereonav {
 
 // Section 3.2: t^beta, t = (value - minimum) / (maximum - minimum), beta = (mean - minimum) / (maximum -
-// mean). 0 up to the minimum (but see above), 1 from the maximum on.
-double reconstructedOpenness(double value, double minimum, double maximum, double mean);
+// mean), or the one given, above 0. 0 up to the minimum (but see above), 1 from the maximum on.
+double reconstructedOpenness(double value, double minimum, double maximum, double mean, double beta = 0);
 
 // Ends of drawnInOpenness: at most so many standard deviations from the mean.
 constexpr double kDrawnInDeviations = 3;
 
-// The same between max(minimum, mean - 3 sigma) and min(maximum, mean + 3 sigma), which single voxels do not
-// stretch (not in the paper). The mean is kept; what lies beyond the drawn-in ends gets 0 and 1. Never more
-// than nine times as far to one side as to the other where neither end is drawn in, as the variance is at
-// most (mean - minimum) (maximum - mean).
-double drawnInOpenness(double value, double minimum, double maximum, double mean, double variance);
+// The same between max(minimum, mean - 3 sigma) and min(maximum, mean + 3 sigma), or as many as given, which
+// single voxels do not stretch (not in the paper). The mean is kept; what lies beyond the drawn-in ends gets
+// 0 and 1. Never more than nine times as far to one side as to the other where neither end is drawn in, as
+// the variance is at most (mean - minimum) (maximum - mean).
+double drawnInOpenness(double value, double minimum, double maximum, double mean, double variance,
+                       double deviations = kDrawnInDeviations);
 
 // Eq. 4 with the closed approximation of erf.
 double gaussianOpenness(double value, double mean, double variance);

@@ -269,13 +269,14 @@ STEREONAV_INLINE I inBytes(F share) {
 }
 
 // Section 3.2. The differences are whole numbers, so nothing cancels; both are 0 only when all is equal.
-STEREONAV_INLINE F reconstructed(bool turned, I value, I low, I high, D sum, D count) {
+STEREONAV_INLINE F reconstructed(bool turned, float beta, I value, I low, I high, D sum, D count) {
     const D lowest = count * toDouble(low), highest = count * toDouble(high);
     const F below = toFloat(turned ? highest - sum : sum - lowest);
     const F above = toFloat(turned ? sum - lowest : highest - sum);
     const I range = high - low, place = turned ? high - value : value - low;
     const F t = toFloat(place) / toFloat(range);
-    const F open = exp2Of(below / above * log2Of(t));
+    const F exponent = beta > 0 ? F(beta) : below / above;
+    const F open = exp2Of(exponent * log2Of(t));
     const F ends = select(place == I(0), F(0.0f), open);
     return select(range == I(0), F(0.5f), ends);
 }
@@ -299,15 +300,16 @@ STEREONAV_INLINE Moments moments(bool turned, I value, D sum, D squares, D count
     return {away, max(about * inverse - shift * shift, F(0.0f)), about <= F(0.0f)};
 }
 
-// The same as `reconstructed` between ends at most three standard deviations from the mean, and bit for bit
+// The same as `reconstructed` between ends at most so many standard deviations from the mean, and bit for bit
 // that where neither end is drawn in. Lengths are times `count` where the sums are. From an end that is the
 // box's own t counts in whole numbers; from one drawn in, where away + reach cancels, beta is at least 1 and
 // t near 0 says nothing.
-STEREONAV_INLINE F drawnIn(const Moments& box, bool turned, I value, I low, I high, D sum, D count) {
+STEREONAV_INLINE F drawnIn(const Moments& box, bool turned, float deviations, I value, I low, I high, D sum,
+                           D count) {
     const D lowest = count * toDouble(low), highest = count * toDouble(high);
     const F below = toFloat(turned ? highest - sum : sum - lowest);
     const F above = toFloat(turned ? sum - lowest : highest - sum);
-    const F number = toFloat(count), sigmas = F(3.0f) * sqrt(box.variance), reach = sigmas * number;
+    const F number = toFloat(count), sigmas = F(deviations) * sqrt(box.variance), reach = sigmas * number;
     const F lower = min(below, reach), upper = min(above, reach);
     const F whole = toFloat(high - low), part = (lower + upper) / number;
     const F range = select(max(below, above) <= reach, whole, part);
@@ -338,10 +340,11 @@ STEREONAV_INLINE F resultOf(const OcclusionBand& band, const OcclusionScratch& s
     const D sum = loadD(s.total + i);
     const I value = loadI(s.value + i);
     if (!band.moments())
-        return reconstructed(band.turned, value, loadI(s.low + i), loadI(s.high + i), sum, count);
+        return reconstructed(band.turned, band.beta, value, loadI(s.low + i), loadI(s.high + i), sum, count);
     const Moments box = moments(band.turned, value, sum, loadD(s.totalSquares + i), count);
     if (band.extrema())
-        return drawnIn(box, band.turned, value, loadI(s.low + i), loadI(s.high + i), sum, count);
+        return drawnIn(box, band.turned, band.deviations, value, loadI(s.low + i), loadI(s.high + i), sum,
+                       count);
     if (band.result == BoxResult::Gaussian) return gaussian(box);
     if (band.result == BoxResult::Chebyshev) return chebyshev(box);
     return box.variance * F(band.perVariance);

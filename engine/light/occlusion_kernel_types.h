@@ -25,6 +25,8 @@ struct OcclusionBand {
     BoxResult result = BoxResult::Reconstructed;
     bool turned = false;    // smaller values are the denser ones
     float perVariance = 0;  // Variance: result a squared stored number
+    float beta = 0;         // Reconstructed: the exponent; 0: that of the mean
+    float deviations = 3;   // DrawnIn: standard deviations from the mean to its ends, at most
 
     // Boxes of one voxel along k: [(j - first) * size[2] + k] rows of `stride`. Extrema for Reconstructed,
     // squares for the others, both for DrawnIn.

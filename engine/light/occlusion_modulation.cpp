@@ -2,11 +2,15 @@
 // is kept.
 #include "engine/light/occlusion_modulation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <vector>
+
+#include "engine/base/error.h"
 
 namespace stereonav {
 namespace {
@@ -49,21 +53,39 @@ int scaleOf(const Volume<std::uint8_t>& measure, const GreyVolume& volume, const
     return 1;
 }
 
+OpacityModulation byVariance(const GreyVolume& volume, const ModulationSetting& setting,
+                             const TransferFunction& transfer, Progress& progress) {
+    const auto cutAt = [&](double sigma) {
+        return OpacityModulation{varianceModulation(volume, setting.radius, sigma, progress), sigma};
+    };
+    if (setting.sigma) return cutAt(*setting.sigma);
+    const OpacityModulation measure = cutAt(largestSigma(volume));
+    return cutAt(measure.sigma * std::sqrt(scaleOf(measure.share, volume, transfer) / 255.0));
+}
+
+OpacityModulation byGradient(const GreyVolume& volume, const ModulationSetting& setting,
+                             const TransferFunction& transfer, Progress& progress) {
+    // Steeper than from closed to open within four voxels is cut alike, where the scale is chosen.
+    constexpr double kSteep = 0.25;
+    const OpennessVolume openness = estimateOpenness(volume, setting.openness, setting.radius, progress);
+    const auto cutAt = [&](double slope) {
+        return OpacityModulation{gradientModulation(openness, slope), slope};
+    };
+    if (setting.sigma) return cutAt(*setting.sigma);
+    return cutAt(kSteep * scaleOf(cutAt(kSteep).share, volume, transfer) / 255.0);
+}
+
 }  // namespace
 
-Volume<std::uint8_t> opacityModulation(const GreyVolume& volume, ModulatedBy by, const glm::ivec3& radius,
-                                       const TransferFunction& transfer, Progress& progress) {
-    if (by == ModulatedBy::Variance) {
-        const double largest = largestSigma(volume);
-        const Volume<std::uint8_t> measure = varianceModulation(volume, radius, largest, progress);
-        const double share = scaleOf(measure, volume, transfer) / 255.0;
-        return varianceModulation(volume, radius, largest * std::sqrt(share), progress);
-    }
-    // Steeper than from closed to open within four voxels is cut alike.
-    constexpr double kSteep = 0.25;
-    const OpennessVolume openness = estimateOpenness(volume, OcclusionMethod::Gaussian, radius, progress);
-    const Volume<std::uint8_t> measure = gradientModulation(openness, kSteep);
-    return gradientModulation(openness, kSteep * scaleOf(measure, volume, transfer) / 255.0);
+OpacityModulation opacityModulation(const GreyVolume& volume, const ModulationSetting& setting,
+                                    const TransferFunction& transfer, Progress& progress) {
+    if (setting.by == ModulatedBy::Variance) return byVariance(volume, setting, transfer, progress);
+    if (setting.sigma && !(*setting.sigma <= kSteepestOpenness))
+        throw Error(
+            "", "sigma of the opacity modulation",
+            fmt::format("expected at most {:g} by the gradient, got {:g}", kSteepestOpenness, *setting.sigma),
+            "0.05 is a slope that surfaces have");
+    return byGradient(volume, setting, transfer, progress);
 }
 
 }  // namespace stereonav

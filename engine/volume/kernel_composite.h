@@ -28,18 +28,9 @@ STEREONAV_INLINE F channelAt(I packed, int shift) {
 }
 
 // What the extinction is multiplied with (Ruiz et al. 2010, section 4.2), at places in cells.
-STEREONAV_INLINE F modulationAt(const TransferData& data, const Grid& grid, const Cells& at, const V3& p,
-                                M m) {
+STEREONAV_INLINE F modulationAt(const ByteData& data, const Grid& grid, const Cells& at, const V3& p, M m) {
     const I x = at.x + grid.baseX, y = at.y + grid.baseY, z = at.z + grid.baseZ;
-    const I first = z * I(data.slice) + y * I(data.row) + x;
-    F edges[4];
-    for (int n = 0; n < 4; ++n) {
-        const I index = first + I((n & 1 ? data.row : 0) + (n & 2 ? data.slice : 0));
-        edges[n] = lerp(toFloat(gatherByte(data.modulation, index, m)),
-                        toFloat(gatherByte(data.modulation, index + I(1), m)), p.x);
-    }
-    const F share = lerp(lerp(edges[0], edges[1], p.y), lerp(edges[2], edges[3], p.y), p.z);
-    return share * F(1.0f / 255);
+    return bytesAt(data, z * I(data.slice) + y * I(data.row) + x, p, m) * F(1.0f / 255);
 }
 
 // One sample of the lanes m, which stand in active cells.
@@ -56,7 +47,8 @@ STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, 
     const F rest = at - toFloat(entry);
     F density = lerp(gather(transfer.extinction, entry, m, F(0.0f)),
                      gather(transfer.extinction + 1, entry, m, F(0.0f)), rest);
-    if (transfer.modulation) density = density * modulationAt(transfer, grid, w.at, local, m);
+    if (transfer.modulation.values)
+        density = density * modulationAt(transfer.modulation, grid, w.at, local, m);
     const M seen = m & (density > F(0.0f));
     if (!any(seen)) return;
     const I color = gather(transfer.color, entry, seen);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/volume/kernel_baked.h"
+#include "engine/volume/kernel_bytes.h"
 #include "engine/volume/kernel_cell.h"
 
 namespace stereonav::STEREONAV_ISA {
@@ -144,6 +145,17 @@ STEREONAV_INLINE Falling ofLamp(const Lit& lamp, F share) {
     return {{light, light, light}, lamp.highlight * share};
 }
 
+// k O, and beside it the lamp's direct light (Ruiz et al. 2010, eq. 5): what it has of ambient light is none
+// here. Known everywhere. lampAt as below.
+template <typename Lamp>
+STEREONAV_INLINE Falling ofOpenness(const OcclusionData& data, const V3& voxel, M m, const Lamp& lampAt) {
+    const F ambient = bytesAt(data.openness, voxel, m) * F(data.perByte);
+    if (!(data.lampShare > 0)) return {{ambient, ambient, ambient}, F(0.0f)};
+    const Lit lamp = lampAt();
+    const F light = mulAdd(F(data.lampShare), lamp.diffuse, ambient);
+    return {{light, light, light}, F(data.lampShare) * lamp.highlight};
+}
+
 // lampAt(): litBy of these points, asked for only where the lamp counts: its normals take as many loads as
 // half a lookup of baked light, and its shadows rays. It does where less than `enough` of a lookup is known:
 // 1 asks for what a neighbour may need, who knows nothing. t: finite, of all lanes; so is what comes back.
@@ -151,12 +163,13 @@ template <typename Lamp>
 STEREONAV_INLINE Falling fallingOn(const VolumeData& data, const VolumeView& view, const Rays& r, F t, M m,
                                    float enough, const Lamp& lampAt) {
     const F one(1.0f), zero(0.0f);
-    if (!data.baked.texels) return ofLamp(lampAt(), one);
+    if (!data.baked.texels && !data.occlusion.openness.values) return ofLamp(lampAt(), one);
     const auto voxel = [&](int k, F direction) {
         return mulAdd(t, direction, F(view.eye[k])) + F(static_cast<float>(view.base[k]));
     };
-    const BakedLight baked =
-        bakedAt(data.baked, {voxel(0, r.direction.x), voxel(1, r.direction.y), voxel(2, r.direction.z)}, m);
+    const V3 place{voxel(0, r.direction.x), voxel(1, r.direction.y), voxel(2, r.direction.z)};
+    if (!data.baked.texels) return ofOpenness(data.occlusion, place, m, lampAt);
+    const BakedLight baked = bakedAt(data.baked, place, m);
     const M known = m & (baked.known > zero);
     if (data.baked.openness) return ofLamp(lampAt(), select(known, baked.red, one));
     if (!(data.baked.lampShare > 0) && !any(m & (baked.known < F(enough))))

@@ -215,8 +215,12 @@ glm::dvec3 plainNormal(const GreyVolume& volume, const glm::dvec3& voxel) {
     return length > 0 ? sum / length : glm::dvec3(0, 0, 1);
 }
 
-glm::dvec3 shadePlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,
-                      const glm::dvec3& head, const glm::dvec3& eye, const glm::dvec3& albedo) {
+namespace {
+
+// Of a lamp whose constant ambient light is that.
+glm::dvec3 lampPlain(const VolumeLook& look, double ambient, const glm::dvec3& position,
+                     const glm::dvec3& normal, const glm::dvec3& head, const glm::dvec3& eye,
+                     const glm::dvec3& albedo) {
     const glm::dvec3 toHead = head - position, toEye = eye - position;
     const double distance = glm::length(toHead);
     const glm::dvec3 l = distance > 0 ? toHead / distance : glm::dvec3(0.0);
@@ -231,7 +235,27 @@ glm::dvec3 shadePlain(const VolumeLook& look, const glm::dvec3& position, const 
     }
     const double ratio = look.falloff > 0 ? distance / look.falloff : 0.0;
     const double light = 1 / (1 + ratio * ratio);
-    return light * (albedo * (look.ambient + look.diffuse * std::max(facing, 0.0)) + highlight);
+    return light * (albedo * (ambient + look.diffuse * std::max(facing, 0.0)) + highlight);
+}
+
+// 0..1 for bytes 0..255.
+double plainShare(const Volume<std::uint8_t>& bytes, const glm::dvec3& voxel) {
+    const glm::ivec3 cell = cellOf(bytes.frame, voxel);
+    const glm::dvec3 p = voxel - glm::dvec3(cell);
+    double sum = 0;
+    for (int n = 0; n < 8; ++n) {
+        const glm::ivec3 o(n & 1, n >> 1 & 1, n >> 2);
+        const double weight = (o.x ? p.x : 1 - p.x) * (o.y ? p.y : 1 - p.y) * (o.z ? p.z : 1 - p.z);
+        sum += weight * bytes.at(cell + o);
+    }
+    return sum / 255;
+}
+
+}  // namespace
+
+glm::dvec3 shadePlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,
+                      const glm::dvec3& head, const glm::dvec3& eye, const glm::dvec3& albedo) {
+    return lampPlain(look, look.ambient, position, normal, head, eye, albedo);
 }
 
 glm::dvec3 shadeBakedPlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,
@@ -244,21 +268,17 @@ glm::dvec3 shadeBakedPlain(const VolumeLook& look, const glm::dvec3& position, c
     return albedo * glm::dvec3(known.value) * exposure + static_cast<double>(look.baked.lampShare) * lamp;
 }
 
-namespace {
-
-double plainModulation(const Volume<std::uint8_t>& modulation, const glm::dvec3& voxel) {
-    const glm::ivec3 cell = cellOf(modulation.frame, voxel);
-    const glm::dvec3 p = voxel - glm::dvec3(cell);
-    double sum = 0;
-    for (int n = 0; n < 8; ++n) {
-        const glm::ivec3 o(n & 1, n >> 1 & 1, n >> 2);
-        const double weight = (o.x ? p.x : 1 - p.x) * (o.y ? p.y : 1 - p.y) * (o.z ? p.z : 1 - p.z);
-        sum += weight * modulation.at(cell + o);
-    }
-    return sum / 255;
+glm::dvec3 lightPlain(const VolumeLook& look, const VolumeFrame& frame, const glm::dvec3& voxel,
+                      const glm::dvec3& normal, const glm::dvec3& head, const glm::dvec3& eye,
+                      const glm::dvec3& albedo) {
+    const glm::dvec3 position = frame.worldFromVoxel(voxel);
+    if (!look.occlusion.openness || look.baked.light)
+        return shadeBakedPlain(look, position, normal, head, eye, albedo);
+    const double open = plainShare(*look.occlusion.openness, voxel);
+    return look.occlusion.strength * open * albedo +
+           static_cast<double>(look.occlusion.lampShare) *
+               lampPlain(look, 0, position, normal, head, eye, albedo);
 }
-
-}  // namespace
 
 PlainComposite compositePlain(const GreyVolume& volume, const VolumeLook& look, const PlainRay& worldRay,
                               const glm::dvec3& head, double stepVoxels) {
@@ -277,15 +297,14 @@ PlainComposite compositePlain(const GreyVolume& volume, const VolumeLook& look, 
         const double value = plainValue(volume, voxel) * volume.scale + volume.offset;
         ++result.samples;
         double extinction = look.transfer.extinction(value);
-        if (look.modulation) extinction *= plainModulation(*look.modulation, voxel);
+        if (look.modulation) extinction *= plainShare(*look.modulation, voxel);
         const double opacity = -std::expm1(-extinction * step);
         if (!(opacity > 0)) continue;
         if (result.firstDepth == kInfinity) result.firstDepth = tAt(k);
-        const glm::dvec3 position = worldRay.eye + tAt(k) * worldRay.direction;
         const glm::dvec3 albedo(look.transfer.at(value).color);
         result.color +=
             result.left * opacity *
-            shadeBakedPlain(look, position, plainNormal(volume, voxel), head, worldRay.eye, albedo);
+            lightPlain(look, frame, voxel, plainNormal(volume, voxel), head, worldRay.eye, albedo);
         const double behind = tAt(k) - result.firstDepth;
         square += result.left * opacity * behind * behind;
         result.left *= 1 - opacity;

@@ -50,6 +50,13 @@ glm::dvec3 shadePlain(const VolumeLook& look, const glm::dvec3& position, const 
 glm::dvec3 shadeBakedPlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,
                            const glm::dvec3& head, const glm::dvec3& eye, const glm::dvec3& albedo);
 
+// The same at a point of voxel space of a volume under the whole look: where look.occlusion is shown, its
+// strength * openness * albedo and lampShare of the lamp's direct light (that without look.ambient), else as
+// shadeBakedPlain.
+glm::dvec3 lightPlain(const VolumeLook& look, const VolumeFrame& frame, const glm::dvec3& voxel,
+                      const glm::dvec3& normal, const glm::dvec3& head, const glm::dvec3& eye,
+                      const glm::dvec3& albedo);
+
 struct PlainComposite {
     glm::dvec3 color{0.0};  // linear RGB, background not included
     double left = 1;        // share of the background that is still seen

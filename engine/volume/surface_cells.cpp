@@ -313,6 +313,18 @@ glm::dvec3 unpackCornerNormal(std::uint32_t packed) {
     return {channel(0), channel(10), channel(20)};
 }
 
+SurfaceCells SurfaceCells::share() const {
+    SurfaceCells same;
+    same.frame = frame;
+    same.layout = layout;
+    same.leapUnit = leapUnit;
+    same.codes = codes.share();
+    same.cells = cells.share();
+    same.records = records.share();
+    same.isovalue = isovalue;
+    return same;
+}
+
 std::size_t SurfaceCells::bytesHeld() const {
     return residentBytes(codes) + residentBytes(cells) + records.size() * sizeof(CellRecord);
 }

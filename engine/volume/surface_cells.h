@@ -60,6 +60,7 @@ struct SurfaceCells {
         return n ? &records[n - 1] : nullptr;
     }
     std::size_t bytesHeld() const;  // pages in use
+    SurfaceCells share() const;     // the same in the same memory (LazyArray::share)
 };
 
 struct SurfaceSetting {

@@ -13,6 +13,8 @@ struct TransferPoint {
     double value = 0;       // of the volume (HU for CT)
     glm::vec3 color{1.0f};  // linear RGB
     double opacity = 0;     // in [0, 1]: what a layer of referenceLength takes away
+
+    bool operator==(const TransferPoint&) const = default;
 };
 
 // Linear between its points, constant beyond them.
@@ -24,6 +26,7 @@ public:
     TransferFunction(std::vector<TransferPoint> points, double referenceLength, const std::string& source);
 
     bool empty() const { return mPoints.empty(); }
+    bool operator==(const TransferFunction&) const = default;
     const std::vector<TransferPoint>& points() const { return mPoints; }
     double referenceLength() const { return mReferenceLength; }  // metres
 

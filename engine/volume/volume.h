@@ -57,6 +57,13 @@ struct Volume {
     T& at(int i, int j, int k) { return values[frame.index(i, j, k)]; }
     T at(const glm::ivec3& v) const { return values[frame.index(v)]; }
     T& at(const glm::ivec3& v) { return values[frame.index(v)]; }
+    // The same voxels in the same memory (LazyArray::share).
+    Volume share() const {
+        Volume same;
+        same.frame = frame;
+        same.values = values.share();
+        return same;
+    }
 };
 
 // Grey values. For CT: Hounsfield units. Data of other kinds keep their numbers where these fit into 16
@@ -64,6 +71,14 @@ struct Volume {
 struct GreyVolume : Volume<std::int16_t> {
     using Volume::Volume;
     double scale = 1, offset = 0;
+
+    GreyVolume share() const {
+        GreyVolume same;
+        static_cast<Volume&>(same) = Volume::share();
+        same.scale = scale;
+        same.offset = offset;
+        return same;
+    }
 };
 
 using MaskVolume = Volume<std::uint8_t>;  // 0 outside, 1 inside

@@ -42,6 +42,20 @@ struct BakedData : TexelGrid {
 
 constexpr float kMostFalloff = 1e8f;  // of a lamp that reaches 0.1 mm
 
+// A volume of bytes on the scene's grid, 0..255 for 0..1.
+struct ByteData {
+    const std::uint8_t* values = nullptr;  // null: none
+    std::int32_t row = 0, slice = 0;       // voxels from one to the next along y and z
+    std::int32_t last[3] = {};             // the last voxel along each axis, at least 1
+};
+
+// Openness as ambient light; see volume_look.h.
+struct OcclusionData {
+    ByteData openness;
+    float perByte = 0;  // k / 255
+    float lampShare = 0;
+};
+
 // Linear RGB; see volume_look.h.
 struct LightData {
     float albedo[3] = {}, background[3] = {};
@@ -59,16 +73,16 @@ struct TransferData {
     const float* extinction = nullptr;     // a metre; kEntries + 1 of them
     const std::uint32_t* color = nullptr;  // packed (10-bit square roots)
     float first = 0, scale = 0;
-    float step = 0;                            // metres of way between samples
-    const std::uint8_t* modulation = nullptr;  // of extinction, 0..255 for 0..1 a voxel; null: none
-    std::int32_t row = 0, slice = 0;           // its voxels from one to the next along y and z
+    float step = 0;       // metres of way between samples
+    ByteData modulation;  // of extinction
 };
 
 struct VolumeData {
     CellData cells;
     LightData light;
     BakedData baked;
-    TransferData transfer;  // extinction null: the surface alone
+    OcclusionData occlusion;  // not where light is baked
+    TransferData transfer;    // extinction null: the surface alone
 };
 
 // Voxel space has its origin at the cell of the eye: positions stay small and exact near it. Directions have

@@ -29,6 +29,15 @@ struct BakedLook {
     IlluminationVolume::Lookup lookup = IlluminationVolume::Lookup::Trilinear;  // others: slow, to compare
 };
 
+// Openness O of every voxel's surroundings as ambient light (Ruiz et al. 2010, eq. 5): a place of colour C
+// sends k O C, whatever the lamp does; see engine/light/occlusion.h. Not shown where light is baked.
+struct AmbientLook {
+    std::shared_ptr<const Volume<std::uint8_t>> openness;  // 0..255 for 0..1, trilinear between the voxels of
+                                                           // the scene's field; null: none
+    float strength = 1;   // k: with 2 a flat wall, half of whose surroundings is the wall, sends its colour
+    float lampShare = 0;  // of the lamp's direct light and highlight that is added; eq. 5 has none
+};
+
 struct VolumeLook {
     glm::vec3 surface{0.75f, 0.42f, 0.34f};  // linear RGB albedo
     glm::vec3 background{0.0f};              // linear RGB where nothing is hit
@@ -42,6 +51,7 @@ struct VolumeLook {
     float varyingAmbient = 0;          // ambient light grows by this share towards +z and falls towards -z
     float fog = 0;                     // metres in which all but 1/e is lost in the background; 0: no fog
     BakedLook baked;
+    AmbientLook occlusion;      // in place of `ambient` and varyingAmbient
     TransferFunction transfer;  // empty: the opaque surface alone
     // What the transfer function's extinction is multiplied with, 0..255 for 0..1, trilinear between the
     // voxels of the scene's field (see engine/light/occlusion_modulation.h); null: nothing.

@@ -38,13 +38,36 @@ CellData cellDataOf(const SurfaceCells& cells, bool leaping) {
     return d;
 }
 
+bool showsOpenness(const VolumeLook& look) {
+    return look.occlusion.openness && !look.baked.light;
+}
+
+// what: names it where it does not fit.
+ByteData byteDataOf(const Volume<std::uint8_t>& bytes, const VolumeFrame& frame, const char* what) {
+    const glm::ivec3 size = frame.size, has = bytes.frame.size;
+    if (has != size || frame.count() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        throw Error("", what,
+                    fmt::format("expected {}x{}x{} voxels, as the volume has, less than 2^31 of them, got "
+                                "{}x{}x{}",
+                                size.x, size.y, size.z, has.x, has.y, has.z),
+                    "compute it from the same volume, or leave it out");
+    return {bytes.values.data(), size.x, size.x * size.y, {size.x - 1, size.y - 1, size.z - 1}};
+}
+
+OcclusionData occlusionDataOf(const VolumeLook& look, const VolumeFrame& frame) {
+    if (!showsOpenness(look)) return {};
+    const AmbientLook& ambient = look.occlusion;
+    return {byteDataOf(*ambient.openness, frame, "ambient occlusion"), ambient.strength / 255,
+            ambient.lampShare};
+}
+
 LightData lightDataOf(const VolumeLook& look, const VolumeFrame& frame) {
     LightData d;
     for (int k = 0; k < 3; ++k) {
         d.albedo[k] = look.surface[k];
         d.background[k] = look.background[k];
     }
-    d.ambient = look.ambient;
+    d.ambient = showsOpenness(look) ? 0 : look.ambient;
     d.diffuse = look.diffuse;
     d.specular = look.specular;
     d.shininess = look.shininess;
@@ -143,20 +166,6 @@ struct TransferTable {
         data.extinction = extinction.data();
         data.color = color.data();
     }
-
-    void modulate(const Volume<std::uint8_t>& modulation, const VolumeFrame& frame) {
-        const glm::ivec3 size = frame.size, has = modulation.frame.size;
-        if (has != size || frame.count() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            throw Error(
-                "", "opacity modulation",
-                fmt::format("expected {}x{}x{} voxels, as the volume has, less than 2^31 of them, got "
-                            "{}x{}x{}",
-                            size.x, size.y, size.z, has.x, has.y, has.z),
-                "compute it from the same volume, or leave it out");
-        data.modulation = modulation.values.data();
-        data.row = size.x;
-        data.slice = size.x * size.y;
-    }
 };
 
 double smallestSpacing(const VolumeFrame& frame) {
@@ -178,10 +187,11 @@ struct VolumeRenderer::State {
           shadeAgain(casting.shadeAgain),
           transfer(scene.look.transfer, scene.field, casting.stepVoxels * smallestSpacing(scene.cells.frame)),
           data{cellDataOf(scene.cells, casting.leaping), lightDataOf(scene.look, scene.cells.frame),
-               bakedDataOf(scene.look.baked, scene.cells.frame), transfer.data} {
+               bakedDataOf(scene.look.baked, scene.cells.frame),
+               occlusionDataOf(scene.look, scene.cells.frame), transfer.data} {
         if (!scene.look.modulation || scene.look.transfer.empty()) return;
-        transfer.modulate(*scene.look.modulation, scene.cells.frame);
-        data.transfer = transfer.data;
+        data.transfer.modulation =
+            byteDataOf(*scene.look.modulation, scene.cells.frame, "opacity modulation");
     }
 
     // Leap code of the cell around a world point, in metres; negative outside the volume.
@@ -288,7 +298,7 @@ ViewDependence VolumeRenderer::viewDependence() const {
     // and rows know the trilinear lookup alone.
     const bool baked = mState->data.baked.texels != nullptr;
     if (baked && look.baked.lookup != IlluminationVolume::Lookup::Trilinear) return ViewDependence::None;
-    const bool changes = look.specular > 0 || baked;
+    const bool changes = look.specular > 0 || baked || showsOpenness(look);
     return mState->shadeAgain && changes && !look.shadows ? ViewDependence::Normal : ViewDependence::None;
 }
 

@@ -163,40 +163,6 @@ TEST_F(VolumeLight, IsOneLightWhereTexelsAreNotKnown) {
     }
 }
 
-// A ball is open all around; where two touch it is not, and in a larger box to another degree.
-TEST_F(VolumeLight, AmbientOcclusionIsSeen) {
-    const std::string round = ball();
-    EXPECT_TRUE(picture(round, {"--ambient", "6"}) == picture(round, {}));
-    const std::string scene = nrrd("two.nrrd", {}, [](int i, int j, int k) {
-        return std::max({0.0, 1000 - 100 * std::hypot(i - 7.5, j - 11.5, k - 11.5),
-                         1000 - 100 * std::hypot(i - 15.5, j - 11.5, k - 11.5)});
-    });
-    const std::string lamp = picture(scene, {});
-    const std::string near = picture(scene, {"--ambient", "3"});
-    EXPECT_TRUE(near != lamp);
-    EXPECT_TRUE(picture(scene, {"--ambient", "20"}) != near);
-    expectRefused({"render", scene, "--ambient", "0", "--out", "a.png"}, {"--ambient", "above 0"});
-    expectRefused({"render", scene, "--ambient", "3", "--light", "b", "--out", "a.png"},
-                  {"--ambient", "--light"});
-}
-
-// Inside two translucent balls all is alike; their walls are not.
-TEST_F(VolumeLight, OpacityIsModulated) {
-    const std::string scene = ball();
-    const auto shown = [&](const std::string& by) {
-        return picture(scene, {"--isosurface", "--opacity", "0.3", "--modulate", by});
-    };
-    const std::string none = shown("none"), variance = shown("variance");
-    EXPECT_TRUE(picture(scene, {"--isosurface", "--opacity", "0.3"}) == none);
-    EXPECT_TRUE(variance != none);
-    EXPECT_TRUE(shown("gradient") != variance);
-    expectRefused({"render", scene, "--modulate", "much", "--opacity", "0.3", "--out", "a.png"},
-                  {"--modulate", "much", "variance, gradient, none"});
-    expectRefused({"render", scene, "--modulate", "variance", "--out", "a.png"},
-                  {"--modulate", "translucent", "--transfer"});
-    expectRefused({"render", "cloud", "--modulate", "variance", "--out", "a.png"}, {"--modulate", "medium"});
-}
-
 TEST_F(VolumeLight, RefusesWhatDoesNotFit) {
     const std::string scene = ball();
     const std::string light = baked(scene, "irradiance");

@@ -30,9 +30,8 @@ void printTimes() {
     Progress progress;
     const OpennessVolume openness =
         estimateOpenness(body, OcclusionMethod::Reconstructed, glm::ivec3(10), progress);
-    std::printf("gradient of the openness by regression: %.1f; ambient light around one surface: %.1f\n",
-                bench::leastTime_ms(3, [&] { gradientModulation(openness, 0.1); }),
-                bench::leastTime_ms(3, [&] { ambientLight(body, openness, 250, 250); }));
+    std::printf("gradient of the openness by regression: %.1f\n",
+                bench::leastTime_ms(3, [&] { gradientModulation(openness, 0.1); }));
     const GreyVolume part = bench::resampled(body, {64, 64, 64});
     const double radius = 10 * std::min({part.frame.spacing.x, part.frame.spacing.y, part.frame.spacing.z});
     std::printf("vicinity, 42 directions, radius 10, %zu voxels: %.0f\n", part.values.size(),

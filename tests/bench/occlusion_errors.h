@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/light/occlusion_light.h"
+#include "engine/light/bake_texels.h"
 #include "engine/light/occlusion_rays.h"
 
 namespace stereonav::bench {
@@ -69,14 +69,13 @@ inline double bestGain(const Numbers& a, const Numbers& b) {
 
 // Texels that a lookup at the surface of an isovalue can ask for, at random.
 inline std::vector<glm::ivec3> surfaceTexels(const GreyVolume& volume, double isovalue, std::size_t most) {
-    const OpennessVolume any(volume.frame);
-    const IlluminationVolume light = ambientLight(volume, any, isovalue, isovalue);
+    TexelChoice surface;
+    surface.lowest = surface.highest = static_cast<float>((isovalue - volume.offset) / volume.scale);
+    Progress progress;
+    const TexelLayout layout(volume.frame.size);
     std::vector<glm::ivec3> texels;
-    const glm::ivec3 size = volume.frame.size;
-    for (int k = 0; k < size.z; ++k)
-        for (int j = 0; j < size.y; ++j)
-            for (int i = 0; i < size.x; ++i)
-                if (light.texels[light.layout.index(i, j, k)]) texels.emplace_back(i, j, k);
+    for (const TexelBrick& brick : wantedBricks(volume, volume.frame, surface, progress))
+        for (const glm::ivec3& texel : texelsIn(layout, brick)) texels.push_back(texel);
     std::shuffle(texels.begin(), texels.end(), std::mt19937(1));
     texels.resize(std::min(texels.size(), most));
     return texels;

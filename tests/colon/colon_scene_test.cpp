@@ -145,13 +145,41 @@ TEST(IsosurfaceScene, IsovalueLiesBetweenTheTwoKinds) {
 TEST(IsosurfaceScene, IsovalueIsChangedAndRefused) {
     Progress progress;
     ColonScene scene = isosurfaceScene(ball(180, 20), {}, progress);
-    setIsovalue(scene, 150, progress);
+    setSurface(scene, 150, {}, progress);
     EXPECT_FLOAT_EQ(scene.volume.cells.isovalue, 150);
-    EXPECT_THROW(setIsovalue(scene, 500, progress), Error);
-    EXPECT_THROW(setIsovalue(scene, std::nan(""), progress), Error);
+    EXPECT_THROW(setSurface(scene, 500, {}, progress), Error);
+    EXPECT_THROW(setSurface(scene, std::nan(""), {}, progress), Error);
     EXPECT_FLOAT_EQ(scene.volume.cells.isovalue, 150);
     for (const PathSample& sample : scene.path.samples())
         EXPECT_GT(glm::length(sample.pose.position - glm::dvec3(0.012, 0.010, 0.011)), 0.015);
+}
+
+// Another look at the same study: its voxels are where they were, what does not change is not made again, and
+// what does is as if it had been opened so.
+TEST(IsosurfaceScene, IsChangedWithoutItsVoxels) {
+    Progress progress;
+    const ColonScene scene = isosurfaceScene(ball(180, 20), {}, progress);
+    ColonOptions options;
+    const ColonScene same = changedScene(scene, options, progress);
+    EXPECT_EQ(same.volume.field.values.data(), scene.volume.field.values.data());
+    EXPECT_EQ(same.volume.cells.records.data(), scene.volume.cells.records.data());
+    options.isovalue = 120;
+    const ColonScene moved = changedScene(scene, options, progress);
+    EXPECT_EQ(moved.volume.field.values.data(), scene.volume.field.values.data());
+    EXPECT_FLOAT_EQ(moved.volume.cells.isovalue, 120);
+    EXPECT_EQ(moved.startPose.position, scene.startPose.position);
+    options.opacity = 0.3;
+    const ColonScene glass = changedScene(moved, options, progress);
+    const ColonScene opened = isosurfaceScene(ball(180, 20), options, progress);
+    EXPECT_EQ(glass.volume.look.transfer, opened.volume.look.transfer);
+    ASSERT_EQ(glass.volume.cells.records.size(), opened.volume.cells.records.size());
+    EXPECT_EQ(std::memcmp(glass.volume.cells.records.data(), opened.volume.cells.records.data(),
+                          opened.volume.cells.records.size() * sizeof(CellRecord)),
+              0);
+    EXPECT_EQ(scene.volume.cells.isovalue, same.volume.cells.isovalue) << "the first one is as it was";
+    EXPECT_TRUE(scene.volume.look.transfer.empty());
+    options.isovalue = 1000;
+    EXPECT_THROW(changedScene(glass, options, progress), Error);
 }
 
 TEST(IsosurfaceScene, SurfaceIsClosedAtTheVolumesFaces) {

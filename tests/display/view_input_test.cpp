@@ -40,6 +40,20 @@ TEST(ViewKeys, KeysWithoutLetters) {
     EXPECT_EQ(commandOf({GLFW_KEY_F5, 0, false, false}), std::nullopt);
 }
 
+TEST(ViewKeys, LookOfVolumes) {
+    EXPECT_EQ(commandOf({GLFW_KEY_T, 't', false, false}), ViewCommand::ToggleTranslucent);
+    EXPECT_EQ(commandOf({GLFW_KEY_T, 't', true, false}), ViewCommand::NextTransfer);
+    EXPECT_EQ(commandOf({GLFW_KEY_O, 'o', false, false}), ViewCommand::NextAmbient);
+    EXPECT_EQ(commandOf({GLFW_KEY_O, 'o', true, false}), ViewCommand::PreviousAmbient);
+    EXPECT_EQ(commandOf({GLFW_KEY_B, 'b', false, false}), ViewCommand::NextModulation);
+    for (const bool repeat : {false, true}) {
+        EXPECT_EQ(commandOf({GLFW_KEY_MINUS, '-', false, repeat}), ViewCommand::SmallerRadius);
+        EXPECT_EQ(commandOf({GLFW_KEY_EQUAL, '=', false, repeat}), ViewCommand::LargerRadius);
+        EXPECT_EQ(commandOf({GLFW_KEY_G, 'g', false, repeat}), ViewCommand::MoreSigma);
+        EXPECT_EQ(commandOf({GLFW_KEY_G, 'g', true, repeat}), ViewCommand::LessSigma);
+    }
+}
+
 TEST(ViewKeys, OnlyMattersOfDegreeRepeat) {
     for (const auto& [key, letter, command] :
          {std::tuple{GLFW_KEY_LEFT_BRACKET, '[', ViewCommand::LessSeparation},

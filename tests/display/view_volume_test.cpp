@@ -221,6 +221,153 @@ TEST_F(ViewVolume, TranslucentAndBackKeepsTheSurface) {
     EXPECT_FALSE(never.takeSceneChange().has_value());
 }
 
+TEST_F(ViewVolume, TransferFunctionsTakeTurns) {
+    mScene->transfers = {"", "bone", "glass"};
+    ViewSession s = session();
+    s.act({ViewCommand::NextTransfer});
+    auto change = s.takeSceneChange();
+    EXPECT_EQ(change->translucent, true) << "first as it would be";
+    EXPECT_EQ(change->transfer, "");
+    s.act({ViewCommand::NextTransfer});
+    EXPECT_EQ(s.takeSceneChange()->transfer, "bone");
+    EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::HasSubstr("bone"));
+    // One that can not be shown is not tried again at once.
+    s.forgetSceneChange();
+    EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::Not(testing::HasSubstr("bone")));
+    mScene->translucent = true;
+    s.forgetSceneChange();
+    s.act({ViewCommand::NextTransfer});
+    EXPECT_EQ(s.takeSceneChange()->transfer, "glass");
+    s.act({ViewCommand::NextTransfer});
+    EXPECT_EQ(s.takeSceneChange()->transfer, "");
+}
+
+TEST_F(ViewVolume, AmbientLightIsChosenByKeys) {
+    ViewSession without = session();
+    for (const ViewCommand command : {ViewCommand::NextAmbient, ViewCommand::LargerRadius,
+                                      ViewCommand::NextModulation, ViewCommand::MoreSigma}) {
+        without.act({command});
+        EXPECT_FALSE(without.takeSceneChange().has_value());
+        EXPECT_THAT(without.notice(), testing::HasSubstr("seen from outside"));
+    }
+    mScene->ambient = ViewAmbient{false, "gaussian", 0.008, "", 0.008, 0};
+    mScene->ambientMethods = {"gaussian", "t-beta", "chebyshev"};
+    mScene->smallestRadius = 0.001;
+    mScene->largestRadius = 0.012;
+    ViewSession s = session();
+    s.act({ViewCommand::LargerRadius});
+    EXPECT_FALSE(s.takeSceneChange().has_value()) << "of what?";
+    s.act({ViewCommand::NextAmbient});
+    EXPECT_EQ(s.takeSceneChange()->ambient, (ViewAmbient{true, "gaussian", 0.008, "", 0.008, 0}));
+    EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::HasSubstr("ambient light gaussian within 8.0 mm"));
+    s.act({ViewCommand::NextAmbient});
+    EXPECT_EQ(s.takeSceneChange()->ambient->method, "t-beta");
+    s.act({ViewCommand::PreviousAmbient});
+    EXPECT_EQ(s.takeSceneChange()->ambient->method, "gaussian");
+    s.act({ViewCommand::LargerRadius});
+    EXPECT_DOUBLE_EQ(s.takeSceneChange()->ambient->radius, 0.01);
+    s.act({ViewCommand::LargerRadius});
+    s.act({ViewCommand::LargerRadius});
+    EXPECT_DOUBLE_EQ(s.takeSceneChange()->ambient->radius, 0.012);
+    EXPECT_THAT(s.notice(), testing::HasSubstr("as far as it can be"));
+    s.act({ViewCommand::PreviousAmbient});
+    EXPECT_FALSE(s.takeSceneChange()->ambient->lit);
+    EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::Not(testing::HasSubstr("ambient")));
+    s.act({ViewCommand::PreviousAmbient});
+    EXPECT_EQ(s.takeSceneChange()->ambient->method, "chebyshev") << "round the other way";
+    // Where light is baked there is none.
+    mScene->ambientMethods.clear();
+    ViewSession baked = session();
+    baked.act({ViewCommand::NextAmbient});
+    EXPECT_FALSE(baked.takeSceneChange().has_value());
+}
+
+TEST_F(ViewVolume, OpacityIsModulatedByKeys) {
+    mScene->ambient = ViewAmbient{false, "gaussian", 0.008, "", 0.008, 0};
+    mScene->smallestRadius = 0.001;
+    mScene->largestRadius = 0.1;
+    mScene->largestSigma = 500;
+    mScene->chosenSigma = 80;
+    ViewSession s = session();
+    s.act({ViewCommand::NextModulation});
+    EXPECT_FALSE(s.takeSceneChange().has_value());
+    EXPECT_THAT(s.notice(), testing::HasSubstr("translucent"));
+    s.act({ViewCommand::ToggleTranslucent});
+    s.act({ViewCommand::NextModulation});
+    auto change = s.takeSceneChange();
+    EXPECT_EQ(change->translucent, true);
+    EXPECT_EQ(change->ambient->modulate, "variance");
+    EXPECT_EQ(change->ambient->sigma, 0) << "chosen";
+    EXPECT_THAT(s.statusLine(frameOf(1), 0),
+                testing::HasSubstr("opacity by variance within 8.0 mm, whole from 80"));
+    s.act({ViewCommand::MoreSigma});
+    EXPECT_DOUBLE_EQ(s.takeSceneChange()->ambient->sigma, 100);
+    s.act({ViewCommand::LessSigma});
+    EXPECT_DOUBLE_EQ(s.takeSceneChange()->ambient->sigma, 80);
+    for (int n = 0; n < 20; ++n) s.act({ViewCommand::MoreSigma});
+    EXPECT_DOUBLE_EQ(s.takeSceneChange()->ambient->sigma, 500);
+    s.act({ViewCommand::LargerRadius});
+    change = s.takeSceneChange();
+    EXPECT_DOUBLE_EQ(change->ambient->modulateRadius, 0.01);
+    EXPECT_DOUBLE_EQ(change->ambient->radius, 0.008) << "ambient light's own";
+    s.act({ViewCommand::NextModulation});
+    change = s.takeSceneChange();
+    EXPECT_EQ(change->ambient->modulate, "gradient");
+    EXPECT_EQ(change->ambient->sigma, 0);
+    for (int n = 0; n < 30; ++n) s.act({ViewCommand::MoreSigma});
+    EXPECT_DOUBLE_EQ(s.takeSceneChange()->ambient->sigma, 1);
+    s.act({ViewCommand::NextModulation});
+    EXPECT_EQ(s.takeSceneChange()->ambient->modulate, "");
+}
+
+// Keys that come while an earlier change is being made count from what was asked for, not from what is shown.
+TEST_F(ViewVolume, NoStepIsLostWhileScenesAreMade) {
+    mScene->isovalue = 300;
+    mScene->isovalueStep = 10;
+    ViewSession s = session();
+    s.act({ViewCommand::HigherIsovalue});
+    EXPECT_EQ(s.takeSceneChange()->isovalue, 310);
+    s.act({ViewCommand::HigherIsovalue});
+    EXPECT_EQ(s.takeSceneChange()->isovalue, 320);
+    auto first = std::make_shared<ViewScene>(*mScene);
+    first->isovalue = 310;
+    first->changed = true;
+    s.replaceScene(first);
+    s.act({ViewCommand::HigherIsovalue});
+    EXPECT_EQ(s.takeSceneChange()->isovalue, 330);
+    // One that fails is forgotten: what is shown counts again.
+    s.forgetSceneChange();
+    s.act({ViewCommand::HigherIsovalue});
+    EXPECT_EQ(s.takeSceneChange()->isovalue, 320);
+}
+
+// A scene that was made from the one before it: playing goes on, and the way of the right eye that was
+// chosen.
+TEST_F(ViewVolume, WhatWasChangedInPlaceGoesOn) {
+    ViewSession s = session();
+    s.act({ViewCommand::Record});
+    FlightInput forward;
+    forward.forward = 1;
+    for (int i = 0; i < 60; ++i) s.step(forward, kFrame);
+    s.act({ViewCommand::Play});
+    s.act({ViewCommand::NextMethod});
+    const RightEyeMethod method = s.requestFor(100, 100).warp.method;
+    EXPECT_NE(method, mScene->method);
+    s.step({}, 0.1);
+    auto other = std::make_shared<ViewScene>(*mScene);
+    other->changed = true;
+    s.replaceScene(other);
+    EXPECT_TRUE(s.playing());
+    EXPECT_EQ(s.requestFor(100, 100).warp.method, method);
+    other = std::make_shared<ViewScene>(*mScene);
+    other->changed = true;
+    other->method = RightEyeMethod::Selective;
+    s.replaceScene(other);
+    EXPECT_EQ(s.requestFor(100, 100).warp.method, RightEyeMethod::Selective) << "another default";
+    s.replaceScene(mScene);
+    EXPECT_FALSE(s.playing());
+}
+
 TEST_F(ViewVolume, AnotherSceneTakesThePlaceAndTheFlightGoesOn) {
     ViewSession s = session();
     s.act({ViewCommand::NextFlightMode});

@@ -286,6 +286,57 @@ TEST(ViewWorker, TheNewestReloadReplacesOneThatIsNotDone) {
     EXPECT_EQ(worker.takeReloadProblem(), "");
 }
 
+// Of wishes that come while one is at work the last is done after it, from the scene that it made.
+TEST(ViewWorker, ChangesAreMadeFromTheNewestSceneOneAfterAnother) {
+    std::atomic<int> begun = 0, go = 0;
+    ViewWorker worker(
+        [](Progress&) {
+            ViewScene scene = sceneOf(std::make_shared<Wall>());
+            scene.transfer = "first";
+            return scene;
+        },
+        [] {});
+    ASSERT_TRUE(within(10s, [&] { return worker.scene() != nullptr; }));
+    const auto wish = [&](const std::string& name, int mayGo) {
+        worker.change([&, name, mayGo](const ViewScene& now, Progress& progress) {
+            ++begun;
+            while (go < mayGo) {
+                progress.report(0.5, name);
+                std::this_thread::sleep_for(1ms);
+            }
+            ViewScene scene = sceneOf(std::make_shared<Wall>());
+            scene.transfer = now.transfer + " " + name;
+            return scene;
+        });
+    };
+    wish("a", 1);
+    ASSERT_TRUE(within(10s, [&] { return begun == 1; }));
+    EXPECT_TRUE(worker.loading().busy);
+    wish("b", 1);
+    wish("c", 2);
+    go = 1;
+    ASSERT_TRUE(within(10s, [&] { return begun == 2; })) << "what is at work is not given up";
+    EXPECT_EQ(worker.scene()->transfer, "first a");
+    go = 2;
+    ASSERT_TRUE(within(10s, [&] { return worker.scene()->transfer == "first a c"; }));
+    EXPECT_TRUE(within(10s, [&] { return !worker.loading().busy; }));
+    EXPECT_EQ(begun, 2) << "one that was not begun is passed over";
+    // Loading again does away with what was asked for before it.
+    go = 0;
+    wish("d", 3);
+    ASSERT_TRUE(within(10s, [&] { return begun == 3; }));
+    wish("e", 3);
+    worker.reload([](Progress&) {
+        ViewScene scene = sceneOf(std::make_shared<Wall>());
+        scene.transfer = "again";
+        return scene;
+    });
+    ASSERT_TRUE(within(10s, [&] { return worker.scene()->transfer == "again"; }));
+    EXPECT_TRUE(within(10s, [&] { return !worker.loading().busy; }));
+    EXPECT_EQ(begun, 3);
+    EXPECT_EQ(worker.takeReloadProblem(), "");
+}
+
 TEST(ViewWorker, AReloadThatFailsLeavesTheSceneAndSaysSoOnce) {
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
     ASSERT_TRUE(within(10s, [&] { return worker.scene() != nullptr; }));

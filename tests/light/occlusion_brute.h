@@ -49,16 +49,16 @@ inline Box boxAt(const GreyVolume& volume, const glm::ivec3& voxel, const glm::i
     return box;
 }
 
-inline double opennessOf(const Box& box, double value, OcclusionMethod method) {
-    switch (method) {
+inline double opennessOf(const Box& box, double value, const OcclusionEstimate& estimate) {
+    switch (estimate.method) {
         case OcclusionMethod::Gaussian:
             return gaussianOpenness(value, box.mean(), box.variance());
         case OcclusionMethod::Chebyshev:
             return chebyshevOpenness(value, box.mean(), box.variance());
         case OcclusionMethod::DrawnIn:
-            return drawnInOpenness(value, box.low, box.high, box.mean(), box.variance());
+            return drawnInOpenness(value, box.low, box.high, box.mean(), box.variance(), estimate.deviations);
         default:
-            return reconstructedOpenness(value, box.low, box.high, box.mean());
+            return reconstructedOpenness(value, box.low, box.high, box.mean(), estimate.beta);
     }
 }
 

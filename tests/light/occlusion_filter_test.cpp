@@ -73,6 +73,36 @@ TEST(OcclusionFilter, IsWhatWholeBoxesSay) {
     }
 }
 
+TEST(OcclusionFilter, GivenExponentsAndDeviationsCount) {
+    const GreyVolume volume = noise({37, 11, 13}, 12, -1000, 3000);
+    const glm::ivec3 radius(4, 3, 5);
+    Progress progress;
+    for (const OcclusionMethod method : {OcclusionMethod::Reconstructed, OcclusionMethod::DrawnIn})
+        for (const double number : {1.0, 1.7, 6.0, 10.0}) {
+            OcclusionEstimate given(method);
+            (method == OcclusionMethod::DrawnIn ? given.deviations : given.beta) = number;
+            const OpennessVolume openness = estimateOpenness(volume, given, radius, progress);
+            double worst = 0;
+            for (int k = 0; k < 13; ++k)
+                for (int j = 0; j < 11; ++j)
+                    for (int i = 0; i < 37; ++i)
+                        worst = std::max(worst, bytesAway(openness.at(i, j, k),
+                                                          opennessOf(boxAt(volume, {i, j, k}, radius),
+                                                                     volume.at(i, j, k), given)));
+            EXPECT_LE(worst, kTolerance) << static_cast<int>(method) << " " << number;
+        }
+    const auto refused = [&](OcclusionMethod method, double beta, double deviations) {
+        OcclusionEstimate wrong(method);
+        wrong.beta = beta;
+        wrong.deviations = deviations;
+        EXPECT_THROW(estimateOpenness(volume, wrong, radius, progress), Error) << beta << " " << deviations;
+    };
+    for (const double beta : {-1.0, 0.001, 1000.0, std::nan("")})
+        refused(OcclusionMethod::Reconstructed, beta, 3);
+    for (const double deviations : {0.0, 0.5, 11.0, std::nan("")})
+        refused(OcclusionMethod::DrawnIn, 0, deviations);
+}
+
 TEST(OcclusionFilter, RadiiBeyondTheVolumeTakeAllOfIt) {
     expectLikeBrute(noise({19, 7, 11}, 3, 0, 255), glm::ivec3(64), "radius 64");
     expectLikeBrute(noise({33, 5, 4}, 4, 0, 255), glm::ivec3(12, 64, 1), "radius 12 64 1");

@@ -1,14 +1,14 @@
-// What openness is used for: opacity modulation by variance and by its gradient, and ambient light; and the
-// estimates on volumes whose boxes are known in closed form.
+// What openness is used for: opacity modulation by variance and by its gradient; and the estimates on volumes
+// whose boxes are known in closed form.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/mat4x4.hpp>
+#include <limits>
 #include <random>
 
 #include "engine/base/error.h"
-#include "engine/light/occlusion_light.h"
 #include "occlusion_brute.h"
 
 namespace stereonav {
@@ -169,64 +169,30 @@ TEST(OcclusionUse, GradientModulationIsTheRegressionAtEveryVoxel) {
 
 TEST(OcclusionUse, RadiusInMetresMakesACubeInSpace) {
     VolumeFrame frame;
+    frame.size = {300, 300, 40};
     frame.spacing = {1e-3, 1e-3, 20e-3};
     EXPECT_EQ(occlusionRadius(frame, 10e-3), glm::ivec3(10, 10, 1));
     EXPECT_EQ(occlusionRadius(frame, 9e-3), glm::ivec3(9, 9, 0));
     EXPECT_EQ(occlusionRadius(frame, 1e-6), glm::ivec3(1, 1, 0));
-    EXPECT_EQ(occlusionRadius(frame, 1e6), glm::ivec3(64));
     EXPECT_THROW(occlusionRadius(frame, 0), Error);
 }
 
-TEST(OcclusionUse, AmbientLightIsKnownAroundTheShownSurfacesOnly) {
-    // A ball of radius 10 in 40^3; shown: values 400..500, a shell of one voxel.
-    const GreyVolume volume = fill({40, 40, 40}, [](const glm::ivec3& v) {
-        return std::lround(100 * (14 - glm::length(glm::dvec3(v) - 19.5)));
-    });
-    const OpennessVolume openness = estimate(volume, OcclusionMethod::Gaussian, 4);
-    const IlluminationVolume light = ambientLight(volume, openness, 400, 500);
-    int known = 0;
-    for (int k = 0; k < 40; ++k)
-        for (int j = 0; j < 40; ++j)
-            for (int i = 0; i < 40; ++i) {
-                bool touched = false;
-                for (int n = 0; n < 8; ++n) {
-                    const glm::ivec3 cell = glm::ivec3(i, j, k) - glm::ivec3(n & 1, n >> 1 & 1, n >> 2);
-                    int low = 40000, high = -40000;
-                    if (!volume.frame.contains(cell) || !volume.frame.contains(cell + 1)) continue;
-                    for (int m = 0; m < 8; ++m) {
-                        const int v = volume.at(cell + glm::ivec3(m & 1, m >> 1 & 1, m >> 2));
-                        low = std::min(low, v);
-                        high = std::max(high, v);
-                    }
-                    touched |= low <= 500 && high >= 400;
-                }
-                const PackedTexel texel = light.texels[light.layout.index(i, j, k)];
-                ASSERT_EQ(texelWeight(texel), touched ? 1 : 0);
-                if (!touched) continue;
-                ++known;
-                const float share = std::min(2 * static_cast<float>(openness.at(i, j, k)) / 255, 1.0f);
-                ASSERT_NEAR(texelLight(texel).x, share, 0.0005);  // half floats: 2^-11 of it
-                ASSERT_EQ(texelLight(texel).x, texelLight(texel).z);
-            }
-    EXPECT_GT(known, 1000);
-    EXPECT_LT(known, 12000);
-    // All eight texels around a point of a shown surface are known.
-    const glm::dvec3 place = volume.frame.worldFromVoxel(glm::dvec3(19.5 + 9.5, 19.5, 19.3));
-    EXPECT_FLOAT_EQ(light.at(place).weight, 1);
-    EXPECT_GT(light.at(place).value.x, 0.5f);
-    EXPECT_EQ(light.at(volume.frame.worldFromVoxel(glm::dvec3(2, 2, 2))).weight, 0);
-}
-
-TEST(OcclusionUse, AmbientLightRefusesWhatDoesNotFit) {
-    const GreyVolume volume = fill({5, 5, 5}, [](const glm::ivec3& v) { return v.x; });
-    const OpennessVolume other(VolumeFrame{{5, 5, 6}, glm::dvec3(1e-3)});
-    EXPECT_THAT([&] { ambientLight(volume, other, 0, 1); },
-                testing::ThrowsMessage<Error>(testing::HasSubstr("expected openness of 5x5x5 voxels")));
-    const OpennessVolume same = estimate(volume, OcclusionMethod::Gaussian, 2);
-    EXPECT_THROW(ambientLight(volume, same, 0, 1, -1.0f), Error);
-    const GreyVolume line = fill({5, 1, 1}, [](const glm::ivec3& v) { return v.x; });
-    const IlluminationVolume none = ambientLight(line, estimate(line, OcclusionMethod::Gaussian, 2), 0, 9);
-    for (std::size_t n = 0; n < none.texels.size(); ++n) ASSERT_EQ(none.texels[n], 0u);
+TEST(OcclusionUse, ARadiusTooLargeIsRefusedAndNotCut) {
+    VolumeFrame frame;
+    frame.size = {300, 300, 40};
+    frame.spacing = {0.7e-3, 1e-3, 20e-3};
+    EXPECT_DOUBLE_EQ(largestOcclusionRadius(frame), 64 * 0.7e-3);
+    EXPECT_EQ(occlusionRadius(frame, 44.8e-3), glm::ivec3(64, 45, 2));
+    EXPECT_THAT([&] { occlusionRadius(frame, 44.9e-3); },
+                testing::ThrowsMessage<Error>(testing::AllOf(testing::HasSubstr("at most 44.8 mm"),
+                                                             testing::HasSubstr("64 voxels"),
+                                                             testing::HasSubstr("got 44.9"))));
+    // Along an axis of 65 voxels or less the largest box holds everything: nothing is cut off.
+    frame.size = {65, 30, 40};
+    EXPECT_EQ(largestOcclusionRadius(frame), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(occlusionRadius(frame, 1e6), glm::ivec3(64, 29, 39));
+    frame.size = {65, 66, 1};
+    EXPECT_DOUBLE_EQ(largestOcclusionRadius(frame), 64e-3);
 }
 
 }  // namespace

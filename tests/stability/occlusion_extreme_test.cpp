@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "engine/light/occlusion_light.h"
+#include "engine/light/occlusion.h"
 #include "engine/light/occlusion_rays.h"
 #include "tests/light/occlusion_brute.h"
 
