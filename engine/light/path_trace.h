@@ -125,14 +125,14 @@ struct EndCells {
     alignas(64) Row<std::int32_t> path, cell[3];
 };
 
-constexpr int kRaysAtOnce = 48;
+constexpr int kRaysAtOnce = 64;
 constexpr int kPackets = kRaysAtOnce / kLanes > 2 ? kRaysAtOnce / kLanes : 2;
 constexpr int kRefill = kLanes / 4 > 0 ? kLanes / 4 : 1;  // idle lanes that are worth filling
 // Whether corners are fetched before they are asked for. Sixteen lanes ask for so many at once that it costs
 // more than it saves.
 constexpr bool kFetchAhead = kLanes <= 8;
 // Walking lanes for each that waits, below which these do not wait any longer.
-constexpr int kWorthWaiting = 2;
+constexpr int kWorthWaiting = 1;
 
 // With `Places` also where in the volume rays end is wanted; without, and without `Limited`, only whether
 // they do.

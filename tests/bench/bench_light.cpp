@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "engine/base/error.h"
+#include "engine/math/simd_target.h"
 #include "tests/bench/bench_light_gain.h"
 #include "tests/bench/bench_light_lookup.h"
 #include "tests/bench/bench_light_occlusion.h"
@@ -113,7 +114,14 @@ void printGains(const Marks& marks) {
 
 enum class Part { All, Marks, Frames, Table };
 
+// Which kernels and how many threads the numbers below are of.
+void printMachine() {
+    std::printf("instruction_set %s\n", nameOf(availableTarget(SimdTarget::Auto)).data());
+    std::printf("threads %d\n", threadCount());
+}
+
 int run(Part part) {
+    printMachine();
     if (part == Part::Frames) {
         printLookup(measureLookup(lightSubject(), kOrder, 100), false);
         return 0;
