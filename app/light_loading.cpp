@@ -312,10 +312,12 @@ BakedLight loadBakedLight(const std::filesystem::path& file, const ColonScene& s
     BakedLight light;
     light.kind = read->sums.shape().kind;
     light.error = read->sums.error();
-    if (light.kind == BakeKind::Transfer)
+    if (light.kind == BakeKind::Transfer) {
         light.transfer = transferOf(read->sums);
-    else
-        light.irradiance = illuminationOf(read->sums);
+    } else {
+        if (light.kind == BakeKind::Irradiance) light.unit = lightUnitOf(read->sums);
+        light.irradiance = illuminationOf(read->sums, light.unit);
+    }
     return light;
 }
 

@@ -33,7 +33,8 @@ std::uint64_t contentOf(const ColonScene& scene, Progress& progress);
 // Baked light as it is shown: one of the two.
 struct BakedLight {
     BakeKind kind = BakeKind::Irradiance;
-    IlluminationVolume irradiance;  // and openness
+    IlluminationVolume irradiance;  // and openness; as shares of `unit`
+    float unit = 1;                 // of irradiance: lightUnitOf
     TransferVolume transfer;
     double error = 0;  // as estimated
 };

@@ -62,7 +62,10 @@ std::shared_ptr<ViewSky> applyBaked(const SceneOptions& options, ColonScene& sce
                         "leave it out");
         look.use = BakedLook::Use::Openness;
     } else {
-        look.exposure = exposureOf(options.volume, meanLight(*light));
+        // In double: light and exposure may be far from 1, their product is not.
+        const auto unit = static_cast<double>(baked.unit);
+        look.exposure = static_cast<float>(
+            static_cast<double>(exposureOf(options.volume, meanLight(*light) * unit)) * unit);
     }
     look.light = light;
     auto beyond = std::make_shared<IlluminationVolume>(lightBeyond(*light));

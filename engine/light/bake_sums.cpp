@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/math/half_float.h"
 #include "engine/math/luminance.h"
 
 namespace stereonav {
@@ -116,22 +117,40 @@ double BakeSums::error() const {
     return all.square > 0 ? std::sqrt(all.variance / all.square) : kUnknown;
 }
 
-void BakeSums::writeLight(std::size_t brick, IlluminationVolume& to) const {
+void BakeSums::writeLight(std::size_t brick, IlluminationVolume& to, float unit) const {
     const std::span<const TexelSum> sums = light(brick);
     PackedTexel* out = to.texels.data() + static_cast<std::size_t>(mBricks[brick].number) * 512;
     std::size_t slot = 0;
     for (int k = 0; k < 8; ++k)
         for (std::uint64_t word = mBricks[brick].wanted[k]; word != 0; word &= word - 1, ++slot) {
-            const PackedTexel texel = sums[slot].samples > 0 ? packTexel(sums[slot].mean, 1) : 0;
+            const PackedTexel texel = sums[slot].samples > 0 ? packTexel(sums[slot].mean / unit, 1) : 0;
             std::atomic_ref<PackedTexel>(out[k * 64 + std::countr_zero(word)])
                 .store(texel, std::memory_order_relaxed);
         }
 }
 
-IlluminationVolume illuminationOf(const BakeSums& sums) {
+IlluminationVolume illuminationOf(const BakeSums& sums, float unit) {
     IlluminationVolume volume(sums.frame());
-    parallelFor(static_cast<int>(sums.bricks().size()), [&](int n) { sums.writeLight(n, volume); });
+    parallelFor(static_cast<int>(sums.bricks().size()), [&](int n) { sums.writeLight(n, volume, unit); });
     return volume;
+}
+
+float lightUnitOf(const BakeSums& sums) {
+    // Halves lose digits below 2^-14; what is that much darker than the mean is black in any picture.
+    constexpr double kDimmest = 0x1p-7;
+    double sum = 0, count = 0, brightest = 0;
+    for (std::size_t n = 0; n < sums.bricks().size(); ++n)
+        for (const TexelSum& texel : sums.light(n)) {
+            if (!(texel.samples > 0)) continue;
+            const double most = std::max({texel.mean.x, texel.mean.y, texel.mean.z});
+            brightest = std::max(brightest, most);
+            sum += most;
+            ++count;
+        }
+    const double mean = count > 0 ? sum / count : 0;
+    const bool held = brightest <= static_cast<double>(kLargestHalf) && mean >= kDimmest;
+    if (held || !(mean >= 0x1p-100 && mean <= 0x1p100)) return 1;
+    return static_cast<float>(std::exp2(std::round(std::log2(mean))));
 }
 
 TransferVolume transferOf(const BakeSums& sums) {

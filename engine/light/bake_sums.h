@@ -67,8 +67,9 @@ public:
     // The estimated relative RMSE over all texels; infinite while it can not be told; 0 for no light at all.
     double error() const;
 
-    // The brick's part of what is looked up: means with weight 1 where there is a surface, else nothing.
-    void writeLight(std::size_t brick, IlluminationVolume& to) const;
+    // The brick's part of what is looked up: means by `unit` with weight 1 where there is a surface, else
+    // nothing.
+    void writeLight(std::size_t brick, IlluminationVolume& to, float unit = 1) const;
 
 private:
     VolumeFrame mFrame;
@@ -81,8 +82,11 @@ private:
     LazyArray<std::uint8_t> mAlive;
 };
 
-// Irradiance and openness.
-IlluminationVolume illuminationOf(const BakeSums& sums);
+// Irradiance and openness, as shares of `unit`.
+IlluminationVolume illuminationOf(const BakeSums& sums, float unit = 1);
+// A unit by which half floats hold the light: 1 where they hold it as it is, else a power of two near its
+// mean.
+float lightUnitOf(const BakeSums& sums);
 // Transfer, without the texels that lie on no surface.
 TransferVolume transferOf(const BakeSums& sums);
 

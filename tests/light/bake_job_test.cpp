@@ -380,6 +380,29 @@ TEST(BakeSums, BecomeWhatIsLookedUp) {
     EXPECT_EQ(inVolume, known);
 }
 
+// Light in other units, of a sky in candela a square metre or one of nearly nothing, keeps its contrast.
+TEST(BakeSums, HoldLightOfAnyUnit) {
+    BakeSums sums = emptySums(BakeKind::Openness);
+    bake(sums, {64, 0, 0});
+    EXPECT_EQ(lightUnitOf(sums), 1) << "as it is";
+    const IlluminationVolume once = illuminationOf(sums);
+    for (const float factor : {0x1p40f, 0x1p-40f}) {
+        BakeSums scaled = emptySums(BakeKind::Openness);
+        bake(scaled, {64, 0, 0});
+        for (std::size_t n = 0; n < scaled.bricks().size(); ++n)
+            for (TexelSum& texel : scaled.light(n)) texel.mean *= factor;
+        const float unit = lightUnitOf(scaled);
+        const IlluminationVolume light = illuminationOf(scaled, unit);
+        for (std::size_t n = 0; n < light.layout.count(); ++n) {
+            ASSERT_EQ(texelWeight(light.texels[n]), texelWeight(once.texels[n]));
+            const float wanted = texelLight(once.texels[n]).x,
+                        found = texelLight(light.texels[n]).x * (unit / factor);
+            ASSERT_NEAR(found, wanted, 2e-3f * wanted);
+        }
+    }
+    EXPECT_EQ(lightUnitOf(emptySums(BakeKind::Openness)), 1) << "nothing is known";
+}
+
 TEST(BakeSums, BecomeTransferWithoutWhatLiesOnNoSurface) {
     BakeSums sums = emptySums(BakeKind::Transfer, 3);
     bake(sums, {100, 0, 0});
