@@ -25,10 +25,9 @@ struct EyeImage {
     // Metres along the viewing axis (not along the ray); kMissDepth where the ray hit nothing;
     // 0 where nothing is known yet (a hole in a warped image).
     Plane<float> viewDepth;
-    // Only with view-dependent shading, else empty. Highlight: colour without what depends on the view
-    // (highlights, and fog where there is some), and the unit world normal (octahedral, see packed_normal.h).
-    // Normal: only the normal, as three channels like a colour's (10 bits each, x lowest, 0..1023 for -1..1),
-    // so that it is resampled like one.
+    // Only with view-dependent shading, else empty. Highlight: colour without the view-dependent part, and
+    // the unit world normal (octahedral, see packed_normal.h). Normal: only the normal, as three channels
+    // like a colour's (10 bits each, x lowest, 0..1023 for -1..1), so that it is resampled like one.
     Plane<PackedColor> baseColor;
     Plane<std::uint32_t> normal;
     // Only with Depths: how far behind viewDepth a pixel's light comes from, in metres: the root of the mean

@@ -14,12 +14,13 @@ protected:
         setenv("XDG_CACHE_HOME", (mFolder / "cache").c_str(), 1);
     }
 
-    // A picture of the ground: its western half red, its eastern green.
+    // A picture of the ground: its western half red, its eastern green. A bitmap of 32x24.
     std::string photo() const {
-        std::string ppm = "P6 32 24 255\n";
+        std::string bmp("BM\x36\x09\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x20\0\0\0\x18\0\0\0\x01\0\x18\0", 30);
+        bmp += std::string(24, '\0');
         for (int n = 0; n < 32 * 24; ++n)
-            ppm += n % 32 < 16 ? std::string("\xff\0\0", 3) : std::string("\0\xff\0", 3);
-        return input("photo.ppm", ppm);
+            bmp += n % 32 < 16 ? std::string("\0\0\xff", 3) : std::string("\0\xff\0", 3);
+        return input("photo.bmp", bmp);
     }
     std::string scene(const std::string& name, const std::string& more) const {
         hills();
@@ -56,7 +57,7 @@ protected:
 TEST_F(TerrainOptions, TheSunOverAPhotoIsRefusedWithTheWayOut) {
     const std::string ground = hills(), picture = photo();
     refused(ground, {"--image", picture, "--sun", "90,10"}, {"--sun", "--shade-image", "--light", "bake"});
-    refused(scene("photo.toml", "[color]\nimage = \"photo.ppm\"\n"), {"--sun", "90,10"},
+    refused(scene("photo.toml", "[color]\nimage = \"photo.bmp\"\n"), {"--sun", "90,10"},
             {"--sun", "--shade-image"});
     // The way out.
     const std::string east = bytes(ground, {"--image", picture, "--shade-image", "--sun", "90,10"});
@@ -78,7 +79,7 @@ TEST_F(TerrainOptions, TheSunTurnsWhateverItFallsOn) {
     turns(hills(), {}, "tint");
     turns(input("small.toml", "[terrain]\nbuiltin = true\nsize = 65\n"), {"--pose", "0,0,9000,0,-60,0"},
           "built in");
-    turns(scene("glossy.toml", "[color]\nimage = \"photo.ppm\"\n[look]\nspecular = 0.8\nshininess = 3\n"), {},
+    turns(scene("glossy.toml", "[color]\nimage = \"photo.bmp\"\n[look]\nspecular = 0.8\nshininess = 3\n"), {},
           "highlights");
     turns(hills(), {"--image", photo(), "--medium", "ground", "--slices", "60", "--light-size", "32"},
           "medium");
