@@ -31,7 +31,8 @@ struct PairComparisonSetting {
 // Medians over the frames, in the order of the methods. Of MethodFigures: left_ms is one eye alone, right_ms
 // what the other costs on top of it; warp_ms and fill_ms are the splat of depths and the sweep after it;
 // hole_percent are rays without a known start. Errors are those of both eyes together, against two sweeps;
-// there is no finer truth and no warp: true_psnr_db, holesOfWarped_percent and surface_psnr_db are NaN. Throws Error without poses or methods; Cancelled.
+// there is no finer truth and no warp: true_psnr_db, holesOfWarped_percent and surface_psnr_db are NaN.
+// Throws Error without poses or methods; Cancelled.
 std::vector<MethodFigures> comparePairs(PairRenderer& renderer, const std::vector<TimedPose>& poses,
                                         const Lens& lens, const StereoSetting& stereo,
                                         const PairComparisonSetting& setting, Progress& progress,

@@ -48,7 +48,9 @@ struct ReportTable {
     std::string title, text;
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows;
-    int joined = 0;  // last columns whose equal cells one below the other are drawn as one
+    // Of each row, or none at all: what is said below it, once for rows that share it. Such rows' first cells
+    // are drawn once where they are equal, too.
+    std::vector<std::string> notes = {};
 };
 struct ReportPicture {
     std::string title;

@@ -24,7 +24,7 @@ grid-auto-flow:dense;gap:16px}
 nav a{display:inline-block;margin-right:1em}
 .scroll{overflow-x:auto}table{border-collapse:collapse;font-size:.85rem;font-variant-numeric:tabular-nums}
 th,td{padding:2px 8px 2px 0;text-align:left;vertical-align:top;border-bottom:1px solid var(--line);white-space:nowrap}
-td.words{white-space:normal;min-width:14em}tr.default td:first-child{color:var(--accent);font-weight:600}
+td.words{white-space:normal;min-width:14em}td.note{white-space:normal;color:var(--soft);padding-bottom:.8em}tr.default td:first-child{color:var(--accent);font-weight:600}
 details summary{cursor:pointer;color:var(--soft)}
 figure{margin:0}figure img{width:100%;height:auto;display:block}figcaption{font-size:.85rem;color:var(--soft)}
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,250px),1fr));gap:8px}
@@ -51,35 +51,28 @@ std::string heading(const std::string& title) {
 }
 
 // Cells of many letters may be broken into lines.
-std::string cell(const std::string& text, const char* element, int rows = 1) {
+std::string cell(const std::string& text, const char* element) {
     constexpr std::size_t kLongCell = 36;
     const char* kind = text.size() > kLongCell ? " class=\"words\"" : text == "FAIL" ? " class=\"fail\"" : "";
-    const std::string span = rows > 1 ? fmt::format(" rowspan=\"{}\"", rows) : "";
-    return fmt::format("<{0}{1}{2}>{3}</{0}>", element, kind, span, escapedXml(text));
-}
-
-// Rows from `row` on with the same text in a column.
-int equalCells(const std::vector<std::vector<std::string>>& rows, std::size_t row, std::size_t column) {
-    std::size_t end = row + 1;
-    while (end < rows.size() && rows[end][column] == rows[row][column]) ++end;
-    return static_cast<int>(end - row);
+    return fmt::format("<{0}{1}>{2}</{0}>", element, kind, escapedXml(text));
 }
 
 std::string tableOf(const std::vector<std::string>& columns,
                     const std::vector<std::vector<std::string>>& rows, const std::vector<bool>& marked = {},
-                    int joined = 0) {
+                    const std::vector<std::string>& notes = {}) {
     std::string html = "<div class=\"scroll\"><table><thead><tr>";
     for (const std::string& column : columns) html += cell(column, "th");
     html += "</tr></thead><tbody>\n";
     for (std::size_t n = 0; n < rows.size(); ++n) {
         html += n < marked.size() && marked[n] ? "<tr class=\"default\">" : "<tr>";
-        const std::size_t firstJoined = columns.size() - static_cast<std::size_t>(joined);
-        for (std::size_t c = 0; c < rows[n].size(); ++c) {
-            const bool joins = c >= firstJoined;
-            if (joins && n > 0 && rows[n - 1][c] == rows[n][c]) continue;
-            html += cell(rows[n][c], "td", joins ? equalCells(rows, n, c) : 1);
-        }
+        const bool goesOn =
+            n > 0 && n < notes.size() && notes[n] == notes[n - 1] && rows[n][0] == rows[n - 1][0];
+        for (std::size_t c = 0; c < rows[n].size(); ++c)
+            html += cell(c == 0 && goesOn ? "" : rows[n][c], "td");
         html += "</tr>\n";
+        if (n < notes.size() && (n + 1 == rows.size() || notes[n + 1] != notes[n]))
+            html += fmt::format("<tr><td class=\"note\" colspan=\"{}\">{}</td></tr>\n", columns.size(),
+                                escapedXml(notes[n]));
     }
     return html + "</tbody></table></div>\n";
 }
@@ -145,7 +138,7 @@ std::string blockOf(const LineChart& chart) {
 
 std::string blockOf(const ReportTable& table) {
     return "<div class=\"card wide\">" + heading(table.title) + paragraph(table.text, "soft") +
-           tableOf(table.columns, table.rows, {}, table.joined) + "</div>\n";
+           tableOf(table.columns, table.rows, {}, table.notes) + "</div>\n";
 }
 
 std::string blockOf(const ReportPictures& pictures) {

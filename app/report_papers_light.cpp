@@ -44,10 +44,12 @@ PaperRow rowOf(const char* table, const std::string& row, const std::string& col
     return r;
 }
 
+// How much was run, and what it would be on a machine that does nothing else.
 std::string rateText(const BakeRate& rate) {
-    return rate.part >= 1 ? "run to its end"
-                          : fmt::format("rate of {:.2g} s on {} %, scaled", rate.all_s * rate.part,
-                                        numberText(100 * rate.part));
+    return (rate.part >= 1 ? "run to its end"
+                           : fmt::format("rate of {:.2g} s on {} %, scaled", rate.all_s * rate.part,
+                                         numberText(100 * rate.part))) +
+           fmt::format("; {} min of one processor", numberText(rate.processor_s / 60));
 }
 
 class Table1 {

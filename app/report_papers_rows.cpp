@@ -40,17 +40,14 @@ ReportTable tableOf(const std::vector<PaperRow>& rows, const TableName& name) {
     ReportTable table{
         name.first + ", " + name.second, "", {"", "", "the paper", "ours", "unit", "ours / theirs"}, {}};
     if (rates) table.columns.emplace_back("how");
-    for (const char* column : {"measured on", "why it differs"}) table.columns.emplace_back(column);
-    table.joined = 2;
     for (const PaperRow& row : rows) {
         if (nameOf(row) != name) continue;
         const auto ratio = ratioToTheirs(row);
         std::vector<std::string> cells{row.row,       row.column, theirsText(row),
                                        oursText(row), row.unit,   ratio ? numberText(*ratio) : ""};
         if (rates) cells.push_back(row.how);
-        cells.push_back(row.measured);
-        cells.push_back(row.why);
         table.rows.push_back(std::move(cells));
+        table.notes.push_back(fmt::format("Measured on: {}. Why it differs: {}", row.measured, row.why));
     }
     return table;
 }

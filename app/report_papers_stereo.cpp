@@ -133,11 +133,12 @@ private:
             {"fill gap between [C, P_s]: left-end gap", mAsThere.leftEnd}};
         for (const auto& [name, pixels] : gaps)
             add("Table 1", name, "share of the holes", exactly(100 * pixels / holes), "%",
-                "Table 1 lists the algorithm and has no figures. There the head is the left eye; here it "
-                "lies "
-                "midway, and what only the right eye sees is at the left end where it lies beyond zero "
-                "parallax.")
-                .said = "no figure";
+                "Table 1 lists the algorithm and has no figures. Here the head lies midway between the eyes, "
+                "there "
+                "it is the left eye: what lies nearer than zero parallax opens the right end, what lies "
+                "beyond it "
+                "the left one.")
+                .said = pixels == mAsThere.rightEnd ? "most, in a few columns (section 3.3)" : "no figure";
     }
 
     void addTimes() {

@@ -73,6 +73,10 @@ TEST_F(Report, ChartsTheDialSmallerPicturesAndFilters) {
     }
     EXPECT_GT(of.at("filtering/terrain/bilinear alone/error"),
               of.at("filtering/terrain/bilinear, 4 rays/error"));
+    EXPECT_EQ(of.at("casting/normals/at the place/error"), 0) << "what the others are held against";
+    EXPECT_GT(of.at("casting/normals/corners/error"), 0);
+    EXPECT_LT(of.at("casting/normals/corners/error"), of.at("casting/normals/nearest corner/error"));
+    EXPECT_LT(of.at("casting/normals/corners/error"), of.at("casting/normals/trilinear gradient/error"));
 }
 
 TEST_F(Report, HasAScenesOwnChartAndAFullCastWithoutError) {
@@ -102,6 +106,13 @@ TEST_F(Report, MeasuresANamedMediumInStereoAndABuiltInSceneOnce) {
          {"pair/wax/sweep/time", "pair/wax/own-samples/error", "pair/wax/two-sweeps/error",
           "pair/wax/depthsplat/error", "pair-separation/wax/1/8/error", "scene/terrain/loading"})
         EXPECT_TRUE(ids.contains(id)) << id;
+    for (const char* id : {"medium/wax/shading width/0/error", "medium/wax/shading width/1/time"})
+        EXPECT_TRUE(ids.contains(id)) << id;
+    for (const Json& figure : json.at("figures")) {
+        if (figure.at("id") == "medium/wax/shading width/0/error") {
+            EXPECT_EQ(figure.at("median"), 0.0) << "shaded at each sample";
+        }
+    }
     EXPECT_FALSE(ids.contains("scene/terrain 2/loading"));
     EXPECT_FALSE(ids.contains("pair/wax 2/sweep/time"));
 }
@@ -125,6 +136,8 @@ TEST_F(Report, HoldsBakedLightAgainstPathsFromEveryPixel) {
     };
     expectFalling("light/pixels/", {"traced 1", "traced 4", "traced 16", "traced 64"});
     expectFalling("light/pixels/", {"baked 16", "baked 64", "baked 256"});
+    expectFalling("light/terrain/", {"openness alone", "stride 4", "as it is"});
+    expectFalling("light/terrain/", {"bounces 0", "as it is"});
     expectFalling("light/pixels/", {"transfer 256", "baked 1/8", "baked 256", "baked 8"});
     expectFalling("light/lookup/", {"nearest", "tricubic", "trilinear"});
     expectFalling("light/lookup/", {"nearest isovalue", "trilinear", "trilinear, 8"});

@@ -102,12 +102,17 @@ TEST(PaperRows, HowIsAColumnWhereSomethingIsARate) {
     EXPECT_EQ(rates.rows[1][6], "rate of 5 s on 1.2 %, scaled");
 }
 
-TEST(PaperRows, EqualCellsOfThePageAreOne) {
-    const std::string page = pageOf(reportOf(someRows()));
+TEST(PaperRows, ThePageSaysOnceWhyRowsDiffer) {
+    std::vector<PaperRow> rows = someRows();
+    rows[3].why = "another reason";
+    const std::string page = pageOf(reportOf(rows));
     EXPECT_EQ(test::xmlProblem(page), "");
-    // two tables of two rows each: one cell each for what was measured on, and one for why
-    EXPECT_EQ(countOf(page, "rowspan=\"2\""), 4u);
+    // two rows of one table share it, those of the other do not
     EXPECT_EQ(countOf(page, "because &lt;of&gt; &quot;this&quot;"), 2u);
+    EXPECT_EQ(countOf(page, "another reason"), 1u);
+    EXPECT_EQ(countOf(page, "Measured on: a scene. Why it differs: "), 3u);
+    EXPECT_EQ(countOf(page, "<td>left</td>"), 1u) << "named once for both columns";
+    EXPECT_EQ(countOf(page, "<td>noise</td>"), 2u) << "named again below a note";
     EXPECT_THAT(page, HasSubstr("this machine runs 2 threads"));
 }
 
