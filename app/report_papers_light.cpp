@@ -18,7 +18,7 @@ namespace stereonav {
 namespace {
 
 constexpr const char* kPaper = "Wyman et al. 2006";
-constexpr std::array<int, 4> kSamples{100, 625, 2500, 10000};
+constexpr std::array<int, 4> kPaperSamples{100, 625, 2500, 10000};
 
 struct Table1Row {
     const char* name;
@@ -70,12 +70,12 @@ public:
     }
 
     void add(std::vector<PaperRow>& rows, double seconds) {
-        const double each = seconds / static_cast<double>(kSamples.size() * std::size(kTable1));
+        const double each = seconds / static_cast<double>(kPaperSamples.size() * std::size(kTable1));
         for (const Table1Row& theirs : kTable1)
-            for (std::size_t s = 0; s < kSamples.size(); ++s) {
-                mRun.tell(fmt::format("light, {}, {} samples", theirs.name, kSamples[s]));
-                const auto [rate, before_s] = rateOf(&theirs - kTable1, kSamples[s], each);
-                PaperRow row = rowOf("Table 1", theirs.name, fmt::format("{} samples", kSamples[s]));
+            for (std::size_t s = 0; s < kPaperSamples.size(); ++s) {
+                mRun.tell(fmt::format("light, {}, {} samples", theirs.name, kPaperSamples[s]));
+                const auto [rate, before_s] = rateOf(&theirs - kTable1, kPaperSamples[s], each);
+                PaperRow row = rowOf("Table 1", theirs.name, fmt::format("{} samples", kPaperSamples[s]));
                 row.theirs = theirs.minutes[s];
                 row.ours = exactly((before_s + rate.all_s) / 60);
                 row.unit = "min";
@@ -196,7 +196,7 @@ void addNoise(ReportRun& run, const PaperEngine& engine, const EngineView& view,
             return light;
         };
     };
-    const double each = seconds / static_cast<double>(3 * kSamples.size());
+    const double each = seconds / static_cast<double>(3 * kPaperSamples.size());
     const auto add = [&](const char* name, const char* said, int samples, const LightOf& light) {
         run.tell(fmt::format("light, noise of {} samples", samples));
         const NoiseSums sums = noiseOf(seen.texels, each, light);
@@ -213,11 +213,11 @@ void addNoise(ReportRun& run, const PaperEngine& engine, const EngineView& view,
         row.kind = PaperRow::Kind::Other;  // depends on the texels that there was time for
         rows.push_back(std::move(row));
     };
-    for (const int samples : kSamples)
+    for (const int samples : kPaperSamples)
         add("Spherical harmonics", "converge faster than irradiance", samples, harmonics(samples));
-    for (const int samples : kSamples)
+    for (const int samples : kPaperSamples)
         add("Irradiance", "100 samples often suffice", samples, irradiance(own, samples));
-    for (const int samples : kSamples)
+    for (const int samples : kPaperSamples)
         add("Irradiance, naive sampling as theirs", "10,000 often unnecessary", samples,
             irradiance(naive, samples));
 }

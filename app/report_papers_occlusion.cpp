@@ -13,12 +13,15 @@
 #include "colon/isosurface_scene.h"
 #include "engine/base/parallel.h"
 #include "engine/image/image_file.h"
-#include "engine/light/occlusion_light.h"
 #include "engine/light/occlusion_rays.h"
 #include "engine/volume/volume_renderer.h"
 
 namespace stereonav {
 namespace {
+
+// k of eq. 5 for undirected estimates: half of what surrounds a flat wall is the wall, which is fully lit
+// with it.
+constexpr float kFlatWallGain = 2;
 
 constexpr const char* kPaper = "Ruiz et al. 2010";
 constexpr int kTruthDirections = 256;
@@ -140,11 +143,12 @@ public:
     // C = k O C_TF (eq. 5), or the colour alone.
     ReportPicture picture(const std::string& title, const Method* method, const OpennessVolume* openness) {
         mRun.tell("occlusion, pictures");
-        BakedLook& baked = mScene.volume.look.baked;
-        baked = {};
-        if (method)
-            baked.light = std::make_shared<IlluminationVolume>(
-                ambientLight(field(), *openness, isovalueShown(), isovalueShown(), gainOf(*method)));
+        AmbientLook& ambient = mScene.volume.look.occlusion;
+        ambient = {};
+        if (method) {
+            ambient.openness = std::make_shared<const OpennessVolume>(*openness);
+            ambient.strength = gainOf(*method);
+        }
         Lens lens = mScene.lens;
         lens.width = lens.height = mRun.quick() ? 64 : 240;
         const EyeView view = makeEyeView(mScene.startPose, lens);
@@ -152,7 +156,7 @@ public:
         EyeImage image;
         image.resize(view.width, view.height, renderer.viewDependence());
         renderEye(renderer, view, image);
-        baked = {};
+        ambient = {};
         double sum = 0;
         long long count = 0;
         for (int y = 0; y < image.height(); ++y)

@@ -85,7 +85,7 @@ struct SkySubject {
 
 // What lies beyond the texels that are known follows them, once all of them are lit.
 TEST(ViewSky, LightBeyondTurnsToo) {
-    const Subject by;
+    const SkySubject by;
     auto beyond = std::make_shared<IlluminationVolume>(lightBeyond(*by.light));
     const IlluminationVolume before = lightBeyond(*by.light);
     ViewSky sky(wall(), by.straight, by.light, {}, beyond);

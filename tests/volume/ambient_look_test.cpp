@@ -29,8 +29,8 @@ std::shared_ptr<Volume<std::uint8_t>> randomBytes(const VolumeFrame& frame, unsi
     return bytes;
 }
 
-// A ball of radius 7 voxels that is dense at its middle; opaque at 0, or showing all values above -1.
-VolumeScene ball(bool translucent) {
+// A ambientBall of radius 7 voxels that is dense at its middle; opaque at 0, or showing all values above -1.
+VolumeScene ambientBall(bool translucent) {
     const VolumeFrame frame = slantedFrame({26, 22, 24}, {0.8e-3, 0.7e-3, 0.9e-3});
     VolumeScene scene;
     scene.field = greyVolume(
@@ -50,7 +50,7 @@ VolumeScene ball(bool translucent) {
     return scene;
 }
 
-EyeView viewOf(const VolumeFrame& frame, const glm::dvec3& voxel) {
+EyeView ambientViewOf(const VolumeFrame& frame, const glm::dvec3& voxel) {
     Pose pose;
     pose.position = frame.worldFromVoxel(voxel);
     const glm::dvec3 forward = glm::normalize(frame.worldFromVoxel({12, 11, 12}) - pose.position);
@@ -64,19 +64,11 @@ EyeView viewOf(const VolumeFrame& frame, const glm::dvec3& voxel) {
     return makeEyeView(pose, lens);
 }
 
-EyeImage cast(const VolumeRenderer& renderer, const EyeView& view) {
+EyeImage castAmbient(const VolumeRenderer& renderer, const EyeView& view) {
     EyeImage image;
     image.resize(view.width, view.height, renderer.viewDependence());
     renderEye(renderer, view, image);
     return image;
-}
-
-int largestDifference(PackedColor a, PackedColor b) {
-    int largest = 0;
-    for (const int shift : {0, 10, 20})
-        largest = std::max(
-            largest, std::abs(static_cast<int>(a >> shift & 1023u) - static_cast<int>(b >> shift & 1023u)));
-    return largest;
 }
 
 // body(x, y, depth, voxel) for all pixels that show something; gives their number.
@@ -94,39 +86,39 @@ int forHits(const EyeImage& image, const EyeView& view, const VolumeFrame& frame
 }
 
 TEST(AmbientLook, AnEvenOpennessIsTheFormulaItself) {
-    VolumeScene scene = ball(false);
+    VolumeScene scene = ambientBall(false);
     const auto open = std::make_shared<Volume<std::uint8_t>>(scene.field.frame);
     std::fill_n(open->values.data(), open->values.size(), std::uint8_t{102});  // 0.4
     scene.look.occlusion.openness = open;
     scene.look.occlusion.strength = 1.5f;
-    const EyeView view = viewOf(scene.field.frame, {12, -18, 14});
+    const EyeView view = ambientViewOf(scene.field.frame, {12, -18, 14});
     for (const SimdTarget target : simdTargets()) {
-        const EyeImage image = cast(VolumeRenderer(scene, {target}), view);
+        const EyeImage image = castAmbient(VolumeRenderer(scene, {target}), view);
         const int hits = forHits(image, view, scene.field.frame, [&](int x, int y, const glm::dvec3&) {
-            ASSERT_LE(largestDifference(image.color.at(x, y), packColor(0.6f * kSurface)), 1);
+            ASSERT_LE(channelDifference(image.color.at(x, y), packColor(0.6f * kSurface)), 1);
         });
         EXPECT_GT(hits, 300);
     }
 }
 
 TEST(AmbientLook, SurfacesAreAsThePlainFormHasThem) {
-    VolumeScene scene = ball(false);
+    VolumeScene scene = ambientBall(false);
     const VolumeFrame& frame = scene.field.frame;
     scene.look.occlusion.openness = randomBytes(frame, 3);
     scene.look.occlusion.strength = 0.8f;
     for (const float share : {0.0f, 0.3f}) {
         scene.look.occlusion.lampShare = share;
         for (const glm::dvec3 from : {glm::dvec3(12, -18, 14), glm::dvec3(-9, 3, 30)}) {
-            const EyeView view = viewOf(frame, from);
+            const EyeView view = ambientViewOf(frame, from);
             for (const SimdTarget target : simdTargets()) {
                 const VolumeRenderer renderer(scene, {target});
                 EXPECT_EQ(renderer.viewDependence(), ViewDependence::Normal);
-                EyeImage image = cast(renderer, view);
+                EyeImage image = castAmbient(renderer, view);
                 const int hits = forHits(image, view, frame, [&](int x, int y, const glm::dvec3& voxel) {
                     const glm::dvec3 wanted =
                         lightPlain(scene.look, frame, voxel, plainNormal(scene.field, voxel), view.head,
                                    view.eye, glm::dvec3(kSurface));
-                    ASSERT_LE(largestDifference(image.color.at(x, y), packColor(glm::vec3(wanted))),
+                    ASSERT_LE(channelDifference(image.color.at(x, y), packColor(glm::vec3(wanted))),
                               share > 0 ? 4 : 2)
                         << x << " " << y;
                 });
@@ -137,7 +129,7 @@ TEST(AmbientLook, SurfacesAreAsThePlainFormHasThem) {
                     std::fill_n(image.color.row(y), kWidth, PackedColor{0});
                     renderer.shadeAgain(view, y, 0, kWidth, image);
                     for (int x = 0; x < kWidth; ++x)
-                        ASSERT_LE(largestDifference(image.color.at(x, y), first.at(x, y)), 4);
+                        ASSERT_LE(channelDifference(image.color.at(x, y), first.at(x, y)), 4);
                 }
             }
         }
@@ -145,16 +137,16 @@ TEST(AmbientLook, SurfacesAreAsThePlainFormHasThem) {
 }
 
 TEST(AmbientLook, TranslucentVolumesAreLitWhereverTheyAreSeen) {
-    VolumeScene scene = ball(true);
+    VolumeScene scene = ambientBall(true);
     const VolumeFrame& frame = scene.field.frame;
     scene.look.specular = 0.3f;
     for (const float share : {0.0f, 0.4f})
         for (const bool modulated : {false, true}) {
             scene.look.occlusion = {randomBytes(frame, 5), 0.9f, share};
             scene.look.modulation = modulated ? randomBytes(frame, 6) : nullptr;
-            const EyeView view = viewOf(frame, {12, -18, 14});
+            const EyeView view = ambientViewOf(frame, {12, -18, 14});
             for (const SimdTarget target : simdTargets()) {
-                const EyeImage image = cast(VolumeRenderer(scene, {target}), view);
+                const EyeImage image = castAmbient(VolumeRenderer(scene, {target}), view);
                 long long sum = 0;
                 int seen = 0;
                 for (int y = 0; y < kHeight; ++y)
@@ -162,7 +154,7 @@ TEST(AmbientLook, TranslucentVolumesAreLitWhereverTheyAreSeen) {
                         const PlainComposite truth = compositePlain(
                             scene.field, scene.look, {view.eye, view.rayDirection(x + 0.5, y + 0.5), 0.0},
                             view.head, 0.5);
-                        const int off = largestDifference(
+                        const int off = channelDifference(
                             image.color.at(x, y),
                             packColor(glm::vec3(truth.color) +
                                       static_cast<float>(truth.left) * scene.look.background));
@@ -177,13 +169,13 @@ TEST(AmbientLook, TranslucentVolumesAreLitWhereverTheyAreSeen) {
 }
 
 TEST(AmbientLook, IsOfTheSameVolumeAndGivesWayToBakedLight) {
-    VolumeScene scene = ball(false);
+    VolumeScene scene = ambientBall(false);
     const VolumeFrame& frame = scene.field.frame;
-    const EyeView view = viewOf(frame, {12, -18, 14});
+    const EyeView view = ambientViewOf(frame, {12, -18, 14});
     scene.look.baked.light = std::make_shared<IlluminationVolume>(texelFrame(frame, 1));
-    const EyeImage baked = cast(VolumeRenderer(scene), view);
+    const EyeImage baked = castAmbient(VolumeRenderer(scene), view);
     scene.look.occlusion.openness = randomBytes(frame, 7);
-    const EyeImage both = cast(VolumeRenderer(scene), view);
+    const EyeImage both = castAmbient(VolumeRenderer(scene), view);
     forHits(both, view, frame,
             [&](int x, int y, const glm::dvec3&) { ASSERT_EQ(both.color.at(x, y), baked.color.at(x, y)); });
     scene.look.baked.light = nullptr;

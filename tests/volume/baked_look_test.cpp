@@ -64,19 +64,11 @@ EyeView viewOf(const VolumeFrame& frame, const glm::dvec3& voxel) {
     return makeEyeView(pose, lens);
 }
 
-EyeImage cast(const VolumeRenderer& renderer, const EyeView& view) {
+EyeImage castBaked(const VolumeRenderer& renderer, const EyeView& view) {
     EyeImage image;
     image.resize(view.width, view.height, renderer.viewDependence());
     renderEye(renderer, view, image);
     return image;
-}
-
-int largestDifference(PackedColor a, PackedColor b) {
-    int largest = 0;
-    for (const int shift : {0, 10, 20})
-        largest = std::max(
-            largest, std::abs(static_cast<int>(a >> shift & 1023u) - static_cast<int>(b >> shift & 1023u)));
-    return largest;
 }
 
 TEST(BakedLook, packetsLookUpAsTheScalarDoes) {
@@ -91,7 +83,7 @@ TEST(BakedLook, packetsLookUpAsTheScalarDoes) {
                 const VolumeRenderer renderer(scene, {target});
                 EXPECT_EQ(renderer.viewDependence(),
                           lookup == Lookup::Trilinear ? ViewDependence::Normal : ViewDependence::None);
-                const EyeImage image = cast(renderer, view);
+                const EyeImage image = castBaked(renderer, view);
                 int hits = 0;
                 for (int y = 0; y < view.height; ++y)
                     for (int x = 0; x < view.width; ++x) {
@@ -104,7 +96,7 @@ TEST(BakedLook, packetsLookUpAsTheScalarDoes) {
                                                : light.at(world, lookup);
                         if (!(found.weight > 1e-3)) continue;
                         ++hits;
-                        ASSERT_LE(largestDifference(image.color.at(x, y),
+                        ASSERT_LE(channelDifference(image.color.at(x, y),
                                                     packColor(scene.look.surface * found.value)),
                                   lookup == Lookup::Trilinear ? 2 : 1)
                             << perVoxel << " " << x << " " << y;
@@ -120,13 +112,13 @@ TEST(BakedLook, rowsLookUpAgainWhatWasCast) {
     const EyeView view = viewOf(scene.field.frame, {12, -18, 14});
     for (const SimdTarget target : simdTargets()) {
         const VolumeRenderer renderer(scene, {target});
-        EyeImage image = cast(renderer, view);
+        EyeImage image = castBaked(renderer, view);
         const Plane<PackedColor> wanted = image.color;
         for (int y = 0; y < view.height; ++y) {
             std::fill_n(image.color.row(y), view.width, PackedColor{0});
             renderer.shadeAgain(view, y, 0, view.width, image);
             for (int x = 0; x < view.width; ++x)
-                ASSERT_LE(largestDifference(image.color.at(x, y), wanted.at(x, y)), 4) << x << " " << y;
+                ASSERT_LE(channelDifference(image.color.at(x, y), wanted.at(x, y)), 4) << x << " " << y;
         }
     }
 }
@@ -134,12 +126,12 @@ TEST(BakedLook, rowsLookUpAgainWhatWasCast) {
 TEST(BakedLook, whereNothingIsKnownTheLampShows) {
     VolumeScene scene = balls();
     const EyeView view = viewOf(scene.field.frame, {12, -18, 14});
-    const EyeImage lamp = cast(VolumeRenderer(scene), view);
+    const EyeImage lamp = castBaked(VolumeRenderer(scene), view);
     scene.look.baked.light = std::make_shared<IlluminationVolume>(texelFrame(scene.field.frame, 1));
-    const EyeImage unknown = cast(VolumeRenderer(scene), view);
+    const EyeImage unknown = castBaked(VolumeRenderer(scene), view);
     scene.look.baked.light = randomLight(scene.field.frame, 1, 0);
     scene.look.baked.use = BakedLook::Use::Openness;
-    const EyeImage open = cast(VolumeRenderer(scene), view);
+    const EyeImage open = castBaked(VolumeRenderer(scene), view);
     int darker = 0, hits = 0;
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
@@ -162,10 +154,10 @@ TEST(HardShadow, fallsWhereThePlainCasterMeetsSomething) {
         scene.look.lampAt = scene.field.frame.worldFromVoxel(lampVoxel);
         const EyeView view = viewOf(scene.field.frame, {4, -18, 14});
         scene.look.shadows = false;
-        const EyeImage bright = cast(VolumeRenderer(scene), view);
+        const EyeImage bright = castBaked(VolumeRenderer(scene), view);
         scene.look.shadows = true;
         for (const SimdTarget target : simdTargets()) {
-            const EyeImage shaded = cast(VolumeRenderer(scene, {target}), view);
+            const EyeImage shaded = castBaked(VolumeRenderer(scene, {target}), view);
             int shadow = 0, lit = 0;
             for (int y = 0; y < view.height; ++y)
                 for (int x = 0; x < view.width; ++x) {
@@ -190,9 +182,9 @@ TEST(Fog, leavesOneOverEAtItsDistance) {
     VolumeScene scene = balls();
     scene.look.background = {0.0f, 0.0f, 1.0f};
     const EyeView view = viewOf(scene.field.frame, {12, -18, 14});
-    const EyeImage clear = cast(VolumeRenderer(scene), view);
+    const EyeImage clear = castBaked(VolumeRenderer(scene), view);
     scene.look.fog = 0.012f;
-    const EyeImage fog = cast(VolumeRenderer(scene), view);
+    const EyeImage fog = castBaked(VolumeRenderer(scene), view);
     int hits = 0;
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
@@ -202,7 +194,7 @@ TEST(Fog, leavesOneOverEAtItsDistance) {
             const double way = depth * glm::length(view.rayDirection(x + 0.5, y + 0.5));
             const glm::vec3 expected = glm::mix(scene.look.background, unpackColor(clear.color.at(x, y)),
                                                 static_cast<float>(std::exp(-way / 0.012)));
-            ASSERT_LE(largestDifference(fog.color.at(x, y), packColor(expected)), 2) << x << " " << y;
+            ASSERT_LE(channelDifference(fog.color.at(x, y), packColor(expected)), 2) << x << " " << y;
         }
     EXPECT_GT(hits, 300);
 }

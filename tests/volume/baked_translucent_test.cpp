@@ -91,14 +91,6 @@ glm::dvec3 plainPixel(const VolumeScene& scene, const EyeView& view, int x, int 
                            glm::dvec3(scene.look.surface));
 }
 
-int channelDifference(PackedColor a, PackedColor b) {
-    int worst = 0;
-    for (const int shift : {0, 10, 20})
-        worst = std::max(
-            worst, std::abs(static_cast<int>(a >> shift & 1023u) - static_cast<int>(b >> shift & 1023u)));
-    return worst;
-}
-
 EyeImage emptyImage(const VolumeRenderer& renderer, const EyeView& view) {
     EyeImage image;
     image.resize(view.width, view.height, renderer.viewDependence());

@@ -1,11 +1,14 @@
 // Small volumes and random numbers that the tests of volumes share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
 
+#include "engine/image/packed_color.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav::test {
@@ -53,5 +56,14 @@ public:
 private:
     std::mt19937 mEngine;
 };
+
+// The largest difference of packed channels, each 0..1023.
+inline int channelDifference(PackedColor a, PackedColor b) {
+    int worst = 0;
+    for (const int shift : {0, 10, 20})
+        worst = std::max(
+            worst, std::abs(static_cast<int>(a >> shift & 1023u) - static_cast<int>(b >> shift & 1023u)));
+    return worst;
+}
 
 }  // namespace stereonav::test

@@ -243,15 +243,6 @@ TEST(VolumeRenderer, ScatteredPixelsAreThoseOfThePicture) {
     }
 }
 
-// Differences of packed channels, each 0..1023.
-int channelDifference(PackedColor a, PackedColor b) {
-    int worst = 0;
-    for (int shift = 0; shift <= 20; shift += 10)
-        worst = std::max(
-            worst, std::abs(static_cast<int>(a >> shift & 1023u) - static_cast<int>(b >> shift & 1023u)));
-    return worst;
-}
-
 TEST(VolumeRenderer, ShadesAsThePlainShader) {
     for (const Case& c : cases()) {
         if (c.noise > 0) continue;
