@@ -211,15 +211,6 @@ void windowSquares(const std::int64_t* sums, std::uint64_t* prefix, double* __re
 
 // ---- along k
 
-STEREONAV_INLINE D loadD(const double* p) {
-    D d;
-    __builtin_memcpy(&d, p, sizeof d);
-    return d;
-}
-STEREONAV_INLINE void store(double* p, D d) {
-    __builtin_memcpy(p, &d, sizeof d);
-}
-
 // total += in - out; either may be null.
 void exchange(double* total, const std::int32_t* in, const std::int32_t* out, int n) {
     for (int i = 0; i < n; i += kLanes) {

@@ -310,6 +310,13 @@ struct D {
     STEREONAV_INLINE D(__m256d l, __m256d h) : low(l), high(h) {}
     STEREONAV_INLINE D(double x) : low(_mm256_set1_pd(x)), high(low) {}
 };
+STEREONAV_INLINE D loadD(const double* p) {
+    return {_mm256_loadu_pd(p), _mm256_loadu_pd(p + 4)};
+}
+STEREONAV_INLINE void store(double* p, D a) {
+    _mm256_storeu_pd(p, a.low);
+    _mm256_storeu_pd(p + 4, a.high);
+}
 STEREONAV_INLINE D operator+(D a, D b) {
     return {_mm256_add_pd(a.low, b.low), _mm256_add_pd(a.high, b.high)};
 }

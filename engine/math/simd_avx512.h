@@ -284,6 +284,13 @@ struct D {
     STEREONAV_INLINE D(__m512d l, __m512d h) : low(l), high(h) {}
     STEREONAV_INLINE D(double x) : low(_mm512_set1_pd(x)), high(low) {}
 };
+STEREONAV_INLINE D loadD(const double* p) {
+    return {_mm512_loadu_pd(p), _mm512_loadu_pd(p + 8)};
+}
+STEREONAV_INLINE void store(double* p, D a) {
+    _mm512_storeu_pd(p, a.low);
+    _mm512_storeu_pd(p + 8, a.high);
+}
 STEREONAV_INLINE D operator+(D a, D b) {
     return {_mm512_add_pd(a.low, b.low), _mm512_add_pd(a.high, b.high)};
 }

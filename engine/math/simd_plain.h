@@ -380,6 +380,16 @@ struct D {
     STEREONAV_INLINE D(DoublePairLanes l, DoublePairLanes h) : low(l), high(h) {}
     STEREONAV_INLINE D(double x) : low(DoublePairLanes{x, x}), high(low) {}
 };
+STEREONAV_INLINE D loadD(const double* p) {
+    D r;
+    std::memcpy(&r.low, p, sizeof r.low);
+    std::memcpy(&r.high, p + 2, sizeof r.high);
+    return r;
+}
+STEREONAV_INLINE void store(double* p, D a) {
+    std::memcpy(p, &a.low, sizeof a.low);
+    std::memcpy(p + 2, &a.high, sizeof a.high);
+}
 STEREONAV_INLINE D operator+(D a, D b) {
     return {a.low + b.low, a.high + b.high};
 }
