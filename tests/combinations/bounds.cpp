@@ -1,0 +1,36 @@
+#include "tests/combinations/bounds.h"
+
+namespace stereonav::test {
+
+bool isTimed(const Row& row) {
+    return levelOf(row, Factor::Quality) == "time";
+}
+
+// Kernels hold 10 bits of light, of normals and of places within cells: a step or two of a packed channel
+// each, as their own tests say (tests/volume, tests/terrain). Roundings that decide which cell a ray meets
+// first, or whether a shadow ray meets one, fall out differently on edges.
+Nearness betweenSets(const Row& row) {
+    if (levelOf(row, Factor::Light) == "traced") return {64, 0.05, 4.0};
+    return {4, 0.005, 0.5};
+}
+
+// A warped pixel lies between two of the left eye that are at most 1.4 of its own pixels apart, and a hole's
+// is cast: its colour is one that a full cast has within a pixel of it, but for light that is shaded again
+// from resampled normals. Translucent pixels are gathered from many depths: only selective and depthsplat
+// know about that.
+std::optional<Range> rangeOfRight(const Row& row) {
+    const std::string& method = levelOf(row, Factor::Method);
+    if (method == "mcmillan" || method == "nofill" || isTimed(row)) return std::nullopt;
+    const bool layers =
+        given(row, Factor::Opacity) && (method == "paper" || method == "linear" || method == "cubic");
+    if (layers) return std::nullopt;
+    return Range{1, 24, 0.02};
+}
+
+std::optional<Nearness> nearnessOfRight(const Row& row) {
+    const std::string& method = levelOf(row, Factor::Method);
+    if (method == "full" || method == "two-sweeps" || method == "own-samples") return Nearness{0, 0, 0};
+    return std::nullopt;
+}
+
+}  // namespace stereonav::test
