@@ -14,6 +14,17 @@ Nearness betweenSets(const Row& row) {
     return {4, 0.005, 0.5};
 }
 
+// Corner normals are kept to 10 bits and mixed with 15-bit weights, light of sweeps is kept in 15 bits: 6
+// steps, as in the tests of those kernels. Edges that one of the two just misses, and what casts a shadow
+// from less than a voxel away, may differ by all there is.
+Nearness besideOracle(const Row& row) {
+    const bool shadows = levelOf(row, Factor::Shading).ends_with("-shadows");
+    return {6, shadows ? 0.06 : 0.02, shadows ? 6.0 : 1.0};
+}
+bool isOfManyLayers(const Row& row) {
+    return isColon(row) && given(row, Factor::Opacity);
+}
+
 // A warped pixel lies between two of the left eye that are at most 1.4 of its own pixels apart, and a hole's
 // is cast: its colour is one that a full cast has within a pixel of it, but for light that is shaded again
 // from resampled normals. Translucent pixels are gathered from many depths: only selective and depthsplat

@@ -1,6 +1,8 @@
 #include "tests/combinations/drawing.h"
 
-#include "app/output_place.h"
+#include <cmath>
+
+#include "app/medium_renderer.h"
 #include "app/stereo_frame.h"
 
 namespace stereonav::test {
@@ -20,10 +22,29 @@ LoadedScene loaded(const RenderOptions& options) {
     return loadScene(options.scene, options.size, progress);
 }
 
+long long notFiniteIn(const MediumPicture& picture) {
+    long long count = 0;
+    for (int y = 0; y < picture.light.height(); ++y)
+        for (int x = 0; x < picture.light.width(); ++x) {
+            const glm::vec4& light = picture.light.at(x, y);
+            count += !std::isfinite(light.x + light.y + light.z + light.w);
+        }
+    return count;
+}
+
 }  // namespace
 
+// Sweeps elsewhere are asked for where a window is open; here what they are given is looked at.
 Drawing::Drawing(const RenderOptions& options, SimdTarget set)
-    : mOptions(withSet(options, set)), mScene(loaded(mOptions)) {}
+    : mOptions(withSet(options, set)), mScene(loaded(mOptions)) {
+    auto* medium = dynamic_cast<MediumRenderer*>(mScene.pair.get());
+    if (!medium) return;
+    medium->setSweep([this](const SweepTask& task, const std::function<void()>& cpu) {
+        cpu();
+        for (const MediumPicture& picture : task.pictures) mNotFinite += notFiniteIn(picture);
+        return false;
+    });
+}
 
 Eyes Drawing::eyes(const std::string& method) {
     Progress progress;
@@ -40,11 +61,13 @@ Eyes Drawing::eyes(const std::string& method) {
     return {frame.left(), frame.right()};
 }
 
+bool Drawing::sweepsTogether() const {
+    return mOptions.method == "auto" || mOptions.method == "sweep" || mOptions.method == "own-samples";
+}
+
 Eyes Drawing::inFull() {
     if (!mScene.pair) return eyes("full");
-    const bool together =
-        mOptions.method == "auto" || mOptions.method == "sweep" || mOptions.method == "own-samples";
-    return eyes(together ? "own-samples" : "two-sweeps");
+    return eyes(sweepsTogether() ? "own-samples" : "two-sweeps");
 }
 
 }  // namespace stereonav::test

@@ -18,6 +18,8 @@ class Drawing {
 public:
     // Loads with kernels of this instruction set. Throws Error for what render refuses.
     Drawing(const RenderOptions& options, SimdTarget set);
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
 
     // At the scene's start pose; method: a name, "" for the one that the options say. Light that is worked
     // out for what is seen is there.
@@ -26,11 +28,18 @@ public:
     // that the method has: one sweep for both eyes leans between them.
     Eyes inFull();
 
+    // Of a medium: whether the method has one sweep for both eyes.
+    bool sweepsTogether() const;
+
+    // What sweeps gave before it was packed: pixels of which a channel is no number, or infinite.
+    long long notFinite() const { return mNotFinite; }
+
     const LoadedScene& scene() const { return mScene; }
     StereoViews views() const { return mScene.viewsAt(mScene.startPose); }
 
 private:
     RenderOptions mOptions;
+    long long mNotFinite = 0;
     LoadedScene mScene;
 };
 

@@ -39,8 +39,7 @@ Isovalues isovaluesOf(const std::string& scene) {
 }
 
 constexpr const char* kGlassTransfer =
-    "reference_mm 4\n-400 0.2 0.3 0.8 0\n0 0.2 0.3 0.8 0.02\n0.4 0.4 0.6 0.9 0.1\n300 0.9 0.7 0.3 0.3\n900 1 "
-    "1 1 0.9\n";
+    "reference_mm 4\n-400 0.2 0.3 0.8 0\n0 0.4 0.6 0.9 0.03\n300 0.9 0.7 0.3 0.3\n900 1 1 1 0.9\n";
 constexpr const char* kPointsMedium =
     "reference_mm 10\nsurface gradient 1 80\n-700 0.9 0.8 0.7 0\n0 0.9 0.8 0.7 0\n0.3 0.8 0.6 0.5 0.3 "
     "transport 0.9 0.7 0.6 "

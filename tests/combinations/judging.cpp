@@ -72,6 +72,9 @@ std::string wrongNumbers(const EyeImage& image) {
     eachPixel(image, [&](int x, int y) {
         if (!(image.viewDepth.at(x, y) >= 0))
             wrong.add(x, y, fmt::format("depth {}", image.viewDepth.at(x, y)));
+        if (!image.depthSpread.empty() &&
+            !(image.depthSpread.at(x, y) >= 0 && std::isfinite(image.depthSpread.at(x, y))))
+            wrong.add(x, y, fmt::format("spread of depths {}", image.depthSpread.at(x, y)));
         if (image.color.at(x, y) >> 30) wrong.add(x, y, fmt::format("colour {:#x}", image.color.at(x, y)));
     });
     return wrong.text(image, 0, "hold no number");

@@ -10,7 +10,8 @@ namespace stereonav::test {
 
 // "" where all is well, else what is wrong and where.
 
-// Depths are numbers, 0 or more, or infinite; the two bits of a colour that hold nothing hold nothing.
+// Depths are numbers, 0 or more, or infinite, their spreads finite; the two bits of a colour that hold
+// nothing hold nothing.
 std::string wrongNumbers(const EyeImage& image);
 
 // Every bit of colour and depth.

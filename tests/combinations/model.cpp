@@ -117,6 +117,15 @@ void addLight(std::vector<Rule>& all) {
                    "--quality",
                    {{is(Factor::Light, {"traced"}), is(Factor::Scene, volumes), isLeftOut(Factor::Medium),
                      isGiven(Factor::Quality)}}});
+    // What only opaque surfaces have, and what a lamp outside of a closed wall would show.
+    const Names shadows{"lambert-shadows", "phong-shadows"};
+    all.push_back({"layers cast no shadows",
+                   "--shading",
+                   {{is(Factor::Scene, volumes), is(Factor::Shading, shadows + Names{"fog"}),
+                     isGiven(Factor::Opacity)}}});
+    all.push_back({"all of it would be in shadow",
+                   "--shading",
+                   {{is(Factor::Scene, kColons), is(Factor::Shading, shadows)}}});
     // A colon is closed.
     all.push_back({"0 everywhere in a colon",
                    "lazy-transfer",
