@@ -13,8 +13,9 @@ Nearness betweenSets(const Row& row);
 
 // Plain kernels beside the oracle, both eyes in full.
 Nearness besideOracle(const Row& row);
-// A colon's wall is cast as far as it is known, the oracle goes on behind it.
-bool isOfManyLayers(const Row& row);
+// A colon's wall is known, and cast, a few voxels deep; the oracle goes on behind it. What begins behind it
+// is that of 64x1 pixels, 178 degrees across, whose near plane cuts the wall.
+bool isSeenOtherwiseByOracle(const Row& row);
 
 // Right eyes beside one cast in full, by the same instruction set; nothing where the method is to be wrong.
 std::optional<Range> rangeOfRight(const Row& row);
@@ -22,5 +23,8 @@ std::optional<Nearness> nearnessOfRight(const Row& row);
 
 // Which way is taken, and in which size, depends on what takes how long.
 bool isTimed(const Row& row);
+// What is drawn depends on what was before: on times, or on whether the scene that is measured for its
+// quality had its light already.
+bool isDrawnOnceOnly(const Row& row);
 
 }  // namespace stereonav::test

@@ -202,8 +202,9 @@ void Inputs::addVolume(const Row& row, Arguments& line) {
     if (opacity == "file")
         add(line,
             {"--transfer", once("glass.txt", [](const std::string& at) { writeBytes(at, kGlassTransfer); })});
-    if (given(row, Factor::Ambient))
-        add(line, {"--ambient", levelOf(row, Factor::Ambient) == "near" ? "5" : "16"});
+    const std::string& ambient = levelOf(row, Factor::Ambient);
+    if (given(row, Factor::Ambient)) add(line, {"--ambient", ambient == "wide" ? "16" : "5"});
+    if (ambient == "beside") add(line, {"--ambient-method", "chebyshev", "--ambient-lamp", "0.5"});
     if (given(row, Factor::Shading)) add(line, {"--shading", levelOf(row, Factor::Shading)});
     if (given(row, Factor::Modulation)) add(line, {"--modulate", levelOf(row, Factor::Modulation)});
 }
@@ -237,8 +238,10 @@ void Inputs::addMedium(const Row& row, Arguments& line) {
     if (given(row, Factor::Mist))
         add(line, {"--mist", levelOf(row, Factor::Scene) == "relief.tif" ? "1100,1.5" : "900,1.5"});
     const std::string& fineness = levelOf(row, Factor::Fineness);
-    if (fineness == "coarse") add(line, {"--slices", "31", "--light-size", "24", "--cone", "20"});
-    if (fineness == "odd") add(line, {"--slices", "47", "--light-size", "33", "--shading-width", "0"});
+    if (fineness == "coarse") add(line, {"--slices", "31", "--light-size", "24"});
+    if (fineness == "narrow") add(line, {"--slices", "31", "--light-size", "24", "--cone", "20"});
+    if (fineness == "odd") add(line, {"--slices", "47", "--light-size", "33"});
+    if (fineness == "each") add(line, {"--slices", "31", "--light-size", "24", "--shading-width", "0"});
 }
 
 void Inputs::addEyes(const Row& row, Arguments& line) {

@@ -65,6 +65,18 @@ void addKinds(std::vector<Rule>& all) {
         all.push_back(
             {"terrains have none of it", option, {{is(Factor::Scene, kTerrains), isGiven(factor)}}});
     all.push_back({"terrains are opaque", "--", {{is(Factor::Scene, kTerrains), isGiven(Factor::Opacity)}}});
+    all.push_back(
+        {"generated without", "--open-holes", {{is(Factor::Scene, {"built.toml"}), isGiven(Factor::Holes)}}});
+    const auto turnsNothing = [&](Clause::Part colors, Clause::Part scene, Clause::Part heights) {
+        all.push_back(
+            {"colours that hold the light of their own day",
+             "--sun",
+             {{scene, colors, heights, isGiven(Factor::Sun), isLeftOut(Factor::Medium),
+               isLeftOut(Factor::Light), isLeftOut(Factor::Landmark), isLeftOut(Factor::Highlight)}}});
+    };
+    turnsNothing(isGiven(Factor::Photo), is(Factor::Scene, kTerrains),
+                 is(Factor::Heights, {"true", "scaled"}));
+    turnsNothing(isLeftOut(Factor::Photo), is(Factor::Scene, {"built.toml"}), isLeftOut(Factor::Heights));
     const NamedOption ofTerrains[]{{Factor::Photo, "--image"},
                                    {Factor::Holes, "--open-holes"},
                                    {Factor::Heights, "--vertical-scale"},
@@ -98,6 +110,12 @@ void addLight(std::vector<Rule>& all) {
     all.push_back({"one of the two",
                    "--ambient",
                    {{isNot(Factor::Scene, kTerrains), isGiven(Factor::Light), isGiven(Factor::Ambient)}}});
+    all.push_back(
+        {"it takes its place", "--shading", {{isGiven(Factor::Ambient), is(Factor::Shading, {"varying"})}}});
+    all.push_back({"it is all the light there is",
+                   "--shading",
+                   {{is(Factor::Ambient, {"near", "wide"}),
+                     is(Factor::Shading, {"lambert", "lambert-shadows", "phong", "phong-shadows"})}}});
     const Names lazy{"lazy", "lazy-transfer"};
     all.push_back({"a surface alone", "--light", {{is(Factor::Light, lazy), isGiven(Factor::Opacity)}}});
     all.push_back(
@@ -117,6 +135,10 @@ void addLight(std::vector<Rule>& all) {
                    "--quality",
                    {{is(Factor::Light, {"traced"}), is(Factor::Scene, volumes), isLeftOut(Factor::Medium),
                      isGiven(Factor::Quality)}}});
+    all.push_back(
+        {"openness weakens the lamp's light",
+         "--exposure",
+         {{is(Factor::Scene, volumes), is(Factor::Light, {"openness"}), isGiven(Factor::Exposure)}}});
     // What only opaque surfaces have, and what a lamp outside of a closed wall would show.
     const Names shadows{"lambert-shadows", "phong-shadows"};
     all.push_back({"layers cast no shadows",
@@ -181,6 +203,23 @@ void addMedia(std::vector<Rule>& all) {
                                          {Factor::Turn, "--turn"},
                                          {Factor::Up, "--up"}})
         all.push_back({"built in", option, {{is(Factor::Scene, kBuiltInMedia), isGiven(factor)}}});
+    const Names unlit{"emission", "surface"};
+    all.push_back({"nothing is scattered", "--phase", {{is(Factor::Model, unlit), isGiven(Factor::Phase)}}});
+    all.push_back({"nothing is scattered on",
+                   "--cone",
+                   {{is(Factor::Model, unlit + Names{"direct"}), is(Factor::Fineness, {"narrow"})}}});
+    const Clause::Part ownColors = is(Factor::Medium, {"tissue", "relief", "points", "regions"});
+    all.push_back({"colours of its own",
+                   "--image",
+                   {{is(Factor::Scene, kTerrains), ownColors, isGiven(Factor::Photo)}}});
+    all.push_back({"one light",
+                   "--sun",
+                   {{is(Factor::Scene, kTerrains), isGiven(Factor::Medium), isGiven(Factor::Sun),
+                     isGiven(Factor::Lamp)}}});
+    all.push_back(
+        {"terrains are shaded at each sample",
+         "--shading-width",
+         {{is(Factor::Scene, kTerrains), isGiven(Factor::Medium), is(Factor::Fineness, {"each"})}}});
     all.push_back({"hundreds of slices are for tests of their own",
                    "",
                    {{isGiven(Factor::Medium), isLeftOut(Factor::Fineness)}}});
@@ -234,7 +273,7 @@ const std::vector<FactorLevels>& factorTable() {
         {Factor::Turn, "turn", {"none", "turned"}},
         {Factor::Isovalue, "isovalue", {"chosen", "on", "off"}},
         {Factor::Opacity, "opacity", {"opaque", "dense", "glass", "file", "preset"}},
-        {Factor::Ambient, "ambient", {"none", "near", "wide"}},
+        {Factor::Ambient, "ambient", {"none", "near", "wide", "beside"}},
         {Factor::Shading,
          "shading",
          {"none", "lambert", "lambert-shadows", "phong", "phong-shadows", "varying", "fog"}},
@@ -246,7 +285,7 @@ const std::vector<FactorLevels>& factorTable() {
         {Factor::Lamp, "lamp", {"as it is", "from", "head", "place"}},
         {Factor::Noise, "noise", {"as it is", "fur", "file"}},
         {Factor::Mist, "mist", {"none", "mist"}},
-        {Factor::Fineness, "fineness", {"as it is", "coarse", "odd"}},
+        {Factor::Fineness, "fineness", {"as it is", "coarse", "odd", "narrow", "each"}},
         {Factor::Separation, "separation", {"as it is", "zero", "wide"}},
         {Factor::Lens, "lens", {"as it is", "wide"}},
         {Factor::Method,
