@@ -4,6 +4,7 @@
 #include <charconv>
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <utility>
 
 #include "app/built_without.h"
 #include "app/commands.h"
@@ -502,6 +503,21 @@ int runCommandLine(int argc, char** argv) {
         throw Error("", "", error.what(), "see stereonav" + commandIn(app) + " --help");
     }
     return parsed.run();
+}
+
+RenderOptions renderOptionsFrom(const std::vector<std::string>& arguments) {
+    CLI::App app;
+    Parsed parsed;
+    addRender(app, parsed);
+    std::vector<std::string> words{arguments.rbegin(), arguments.rend()};  // as CLI11 takes them
+    words.push_back("render");
+    try {
+        app.parse(std::move(words));
+    } catch (const CLI::ParseError& error) {
+        throw Error("", "", error.what(), "see stereonav render --help");
+    }
+    parsed.takeSize(parsed.render.size);
+    return parsed.render;
 }
 
 }  // namespace stereonav

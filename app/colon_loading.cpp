@@ -53,6 +53,26 @@ std::optional<UpAxis> upFromText(const std::optional<std::string>& text) {
                 "-z stands a volume on its head");
 }
 
+bool castsShadows(const std::string& shading) {
+    return shading.ends_with("-shadows");
+}
+
+// Rays through layers know neither shadows nor fog; a lamp outside lights nothing of a closed wall that casts
+// shadows.
+void checkShading(const VolumeOptions& volume) {
+    const std::string& shading = volume.shading;
+    const bool translucent = !volume.transfer.empty() || volume.opacity;
+    if (translucent && (castsShadows(shading) || shading == "fog"))
+        throw Error("--shading", "", shading + " expects an opaque surface",
+                    "leave out --transfer and --opacity, or use lambert or phong");
+}
+void checkShading(const VolumeOptions& volume, const ColonScene& scene) {
+    if (scene.isColon() && castsShadows(volume.shading))
+        throw Error("--shading", "",
+                    volume.shading + " expects a volume seen from outside, this one is a colon",
+                    "add --isosurface, or use lambert or phong");
+}
+
 void checkVolumeOptions(const SceneOptions& options) {
     const VolumeOptions& volume = options.volume;
     const auto refuse = [](bool when, const char* option, const std::string& problem, const char* advice) {
@@ -76,6 +96,7 @@ void checkVolumeOptions(const SceneOptions& options) {
            "0.95 is a wall that is nearly opaque within a millimetre");
     refuse(volume.isovalue && !std::isfinite(*volume.isovalue), "--isovalue",
            fmt::format("expected a number, got {}", volume.isovalue.value_or(0)), "300 shows bone in CT");
+    checkShading(volume);
 }
 
 FreeDistance freeDistanceOf(const ColonScene& colon) {
@@ -220,6 +241,7 @@ LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progres
     LoadedScene scene;
     scene.name = options.scene;
     scene.colon = std::make_unique<ColonScene>(loadColon(colonOptionsOf(options), progress));
+    checkShading(options.volume, *scene.colon);
     scene.sky = applyVolumeLight(options, *scene.colon, progress);
     applyAmbient(options.volume, nullptr, *scene.colon, progress);
     scene.modulateSigma = applyModulation(options.volume, nullptr, std::nullopt, *scene.colon, progress);

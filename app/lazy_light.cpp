@@ -32,6 +32,9 @@ LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& p
     if (transfer && scene.isColon())
         throw Error("--light", "", "lazy-transfer is 0 everywhere inside a colon, which is closed",
                     "use lazy, which lights it along its centreline");
+    if (scene.isColon() && !options.sky.empty())
+        throw Error("--sky", "", "nothing of it is seen inside a colon, which is closed",
+                    "leave it out: lazy lights a colon along its centreline");
     if (transfer) bake.what = nameOf(BakeKind::Transfer);
     const VolumeBakePlan plan = planVolumeBake(scene, bake, progress);
     mLight = std::make_shared<IlluminationVolume>(plan.inputs.texels);

@@ -173,7 +173,10 @@ PlainHit hitInCell(const GreyVolume& volume, double isovalue, const VoxelRay& ra
 glm::dvec3 cornerNormal(const GreyVolume& volume, const glm::ivec3& corner) {
     const glm::dvec3 down = -smoothGradient(volume, glm::dvec3(corner));
     const double length = glm::length(down);
-    return length > 0 ? down / length : glm::dvec3(0, 0, 1);
+    const glm::dvec3 spacing = volume.frame.spacing;
+    // Stored numbers are whole: what is not 0 is a 72nd of a step a voxel at least, what is less is rounding.
+    const double least = 1e-6 / std::max({spacing.x, spacing.y, spacing.z});
+    return length > least ? down / length : glm::dvec3(0, 0, 1);
 }
 
 }  // namespace
@@ -255,7 +258,8 @@ double plainShare(const Volume<std::uint8_t>& bytes, const glm::dvec3& voxel) {
 
 glm::dvec3 shadePlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,
                       const glm::dvec3& head, const glm::dvec3& eye, const glm::dvec3& albedo) {
-    return lampPlain(look, look.ambient, position, normal, head, eye, albedo);
+    const double ambient = look.ambient * (1 + look.varyingAmbient * normal.z);
+    return lampPlain(look, ambient, position, normal, head, eye, albedo);
 }
 
 glm::dvec3 shadeBakedPlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,

@@ -40,8 +40,9 @@ glm::dvec3 plainNormal(const GreyVolume& volume, const glm::dvec3& voxel);
 
 // Light from `position` to the eye, linear RGB. Blinn-Phong with the lamp at the head: l leads from the
 // position to the head, h halves l and the direction to the eye;
-// falling off * (albedo * (ambient + diffuse * max(n.l, 0)) + specular * max(n.h, 0)^shininess), no highlight
-// where n.l <= 0. normal: unit, towards smaller values; it is not flipped.
+// falling off * (albedo * (ambient * (1 + varyingAmbient * n.z) + diffuse * max(n.l, 0)) + specular *
+// max(n.h, 0)^shininess), no highlight where n.l <= 0. normal: unit, towards smaller values; it is not
+// flipped.
 glm::dvec3 shadePlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,
                       const glm::dvec3& head, const glm::dvec3& eye, const glm::dvec3& albedo);
 

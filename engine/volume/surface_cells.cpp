@@ -193,24 +193,25 @@ void encodeLeaps(const CellFlags& flags, const DistanceVolume& distance, int div
 }
 
 // The gradient at a voxel of the values smoothed by a tricubic B-spline: weights 1/6, 4/6, 1/6 across and
-// -1/2, 0, 1/2 along. In stored numbers a metre along i, j, k.
+// -1/2, 0, 1/2 along. In stored numbers a metre along i, j, k. Summed in whole numbers, so that what is the
+// same all around has none, whatever its value.
 glm::dvec3 gradientAt(const GreyVolume& volume, const glm::ivec3& at) {
     const glm::ivec3 last = volume.frame.size - 1;
     const int x[3] = {std::max(at.x - 1, 0), at.x, std::min(at.x + 1, last.x)};
-    constexpr float kSmooth[3] = {1.0f / 6, 4.0f / 6, 1.0f / 6};
-    float gx = 0, gy = 0, gz = 0;
+    constexpr int kSmooth[3] = {1, 4, 1};  // sixths
+    int gx = 0, gy = 0, gz = 0;            // 72nds
     for (int c = 0; c < 3; ++c)
         for (int b = 0; b < 3; ++b) {
             const std::int16_t* row =
                 volume.values.data() + volume.frame.index(0, std::clamp(at.y + b - 1, 0, last.y),
                                                           std::clamp(at.z + c - 1, 0, last.z));
-            const float v0 = row[x[0]], v1 = row[x[1]], v2 = row[x[2]];
-            const float across = (v0 + 4 * v1 + v2) * (1.0f / 6);
+            const int v0 = row[x[0]], v1 = row[x[1]], v2 = row[x[2]];
+            const int across = v0 + 4 * v1 + v2;
             gx += kSmooth[b] * kSmooth[c] * (v2 - v0);
-            gy += static_cast<float>(b - 1) * kSmooth[c] * across;
-            gz += kSmooth[b] * static_cast<float>(c - 1) * across;
+            gy += (b - 1) * kSmooth[c] * across;
+            gz += kSmooth[b] * (c - 1) * across;
         }
-    return glm::dvec3(0.5 * gx, 0.5 * gy, 0.5 * gz) / volume.frame.spacing;
+    return glm::dvec3(gx, gy, gz) / (72.0 * volume.frame.spacing);
 }
 
 std::uint32_t normalAt(const GreyVolume& volume, const glm::ivec3& at) {

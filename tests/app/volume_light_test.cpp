@@ -168,6 +168,14 @@ TEST_F(VolumeLight, RefusesWhatDoesNotFit) {
     const std::string light = baked(scene, "irradiance");
     expectRefused({"render", scene, "--shading", "dark", "--out", "a.png"}, {"--shading", "dark", "lambert"});
     expectRefused({"render", scene, "--turn", "30", "--out", "a.png"}, {"--turn", "--light"});
+    // Layers know neither shadows nor fog; a lamp outside lights nothing of a closed wall that casts shadows.
+    for (const std::string shading : {"lambert-shadows", "phong-shadows", "fog"})
+        expectRefused({"render", scene, "--shading", shading, "--opacity", "0.5", "--out", "a.png"},
+                      {"--shading", shading, "opaque"});
+    expectRefused({"render", maskedTube(), "--shading", "phong-shadows", "--out", "a.png"},
+                  {"--shading", "phong-shadows", "--isosurface"});
+    expectRefused({"render", maskedTube(), "--light", "lazy", "--sky", light, "--out", "a.png"},
+                  {"--sky", "closed"});
     expectRefused({"render", scene, "--light", light, "--exposure", "-1", "--out", "a.png"},
                   {"--exposure", "above 0"});
     expectRefused({"render", scene, "--light", light, "--turn", "30", "--out", "a.png"},

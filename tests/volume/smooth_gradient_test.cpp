@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/volume/plain_volume_caster.h"
 #include "engine/volume/surface_cells.h"
 #include "test_volumes.h"
 
@@ -34,6 +35,32 @@ double smoothed(const GreyVolume& volume, const glm::dvec3& v) {
                                          std::clamp(k, 0, last.z));
             }
     return sum;
+}
+
+// Their normals lead up, whatever the value: not where the roundings of the sum lead.
+TEST(SmoothGradient, OfWhatIsTheSameAllAroundThereIsNone) {
+    VolumeFrame frame;
+    frame.size = {7, 6, 8};
+    frame.spacing = {0.7e-3, 0.9e-3, 1.1e-3};
+    for (const int value : {1, 3, 7, 11, 255, -1000, 3071, 32767, -32768}) {
+        const GreyVolume volume = greyVolume(frame, [&](const glm::dvec3&) { return value; });
+        SurfaceSetting setting;
+        setting.isovalue = static_cast<float>(value);
+        setting.lowest = setting.isovalue - 1;
+        setting.highest = setting.isovalue + 1;
+        Progress progress;
+        const SurfaceCells cells = findSurfaceCells(volume, setting, progress);
+        ASSERT_FALSE(cells.records.empty());
+        const std::uint32_t up = packCornerNormal({0, 0, 1});
+        for (int k = 0; k < 7; ++k)
+            for (int j = 0; j < 5; ++j)
+                for (int i = 0; i < 6; ++i) {
+                    const CellRecord* record = cells.record({i, j, k});
+                    ASSERT_NE(record, nullptr);
+                    for (const std::uint32_t normal : record->normals) ASSERT_EQ(normal, up) << value;
+                    EXPECT_EQ(plainNormal(volume, {i + 0.3, j + 0.6, k + 0.1}), glm::dvec3(0, 0, 1)) << value;
+                }
+    }
 }
 
 TEST(SmoothGradient, IsExactForALinearField) {

@@ -1,0 +1,30 @@
+// How far pictures of one combination may be apart, by what it shows.
+#pragma once
+
+#include <optional>
+
+#include "tests/combinations/judging.h"
+#include "tests/combinations/model.h"
+
+namespace stereonav::test {
+
+// Between instruction sets, both eyes cast in full.
+Nearness betweenSets(const Row& row);
+
+// Plain kernels beside the oracle, both eyes in full.
+Nearness besideOracle(const Row& row);
+// A colon's wall is known, and cast, a few voxels deep; the oracle goes on behind it. What begins behind it
+// is that of 64x1 pixels, 178 degrees across, whose near plane cuts the wall.
+bool isSeenOtherwiseByOracle(const Row& row);
+
+// Right eyes beside one cast in full, by the same instruction set; nothing where the method is to be wrong.
+std::optional<Range> rangeOfRight(const Row& row);
+std::optional<Nearness> nearnessOfRight(const Row& row);
+
+// Which way is taken, and in which size, depends on what takes how long.
+bool isTimed(const Row& row);
+// What is drawn depends on what was before: on times, or on whether the scene that is measured for its
+// quality had its light already.
+bool isDrawnOnceOnly(const Row& row);
+
+}  // namespace stereonav::test

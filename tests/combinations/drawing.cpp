@@ -1,0 +1,73 @@
+#include "tests/combinations/drawing.h"
+
+#include <cmath>
+
+#include "app/medium_renderer.h"
+#include "app/stereo_frame.h"
+
+namespace stereonav::test {
+namespace {
+
+RenderOptions withSet(RenderOptions options, SimdTarget set) {
+    options.scene.simd = std::string(nameOf(set));
+    options.method = methodUnderLight(options.scene, options.method);
+    checkSize(options.size);
+    modeFromText(options.mode);
+    checkMethod(options.scene, options.method);
+    return options;
+}
+
+LoadedScene loaded(const RenderOptions& options) {
+    Progress progress;
+    return loadScene(options.scene, options.size, progress);
+}
+
+long long notFiniteIn(const MediumPicture& picture) {
+    long long count = 0;
+    for (int y = 0; y < picture.light.height(); ++y)
+        for (int x = 0; x < picture.light.width(); ++x) {
+            const glm::vec4& light = picture.light.at(x, y);
+            count += !std::isfinite(light.x + light.y + light.z + light.w);
+        }
+    return count;
+}
+
+}  // namespace
+
+// Sweeps elsewhere are asked for where a window is open; here what they are given is looked at.
+Drawing::Drawing(const RenderOptions& options, SimdTarget set)
+    : mOptions(withSet(options, set)), mScene(loaded(mOptions)) {
+    auto* medium = dynamic_cast<MediumRenderer*>(mScene.pair.get());
+    if (!medium) return;
+    medium->setSweep([this](const SweepTask& task, const std::function<void()>& cpu) {
+        cpu();
+        for (const MediumPicture& picture : task.pictures) mNotFinite += notFiniteIn(picture);
+        return false;
+    });
+}
+
+Eyes Drawing::eyes(const std::string& method) {
+    Progress progress;
+    StereoFrame frame(mScene, method.empty() ? mOptions.method : method);
+    if (method.empty()) frame.refine(mOptions.scene, progress);
+    frame.render(mScene.startPose);
+    if (mScene.lazyLight) {
+        for (int look = 0; look < 2; ++look)  // at some pixels, then at all
+            mScene.lazyLight->seen(views().left, frame.left());
+        mScene.lazyLight->waitUntilDone();
+        frame.render(mScene.startPose);
+    }
+    if (mScene.tracedLight) mScene.tracedLight->light(views(), frame.left(), frame.right(), progress);
+    return {frame.left(), frame.right()};
+}
+
+bool Drawing::sweepsTogether() const {
+    return mOptions.method == "auto" || mOptions.method == "sweep" || mOptions.method == "own-samples";
+}
+
+Eyes Drawing::inFull() {
+    if (!mScene.pair) return eyes("full");
+    return eyes(sweepsTogether() ? "own-samples" : "two-sweeps");
+}
+
+}  // namespace stereonav::test

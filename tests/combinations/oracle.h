@@ -1,0 +1,30 @@
+// What an eye sees, worked out in double precision ray by ray or slice by slice, with nothing shared with
+// kernels but the data, and never packed.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene_loading.h"
+#include "tests/combinations/judging.h"
+
+namespace stereonav::test {
+
+struct OraclePicture {
+    int width = 0, height = 0;
+    std::vector<glm::dvec3> light;  // linear RGB, the background in it; row by row
+    const glm::dvec3& at(int x, int y) const { return light[static_cast<std::size_t>(y) * width + x]; }
+};
+
+// By plain casters; none for terrains, media and light that is traced. view: one of the scene's eyes.
+std::optional<OraclePicture> castByOracle(const LoadedScene& scene, const EyeView& view);
+
+// By the plain sweep, a picture for each eye; none where rays are cast. Eyes are swept together.
+std::vector<OraclePicture> sweptByOracle(const LoadedScene& scene, const std::vector<EyeView>& eyes);
+
+// "" where the picture's colours are the oracle's, packed, within the bound.
+std::string tooFar(const EyeImage& image, const OraclePicture& oracle, const Nearness& bound);
+
+}  // namespace stereonav::test
