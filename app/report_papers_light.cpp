@@ -17,7 +17,7 @@
 namespace stereonav {
 namespace {
 
-constexpr const char* kPaper = "Wyman et al. 2006";
+constexpr const char* kWyman = "Wyman et al. 2006";
 constexpr std::array<int, 4> kPaperSamples{100, 625, 2500, 10000};
 
 struct Table1Row {
@@ -37,7 +37,7 @@ constexpr const char* kWhyRates =
 
 PaperRow rowOf(const char* table, const std::string& row, const std::string& column) {
     PaperRow r;
-    r.paper = kPaper;
+    r.paper = kWyman;
     r.table = table;
     r.row = row;
     r.column = column;

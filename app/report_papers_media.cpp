@@ -20,13 +20,13 @@
 namespace stereonav {
 namespace {
 
-constexpr const char* kPaper = "Kniss et al. 2003";
+constexpr const char* kKniss = "Kniss et al. 2003";
 constexpr const char* kNoTime = "no time was left";
 constexpr int kLeastSize = 256;  // pixels a side of what is measured whatever the time
-constexpr std::array<MediumModel, 4> kModels{MediumModel::Emission, MediumModel::Surface, MediumModel::Direct,
-                                             MediumModel::Indirect};
+constexpr std::array<MediumModel, 4> kPaperModels{MediumModel::Emission, MediumModel::Surface,
+                                                  MediumModel::Direct, MediumModel::Indirect};
 
-struct Subject {
+struct MediaSubject {
     std::string title;
     Medium medium, surface;  // the second shows the surface model: weight 1 everywhere
     MediumLook look;
@@ -39,7 +39,7 @@ Medium mediumOf(std::shared_ptr<const GreyVolume> field, const char* preset, boo
     return Medium(std::move(field), allSurfaces ? allSurface(transfer) : transfer);
 }
 
-Subject subjectOf(const PaperData& data) {
+MediaSubject subjectOf(const PaperData& data) {
     const bool real = !data.find("ct/headsq/quarter.nhdr").empty();
     std::shared_ptr<const GreyVolume> field;
     std::string title = std::string("the generated cloud") + kStandsIn;
@@ -55,7 +55,7 @@ Subject subjectOf(const PaperData& data) {
 }
 
 // Seen whole, lit over the viewer's shoulder.
-StereoViews viewsOf(Subject& subject, int size) {
+StereoViews viewsOf(MediaSubject& subject, int size) {
     constexpr double kHeading = 0.6, kPitch = -0.3;
     const double whole = glm::length(subject.medium.bounds().high - subject.medium.bounds().low);
     const Pose middle = poseFromAngles(subject.medium.bounds().center(), kHeading, kPitch, 0);
@@ -89,12 +89,12 @@ public:
     }
 
 private:
-    using Times = std::array<std::array<Spread, 2>, kModels.size()>;  // by model; one eye, both
+    using Times = std::array<std::array<Spread, 2>, kPaperModels.size()>;  // by model; one eye, both
 
     PaperRow& add(const char* table, const std::string& row, const std::string& column, const Spread& ours,
                   const char* unit, const std::string& said, const char* why, const std::string& where) {
         PaperRow added;
-        added.paper = kPaper;
+        added.paper = kKniss;
         added.table = table;
         added.row = row;
         added.column = column;
@@ -123,17 +123,17 @@ private:
         MediumSweep plain(mSubject.medium), shaded(mSubject.surface);
         const StereoViews views = viewsOf(mSubject, size);
         const EyeView both[] = {views.left, views.right};
-        std::array<std::array<std::vector<double>, 2>, kModels.size()> ms;
+        std::array<std::array<std::vector<double>, 2>, kPaperModels.size()> ms;
         std::array<MediumPicture, 2> pictures;
         const auto late = [&] { return watch.elapsed_ms() > 1000 * seconds; };
         const bool skipped = late() && size > kLeastSize;
         for (int repeat = 0; repeat <= mRun.pick(2, 7) && !skipped; ++repeat) {
             if (repeat > 1 && late()) break;
-            for (std::size_t m = 0; m < kModels.size(); ++m)
+            for (std::size_t m = 0; m < kPaperModels.size(); ++m)
                 for (const std::size_t eyes : {1u, 2u}) {
                     mRun.tell(fmt::format("media, {} pixels", size));
                     MediumLook look = mSubject.look;
-                    look.model = kModels[m];
+                    look.model = kPaperModels[m];
                     MediumSweep& sweep = look.model == MediumModel::Surface ? shaded : plain;
                     const Stopwatch one;
                     sweep.render(look, setting(), std::span(both).first(eyes), views.left.head, 0,
@@ -142,7 +142,7 @@ private:
                 }
         }
         Times times;
-        for (std::size_t m = 0; m < kModels.size(); ++m)
+        for (std::size_t m = 0; m < kPaperModels.size(); ++m)
             for (std::size_t e = 0; e < 2; ++e) times[m][e] = spreadOf(ms[m][e]);
         return times;
     }
@@ -157,8 +157,8 @@ private:
         const Times times = measureOnProcessor(size, seconds, watch);
         const char* none = times[0][0].count ? "" : kNoTime;
         const std::string where = fmt::format("{} threads", threadCount());
-        for (std::size_t m = 0; m < kModels.size(); ++m) {
-            const std::string name = fmt::format("{}, {}x{}", nameOf(kModels[m]), size, size);
+        for (std::size_t m = 0; m < kPaperModels.size(); ++m) {
+            const std::string name = fmt::format("{}, {}x{}", nameOf(kPaperModels[m]), size, size);
             for (std::size_t e = 0; e < 2; ++e) {
                 const Spread& ms = times[m][e];
                 add(kTable, name, e == 0 ? "one eye" : "both eyes", rateOf(ms), "pictures/s",
@@ -166,7 +166,7 @@ private:
                     .none = none;
             }
             add(kTable, name, "rate, of the unshaded one", ratio(times[0][0], times[m][0]), "of 1",
-                saidOf(kModels[m]), kWhyShare, where)
+                saidOf(kPaperModels[m]), kWhyShare, where)
                 .none = none;
         }
     }
@@ -183,7 +183,7 @@ private:
         for (const int size : mRun.quick() ? std::vector<int>{32} : std::vector<int>{256, 512}) {
             const StereoViews views = viewsOf(mSubject, size);
             Spread unshaded;
-            for (const MediumModel model : kModels) {
+            for (const MediumModel model : kPaperModels) {
                 const std::string name = fmt::format("{}, {}x{}", nameOf(model), size, size);
                 Spread one, several;
                 const bool late = watch.elapsed_ms() > 1000 * seconds && size > kLeastSize;
@@ -225,7 +225,7 @@ private:
     }
 
     ReportRun& mRun;
-    Subject mSubject;
+    MediaSubject mSubject;
     int mSlices;
     std::vector<PaperRow> mRows;
 };

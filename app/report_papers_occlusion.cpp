@@ -23,24 +23,25 @@ namespace {
 // with it.
 constexpr float kFlatWallGain = 2;
 
-constexpr const char* kPaper = "Ruiz et al. 2010";
-constexpr int kTruthDirections = 256;
+constexpr const char* kRuiz = "Ruiz et al. 2010";
+constexpr int kPaperTruthDirections = 256;
 
-struct Method {
+struct PaperMethod {
     const char* name;
     bool directed;  // along 42 directions, else from boxes
     OcclusionMethod box;
     DirectionMethod directions;
 };
-constexpr std::array<Method, 5> kMethods{{{"Stewart, 42 directions", true, {}, DirectionMethod::Vicinity},
-                                          {"Ruiz 2008, 42 directions", true, {}, DirectionMethod::Obscurance},
-                                          {"Penner", false, OcclusionMethod::Chebyshev, {}},
-                                          {"CDF reconstruction", false, OcclusionMethod::Reconstructed, {}},
-                                          {"Gaussian CDF", false, OcclusionMethod::Gaussian, {}}}};
+constexpr std::array<PaperMethod, 5> kPaperMethods{
+    {{"Stewart, 42 directions", true, {}, DirectionMethod::Vicinity},
+     {"Ruiz 2008, 42 directions", true, {}, DirectionMethod::Obscurance},
+     {"Penner", false, OcclusionMethod::Chebyshev, {}},
+     {"CDF reconstruction", false, OcclusionMethod::Reconstructed, {}},
+     {"Gaussian CDF", false, OcclusionMethod::Gaussian, {}}}};
 
 // Their subjects: times in ms of Table 1 by method (Penner, reconstruction, Gaussian) for radius 5 and 10,
 // and of the variance.
-struct Subject {
+struct OcclusionSubject {
     const char* name;
     const char* file;
     const char* ours;
@@ -49,18 +50,18 @@ struct Subject {
     double variance_ms;
 };
 constexpr int kRadii[] = {5, 10};
-const Subject kSubjects[] = {{"CT-body",
-                              "ct/trunk_ct_3mm.nii.gz",
-                              "a human trunk in CT",
-                              {256, 256, 415},
-                              {{{713, 565, 717}, {958, 734, 965}}},
-                              863},
-                             {"CT-head",
-                              "ct/headsq/quarter.nhdr",
-                              "a human head in CT",
-                              {256, 256, 113},
-                              {{{200, 161, 203}, {268, 205, 270}}},
-                              243}};
+const OcclusionSubject kSubjects[] = {{"CT-body",
+                                       "ct/trunk_ct_3mm.nii.gz",
+                                       "a human trunk in CT",
+                                       {256, 256, 415},
+                                       {{{713, 565, 717}, {958, 734, 965}}},
+                                       863},
+                                      {"CT-head",
+                                       "ct/headsq/quarter.nhdr",
+                                       "a human head in CT",
+                                       {256, 256, 113},
+                                       {{{200, 161, 203}, {268, 205, 270}}},
+                                       243}};
 
 // What the maps of one method and radius are like, at voxels of the surface.
 struct MapFigures {
@@ -90,12 +91,12 @@ public:
         mRun.tell("occlusion, rays");
         parallelFor(static_cast<int>(mVoxels.size()), [&](int n) {
             const auto k = static_cast<std::size_t>(n);
-            mTruth[k] = traceOpenness(field(), mVoxels[k], metres(radius), kTruthDirections).obscurance;
+            mTruth[k] = traceOpenness(field(), mVoxels[k], metres(radius), kPaperTruthDirections).obscurance;
         });
     }
 
     // The openness of all voxels that the surface looks up; `gain`: what a flat wall is fully lit with.
-    OpennessVolume openness(const Method& method, int radius) const {
+    OpennessVolume openness(const PaperMethod& method, int radius) const {
         mRun.tell(fmt::format("occlusion, {}", method.name));
         Progress quiet;
         if (!method.directed)
@@ -120,7 +121,7 @@ public:
         return openness;
     }
 
-    MapFigures figuresOf(const Method& method, const OpennessVolume& openness) const {
+    MapFigures figuresOf(const PaperMethod& method, const OpennessVolume& openness) const {
         MapFigures figures;
         const auto shown = [&](const glm::ivec3& v) {
             return std::min(gainOf(method) * openness.at(v) / 255.0, 1.0);
@@ -141,7 +142,8 @@ public:
     }
 
     // C = k O C_TF (eq. 5), or the colour alone.
-    ReportPicture picture(const std::string& title, const Method* method, const OpennessVolume* openness) {
+    ReportPicture picture(const std::string& title, const PaperMethod* method,
+                          const OpennessVolume* openness) {
         mRun.tell("occlusion, pictures");
         AmbientLook& ambient = mScene.volume.look.occlusion;
         ambient = {};
@@ -172,7 +174,7 @@ public:
     double brightness() const { return mBrightness; }  // of the last picture, where it shows the surface
 
 private:
-    static float gainOf(const Method& method) { return method.directed ? 1.0f : kFlatWallGain; }
+    static float gainOf(const PaperMethod& method) { return method.directed ? 1.0f : kFlatWallGain; }
     double metres(int radius) const { return radius * field().frame.spacing.x; }
     double isovalue() const { return static_cast<double>(mScene.volume.cells.isovalue); }
     double isovalueShown() const { return field().offset + field().scale * isovalue(); }
@@ -184,7 +186,7 @@ private:
     double mBrightness = 0;
 };
 
-int rankOf(const std::array<MapFigures, kMethods.size()>& all, std::size_t n) {
+int rankOf(const std::array<MapFigures, kPaperMethods.size()>& all, std::size_t n) {
     int rank = 1;
     for (const MapFigures& other : all) rank += other.error < all[n].error;
     return rank;
@@ -195,10 +197,10 @@ struct Found {
     std::vector<ReportPictures> pictures;
 };
 
-PaperRow rowOf(const Subject& subject, const std::string& table, const std::string& row,
+PaperRow rowOf(const OcclusionSubject& subject, const std::string& table, const std::string& row,
                const std::string& column) {
     PaperRow r;
-    r.paper = kPaper;
+    r.paper = kRuiz;
     r.table = table;
     r.row = fmt::format("{}, {}", subject.name, row);
     r.column = column;
@@ -206,18 +208,18 @@ PaperRow rowOf(const Subject& subject, const std::string& table, const std::stri
 }
 
 // Figs. 5 and 6: maps by method and radius.
-void addMaps(const Subject& subject, const std::string& measured, int radius,
-             const std::array<MapFigures, kMethods.size()>& all, Found& found) {
+void addMaps(const OcclusionSubject& subject, const std::string& measured, int radius,
+             const std::array<MapFigures, kPaperMethods.size()>& all, Found& found) {
     constexpr const char* kWhy =
         "They show pictures alone. Error: of the openness as it is shown (at most 1; twice O for boxes, half "
         "of "
         "which lies in a flat wall) against obscurance traced in 256 directions.";
     const bool fig5 = radius == 10;
-    const auto said = [&](const Method& m, const char* directed, const char* penner, const char* ours) {
+    const auto said = [&](const PaperMethod& m, const char* directed, const char* penner, const char* ours) {
         return m.directed ? directed : m.box == OcclusionMethod::Chebyshev ? penner : ours;
     };
-    for (std::size_t n = 0; n < kMethods.size(); ++n) {
-        const Method& m = kMethods[n];
+    for (std::size_t n = 0; n < kPaperMethods.size(); ++n) {
+        const PaperMethod& m = kPaperMethods[n];
         if (m.directed && !fig5) continue;  // fig. 6 has the boxes alone
         const std::string table = "Figs. 5 and 6";
         const std::string at = fmt::format("radius {}", radius);
@@ -244,8 +246,8 @@ void addMaps(const Subject& subject, const std::string& measured, int radius,
 }
 
 // Figs. 7 and 8: as ambient light.
-void addLit(OcclusionSubject& volume, const Subject& subject, const std::string& measured,
-            const std::array<OpennessVolume, kMethods.size()>& maps, Found& found) {
+void addLit(OcclusionSubject& volume, const OcclusionSubject& subject, const std::string& measured,
+            const std::array<OpennessVolume, kPaperMethods.size()>& maps, Found& found) {
     ReportPictures pictures{fmt::format("Figs. {} and {}, {}", 5, subject.size.z > 200 ? 7 : 8, subject.name),
                             "Ambient light alone, C = k O C_TF (eq. 5), of the isosurface that is shown "
                             "where nothing is said: the map "
@@ -253,13 +255,13 @@ void addLit(OcclusionSubject& volume, const Subject& subject, const std::string&
                             {}};
     pictures.pictures.push_back(volume.picture("without ambient occlusion", nullptr, nullptr));
     const double plain = volume.brightness();
-    for (std::size_t n = 0; n < kMethods.size(); ++n) {
-        pictures.pictures.push_back(volume.picture(kMethods[n].name, &kMethods[n], &maps[n]));
-        if (kMethods[n].directed) continue;
+    for (std::size_t n = 0; n < kPaperMethods.size(); ++n) {
+        pictures.pictures.push_back(volume.picture(kPaperMethods[n].name, &kPaperMethods[n], &maps[n]));
+        if (kPaperMethods[n].directed) continue;
         PaperRow row =
-            rowOf(subject, "Figs. 7 and 8", kMethods[n].name, "radius 10, brightness of that without");
-        row.said = kMethods[n].box == OcclusionMethod::Chebyshev ? "a too dark final appearance"
-                                                                 : "context better captured";
+            rowOf(subject, "Figs. 7 and 8", kPaperMethods[n].name, "radius 10, brightness of that without");
+        row.said = kPaperMethods[n].box == OcclusionMethod::Chebyshev ? "a too dark final appearance"
+                                                                      : "context better captured";
         row.ours = exactly(plain > 0 ? volume.brightness() / plain : 0);
         row.unit = "of 1";
         row.measured = measured;
@@ -270,8 +272,8 @@ void addLit(OcclusionSubject& volume, const Subject& subject, const std::string&
 }
 
 // Table 1 and the variance's time: of volumes of their sizes, resampled from the real ones.
-void addTimes(ReportRun& run, const Subject& subject, const GreyVolume& grey, const std::string& title,
-              std::vector<PaperRow>& rows) {
+void addTimes(ReportRun& run, const OcclusionSubject& subject, const GreyVolume& grey,
+              const std::string& title, std::vector<PaperRow>& rows) {
     constexpr const char* kWhy =
         "Theirs: CUDA on a GeForce GTX 280, with transfers, at a cost that grows with the radius. Ours: sums "
         "that "
@@ -303,9 +305,9 @@ void addTimes(ReportRun& run, const Subject& subject, const GreyVolume& grey, co
         rows.push_back(std::move(row));
     };
     for (std::size_t r = 0; r < std::size(kRadii); ++r)
-        for (std::size_t m = 2; m < kMethods.size(); ++m)
-            add("Table 1", kMethods[m].name, kRadii[r], subject.table1[r][m - 2],
-                timed([&] { estimateOpenness(volume, kMethods[m].box, glm::ivec3(kRadii[r]), quiet); }));
+        for (std::size_t m = 2; m < kPaperMethods.size(); ++m)
+            add("Table 1", kPaperMethods[m].name, kRadii[r], subject.table1[r][m - 2],
+                timed([&] { estimateOpenness(volume, kPaperMethods[m].box, glm::ivec3(kRadii[r]), quiet); }));
     constexpr double kSigma = 100;  // does not change the time
     add("Section 4.2", "variance that modulates opacity", 10, subject.variance_ms,
         timed([&] { varianceModulation(volume, glm::ivec3(10), kSigma, quiet); }));
@@ -320,7 +322,7 @@ void reportPapersOcclusion(ReportRun& run, double) {
                           "Volumetric ambient occlusion for volumetric models.",
                           {}};
     Found found;
-    for (const Subject& subject : kSubjects) {
+    for (const OcclusionSubject& subject : kSubjects) {
         run.checkTime();
         run.tell(fmt::format("occlusion, {}", subject.name));
         PaperVolume source = paperVolume(data, subject.file, subject.ours);
@@ -328,13 +330,13 @@ void reportPapersOcclusion(ReportRun& run, double) {
         OcclusionSubject volume(run, std::move(source.volume));
         const std::string measured =
             fmt::format("{}, {} voxels of its surface", source.title, volume.texels());
-        std::array<OpennessVolume, kMethods.size()> maps;
+        std::array<OpennessVolume, kPaperMethods.size()> maps;
         for (const int radius : kRadii) {
             volume.trace(radius);
-            std::array<MapFigures, kMethods.size()> figures;
-            for (std::size_t n = 0; n < kMethods.size(); ++n) {
-                maps[n] = volume.openness(kMethods[n], radius);
-                figures[n] = volume.figuresOf(kMethods[n], maps[n]);
+            std::array<MapFigures, kPaperMethods.size()> figures;
+            for (std::size_t n = 0; n < kPaperMethods.size(); ++n) {
+                maps[n] = volume.openness(kPaperMethods[n], radius);
+                figures[n] = volume.figuresOf(kPaperMethods[n], maps[n]);
             }
             addMaps(subject, measured, radius, figures, found);
         }

@@ -15,7 +15,7 @@
 namespace stereonav {
 namespace {
 
-constexpr const char* kPaper = "Wan et al. 2004";
+constexpr const char* kWan = "Wan et al. 2004";
 constexpr int kWidth = 500, kHeight = 400;  // figs. 6 and 7
 
 // Theirs by processors, seconds (Table 2).
@@ -112,7 +112,7 @@ private:
     PaperRow& add(const char* table, const std::string& row, const std::string& column, Spread ours,
                   const char* unit, const char* why) {
         PaperRow added;
-        added.paper = kPaper;
+        added.paper = kWan;
         added.table = table;
         added.row = fmt::format("{} ({})", row, mTheirs.figure);
         added.column = column;
@@ -284,7 +284,7 @@ std::vector<PaperRow> mcMillanRows(ReportRun& run, const LoadedScene& scene, con
     StereoTrial trial(scene, {way}, run.pick(2, 8));
     const StereoCounts counts = trial.counts(0);
     PaperRow holes;
-    holes.paper = kPaper;
+    holes.paper = kWan;
     holes.table = "Section 6, McMillan's warp";
     holes.row = "left open, of what it painted";
     holes.column = "no rays are cast";
@@ -326,7 +326,7 @@ std::vector<PaperRow> colonRows(ReportRun& run, const PaperData& data, double se
     const auto add = [&](const char* name, const std::string& column, Spread ours, double theirs,
                          const char* unit, const char* why, PaperRow::Kind kind) {
         PaperRow row;
-        row.paper = kPaper;
+        row.paper = kWan;
         row.table = "Section 5";
         row.row = name;
         row.column = column;
