@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "engine/math/simd_target.h"
 #include "engine/image/color_texture.h"
+#include "engine/math/simd_target.h"
 #include "terrain/heightfield.h"
 #include "terrain/relight_kernel_types.h"
 #include "terrain/sun_and_sky.h"
