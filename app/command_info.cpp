@@ -78,7 +78,8 @@ std::string sweepText(const LoadedScene& scene) {
     return infoLine("size", fmt::format("{} x {} pixels an eye", scene.lens.width, scene.lens.height)) +
            infoLine("eyes", lengthText(scene.stereo.separation) + " apart, zero parallax at " +
                                 lengthText(scene.stereo.zeroParallax)) +
-           infoLine("threads", std::to_string(threadCount())) + infoLine("simd", std::string(nameOf(scene.simd))) +
+           infoLine("threads", std::to_string(threadCount())) +
+           infoLine("simd", std::string(nameOf(scene.simd))) +
            infoLine("both eyes", "sweep: slice by slice, from one light");
 }
 

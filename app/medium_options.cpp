@@ -104,10 +104,10 @@ void refuseBesideModel(const SceneOptions& options) {
     const bool spreads = model == MediumModel::Indirect, scatters = spreads || model == MediumModel::Direct;
     const bool lit = model != MediumModel::Emission;
     const std::string problem = "has no effect on the model " + m.model;
-    constexpr const char* kAdvice = "leave it out, or choose another --model";
-    if (!lit) refuseAll({{"--light-color", !m.lightColor.empty()}}, problem, kAdvice);
-    if (!scatters) refuseAll({{"--phase", !m.phase.empty()}}, problem, kAdvice);
-    if (!spreads) refuseAll({{"--cone", m.cone_deg.has_value()}}, problem, kAdvice);
+    constexpr const char* kOtherModel = "leave it out, or choose another --model";
+    if (!lit) refuseAll({{"--light-color", !m.lightColor.empty()}}, problem, kOtherModel);
+    if (!scatters) refuseAll({{"--phase", !m.phase.empty()}}, problem, kOtherModel);
+    if (!spreads) refuseAll({{"--cone", m.cone_deg.has_value()}}, problem, kOtherModel);
 }
 
 void refuseOfOtherKinds(const SceneOptions& options) {

@@ -70,9 +70,9 @@ struct MapFigures {
     double grain = 0;  // mean difference between voxels beside each other
 };
 
-class OcclusionSubject {
+class TracedVolume {
 public:
-    OcclusionSubject(ReportRun& run, GreyVolume grey) : mRun(run) {
+    TracedVolume(ReportRun& run, GreyVolume grey) : mRun(run) {
         Progress quiet;
         mScene = isosurfaceScene(std::move(grey), {}, quiet);
         mVoxels = surfaceVoxels(field(), isovalue(), static_cast<std::size_t>(run.pick(300, 2000)));
@@ -246,7 +246,7 @@ void addMaps(const OcclusionSubject& subject, const std::string& measured, int r
 }
 
 // Figs. 7 and 8: as ambient light.
-void addLit(OcclusionSubject& volume, const OcclusionSubject& subject, const std::string& measured,
+void addLit(TracedVolume& volume, const OcclusionSubject& subject, const std::string& measured,
             const std::array<OpennessVolume, kPaperMethods.size()>& maps, Found& found) {
     ReportPictures pictures{fmt::format("Figs. {} and {}, {}", 5, subject.size.z > 200 ? 7 : 8, subject.name),
                             "Ambient light alone, C = k O C_TF (eq. 5), of the isosurface that is shown "
@@ -327,7 +327,7 @@ void reportPapersOcclusion(ReportRun& run, double) {
         run.tell(fmt::format("occlusion, {}", subject.name));
         PaperVolume source = paperVolume(data, subject.file, subject.ours);
         addTimes(run, subject, source.volume, source.title, found.rows);
-        OcclusionSubject volume(run, std::move(source.volume));
+        TracedVolume volume(run, std::move(source.volume));
         const std::string measured =
             fmt::format("{}, {} voxels of its surface", source.title, volume.texels());
         std::array<OpennessVolume, kPaperMethods.size()> maps;

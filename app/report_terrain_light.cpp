@@ -26,7 +26,7 @@ public:
     explicit GroundSubject(ReportRun& run) : mRun(run) {
         run.tell("terrain's light");
         Progress quiet;
-        const BuiltInTerrain built = generateBuiltInTerrain(1, run.pick(81, 161), quiet, false);
+        const BuiltInTerrain built = generateBuiltInTerrain(1, run.pick(81, 161), quiet, std::nullopt);
         mGround = Heightfield(built.size, built.size, glm::dvec2(built.spacing), built.heights, "generated");
         trace();
     }
