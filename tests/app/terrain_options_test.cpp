@@ -104,18 +104,20 @@ TEST_F(TerrainOptions, TheBuiltInTerrainsSunIsTheUsualOne) {
     EXPECT_LE(most, 1) << "half a thousandth of a degree from it";
 }
 
+// So small a ground is thin beside its samples, and what lies behind shines through: grey, on both colours.
 TEST_F(TerrainOptions, AMediumHasTheColourOfThePlace) {
-    const std::vector<std::string> medium{"--image",  photo(),    "--medium", "ground",       "--model",
-                                          "emission", "--slices", "60",       "--light-size", "16"};
+    const std::vector<std::string> medium{"--image", photo(),    "--medium",     "ground",
+                                          "--model", "emission", "--light-size", "16"};
     const std::string picture = bytes(hills(), medium);
     const std::string surface = bytes(hills(), {"--image", photo()});
     for (int y = 6; y < 30; y += 4)
-        for (const int x : {10, 14, 18, 29, 33, 37})
-            for (int c = 0; c < 3; ++c) {
-                const int own = (x < 24 ? 0 : 1) == c ? 255 : 0;
-                EXPECT_NEAR(pixel(surface, x, y)[c], own, 2) << x << " " << y;
-                EXPECT_NEAR(pixel(picture, x, y)[c], own, 40) << x << " " << y;
-            }
+        for (const int x : {10, 14, 18, 29, 33, 37}) {
+            const bool west = x < 24;
+            const std::array<int, 3> hard = pixel(surface, x, y), soft = pixel(picture, x, y);
+            EXPECT_NEAR(hard[0], west ? 255 : 0, 2) << x << " " << y;
+            EXPECT_NEAR(hard[1], west ? 0 : 255, 2) << x << " " << y;
+            EXPECT_GT((soft[0] - soft[1]) * (west ? 1 : -1), 20) << x << " " << y;
+        }
 }
 
 TEST_F(TerrainOptions, WhatHasNoEffectIsRefused) {
