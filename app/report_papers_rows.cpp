@@ -9,7 +9,7 @@
 namespace stereonav {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string quotedCell(const std::string& text) {
     std::string result = "\"";
     for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
     return result + "\"";
@@ -86,11 +86,11 @@ std::string papersCsv(const std::vector<PaperRow>& rows) {
         const auto ours = [has](double value) {
             return csvNumber(has ? std::optional(value) : std::nullopt);
         };
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", quoted(row.paper),
-                           quoted(row.table), quoted(row.row), quoted(row.column), csvNumber(row.theirs),
-                           quoted(row.said), ours(row.ours.median), ours(row.ours.low), ours(row.ours.high),
-                           row.ours.count, quoted(row.none), quoted(row.unit), quoted(row.measured),
-                           quoted(row.how), quoted(row.why));
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", quotedCell(row.paper),
+                           quotedCell(row.table), quotedCell(row.row), quotedCell(row.column), csvNumber(row.theirs),
+                           quotedCell(row.said), ours(row.ours.median), ours(row.ours.low), ours(row.ours.high),
+                           row.ours.count, quotedCell(row.none), quotedCell(row.unit), quotedCell(row.measured),
+                           quotedCell(row.how), quotedCell(row.why));
     }
     return csv;
 }

@@ -13,7 +13,7 @@ namespace {
 
 // One stage of one way on one number of threads: sums over the frames by repeat, and the fastest of each
 // frame.
-struct Stage {
+struct PaperStage {
     std::vector<double> sums, fastest;
 
     void begin(std::size_t frames) {
@@ -33,7 +33,7 @@ struct Stage {
 };
 
 struct Stages {
-    Stage left, warp, fill, right;
+    PaperStage left, warp, fill, right;
 };
 
 }  // namespace
@@ -89,7 +89,7 @@ void StereoTrial::time(ReportRun& run, const std::string& what, const std::vecto
         if (repeat >= least && watch.elapsed_ms() > 1000 * seconds) break;
         for (auto& [n, list] : stages)
             for (Stages& s : list)
-                for (Stage* stage : {&s.left, &s.warp, &s.fill, &s.right}) stage->begin(mViews.size());
+                for (PaperStage* stage : {&s.left, &s.warp, &s.fill, &s.right}) stage->begin(mViews.size());
         for (std::size_t frame = 0; frame < mViews.size(); ++frame)
             for (const int n : threads) {
                 run.tell(what);
