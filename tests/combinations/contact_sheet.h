@@ -17,14 +17,14 @@ public:
     explicit ContactSheet(std::string name)
         : mName(std::move(name)), mFolder(std::getenv("STEREONAV_COMBINATION_SHEETS")) {}
     ~ContactSheet() {
-        if (mFolder && !mPictures.empty())
+        if (!mPictures.empty())
             writeColorImage(std::filesystem::path(mFolder) / (mName + ".png"), composed());
     }
     ContactSheet(const ContactSheet&) = delete;
     ContactSheet& operator=(const ContactSheet&) = delete;
 
     void add(const Plane<PackedColor>& left, const Plane<PackedColor>& right) {
-        if (!mFolder) return;
+        if (!mFolder || !*mFolder) return;
         mPictures.push_back(left);
         mPictures.push_back(right);
     }

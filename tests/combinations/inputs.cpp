@@ -157,7 +157,8 @@ Arguments Inputs::source(const Row& row) {
 // that are refused for how they are read it is light of the scene as it is.
 std::string Inputs::bake(Row row) {
     const auto leaveOut = [&](Factor factor) { row[static_cast<std::size_t>(factor)] = 0; };
-    if (!isTerrain(row)) leaveOut(Factor::Heights), leaveOut(Factor::Holes);
+    if (!isTerrain(row)) leaveOut(Factor::Heights);
+    if (!isTerrain(row) || levelOf(row, Factor::Scene) == "built.toml") leaveOut(Factor::Holes);
     if (isTerrain(row) || isColon(row)) leaveOut(Factor::Up), leaveOut(Factor::Isovalue);
     const std::string& level = levelOf(row, Factor::Light);
     const std::string what = level == "full" ? "irradiance" : level == "auto" ? "transfer" : level;
@@ -172,7 +173,8 @@ std::string Inputs::bake(Row row) {
     }
     if (level == "full") line.push_back("--full");
     line.insert(line.begin(), "bake");
-    add(line, {"--what", what, "--samples", "32"});
+    add(line, {"--what", what});
+    if (!isTerrain(row) || what != "openness") add(line, {"--samples", "32"});
     if (what != "openness") add(line, {"--bounces", "1"});
     const std::string file = once(name + ".bake", [&](const std::string& at) {
         if (level != "auto") add(line, {"--out", at});

@@ -67,16 +67,11 @@ void addKinds(std::vector<Rule>& all) {
     all.push_back({"terrains are opaque", "--", {{is(Factor::Scene, kTerrains), isGiven(Factor::Opacity)}}});
     all.push_back(
         {"generated without", "--open-holes", {{is(Factor::Scene, {"built.toml"}), isGiven(Factor::Holes)}}});
-    const auto turnsNothing = [&](Clause::Part colors, Clause::Part scene, Clause::Part heights) {
-        all.push_back(
-            {"colours that hold the light of their own day",
-             "--sun",
-             {{scene, colors, heights, isGiven(Factor::Sun), isLeftOut(Factor::Medium),
-               isLeftOut(Factor::Light), isLeftOut(Factor::Landmark), isLeftOut(Factor::Highlight)}}});
-    };
-    turnsNothing(isGiven(Factor::Photo), is(Factor::Scene, kTerrains),
-                 is(Factor::Heights, {"true", "scaled"}));
-    turnsNothing(isLeftOut(Factor::Photo), is(Factor::Scene, {"built.toml"}), isLeftOut(Factor::Heights));
+    all.push_back({"a picture that holds the light of its own day",
+                   "--sun",
+                   {{is(Factor::Scene, kTerrains), isGiven(Factor::Photo), isGiven(Factor::Sun),
+                     isLeftOut(Factor::Medium), isLeftOut(Factor::Light), isLeftOut(Factor::Landmark),
+                     isLeftOut(Factor::Highlight)}}});
     const NamedOption ofTerrains[]{{Factor::Photo, "--image"},
                                    {Factor::Holes, "--open-holes"},
                                    {Factor::Heights, "--vertical-scale"},
