@@ -30,8 +30,8 @@ public:
     }
 
 private:
-    static constexpr int kCell = 66,
-                         kAcross = 24;  // pixels of a picture with its margin; pictures in a row, both eyes
+    static constexpr int kCell = 66;    // pixels of a picture with its margin
+    static constexpr int kAcross = 24;  // pictures in a row, both eyes
 
     Plane<PackedColor> composed() const {
         const int count = static_cast<int>(mPictures.size());
