@@ -23,7 +23,7 @@ const TestModuleFunctions& module() {
     return moduleFunctions<TestModuleFunctions>("test", "by this test");
 }
 
-std::string messageOf(const std::function<void()>& call) {
+std::string moduleMessageOf(const std::function<void()>& call) {
     try {
         call();
     } catch (const Error& error) {
@@ -33,7 +33,7 @@ std::string messageOf(const std::function<void()>& call) {
 }
 
 std::string failureOf(const std::string& name) {
-    return messageOf([&] { moduleFunctions<TestModuleFunctions>(name, "by this test"); });
+    return moduleMessageOf([&] { moduleFunctions<TestModuleFunctions>(name, "by this test"); });
 }
 
 TEST(Module, IsLoadedWhenItsFunctionsAreAskedForAndStays) {
@@ -48,8 +48,8 @@ TEST(Module, IsLoadedWhenItsFunctionsAreAskedForAndStays) {
 }
 
 TEST(Module, ErrorsPassTheBorder) {
-    EXPECT_EQ(messageOf([] { module().throwError("a.txt"); }), "a.txt:line 3: expected a number; write one");
-    EXPECT_EQ(messageOf([] { module().throwFromLoop(); }), "40 is one too many");
+    EXPECT_EQ(moduleMessageOf([] { module().throwError("a.txt"); }), "a.txt:line 3: expected a number; write one");
+    EXPECT_EQ(moduleMessageOf([] { module().throwFromLoop(); }), "40 is one too many");
 }
 
 TEST(Module, CancellingPassesTheBorderAsItself) {
@@ -83,7 +83,7 @@ TEST(Module, AMissingOneIsNamedWithWhatToDo) {
 
 TEST(Module, OneOfAnotherBuildIsRefused) {
     EXPECT_THAT(failureOf("test_other_build"), HasSubstr("it is of another build than the program"));
-    EXPECT_THAT(messageOf([] { moduleFunctions<int>("test", "by this test"); }),
+    EXPECT_THAT(moduleMessageOf([] { moduleFunctions<int>("test", "by this test"); }),
                 HasSubstr("it is of another build than the program"));
 }
 

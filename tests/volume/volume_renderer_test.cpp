@@ -18,6 +18,8 @@
 namespace stereonav {
 namespace {
 
+using test::channelDifference;
+
 std::vector<SimdTarget> targets() {
     std::vector<SimdTarget> all{SimdTarget::Plain};
     for (const SimdTarget target : {SimdTarget::Avx2, SimdTarget::Avx512}) {
