@@ -14,6 +14,7 @@
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/volume/plain_volume_caster.h"
+#include "tests/volume/test_volumes.h"
 
 namespace stereonav {
 namespace {
