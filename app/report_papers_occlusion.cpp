@@ -148,7 +148,8 @@ public:
         AmbientLook& ambient = mScene.volume.look.occlusion;
         ambient = {};
         if (method) {
-            ambient.openness = std::shared_ptr<const OpennessVolume>(std::shared_ptr<void>(), openness);  // lent
+            ambient.openness =
+                std::shared_ptr<const OpennessVolume>(std::shared_ptr<void>(), openness);  // lent
             ambient.strength = gainOf(*method);
         }
         Lens lens = mScene.lens;

@@ -87,10 +87,11 @@ std::string papersCsv(const std::vector<PaperRow>& rows) {
             return csvNumber(has ? std::optional(value) : std::nullopt);
         };
         csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", quotedCell(row.paper),
-                           quotedCell(row.table), quotedCell(row.row), quotedCell(row.column), csvNumber(row.theirs),
-                           quotedCell(row.said), ours(row.ours.median), ours(row.ours.low), ours(row.ours.high),
-                           row.ours.count, quotedCell(row.none), quotedCell(row.unit), quotedCell(row.measured),
-                           quotedCell(row.how), quotedCell(row.why));
+                           quotedCell(row.table), quotedCell(row.row), quotedCell(row.column),
+                           csvNumber(row.theirs), quotedCell(row.said), ours(row.ours.median),
+                           ours(row.ours.low), ours(row.ours.high), row.ours.count, quotedCell(row.none),
+                           quotedCell(row.unit), quotedCell(row.measured), quotedCell(row.how),
+                           quotedCell(row.why));
     }
     return csv;
 }

@@ -12,7 +12,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kBlock = 4;  // texels along an edge of a cell of the first level
+constexpr int kBlock = 4;        // texels along an edge of a cell of the first level
 constexpr int kBeyondBrick = 8;  // of the light's layout
 
 // Light in rgb, in a how much is known of it, 0..1.
@@ -40,8 +40,8 @@ glm::vec4 sumOfBlock(const PackedTexel* brick, const glm::ivec3& first) {
     for (int k = 0; k < kBlock; ++k)
         for (int j = 0; j < kBlock; ++j)
             for (int i = 0; i < kBlock; ++i) {
-                const PackedTexel texel =
-                    brick[(first.z + k) * kBeyondBrick * kBeyondBrick + (first.y + j) * kBeyondBrick + first.x + i];
+                const PackedTexel texel = brick[(first.z + k) * kBeyondBrick * kBeyondBrick +
+                                                (first.y + j) * kBeyondBrick + first.x + i];
                 if (texel == 0) continue;
                 const float weight = texelWeight(texel);
                 sum += glm::vec4(texelLight(texel) * weight, weight);
@@ -56,7 +56,9 @@ int partsIn(const glm::ivec3& size, const glm::ivec3& cell, int edge) {
 
 // size: of the light.
 void addBrick(const PackedTexel* brick, const glm::ivec3& place, const glm::ivec3& size, Level& to) {
-    if (std::all_of(brick, brick + kBeyondBrick * kBeyondBrick * kBeyondBrick, [](PackedTexel t) { return t == 0; })) return;
+    if (std::all_of(brick, brick + kBeyondBrick * kBeyondBrick * kBeyondBrick,
+                    [](PackedTexel t) { return t == 0; }))
+        return;
     constexpr int kBlocks = kBeyondBrick / kBlock;
     for (int n = 0; n < kBlocks * kBlocks * kBlocks; ++n) {
         const glm::ivec3 block(n & 1, n >> 1 & 1, n >> 2), cell = kBlocks * place + block;
@@ -72,7 +74,8 @@ Level firstLevel(const IlluminationVolume& light) {
     parallelFor(bricks.z, [&](int z) {
         for (int y = 0; y < bricks.y; ++y)
             for (int x = 0; x < bricks.x; ++x)
-                addBrick(light.texels.data() + light.layout.index(kBeyondBrick * x, kBeyondBrick * y, kBeyondBrick * z),
+                addBrick(light.texels.data() +
+                             light.layout.index(kBeyondBrick * x, kBeyondBrick * y, kBeyondBrick * z),
                          {x, y, z}, light.frame.size, level);
     });
     return level;

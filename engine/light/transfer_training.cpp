@@ -19,8 +19,8 @@
 namespace stereonav {
 namespace {
 
-constexpr int kTrainingBlock = 256;      // vectors a task
-constexpr int kMeansRounds = 5;  // of plain k-means, before components take part
+constexpr int kTrainingBlock = 256;  // vectors a task
+constexpr int kMeansRounds = 5;      // of plain k-means, before components take part
 
 using Parts = TransferCodebook::Parts;
 using Weights = TransferCompression::Weights;

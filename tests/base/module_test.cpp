@@ -48,7 +48,8 @@ TEST(Module, IsLoadedWhenItsFunctionsAreAskedForAndStays) {
 }
 
 TEST(Module, ErrorsPassTheBorder) {
-    EXPECT_EQ(moduleMessageOf([] { module().throwError("a.txt"); }), "a.txt:line 3: expected a number; write one");
+    EXPECT_EQ(moduleMessageOf([] { module().throwError("a.txt"); }),
+              "a.txt:line 3: expected a number; write one");
     EXPECT_EQ(moduleMessageOf([] { module().throwFromLoop(); }), "40 is one too many");
 }
 

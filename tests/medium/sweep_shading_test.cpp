@@ -76,11 +76,11 @@ Plane<glm::vec4> lightOf(const ShadedScene& scene, double shadingWidth,
     return picture.light;
 }
 
-struct Error {
+struct ShadingError {
     double rms = 0, worst = 0;
 };
-Error errorOf(const Plane<glm::vec4>& truth, const Plane<glm::vec4>& picture) {
-    Error e;
+ShadingError errorOf(const Plane<glm::vec4>& truth, const Plane<glm::vec4>& picture) {
+    ShadingError e;
     for (int y = 0; y < truth.height(); ++y)
         for (int x = 0; x < truth.width(); ++x)
             for (int k = 0; k < 4; ++k) {
@@ -121,7 +121,7 @@ TEST(SweepShading, betweenPlacesIsNearlyAsAtEachSample) {
                 const ShadedScene scene = sceneOf(c.shape, c.weight, bound.pixel, forward);
                 for (const SimdTarget target : simdTargets()) {
                     const Plane<glm::vec4> truth = lightOf(scene, 0, target);
-                    const Error e = errorOf(truth, lightOf(scene, 1, target));
+                    const ShadingError e = errorOf(truth, lightOf(scene, 1, target));
                     EXPECT_LE(e.rms, bound.rms) << bound.pixel << forward;
                     EXPECT_LE(e.worst, bound.worst) << bound.pixel << forward;
                     EXPECT_GT(e.worst, 0) << "nothing is shaded between places";
@@ -159,7 +159,7 @@ TEST(SweepShading, isNearFromInside) {
             ShadedScene scene = sceneOf(Shape::Ball, weight, 0.1, true);
             scene.eye = viewFrom({0.1, 0.2, 0.3}, {0.1 + side, 0.5, -side}, 0.4, 41, 35);
             for (const SimdTarget target : simdTargets()) {
-                const Error e = errorOf(lightOf(scene, 0, target), lightOf(scene, 1, target));
+                const ShadingError e = errorOf(lightOf(scene, 0, target), lightOf(scene, 1, target));
                 EXPECT_LE(e.rms, 1e-3);
                 EXPECT_LE(e.worst, 0.03);
             }
@@ -175,7 +175,7 @@ TEST(SweepShading, holdsForALamp) {
         scene.look.model = model;
         for (const SimdTarget target : simdTargets()) {
             const Plane<glm::vec4> truth = lightOf(scene, 0, target);
-            const Error e = errorOf(truth, lightOf(scene, 1, target));
+            const ShadingError e = errorOf(truth, lightOf(scene, 1, target));
             EXPECT_LE(e.rms, 2e-4);
             EXPECT_LE(e.worst, 3e-3);
             EXPECT_GT(brightestOf(truth), 0.02);
