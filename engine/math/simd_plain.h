@@ -358,19 +358,19 @@ STEREONAV_INLINE I dotHalves(I a, I b) {
         _mm_madd_epi16(reinterpret_cast<__m128i>(a.v), reinterpret_cast<__m128i>(b.v)));
 }
 #else
-STEREONAV_INLINE I lowHalf(I a) {
+STEREONAV_INLINE I signedLowHalf(I a) {
     return shiftRight<16>(shiftLeft<16>(a));
 }
 STEREONAV_INLINE I lerpHalf(I a, I b, I t) {
-    return a + shiftRight<1>(shiftRight<14>(lowHalf(b - a) * t) + I(1));
+    return a + shiftRight<1>(shiftRight<14>(signedLowHalf(b - a) * t) + I(1));
 }
 STEREONAV_INLINE I lerpHalves(I a, I b, I t) {
-    const I low = lerpHalf(lowHalf(a), lowHalf(b), lowHalf(t));
+    const I low = lerpHalf(signedLowHalf(a), signedLowHalf(b), signedLowHalf(t));
     const I high = lerpHalf(shiftRight<16>(a), shiftRight<16>(b), shiftRight<16>(t));
     return shiftLeft<16>(high) | (low & I(0xffff));
 }
 STEREONAV_INLINE I dotHalves(I a, I b) {
-    return lowHalf(a) * lowHalf(b) + shiftRight<16>(a) * shiftRight<16>(b);
+    return signedLowHalf(a) * signedLowHalf(b) + shiftRight<16>(a) * shiftRight<16>(b);
 }
 #endif
 
