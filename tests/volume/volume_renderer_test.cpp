@@ -21,17 +21,6 @@ namespace {
 
 using test::channelDifference;
 
-std::vector<SimdTarget> targets() {
-    std::vector<SimdTarget> all{SimdTarget::Plain};
-    for (const SimdTarget target : {SimdTarget::Avx2, SimdTarget::Avx512}) {
-        try {
-            all.push_back(availableTarget(target));
-        } catch (const Error&) {  // not on this machine
-        }
-    }
-    return all;
-}
-
 VolumeFrame frameOf(const glm::ivec3& size, const glm::dvec3& spacing,
                     const glm::dquat& turn = {1, 0, 0, 0}) {
     VolumeFrame frame;
@@ -146,7 +135,7 @@ TEST(VolumeRenderer, HitsWhatThePlainWalkHitsFromWithin) {
         for (int n = 0; n < 4; ++n) {
             const glm::dvec3 voxel(20 + 4 * std::sin(20 * 0.11) + n, 18 + 3 * std::cos(20 * 0.07), 20 + n);
             const EyeView view = makeEyeView(randomPose(random, c.frame, voxel), lensOf(37, 29, 0.0002));
-            for (const SimdTarget target : targets()) {
+            for (const SimdTarget target : simdTargets()) {
                 const VolumeRenderer renderer(scene, {target});
                 compareDepths(scene, view, rendered(renderer, view), sum);
             }
@@ -187,7 +176,7 @@ TEST(VolumeRenderer, HitsWhatThePlainWalkHitsFromOutside) {
             Lens lens = lensOf(41, 31, 0.001);
             lens.verticalFov = 0.3;
             const EyeView view = makeEyeView(pose, lens);
-            for (const SimdTarget target : targets())
+            for (const SimdTarget target : simdTargets())
                 compareDepths(scene, view, rendered(VolumeRenderer(scene, {target}), view), sum);
         }
     }
@@ -203,7 +192,7 @@ TEST(VolumeRenderer, LeapingChangesNothing) {
         const VolumeScene scene = sceneOf(wavyTube(c.frame, c.noise), -480);
         std::mt19937 random(11);
         const EyeView view = makeEyeView(randomPose(random, c.frame, {23, 17, 20}), lensOf(64, 48, 0.0002));
-        for (const SimdTarget target : targets()) {
+        for (const SimdTarget target : simdTargets()) {
             const EyeImage leaping = rendered(VolumeRenderer(scene, {target, true}), view);
             const EyeImage walking = rendered(VolumeRenderer(scene, {target, false}), view);
             int different = 0;
@@ -226,7 +215,7 @@ TEST(VolumeRenderer, ScatteredPixelsAreThoseOfThePicture) {
         const VolumeScene scene = sceneOf(wavyTube(c.frame, c.noise), -480);
         std::mt19937 random(13);
         const EyeView view = makeEyeView(randomPose(random, c.frame, {23, 17, 20}), lensOf(96, 80, 0.0002));
-        for (const SimdTarget target : targets()) {
+        for (const SimdTarget target : simdTargets()) {
             const VolumeRenderer renderer(scene, {target});
             const EyeImage whole = rendered(renderer, view);
             EyeImage some;
@@ -254,7 +243,7 @@ TEST(VolumeRenderer, ShadesAsThePlainShader) {
         std::mt19937 random(17);
         const StereoViews views =
             makeStereoViews(randomPose(random, c.frame, {23, 17, 20}), lensOf(48, 40, 0.0002), {0.001, 0.02});
-        for (const SimdTarget target : targets()) {
+        for (const SimdTarget target : simdTargets()) {
             const EyeImage image = rendered(VolumeRenderer(scene, {target}), views.right);
             for (int y = 0; y < 40; ++y)
                 for (int x = 0; x < 48; ++x) {
@@ -278,7 +267,7 @@ TEST(VolumeRenderer, ShadingAgainGivesTheSamePicture) {
     const VolumeScene scene = sceneOf(wavyTube(c.frame, 0), -480);
     std::mt19937 random(19);
     const EyeView view = makeEyeView(randomPose(random, c.frame, {23, 17, 20}), lensOf(50, 40, 0.0002));
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         const VolumeRenderer renderer(scene, {target});
         const EyeImage image = rendered(renderer, view);
         EyeImage again = image;
@@ -311,7 +300,7 @@ TEST(VolumeRenderer, CompositesAsThePlainCompositor) {
         const VolumeScene scene = glassTube(frame, opacity);
         std::mt19937 random(23);
         const EyeView view = makeEyeView(randomPose(random, frame, {23, 17, 20}), lensOf(40, 36, 0.0002));
-        for (const SimdTarget target : targets()) {
+        for (const SimdTarget target : simdTargets()) {
             const VolumeRenderer renderer(scene, {target});
             const EyeImage image = rendered(renderer, view);
             long long sum = 0;
@@ -355,7 +344,7 @@ TEST(VolumeRenderer, ModulatesOpacityAsThePlainCompositor) {
     const EyeView view = makeEyeView(randomPose(random, frame, {23, 17, 20}), lensOf(40, 36, 0.0002));
     const EyeImage plain = rendered(VolumeRenderer(scene), view);
     scene.look.modulation = waves(frame);
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         const EyeImage image = rendered(VolumeRenderer(scene, {target}), view);
         long long sum = 0, changed = 0;
         for (int y = 0; y < 36; ++y)
@@ -399,7 +388,7 @@ TEST(VolumeRenderer, StartingFromAKnownDepthChangesNothing) {
     const VolumeScene scene = glassTube(frame, 0.95);
     std::mt19937 random(29);
     const EyeView view = makeEyeView(randomPose(random, frame, {23, 17, 20}), lensOf(70, 40, 0.0002));
-    for (const SimdTarget target : targets()) {
+    for (const SimdTarget target : simdTargets()) {
         const VolumeRenderer renderer(scene, {target});
         const EyeImage image = rendered(renderer, view);
         EyeImage again = image;
