@@ -10,47 +10,40 @@ study=$3
 moved=$4
 shift 4
 
+# Where light is baked or lazy it takes the place of ambient light and shows the surface alone.
+case "$*" in
+    *--light*) changes() { settled "$1"; } ;;
+    *) changes() { settled "$1" "$2"; } ;;
+esac
+
 open_window "$study" "$@"
-sleep 2
+settled opened
 keys t
-sleep 2
-shot start
+changes start opened
 mv "$study" "$moved"
 keys period period period period
-sleep 2
-shot surface
+settled surface start
 keys comma comma comma comma
-sleep 2
-shot back
+settled back surface
 keys o
-sleep 2
-shot ambient
+changes ambient back
 keys o
-sleep 2
-shot method
+changes method ambient
 keys equal equal equal
-sleep 2
-shot radius
+changes radius method
 keys O
 keys O
-sleep 2
-shot lamp
+changes lamp radius
 keys t
-sleep 2
-shot translucent
+changes translucent lamp
 keys b
-sleep 2
-shot variance
+changes variance translucent
 keys g g g
-sleep 2
-shot sigma
+changes sigma variance
 keys b
-sleep 2
-shot gradient
+changes gradient sigma
 keys b
-sleep 2
-shot whole
+changes whole gradient
 keys t
-sleep 2
-shot opaque
+changes opaque whole
 close_window

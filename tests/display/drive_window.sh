@@ -69,6 +69,20 @@ shot() {
     echo "$1 $picture" >>"$out/steps.txt"
 }
 
+# differing STEP OTHER: the first picture that is not that of step OTHER, named in steps.txt.
+differing() {
+    local other
+    other=$(sed -n "s/^$2 //p" "$out/steps.txt")
+    for _ in $(seq 100); do
+        take
+        if ! cmp -s "$other" "$picture"; then
+            echo "$1 $picture" >>"$out/steps.txt"
+            return
+        fi
+    done
+    fail "step $1 shows what step $2 does"
+}
+
 # settled STEP [OTHER]: the picture once three in a row are the same, named in steps.txt: of what moves by itself, or
 # takes longer than a picture. Not before it differs from that of step OTHER.
 settled() {

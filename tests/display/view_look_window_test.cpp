@@ -41,7 +41,7 @@ protected:
 
 TEST_F(LookWindow, ChangesWithoutReadingAgain) {
     auto shots = shotsOf("--opacity 0.1");
-    ASSERT_EQ(shots.size(), 13u);
+    ASSERT_EQ(shots.size(), 14u);
     EXPECT_GT(difference(shots["start"], shots["surface"]), 0.3);
     EXPECT_LT(difference(shots["start"], shots["back"]), 1e-9);
     EXPECT_GT(difference(shots["back"], shots["ambient"]), kDifferent);
@@ -59,7 +59,7 @@ TEST_F(LookWindow, ChangesWithoutReadingAgain) {
 // Light that was worked out stays where it is when the surface moves away and comes back.
 TEST_F(LookWindow, LazyLightStaysAndGoesOn) {
     auto shots = shotsOf("--light lazy");
-    ASSERT_EQ(shots.size(), 13u);
+    ASSERT_EQ(shots.size(), 14u);
     EXPECT_GT(difference(shots["start"], shots["surface"]), 0.3);
     EXPECT_LT(difference(shots["start"], shots["back"]), kSame);
     EXPECT_LT(difference(shots["back"], shots["ambient"]), kSame) << "baked light takes its place";
