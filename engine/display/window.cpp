@@ -152,8 +152,9 @@ void Window::onPointer(double x, double y) {
 
 void Window::onButton(int button, bool pressed) {
     if (button != GLFW_MOUSE_BUTTON_LEFT || mCaptured) return;
-    glm::dvec2 now;
-    glfwGetCursorPos(mHandle, &now.x, &now.y);
+    // Where the pointer was then; what the system is asked for is where it is now, some frames later.
+    glm::dvec2 now = mPointer;
+    if (!mPointerKnown) glfwGetCursorPos(mHandle, &now.x, &now.y);
     if (pressed) {
         mPressed = now;
         return;

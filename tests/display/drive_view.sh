@@ -45,18 +45,19 @@ hold Right 3.0
 settled turned separated
 keys z
 shot recorded
-keys Z
-differing playing recorded
-settled played playing
+# Before the flight is played, since nothing is dragged meanwhile.
 xdotool mousemove --window "$window" 200 100
 xdotool mousedown 1
 sleep 0.2
 xdotool mousemove_relative -- 60 20
 sleep 0.2
 xdotool mouseup 1
-settled dragged played
+settled dragged recorded
+keys Z
+differing playing dragged
+settled played playing
 keys space
-settled home dragged
+settled home played
 xdotool windowsize "$window" 500 200
 settled resized home
 keys F1
