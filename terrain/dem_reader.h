@@ -22,6 +22,7 @@ struct DemGrid {
     std::string projection;        // how it was brought to metres
     glm::dvec2 sourceOffset{0.0};  // reference x, y of the grid's middle
     long long sourceMissing = 0;   // missing samples of the file itself, before any resampling
+    long long outside = 0;         // samples of the grid that lie beyond the file's own: missing too
 
     bool georeferenced = false;  // whether the file says where it lies
     Georeference source;         // of the file's samples

@@ -22,19 +22,19 @@ struct Georeference {
     bool axisAligned() const;
 };
 
-// Pixel coordinates in `source` of the pixel centres of `target`, exact at every kStep-th pixel and
-// bilinear between. at() is safe from several threads.
+// Pixel coordinates in `source` of the pixel centres of `target`, exact at nodes 16, 4 or 1 pixels apart and
+// bilinear between: to a hundredth of a pixel. at() is safe from several threads.
 class PixelMap {
 public:
-    static constexpr int kStep = 16;
-    // From mapPixels() of raster_file.h: rows of nodesX nodes each.
-    PixelMap(int nodesX, std::vector<glm::dvec2> nodes);
+    static constexpr int kStep = 16;  // the widest
+    // From mapPixels() of raster_file.h: rows of nodesX nodes each, 2^shift pixels apart.
+    PixelMap(int nodesX, std::vector<glm::dvec2> nodes, int shift);
 
     // Infinite or NaN where there is no such place in the source.
     glm::dvec2 at(int column, int row) const;
 
 private:
-    int mNodesX = 0;
+    int mNodesX = 0, mShift = 0;
     std::vector<glm::dvec2> mNodes;
 };
 

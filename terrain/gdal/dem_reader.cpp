@@ -8,12 +8,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
 #include "engine/base/error.h"
-#include "engine/base/parallel.h"
+#include "terrain/gdal/dem_resample.h"
 #include "terrain/gdal/dem_samples.h"
 #include "terrain/gdal/reference_system.h"
 #include "terrain/raster_file.h"
@@ -94,80 +93,13 @@ void placeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGri
                                  spacing ? "from its path zoom/x/y" : "assumed: zoom 14 at 36 degrees north");
 }
 
-// Catmull-Rom weights of the four samples around fraction u of the middle two.
-std::array<double, 4> cubicWeights(double u) {
-    return {((-0.5 * u + 1) * u - 0.5) * u, (1.5 * u - 2.5) * u * u + 1, ((-1.5 * u + 2) * u + 0.5) * u,
-            (0.5 * u - 0.5) * u * u};
-}
-
-// Samples read between: cubic where all sixteen around are known, else bilinear over the known ones
-// of four. Missing where the nearest sample is missing, so holes keep their size.
-class SampleReader {
-public:
-    SampleReader(const std::vector<float>& samples, int width, int height)
-        : mSamples(samples), mWidth(width), mHeight(height) {}
-
-    float at(const glm::dvec2& pixel) const {
-        constexpr double kSlack = 0.51;  // pixels beyond the outermost sample
-        const double x = pixel.x - 0.5, y = pixel.y - 0.5;
-        if (!(x >= -kSlack && y >= -kSlack && x <= mWidth - 1 + kSlack && y <= mHeight - 1 + kSlack))
-            return std::numeric_limits<float>::quiet_NaN();
-        const double cx = std::clamp(x, 0.0, mWidth - 1.0), cy = std::clamp(y, 0.0, mHeight - 1.0);
-        const float nearest = sample(static_cast<int>(cx + 0.5), static_cast<int>(cy + 0.5));
-        if (std::isnan(nearest)) return nearest;
-        const int i = std::min(static_cast<int>(cx), mWidth - 2),
-                  j = std::min(static_cast<int>(cy), mHeight - 2);
-        const double cubic = cubicAt(i, j, cx - i, cy - j);
-        return static_cast<float>(std::isnan(cubic) ? bilinearAt(i, j, cx - i, cy - j) : cubic);
-    }
-
-private:
-    float sample(int i, int j) const { return mSamples[static_cast<std::size_t>(j) * mWidth + i]; }
-
-    double cubicAt(int i, int j, double u, double v) const {
-        if (i < 1 || j < 1 || i + 2 >= mWidth || j + 2 >= mHeight)
-            return std::numeric_limits<double>::quiet_NaN();
-        const auto wx = cubicWeights(u), wy = cubicWeights(v);
-        double sum = 0;
-        for (int b = 0; b < 4; ++b)
-            for (int a = 0; a < 4; ++a) sum += wx[a] * wy[b] * sample(i - 1 + a, j - 1 + b);
-        return sum;
-    }
-
-    double bilinearAt(int i, int j, double u, double v) const {
-        double sum = 0, weights = 0;
-        for (int b = 0; b < 2; ++b)
-            for (int a = 0; a < 2; ++a) {
-                const float h = sample(i + a, j + b);
-                if (std::isnan(h)) continue;
-                const double w = (a ? u : 1 - u) * (b ? v : 1 - v);
-                sum += w * h;
-                weights += w;
-            }
-        return sum / weights;  // the nearest of the four is known, so weights >= 1/4
-    }
-
-    const std::vector<float>& mSamples;
-    int mWidth, mHeight;
-};
-
 void resample(const std::filesystem::path& file, DemGrid& dem, std::vector<float>& samples,
               Progress& progress) {
     dem.grid = metricGrid(dem.source, file);
     checkRasterSize(file, dem.grid.width, dem.grid.height);
-    const PixelMap map = mapPixels(dem.grid, dem.source, file);
-    const SampleReader reader(samples, dem.source.width, dem.source.height);
-    std::vector<float> heights(static_cast<std::size_t>(dem.grid.width) * dem.grid.height);
-    constexpr int kBand = 64;
-    const int width = dem.grid.width, height = dem.grid.height;
-    for (int first = 0; first < height; first += kBand) {
-        progress.report(double(first) / height, "bringing " + file.filename().string() + " to metres");
-        parallelFor(std::min(kBand, height - first), [&](int k) {
-            float* out = &heights[static_cast<std::size_t>(first + k) * width];
-            for (int i = 0; i < width; ++i) out[i] = reader.at(map.at(i, first + k));
-        });
-    }
-    samples = std::move(heights);
+    ResampledDem resampled = resampleDem(samples, dem.source, dem.grid, file, progress);
+    samples = std::move(resampled.heights);
+    dem.outside = resampled.outside;
     dem.projection = fmt::format("{}, resampled from {}x{}",
                                  dem.grid.wkt.empty() ? "turned level" : "local transverse Mercator",
                                  dem.source.width, dem.source.height);

@@ -166,6 +166,36 @@ glm::dvec2 ownSteps(const Georeference& raster, const Map& map) {
     return glm::dvec2(std::min(glm::length(column), glm::length(row)));
 }
 
+// How far bilinear steps of so many pixels are off in the middle between nodes, the most of a lattice of
+// places; pixels of the source.
+template <typename Exact>
+double mapError(const Georeference& target, const Exact& exact, int step) {
+    constexpr int kPlaces = 9;
+    double worst = 0;
+    for (int b = 0; b < kPlaces; ++b)
+        for (int a = 0; a < kPlaces; ++a) {
+            const int i = (target.width - 1) * a / (kPlaces - 1) / step * step;
+            const int j = (target.height - 1) * b / (kPlaces - 1) / step * step;
+            const glm::dvec2 mean =
+                0.25 * (exact(i, j) + exact(i + step, j) + exact(i, j + step) + exact(i + step, j + step));
+            const double off = glm::length(mean - exact(i + 0.5 * step, j + 0.5 * step));
+            if (std::isfinite(off)) worst = std::max(worst, off);
+        }
+    return worst;
+}
+
+// Nodes of a map 2^shift pixels apart: as wide as a hundredth of a pixel allows.
+template <typename Exact>
+int nodeShift(const Georeference& target, const Exact& exact) {
+    constexpr double kMapTolerance = 0.01;
+    constexpr long long kMostNodes = 1 << 24;  // 256 MB; finer maps are not made
+    const long long pixels = static_cast<long long>(target.width) * target.height;
+    for (const int shift : {4, 2})
+        if (mapError(target, exact, 1 << shift) <= kMapTolerance || pixels >> (2 * shift - 4) > kMostNodes)
+            return shift;
+    return 0;
+}
+
 }  // namespace
 
 double metresPerUnit(const Georeference& raster) {
@@ -225,19 +255,18 @@ Georeference metricGrid(const Georeference& raster, const std::filesystem::path&
 
 PixelMap mapPixels(const Georeference& target, const Georeference& source,
                    const std::filesystem::path& file) {
-    const int nodesX = (target.width - 1) / PixelMap::kStep + 2;
-    const int nodesY = (target.height - 1) / PixelMap::kStep + 2;
     const ReferenceTransform toSource(target.wkt, source.wkt, file);
     const glm::dvec2 near = source.fromPixel(middlePixel(source));
+    const auto exact = [&](double column, double row) {
+        return source.toPixel(toSource(target.fromPixel({column + 0.5, row + 0.5}), near));
+    };
+    const int shift = nodeShift(target, exact), step = 1 << shift;
+    const int nodesX = (target.width - 1) / step + 2, nodesY = (target.height - 1) / step + 2;
     std::vector<glm::dvec2> nodes;
     nodes.reserve(static_cast<std::size_t>(nodesX) * nodesY);
     for (int j = 0; j < nodesY; ++j)
-        for (int i = 0; i < nodesX; ++i) {
-            const glm::dvec2 reference =
-                target.fromPixel({i * PixelMap::kStep + 0.5, j * PixelMap::kStep + 0.5});
-            nodes.push_back(source.toPixel(toSource(reference, near)));
-        }
-    return PixelMap(nodesX, std::move(nodes));
+        for (int i = 0; i < nodesX; ++i) nodes.push_back(exact(i * step, j * step));
+    return PixelMap(nodesX, std::move(nodes), shift);
 }
 
 bool overlap(const Georeference& a, const Georeference& b, const std::filesystem::path& file) {
