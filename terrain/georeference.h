@@ -9,12 +9,21 @@
 
 namespace stereonav {
 
+// A pixel whose reference coordinates are known.
+struct ControlPoint {
+    glm::dvec2 pixel{0.0}, reference{0.0};
+};
+
 // Pixel coordinates: (0, 0) is the outer corner of the first pixel, its centre is (0.5, 0.5).
 // Reference coordinates: transform[0] + c * transform[1] + r * transform[2], and [3] to [5] for y.
 struct Georeference {
     std::string wkt;                                     // reference system; "" when none is known
     std::array<double, 6> transform{0, 1, 0, 0, 0, -1};  // GDAL's order
     int width = 0, height = 0;                           // pixels
+    // Six or more where a polynomial through these places the pixels (terrain/gdal/control_points.h): then
+    // the transform, and what follows from it here, is only near.
+    std::vector<ControlPoint> points;
+    std::string placedBy;  // how control points place it, in words; "" where they do not
 
     glm::dvec2 fromPixel(const glm::dvec2& pixel) const;
     glm::dvec2 toPixel(const glm::dvec2& reference) const;
