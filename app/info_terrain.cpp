@@ -1,6 +1,7 @@
 // A terrain as `info` describes it.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/info_text.h"
@@ -27,6 +28,11 @@ std::vector<Held> heldByTerrain(const LoadedScene& scene) {
 
 std::string orNone(const std::string& text) {
     return text.empty() ? "none" : text;
+}
+
+// Six digits, and whole metres where there are more.
+std::string heightText(double metres) {
+    return std::abs(metres) < 1e6 ? fmt::format("{:.6g}", metres) : fmt::format("{:.0f}", metres);
 }
 
 // "4151 of 153036 in the file (nodata -32767), 4151 filled"
@@ -93,7 +99,8 @@ std::string terrainText(const LoadedScene& scene) {
     line("spacing", fmt::format("{:.6g} x {:.6g} m", ground.spacing().x, ground.spacing().y));
     line("extent", fmt::format("{:.6g} x {:.6g} m", ground.spacing().x * (ground.width() - 1),
                                ground.spacing().y * (ground.height() - 1)));
-    line("heights", fmt::format("{:.6g} .. {:.6g} m", ground.minHeight(), ground.maxHeight()));
+    line("heights",
+         fmt::format("{} .. {} m", heightText(ground.minHeight()), heightText(ground.maxHeight())));
     line("crs", orNone(report.sourceCrs));
     line("projection", orNone(report.projection));
     if (!report.placedBy.empty()) line("placed by", report.placedBy);
