@@ -1,6 +1,7 @@
 // A terrain as `info` describes it.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/info_text.h"
@@ -29,6 +30,25 @@ std::string orNone(const std::string& text) {
     return text.empty() ? "none" : text;
 }
 
+// Six digits, and whole metres where there are more.
+std::string heightText(double metres) {
+    return std::abs(metres) < 1e6 ? fmt::format("{:.6g}", metres) : fmt::format("{:.0f}", metres);
+}
+
+// "4151 of 153036 in the file (nodata -32767), 4151 filled"
+std::string missingText(const TerrainReport& report) {
+    std::string text =
+        report.sourceSamples == 0
+            ? "none"
+            : fmt::format("{} of {} in the file{}", report.missingSamples, report.sourceSamples,
+                          report.missingValue.empty() ? "" : " (nodata " + report.missingValue + ")");
+    if (report.filledSamples > 0) text += fmt::format(", {} filled", report.filledSamples);
+    if (report.openSamples > 0) text += fmt::format(", {} left open", report.openSamples);
+    if (report.outsideSamples > 0)
+        text += fmt::format(", {} of these beyond the file's edges", report.outsideSamples);
+    return text;
+}
+
 }  // namespace
 
 nlohmann::ordered_json terrainJson(const LoadedScene& scene) {
@@ -45,8 +65,15 @@ nlohmann::ordered_json terrainJson(const LoadedScene& scene) {
     json["crs"] = report.sourceCrs;
     json["projection"] = report.projection;
     json["source_offset"] = {report.sourceOffset.x, report.sourceOffset.y};
+    json["placed_by"] = report.placedBy;
+    json["band"] = report.band;
+    json["height_unit"] = report.heightUnit;
+    json["missing_value"] = report.missingValue;
+    json["file_samples"] = report.sourceSamples;
     json["missing_samples"] = report.missingSamples;
+    json["outside_samples"] = report.outsideSamples;
     json["filled_samples"] = report.filledSamples;
+    json["open_samples"] = report.openSamples;
     json["open_holes"] = ground.hasHoles();
     json["color"] = report.colorSource;
     json["color_size"] = {terrain.color.levelCount() > 0 ? terrain.color.level(0).width() : 0,
@@ -72,11 +99,14 @@ std::string terrainText(const LoadedScene& scene) {
     line("spacing", fmt::format("{:.6g} x {:.6g} m", ground.spacing().x, ground.spacing().y));
     line("extent", fmt::format("{:.6g} x {:.6g} m", ground.spacing().x * (ground.width() - 1),
                                ground.spacing().y * (ground.height() - 1)));
-    line("heights", fmt::format("{:.6g} .. {:.6g} m", ground.minHeight(), ground.maxHeight()));
+    line("heights",
+         fmt::format("{} .. {} m", heightText(ground.minHeight()), heightText(ground.maxHeight())));
     line("crs", orNone(report.sourceCrs));
     line("projection", orNone(report.projection));
-    line("missing", fmt::format("{} samples, {} of them filled{}", report.missingSamples,
-                                report.filledSamples, ground.hasHoles() ? ", the others left open" : ""));
+    if (!report.placedBy.empty()) line("placed by", report.placedBy);
+    if (!report.band.empty()) line("band", report.band);
+    if (!report.heightUnit.empty()) line("height unit", report.heightUnit);
+    line("missing", missingText(report));
     line("colour", orNone(report.colorSource));
     line("sky", orNone(report.skySource));
     line("baked light", orNone(report.lightSource));

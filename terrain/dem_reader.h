@@ -22,17 +22,25 @@ struct DemGrid {
     std::string projection;        // how it was brought to metres
     glm::dvec2 sourceOffset{0.0};  // reference x, y of the grid's middle
     long long sourceMissing = 0;   // missing samples of the file itself, before any resampling
+    long long outside = 0;         // samples of the grid that lie beyond the file's own: missing too
+
+    // What the file left to be found out, in words; "" where there is nothing to say.
+    std::string band;          // which of several bands
+    std::string heightUnit;    // where heights were not plain metres
+    std::string missingValue;  // what marks missing samples
 
     bool georeferenced = false;  // whether the file says where it lies
     Georeference source;         // of the file's samples
     Georeference grid;           // of these samples, north up; the same as source unless resampled
 };
 
-// A sample is missing where it is the file's nodata value, masked, NaN, infinite, or beyond 1e7 m.
-// Degrees, feet, turned rasters and projections whose scale is off by more than 1 % (web Mercator)
-// are brought to metres. Without a georeference a sample is a metre wide, except for a GSI tile:
-// spacing from a path that ends in zoom/x/y.png, else that of zoom 14 at 36 degrees north.
-// Throws Error named by the file; Cancelled.
+// A sample is missing where it is the file's nodata value, or without one what is customary (-32768 of 16
+// bits, -9999 far below all else), masked, NaN, infinite, or beyond 1e7 m. Of several bands the one that
+// speaks of heights counts. Heights are in the band's unit, else in that of the vertical reference system,
+// else metres. Degrees, feet, turned rasters, control points and projections whose scale is off by more than
+// 1 % (web Mercator) are brought to metres; over a pole the file's projection stays. Without a georeference a
+// sample is a metre wide, except for a GSI tile: spacing from a path that ends in zoom/x/y.png, else that of
+// zoom 14 at 36 degrees north. Throws Error named by the file; Cancelled.
 DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress);
 
 }  // namespace stereonav

@@ -24,11 +24,12 @@ bool Georeference::axisAligned() const {
            std::abs(transform[4]) * width <= kTolerance * std::abs(transform[5]);
 }
 
-PixelMap::PixelMap(int nodesX, std::vector<glm::dvec2> nodes) : mNodesX(nodesX), mNodes(std::move(nodes)) {}
+PixelMap::PixelMap(int nodesX, std::vector<glm::dvec2> nodes, int shift)
+    : mNodesX(nodesX), mShift(shift), mNodes(std::move(nodes)) {}
 
 glm::dvec2 PixelMap::at(int column, int row) const {
-    const int i = column / kStep, j = row / kStep;
-    const double u = (column - i * kStep) / double(kStep), v = (row - j * kStep) / double(kStep);
+    const int step = 1 << mShift, i = column >> mShift, j = row >> mShift;
+    const double u = (column - i * step) / double(step), v = (row - j * step) / double(step);
     const glm::dvec2* node = &mNodes[static_cast<std::size_t>(j) * mNodesX + i];
     const glm::dvec2* next = node + mNodesX;
     return (1 - v) * ((1 - u) * node[0] + u * node[1]) + v * ((1 - u) * next[0] + u * next[1]);

@@ -131,6 +131,8 @@ ImagePlace placeOf(RasterPicture& picture, const DemGrid& dem) {
     const auto& t = dem.source.transform;
     image.place.wkt = dem.source.wkt;
     image.place.transform = {t[0], t[1] * columns, t[2] * rows, t[3], t[4] * columns, t[5] * rows};
+    image.place.points = dem.source.points;
+    for (ControlPoint& point : image.place.points) point.pixel /= glm::dvec2(columns, rows);
     return image;
 }
 
@@ -174,7 +176,10 @@ PixelWindow touchedWindow(const PixelMap& map, const Georeference& texture, cons
 
 std::string describe(const std::filesystem::path& file, const ImagePlace& image, bool lit) {
     return fmt::format("image {} {}x{}, {}{}", file.filename().string(), image.place.width,
-                       image.place.height, image.own ? "by its georeference" : "over the same extent",
+                       image.place.height,
+                       !image.own                     ? "over the same extent"
+                       : image.place.placedBy.empty() ? "by its georeference"
+                                                      : "by its " + image.place.placedBy,
                        lit ? ", lit" : "");
 }
 

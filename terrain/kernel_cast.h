@@ -29,7 +29,10 @@ struct Eye {
     double x, y, z;    // grid, grid, metres
     int baseI, baseJ;  // grid cell that single-precision coordinates are relative to
     F relativeX, relativeY;
-    F height;
+    // Metres: its height as a float and what that leaves over. Heights of the ground are taken from the
+    // first, which is exact where both are far from 0, and only then is the rest added: ground at 10,000 km
+    // is as exact as ground at 0.
+    F height, rest;
     F margin;  // metres: bound of the rounding error of a ray's height (see below)
     I lastI, lastJ;
     float nearDepth;
@@ -42,13 +45,14 @@ STEREONAV_INLINE int clampInt(double x, int low, int high) {
 STEREONAV_INLINE Eye makeEye(const GroundData& ground, const CasterView& view) {
     const int baseI = clampInt(view.originX, 0, ground.width - 2);
     const int baseJ = clampInt(view.originY, 0, ground.height - 2);
-    // Heights take part as eye height + t * slope - sample: each term is rounded once, and each is at
-    // most the largest of them in size; 2^-21 of it covers the few roundings of 2^-24.
-    float largest = view.originZ < 0 ? static_cast<float>(-view.originZ) : static_cast<float>(view.originZ);
-    const float low = ground.minHeight < 0 ? -ground.minHeight : ground.minHeight;
-    const float high = ground.maxHeight < 0 ? -ground.maxHeight : ground.maxHeight;
-    if (low > largest) largest = low;
-    if (high > largest) largest = high;
+    // Heights take part as (eye - sample) + rest + t * slope, beside differences of samples: each term is
+    // rounded once, and each is at most the largest of these in size; 2^-21 of it covers the few roundings of
+    // 2^-24.
+    const float height = static_cast<float>(view.originZ);
+    const auto size = [](double x) { return static_cast<float>(x < 0 ? -x : x); };
+    float largest = ground.maxHeight - ground.minHeight;
+    if (size(view.originZ - ground.minHeight) > largest) largest = size(view.originZ - ground.minHeight);
+    if (size(view.originZ - ground.maxHeight) > largest) largest = size(view.originZ - ground.maxHeight);
     return {ground,
             view.originX,
             view.originY,
@@ -57,7 +61,8 @@ STEREONAV_INLINE Eye makeEye(const GroundData& ground, const CasterView& view) {
             baseJ,
             F(static_cast<float>(view.originX - baseI)),
             F(static_cast<float>(view.originY - baseJ)),
-            F(static_cast<float>(view.originZ)),
+            F(height),
+            F(static_cast<float>(view.originZ - height)),
             F(largest * 0x1p-21f),
             I(ground.width - 2),
             I(ground.height - 2),
@@ -161,7 +166,7 @@ STEREONAV_INLINE CellHit hitCell(const Eye& eye, const Walk& w, const BlockExit&
     const F u = mulAdd(w.t, w.rays.x, eye.relativeX - toFloat(w.i - I(eye.baseI)));
     const F v = mulAdd(w.t, w.rays.y, eye.relativeY - toFloat(w.j - I(eye.baseJ)));
     const F slopeU = mulAdd(v, twist, du), slopeV = mulAdd(u, twist, dv);
-    F height = mulAdd(w.t, w.rays.z, eye.height - c.h00);
+    F height = mulAdd(w.t, w.rays.z, (eye.height - c.h00) + eye.rest);
     height = height - mulAdd(u, slopeU, v * dv);
     const F b = w.rays.z - mulAdd(w.rays.x, slopeU, w.rays.y * slopeV);
     const F a = F(0.0f) - w.rays.x * w.rays.y * twist;
@@ -263,7 +268,7 @@ STEREONAV_INLINE Walk startWalk(const Eye& eye, const Rays& rays, F start, I lev
     t = max(t, F(eye.nearDepth));
     const F end = min(max(west, east), max(south, north));
     // Above all ground: a falling ray starts where it comes down to the highest sample.
-    w.over = eye.height - F(eye.ground.maxHeight) - eye.margin;
+    w.over = (eye.height - F(eye.ground.maxHeight)) + (eye.rest - eye.margin);
     const F down = F(0.999999f) * w.over / max(F(0.0f) - rays.z, F(1e-30f));
     t = select(w.downward & (w.over > F(0.0f)), max(t, down), t);
     w.risen = andNot(mulAdd(min(t, F(1e30f)), rays.z, w.over) > F(0.0f), w.downward);
@@ -289,7 +294,7 @@ STEREONAV_INLINE M leap(const Eye& eye, Walk& w, M move) {
         const F highest = gather(eye.ground.maxima, index, move, F(0.0f));
         const BlockExit e = blockExit(eye, w, blockI, blockJ, w.level);
         const F lowestAt = select(w.downward, e.t, w.t);
-        const M near = move & (mulAdd(lowestAt, w.rays.z, eye.height - eye.margin) <= highest);
+        const M near = move & (mulAdd(lowestAt, w.rays.z, eye.rest - eye.margin) <= highest - eye.height);
         const M arrived = near & (w.level == I(0));
         parked = parked | arrived;
         const M over = andNot(move, near);

@@ -78,7 +78,8 @@ private:
         const F u = mulAdd(mWalk.t, mWalk.rays.x, mEye.relativeX - toFloat(mWalk.i - I(mEye.baseI)));
         const F v = mulAdd(mWalk.t, mWalk.rays.y, mEye.relativeY - toFloat(mWalk.j - I(mEye.baseJ)));
         const F slopeU = mulAdd(v, twist, du), slopeV = mulAdd(u, twist, dv);
-        mGround0 = (mEye.height - mH00) - mulAdd(u, slopeU, v * dv);  // the eye above it
+        // The eye above it.
+        mGround0 = (mEye.height - mH00) + (mEye.rest - mulAdd(u, slopeU, v * dv));
         mGround1 = mulAdd(mWalk.rays.x, slopeU, mWalk.rays.y * slopeV);
         mCurvature = F(0.0f) - mWalk.rays.x * mWalk.rays.y * twist;
         mExit = cellExit(mEye, mWalk);

@@ -54,7 +54,8 @@ double hitInCell(const Heightfield& ground, const GridRay& ray, int i, int j, do
     if (!std::isfinite(twist)) return kInfinity;
     const double u = ray.x(t) - i, v = ray.y(t) - j;
     const glm::dvec2 d = ray.direction;
-    const double c = ray.z + t * ray.dz - (h00 + u * du + v * dv + u * v * twist);
+    // Eye and ground are subtracted first, which is exact where both are far from 0.
+    const double c = (ray.z - h00) + t * ray.dz - (u * du + v * dv + u * v * twist);
     const double b = ray.dz - (d.x * (du + v * twist) + d.y * (dv + u * twist));
     const double a = -d.x * d.y * twist;
     return t + firstRoot(a, b, c, end - t);

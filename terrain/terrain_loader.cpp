@@ -14,6 +14,7 @@
 #include "terrain/built_in_terrain.h"
 #include "terrain/dem_reader.h"
 #include "terrain/ground_color.h"
+#include "terrain/height_limits.h"
 #include "terrain/landmark.h"
 #include "terrain/nodata.h"
 #include "terrain/scene_flight.h"
@@ -48,6 +49,8 @@ LoadedGround loadBuiltIn(const SceneFile& file, TerrainScene& scene, Progress& p
             ? builtInTerrain(file.seed, file.builtInSize, progress)
             : generateBuiltInTerrain(file.seed, file.builtInSize, progress,
                                      litLater(file) ? std::nullopt : std::optional(file.look));
+    const auto [low, high] = std::minmax_element(built.heights.begin(), built.heights.end());
+    checkScaledHeights("the built-in terrain", *low, *high, file.verticalScale);
     if (file.verticalScale != 1.0)
         for (float& h : built.heights) h = static_cast<float>(h * file.verticalScale);
     scene.ground = Heightfield(built.size, built.size, glm::dvec2(built.spacing), std::move(built.heights),
@@ -70,8 +73,16 @@ LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progr
     report.sourceCrs = dem.crs;
     report.projection = dem.projection;
     report.sourceOffset = dem.sourceOffset;
+    report.placedBy = dem.source.placedBy;
+    report.band = dem.band;
+    report.heightUnit = dem.heightUnit;
+    report.missingValue = dem.missingValue;
+    report.sourceSamples = static_cast<long long>(dem.source.width) * dem.source.height;
     report.missingSamples = dem.sourceMissing;
-    if (!file.openHoles)
+    report.outsideSamples = dem.outside;
+    if (file.openHoles)
+        report.openSamples = countMissing(dem.heights);
+    else
         report.filledSamples = fillMissing(dem.heights, dem.width, dem.height, dem.spacing, progress);
     scene.ground = Heightfield(dem.width, dem.height, dem.spacing, std::move(dem.heights), file.dem.string());
     return {std::move(dem), std::nullopt};

@@ -20,11 +20,19 @@ class TerrainIllumination;  // terrain/terrain_illumination.h: baked light
 
 // What the reader did, for `info`.
 struct TerrainReport {
-    std::string driver;            // "GeoTIFF", "built-in", ...
-    std::string sourceCrs;         // name of the source's reference system, "" when it has none
-    std::string projection;        // how it was brought to metres: "as it is", "local ..."
-    long long missingSamples = 0;  // nodata, NaN or infinite in the source
-    long long filledSamples = 0;   // of them, filled
+    std::string driver;      // "GeoTIFF", "built-in", ...
+    std::string sourceCrs;   // name of the source's reference system, "" when it has none
+    std::string projection;  // how it was brought to metres: "as it is", "local ..."
+    // What was found out of the file, in words; "" where there is nothing to say.
+    std::string placedBy;          // control points
+    std::string band;              // which of several
+    std::string heightUnit;        // where heights were not plain metres
+    std::string missingValue;      // what marks missing samples
+    long long sourceSamples = 0;   // in the file; 0: there is none
+    long long missingSamples = 0;  // of them, missing
+    long long outsideSamples = 0;  // of the ground's, beyond the file's own
+    long long filledSamples = 0;   // of the ground's, filled: missing ones as resampled, and those beyond
+    long long openSamples = 0;     // of the ground's, left open
     glm::dvec2 sourceOffset{0.0};  // source x, y of the world's origin (metres in the local projection)
     std::string colorSource;       // "image winter.jpg 457x499", "hypsometric tint", ...
     bool colorHoldsSun = false;    // some of the colours hold the light of the look's sun

@@ -8,12 +8,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
 #include "engine/base/error.h"
-#include "engine/base/parallel.h"
+#include "terrain/gdal/dem_resample.h"
 #include "terrain/gdal/dem_samples.h"
 #include "terrain/gdal/reference_system.h"
 #include "terrain/raster_file.h"
@@ -73,7 +72,7 @@ std::string systemName(const std::string& wkt) {
 }
 
 void placeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGrid& dem) {
-    dem.source = georeferenceOf(dataset, dem.georeferenced);
+    dem.source = georeferenceOf(dataset, file, dem.georeferenced);
     dem.driver = dataset.GetDriver()->GetMetadataItem(GDAL_DMD_LONGNAME);
     if (std::string_view(dataset.GetDriverName()) == "GTiff") dem.driver = "GeoTIFF";
     dem.crs = systemName(dem.source.wkt);
@@ -94,82 +93,17 @@ void placeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGri
                                  spacing ? "from its path zoom/x/y" : "assumed: zoom 14 at 36 degrees north");
 }
 
-// Catmull-Rom weights of the four samples around fraction u of the middle two.
-std::array<double, 4> cubicWeights(double u) {
-    return {((-0.5 * u + 1) * u - 0.5) * u, (1.5 * u - 2.5) * u * u + 1, ((-1.5 * u + 2) * u + 0.5) * u,
-            (0.5 * u - 0.5) * u * u};
-}
-
-// Samples read between: cubic where all sixteen around are known, else bilinear over the known ones
-// of four. Missing where the nearest sample is missing, so holes keep their size.
-class SampleReader {
-public:
-    SampleReader(const std::vector<float>& samples, int width, int height)
-        : mSamples(samples), mWidth(width), mHeight(height) {}
-
-    float at(const glm::dvec2& pixel) const {
-        constexpr double kSlack = 0.51;  // pixels beyond the outermost sample
-        const double x = pixel.x - 0.5, y = pixel.y - 0.5;
-        if (!(x >= -kSlack && y >= -kSlack && x <= mWidth - 1 + kSlack && y <= mHeight - 1 + kSlack))
-            return std::numeric_limits<float>::quiet_NaN();
-        const double cx = std::clamp(x, 0.0, mWidth - 1.0), cy = std::clamp(y, 0.0, mHeight - 1.0);
-        const float nearest = sample(static_cast<int>(cx + 0.5), static_cast<int>(cy + 0.5));
-        if (std::isnan(nearest)) return nearest;
-        const int i = std::min(static_cast<int>(cx), mWidth - 2),
-                  j = std::min(static_cast<int>(cy), mHeight - 2);
-        const double cubic = cubicAt(i, j, cx - i, cy - j);
-        return static_cast<float>(std::isnan(cubic) ? bilinearAt(i, j, cx - i, cy - j) : cubic);
-    }
-
-private:
-    float sample(int i, int j) const { return mSamples[static_cast<std::size_t>(j) * mWidth + i]; }
-
-    double cubicAt(int i, int j, double u, double v) const {
-        if (i < 1 || j < 1 || i + 2 >= mWidth || j + 2 >= mHeight)
-            return std::numeric_limits<double>::quiet_NaN();
-        const auto wx = cubicWeights(u), wy = cubicWeights(v);
-        double sum = 0;
-        for (int b = 0; b < 4; ++b)
-            for (int a = 0; a < 4; ++a) sum += wx[a] * wy[b] * sample(i - 1 + a, j - 1 + b);
-        return sum;
-    }
-
-    double bilinearAt(int i, int j, double u, double v) const {
-        double sum = 0, weights = 0;
-        for (int b = 0; b < 2; ++b)
-            for (int a = 0; a < 2; ++a) {
-                const float h = sample(i + a, j + b);
-                if (std::isnan(h)) continue;
-                const double w = (a ? u : 1 - u) * (b ? v : 1 - v);
-                sum += w * h;
-                weights += w;
-            }
-        return sum / weights;  // the nearest of the four is known, so weights >= 1/4
-    }
-
-    const std::vector<float>& mSamples;
-    int mWidth, mHeight;
-};
-
-void resample(const std::filesystem::path& file, DemGrid& dem, std::vector<float>& samples,
+void resample(const std::filesystem::path& file, DemGrid& dem, bool ownSystem, std::vector<float>& samples,
               Progress& progress) {
-    dem.grid = metricGrid(dem.source, file);
+    dem.grid = metricGrid(dem.source, ownSystem, file);
     checkRasterSize(file, dem.grid.width, dem.grid.height);
-    const PixelMap map = mapPixels(dem.grid, dem.source, file);
-    const SampleReader reader(samples, dem.source.width, dem.source.height);
-    std::vector<float> heights(static_cast<std::size_t>(dem.grid.width) * dem.grid.height);
-    constexpr int kBand = 64;
-    const int width = dem.grid.width, height = dem.grid.height;
-    for (int first = 0; first < height; first += kBand) {
-        progress.report(double(first) / height, "bringing " + file.filename().string() + " to metres");
-        parallelFor(std::min(kBand, height - first), [&](int k) {
-            float* out = &heights[static_cast<std::size_t>(first + k) * width];
-            for (int i = 0; i < width; ++i) out[i] = reader.at(map.at(i, first + k));
-        });
-    }
-    samples = std::move(heights);
+    ResampledDem resampled = resampleDem(samples, dem.source, dem.grid, file, progress);
+    samples = std::move(resampled.heights);
+    dem.outside = resampled.outside;
     dem.projection = fmt::format("{}, resampled from {}x{}",
-                                 dem.grid.wkt.empty() ? "turned level" : "local transverse Mercator",
+                                 dem.grid.wkt.empty() ? "turned level"
+                                 : ownSystem          ? "turned level in its own projection"
+                                                      : "local transverse Mercator",
                                  dem.source.width, dem.source.height);
 }
 
@@ -201,9 +135,86 @@ void orient(DemGrid& dem, std::vector<float>& samples) {
     t[2] = t[4] = 0;
 }
 
+// The plane that ground lies in as it is.
+struct OwnPlane {
+    double metres = 0;    // on the ground, in a unit; 0: it has none, and is brought to another plane
+    bool stays = false;   // also where the raster has to be turned level
+    std::string stretch;  // of the plane over a pole, in words
+};
+
+// Over a pole no transverse Mercator is north up: the raster's own projection stays, in metres on the ground
+// at its middle.
+OwnPlane polarPlane(const Georeference& source, double unit, const std::filesystem::path& file) {
+    constexpr double kMostStretch = 1.2;  // a map of an arctic continent
+    constexpr int kPlaces = 9;
+    const auto mapScale = [&](const glm::dvec2& pixel) {
+        const glm::dvec2 ground = groundScale(source, pixel);
+        return 1 / std::sqrt(ground.x * ground.y);
+    };
+    const glm::dvec2 size(source.width, source.height);
+    const double middle = mapScale(0.5 * size);
+    double low = middle, high = middle;
+    for (int k = 0; k < kPlaces * kPlaces; ++k) {
+        const double scale = mapScale(size * glm::dvec2(k % kPlaces, k / kPlaces) / (kPlaces - 1.0));
+        low = std::min(low, scale), high = std::max(high, scale);
+    }
+    if (!(high <= kMostStretch * low))
+        throw Error(file.string(), "extent",
+                    fmt::format("expected a map over the pole whose scales differ by at most {:g} times, "
+                                "got {:.4g} to {:.4g}",
+                                kMostStretch, low, high),
+                    "cut out a part, for example with gdal_translate -projwin");
+    const bool onGround = std::abs(middle - 1) <= kScaleTolerance;
+    return {onGround ? unit : unit / middle, true,
+            fmt::format(", over the pole: map scale {:.4g} in its middle, {:.4g} to {:.4g} all over", middle,
+                        low, high)};
+}
+
+OwnPlane ownPlane(const Georeference& source, const std::filesystem::path& file) {
+    const double unit = metresPerUnit(source);
+    if (unit == 0) return {};
+    if (holdsPole(source)) return polarPlane(source, unit, file);
+    const glm::dvec2 scale = groundScale(source, 0.5 * glm::dvec2(source.width, source.height));
+    const bool onGround = std::max(std::abs(scale.x - 1), std::abs(scale.y - 1)) <= kScaleTolerance;
+    return {onGround ? unit : 0.0, !onEarth(source), ""};
+}
+
 std::string projectionAsItIs(const DemGrid& dem, double metres) {
     if (!dem.georeferenced) return "none: 1 m a sample";
     return metres == 1.0 ? "as it is" : fmt::format("as it is, {:.9g} m a unit", metres);
+}
+
+// Brings the samples to a grid in metres; dem.grid, dem.projection and dem.spacing follow.
+void placeInMetres(const std::filesystem::path& file, DemGrid& dem, std::vector<float>& samples,
+                   Progress& progress) {
+    const OwnPlane plane = ownPlane(dem.source, file);
+    const std::string given = dem.projection;
+    double unit = 1;
+    if (plane.metres > 0 && dem.source.points.empty() && dem.source.axisAligned()) {
+        orient(dem, samples);
+        unit = plane.metres;
+        dem.projection = projectionAsItIs(dem, unit) + plane.stretch;
+    } else {
+        resample(file, dem, plane.stays, samples, progress);
+        if (plane.stays) unit = plane.metres;
+        dem.projection += plane.stretch;
+    }
+    if (!given.empty()) dem.projection = given;
+    dem.spacing = glm::dvec2(dem.grid.transform[1], -dem.grid.transform[5]) * unit;
+}
+
+// Placed by what is not read here; without, it would be taken for one that has no place.
+void checkPlacement(GDALDataset& dataset, const std::filesystem::path& file, bool georeferenced) {
+    if (georeferenced) return;
+    for (const auto& [domain, advice] :
+         {std::pair{"RPC", "bring it to a plane, for example with gdalwarp -rpc"},
+          {"GEOLOCATION", "bring it to a plane, for example with gdalwarp -geoloc"}})
+        if (dataset.GetMetadata(domain))
+            throw Error(file.string(), "georeference",
+                        fmt::format("expected a transform or control points, found {} alone",
+                                    std::string_view(domain) == "RPC" ? "rational polynomials (RPC)"
+                                                                      : "arrays of places"),
+                        advice);
 }
 
 void checkGrid(const std::filesystem::path& file, const DemGrid& dem) {
@@ -231,27 +242,22 @@ DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progres
     checkRasterSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
     DemGrid dem;
     placeSource(*dataset, file, dem);
+    checkPlacement(*dataset, file, dem.georeferenced);
     checkGrid(file, dem);
-    std::vector<float> samples = readSamples(*dataset, messages, file, verticalScale, progress);
+    DemSamples read = readSamples(*dataset, messages, file, verticalScale, progress);
+    std::vector<float> samples = std::move(read.heights);
+    dem.band = std::move(read.band);
+    dem.heightUnit = std::move(read.unit);
+    dem.missingValue = std::move(read.missing);
     dem.sourceMissing = std::count_if(samples.begin(), samples.end(), [](float h) { return std::isnan(h); });
     if (dem.sourceMissing == static_cast<long long>(samples.size()))
-        throw Error(file.string(), "", fmt::format("all {} samples are missing (nodata)", samples.size()),
+        throw Error(file.string(), "",
+                    fmt::format("all {} samples are missing{}", samples.size(),
+                                dem.missingValue.empty() ? "" : " (nodata " + dem.missingValue + ")"),
                     "check the file's nodata value");
-    const double metres = metresPerUnit(dem.source);
-    const glm::dvec2 scale = metres > 0 ? groundScale(dem.source) : glm::dvec2(0.0);
-    const bool onGround = std::max(std::abs(scale.x - 1), std::abs(scale.y - 1)) <= kScaleTolerance;
-    const std::string given = dem.projection;
-    if (onGround && dem.source.axisAligned()) {
-        orient(dem, samples);
-        dem.projection = projectionAsItIs(dem, metres);
-    } else {
-        resample(file, dem, samples, progress);
-    }
-    if (!given.empty()) dem.projection = given;
-    const double unit = dem.grid.wkt.empty() ? 1.0 : metresPerUnit(dem.grid);
+    placeInMetres(file, dem, samples, progress);
     dem.width = dem.grid.width;
     dem.height = dem.grid.height;
-    dem.spacing = glm::dvec2(dem.grid.transform[1], -dem.grid.transform[5]) * unit;
     dem.sourceOffset = dem.grid.fromPixel(0.5 * glm::dvec2(dem.width, dem.height));
     flipRows(samples, dem.width, dem.height);
     dem.heights = std::move(samples);

@@ -6,112 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "terrain/gdal/height_band.h"
+#include "terrain/height_limits.h"
 
 namespace stereonav {
 namespace {
 
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
-constexpr double kAbsurd_m = 1e7;  // more than the Earth's radius: no height of any ground
 constexpr int kGsiSide = 256;
 constexpr const char* kReadAgain = "fetch or export the file again";
-constexpr const char* kGiveDem =
-    "give a GeoTIFF, .hgt, USGS DEM, ESRI ASCII or 16-bit PNG elevation model, or use this one as the image";
-
-// Metres in the named unit; names as GDAL's drivers write them.
-std::optional<double> metresIn(std::string_view unit) {
-    struct Unit {
-        std::string_view name;
-        double metres;
-    };
-    static constexpr Unit kUnits[] = {{"", 1},
-                                      {"m", 1},
-                                      {"metre", 1},
-                                      {"meter", 1},
-                                      {"metres", 1},
-                                      {"meters", 1},
-                                      {"ft", 0.3048},
-                                      {"foot", 0.3048},
-                                      {"feet", 0.3048},
-                                      {"us-ft", 1200.0 / 3937},
-                                      {"ftus", 1200.0 / 3937},
-                                      {"us survey foot", 1200.0 / 3937},
-                                      {"foot_us", 1200.0 / 3937},
-                                      {"dm", 0.1},
-                                      {"cm", 0.01},
-                                      {"mm", 0.001},
-                                      {"km", 1000}};
-    std::string lower(unit);
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    for (const Unit& u : kUnits)
-        if (u.name == lower) return u.metres;
-    return std::nullopt;
-}
-
-// What turns a stored value into metres, and which stored values mean "missing".
-struct Decoder {
-    double scale = 1, offset = 0;
-    std::optional<double> nodata;
-    bool singlePrecision = false;
-
-    float operator()(double stored) const {
-        if (nodata && (stored == *nodata ||
-                       (singlePrecision && static_cast<float>(stored) == static_cast<float>(*nodata))))
-            return kMissing;
-        const double height = stored * scale + offset;
-        return std::abs(height) <= kAbsurd_m ? static_cast<float>(height) : kMissing;
-    }
-};
-
-// Files that do not name their nodata value, but whose format has a customary one.
-std::optional<double> customaryNodata(GDALDataset& dataset, GDALRasterBand& band) {
-    if (std::string_view(dataset.GetDriverName()) == "AAIGrid") return -9999.0;
-    if (band.GetRasterDataType() == GDT_Int16) return -32768.0;
-    return std::nullopt;
-}
-
-Decoder decoderFor(GDALDataset& dataset, GDALRasterBand& band, const std::filesystem::path& file,
-                   double verticalScale) {
-    Decoder decoder;
-    int has = 0;
-    const double nodata = band.GetNoDataValue(&has);
-    if (has)
-        decoder.nodata = nodata;
-    else
-        decoder.nodata = customaryNodata(dataset, band);
-    decoder.singlePrecision = band.GetRasterDataType() == GDT_Float32;
-    const std::string unit = band.GetUnitType() ? band.GetUnitType() : "";
-    const auto metres = metresIn(unit);
-    if (!metres)
-        throw Error(file.string(), "band 1",
-                    "expected heights in metres or feet, got the unit \"" + unit + "\"",
-                    "convert the file to metres");
-    decoder.scale = band.GetScale() * *metres * verticalScale;
-    decoder.offset = band.GetOffset() * *metres * verticalScale;
-    return decoder;
-}
-
-void checkHoldsElevations(GDALDataset& dataset, const std::filesystem::path& file) {
-    GDALRasterBand& band = *dataset.GetRasterBand(1);
-    const GDALDataType type = band.GetRasterDataType();
-    const std::string_view driver = dataset.GetDriverName();
-    const int bands = dataset.GetRasterCount();
-    const bool jpeg = driver == "JPEG", colors = bands >= 3 && type != GDT_Float32 && type != GDT_Float64;
-    if (jpeg || colors || band.GetColorTable())
-        throw Error(file.string(), "",
-                    fmt::format("expected one band of elevations, found a picture ({}, {} band{} of {})",
-                                driver, bands, bands == 1 ? "" : "s", GDALGetDataTypeName(type)),
-                    kGiveDem);
-    if (GDALDataTypeIsComplex(type))
-        throw Error(file.string(), "band 1", "expected real numbers, got complex ones", kGiveDem);
-}
-
-bool hasOwnMask(GDALRasterBand& band) {
-    return (band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) == 0;
-}
 
 [[noreturn]] void throwCutOff(const std::filesystem::path& file, int row, int rows,
                               const GdalMessages& messages) {
@@ -135,13 +41,85 @@ std::vector<unsigned char> gsiBytes(GDALDataset& dataset) {
     return bytes;
 }
 
-std::vector<float> gsiSamples(GDALDataset& dataset, double verticalScale) {
+std::vector<float> gsiSamples(GDALDataset& dataset) {
     const std::vector<unsigned char> bytes = gsiBytes(dataset);
     std::vector<float> heights(static_cast<std::size_t>(kGsiSide) * kGsiSide);
     for (std::size_t k = 0; k < heights.size(); ++k)
-        heights[k] =
-            static_cast<float>(gsiHeight(bytes[3 * k], bytes[3 * k + 1], bytes[3 * k + 2]) * verticalScale);
+        heights[k] = static_cast<float>(gsiHeight(bytes[3 * k], bytes[3 * k + 1], bytes[3 * k + 2]));
     return heights;
+}
+
+// Heights of the rows that were read, and what is to be known of all.
+struct Tally {
+    double low = std::numeric_limits<double>::infinity(), high = -low;  // metres
+    double rounded = 0;                                                 // the most that a float lost, metres
+    long long customary = 0;   // of the value that often stands for missing samples
+    double lowestOther = low;  // without those
+};
+
+constexpr double kCustomary = -9999;
+
+void tally(double metres, float kept, Tally& all) {
+    all.low = std::min(all.low, metres), all.high = std::max(all.high, metres);
+    all.rounded = std::max(all.rounded, std::abs(metres - kept));
+    if (metres == kCustomary)
+        ++all.customary;
+    else
+        all.lowestOther = std::min(all.lowestOther, metres);
+}
+
+// Relief that floats would turn to steps: refused, as it would be other ground.
+void checkPrecision(const std::filesystem::path& file, const Tally& all) {
+    constexpr double kLeastLoss_m = 0.01, kShare = 1e-3;
+    if (all.rounded <= std::max(kLeastLoss_m, kShare * (all.high - all.low))) return;
+    throw Error(
+        file.string(), "heights",
+        fmt::format(
+            "expected relief that single precision holds, got {:.12g} to {:.12g} m, rounded by {:.2g} m",
+            all.low, all.high, all.rounded),
+        "subtract a constant from all heights");
+}
+
+// -9999 alone far below all other ground, in a file that names no value for missing samples, is one.
+void dropCustomary(const Tally& all, const HeightBand& band, DemSamples& samples) {
+    constexpr double kFarBelow_m = 1000;
+    if (all.customary == 0 || band.nodata || band.masked || !(all.lowestOther > kCustomary + kFarBelow_m))
+        return;
+    for (float& h : samples.heights)
+        if (h == static_cast<float>(kCustomary)) h = kMissing;
+    samples.missing = "-9999, as is customary: the file names none, and no other height is near it";
+}
+
+DemSamples readBand(GDALDataset& dataset, const HeightBand& heightBand, GdalMessages& messages,
+                    const std::filesystem::path& file, Tally& all, Progress& progress) {
+    GDALRasterBand& band = *dataset.GetRasterBand(heightBand.number);
+    const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
+    int blockWidth = 0, blockHeight = 0;
+    band.GetBlockSize(&blockWidth, &blockHeight);
+    const int run = std::clamp(blockHeight, 16, 256);
+    messages.clear();  // a georeference that GDAL could not make sense of is no damage to the samples
+    std::vector<double> stored(static_cast<std::size_t>(width) * run);
+    std::vector<unsigned char> mask(heightBand.masked ? stored.size() : 0);
+    std::vector<float> heights(static_cast<std::size_t>(width) * height);
+    for (int row = 0; row < height; row += run) {
+        progress.report(double(row) / height, "reading " + file.filename().string());
+        const int rows = std::min(run, height - row);
+        CPLErr failed = band.RasterIO(GF_Read, 0, row, width, rows, stored.data(), width, rows, GDT_Float64,
+                                      0, 0, nullptr);
+        if (heightBand.masked && failed == CE_None)
+            failed = band.GetMaskBand()->RasterIO(GF_Read, 0, row, width, rows, mask.data(), width, rows,
+                                                  GDT_Byte, 0, 0, nullptr);
+        if (failed != CE_None || messages.hasError()) throwCutOff(file, row, height, messages);
+        float* out = &heights[static_cast<std::size_t>(row) * width];
+        for (std::size_t k = 0; k < static_cast<std::size_t>(width) * rows; ++k) {
+            const bool hidden = heightBand.masked && mask[k] == 0;
+            const double metres =
+                hidden ? std::numeric_limits<double>::quiet_NaN() : heightBand.metres(stored[k]);
+            out[k] = static_cast<float>(metres);
+            if (!std::isnan(metres)) tally(metres, out[k], all);
+        }
+    }
+    return {std::move(heights), heightBand.chosen, heightBand.unit, heightBand.missing};
 }
 
 }  // namespace
@@ -159,35 +137,24 @@ bool isGsiTile(GDALDataset& dataset) {
     return !bytes.empty();
 }
 
-std::vector<float> readSamples(GDALDataset& dataset, GdalMessages& messages,
-                               const std::filesystem::path& file, double verticalScale, Progress& progress) {
-    if (isGsiTile(dataset)) return gsiSamples(dataset, verticalScale);
-    checkHoldsElevations(dataset, file);
-    GDALRasterBand& band = *dataset.GetRasterBand(1);
-    const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
-    const Decoder decode = decoderFor(dataset, band, file, verticalScale);
-    int blockWidth = 0, blockHeight = 0;
-    band.GetBlockSize(&blockWidth, &blockHeight);
-    const int run = std::clamp(blockHeight, 16, 256);
-    const bool masked = hasOwnMask(band);
-    messages.clear();  // a georeference that GDAL could not make sense of is no damage to the samples
-    std::vector<double> stored(static_cast<std::size_t>(width) * run);
-    std::vector<unsigned char> mask(masked ? stored.size() : 0);
-    std::vector<float> heights(static_cast<std::size_t>(width) * height);
-    for (int row = 0; row < height; row += run) {
-        progress.report(double(row) / height, "reading " + file.filename().string());
-        const int rows = std::min(run, height - row);
-        CPLErr failed = band.RasterIO(GF_Read, 0, row, width, rows, stored.data(), width, rows, GDT_Float64,
-                                      0, 0, nullptr);
-        if (masked && failed == CE_None)
-            failed = band.GetMaskBand()->RasterIO(GF_Read, 0, row, width, rows, mask.data(), width, rows,
-                                                  GDT_Byte, 0, 0, nullptr);
-        if (failed != CE_None || messages.hasError()) throwCutOff(file, row, height, messages);
-        float* out = &heights[static_cast<std::size_t>(row) * width];
-        for (std::size_t k = 0; k < static_cast<std::size_t>(width) * rows; ++k)
-            out[k] = masked && mask[k] == 0 ? kMissing : decode(stored[k]);
+DemSamples readSamples(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
+                       double verticalScale, Progress& progress) {
+    DemSamples samples;
+    Tally all;
+    if (isGsiTile(dataset)) {
+        samples = {gsiSamples(dataset), "", "", "of the tile's own code"};
+        for (const float h : samples.heights)
+            if (!std::isnan(h)) tally(h, h, all);
+    } else {
+        const HeightBand band = heightBandOf(dataset, file);
+        samples = readBand(dataset, band, messages, file, all, progress);
+        checkPrecision(file, all);
+        dropCustomary(all, band, samples);
     }
-    return heights;
+    if (all.low <= all.high) checkScaledHeights(file.string(), all.low, all.high, verticalScale);
+    if (verticalScale != 1)
+        for (float& h : samples.heights) h = static_cast<float>(h * verticalScale);
+    return samples;
 }
 
 }  // namespace stereonav

@@ -40,11 +40,15 @@ using GdalDataset = std::unique_ptr<GDALDataset, CloseDataset>;
 GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& messages,
                        const std::string& expected, const std::string& advice);
 
-// Where the raster lies; `known` is set to whether the file says so (else a unit a pixel, no system).
-Georeference georeferenceOf(GDALDataset& dataset, bool& known);
+// Where the raster lies, by its transform or its control points; `known` is set to whether the file says so
+// (else a unit a pixel, no system). The system is that of the plan, without heights. Throws Error for control
+// points that place nothing.
+Georeference georeferenceOf(GDALDataset& dataset, const std::filesystem::path& file, bool& known);
 
 // WKT 2, on one line; "" for none.
 std::string wktOf(const OGRSpatialReference& system);
+// The same without the system of heights that a compound one has.
+std::string planWkt(const OGRSpatialReference& system);
 
 // Throws Error unless both sides lie in [1, 65536] and the product is at most 2^28.
 void checkRasterSize(const std::filesystem::path& file, long long width, long long height);

@@ -111,7 +111,7 @@ public:
     GdalPicture(const std::filesystem::path& file, const std::string& expected, const std::string& advice)
         : mFile(file), mDataset(openRaster(file, mMessages, expected, advice)) {}
 
-    Georeference georeference(bool& known) override { return georeferenceOf(*mDataset, known); }
+    Georeference georeference(bool& known) override { return georeferenceOf(*mDataset, mFile, known); }
     GroundPicture read(const PixelWindow& window, const glm::dvec2& shrink) override {
         return readPicture(*mDataset, mMessages, mFile, window, shrink);
     }

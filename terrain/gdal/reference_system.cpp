@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <memory>
 #include <numbers>
 
 #include "engine/base/error.h"
+#include "terrain/gdal/control_points.h"
 #include "terrain/gdal/gdal_session.h"
 #include "terrain/raster_file.h"
 
@@ -131,19 +133,25 @@ std::string localSystem(const Georeference& raster, const std::filesystem::path&
         throw Error(file.string(), "reference system",
                     "expected a geographic or projected one, got another kind",
                     "reproject the file, for example with gdalwarp -t_srs EPSG:32633");
-    const glm::dvec2 middleReference = raster.fromPixel(middlePixel(raster));
+    const PixelPlacement placement(raster);
+    const glm::dvec2 middleReference = placement.fromPixel(middlePixel(raster));
     const ReferenceTransform toGeographic(raster.wkt, geographic, file);
     const glm::dvec2 middle = toGeographic(middleReference, middleReference);
     const auto edges = mappedEdges({0, 0}, {raster.width, raster.height}, [&](const glm::dvec2& p) {
-        return toGeographic(raster.fromPixel(p), middle);
+        return toGeographic(placement.fromPixel(p), middle);
     });
     const OGRSpatialReference degrees = referenceSystem(geographic);
     const double toDegrees = degrees.GetAngularUnits() * 180 / std::numbers::pi;
-    const glm::dvec2 size = around(edges).size() * toDegrees;
+    const Box box = around(edges);
+    // Meridians are closest to each other at the end that is nearest to a pole, widest at the other.
+    const double nearest =
+        box.min.y <= 0 && box.max.y >= 0 ? 0.0 : std::min(std::abs(box.min.y), std::abs(box.max.y));
+    glm::dvec2 size = box.size() * toDegrees;
+    size.x *= std::cos(nearest * degrees.GetAngularUnits());
     if (!(size.x <= kWidestDegrees && size.y <= kWidestDegrees && std::isfinite(middle.x + middle.y)))
         throw Error(file.string(), "extent",
-                    fmt::format("expected at most {:g} degrees a side, got {:.6g} x {:.6g}", kWidestDegrees,
-                                size.x, size.y),
+                    fmt::format("expected at most {:g} degrees a side on the ground, got {:.4g} x {:.4g}",
+                                kWidestDegrees, size.x, size.y),
                     "cut out a part, for example with gdal_translate -projwin");
     OGRSpatialReference local;
     local.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
@@ -166,6 +174,36 @@ glm::dvec2 ownSteps(const Georeference& raster, const Map& map) {
     return glm::dvec2(std::min(glm::length(column), glm::length(row)));
 }
 
+// How far bilinear steps of so many pixels are off in the middle between nodes, the most of a lattice of
+// places; pixels of the source.
+template <typename Exact>
+double mapError(const Georeference& target, const Exact& exact, int step) {
+    constexpr int kPlaces = 9;
+    double worst = 0;
+    for (int b = 0; b < kPlaces; ++b)
+        for (int a = 0; a < kPlaces; ++a) {
+            const int i = (target.width - 1) * a / (kPlaces - 1) / step * step;
+            const int j = (target.height - 1) * b / (kPlaces - 1) / step * step;
+            const glm::dvec2 mean =
+                0.25 * (exact(i, j) + exact(i + step, j) + exact(i, j + step) + exact(i + step, j + step));
+            const double off = glm::length(mean - exact(i + 0.5 * step, j + 0.5 * step));
+            if (std::isfinite(off)) worst = std::max(worst, off);
+        }
+    return worst;
+}
+
+// Nodes of a map 2^shift pixels apart: as wide as a hundredth of a pixel allows.
+template <typename Exact>
+int nodeShift(const Georeference& target, const Exact& exact) {
+    constexpr double kMapTolerance = 0.01;
+    constexpr long long kMostNodes = 1 << 24;  // 256 MB; finer maps are not made
+    const long long pixels = static_cast<long long>(target.width) * target.height;
+    for (const int shift : {4, 2})
+        if (mapError(target, exact, 1 << shift) <= kMapTolerance || pixels >> (2 * shift - 4) > kMostNodes)
+            return shift;
+    return 0;
+}
+
 }  // namespace
 
 double metresPerUnit(const Georeference& raster) {
@@ -175,37 +213,62 @@ double metresPerUnit(const Georeference& raster) {
     return system.GetLinearUnits();
 }
 
-glm::dvec2 groundScale(const Georeference& raster) {
+glm::dvec2 groundScale(const Georeference& raster, const glm::dvec2& pixel) {
     const OGRSpatialReference system = referenceSystem(raster.wkt);
     const std::string geographic = system.IsProjected() ? geographicWkt(raster.wkt) : std::string();
     if (geographic.empty()) return glm::dvec2(1.0);
     const ReferenceTransform toGeographic(raster.wkt, geographic, {});
     const double toRadians = referenceSystem(geographic).GetAngularUnits();
-    const glm::dvec2 middle = middlePixel(raster);
-    const glm::dvec2 centre = toGeographic(raster.fromPixel(middle), {0, 0});
     const double a = system.GetSemiMajor(), b = system.GetSemiMinor(), e2 = 1 - (b * b) / (a * a);
-    const double sine = std::sin(centre.y * toRadians), w = 1 - e2 * sine * sine;
-    // Metres on the ellipsoid in a radian: prime vertical radius times cosine, meridian radius.
-    const glm::dvec2 metres(a / std::sqrt(w) * std::cos(centre.y * toRadians),
-                            a * (1 - e2) / (w * std::sqrt(w)));
+    // Straight through the ellipsoid, so that the poles are places as any other.
+    const auto inSpace = [&](const glm::dvec2& p) {
+        const glm::dvec2 g = toGeographic(p, {0, 0}) * toRadians;
+        const double across = a / std::sqrt(1 - e2 * std::sin(g.y) * std::sin(g.y));
+        return across * glm::dvec3(std::cos(g.y) * std::cos(g.x), std::cos(g.y) * std::sin(g.x),
+                                   (1 - e2) * std::sin(g.y));
+    };
+    const PixelPlacement placement(raster);
     glm::dvec2 scale(1.0);
     for (int axis = 0; axis < 2; ++axis) {
         glm::dvec2 step(0.0);
         step[axis] = 0.5;
-        const glm::dvec2 from = raster.fromPixel(middle - step), to = raster.fromPixel(middle + step);
-        const glm::dvec2 ground =
-            (toGeographic(to, centre) - toGeographic(from, centre)) * toRadians * metres;
+        const glm::dvec2 from = placement.fromPixel(pixel - step), to = placement.fromPixel(pixel + step);
+        const double ground = glm::length(inSpace(to) - inSpace(from));
         const double length = glm::length(to - from) * system.GetLinearUnits();
-        if (std::isfinite(glm::length(ground)) && length > 0) scale[axis] = glm::length(ground) / length;
+        if (std::isfinite(ground) && length > 0) scale[axis] = ground / length;
     }
     return scale;
 }
 
-Georeference metricGrid(const Georeference& raster, const std::filesystem::path& file) {
+bool onEarth(const Georeference& raster) {
+    const OGRSpatialReference system = referenceSystem(raster.wkt);
+    return system.IsProjected() || system.IsGeographic();
+}
+
+bool holdsPole(const Georeference& raster) {
+    const OGRSpatialReference system = referenceSystem(raster.wkt);
+    const std::string geographic = system.IsProjected() ? geographicWkt(raster.wkt) : std::string();
+    if (geographic.empty()) return false;
+    const ReferenceTransform toRaster(geographic, raster.wkt, {});
+    const double quarter = 0.5 * std::numbers::pi / referenceSystem(geographic).GetAngularUnits();
+    const PixelPlacement placement(raster);
+    for (const double latitude : {quarter, -quarter}) {
+        const glm::dvec2 pixel = placement.toPixel(toRaster({0, latitude}, {0, 0}));
+        // A pole that the projection tears apart lies elsewhere on another meridian.
+        const glm::dvec2 other = placement.toPixel(toRaster({quarter, latitude}, {0, 0}));
+        if (pixel.x >= 0 && pixel.y >= 0 && pixel.x <= raster.width && pixel.y <= raster.height &&
+            glm::length(other - pixel) < 1)
+            return true;
+    }
+    return false;
+}
+
+Georeference metricGrid(const Georeference& raster, bool ownSystem, const std::filesystem::path& file) {
     Georeference grid;
-    if (!raster.wkt.empty()) grid.wkt = localSystem(raster, file);
+    if (!raster.wkt.empty()) grid.wkt = ownSystem ? raster.wkt : localSystem(raster, file);
     const ReferenceTransform toGrid(raster.wkt, grid.wkt, file);
-    const auto map = [&](const glm::dvec2& p) { return toGrid(raster.fromPixel(p), {0, 0}); };
+    const PixelPlacement placement(raster);
+    const auto map = [&](const glm::dvec2& p) { return toGrid(placement.fromPixel(p), {0, 0}); };
     const auto edges = mappedEdges({0.5, 0.5}, {raster.width - 0.5, raster.height - 0.5}, map);
     const Box outer = around(edges), inner = inside(edges);
     const Box& box = inner.area() >= 0.9 * outer.area() ? inner : outer;
@@ -225,26 +288,27 @@ Georeference metricGrid(const Georeference& raster, const std::filesystem::path&
 
 PixelMap mapPixels(const Georeference& target, const Georeference& source,
                    const std::filesystem::path& file) {
-    const int nodesX = (target.width - 1) / PixelMap::kStep + 2;
-    const int nodesY = (target.height - 1) / PixelMap::kStep + 2;
     const ReferenceTransform toSource(target.wkt, source.wkt, file);
-    const glm::dvec2 near = source.fromPixel(middlePixel(source));
+    const PixelPlacement from(target), to(source);
+    const glm::dvec2 near = to.fromPixel(middlePixel(source));
+    const auto exact = [&](double column, double row) {
+        return to.toPixel(toSource(from.fromPixel({column + 0.5, row + 0.5}), near));
+    };
+    const int shift = nodeShift(target, exact), step = 1 << shift;
+    const int nodesX = (target.width - 1) / step + 2, nodesY = (target.height - 1) / step + 2;
     std::vector<glm::dvec2> nodes;
     nodes.reserve(static_cast<std::size_t>(nodesX) * nodesY);
     for (int j = 0; j < nodesY; ++j)
-        for (int i = 0; i < nodesX; ++i) {
-            const glm::dvec2 reference =
-                target.fromPixel({i * PixelMap::kStep + 0.5, j * PixelMap::kStep + 0.5});
-            nodes.push_back(source.toPixel(toSource(reference, near)));
-        }
-    return PixelMap(nodesX, std::move(nodes));
+        for (int i = 0; i < nodesX; ++i) nodes.push_back(exact(i * step, j * step));
+    return PixelMap(nodesX, std::move(nodes), shift);
 }
 
 bool overlap(const Georeference& a, const Georeference& b, const std::filesystem::path& file) {
     const ReferenceTransform toA(b.wkt, a.wkt, file);
-    const glm::dvec2 near = a.fromPixel(middlePixel(a));
+    const PixelPlacement from(b), to(a);
+    const glm::dvec2 near = to.fromPixel(middlePixel(a));
     const Box box = around(mappedEdges({0, 0}, {b.width, b.height}, [&](const glm::dvec2& p) {
-        return a.toPixel(toA(b.fromPixel(p), near));
+        return to.toPixel(toA(from.fromPixel(p), near));
     }));
     return box.min.x < a.width && box.min.y < a.height && box.max.x > 0 && box.max.y > 0;
 }

@@ -151,6 +151,47 @@ TEST_P(CasterOnGround, FillsHolesAsTheWholePictureIsCast) {
     expectPlainHitsInHoles(test::makeScene(test::makeGround(GetParam(), 97, 83, 7)), 100, 17);
 }
 
+// The same ground, metres higher. Floats have steps of a metre at ten thousand kilometres: both casters read
+// the same.
+Heightfield raised(const Heightfield& ground, double metres) {
+    std::vector<float> heights;
+    for (int j = 0; j < ground.height(); ++j)
+        for (int i = 0; i < ground.width(); ++i)
+            heights.push_back(static_cast<float>(ground.sample(i, j) + metres));
+    return Heightfield(ground.width(), ground.height(), ground.spacing(), std::move(heights), "raised");
+}
+
+TEST_P(CasterOnGround, HitsWhatThePlainWalkHitsAtAnyHeight) {
+    const Heightfield ground = test::makeGround(GetParam(), 97, 83, 7);
+    for (const double metres : {1e5, -1e5, 1e7, -1e7}) {
+        SCOPED_TRACE(metres);
+        expectPlainHits(test::makeScene(raised(ground, metres)), 60, 11);
+    }
+}
+
+// From so far away that the ground fills the view of a telescope. Up to 4,000 spacings away hits are the
+// same; beyond, single-precision distances pass by single tips and edges, narrower than a pixel of any wider
+// view.
+TEST_P(CasterOnGround, HitsWhatThePlainWalkHitsFromFarAway) {
+    const TerrainScene scene = test::makeScene(test::makeGround(GetParam(), 97, 83, 7));
+    for (const SimdTarget target : simdTargets()) {
+        const TerrainRenderer renderer(scene, target);
+        for (const auto& [away, share] : {std::pair{1e5, 0.0}, {1e6, 1e-4}, {1e7, 1e-3}}) {
+            Tally tally;
+            for (int k = 0; k < 24; ++k) {
+                const double heading = 0.3 + k * std::numbers::pi / 12, pitch = -0.05 - 0.06 * k;
+                const glm::dvec3 forward(std::sin(heading) * std::cos(pitch),
+                                         std::cos(heading) * std::cos(pitch), std::sin(pitch));
+                const Pose pose =
+                    poseFromAngles(glm::dvec3(0, 0, 50) - away * forward, heading, pitch, 0.1 * k);
+                const Lens lens{57, 41, 2500 / away, 1.0, 0.1};
+                compare(scene, renderer, makeStereoViews(pose, lens, {1.0, away}).right, tally);
+            }
+            EXPECT_LE(double(tally.wrong), share * double(tally.pixels)) << away << ": " << tally.first;
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, CasterOnGround, testing::ValuesIn(test::groundKinds()),
                          [](const auto& kind) { return kind.param; });
 

@@ -59,6 +59,8 @@ struct RasterSpec {
     double linearMetres = 1;
     // Column, row (0 first in the file), band (0 first).
     std::function<double(int, int, int)> value = [](int, int, int) { return 0.0; };
+    std::function<void(GDALDataset&)> adorn = [](GDALDataset&) {};  // what else it says, before it is written
+    std::vector<const char*> options;                               // of the driver: "TILED=YES"
 };
 
 inline std::string wktOfEpsg(const RasterSpec& spec) {
@@ -102,9 +104,13 @@ inline std::filesystem::path writeRaster(const std::filesystem::path& file, cons
             memory->GetRasterBand(b + 1)->SetColorInterpretation(
                 static_cast<GDALColorInterp>(GCI_RedBand + b));
     fillRaster(*memory, spec);
+    spec.adorn(*memory);
+    std::vector<const char*> options = spec.options;
+    options.push_back(nullptr);
     CPLPushErrorHandler(CPLQuietErrorHandler);
     GDALDataset* copy = manager->GetDriverByName(spec.driver)
-                            ->CreateCopy(file.string().c_str(), memory, FALSE, nullptr, nullptr, nullptr);
+                            ->CreateCopy(file.string().c_str(), memory, FALSE,
+                                         const_cast<char**>(options.data()), nullptr, nullptr);
     CPLPopErrorHandler();
     EXPECT_NE(copy, nullptr) << file;
     if (copy) GDALClose(copy);

@@ -6,6 +6,7 @@
 
 #include "raster_files.h"
 #include "terrain/landmark.h"
+#include "terrain/nodata.h"
 #include "tests/support/own_cache.h"
 
 namespace stereonav {
@@ -126,6 +127,26 @@ TEST(TerrainLoader, FillsOrLeavesHoles) {
     EXPECT_TRUE(scene.ground.hasHoles());
 }
 
+// Corners that a turned raster leaves empty are no missing samples of the file.
+TEST(TerrainLoader, CountsWhatIsMissingInTheFileAndOnTheGroundApart) {
+    const TempFolder folder;
+    RasterSpec spec = hillSpec();
+    spec.transform = {500000, 26, 15, 5000000, 15, -26};
+    SceneFile file = sceneOf(writeRaster(folder / "turned.tif", spec));
+    for (const bool open : {false, true}) {
+        file.openHoles = open;
+        const TerrainScene scene = load(file);
+        EXPECT_EQ(scene.report.sourceSamples, 60 * 50);
+        EXPECT_EQ(scene.report.missingSamples, 0);
+        EXPECT_GT(scene.report.outsideSamples, 500);
+        EXPECT_EQ(scene.report.filledSamples, open ? 0 : scene.report.outsideSamples);
+        EXPECT_EQ(scene.report.openSamples, open ? scene.report.outsideSamples : 0);
+        EXPECT_EQ(countMissing({scene.ground.data(),
+                                scene.ground.data() + scene.ground.width() * scene.ground.height()}),
+                  scene.report.openSamples);
+    }
+}
+
 TEST(TerrainLoader, ExtremeRangesGiveAWholeScene) {
     const TempFolder folder;
     for (const double range : {0.0, 1e-6, 1e6}) {
@@ -182,6 +203,12 @@ TEST(TerrainLoader, ErrorsOfAnyFileComeThrough) {
     file = good;
     file.verticalScale = 0;
     EXPECT_THAT(errorOf([&] { load(file); }), HasSubstr("expected a number above 0, got 0"));
+    SceneFile builtIn;
+    builtIn.builtIn = true;
+    builtIn.builtInSize = 65;
+    builtIn.verticalScale = 1e300;
+    EXPECT_THAT(errorOf([&] { load(builtIn); }),
+                HasSubstr("the built-in terrain:vertical scale: expected heights within 10,000 km"));
     const auto thin =
         folder.text("thin.asc", "ncols 5\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2 3 4 5\n");
     EXPECT_THAT(errorOf([&] { load(sceneOf(thin)); }), HasSubstr("expected at least 2x2 samples, got 5x1"));

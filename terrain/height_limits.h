@@ -1,0 +1,34 @@
+// The heights that the program holds: floats, in metres.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/base/error.h"
+
+namespace stereonav {
+
+// More than the Earth's radius: no height of any ground; casters are tried up to here.
+constexpr double kMostHeight_m = 1e7;
+
+// Throws Error named by `file` where heights from low to high, times the vertical scale, are beyond
+// kMostHeight_m, or so small that floats lose them. low, high: metres.
+inline void checkScaledHeights(const std::string& file, double low, double high, double verticalScale) {
+    constexpr double kLeast_m = 1e-30;  // floats hold eight digits from 1.2e-38
+    const double most = std::max(std::abs(low), std::abs(high));
+    const auto fail = [&](const char* expected, const char* advice) {
+        throw Error(
+            file, "vertical scale",
+            fmt::format("expected {}, got {:.6g} to {:.6g} m times {:g}", expected, low, high, verticalScale),
+            advice);
+    };
+    if (!(most * verticalScale <= kMostHeight_m))
+        fail("heights within 10,000 km", "give a smaller --vertical-scale");
+    if (most > 0 && most * verticalScale < kLeast_m)
+        fail("heights that are not lost beside 0", "give a larger --vertical-scale");
+}
+
+}  // namespace stereonav
