@@ -9,7 +9,8 @@
 
 #include <algorithm>
 
-#include "colon/study_parts.h"
+#include "colon/study_header.h"
+#include "colon/study_text.h"
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 
@@ -18,25 +19,20 @@ namespace {
 namespace fs = std::filesystem;
 
 // Counts up when the reader gives other voxels or frames for the same bytes.
-constexpr std::int64_t kReaderVersion = 1;
+constexpr std::int64_t kReaderVersion = 2;
 constexpr std::size_t kHashBlock = 4 << 20;
 
-std::string lowered(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 bool isVolumeName(const fs::path& path) {
-    const std::string name = lowered(path.filename().string());
+    const std::string name = loweredText(path.filename().string());
     for (const char* end : {".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd"})
         if (name.ends_with(end)) return true;
-    return false;
+    return isNiftiPair(path);  // .hdr and .img are names of other things as well
 }
 
 // DICOM slices are called anything: with .dcm or .ima, without an extension, or by a UID, whose last part
 // looks like one.
 bool isSliceName(const fs::path& path) {
-    const std::string extension = lowered(path.extension().string());
+    const std::string extension = loweredText(path.extension().string());
     if (path.filename().string().front() == '.') return false;
     return extension.empty() || extension == ".dcm" || extension == ".ima" || extension == ".dicom" ||
            extension.find_first_not_of(".0123456789") == std::string::npos;
@@ -95,9 +91,10 @@ std::uint64_t keyOfFiles(const std::vector<fs::path>& files, const StudyOptions&
 
 // The header itself and the files that it names, in their order.
 std::vector<fs::path> filesOfVolume(const fs::path& file) {
-    std::vector<fs::path> files = {file};
-    for (const fs::path& data : findData(file).files)
-        if (data != file) files.push_back(data);
+    const VolumeHeader header = readVolumeHeader(file);
+    std::vector<fs::path> files = header.headers;
+    for (const fs::path& data : header.place.files)
+        if (std::find(files.begin(), files.end(), data) == files.end()) files.push_back(data);
     return files;
 }
 

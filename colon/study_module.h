@@ -1,4 +1,4 @@
-// What the readers of studies ask of the module stereonav_itk (ITK, GDCM); colon/itk has the functions.
+// What the readers of studies ask of the module stereonav_gdcm; colon/gdcm has the functions.
 #pragma once
 
 #include "colon/study_parts.h"
@@ -6,7 +6,6 @@
 namespace stereonav {
 
 struct StudyFunctions {
-    decltype(&stereonav::readVolumeFile) readVolumeFile;
     decltype(&stereonav::scanFolder) scanFolder;
     decltype(&stereonav::chooseSeries) chooseSeries;
     decltype(&stereonav::readDicom) readDicom;

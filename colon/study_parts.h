@@ -19,7 +19,9 @@ int bytesOf(SampleType type);
 struct RawStudy {
     VolumeFrame frame;
     SampleType type = SampleType::Int16;
+    double slope = 1, intercept = 0;  // value = sample * slope + intercept
     LazyArray<unsigned char> bytes;
+    bool isScaled() const { return slope != 1 || intercept != 0; }
 };
 
 // Calls use(pointer to the samples of their own type).
@@ -57,46 +59,11 @@ void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, 
 // "512 x 512 x 20"
 std::string sizeText(const std::vector<std::uint64_t>& size);
 
-// --- study_header.cpp
-// What the text of a header says about where the samples are; found out without ITK, so that the bytes can
-// be counted before anything is decoded, and detached files hashed.
-struct DataPlace {
-    std::vector<std::filesystem::path> files;  // that hold samples: the header's own, or others
-    std::uint64_t offset = 0;                  // of the samples in each
-    bool compressed = false;
-    bool countStream = false;        // ITK reads on when the compressed stream ends early: count it first
-    std::uint64_t headerInside = 0;  // bytes of header within the compressed stream
-    bool counted = true;             // false: stored as text or in a way that can not be counted
-};
-DataPlace findData(const std::filesystem::path& file);
-// A detached header for a NRRD that names a space but gives no directions in it, which ITK does not read:
-// the same without the space. "" where there is no need.
-std::string nrrdWithoutSpace(const std::filesystem::path& file);
-// Throws Error when the files hold fewer bytes than the header says (compressed: than they can ever hold).
-void checkBytes(const std::filesystem::path& file, const DataPlace& place, std::uint64_t expected);
-// Bytes that a gzip stream at `offset` of the file holds, up to `limit`.
-std::uint64_t inflatedBytes(const std::filesystem::path& file, std::uint64_t offset, std::uint64_t limit);
-
 // --- study_header_check.cpp
-// All throw Error, which names the place, where a library would print, hang or end the program.
-// head: the first 348 bytes of a NIfTI file, inflated.
-void checkNiftiHeader(const std::filesystem::path& file, const std::string& head);
-// Takes the lines of a MetaImage header in turn, keys in small letters ("" where a line has none).
-class MetaHeaderCheck {
-public:
-    explicit MetaHeaderCheck(std::filesystem::path file) : mFile(std::move(file)) {}
-    void take(const std::string& key, const std::string& value);
-    void finish() const;  // at ElementDataFile: that nothing is missing
-
-private:
-    std::filesystem::path mFile;
-    int mLine = 0, mAxes = 0;
-    bool mSized = false, mTyped = false;
-};
 // That the elements of a DICOM file's group 2 can be walked through; a file without one is left alone.
 void checkDicomMeta(const std::filesystem::path& file);
 
-// --- study_itk.cpp
+// --- study_volume.cpp
 struct VolumeFile {
     RawStudy raw;
     std::string format, description;
