@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,10 +60,6 @@ void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, 
 // "512 x 512 x 20"
 std::string sizeText(const std::vector<std::uint64_t>& size);
 
-// --- study_header_check.cpp
-// That the elements of a DICOM file's group 2 can be walked through; a file without one is left alone.
-void checkDicomMeta(const std::filesystem::path& file);
-
 // --- study_volume.cpp
 struct VolumeFile {
     RawStudy raw;
@@ -72,10 +69,12 @@ struct VolumeFile {
 // NRRD, NIfTI or MetaImage. Throws Error, Cancelled.
 VolumeFile readVolumeFile(const std::filesystem::path& file, const StudyOptions& options, Progress& progress);
 
-// --- study_dicom.cpp
+// --- study_dicom_slices.cpp
+// A slice, or a frame of several in one file.
 struct DicomSlice {
     std::filesystem::path file;
-    std::string name;  // the file's, for messages
+    int frame = -1;    // from 0 on; -1: the file has one
+    std::string name;  // the file's, for messages, and its frame
     std::string uid, description, modality, kernel;
     int columns = 0, rows = 0, frames = 1, samples = 1;
     glm::dvec3 position{0.0};   // LPS millimetres, of the first pixel's centre
@@ -85,17 +84,25 @@ struct DicomSlice {
     double slope = 1, intercept = 0;
     bool hasPlace = false, hasSpacing = false, hasPadding = false;
     std::int64_t padding = 0, paddingLimit = 0;  // stored numbers
-    std::uint64_t missingBytes = 0;              // of its pixels, at the end of the file
+    std::string damage;                          // a clause that fits behind the name; "" where there is none
+    std::string aside;  // what it is where it is no slice of a volume: "localizer"; "" else
 };
+// Of a DICOM file, none where it is not an image. Throws Error.
+std::vector<DicomSlice> readSlices(const std::filesystem::path& file, bool& isDicom);
+
+// --- study_dicom.cpp
 // Images among the files of a folder, by series in the order of their UIDs.
 struct DicomSeries {
     SeriesInfo info;
     std::vector<DicomSlice> slices;
+    std::vector<std::string> notes;
+    std::string strangers;  // files that are not DICOM, a few by name; "" where there are none
 };
-std::vector<DicomSeries> scanFolder(const std::filesystem::path& folder);
+// place: a folder, or one file.
+std::vector<DicomSeries> scanFolder(const std::filesystem::path& place);
 // The one asked for; throws Error that lists them otherwise.
-DicomSeries chooseSeries(const std::filesystem::path& folder, const std::string& wanted);
-VolumeFile readDicom(const std::filesystem::path& folder, const StudyOptions& options, Progress& progress);
+DicomSeries chooseSeries(const std::filesystem::path& place, const std::string& wanted);
+VolumeFile readDicom(const std::filesystem::path& place, const StudyOptions& options, Progress& progress);
 
 // --- study_slices.cpp
 // How slices lie: offsets of each slice's first pixel along the shared in-plane axes and the normal, metres,
@@ -109,7 +116,14 @@ struct SlicePlaces {
 };
 // Sorts along the normal and checks; throws Error that names the slices unless all is even and upright or
 // `resample` is set, which mends gaps, uneven steps and tilt. Repeated slices and mixed sizes never pass.
-SlicePlaces placeSlices(const std::filesystem::path& folder, std::vector<DicomSlice>& slices, bool resample);
+// strangers: files of the folder that may be what is missing; "" where there are none.
+SlicePlaces placeSlices(const std::filesystem::path& folder, std::vector<DicomSlice>& slices, bool resample,
+                        const std::string& strangers = "");
+
+// --- study_pixels.cpp
+// Calls use(slice, its pixels as stored, widened) for these, all of one file. Throws Error.
+void decodeSlices(const std::vector<const DicomSlice*>& slices,
+                  const std::function<void(const DicomSlice&, const double*)>& use);
 
 // --- study_resample.cpp
 // Onto an even, upright grid over all of the slices, by linear interpolation; places that no slice covers

@@ -5,7 +5,7 @@
 namespace stereonav {
 namespace {
 
-constexpr StudyFunctions kFunctions = {scanFolder, chooseSeries, readDicom};
+constexpr StudyFunctions kFunctions = {decodePicture};
 
 }  // namespace
 
