@@ -300,6 +300,9 @@ void takeSpaced(const NrrdText& nrrd, const std::vector<std::size_t>& axes, Volu
         const double cells = static_cast<double>(header.size[n]) - (node ? 1 : 0);
         double spacing = spacings[axis];
         if (std::isnan(spacing)) spacing = (most[axis] - least[axis]) / cells;
+        if (!std::isnan(spacing) && !(spacing > 0 && std::isfinite(spacing)))
+            nrrd.refuse("spacings",
+                        fmt::format("expected a spacing above 0 along axis {}, found {:g}", n + 1, spacing));
         known &= !std::isnan(spacing);
         if (std::isnan(spacing)) spacing = 1;
         header.steps[n][n] = spacing * units[n];

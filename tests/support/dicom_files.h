@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
-#include "volume_files.h"
+#include "file_bytes.h"
+#include "slice_spec.h"
 
 namespace stereonav::test {
 
