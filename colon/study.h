@@ -40,8 +40,8 @@ struct SeriesInfo {
 std::vector<SeriesInfo> listSeries(const std::filesystem::path& folder);
 
 // True where readStudy would try: a folder with DICOM files, or a name ending in .nrrd .nhdr .nii .nii.gz
-// .mha .mhd .dcm .ima; also what begins as DICOM or is a NIfTI pair, and samples of a header beside them, which
-// it refuses by naming that. No more is read than the folder's list and headers.
+// .mha .mhd .dcm .ima; also what begins as DICOM or is a NIfTI pair, and samples of a header beside them,
+// which it refuses by naming that. No more is read than the folder's list and headers.
 bool looksLikeStudy(const std::filesystem::path& path);
 
 // The study's key without decoding its voxels, for looking into the cache first.

@@ -64,6 +64,15 @@ TEST_F(StudyCommands, ScaledNiftiIsRead) {
     EXPECT_EQ(volume.at("study").at("size"), Json({5, 4, 3}));
 }
 
+// The program's own choice is never refused as if it had been asked for.
+TEST_F(StudyCommands, ValuesOfAirAloneHaveASurface) {
+    const std::string study =
+        nrrd("air.nrrd", {}, [](int i, int j, int k) { return i + j + k < 30 ? -1000 : -600; });
+    const Json volume = info({study, "--isosurface"});
+    EXPECT_GT(volume.at("isovalue").get<double>(), -1000);
+    EXPECT_LT(volume.at("isovalue").get<double>(), -600);
+}
+
 TEST_F(StudyCommands, OneDicomFileByName) {
     DicomSpec s;
     for (int k = 0; k < 3; ++k) s.frames.emplace_back(10, 20, 30 + 2 * k);
