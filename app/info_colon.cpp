@@ -59,6 +59,14 @@ std::vector<double> mmOf(const glm::dvec3& metres) {
     return {kMm * metres.x, kMm * metres.y, kMm * metres.z};
 }
 
+std::vector<int> sizeOf(const VolumeFrame& frame) {
+    return {frame.size.x, frame.size.y, frame.size.z};
+}
+
+std::string sizeText(const VolumeFrame& frame) {
+    return fmt::format("{} x {} x {}", frame.size.x, frame.size.y, frame.size.z);
+}
+
 double millilitres(const LumenField& lumen) {
     double sum = 0;
     for (const LumenSegment& segment : lumen.segments) sum += segment.volume;
@@ -78,7 +86,12 @@ Json colonJson(const LoadedScene& scene) {
     Json json;
     json["kind"] = colon.isColon() ? "colon" : "isosurface";
     json["format"] = colon.format;
-    json["size"] = {field.frame.size.x, field.frame.size.y, field.frame.size.z};
+    // The study's own; what follows is of the grid that is shown: a part around the lumen, or one with a
+    // border.
+    json["study"] = {{"size", sizeOf(colon.studyFrame)},
+                     {"spacing_mm", mmOf(colon.studyFrame.spacing)},
+                     {"origin_mm", mmOf(colon.studyFrame.origin)}};
+    json["size"] = sizeOf(field.frame);
     json["spacing_mm"] = mmOf(field.frame.spacing);
     json["origin_mm"] = mmOf(field.frame.origin);
     json["range"] = {range.lowest, range.highest};
@@ -113,7 +126,9 @@ std::string colonText(const LoadedScene& scene) {
     const auto line = [&](const char* name, const std::string& value) { text += infoLine(name, value); };
     line("read by", colon.format);
     line("shown as", colon.isColon() ? "a colon, from inside" : "a surface, from outside");
-    line("voxels", fmt::format("{} x {} x {}", frame.size.x, frame.size.y, frame.size.z));
+    line("voxels", sizeText(colon.studyFrame));
+    if (colon.isColon() && frame.size != colon.studyFrame.size)
+        line("", sizeText(frame) + " of them around the lumen are kept");
     line("spacing", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", kMm * frame.spacing.x, kMm * frame.spacing.y,
                                 kMm * frame.spacing.z));
     line("values",

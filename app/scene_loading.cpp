@@ -123,7 +123,7 @@ void checkSize(const SizeOption& size, int bytesPerPixel) {
 SceneKind kindOf(const std::string& name) {
     constexpr const char* kAdvice =
         "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png), a CT study (a folder of "
-        "DICOM slices, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), colon, cloud, wax, or nothing for the "
+        "DICOM slices, .dcm, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), colon, cloud, wax, or nothing for the "
         "built-in "
         "terrain";
     if (name.empty() || name == "terrain") return SceneKind::Terrain;

@@ -20,19 +20,28 @@ if(STEREONAV_DISPLAY)
 endif()
 
 if(STEREONAV_COLON)
-  # ITK reads and writes the files of CT studies. Only the modules needed, and no ITK_USE_FILE, which would
-  # register every format there is: colon/itk/study_itk.cpp makes the readers it needs itself. The configuration files
-  # of GDCM name programs that Debian packs apart and say so in a long notice: kept quiet.
+  find_package(BZip2 REQUIRED)
+  find_path(GDCM_INCLUDE gdcmReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)
+  file(STRINGS ${GDCM_INCLUDE}/gdcmConfigure.h GDCM_VERSION REGEX "define GDCM_VERSION")
+  string(REGEX REPLACE "[^0-9.]" "" GDCM_VERSION "${GDCM_VERSION}")
+  add_library(gdcm_libraries INTERFACE)
+  target_include_directories(gdcm_libraries SYSTEM INTERFACE ${GDCM_INCLUDE})
+  target_link_libraries(gdcm_libraries INTERFACE gdcmMSFF gdcmDSED gdcmCommon)
+endif()
+
+if(STEREONAV_COLON AND STEREONAV_TESTS)
+  # ITK's readers and its distance filter are what ours are held against. Only the modules needed, and no
+  # ITK_USE_FILE, which would register every format there is. The configuration files of GDCM name programs that Debian
+  # packs apart and say so in a long notice: kept quiet.
   set(saved_log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
   set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
   find_package(ITK 5.2 CONFIG REQUIRED
     COMPONENTS ITKCommon ITKIOImageBase ITKIOGDCM ITKIONIFTI ITKIONRRD ITKIOMeta ITKNIFTI ITKDistanceMap)
   set(CMAKE_MESSAGE_LOG_LEVEL "${saved_log_level}")
-  find_path(GDCM_INCLUDE gdcmReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)
   add_library(itk_libraries INTERFACE)
   list(REMOVE_ITEM ITK_INCLUDE_DIRS /usr/include)  # searched anyway; named, it hides the compiler's own
-  target_include_directories(itk_libraries SYSTEM INTERFACE ${ITK_INCLUDE_DIRS} ${GDCM_INCLUDE})
-  target_link_libraries(itk_libraries INTERFACE ${ITK_LIBRARIES} gdcmMSFF gdcmDSED gdcmCommon ZLIB::ZLIB)
+  target_include_directories(itk_libraries SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
+  target_link_libraries(itk_libraries INTERFACE ${ITK_LIBRARIES} gdcm_libraries ZLIB::ZLIB)
 endif()
 
 if(STEREONAV_TESTS)

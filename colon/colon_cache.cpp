@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the file's form, or what is found in the same study, changes.
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr int kBrick = 8;
 
 struct Header {
@@ -187,6 +187,7 @@ std::vector<char> packed(const FoundColon& found) {
     out.put(lumen.field.offset);
     out.put(lumen.isovalue);
     out.text(found.format);
+    out.put(found.studyFrame);
     out.texts(found.notes);
     out.texts(lumen.notes);
     out.list(lumen.segments);
@@ -217,6 +218,7 @@ FoundColon unpacked(std::span<const char> bytes) {
     lumen.field.offset = in.get<double>();
     lumen.isovalue = in.get<double>();
     found.format = in.text();
+    found.studyFrame = in.get<VolumeFrame>();
     found.notes = in.texts();
     lumen.notes = in.texts();
     lumen.segments = in.list<LumenSegment>();

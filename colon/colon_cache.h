@@ -14,6 +14,7 @@ namespace stereonav {
 // it.
 struct FoundColon {
     std::string format;
+    VolumeFrame studyFrame;  // of the whole study; the lumen's is a part of it
     LumenField lumen;
     Centreline centreline;
     std::vector<Polyp> polyps;

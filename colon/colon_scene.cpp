@@ -63,6 +63,7 @@ LumenField lumenOfGrey(const Study& study, const ColonOptions& options, std::vec
 FoundColon findColon(const Study& study, const ColonOptions& options, Progress& progress) {
     FoundColon found;
     found.format = study.format;
+    found.studyFrame = study.isMask ? study.mask.frame : study.grey.frame;
     found.notes = study.notes;
     try {
         found.lumen = study.isMask ? lumenFromMask(study.mask, options.segmentation, progress)
@@ -154,6 +155,7 @@ void placeViewer(ColonScene& scene, const ColonOptions& options) {
 ColonScene sceneOf(FoundColon found, const ColonOptions& options, Progress& progress) {
     ColonScene scene;
     scene.format = std::move(found.format);
+    scene.studyFrame = found.studyFrame;
     scene.notes = std::move(found.notes);
     scene.lumen = std::move(found.lumen);
     scene.notes.insert(scene.notes.end(), scene.lumen.notes.begin(), scene.lumen.notes.end());
@@ -172,10 +174,12 @@ ColonScene sceneOf(FoundColon found, const ColonOptions& options, Progress& prog
 
 ColonScene surfaceOf(Study study, const ColonOptions& options, const std::string& note, Progress& progress) {
     GreyVolume grey = study.isMask ? greyOf(study.mask) : std::move(study.grey);
+    const VolumeFrame whole = grey.frame;
     if (options.up) turnUp(grey.frame, *options.up);
     ColonScene scene = isosurfaceScene(std::move(grey), options, progress);
     if (options.up) scene.notes.push_back("turned: what points to " + nameOf(*options.up) + " is up");
     scene.format = study.format;
+    scene.studyFrame = whole;
     scene.notes.insert(scene.notes.begin(), study.notes.begin(), study.notes.end());
     if (!note.empty()) scene.notes.insert(scene.notes.begin(), note);
     return scene;
@@ -215,6 +219,7 @@ ColonScene sharing(const ColonScene& scene) {
     ColonScene same;
     same.name = scene.name;
     same.format = scene.format;
+    same.studyFrame = scene.studyFrame;
     same.notes = scene.notes;
     same.volume = {scene.volume.field.share(), scene.volume.cells.share(), scene.volume.look};
     same.lumen = sharing(scene.lumen);

@@ -37,6 +37,8 @@ struct ColonOptions {
 
 struct ColonScene {
     std::string name, format;
+    VolumeFrame
+        studyFrame;  // of the study as it was read; the volume's may be a part of it, or have a border
     std::vector<std::string> notes;
     VolumeScene volume;
     // Of a colon; empty for a volume seen from outside.

@@ -164,7 +164,8 @@ bool looksLikeHounsfield(const GreyVolume& grey) {
 }
 
 IsovalueChoice chooseIsovalue(const GreyVolume& grey) {
-    if (!looksLikeHounsfield(grey)) {
+    const auto most = *std::max_element(grey.values.data(), grey.values.data() + grey.frame.count());
+    if (!looksLikeHounsfield(grey) || valueOf(grey, most) <= kSkin) {  // of air alone there is no skin
         const double value = valueOf(grey, otsu(histogramOf(grey)));
         return {value, "between the two kinds of values that differ most"};
     }

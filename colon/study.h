@@ -1,4 +1,5 @@
-// A CT study or a ready mask from files, through ITK: a folder of DICOM slices, NIfTI, NRRD, MetaImage.
+// A CT study or a ready mask from files: a folder of DICOM slices, an enhanced DICOM file, NIfTI, NRRD,
+// MetaImage.
 // World: the patient's axes (LPS) in metres; orientation and spacing as the file says.
 #pragma once
 
@@ -34,11 +35,13 @@ struct SeriesInfo {
     std::string uid, description;
     int slices = 0;
 };
-// The series in a folder of DICOM files, in the order --series counts them. Throws Error.
+// The series in a folder of DICOM files, in the order --series counts them, without localizers and the like.
+// Throws Error.
 std::vector<SeriesInfo> listSeries(const std::filesystem::path& folder);
 
 // True where readStudy would try: a folder with DICOM files, or a name ending in .nrrd .nhdr .nii .nii.gz
-// .mha .mhd. Nothing is read but the folder's list.
+// .mha .mhd .dcm .ima; also what begins as DICOM or is a NIfTI pair, and samples of a header beside them,
+// which it refuses by naming that. No more is read than the folder's list and headers.
 bool looksLikeStudy(const std::filesystem::path& path);
 
 // The study's key without decoding its voxels, for looking into the cache first.

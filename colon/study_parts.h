@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +20,9 @@ int bytesOf(SampleType type);
 struct RawStudy {
     VolumeFrame frame;
     SampleType type = SampleType::Int16;
+    double slope = 1, intercept = 0;  // value = sample * slope + intercept
     LazyArray<unsigned char> bytes;
+    bool isScaled() const { return slope != 1 || intercept != 0; }
 };
 
 // Calls use(pointer to the samples of their own type).
@@ -57,46 +60,7 @@ void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, 
 // "512 x 512 x 20"
 std::string sizeText(const std::vector<std::uint64_t>& size);
 
-// --- study_header.cpp
-// What the text of a header says about where the samples are; found out without ITK, so that the bytes can
-// be counted before anything is decoded, and detached files hashed.
-struct DataPlace {
-    std::vector<std::filesystem::path> files;  // that hold samples: the header's own, or others
-    std::uint64_t offset = 0;                  // of the samples in each
-    bool compressed = false;
-    bool countStream = false;        // ITK reads on when the compressed stream ends early: count it first
-    std::uint64_t headerInside = 0;  // bytes of header within the compressed stream
-    bool counted = true;             // false: stored as text or in a way that can not be counted
-};
-DataPlace findData(const std::filesystem::path& file);
-// A detached header for a NRRD that names a space but gives no directions in it, which ITK does not read:
-// the same without the space. "" where there is no need.
-std::string nrrdWithoutSpace(const std::filesystem::path& file);
-// Throws Error when the files hold fewer bytes than the header says (compressed: than they can ever hold).
-void checkBytes(const std::filesystem::path& file, const DataPlace& place, std::uint64_t expected);
-// Bytes that a gzip stream at `offset` of the file holds, up to `limit`.
-std::uint64_t inflatedBytes(const std::filesystem::path& file, std::uint64_t offset, std::uint64_t limit);
-
-// --- study_header_check.cpp
-// All throw Error, which names the place, where a library would print, hang or end the program.
-// head: the first 348 bytes of a NIfTI file, inflated.
-void checkNiftiHeader(const std::filesystem::path& file, const std::string& head);
-// Takes the lines of a MetaImage header in turn, keys in small letters ("" where a line has none).
-class MetaHeaderCheck {
-public:
-    explicit MetaHeaderCheck(std::filesystem::path file) : mFile(std::move(file)) {}
-    void take(const std::string& key, const std::string& value);
-    void finish() const;  // at ElementDataFile: that nothing is missing
-
-private:
-    std::filesystem::path mFile;
-    int mLine = 0, mAxes = 0;
-    bool mSized = false, mTyped = false;
-};
-// That the elements of a DICOM file's group 2 can be walked through; a file without one is left alone.
-void checkDicomMeta(const std::filesystem::path& file);
-
-// --- study_itk.cpp
+// --- study_volume.cpp
 struct VolumeFile {
     RawStudy raw;
     std::string format, description;
@@ -105,10 +69,12 @@ struct VolumeFile {
 // NRRD, NIfTI or MetaImage. Throws Error, Cancelled.
 VolumeFile readVolumeFile(const std::filesystem::path& file, const StudyOptions& options, Progress& progress);
 
-// --- study_dicom.cpp
+// --- study_dicom_slices.cpp
+// A slice, or a frame of several in one file.
 struct DicomSlice {
     std::filesystem::path file;
-    std::string name;  // the file's, for messages
+    int frame = -1;    // from 0 on; -1: the file has one
+    std::string name;  // the file's, for messages, and its frame
     std::string uid, description, modality, kernel;
     int columns = 0, rows = 0, frames = 1, samples = 1;
     glm::dvec3 position{0.0};   // LPS millimetres, of the first pixel's centre
@@ -118,17 +84,25 @@ struct DicomSlice {
     double slope = 1, intercept = 0;
     bool hasPlace = false, hasSpacing = false, hasPadding = false;
     std::int64_t padding = 0, paddingLimit = 0;  // stored numbers
-    std::uint64_t missingBytes = 0;              // of its pixels, at the end of the file
+    std::string damage;                          // a clause that fits behind the name; "" where there is none
+    std::string aside;  // what it is where it is no slice of a volume: "localizer"; "" else
 };
+// Of a DICOM file, none where it is not an image. Throws Error.
+std::vector<DicomSlice> readSlices(const std::filesystem::path& file, bool& isDicom);
+
+// --- study_dicom.cpp
 // Images among the files of a folder, by series in the order of their UIDs.
 struct DicomSeries {
     SeriesInfo info;
     std::vector<DicomSlice> slices;
+    std::vector<std::string> notes;
+    std::string strangers;  // files that are not DICOM, a few by name; "" where there are none
 };
-std::vector<DicomSeries> scanFolder(const std::filesystem::path& folder);
+// place: a folder, or one file.
+std::vector<DicomSeries> scanFolder(const std::filesystem::path& place);
 // The one asked for; throws Error that lists them otherwise.
-DicomSeries chooseSeries(const std::filesystem::path& folder, const std::string& wanted);
-VolumeFile readDicom(const std::filesystem::path& folder, const StudyOptions& options, Progress& progress);
+DicomSeries chooseSeries(const std::filesystem::path& place, const std::string& wanted);
+VolumeFile readDicom(const std::filesystem::path& place, const StudyOptions& options, Progress& progress);
 
 // --- study_slices.cpp
 // How slices lie: offsets of each slice's first pixel along the shared in-plane axes and the normal, metres,
@@ -142,7 +116,14 @@ struct SlicePlaces {
 };
 // Sorts along the normal and checks; throws Error that names the slices unless all is even and upright or
 // `resample` is set, which mends gaps, uneven steps and tilt. Repeated slices and mixed sizes never pass.
-SlicePlaces placeSlices(const std::filesystem::path& folder, std::vector<DicomSlice>& slices, bool resample);
+// strangers: files of the folder that may be what is missing; "" where there are none.
+SlicePlaces placeSlices(const std::filesystem::path& folder, std::vector<DicomSlice>& slices, bool resample,
+                        const std::string& strangers = "");
+
+// --- study_pixels.cpp
+// Calls use(slice, its pixels as stored, widened) for these, all of one file. Throws Error.
+void decodeSlices(const std::vector<const DicomSlice*>& slices,
+                  const std::function<void(const DicomSlice&, const double*)>& use);
 
 // --- study_resample.cpp
 // Onto an even, upright grid over all of the slices, by linear interpolation; places that no slice covers

@@ -111,6 +111,8 @@ RawStudy resampleSlices(const RawStudy& raw, const SlicePlaces& places, const st
     RawStudy out;
     glm::dvec3 corner;
     out.type = raw.type;
+    out.slope = raw.slope;
+    out.intercept = raw.intercept;
     out.frame = coveringFrame(places, corner);
     const auto extent = [&](int axis) { return static_cast<std::uint64_t>(out.frame.size[axis]); };
     checkSize(file, {extent(0), extent(1), extent(2)}, 2 * bytesOf(raw.type) + 2);

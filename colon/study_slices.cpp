@@ -25,6 +25,7 @@ constexpr double kMostTilt = 8e-4;
 struct Stack {
     const fs::path& folder;
     std::vector<DicomSlice>& slices;
+    const std::string& strangers;
     glm::dvec3 normal;
 
     double height(std::size_t k) const { return glm::dot(normal, slices[k].position); }
@@ -39,14 +40,13 @@ struct Stack {
 };
 
 void checkOne(const Stack& stack, const DicomSlice& slice) {
-    if (slice.missingBytes > 0)
+    if (!slice.damage.empty()) stack.refuse(slice.name + " " + slice.damage, "copy the file again");
+    if ((slice.frames != 1 && !slice.hasPlace) || slice.samples != 1)
         stack.refuse(
-            fmt::format("{} is cut off: {} bytes of its pixels are missing", slice.name, slice.missingBytes),
-            "copy the file again");
-    if (slice.frames != 1 || slice.samples != 1)
-        stack.refuse(fmt::format("{} holds {} frames of {} numbers a pixel, expected one grey slice",
-                                 slice.name, slice.frames, slice.samples),
-                     "convert it to single slices");
+            fmt::format("{} holds {} frames of {} numbers a pixel, expected one grey slice or places of "
+                        "all frames",
+                        slice.name, slice.frames, slice.samples),
+            "convert it to single slices");
     if (!slice.hasPlace)
         stack.refuse(slice.name + " has no position and orientation of its slice", "choose another series");
     const auto good = [](double x) { return std::isfinite(x) && x > 0; };
@@ -103,8 +103,9 @@ bool checkSteps(const Stack& stack, double usual, bool resample) {
         if (std::abs(step - usual) <= tolerance) continue;
         if (resample) return false;
         if (times >= 2 && std::abs(step - times * usual) <= kMissingTolerance * usual)
-            stack.refuse(fmt::format("{:g} slices are missing between {}, where steps are {:.2f} mm",
-                                     times - 1, stack.between(k), usual),
+            stack.refuse(fmt::format("{} missing between {}, where steps are {:.2f} mm{}",
+                                     times == 2 ? "1 slice is" : fmt::format("{:g} slices are", times - 1),
+                                     stack.between(k), usual, stack.strangers),
                          "add them, or give --resample to bridge the gap");
         stack.refuse(fmt::format("uneven spacing: {:.2f} mm between {}, elsewhere {:.2f} mm", step,
                                  stack.between(k), usual),
@@ -141,11 +142,18 @@ VolumeFrame frameOf(const Stack& stack, double step_mm) {
 
 }  // namespace
 
-SlicePlaces placeSlices(const fs::path& folder, std::vector<DicomSlice>& slices, bool resample) {
-    Stack stack{folder, slices, glm::dvec3(0, 0, 1)};
-    if (slices.size() < 2)
-        stack.refuse(fmt::format("expected 2 or more slices, found {}", slices.size()),
-                     "a single slice has no depth: give the whole series");
+SlicePlaces placeSlices(const fs::path& folder, std::vector<DicomSlice>& slices, bool resample,
+                        const std::string& strangers) {
+    Stack stack{folder, slices, strangers, glm::dvec3(0, 0, 1)};
+    if (slices.size() == 1 && !slices[0].damage.empty()) checkOne(stack, slices[0]);
+    if (slices.size() < 2) {
+        std::error_code code;
+        const bool file = fs::is_regular_file(folder, code);
+        stack.refuse(fmt::format("expected 2 or more slices, found {}{}", slices.size(),
+                                 slices[0].aside.empty() ? "" : " (a " + slices[0].aside + ")"),
+                     file ? "a single slice has no depth: give the folder that holds the series"
+                          : "a single slice has no depth: give the whole series");
+    }
     for (const DicomSlice& slice : slices) checkOne(stack, slice);
     checkAlike(stack);
     stack.normal = glm::normalize(glm::cross(slices.front().along, slices.front().down));

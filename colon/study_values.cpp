@@ -87,6 +87,26 @@ Facts factsOf(const T* samples, const glm::ivec3& size) {
     return all;
 }
 
+bool isWhole(double value) {
+    return value == std::floor(value);
+}
+
+// Of the values that a scaled sample stands for. Only distinct values tell whether fractions are among them.
+Facts scaledFacts(Facts facts, const RawStudy& raw) {
+    if (!raw.isScaled()) return facts;
+    const auto value = [&](double sample) { return sample * raw.slope + raw.intercept; };
+    facts.lowest = value(facts.lowest);
+    facts.highest = value(facts.highest);
+    for (double& x : facts.distinct) x = value(x);
+    if (raw.slope < 0) {
+        std::swap(facts.lowest, facts.highest);
+        std::reverse(facts.distinct.begin(), facts.distinct.end());
+    }
+    if (isWhole(raw.slope) && isWhole(raw.intercept)) return facts;
+    facts.fractions = facts.many || !std::all_of(facts.distinct.begin(), facts.distinct.end(), isWhole);
+    return facts;
+}
+
 std::string labelList(const std::vector<double>& values) {
     std::string text;
     int listed = 0;
@@ -132,10 +152,10 @@ std::optional<double> chosenLabel(const std::string& file, const Facts& facts, c
 }
 
 template <typename T>
-void takeMask(const T* samples, const VolumeFrame& frame, double label, MaskVolume& mask) {
+void takeMask(const T* samples, const VolumeFrame& frame, double sample, MaskVolume& mask) {
     mask = MaskVolume(frame);
     const std::size_t perSlice = static_cast<std::size_t>(frame.size.x) * frame.size.y;
-    const T wanted = static_cast<T>(label);
+    const T wanted = static_cast<T>(sample);
     parallelFor(frame.size.z, [&](int k) {
         const T* from = samples + perSlice * k;
         std::uint8_t* to = mask.values.data() + perSlice * k;
@@ -144,11 +164,30 @@ void takeMask(const T* samples, const VolumeFrame& frame, double label, MaskVolu
     });
 }
 
-// value = stored * scale + offset. Numbers that fit stay; whole numbers over at most 65536 steps are moved;
-// fractions of wide ranges (HU) are rounded to whole numbers; all else is spread over the 16 bits.
-void chooseScale(const Facts& facts, GreyVolume& grey, std::vector<std::string>& notes) {
+// What the file stores for a label, which is among the facts' distinct values.
+double sampleOf(double label, const Facts& facts, const Facts& stored, const RawStudy& raw) {
+    const auto at = std::lower_bound(facts.distinct.begin(), facts.distinct.end(), label);
+    const auto n = static_cast<std::size_t>(at - facts.distinct.begin());
+    return stored.distinct[raw.slope < 0 ? stored.distinct.size() - 1 - n : n];
+}
+
+bool fitsShort(const Facts& facts) {
+    return facts.lowest >= -32768 && facts.highest <= 32767;
+}
+
+// value = stored * scale + offset. Numbers that fit stay; whole numbers over at most 65536 steps are moved,
+// and keep the file's own scale; fractions of wide ranges (HU) are rounded to whole numbers; all else is
+// spread over the 16 bits.
+void chooseScale(const Facts& facts, const Facts& samples, const RawStudy& raw, GreyVolume& grey,
+                 std::vector<std::string>& notes) {
     const double range = facts.highest - facts.lowest;
-    const bool fits = facts.lowest >= -32768 && facts.highest <= 32767;
+    const bool fits = fitsShort(facts);
+    if (facts.fractions > 0 && samples.fractions == 0 && samples.highest - samples.lowest <= 65535) {
+        grey.scale = std::abs(raw.slope);
+        const bool asStored = raw.slope > 0 && fitsShort(samples);
+        grey.offset = asStored ? raw.intercept : facts.lowest + 32768 * grey.scale;
+        return;
+    }
     if (fits && (facts.fractions == 0 || range >= 1000)) {
         if (facts.fractions > 0) notes.push_back("fractions of grey values rounded to whole numbers");
         return;
@@ -164,11 +203,13 @@ void chooseScale(const Facts& facts, GreyVolume& grey, std::vector<std::string>&
 }
 
 template <typename T>
-void takeGrey(const T* samples, const VolumeFrame& frame, const Facts& facts, GreyVolume& grey) {
+void takeGrey(const T* samples, const RawStudy& raw, const Facts& facts, GreyVolume& grey) {
+    const VolumeFrame& frame = raw.frame;
     const double scale = grey.scale, offset = grey.offset;
     static_cast<Volume<std::int16_t>&>(grey) = Volume<std::int16_t>(frame);
     const std::size_t perSlice = static_cast<std::size_t>(frame.size.x) * frame.size.y;
-    const bool asTheyAre = scale == 1 && offset == 0 && facts.fractions == 0 && facts.notNumbers == 0;
+    const bool asTheyAre =
+        !raw.isScaled() && scale == 1 && offset == 0 && facts.fractions == 0 && facts.notNumbers == 0;
     parallelFor(frame.size.z, [&](int k) {
         const T* from = samples + perSlice * k;
         std::int16_t* to = grey.values.data() + perSlice * k;
@@ -177,7 +218,7 @@ void takeGrey(const T* samples, const VolumeFrame& frame, const Facts& facts, Gr
             return;
         }
         for (std::size_t n = 0; n < perSlice; ++n) {
-            double value = static_cast<double>(from[n]);
+            double value = static_cast<double>(from[n]) * raw.slope + raw.intercept;
             if (!std::isfinite(value)) value = facts.lowest;
             to[n] = static_cast<std::int16_t>(
                 std::clamp(std::round((value - offset) / scale), -32768.0, 32767.0));
@@ -189,19 +230,25 @@ void takeGrey(const T* samples, const VolumeFrame& frame, const Facts& facts, Gr
 
 void takeValues(const RawStudy& raw, const std::string& file, const StudyOptions& options, Study& study) {
     withSamples(raw, [&](const auto* samples) {
-        const Facts facts = factsOf(samples, raw.frame.size);
-        if (facts.lowest > facts.highest)
+        const Facts stored = factsOf(samples, raw.frame.size);
+        if (stored.lowest > stored.highest)
             throw Error(file, "", "no voxel holds a number (all are NaN or infinite)",
                         "save the volume again");
+        const Facts facts = scaledFacts(stored, raw);
+        if (!std::isfinite(facts.highest) || !std::isfinite(facts.lowest))
+            throw Error(
+                file, "",
+                fmt::format("its values ({:g} to {:g}) are beyond all numbers", facts.lowest, facts.highest),
+                "correct the scale in the header");
         const auto label = chosenLabel(file, facts, options);
         study.isMask = label.has_value();
-        if (label) return takeMask(samples, raw.frame, *label, study.mask);
+        if (label) return takeMask(samples, raw.frame, sampleOf(*label, facts, stored, raw), study.mask);
         if (facts.notNumbers > 0)
             study.notes.push_back(
                 fmt::format("{} voxels that are not numbers were set to the least value, {:g}",
                             facts.notNumbers, facts.lowest));
-        chooseScale(facts, study.grey, study.notes);
-        takeGrey(samples, raw.frame, facts, study.grey);
+        chooseScale(facts, stored, raw, study.grey, study.notes);
+        takeGrey(samples, raw, facts, study.grey);
     });
 }
 

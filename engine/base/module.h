@@ -1,4 +1,4 @@
-// Parts of the program that pull in big libraries (GDAL, ITK, OpenCV) are modules: shared objects in
+// Parts of the program that pull in big libraries (GDAL, GDCM, OpenCV) are modules: shared objects in
 // lib/stereonav, beside the program's bin, that are opened when one of their functions is first called. A
 // room keeps its functions as they are declared; in its own sources they only hand on to the module's table
 // of them.

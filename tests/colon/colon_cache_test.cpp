@@ -43,6 +43,8 @@ FoundColon tube() {
     frame.spacing = {0.0007, 0.0008, 0.0009};
     frame.origin = {0.1, -0.2, 0.3};
     found.format = "NRRD";
+    found.studyFrame = frame;
+    found.studyFrame.size = {140, 137, 150};
     found.notes = {"one", ""};
     found.lumen.isovalue = -450;
     found.lumen.field = GreyVolume(frame);
@@ -69,6 +71,8 @@ TEST_F(ColonCacheTest, GivesBackWhatWasKept) {
     EXPECT_FALSE(damaged);
     EXPECT_EQ(kept->notes, found.notes);
     EXPECT_EQ(kept->format, found.format);
+    EXPECT_EQ(kept->studyFrame.size, found.studyFrame.size);
+    EXPECT_EQ(kept->studyFrame.spacing, found.studyFrame.spacing);
     EXPECT_EQ(kept->lumen.segments.size(), 2u);
     EXPECT_EQ(kept->centreline.points[1].segment, 2);
     EXPECT_EQ(kept->polyps.at(0).shape, PolypShape::Flat);

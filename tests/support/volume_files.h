@@ -5,48 +5,17 @@
 #include <gdcmDataElement.h>
 #include <gdcmWriter.h>
 #include <nifti1.h>
-#include <zlib.h>
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "file_bytes.h"
+#include "slice_spec.h"
+
 namespace stereonav::test {
-
-inline void writeBytes(const std::filesystem::path& file, const std::string& bytes) {
-    std::ofstream(file, std::ios::binary) << bytes;
-}
-
-inline std::string fileBytes(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-}
-
-template <typename T>
-std::string bytesOfSamples(const std::vector<T>& samples) {
-    return {reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(T)};
-}
-
-inline std::string gzipped(const std::string& bytes) {
-    z_stream stream{};
-    deflateInit2(&stream, 6, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
-    std::string out(deflateBound(&stream, bytes.size()) + 64, '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    deflate(&stream, Z_FINISH);
-    out.resize(stream.total_out);
-    deflateEnd(&stream);
-    return out;
-}
 
 // A NRRD file of these header lines (after the magic) and bytes.
 inline std::filesystem::path writeNrrd(const std::filesystem::path& file, const std::string& lines,
@@ -89,20 +58,6 @@ inline std::string niftiBytes(const glm::ivec3& size, const glm::dvec3& spacing,
     return std::string(reinterpret_cast<const char*>(&h), sizeof h) + std::string(4, '\0') + samples;
 }
 
-struct SliceSpec {
-    std::string uid = "1.2.3.1", description = "made for a test", modality = "CT";
-    std::string photometric = "MONOCHROME2";
-    int columns = 6, rows = 5;
-    glm::dvec3 position{10, 20, 30};  // millimetres, LPS
-    glm::dvec3 along{1, 0, 0}, down{0, 1, 0};
-    glm::dvec2 spacing{0.8, 0.7};  // millimetres between columns, between rows
-    std::string slope = "1", intercept = "-1024";
-    bool isSigned = false;
-    int bitsStored = 16;
-    int padding = -1;                   // below 0: none
-    std::vector<std::uint16_t> pixels;  // empty: all 1024
-};
-
 inline void addText(gdcm::DataSet& set, int group, int element, gdcm::VR vr, std::string text) {
     if (text.size() % 2) text += vr == gdcm::VR::UI ? '\0' : ' ';
     gdcm::DataElement data(gdcm::Tag(static_cast<std::uint16_t>(group), static_cast<std::uint16_t>(element)));
@@ -117,13 +72,6 @@ inline void addWord(gdcm::DataSet& set, int element, int value) {
     data.SetVR(gdcm::VR::US);
     data.SetByteValue(reinterpret_cast<const char*>(&word), gdcm::VL(2));
     set.Replace(data);
-}
-
-inline std::string numbersText(std::initializer_list<double> numbers) {
-    std::ostringstream text;
-    text.precision(10);
-    for (const double x : numbers) text << (text.tellp() > 0 ? "\\" : "") << x;
-    return text.str();
 }
 
 inline void addGeometry(gdcm::DataSet& set, const SliceSpec& s) {

@@ -1,11 +1,11 @@
-// What the module stereonav_itk shows the program.
+// What the module stereonav_gdcm shows the program.
 #include "colon/study_module.h"
 #include "engine/base/module.h"
 
 namespace stereonav {
 namespace {
 
-constexpr StudyFunctions kFunctions = {readVolumeFile, scanFolder, chooseSeries, readDicom};
+constexpr StudyFunctions kFunctions = {decodePicture};
 
 }  // namespace
 

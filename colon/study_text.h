@@ -1,0 +1,47 @@
+// Text of volume headers: lines, words, numbers and the names of data files. Shared among colon/study*.cpp.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stereonav {
+
+inline constexpr std::size_t kLongestStudyHeader = 1 << 20;  // bytes
+
+// Without blanks, line ends and quotation marks around it.
+std::string trimmedText(const std::string& text);
+std::string loweredText(std::string text);
+// For messages: printable, and no longer than a line.
+std::string shortText(const std::string& text);
+std::vector<std::string> wordsOf(const std::string& text);
+
+// The first bytes of a file, at most so many. Throws Error.
+std::string beginningOf(const std::filesystem::path& file, std::size_t bytes);
+// One line of text from `at` on, which moves behind it; false at the end.
+bool nextLine(const std::string& text, std::size_t& at, std::string& line);
+
+// The whole of the text as a number (also nan, inf), none where it is something else or beyond all doubles.
+std::optional<double> numberFrom(const std::string& text);
+std::optional<std::int64_t> wholeFrom(const std::string& text);
+// As many numbers as the text begins with.
+std::vector<double> numbersIn(const std::string& text);
+
+// A data file's name as a header has it, relative to the header's folder.
+std::filesystem::path besideHeader(const std::filesystem::path& header, const std::string& name);
+// "slice.%03d.raw" for n; the pattern itself where it has no place for a whole number.
+std::string numberedName(const std::string& pattern, std::int64_t n);
+// The names on the lines from `at` on, one a line. Throws Error where there are too many.
+std::vector<std::filesystem::path> listedFiles(const std::filesystem::path& header, const std::string& text,
+                                               std::size_t at);
+// Those of a pattern, from first to last. Throws Error where the step is 0 or there are too many.
+std::vector<std::filesystem::path> numberedFiles(const std::filesystem::path& header,
+                                                 const std::string& pattern, std::int64_t first,
+                                                 std::int64_t last, std::int64_t step);
+
+// Millimetres of a unit of length ("mm", "um", "cm", ...), none for other words.
+std::optional<double> millimetresOf(const std::string& unit);
+
+}  // namespace stereonav

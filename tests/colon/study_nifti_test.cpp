@@ -1,0 +1,320 @@
+// NIfTI whole: both versions, both byte orders, every type, scales, pairs, units, and which of the two forms
+// counts. Truth is written by hand after nifti1.h; nibabel gives the same.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "../camera/temporary_folder.h"
+#include "../support/nifti_files.h"
+#include "../support/read_study.h"
+#include "../support/volume_files.h"
+#include "colon/study.h"
+#include "study_ramp.h"
+
+namespace stereonav {
+namespace {
+namespace fs = std::filesystem;
+
+using testing::HasSubstr;
+using namespace test;
+
+NiftiSpec placed() {
+    NiftiSpec s;
+    s.sformCode = 1;
+    return s;
+}
+
+template <typename T>
+Study readNifti(const std::vector<T>& samples, const NiftiSpec& spec, bool packed = false) {
+    const TemporaryFolder folder;
+    const std::string bytes = niftiFile(samples, spec);
+    const fs::path file = folder / (packed ? "a.nii.gz" : "a.nii");
+    writeBytes(file, packed ? gzipped(bytes) : bytes);
+    return read(file);
+}
+
+void expectValues(const Study& study, const std::function<double(int)>& value, double tolerance = 0) {
+    ASSERT_FALSE(study.isMask);
+    const GreyVolume& grey = study.grey;
+    for (int n = 0; n < static_cast<int>(grey.frame.count()); ++n)
+        ASSERT_NEAR(grey.values[n] * grey.scale + grey.offset, value(n), tolerance) << "voxel " << n;
+}
+
+TEST(StudyNiftiValues, AreScaledAsTheHeaderSays) {
+    for (const bool packed : {false, true})
+        for (const auto& [slope, intercept] :
+             {std::pair(1.0, -1024.0), {0.5, 0.0}, {2.0, -1000.0}, {-0.25, 3.0}, {1.5e-3, 7.0}}) {
+            NiftiSpec s = placed();
+            s.slope = slope;
+            s.intercept = intercept;
+            // In the file's 32 bits; computed in 64, as nibabel does.
+            const double m = static_cast<float>(slope), b = static_cast<float>(intercept);
+            SCOPED_TRACE(fmt::format("{} {} {}", slope, intercept, packed));
+            expectValues(
+                readNifti(ramp<short>(), s, packed), [&](int n) { return (-300 + 17 * n) * m + b; },
+                1e-12 * (1 + std::abs(b)));
+        }
+}
+
+TEST(StudyNiftiValues, KeepTheirExactScaleOverTheWholeRange) {
+    NiftiSpec s = placed();
+    s.datatype = 512;
+    s.slope = 0.1;
+    const double m = static_cast<float>(0.1);
+    std::vector<std::uint16_t> samples = ramp<std::uint16_t>(0, 1000);
+    samples[59] = 65535;
+    expectValues(
+        readNifti(samples, s), [&](int n) { return samples[static_cast<std::size_t>(n)] * m; }, 1e-9);
+}
+
+TEST(StudyNiftiValues, ScaledMasksAndLabelsAreFound) {
+    NiftiSpec s = placed();
+    s.datatype = 2;
+    s.slope = -0.5;
+    s.intercept = 127.5;
+    std::vector<unsigned char> samples(60, 255);
+    for (int n = 20; n < 33; ++n) samples[n] = 0;
+    const Study study = readNifti(samples, s);  // 0 and 127.5
+    ASSERT_TRUE(study.isMask);
+    for (int n = 0; n < 60; ++n) EXPECT_EQ(study.mask.values[n], n >= 20 && n < 33);
+}
+
+TEST(StudyNiftiValues, ASlopeOf0MeansNoScale) {
+    NiftiSpec s = placed();
+    s.slope = 0;
+    s.intercept = 5;
+    expectRamp(readNifti(ramp<short>(), s));
+    s.intercept = std::numeric_limits<double>::quiet_NaN();
+    expectRamp(readNifti(ramp<short>(), s));
+}
+
+TEST(StudyNiftiValues, AScaleThatIsNoNumberIsRefused) {
+    const TemporaryFolder folder;
+    const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
+    for (const int version : {1, 2})
+        for (const double number : bad) {
+            NiftiSpec s = placed();
+            s.version = version;
+            s.slope = number;
+            writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
+            expectError(folder / "a.nii", {version == 1 ? "byte 112" : "byte 176", "scl_slope"});
+            s.slope = 1;
+            s.intercept = number;
+            writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
+            expectError(folder / "a.nii", {version == 1 ? "byte 116" : "byte 184", "scl_inter"});
+        }
+}
+
+template <typename T>
+void expectType(int datatype, double start, double step) {
+    for (const int version : {1, 2})
+        for (const bool bigEndian : {false, true})
+            for (const bool packed : {false, true}) {
+                NiftiSpec s = placed();
+                s.version = version;
+                s.bigEndian = bigEndian;
+                s.datatype = datatype;
+                SCOPED_TRACE(
+                    fmt::format("datatype {} version {} {} {}", datatype, version, bigEndian, packed));
+                const Study study = readNifti(ramp<T>(start, step), s, packed);
+                expectRamp(study, start, step);
+                EXPECT_EQ(study.description, "made for a test");
+                // RAS (10 + 0.5 i, 20 + 0.75 j, 30 + 2 k) in millimetres, with the first two turned round.
+                expectNear(study.grey.frame.worldFromVoxel({4, 3, 2}), {-0.012, -0.02225, 0.034}, 1e-9);
+            }
+}
+
+TEST(StudyNiftiTypes, AllIntegersAndFloatsInBothVersionsAndOrders) {
+    expectType<std::uint8_t>(2, 3, 4);
+    expectType<std::int8_t>(256, -40, 2);
+    expectType<std::int16_t>(4, -300, 17);
+    expectType<std::uint16_t>(512, 1000, 1000);
+    expectType<std::int32_t>(8, -300, 17);
+    expectType<std::uint32_t>(768, 3e9, 1000);
+    expectType<std::int64_t>(1024, -5e9, 1000);
+    expectType<std::uint64_t>(1280, 5e9, 1000);
+    expectType<float>(16, -300, 17);
+    expectType<double>(64, -300, 17);
+}
+
+TEST(StudyNiftiTypes, OthersAreRefusedByName) {
+    const TemporaryFolder folder;
+    for (const auto& [datatype, name] : {std::pair(1, "single bits"),
+                                         {32, "complex"},
+                                         {128, "colours"},
+                                         {1536, "128-bit"},
+                                         {1792, "complex"},
+                                         {2304, "colours"},
+                                         {0, "not known"}}) {
+        NiftiSpec s = placed();
+        s.datatype = datatype;
+        writeBytes(folder / "a.nii", niftiFile(std::vector<double>(480), s));
+        expectError(folder / "a.nii", {name, fmt::format("datatype {}", datatype)});
+    }
+}
+
+TEST(StudyNiftiTypes, NumbersThatAreNoneBecomeTheLeast) {
+    NiftiSpec s = placed();
+    s.datatype = 16;
+    s.slope = 2;
+    std::vector<float> samples = ramp<float>();
+    samples[7] = std::numeric_limits<float>::quiet_NaN();
+    const Study study = readNifti(samples, s);
+    expectValues(study, [&](int n) { return n == 7 ? -600.0 : 2 * (-300 + 17 * n); });
+    ASSERT_EQ(study.notes.size(), 1u);
+    EXPECT_THAT(study.notes[0], HasSubstr("1 voxels that are not numbers"));
+}
+
+// A quarter turn about z: i to +y, j to -x (RAS).
+void turnQuarter(NiftiSpec& s) {
+    s.quatern = {0, 0, std::sqrt(0.5)};
+    s.qformCode = 1;
+}
+
+TEST(StudyNiftiPlaces, TheQformCountsWhereThereIsNoSform) {
+    for (const int version : {1, 2}) {
+        NiftiSpec s;
+        s.version = version;
+        turnQuarter(s);
+        const Study study = readNifti(ramp<short>(), s);
+        expectRamp(study);
+        // RAS: (10 - 0.75 j, 20 + 0.5 i, 30 + 2 k).
+        expectNear(study.grey.frame.worldFromVoxel({4, 3, 2}), {-0.00775, -0.022, 0.034}, 1e-8);
+        EXPECT_TRUE(study.notes.empty());
+    }
+}
+
+TEST(StudyNiftiPlaces, TheThirdAxisTurnsWithQfac) {
+    NiftiSpec s;
+    s.qformCode = 2;
+    s.pixdim[0] = -1;
+    expectNear(readNifti(ramp<short>(), s).grey.frame.worldFromVoxel({0, 0, 2}), {-0.010, -0.020, 0.026},
+               1e-8);
+}
+
+TEST(StudyNiftiPlaces, TheSformCountsWhereBothAreThereAndItIsSaid) {
+    NiftiSpec s = placed();
+    turnQuarter(s);
+    const Study study = readNifti(ramp<short>(), s);
+    expectNear(study.grey.frame.worldFromVoxel({4, 3, 2}), {-0.012, -0.02225, 0.034}, 1e-8);
+    ASSERT_EQ(study.notes.size(), 1u);
+    // The corner (4, 3): RAS (12, 22.25) by the sform, (7.75, 22) by the qform: 4.257 mm apart.
+    EXPECT_THAT(study.notes[0], HasSubstr("differ by up to 4.26 mm: the sform counts"));
+    s.quatern = {0, 0, 0};
+    EXPECT_TRUE(readNifti(ramp<short>(), s).notes.empty());
+}
+
+TEST(StudyNiftiPlaces, WithoutAnyTheGridIsCentredAndItIsSaid) {
+    const Study study = readNifti(ramp<short>(), NiftiSpec());
+    // nibabel: RAS (1 - 0.5 i, -1.125 + 0.75 j, -2 + 2 k).
+    expectNear(study.grey.frame.worldFromVoxel({0, 0, 0}), {-0.001, 0.001125, -0.002}, 1e-12);
+    expectNear(study.grey.frame.worldFromVoxel({4, 3, 2}), {0.001, -0.001125, 0.002}, 1e-12);
+    ASSERT_EQ(study.notes.size(), 1u);
+    EXPECT_THAT(study.notes[0], HasSubstr("neither sform nor qform"));
+}
+
+TEST(StudyNiftiPlaces, AreInTheHeadersUnits) {
+    for (const auto& [units, scale] : {std::pair(0, 1.0), {1, 1e3}, {2, 1.0}, {3, 1e-3}, {2 | 8, 1.0}})
+        for (const int version : {1, 2}) {
+            NiftiSpec s = placed();
+            s.version = version;
+            s.units = units;
+            const Study study = readNifti(ramp<short>(), s);
+            expectNear(study.grey.frame.spacing, scale * glm::dvec3(0.0005, 0.00075, 0.002), 1e-9 * scale);
+            expectNear(study.grey.frame.origin, scale * glm::dvec3(-0.010, -0.020, 0.030), 1e-9 * scale);
+            EXPECT_EQ(study.notes.size(), scale == 1 ? 0u : 1u);
+        }
+}
+
+TEST(StudyNiftiPlaces, RotationsThatAreNoneAreRefused) {
+    const TemporaryFolder folder;
+    NiftiSpec s;
+    s.qformCode = 1;
+    s.quatern = {0.9, 0.9, 0};
+    writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
+    expectError(folder / "a.nii", {"byte 256", "a quaternion of length 1.27"});
+    s.qformCode = 0;
+    s.sformCode = 1;
+    s.srow = {};
+    writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
+    expectError(folder / "a.nii", {"spacing above 0 along axis 1"});
+}
+
+TEST(StudyNiftiPairs, AreReadByEitherName) {
+    for (const int version : {1, 2})
+        for (const bool packed : {false, true}) {
+            const TemporaryFolder folder;
+            NiftiSpec s = placed();
+            s.version = version;
+            s.pair = true;
+            s.slope = 0.5;
+            const std::string end = packed ? ".gz" : "";
+            const std::string header = niftiHeader(s), samples = niftiSamples(ramp<short>(), s);
+            writeBytes(folder / ("a.hdr" + end), packed ? gzipped(header) : header);
+            writeBytes(folder / ("a.img" + end), packed ? gzipped(samples) : samples);
+            for (const std::string& name : {"a.hdr" + end, "a.img" + end}) {
+                EXPECT_TRUE(looksLikeStudy(folder / name));
+                const Study study = read(folder / name);
+                expectRamp(study, -150, 8.5);
+                EXPECT_EQ(study.key, studyKey(folder / ("a.hdr" + end), {}));
+            }
+            fs::remove(folder / ("a.img" + end));
+            expectError(folder / ("a.hdr" + end), {"a.img", "can not be opened"});
+        }
+    const TemporaryFolder folder;
+    writeBytes(folder / "probe.hdr", "#?RADIANCE\n");
+    writeBytes(folder / "ground.img", "EHFA_HEADER_TAG");
+    EXPECT_FALSE(looksLikeStudy(folder / "probe.hdr"));
+    EXPECT_FALSE(looksLikeStudy(folder / "ground.img"));
+}
+
+TEST(StudyNiftiBad, CutOffScaledAndSecondVersion) {
+    const TemporaryFolder folder;
+    NiftiSpec s = placed();
+    s.slope = 0.5;
+    for (const int version : {1, 2})
+        for (const bool packed : {false, true}) {
+            s.version = version;
+            std::string bytes = niftiFile(ramp<short>(), s);
+            bytes.resize(bytes.size() - 21);
+            const fs::path file = folder / (packed ? "a.nii.gz" : "a.nii");
+            writeBytes(file, packed ? gzipped(bytes) : bytes);
+            expectError(file, {"cut off", "120 bytes", "found 99"});
+        }
+}
+
+TEST(StudyNiftiBad, DamagedStreamsAreNotTakenForWhole) {
+    const TemporaryFolder folder;
+    std::vector<short> noise(60);
+    unsigned state = 7;
+    for (short& x : noise) x = static_cast<short>((state = state * 1664525 + 1013904223) >> 16);
+    std::string packed = gzipped(niftiFile(noise, placed()));
+    packed[packed.size() - 6] = static_cast<char>(packed[packed.size() - 6] + 1);  // of the checksum
+    writeBytes(folder / "a.nii.gz", packed);
+    expectError(folder / "a.nii.gz", {"damaged", "can not be unpacked"});
+}
+
+TEST(StudyNiftiBad, OffsetsAndSizes) {
+    const TemporaryFolder folder;
+    NiftiSpec s = placed();
+    s.offset = 17;
+    writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
+    expectError(folder / "a.nii", {"byte 108", "found byte 17"});
+    s.offset = -1;
+    s.version = 2;
+    s.size = {1'000'000'000'000, 4, 3};
+    writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
+    expectError(folder / "a.nii", {"1000000000000 x 4 x 3 voxels need", "this machine has"});
+    s.size = {5, 4, 3, 2};
+    writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
+    expectError(folder / "a.nii", {"3 axes", "found 4 (5 x 4 x 3 x 2)"});
+    s.size = {5, 4, 3, 1, 1};
+    writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
+    expectRamp(read(folder / "a.nii"));
+}
+
+}  // namespace
+}  // namespace stereonav
