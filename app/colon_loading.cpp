@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 
+#include "app/option_numbers.h"
 #include "app/volume_ambient.h"
 #include "app/volume_light.h"
 #include "colon/colon_flight.h"
@@ -27,23 +27,8 @@ constexpr double kIsovalueSteps = 100;              // from the smallest value t
 constexpr std::size_t kRangeSamples = 4'000'000;    // values looked at for the range
 
 glm::dvec3 seedFromText(const std::string& text) {
-    const Error error("--seed", "", "expected x,y,z in millimetres (LPS), got \"" + text + "\"",
-                      "give three numbers, as in 12.5,-40,310");
-    std::stringstream fields(text);
-    glm::dvec3 seed(0.0);
-    int count = 0;
-    for (std::string field; std::getline(fields, field, ','); ++count) {
-        std::size_t used = 0;
-        if (count == 3) throw error;
-        try {
-            seed[count] = std::stod(field, &used);
-        } catch (const std::exception&) {
-            throw error;
-        }
-        if (used != field.size() || !std::isfinite(seed[count])) throw error;
-    }
-    if (count != 3 || text.back() == ',') throw error;
-    return seed / 1000.0;
+    const std::vector<double> n = numbersIn("--seed", seedNumbers(), text).numbers;
+    return glm::dvec3(n[0], n[1], n[2]) / 1000.0;
 }
 
 std::optional<UpAxis> upFromText(const std::optional<std::string>& text) {
@@ -91,11 +76,6 @@ void checkVolumeOptions(const SceneOptions& options) {
     }
     refuse(!volume.transfer.empty() && volume.opacity, "--opacity", "does not go with --transfer",
            "leave one of them out");
-    refuse(volume.opacity && !(*volume.opacity > 0 && *volume.opacity <= 1), "--opacity",
-           fmt::format("expected more than 0 and at most 1, got {}", volume.opacity.value_or(0)),
-           "0.95 is a wall that is nearly opaque within a millimetre");
-    refuse(volume.isovalue && !std::isfinite(*volume.isovalue), "--isovalue",
-           fmt::format("expected a number, got {}", volume.isovalue.value_or(0)), "300 shows bone in CT");
     checkShading(volume);
 }
 

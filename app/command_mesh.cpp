@@ -18,9 +18,6 @@ void checkMeshOptions(const MeshOptions& options) {
     if (!isMeshFileName(options.out))
         throw Error("--out", "", "expected a file named .glb or .gltf, got \"" + options.out + "\"",
                     "name it terrain.glb");
-    if (!std::isfinite(options.error_m))
-        throw Error("--error", "", fmt::format("expected metres, 0 or more, got {:g}", options.error_m),
-                    "leave it out for half a sample spacing");
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     checkOutputFile("--out", options.out);
     if (kindOf(options.scene.scene) != SceneKind::Terrain)

@@ -15,19 +15,10 @@ bool wantsQuality(const QualityOptions& q) {
     return q.quality || q.targetPsnr_db || q.target_ms;
 }
 
-void requireIn(const char* option, const std::optional<double>& value, double low, double high,
-               const std::string& advice) {
-    if (value && !(*value >= low && *value <= high))
-        throw Error(option, "", fmt::format("expected {:g} to {:g}, got {:g}", low, high, *value), advice);
-}
-
 }  // namespace
 
 void checkQuality(const SceneOptions& options, const std::string& method) {
     const QualityOptions& q = options.quality;
-    requireIn("--quality", q.quality, 0, 1, "0 casts the holes alone, 1 every pixel");
-    requireIn("--target-psnr", q.targetPsnr_db, 1, kMostPsnr_db, "40 is good, 50 hard to see");
-    requireIn("--target-ms", q.target_ms, 1e-3, 1e6, "33 is 30 frames a second");
     if (!wantsQuality(q)) return;
     if (showsMedium(options))
         throw Error("--quality", "", "does not go with a medium, whose eyes are swept together",

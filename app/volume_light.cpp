@@ -147,15 +147,6 @@ float exposureOf(const VolumeOptions& options, double meanLight) {
 void checkVolumeLight(const SceneOptions& options) {
     const VolumeOptions& volume = options.volume;
     const bool lazy = isLazyLight(options.light);
-    if (volume.exposure && !(*volume.exposure > 0 && *volume.exposure < 1e6))
-        throw Error("--exposure", "", fmt::format("expected a number above 0, got {}", *volume.exposure),
-                    "1 shows a white sky of 1 as white");
-    if (!std::isfinite(volume.turn_deg))
-        throw Error("--turn", "", fmt::format("expected degrees, got {}", volume.turn_deg),
-                    "90 turns a quarter");
-    if (!(std::abs(volume.tilt_deg) <= 90))
-        throw Error("--tilt", "", fmt::format("expected -90 to 90 degrees, got {}", volume.tilt_deg),
-                    "turn the sky as well for more: --turn");
     if (options.light == kLazyLight && volume.skyMoved())
         throw Error(volume.turn_deg != 0 ? "--turn" : "--tilt", "", "lazy expects a sky that stands still",
                     "use --light lazy-transfer");
