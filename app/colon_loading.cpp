@@ -96,12 +96,24 @@ SeparationControl::Setting separationOf(const LoadedScene& scene) {
     return setting;
 }
 
+bool followsRoom(const SceneOptions& options) {
+    return !options.separation_m && !options.zeroParallax_m;
+}
+
 std::unique_ptr<Flight> flightThrough(const ColonScene& colon, double largestSeparation) {
     ColonFlightSetting setting;
     setting.clearance = colon.clearance;
     setting.speed = colon.extent / (colon.isColon() ? kColonSeconds : kOutsideSeconds);
     setting.largestSeparation = largestSeparation;
-    return std::make_unique<ColonFlight>(freeDistanceOf(colon), colon.centreline, colon.startPose, setting);
+    try {
+        return std::make_unique<ColonFlight>(freeDistanceOf(colon), colon.centreline, colon.startPose,
+                                             setting);
+    } catch (const Error&) {
+        if (largestSeparation <= 2 * colon.stereo.separation) throw;
+        throw Error("--separation", "",
+                    fmt::format("eyes {:g} m apart find no room around the start", largestSeparation),
+                    "give less, or leave it out");
+    }
 }
 
 struct Range {
@@ -194,6 +206,18 @@ void tellOf(Light& light, ViewScene& view) {
     view.lightChanges = [&light] { return light.changes(); };
 }
 
+std::function<StereoFollower(const StereoSetting&)> followerWithin(const SeparationControl::Setting& limits) {
+    return [limits](const StereoSetting& from) -> StereoFollower {
+        SeparationControl control(limits, from.separation, from.zeroParallax);
+        return [control](double free, double depth, double dt) mutable {
+            // As far as a flight looks there is no wall: that tells nothing of what is behind it.
+            if (free >= ColonFlight::kFarthestClearance) free = std::numeric_limits<double>::infinity();
+            control.step(free, depth, dt);
+            return StereoSetting{control.separation(), control.zeroParallax()};
+        };
+    };
+}
+
 // What is cast, from where, and the flight.
 void setViews(const SceneOptions& options, SimdTarget simd, LoadedScene& scene) {
     const ColonScene& colon = *scene.colon;
@@ -211,6 +235,11 @@ void setViews(const SceneOptions& options, SimdTarget simd, LoadedScene& scene) 
     std::erase(scene.methods, RightEyeMethod::Cubic);
     const double largest = separationOf(scene).largest;
     scene.makeFlight = [&colon, largest] { return flightThrough(colon, largest); };
+    scene.makeFollower = followerWithin(separationOf(scene));
+    scene.clearanceAt = [free = freeDistanceOf(colon), largest](const Pose& head) {
+        return clearanceAt(free, head, largest);
+    };
+    scene.eyesFollow = colon.isColon() && followsRoom(options);
 }
 
 }  // namespace
@@ -310,20 +339,12 @@ void addVolume(const LoadedScene& scene, const SceneOptions& options, ViewScene&
     const ColonOptions colonOptions = colonOptionsOf(options);
     const SeparationControl::Setting separation = separationOf(scene);
     view.largestSeparation = separation.largest;
-    view.makeFollower = [separation](const StereoSetting& from) -> StereoFollower {
-        SeparationControl control(separation, from.separation, from.zeroParallax);
-        return [control](double free, double depth, double dt) mutable {
-            // As far as a flight looks there is no wall: that tells nothing of what is behind it.
-            if (free >= ColonFlight::kFarthestClearance) free = std::numeric_limits<double>::infinity();
-            control.step(free, depth, dt);
-            return StereoSetting{control.separation(), control.zeroParallax()};
-        };
-    };
+    view.makeFollower = scene.makeFollower ? scene.makeFollower : followerWithin(separation);
     if (scene.lazyLight) tellOf(*scene.lazyLight, view);
     if (scene.lazyLight && scene.lazyLight->turns()) turnSky(*scene.lazyLight, view);
     if (scene.sky) tellOf(*scene.sky, view);
     if (scene.sky) turnSky(*scene.sky, view);
-    view.followsAtStart = !options.separation_m && !options.zeroParallax_m;
+    view.followsAtStart = followsRoom(options);
     view.canBeTranslucent = true;
     view.translucent = scene.renderer && scene.renderer->translucent();
     if (scene.renderer) addTransfers(options.volume, view);

@@ -64,9 +64,14 @@ void refuseTerrainOptions(const SceneOptions& options) {
 
 void refuseTracedElsewhere(const SceneOptions& options) {
     const bool traced = options.light == kTracedLight;
-    if (options.traced && options.traced->any() && !traced)
-        throw Error("--samples, --bounces, --albedo, --point-light, --reach", "",
-                    "expected with --light traced", "leave them out");
+    const TracedOptions t = options.traced.value_or(TracedOptions{});
+    const std::pair<const char*, bool> given[] = {{"--samples", t.samples.has_value()},
+                                                  {"--bounces", t.bounces.has_value()},
+                                                  {"--albedo", !t.albedo.empty()},
+                                                  {"--point-light", !t.lights.empty()},
+                                                  {"--reach", t.reach_mm.has_value()}};
+    for (const auto& [option, is] : given)
+        if (is && !traced) throw Error(option, "", "expected with --light traced", "leave it out");
     if (!traced) return;
     if (!options.traced)
         throw Error("--light", "", "traced is expected with render", "bake the light, and name its file");
@@ -166,13 +171,13 @@ Pose poseFromText(const std::string& text) {
                           values[5] * kRadians);
 }
 
-std::optional<RightEyeMethod> methodFromText(const std::string& name) {
+std::optional<RightEyeMethod> methodFromText(const std::string& name, const char* option) {
     if (name == "auto") return std::nullopt;
     if (const auto method = rightEyeMethodFromName(name)) return *method;
     std::string known;
     for (const NamedMethod& method : kRightEyeMethods)
         known += std::string(known.empty() ? "" : ", ") + std::string(method.name);
-    throw Error("", "", "there is no method \"" + name + "\"", "the methods are " + known);
+    throw Error(option, "", "there is no method \"" + name + "\"", "the methods are " + known);
 }
 
 OutputMode modeFromText(const std::string& name) {

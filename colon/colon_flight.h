@@ -87,6 +87,8 @@ constexpr double kFlightCut = 0.0005;  // seconds
 struct FlightClearance {
     double head = 0, eyes = 0;
 };
+// The same of one place, of the nearest of the three.
+double clearanceAt(const FreeDistance& freeDistance, const Pose& head, double separation);
 FlightClearance clearanceOf(const RecordedPath& path, const FreeDistance& freeDistance, double separation);
 
 // The eye separation that suits a clearance, changed slowly: follows the free distance around the head

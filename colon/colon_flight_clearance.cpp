@@ -83,6 +83,14 @@ double leastOf(const RecordedPath& path, const FreeDistance& free, double aside)
 
 }  // namespace
 
+double clearanceAt(const FreeDistance& freeDistance, const Pose& head, double separation) {
+    const glm::dvec3 right = head.orientation * glm::dvec3(1, 0, 0);
+    double nearest = ColonFlight::kFarthestClearance;
+    for (const double aside : {-separation / 2, 0.0, separation / 2})
+        nearest = std::min(nearest, freeAt(freeDistance, head.position + aside * right, nearest));
+    return nearest;
+}
+
 FlightClearance clearanceOf(const RecordedPath& path, const FreeDistance& freeDistance, double separation) {
     FlightClearance clearance;
     clearance.head = leastOf(path, freeDistance, 0);
