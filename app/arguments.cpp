@@ -300,6 +300,31 @@ std::string commandIn(const CLI::App& app) {
     return chosen.empty() ? "" : " " + chosen.front()->get_name();
 }
 
+// CLI11's refusals in our words: which option or word, what is wrong with it, what to do.
+Error refusalOf(const CLI::App& app, const CLI::ParseError& error) {
+    const std::string help = "see stereonav" + commandIn(app) + " --help";
+    const std::string said = error.what();
+    const std::string option = said.substr(0, said.find(':'));
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+        const std::vector<std::string> left = app.remaining(true);
+        const std::string word = left.empty() ? said : left.front();
+        const bool dashes = word.starts_with("-");
+        return {word, "",
+                dashes                   ? "there is no such option here"
+                : commandIn(app).empty() ? "there is no such command"
+                                         : "is one word too many",
+                help};
+    }
+    if (dynamic_cast<const CLI::RequiredError*>(&error))
+        return {said.substr(0, said.find(' ')), "", "is required", help};
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && said.starts_with("--"))
+        return {option, "",
+                said.find("At Most") != std::string::npos ? "is given more than once"
+                                                          : "expected a value, found none",
+                help};
+    return {"", "", said, help};
+}
+
 void addCommands(CLI::App& app, Parsed& parsed) {
     addInfo(app, parsed);
     addRender(app, parsed);
@@ -327,7 +352,7 @@ int runCommandLine(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-        throw Error("", "", error.what(), "see stereonav" + commandIn(app) + " --help");
+        throw refusalOf(app, error);
     }
     return parsed.run();
 }
@@ -339,7 +364,7 @@ void checkCommandLine(const std::vector<std::string>& arguments) {
     try {
         app.parse(std::vector<std::string>{arguments.rbegin(), arguments.rend()});  // as CLI11 takes them
     } catch (const CLI::ParseError& error) {
-        throw Error("", "", error.what(), "see stereonav" + commandIn(app) + " --help");
+        throw refusalOf(app, error);
     }
 }
 
@@ -366,7 +391,7 @@ RenderOptions renderOptionsFrom(const std::vector<std::string>& arguments) {
     try {
         app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
-        throw Error("", "", error.what(), "see stereonav render --help");
+        throw refusalOf(app, error);
     }
     return parsed.render;
 }

@@ -33,7 +33,7 @@ void checkOptions(const CompareOptions& options) {
     if (!options.csv.empty()) checkOutputFile("--csv", options.csv);
     if (!options.plot.empty()) checkOutputPicture("--plot", options.plot);
     if (!options.images.empty()) checkOutputFolder("--images", options.images);
-    for (const std::string& name : options.methods) checkMethod(options.scene, name);
+    for (const std::string& name : options.methods) checkMethod(options.scene, name, "--methods");
 }
 
 // Each once, in the order of their first naming; "auto" is the scene's default.

@@ -20,9 +20,12 @@ void checkMeshOptions(const MeshOptions& options) {
                     "name it terrain.glb");
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     checkOutputFile("--out", options.out);
-    if (kindOf(options.scene.scene) != SceneKind::Terrain)
-        throw Error(options.scene.scene, "", "expected a terrain, found a volume",
-                    "render, play and view show it; mesh writes the ground of terrains");
+    const SceneKind kind = kindOf(options.scene.scene);
+    if (kind != SceneKind::Terrain)
+        throw Error(
+            options.scene.scene, "",
+            fmt::format("expected a terrain, found a {}", kind == SceneKind::Medium ? "medium" : "volume"),
+            "render, play and view show it; mesh writes the ground of terrains");
 }
 
 }  // namespace

@@ -20,13 +20,14 @@ bool wantsQuality(const QualityOptions& q) {
 void checkQuality(const SceneOptions& options, const std::string& method) {
     const QualityOptions& q = options.quality;
     if (!wantsQuality(q)) return;
+    const char* given = q.quality ? "--quality" : q.targetPsnr_db ? "--target-psnr" : "--target-ms";
     if (showsMedium(options))
-        throw Error("--quality", "", "does not go with a medium, whose eyes are swept together",
+        throw Error(given, "", "does not go with a medium, whose eyes are swept together",
                     "choose --slices and --light-size instead");
     const auto named = methodFromText(method);
     if (named && *named != RightEyeMethod::Linear && *named != RightEyeMethod::Cubic &&
         *named != RightEyeMethod::Selective)
-        throw Error("--quality", "", fmt::format("does not go with the method {}", method),
+        throw Error(given, "", fmt::format("does not go with the method {}", method),
                     "choose linear, cubic or selective, or leave the method out");
 }
 

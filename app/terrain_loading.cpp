@@ -69,7 +69,8 @@ void refuseSunWithoutEffect(const SceneOptions& options, const TerrainScene& ter
     if (options.sun.empty() || showsMedium(options) || terrain.illumination || terrain.landmarks) return;
     if (terrain.report.colorHoldsSun || terrain.look.specular > 0) return;
     throw Error("--sun", "", "turns nothing: the ground's picture holds the light of its own day",
-                "add --shade-image, or --light auto once stereonav bake has baked this ground's light");
+                "add --shade-image, or leave it out; in pictures also --light auto, once bake has baked this "
+                "ground's light");
 }
 
 FlightSetting flightSettingOf(const TerrainScene& terrain) {

@@ -31,10 +31,6 @@ constexpr std::array<Method, 4> kMethods{
       kMostDeviations},
      {OcclusionMethod::Chebyshev, "chebyshev", nullptr, "", 0, 0}}};
 
-bool given(const VolumeOptions& o, bool ambient) {
-    return ambient ? o.ambientStrength || o.ambientLamp : o.modulateRadius_mm || o.modulateSigma;
-}
-
 glm::ivec3 voxelsOf(const VolumeFrame& frame, const char* option, double radius) {
     const double largest = largestOcclusionRadius(frame);
     if (radius > largest * (1 + 1e-6))
@@ -56,10 +52,14 @@ void refuseWithoutEffect(const VolumeOptions& o) {
     const auto refuse = [](bool when, const char* option, const char* problem, const char* advice) {
         if (when) throw Error(option, "", problem, advice);
     };
-    refuse(!o.ambient_mm && given(o, true), "--ambient-strength, --ambient-lamp", "expected with --ambient",
-           "add --ambient, or leave them out");
-    refuse(!modulates(o) && given(o, false), "--modulate-radius, --modulate-sigma",
-           "expected with --modulate", "add --modulate variance or gradient, or leave them out");
+    const char* ambientAdvice = "add --ambient, or leave it out";
+    refuse(!o.ambient_mm && o.ambientStrength, "--ambient-strength", "expected with --ambient",
+           ambientAdvice);
+    refuse(!o.ambient_mm && o.ambientLamp, "--ambient-lamp", "expected with --ambient", ambientAdvice);
+    const char* modulateAdvice = "add --modulate variance or gradient, or leave it out";
+    refuse(!modulates(o) && o.modulateRadius_mm, "--modulate-radius", "expected with --modulate",
+           modulateAdvice);
+    refuse(!modulates(o) && o.modulateSigma, "--modulate-sigma", "expected with --modulate", modulateAdvice);
     refuse(!o.ambientMethod.empty() && !o.ambient_mm && !(modulates(o) && o.modulate == "gradient"),
            "--ambient-method", "expected with --ambient or --modulate gradient", "leave it out");
     const std::string& shading = o.shading;

@@ -153,10 +153,14 @@ void checkVolumeLight(const SceneOptions& options) {
     if (lazy && (!volume.transfer.empty() || volume.opacity))
         throw Error("--light", "", options.light + " expects an opaque surface",
                     "leave out --transfer and --opacity");
-    if (options.light.empty() && (!options.sky.empty() || volume.skyMoved() || volume.exposure))
-        throw Error("--sky, --turn, --tilt, --exposure", "",
-                    "expected with light that was baked for a CT study",
-                    "name it with --light, or leave them out");
+    const std::pair<const char*, bool> ofLight[] = {{"--sky", !options.sky.empty()},
+                                                    {"--turn", volume.turn_deg != 0},
+                                                    {"--tilt", volume.tilt_deg != 0},
+                                                    {"--exposure", volume.exposure.has_value()}};
+    for (const auto& [option, is] : ofLight)
+        if (is && options.light.empty())
+            throw Error(option, "", "expected with light that was baked for a CT study",
+                        "name it with --light, or leave it out");
     if (!volume.shading.empty()) shadingOf(volume.shading);
     checkAmbientLight(volume, options.light);
 }

@@ -82,7 +82,7 @@ RecordedPath centrelineFlight(const FreeDistance& freeDistance, const Centreline
     const FlightLine line(centreline, freeDistance, setting.clearance, setting.largestSeparation / 2);
     if (line.runs().empty())
         throw Error("", "centreline", "expected a stretch with room for the eyes, found none",
-                    "give a smaller clearance or separation");
+                    "a colon is flown through where there is more room than its eyes take");
     std::vector<FlightRun> runs = line.runs();
     if (backwards) std::reverse(runs.begin(), runs.end());
     std::vector<PathSample> samples;
