@@ -127,6 +127,7 @@ void addCentreline(const ColonScene& scene, double spacing, const char* option, 
     const std::vector<CentrelinePoint>& points = scene.centreline.points;
     const double radius = meanRadius(points);
     const auto intensity = static_cast<float>(std::numbers::pi * radius * radius);
+    if (spacing == kLightSpacing) spacing = std::min(spacing, scene.centreline.length());  // one at least
     double along = 0.5 * spacing;  // since the last light
     for (std::size_t n = 0; n < points.size(); ++n) {
         if (n > 0) along += glm::length(points[n].position - points[n - 1].position);
