@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 
+#include "app/option_numbers.h"
 #include "app/volume_ambient.h"
 #include "app/volume_light.h"
 #include "colon/colon_flight.h"
@@ -27,23 +27,8 @@ constexpr double kIsovalueSteps = 100;              // from the smallest value t
 constexpr std::size_t kRangeSamples = 4'000'000;    // values looked at for the range
 
 glm::dvec3 seedFromText(const std::string& text) {
-    const Error error("--seed", "", "expected x,y,z in millimetres (LPS), got \"" + text + "\"",
-                      "give three numbers, as in 12.5,-40,310");
-    std::stringstream fields(text);
-    glm::dvec3 seed(0.0);
-    int count = 0;
-    for (std::string field; std::getline(fields, field, ','); ++count) {
-        std::size_t used = 0;
-        if (count == 3) throw error;
-        try {
-            seed[count] = std::stod(field, &used);
-        } catch (const std::exception&) {
-            throw error;
-        }
-        if (used != field.size() || !std::isfinite(seed[count])) throw error;
-    }
-    if (count != 3 || text.back() == ',') throw error;
-    return seed / 1000.0;
+    const std::vector<double> n = numbersIn("--seed", seedNumbers(), text).numbers;
+    return glm::dvec3(n[0], n[1], n[2]) / 1000.0;
 }
 
 std::optional<UpAxis> upFromText(const std::optional<std::string>& text) {
@@ -91,11 +76,6 @@ void checkVolumeOptions(const SceneOptions& options) {
     }
     refuse(!volume.transfer.empty() && volume.opacity, "--opacity", "does not go with --transfer",
            "leave one of them out");
-    refuse(volume.opacity && !(*volume.opacity > 0 && *volume.opacity <= 1), "--opacity",
-           fmt::format("expected more than 0 and at most 1, got {}", volume.opacity.value_or(0)),
-           "0.95 is a wall that is nearly opaque within a millimetre");
-    refuse(volume.isovalue && !std::isfinite(*volume.isovalue), "--isovalue",
-           fmt::format("expected a number, got {}", volume.isovalue.value_or(0)), "300 shows bone in CT");
     checkShading(volume);
 }
 
@@ -116,12 +96,24 @@ SeparationControl::Setting separationOf(const LoadedScene& scene) {
     return setting;
 }
 
+bool followsRoom(const SceneOptions& options) {
+    return !options.separation_m && !options.zeroParallax_m;
+}
+
 std::unique_ptr<Flight> flightThrough(const ColonScene& colon, double largestSeparation) {
     ColonFlightSetting setting;
     setting.clearance = colon.clearance;
     setting.speed = colon.extent / (colon.isColon() ? kColonSeconds : kOutsideSeconds);
     setting.largestSeparation = largestSeparation;
-    return std::make_unique<ColonFlight>(freeDistanceOf(colon), colon.centreline, colon.startPose, setting);
+    try {
+        return std::make_unique<ColonFlight>(freeDistanceOf(colon), colon.centreline, colon.startPose,
+                                             setting);
+    } catch (const Error&) {
+        if (largestSeparation <= 2 * colon.stereo.separation) throw;
+        throw Error("--separation", "",
+                    fmt::format("eyes {:g} m apart find no room around the start", largestSeparation),
+                    "give less, or leave it out");
+    }
 }
 
 struct Range {
@@ -214,6 +206,18 @@ void tellOf(Light& light, ViewScene& view) {
     view.lightChanges = [&light] { return light.changes(); };
 }
 
+std::function<StereoFollower(const StereoSetting&)> followerWithin(const SeparationControl::Setting& limits) {
+    return [limits](const StereoSetting& from) -> StereoFollower {
+        SeparationControl control(limits, from.separation, from.zeroParallax);
+        return [control](double free, double depth, double dt) mutable {
+            // As far as a flight looks there is no wall: that tells nothing of what is behind it.
+            if (free >= ColonFlight::kFarthestClearance) free = std::numeric_limits<double>::infinity();
+            control.step(free, depth, dt);
+            return StereoSetting{control.separation(), control.zeroParallax()};
+        };
+    };
+}
+
 // What is cast, from where, and the flight.
 void setViews(const SceneOptions& options, SimdTarget simd, LoadedScene& scene) {
     const ColonScene& colon = *scene.colon;
@@ -231,6 +235,11 @@ void setViews(const SceneOptions& options, SimdTarget simd, LoadedScene& scene) 
     std::erase(scene.methods, RightEyeMethod::Cubic);
     const double largest = separationOf(scene).largest;
     scene.makeFlight = [&colon, largest] { return flightThrough(colon, largest); };
+    scene.makeFollower = followerWithin(separationOf(scene));
+    scene.clearanceAt = [free = freeDistanceOf(colon), largest](const Pose& head) {
+        return clearanceAt(free, head, largest);
+    };
+    scene.eyesFollow = colon.isColon() && followsRoom(options);
 }
 
 }  // namespace
@@ -330,20 +339,12 @@ void addVolume(const LoadedScene& scene, const SceneOptions& options, ViewScene&
     const ColonOptions colonOptions = colonOptionsOf(options);
     const SeparationControl::Setting separation = separationOf(scene);
     view.largestSeparation = separation.largest;
-    view.makeFollower = [separation](const StereoSetting& from) -> StereoFollower {
-        SeparationControl control(separation, from.separation, from.zeroParallax);
-        return [control](double free, double depth, double dt) mutable {
-            // As far as a flight looks there is no wall: that tells nothing of what is behind it.
-            if (free >= ColonFlight::kFarthestClearance) free = std::numeric_limits<double>::infinity();
-            control.step(free, depth, dt);
-            return StereoSetting{control.separation(), control.zeroParallax()};
-        };
-    };
+    view.makeFollower = scene.makeFollower ? scene.makeFollower : followerWithin(separation);
     if (scene.lazyLight) tellOf(*scene.lazyLight, view);
     if (scene.lazyLight && scene.lazyLight->turns()) turnSky(*scene.lazyLight, view);
     if (scene.sky) tellOf(*scene.sky, view);
     if (scene.sky) turnSky(*scene.sky, view);
-    view.followsAtStart = !options.separation_m && !options.zeroParallax_m;
+    view.followsAtStart = followsRoom(options);
     view.canBeTranslucent = true;
     view.translucent = scene.renderer && scene.renderer->translucent();
     if (scene.renderer) addTransfers(options.volume, view);

@@ -19,9 +19,15 @@ void checkCentrelineOptions(const CentrelineOptions& options) {
                     "name it centreline.vtp");
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     checkOutputFile("--out", options.out);
-    if (kindOf(options.scene.scene) != SceneKind::Volume)
+    const SceneKind kind = kindOf(options.scene.scene);
+    if (kind != SceneKind::Volume)
         throw Error(options.scene.scene.empty() ? "SCENE" : options.scene.scene, "",
-                    "expected a CT study, found a terrain", "name a study, or colon for the built-in one");
+                    fmt::format("expected a CT study, found {}",
+                                kind == SceneKind::Medium          ? "a medium"
+                                : options.scene.scene.empty()      ? "nothing, which is the built-in terrain"
+                                : options.scene.scene == "terrain" ? "the built-in terrain"
+                                                                   : "a terrain or another kind of file"),
+                    "name a study, or colon for the built-in one");
 }
 
 }  // namespace

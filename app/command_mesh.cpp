@@ -18,14 +18,14 @@ void checkMeshOptions(const MeshOptions& options) {
     if (!isMeshFileName(options.out))
         throw Error("--out", "", "expected a file named .glb or .gltf, got \"" + options.out + "\"",
                     "name it terrain.glb");
-    if (!std::isfinite(options.error_m))
-        throw Error("--error", "", fmt::format("expected metres, 0 or more, got {:g}", options.error_m),
-                    "leave it out for half a sample spacing");
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     checkOutputFile("--out", options.out);
-    if (kindOf(options.scene.scene) != SceneKind::Terrain)
-        throw Error(options.scene.scene, "", "expected a terrain, found a volume",
-                    "render, play and view show it; mesh writes the ground of terrains");
+    const SceneKind kind = kindOf(options.scene.scene);
+    if (kind != SceneKind::Terrain)
+        throw Error(
+            options.scene.scene, "",
+            fmt::format("expected a terrain, found a {}", kind == SceneKind::Medium ? "medium" : "volume"),
+            "render, play and view show it; mesh writes the ground of terrains");
 }
 
 }  // namespace

@@ -32,12 +32,6 @@ void checkOptions(const PlayOptions& options) {
                     "leave one of them out, or give --video");
     if (!options.mode.empty() && options.out.empty() && options.video.empty())
         throw Error("--mode", "", "has no effect on --hash, which is of both eyes", "leave it out");
-    if (!(fpsOf(options) > 0.0 && fpsOf(options) <= 1000.0))
-        throw Error("--fps", "", fmt::format("expected more than 0 and at most 1000, got {}", fpsOf(options)),
-                    "25 is common");
-    if (options.frames < 0 || options.frames > kMostFrames)
-        throw Error("--frames", "", fmt::format("expected 1 to {}, got {}", kMostFrames, options.frames),
-                    "leave it out for the whole path at --fps");
     checkSize(options.size, options.video.empty() ? kRenderBytesPerPixel : kVideoBytesPerPixel);
 }
 

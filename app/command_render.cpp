@@ -51,14 +51,14 @@ int runRender(const RenderOptions& options) {
         bar.progress().report(0.95, "lighting what is seen");
         const Stopwatch watch;
         for (int look = 0; look < 2; ++look)  // at some pixels, then at all
-            scene.lazyLight->seen(scene.viewsAt(head).left, frame.left());
+            scene.lazyLight->seen(frame.views().left, frame.left());
         scene.lazyLight->waitUntilDone();
         frame.render(head);
         bar.clear();
         std::fprintf(messages, "lit in %.2f s\n", watch.elapsed_ms() / 1000);
     }
     if (scene.tracedLight)
-        scene.tracedLight->light(scene.viewsAt(head), frame.left(), frame.right(), bar.progress());
+        scene.tracedLight->light(frame.views(), frame.left(), frame.right(), bar.progress());
     const Plane<PackedColor> picture = frame.compose(mode);
     writeColorImage(options.out, picture);
     bar.clear();

@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "app/info_text.h"
+#include "colon/colon_flight.h"
 #include "engine/base/pages.h"
 
 namespace stereonav {
@@ -73,6 +75,23 @@ double millilitres(const LumenField& lumen) {
     return kMl * sum;
 }
 
+// What the flight keeps from the wall, the eyes as far apart as they get.
+FlightClearance clearanceIn(const LoadedScene& scene) {
+    const ColonScene& colon = *scene.colon;
+    if (colon.path.samples().size() < 2) return {};
+    const auto free = [&colon](const glm::dvec3& p, double upTo) { return colon.freeDistanceAt(p, upTo); };
+    return clearanceOf(colon.path, free, scene.stereo.separation);
+}
+
+// Rounded down: what is kept is no less.
+std::string clearanceText(const LoadedScene& scene) {
+    const FlightClearance kept = clearanceIn(scene);
+    const auto mm = [](double metres) { return std::floor(kMm * metres * 100) / 100; };
+    if (kept.head >= ColonFlight::kFarthestClearance)
+        return fmt::format("{:g} mm or more from the wall", mm(ColonFlight::kFarthestClearance));
+    return fmt::format("at least {:.2f} mm from the wall, an eye {:.2f} mm", mm(kept.head), mm(kept.eyes));
+}
+
 double isovalueOf(const ColonScene& colon) {
     return colon.volume.cells.isovalue * colon.volume.field.scale + colon.volume.field.offset;
 }
@@ -112,7 +131,9 @@ Json colonJson(const LoadedScene& scene) {
     json["bytes"] = bytesOf(heldBy(colon));
     json["held"] = heldJson(heldBy(colon));
     json["flight_s"] = colon.path.samples().size() < 2 ? 0.0 : colon.path.duration();
-    json["clearance_mm"] = kMm * colon.clearance;
+    const FlightClearance kept = clearanceIn(scene);
+    json["clearance_mm"] = kMm * kept.head;
+    json["eye_clearance_mm"] = kMm * kept.eyes;
     json["notes"] = colon.notes;
     return json;
 }
@@ -147,8 +168,7 @@ std::string colonText(const LoadedScene& scene) {
                          shapeName(polyp.shape), kMm * polyp.along, kMm * polyp.position.x,
                          kMm * polyp.position.y, kMm * polyp.position.z));
     if (colon.path.samples().size() > 1)
-        line("flight", fmt::format("{:.4g} s, at least {:.3g} mm from the wall", colon.path.duration(),
-                                   kMm * colon.clearance));
+        line("flight", fmt::format("{:.4g} s, {}", colon.path.duration(), clearanceText(scene)));
     line("memory", heldText(heldBy(colon)));
     for (const std::string& note : colon.notes) line("note", note);
     return text;

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "app/number_text.h"
+#include "app/option_numbers.h"
 #include "app/output_place.h"
 #include "engine/base/error.h"
 #include "engine/light/spherical_harmonics.h"
@@ -15,9 +15,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kMostSamples = 1 << 24;
 constexpr double kLightSpacing = 0.05;     // metres along a colon's centreline
-constexpr double kLargestNumber = 1e30;    // of light, well within floats
 constexpr std::size_t kMostLights = 4096;  // each costs a shadow ray at every vertex of every path
 
 void require(bool holds, const char* option, const std::string& problem, const std::string& advice) {
@@ -25,61 +23,38 @@ void require(bool holds, const char* option, const std::string& problem, const s
 }
 
 // One number for all three, or three.
-glm::vec3 colorFromText(const char* option, const std::string& text, double most, const char* advice) {
-    const std::vector<double> numbers = numbersFromText(text);
-    require((numbers.size() == 1 || numbers.size() == 3) &&
-                std::all_of(numbers.begin(), numbers.end(), [&](double v) { return v >= 0 && v <= most; }),
-            option,
-            most <= 1 ? "expected one number or three from 0 to 1, got \"" + text + "\""
-                      : "expected one number or three, 0 or more, got \"" + text + "\"",
-            advice);
+glm::vec3 colorFromText(const char* option, const std::string& text, const NumberList& list) {
+    const std::vector<double> numbers = numbersIn(option, list, text).numbers;
     return numbers.size() == 1 ? glm::vec3(static_cast<float>(numbers[0]))
                                : glm::vec3(numbers[0], numbers[1], numbers[2]);
 }
 
 glm::dvec2 isovaluesFromText(const std::string& text) {
-    const std::vector<double> numbers = numbersFromText(text);
-    require(numbers.size() == 2 && numbers[0] <= numbers[1], "--isovalues",
-            "expected LOW,HIGH with LOW at most HIGH, got \"" + text + "\"", "as in 80,150");
+    const std::vector<double> numbers = numbersIn("--isovalues", isovaluesNumbers(), text).numbers;
+    require(numbers[0] <= numbers[1], "--isovalues",
+            "expected LOW,HIGH with LOW at most HIGH, got " + shownText(text), isovaluesNumbers().advice);
     return {numbers[0], numbers[1]};
 }
 
 bool isCentreline(const std::string& light) {
-    return light.rfind("centreline", 0) == 0;
+    return light.starts_with(kCentrelineLights);
 }
 
 double centrelineSpacing(const std::string& light, const char* option) {
-    const std::string rest = light.substr(std::string("centreline").size());
-    if (rest.empty()) return kLightSpacing;
-    const std::vector<double> numbers =
-        rest[0] == ',' ? numbersFromText(rest.substr(1)) : std::vector<double>();
-    require(numbers.size() == 1 && numbers[0] >= 1e-4, option,
-            "expected centreline and a distance of at least 0.0001 metres, got \"" + light + "\"",
-            "as in centreline,0.05");
-    return numbers[0];
+    const std::vector<double> n = numbersIn(option, pointLightNumbers(), light).numbers;
+    return n.empty() ? kLightSpacing : n[0];
 }
 
 // Position and intensity; without one, 0.
 PointLight lightFromText(const std::string& text, const char* option) {
-    const std::vector<double> n = numbersFromText(text);
-    require((n.size() == 3 || n.size() == 4) && (n.size() == 3 || (n[3] > 0 && n[3] <= kLargestNumber)),
-            option, "expected x,y,z in metres and an intensity above 0, got \"" + text + "\"",
-            "the intensity may be left out, as in 0.1,0,0.3");
+    const std::vector<double> n = numbersIn(option, pointLightNumbers(), text).numbers;
     PointLight light;
     light.position = {n[0], n[1], n[2]};
     light.intensity = glm::vec3(n.size() == 4 ? static_cast<float>(n[3]) : 0.0f);
     return light;
 }
 
-void checkLimits(const BakeOptions& o) {
-    require(!o.samples || (*o.samples >= 1 && *o.samples <= kMostSamples), "--samples",
-            fmt::format("expected 1 to {}, got {}", kMostSamples, o.samples.value_or(0)),
-            "100 is a first look");
-    require(!o.error || (*o.error > 0 && *o.error < 1), "--error",
-            fmt::format("expected more than 0 and less than 1, got {:g}", o.error.value_or(0)),
-            "0.02 is two percent");
-    require(!o.minutes || (*o.minutes > 0 && std::isfinite(*o.minutes)), "--minutes",
-            fmt::format("expected more than 0, got {:g}", o.minutes.value_or(0)), "a fraction is fine");
+void checkGoals(const BakeOptions& o) {
     const char* once = "does not go with another way to end the bake";
     require(!(o.samples && o.error), "--error", once, "choose one of --samples, --error and --minutes");
     require(!(o.minutes && (o.samples || o.error)), "--minutes", once,
@@ -87,24 +62,11 @@ void checkLimits(const BakeOptions& o) {
 }
 
 void checkNumbers(const BakeOptions& o) {
-    require(!o.resolution || (*o.resolution >= 0.125 && *o.resolution <= 8), "--resolution",
-            fmt::format("expected 0.125 to 8 texels a voxel, got {:g}", o.resolution.value_or(0)),
+    const NumberRange fineness = within(0.125, 8, "texels a voxel");
+    require(!o.resolution || fineness.holds(*o.resolution), "--resolution",
+            "expected " + rangeText(fineness) + ", got " + shortNumber(o.resolution.value_or(0)),
             "use 0.5, 1 or 2");
-    require(!o.bounces || (*o.bounces >= 0 && *o.bounces <= 8), "--bounces",
-            fmt::format("expected 0 to 8, got {}", o.bounces.value_or(0)), "2 shows most of it");
-    require(!o.order || (*o.order >= 1 && *o.order <= kMaxHarmonicsOrder), "--order",
-            fmt::format("expected 1 to {}, got {}", kMaxHarmonicsOrder, o.order.value_or(0)), "5 is usual");
-    require(!o.reach_mm || (*o.reach_mm > 0 && *o.reach_mm < kLargestNumber), "--reach",
-            fmt::format("expected more than 0 mm, got {}", o.reach_mm.value_or(0)),
-            "leave it out for no limit");
-    if (!o.albedo.empty()) colorFromText("--albedo", o.albedo, 1, "0.7 is a bright wall");
-    if (!o.scene.sky.empty()) colorFromText("--sky", o.scene.sky, kLargestNumber, "as in 1 or 0.3,0.4,0.6");
     if (!o.isovalues.empty()) isovaluesFromText(o.isovalues);
-    for (const std::string& light : o.lights)
-        if (isCentreline(light))
-            centrelineSpacing(light, o.words.light);
-        else
-            lightFromText(light, o.words.light);
 }
 
 void checkTogether(const BakeOptions& o, BakeKind kind) {
@@ -165,6 +127,7 @@ void addCentreline(const ColonScene& scene, double spacing, const char* option, 
     const std::vector<CentrelinePoint>& points = scene.centreline.points;
     const double radius = meanRadius(points);
     const auto intensity = static_cast<float>(std::numbers::pi * radius * radius);
+    if (spacing == kLightSpacing) spacing = std::min(spacing, scene.centreline.length());  // one at least
     double along = 0.5 * spacing;  // since the last light
     for (std::size_t n = 0; n < points.size(); ++n) {
         if (n > 0) along += glm::length(points[n].position - points[n - 1].position);
@@ -202,7 +165,7 @@ void addLight(const ColonScene& scene, const std::string& text, const char* opti
 LightSetup setupOf(const ColonScene& scene, const BakeOptions& options, BakeKind kind,
                    std::vector<std::string>& notes) {
     LightSetup setup;
-    if (!options.albedo.empty()) setup.albedo = colorFromText("--albedo", options.albedo, 1, "");
+    if (!options.albedo.empty()) setup.albedo = colorFromText("--albedo", options.albedo, albedoNumbers());
     if (options.bounces) setup.bounces = *options.bounces;
     setup.reach = options.reach_mm.value_or(0) * 1e-3;
     if (kind == BakeKind::Openness) {
@@ -218,7 +181,7 @@ LightSetup setupOf(const ColonScene& scene, const BakeOptions& options, BakeKind
     }
     if (kind == BakeKind::Transfer) return setup;
     if (!options.probe.empty()) setup.probe = std::make_shared<LightProbe>(readLightProbe(options.probe));
-    if (!options.scene.sky.empty()) setup.sky = colorFromText("--sky", options.scene.sky, kLargestNumber, "");
+    if (!options.scene.sky.empty()) setup.sky = colorFromText("--sky", options.scene.sky, skyNumbers());
     for (const std::string& light : options.lights) addLight(scene, light, options.words.light, setup);
     if (setup.probe || !options.scene.sky.empty() || !setup.lights.empty()) return setup;
     if (scene.isColon()) {
@@ -257,7 +220,7 @@ BakeKind bakeKindFromText(const std::string& what) {
 
 void checkBakeOptions(const BakeOptions& options) {
     const BakeKind kind = bakeKindFromText(options.what);
-    checkLimits(options);
+    checkGoals(options);
     checkNumbers(options);
     checkTogether(options, kind);
     if (options.out.empty()) return;

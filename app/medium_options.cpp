@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -11,7 +10,7 @@
 #include <vector>
 
 #include "app/medium_noise.h"
-#include "app/number_text.h"
+#include "app/option_numbers.h"
 #include "app/volume_light.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
@@ -19,22 +18,10 @@
 namespace stereonav {
 namespace {
 
-constexpr double kBrightest = 1e6;
-constexpr double kFarthest = 1e9;  // metres
-constexpr double kWidestShading = 16;
 constexpr double kHeadLampCone = 2.2;  // radians: wider than what is seen
 
-bool inReach(const std::vector<double>& metres) {
-    return std::all_of(metres.begin(), metres.end(), [](double v) { return std::abs(v) <= kFarthest; });
-}
-
 glm::vec3 lightColorFromText(const std::string& text) {
-    const std::vector<double> n = numbersFromText(text);
-    const bool inRange = std::all_of(n.begin(), n.end(), [](double v) { return v >= 0 && v <= kBrightest; });
-    if (!inRange || (n.size() != 1 && n.size() != 3))
-        throw Error("--light-color", "",
-                    fmt::format("expected one number or three from 0 to {:g}, got \"{}\"", kBrightest, text),
-                    "1 is white, 1,0.8,0.6 a warm light; linear values");
+    const std::vector<double> n = numbersIn("--light-color", colorNumbers(), text).numbers;
     return n.size() == 1 ? glm::vec3(static_cast<float>(n[0])) : glm::vec3(n[0], n[1], n[2]);
 }
 
@@ -42,21 +29,15 @@ struct Direction {
     double azimuth = 0, elevation = 0;  // radians
 };
 Direction directionFromText(const std::string& text) {
-    const std::vector<double> n = numbersFromText(text);
-    if (n.size() != 2 || !(std::abs(n[0]) <= 1e6) || !(std::abs(n[1]) <= 90))
-        throw Error("--light-from", "", "expected azimuth,elevation in degrees, got \"" + text + "\"",
-                    "as in 315,30: from the north-west, 30 degrees high; elevations are -90 to 90");
+    const std::vector<double> n = numbersIn("--light-from", sunNumbers(), text).numbers;
     return {std::remainder(n[0], 360.0) * kRadians, n[1] * kRadians};
 }
 
 // The lamp's place; none at the head.
 std::optional<glm::dvec3> lampFromText(const std::string& text) {
-    if (text == "head") return std::nullopt;
-    const std::vector<double> n = numbersFromText(text);
-    if (n.size() != 3 || !inReach(n))
-        throw Error("--lamp", "", "expected head or x,y,z in metres, got \"" + text + "\"",
-                    "head is a lamp midway between the eyes");
-    return glm::dvec3(n[0], n[1], n[2]);
+    const GivenNumbers given = numbersIn("--lamp", lampNumbers(), text);
+    if (given.word == kHeadLamp) return std::nullopt;
+    return glm::dvec3(given.numbers[0], given.numbers[1], given.numbers[2]);
 }
 
 MediumModel modelFromText(const std::string& text) {
@@ -67,12 +48,6 @@ MediumModel modelFromText(const std::string& text) {
         known += (known.empty() ? "" : ", ") + std::string(nameOf(model));
     }
     throw Error("--model", "", "there is no model \"" + text + "\"", "the models are " + known);
-}
-
-void checkWhole(const char* option, const std::optional<int>& value, int least, int most,
-                const char* advice) {
-    if (value && (*value < least || *value > most))
-        throw Error(option, "", fmt::format("expected {} to {}, got {}", least, most, *value), advice);
 }
 
 void refuseAll(std::initializer_list<std::pair<const char*, bool>> given, const std::string& problem,
@@ -136,10 +111,7 @@ bool showsMedium(const SceneOptions& options) {
 
 std::optional<Mist> mistFromText(const std::string& text) {
     if (text.empty()) return std::nullopt;
-    const std::vector<double> n = numbersFromText(text);
-    if (n.size() != 2 || !inReach(n) || !(n[1] > 0 && n[1] <= 1e4))
-        throw Error("--mist", "", "expected top,optical depth, got \"" + text + "\"",
-                    "as in 900,2: up to 900 m, and 2 straight down; the depth is above 0 and at most 10000");
+    const std::vector<double> n = numbersIn("--mist", mistNumbers(), text).numbers;
     return Mist{n[0], n[1]};
 }
 
@@ -148,32 +120,19 @@ void checkMediumOptions(const SceneOptions& options) {
     if (!showsMedium(options)) return refuseWithoutMedium(m);
     refuseOfOtherKinds(options);
     refuseBesideModel(options);
-    checkWhole("--slices", m.slices, 1, 65536, "256 is the default; finer is slower");
-    checkWhole("--light-size", m.lightSize, 8, 4096, "256 is the default");
-    if (m.cone_deg && !(*m.cone_deg >= 0 && *m.cone_deg < 180))
-        throw Error("--cone", "", fmt::format("expected 0 to less than 180 degrees, got {:g}", *m.cone_deg),
-                    "35 is the default; 0 lets scattered light go straight on");
-    if (m.shadingWidth && !(*m.shadingWidth >= 0 && *m.shadingWidth <= kWidestShading))
-        throw Error("--shading-width", "",
-                    fmt::format("expected 0 to {:g} voxels, got {:g}", kWidestShading, *m.shadingWidth),
-                    "1 is the default; 0 shades at each sample");
     if (!m.lamp.empty() && !m.lightFrom.empty())
         throw Error("--lamp", "", "does not go with --light-from", "leave one of them out");
     if (!m.model.empty()) modelFromText(m.model);
-    if (!m.lamp.empty()) lampFromText(m.lamp);
-    if (!m.lightFrom.empty()) directionFromText(m.lightFrom);
-    if (!m.lightColor.empty()) lightColorFromText(m.lightColor);
-    if (!m.phase.empty()) findPhaseFunction(m.phase);
+    if (!m.phase.empty()) findPhaseFunction(m.phase, "--phase");
     if (!m.noise.empty()) findNoise(m.noise, 1);
     if (!m.medium.empty() && m.medium != kGroundMedium) findMediumTransfer(m.medium);
-    mistFromText(m.mist);
 }
 
 void applyMediumOptions(const MediumOptions& options, MediumScene& scene) {
     MediumLook& look = scene.look;
     if (!options.model.empty()) look.model = modelFromText(options.model);
     if (!options.phase.empty()) {
-        look.phase = findPhaseFunction(options.phase);
+        look.phase = findPhaseFunction(options.phase, "--phase");
         scene.phase = options.phase;
     }
     if (!options.lightColor.empty()) look.light.radiance = lightColorFromText(options.lightColor);

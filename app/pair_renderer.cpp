@@ -4,14 +4,14 @@
 
 namespace stereonav {
 
-PairMethod pairMethodFromText(const std::string& name) {
+PairMethod pairMethodFromText(const std::string& name, const char* option) {
     if (name == "auto") return PairMethod::Sweep;
     std::string known;
     for (const NamedPairMethod& named : kPairMethods) {
         if (named.name == name) return named.method;
         known += (known.empty() ? "" : ", ") + std::string(named.name);
     }
-    throw Error("", "", "there is no method \"" + name + "\" of making two eyes of a medium",
+    throw Error(option, "", "there is no method \"" + name + "\" of making two eyes of a medium",
                 "the methods are " + known);
 }
 

@@ -49,6 +49,6 @@ constexpr std::string_view nameOf(PairMethod method) {
     return "";
 }
 // "auto" is the sweep. Throws Error with the known names.
-PairMethod pairMethodFromText(const std::string& name);
+PairMethod pairMethodFromText(const std::string& name, const char* option = "--method");
 
 }  // namespace stereonav

@@ -15,27 +15,19 @@ bool wantsQuality(const QualityOptions& q) {
     return q.quality || q.targetPsnr_db || q.target_ms;
 }
 
-void requireIn(const char* option, const std::optional<double>& value, double low, double high,
-               const std::string& advice) {
-    if (value && !(*value >= low && *value <= high))
-        throw Error(option, "", fmt::format("expected {:g} to {:g}, got {:g}", low, high, *value), advice);
-}
-
 }  // namespace
 
 void checkQuality(const SceneOptions& options, const std::string& method) {
     const QualityOptions& q = options.quality;
-    requireIn("--quality", q.quality, 0, 1, "0 casts the holes alone, 1 every pixel");
-    requireIn("--target-psnr", q.targetPsnr_db, 1, kMostPsnr_db, "40 is good, 50 hard to see");
-    requireIn("--target-ms", q.target_ms, 1e-3, 1e6, "33 is 30 frames a second");
     if (!wantsQuality(q)) return;
+    const char* given = q.quality ? "--quality" : q.targetPsnr_db ? "--target-psnr" : "--target-ms";
     if (showsMedium(options))
-        throw Error("--quality", "", "does not go with a medium, whose eyes are swept together",
+        throw Error(given, "", "does not go with a medium, whose eyes are swept together",
                     "choose --slices and --light-size instead");
     const auto named = methodFromText(method);
     if (named && *named != RightEyeMethod::Linear && *named != RightEyeMethod::Cubic &&
         *named != RightEyeMethod::Selective)
-        throw Error("--quality", "", fmt::format("does not go with the method {}", method),
+        throw Error(given, "", fmt::format("does not go with the method {}", method),
                     "choose linear, cubic or selective, or leave the method out");
 }
 

@@ -172,9 +172,12 @@ EarlierReport readEarlierReport(const std::filesystem::path& file) {
             report.machine.emplace_back(name, value.get<std::string>());
         for (const Json& figure : json.at("figures")) report.figures.push_back(figureFrom(figure));
         return report;
-    } catch (const nlohmann::json::exception& error) {
-        throw Error(file.string(), "", std::string("expected a report as JSON, got: ") + error.what(),
+    } catch (const nlohmann::json::parse_error& error) {
+        throw Error(file.string(), "",
+                    fmt::format("expected a report as JSON, found what is none at byte {}", error.byte),
                     advice);
+    } catch (const nlohmann::json::exception&) {
+        throw Error(file.string(), "", "expected a report, found JSON of something else", advice);
     }
 }
 

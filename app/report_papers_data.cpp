@@ -52,7 +52,8 @@ GreyVolume engineOf(const fs::path& file) {
 
 PaperData::PaperData(const std::string& folder) : mFolder(folder) {
     if (!folder.empty() && !fs::is_directory(folder))
-        throw Error("--data", folder, "expected a folder", "docs/testing.md says what lies in it");
+        throw Error("--data", "", "expected a folder, got \"" + folder + "\"",
+                    "docs/testing.md says what lies in it");
     if (!folder.empty()) return;
     if (const char* set = std::getenv("STEREONAV_TEST_DATA")) {
         mFolder = set;

@@ -35,9 +35,9 @@ Row rowFrom(const std::string& line, const std::string& source, int number) {
                 numberFrom(json.at("worst")),
                 numberFrom(json.at("bound")),
                 json.at("pass").get<bool>()};
-    } catch (const nlohmann::json::exception& error) {
+    } catch (const nlohmann::json::exception&) {
         throw Error(source, std::to_string(number),
-                    std::string("expected a row of the stability tests, got: ") + error.what(),
+                    "expected a row of the stability tests, found \"" + line.substr(0, 40) + "\"",
                     "make the rows anew: ninja -C build/release stability_rows");
     }
 }

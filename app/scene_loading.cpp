@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
-#include <sstream>
 #include <utility>
 
 #include "app/colon_loading.h"
 #include "app/medium_loading.h"
 #include "app/medium_options.h"
+#include "app/option_numbers.h"
 #include "app/terrain_loading.h"
 #include "app/volume_light.h"
 #include "engine/base/error.h"
@@ -21,32 +21,6 @@
 
 namespace stereonav {
 namespace {
-
-void checkThreads(int threads) {
-    if (threads < 0 || threads > 256)
-        throw Error("--threads", "", fmt::format("expected 1 to 256, got {}", threads),
-                    "leave it out to use all processors");
-}
-
-void checkOptions(const SceneOptions& options) {
-    checkThreads(options.threads);
-    if (!(options.verticalScale >= 0.0) || !std::isfinite(options.verticalScale))
-        throw Error("--vertical-scale", "",
-                    fmt::format("expected a positive number, got {}", options.verticalScale),
-                    "use 1 for true heights");
-    if (options.fov_deg != 0.0 && !(options.fov_deg > 0.0 && options.fov_deg < 180.0))
-        throw Error("--fov", "",
-                    fmt::format("expected more than 0 and less than 180 degrees, got {}", options.fov_deg),
-                    "45 is common");
-    if (options.separation_m && !(*options.separation_m >= 0.0 && std::isfinite(*options.separation_m)))
-        throw Error("--separation", "",
-                    fmt::format("expected 0 or more metres, got {}", *options.separation_m),
-                    "1/30 of the zero-parallax distance is comfortable");
-    if (options.zeroParallax_m && !(*options.zeroParallax_m > 0.0 && std::isfinite(*options.zeroParallax_m)))
-        throw Error("--zero-parallax", "",
-                    fmt::format("expected more than 0 metres, got {}", *options.zeroParallax_m),
-                    "use the distance to what should lie in the screen");
-}
 
 void refuseVolumeOptions(const SceneOptions& options) {
     const VolumeOptions& v = options.volume;
@@ -90,9 +64,14 @@ void refuseTerrainOptions(const SceneOptions& options) {
 
 void refuseTracedElsewhere(const SceneOptions& options) {
     const bool traced = options.light == kTracedLight;
-    if (options.traced && options.traced->any() && !traced)
-        throw Error("--samples, --bounces, --albedo, --point-light, --reach", "",
-                    "expected with --light traced", "leave them out");
+    const TracedOptions t = options.traced.value_or(TracedOptions{});
+    const std::pair<const char*, bool> given[] = {{"--samples", t.samples.has_value()},
+                                                  {"--bounces", t.bounces.has_value()},
+                                                  {"--albedo", !t.albedo.empty()},
+                                                  {"--point-light", !t.lights.empty()},
+                                                  {"--reach", t.reach_mm.has_value()}};
+    for (const auto& [option, is] : given)
+        if (is && !traced) throw Error(option, "", "expected with --light traced", "leave it out");
     if (!traced) return;
     if (!options.traced)
         throw Error("--light", "", "traced is expected with render", "bake the light, and name its file");
@@ -159,7 +138,6 @@ std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
 
 LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress) {
     checkSize(size);
-    checkOptions(options);
     refuseTracedElsewhere(options);
     const SimdTarget simd = simdFromText(options.simd);
     if (options.threads > 0) setThreadCount(options.threads);
@@ -187,34 +165,19 @@ const RecordedPath& flightOf(const LoadedScene& scene, const std::optional<Recor
 }
 
 Pose poseFromText(const std::string& text) {
-    double values[6] = {};
-    int count = 0;
-    std::stringstream fields(text);
-    const Error error("--pose", "",
-                      "expected x,y,z,heading,pitch,roll in metres and degrees, got \"" + text + "\"",
-                      "the angles may be left out, as in 0,0,3000");
-    for (std::string field; std::getline(fields, field, ','); ++count) {
-        std::size_t used = 0;
-        if (count == 6) throw error;
-        try {
-            values[count] = std::stod(field, &used);
-        } catch (const std::exception&) {
-            throw error;
-        }
-        if (used != field.size() || !std::isfinite(values[count])) throw error;
-    }
-    if (count < 3 || text.back() == ',') throw error;
+    std::vector<double> values = numbersIn("--pose", poseNumbers(), text).numbers;
+    values.resize(6);  // angles of 0 where none are said
     return poseFromAngles({values[0], values[1], values[2]}, values[3] * kRadians, values[4] * kRadians,
                           values[5] * kRadians);
 }
 
-std::optional<RightEyeMethod> methodFromText(const std::string& name) {
+std::optional<RightEyeMethod> methodFromText(const std::string& name, const char* option) {
     if (name == "auto") return std::nullopt;
     if (const auto method = rightEyeMethodFromName(name)) return *method;
     std::string known;
     for (const NamedMethod& method : kRightEyeMethods)
         known += std::string(known.empty() ? "" : ", ") + std::string(method.name);
-    throw Error("", "", "there is no method \"" + name + "\"", "the methods are " + known);
+    throw Error(option, "", "there is no method \"" + name + "\"", "the methods are " + known);
 }
 
 OutputMode modeFromText(const std::string& name) {

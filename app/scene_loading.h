@@ -12,6 +12,7 @@
 #include "app/medium_scene.h"
 #include "app/output_place.h"
 #include "app/pair_renderer.h"
+#include "app/room_seen.h"
 #include "app/traced_light.h"
 #include "app/view_sky.h"
 #include "colon/colon_scene.h"
@@ -45,6 +46,13 @@ struct LoadedScene {
     RecordedPath path;                    // the scene's own flight
     std::vector<RightEyeMethod> methods;  // that compare runs when none are named
     std::function<std::unique_ptr<Flight>()> makeFlight;
+    // Of volumes that are cast: eyes that suit the room around them, and the distance to what is near, of the
+    // head and of eyes as far apart as they get, metres. eyesFollow: the window's do at the start, and those
+    // of pictures and videos come together as they do: in a colon, where neither --separation nor
+    // --zero-parallax is given.
+    std::function<StereoFollower(const StereoSetting& from)> makeFollower;
+    std::function<double(const Pose& head)> clearanceAt;
+    bool eyesFollow = false;
     // Of a terrain under baked light, and of a medium under parallel light: turns the sun, radians. Not while
     // a picture is made.
     std::function<void(double azimuth, double elevation)> moveSun;
@@ -83,7 +91,7 @@ Pose poseFromText(const std::string& text);
 
 // A method by name, none for "auto": the scene's default, since what is written to files must not depend on
 // what was measured. Throws Error with the known names.
-std::optional<RightEyeMethod> methodFromText(const std::string& name);
+std::optional<RightEyeMethod> methodFromText(const std::string& name, const char* option = "--method");
 OutputMode modeFromText(const std::string& name);
 // Separation, zero parallax and field of view that were asked for.
 void adjustViews(const SceneOptions& options, LoadedScene& scene);

@@ -19,16 +19,16 @@ void addRows(Hash& hash, const Plane<T>& plane) {
 
 }  // namespace
 
-void checkMethod(const SceneOptions& options, const std::string& method) {
+void checkMethod(const SceneOptions& options, const std::string& method, const char* option) {
     if (showsMedium(options))
-        pairMethodFromText(method);
+        pairMethodFromText(method, option);
     else
-        methodFromText(method);
+        methodFromText(method, option);
     checkQuality(options, method);
 }
 
 StereoFrame::StereoFrame(const LoadedScene& scene, const std::string& method)
-    : mScene(scene), mMethod(method), mLens(scene.lens) {
+    : mScene(scene), mMethod(method), mLens(scene.lens), mEyes(scene) {
     if (scene.pair)
         mPairMethod = pairMethodFromText(method);
     else
@@ -50,7 +50,9 @@ void StereoFrame::refine(const SceneOptions& options, Progress& progress) {
 }
 
 void StereoFrame::render(const Pose& head, double time) {
-    const StereoViews views = makeStereoViews(head, mLens, mScene.stereo);
+    mStereo = mEyes.at(head, time);
+    mViews = makeStereoViews(head, mScene.lens, mStereo);
+    const StereoViews views = makeStereoViews(head, mLens, mStereo);
     if (mScene.pair) {
         mPair = mScene.pair->renderPair(views, time, mPairMethod, mLeft, mRight);
         return;

@@ -3,13 +3,15 @@
 
 #include <string>
 
+#include "app/narrowed_eyes.h"
 #include "app/scene_loading.h"
 #include "engine/base/hash.h"
 
 namespace stereonav {
 
-// Throws Error unless `method` names a way of making two eyes of what the options show. "auto" is one.
-void checkMethod(const SceneOptions& options, const std::string& method);
+// Throws Error, naming the option that it is of, unless `method` names a way of making two eyes of what the
+// options show. "auto" is one.
+void checkMethod(const SceneOptions& options, const std::string& method, const char* option = "--method");
 
 class StereoFrame {
 public:
@@ -19,9 +21,13 @@ public:
     // where they ask for it.
     void refine(const SceneOptions& options, Progress& progress);
 
-    // Both eyes at one pose. time: seconds, of what moves by itself.
+    // Both eyes at one pose, as far apart as suits the room there (NarrowedEyes). time: seconds, of what
+    // moves by itself; no less than before.
     void render(const Pose& head, double time = 0);
 
+    // Those of the last picture.
+    const StereoViews& views() const { return mViews; }
+    const StereoSetting& stereo() const { return mStereo; }
     // Of what is worked out for the two pictures as a whole.
     EyeImage& left() { return mLeft; }
     EyeImage& right() { return mRight; }
@@ -47,6 +53,9 @@ private:
     Lens mLens;
     WarpSetting mWarp;
     PairMethod mPairMethod = PairMethod::Sweep;
+    NarrowedEyes mEyes;
+    StereoSetting mStereo;
+    StereoViews mViews;  // with the size asked for
     RightEye mEye;
     EyeImage mLeft, mRight;
     double mLeft_ms = 0;

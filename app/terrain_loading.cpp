@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "app/medium_options.h"
+#include "app/option_numbers.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
 #include "engine/nav/navigator.h"
@@ -20,15 +20,9 @@ namespace {
 constexpr double kCrossingSeconds = 45.0;  // to cross the terrain at normal speed
 
 void setSun(const std::string& text, TerrainLook& look) {
-    const Error error("--sun", "", "expected azimuth,elevation in degrees, got \"" + text + "\"",
-                      "as in 315,20: from the north-west, 20 degrees high; elevations are -90 to 90");
-    double azimuth = 0, elevation = 0;
-    int used = 0;
-    if (std::sscanf(text.c_str(), "%lf,%lf%n", &azimuth, &elevation, &used) != 2 ||
-        used != static_cast<int>(text.size()) || !std::isfinite(azimuth) || !(std::abs(elevation) <= 90))
-        throw error;
-    look.sunAzimuth = std::remainder(azimuth, 360.0) * kRadians;
-    look.sunElevation = elevation * kRadians;
+    const std::vector<double> n = numbersIn("--sun", sunNumbers(), text).numbers;
+    look.sunAzimuth = std::remainder(n[0], 360.0) * kRadians;
+    look.sunElevation = n[1] * kRadians;
 }
 
 // Options that a scene of this kind would not show.
@@ -75,7 +69,8 @@ void refuseSunWithoutEffect(const SceneOptions& options, const TerrainScene& ter
     if (options.sun.empty() || showsMedium(options) || terrain.illumination || terrain.landmarks) return;
     if (terrain.report.colorHoldsSun || terrain.look.specular > 0) return;
     throw Error("--sun", "", "turns nothing: the ground's picture holds the light of its own day",
-                "add --shade-image, or --light auto once stereonav bake has baked this ground's light");
+                "add --shade-image, or leave it out; in pictures also --light auto, once bake has baked this "
+                "ground's light");
 }
 
 FlightSetting flightSettingOf(const TerrainScene& terrain) {

@@ -61,7 +61,10 @@ std::string methodUnderLight(const SceneOptions& options, const std::string& met
                     "leave it out: each eye is traced in full");
     const QualityOptions& q = options.quality;
     if (q.quality || q.targetPsnr_db || q.target_ms)
-        throw Error("--quality", "", "does not go with --light traced", "leave it out: nothing is warped");
+        throw Error(q.quality         ? "--quality"
+                    : q.targetPsnr_db ? "--target-psnr"
+                                      : "--target-ms",
+                    "", "does not go with --light traced", "leave it out: nothing is warped");
     return "full";
 }
 

@@ -12,10 +12,7 @@ constexpr double kStereoSeconds = 0.35;      // time constant: eyes follow a slo
 constexpr double kSettled = 1e-3;            // relative difference at which a slow change ends
 constexpr double kFirstSeparation = 1e-3;    // of the zero-parallax distance: the step up from none
 constexpr double kLargestSeparation = 0.25;  // of the zero-parallax distance
-constexpr double kComfortSeconds = 1.0;      // time constant
-constexpr double kComfortShare = 0.95;       // of the parallax that is warned of
-constexpr double kLeastComfort = 0.2;
-constexpr double kFollowed = 1e-5;  // relative change below which following counts as done
+constexpr double kFollowed = 1e-5;           // relative change below which following counts as done
 
 // Exponential approach in the logarithm, so that halving and doubling feel alike.
 double approach(double now, double target, double dt) {
@@ -67,27 +64,14 @@ void ViewStereo::scaleZeroParallax(double factor) {
 }
 
 void ViewStereo::observe(const ViewFrame& frame) {
-    const double separation = frame.request.stereo.separation;
-    if (!frame.request.twoEyes || !(separation > 0)) return;
-    const double used =
-        std::max({(frame.farParallax - frame.nearParallax) / kParallaxBudget,
-                  frame.nearParallax / kNearestParallax, frame.farParallax / kFarthestParallax});
-    // Parallax grows with the separation, so this does not depend on what the share is now.
-    mComfortable = used > 0 ? kComfortShare * separation / used : 0;
-}
-
-void ViewStereo::limit(StereoSetting& wanted, double dt) {
-    const double target =
-        mComfortable > 0 ? std::clamp(mComfortable / wanted.separation, kLeastComfort, 1.0) : 1.0;
-    if (dt > 0) mComfort = target + (mComfort - target) * std::exp(-dt / kComfortSeconds);
-    wanted.separation *= mComfort;
+    if (frame.request.twoEyes)
+        mComfort.observe(frame.request.stereo.separation, {frame.nearParallax, frame.farParallax});
 }
 
 void ViewStereo::step(double free, double depth, double dt) {
     const StereoSetting before = mNow;
     if (mFollower) {
-        StereoSetting wanted = mFollower(free, depth, dt);
-        limit(wanted, dt);
+        const StereoSetting wanted = mComfort.limited(mFollower(free, depth, dt), dt);
         const auto differs = [](double a, double b) { return std::abs(a - b) > kFollowed * b; };
         if (differs(wanted.separation, mNow.separation) || differs(wanted.zeroParallax, mNow.zeroParallax))
             mNow = wanted;

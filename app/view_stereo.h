@@ -31,15 +31,11 @@ public:
     bool moving() const { return mMoving; }  // since the last step
 
 private:
-    void limit(StereoSetting& wanted, double dt);
-
     StereoSetting mNow, mTarget;  // and where it slowly goes, by hand
     double mLargest;              // metres
     std::function<StereoFollower(const StereoSetting&)> mMakeFollower;
     StereoFollower mFollower;
-    // What the room suits may still be too much for the picture's nearest and farthest things: the share
-    // of it that is comfortable now; and the separation in metres that the last frame would suit, 0: any.
-    double mComfort = 1, mComfortable = 0;
+    ComfortLimit mComfort;
     bool mMoving = false;
 };
 

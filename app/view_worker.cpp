@@ -13,32 +13,14 @@ namespace {
 
 constexpr int kParallaxStep = 4;  // every fourth pixel of every fourth row tells the range of depths
 
-void measureParallax(const StereoViews& views, ViewFrame& frame) {
-    const double width = std::max(frame.left.width(), 1);
-    float nearest = kMissDepth, farthest = 0;
-    for (int y = 0; y < frame.left.height(); y += kParallaxStep)
-        for (int x = 0; x < frame.left.width(); x += kParallaxStep) {
-            const float depth = frame.left.viewDepth.at(x, y);
-            nearest = std::min(nearest, depth);
-            farthest = std::max(farthest, depth);
-        }
-    const auto share = [&](float depth) {
-        return depth > 0 ? (views.shiftAtInfinity - views.parallaxScale / depth) / width : 0.0;
-    };
-    frame.nearParallax = share(nearest);
-    frame.farParallax = share(farthest);
-}
-
-// The median depth of the picture's middle ninth; infinite where nothing is hit there.
-double depthAhead(const Plane<float>& depth) {
-    std::vector<float> depths;
-    for (int y = depth.height() / 3; y < depth.height() - depth.height() / 3; y += kParallaxStep)
-        for (int x = depth.width() / 3; x < depth.width() - depth.width() / 3; x += kParallaxStep)
-            depths.push_back(depth.at(x, y));
-    if (depths.empty()) return kMissDepth;
-    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-    std::nth_element(depths.begin(), middle, depths.end());
-    return *middle;
+// What the frame's left eye tells of the room around it.
+void lookAround(const StereoViews* views, ViewFrame& frame) {
+    const RoomSeen room = roomSeen(frame.left.viewDepth, kParallaxStep);
+    frame.depthAhead = room.ahead;
+    if (!views) return;
+    const ParallaxRange parallax = parallaxOf(*views, room);
+    frame.nearParallax = parallax.near;
+    frame.farParallax = parallax.far;
 }
 
 // Of a medium.
@@ -48,15 +30,15 @@ void renderTogether(const ViewScene& scene, const FrameRequest& request, ViewFra
     if (request.twoEyes) {
         const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
         frame.pair = scene.pair->renderPair(views, request.time, request.pairMethod, frame.left, frame.right);
-        measureParallax(views, frame);
+        lookAround(&views, frame);
     } else {
         const Stopwatch watch;
         scene.pair->renderOne(makeEyeView(request.pose, request.lens), request.time, frame.left);
         frame.left_ms = watch.elapsed_ms();
         frame.right = {};
+        lookAround(nullptr, frame);
     }
     if (scene.sweepName) frame.sweep = scene.sweepName();
-    frame.depthAhead = depthAhead(frame.left.viewDepth);
 }
 
 void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& rightEye, ViewFrame& frame) {
@@ -75,7 +57,7 @@ void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& 
         renderEye(renderer, view, frame.left);
         frame.left_ms = watch.elapsed_ms();
         frame.right = {};
-        frame.depthAhead = depthAhead(frame.left.viewDepth);
+        lookAround(nullptr, frame);
         if (scene.seen) scene.seen(view, frame.left);
         return;
     }
@@ -83,8 +65,7 @@ void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& 
     renderEye(renderer, views.left, frame.left);
     frame.left_ms = watch.elapsed_ms();
     frame.rightTimings = rightEye.render(renderer, views, frame.left, request.warp, frame.right);
-    measureParallax(views, frame);
-    frame.depthAhead = depthAhead(frame.left.viewDepth);
+    lookAround(&views, frame);
     // Not between the eyes, which are to be lit alike.
     if (scene.seen) scene.seen(views.left, frame.left);
 }

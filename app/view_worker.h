@@ -16,6 +16,7 @@
 
 #include "app/commands.h"
 #include "app/pair_renderer.h"
+#include "app/room_seen.h"
 #include "engine/base/progress.h"
 #include "engine/camera/recorded_path.h"
 #include "engine/camera/stereo_rig.h"
@@ -31,10 +32,6 @@ struct SliceStudy {
     GreyVolume grey;
     double windowWidth = 1500, windowLevel = -200;  // values shown from black to white, and their middle
 };
-
-// Makes eyes that suit the room around them: one step on by dt seconds. free: distance around the head;
-// depth: view depth in the middle of the picture; metres.
-using StereoFollower = std::function<StereoSetting(double free, double depth, double dt)>;
 
 // Where the sun stands, radians: clockwise from north, above the horizon; or how far a sky is turned
 // clockwise and tilted.

@@ -16,8 +16,6 @@ namespace stereonav {
 namespace {
 
 constexpr double kUsualStrength = 1;  // nothing is brighter than its colour
-constexpr double kMostStrength = 100;
-constexpr double kMostSigma = 1e6;  // of the volume's values
 
 struct Method {
     OcclusionMethod method;
@@ -32,22 +30,6 @@ constexpr std::array<Method, 4> kMethods{
      {OcclusionMethod::DrawnIn, "drawn-in", &OcclusionEstimate::deviations, "S", kLeastDeviations,
       kMostDeviations},
      {OcclusionMethod::Chebyshev, "chebyshev", nullptr, "", 0, 0}}};
-
-bool given(const VolumeOptions& o, bool ambient) {
-    return ambient ? o.ambientStrength || o.ambientLamp : o.modulateRadius_mm || o.modulateSigma;
-}
-
-void checkNumber(const char* option, const std::optional<double>& value, double most, const char* advice) {
-    if (value && !(*value > 0 && *value <= most))
-        throw Error(option, "", fmt::format("expected more than 0 and at most {:g}, got {}", most, *value),
-                    advice);
-}
-
-void checkRadius(const char* option, const std::optional<double>& radius_mm) {
-    if (radius_mm && !(*radius_mm > 0 && *radius_mm <= 1e6))
-        throw Error(option, "", fmt::format("expected millimetres above 0, got {}", *radius_mm),
-                    "try ten voxels' worth");
-}
 
 glm::ivec3 voxelsOf(const VolumeFrame& frame, const char* option, double radius) {
     const double largest = largestOcclusionRadius(frame);
@@ -70,10 +52,14 @@ void refuseWithoutEffect(const VolumeOptions& o) {
     const auto refuse = [](bool when, const char* option, const char* problem, const char* advice) {
         if (when) throw Error(option, "", problem, advice);
     };
-    refuse(!o.ambient_mm && given(o, true), "--ambient-strength, --ambient-lamp", "expected with --ambient",
-           "add --ambient, or leave them out");
-    refuse(!modulates(o) && given(o, false), "--modulate-radius, --modulate-sigma",
-           "expected with --modulate", "add --modulate variance or gradient, or leave them out");
+    const char* ambientAdvice = "add --ambient, or leave it out";
+    refuse(!o.ambient_mm && o.ambientStrength, "--ambient-strength", "expected with --ambient",
+           ambientAdvice);
+    refuse(!o.ambient_mm && o.ambientLamp, "--ambient-lamp", "expected with --ambient", ambientAdvice);
+    const char* modulateAdvice = "add --modulate variance or gradient, or leave it out";
+    refuse(!modulates(o) && o.modulateRadius_mm, "--modulate-radius", "expected with --modulate",
+           modulateAdvice);
+    refuse(!modulates(o) && o.modulateSigma, "--modulate-sigma", "expected with --modulate", modulateAdvice);
     refuse(!o.ambientMethod.empty() && !o.ambient_mm && !(modulates(o) && o.modulate == "gradient"),
            "--ambient-method", "expected with --ambient or --modulate gradient", "leave it out");
     const std::string& shading = o.shading;
@@ -158,21 +144,17 @@ double modulationRadius(const VolumeOptions& options, const VolumeFrame& frame) 
 }
 
 void checkAmbientLight(const VolumeOptions& o, const std::string& light) {
-    checkRadius("--ambient", o.ambient_mm);
-    checkRadius("--modulate-radius", o.modulateRadius_mm);
     occlusionEstimateFromText(o.ambientMethod);
-    checkNumber("--ambient-strength", o.ambientStrength, kMostStrength,
-                "1 is usual, 2 shows a flat wall in its own colour");
-    if (o.ambientLamp && !(*o.ambientLamp >= 0 && *o.ambientLamp <= 1))
-        throw Error("--ambient-lamp", "", fmt::format("expected 0 to 1, got {}", *o.ambientLamp),
-                    "0 is ambient light alone, 1 adds all of the lamp's direct light");
     const std::string& by = o.modulate;
     if (!by.empty() && by != "none" && by != "variance" && by != "gradient")
         throw Error("--modulate", "", fmt::format("\"{}\" is not known", by),
                     "expected one of variance, gradient, none");
-    checkNumber("--modulate-sigma", o.modulateSigma, by == "gradient" ? kSteepestOpenness : kMostSigma,
-                by == "gradient" ? "a change of openness a voxel; 0.05 is usual on surfaces"
-                                 : "a standard deviation, in the volume's values");
+    const NumberRange steepest = above(0, kSteepestOpenness);
+    if (by == "gradient" && o.modulateSigma && !steepest.holds(*o.modulateSigma))
+        throw Error("--modulate-sigma", "",
+                    fmt::format("expected {} beside gradient, got {}", rangeText(steepest),
+                                shortNumber(*o.modulateSigma)),
+                    "a change of openness a voxel; 0.05 is usual on surfaces");
     if (!light.empty() && o.ambient_mm)
         throw Error("--ambient", "", "expected without baked light, --light was given too",
                     "leave one of them out");

@@ -147,25 +147,20 @@ float exposureOf(const VolumeOptions& options, double meanLight) {
 void checkVolumeLight(const SceneOptions& options) {
     const VolumeOptions& volume = options.volume;
     const bool lazy = isLazyLight(options.light);
-    if (volume.exposure && !(*volume.exposure > 0 && *volume.exposure < 1e6))
-        throw Error("--exposure", "", fmt::format("expected a number above 0, got {}", *volume.exposure),
-                    "1 shows a white sky of 1 as white");
-    if (!std::isfinite(volume.turn_deg))
-        throw Error("--turn", "", fmt::format("expected degrees, got {}", volume.turn_deg),
-                    "90 turns a quarter");
-    if (!(std::abs(volume.tilt_deg) <= 90))
-        throw Error("--tilt", "", fmt::format("expected -90 to 90 degrees, got {}", volume.tilt_deg),
-                    "turn the sky as well for more: --turn");
     if (options.light == kLazyLight && volume.skyMoved())
         throw Error(volume.turn_deg != 0 ? "--turn" : "--tilt", "", "lazy expects a sky that stands still",
                     "use --light lazy-transfer");
     if (lazy && (!volume.transfer.empty() || volume.opacity))
         throw Error("--light", "", options.light + " expects an opaque surface",
                     "leave out --transfer and --opacity");
-    if (options.light.empty() && (!options.sky.empty() || volume.skyMoved() || volume.exposure))
-        throw Error("--sky, --turn, --tilt, --exposure", "",
-                    "expected with light that was baked for a CT study",
-                    "name it with --light, or leave them out");
+    const std::pair<const char*, bool> ofLight[] = {{"--sky", !options.sky.empty()},
+                                                    {"--turn", volume.turn_deg != 0},
+                                                    {"--tilt", volume.tilt_deg != 0},
+                                                    {"--exposure", volume.exposure.has_value()}};
+    for (const auto& [option, is] : ofLight)
+        if (is && options.light.empty())
+            throw Error(option, "", "expected with light that was baked for a CT study",
+                        "name it with --light, or leave it out");
     if (!volume.shading.empty()) shadingOf(volume.shading);
     checkAmbientLight(volume, options.light);
 }

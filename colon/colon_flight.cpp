@@ -369,7 +369,7 @@ ColonFlight::ColonFlight(FreeDistance freeDistance, const Centreline& line, cons
         throw Error(
             "", "start pose",
             fmt::format("expected room for the eyes around it, found none within {:g} m", kFarthestPlace),
-            "give another pose or a smaller clearance");
+            "start where there is more room");
     setPose({mState->position, home.orientation});
 }
 

@@ -79,6 +79,17 @@ private:
 // lies between the frames at 24, 25, 30, 50 and 60 a second. Throws Error when no stretch has room.
 RecordedPath centrelineFlight(const FreeDistance& freeDistance, const Centreline& line,
                               const ColonFlightSetting& setting, bool backwards = false);
+constexpr double kFlightCut = 0.0005;  // seconds
+
+// The least distance to the wall over the whole of a flight, of the head and of the nearer of two eyes so far
+// apart, metres: never above the truth, and below the least free distance by no more than 0.01 mm; at most
+// ColonFlight::kFarthestClearance. What lies in centrelineFlight's cuts, which no frame shows, is left out.
+struct FlightClearance {
+    double head = 0, eyes = 0;
+};
+// The same of one place, of the nearest of the three.
+double clearanceAt(const FreeDistance& freeDistance, const Pose& head, double separation);
+FlightClearance clearanceOf(const RecordedPath& path, const FreeDistance& freeDistance, double separation);
 
 // The eye separation that suits a clearance, changed slowly: follows the free distance around the head
 // within the comfort limits and never jumps. Zero parallax goes to the typical depth, but no further than

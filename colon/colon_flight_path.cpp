@@ -22,7 +22,7 @@ constexpr double kPathLookRadii = 1.5;  // the view aims so many free distances 
 constexpr double kPathNearestLook = 0.008, kPathFarthestLook = 0.03;  // metres
 constexpr double kPathSmoothing = 0.02;                               // metres along the line
 // Cuts lie between the multiples of this, where the frames at all usual rates are.
-constexpr double kFrameGrid = 1.0 / 600, kCut = 0.0005;  // seconds
+constexpr double kFrameGrid = 1.0 / 600;  // seconds
 
 struct Stop {
     glm::dvec3 position, direction;  // direction: unit, of the view
@@ -70,7 +70,7 @@ FlightView startView(const glm::dvec3& direction) {
 
 // The first moment from `earliest` on at which a cut can begin and lie between frames.
 double cutAfter(double earliest) {
-    const double lead = (kFrameGrid - kCut) / 2;
+    const double lead = (kFrameGrid - kFlightCut) / 2;
     return std::ceil((earliest - lead) / kFrameGrid) * kFrameGrid + lead;
 }
 
@@ -82,7 +82,7 @@ RecordedPath centrelineFlight(const FreeDistance& freeDistance, const Centreline
     const FlightLine line(centreline, freeDistance, setting.clearance, setting.largestSeparation / 2);
     if (line.runs().empty())
         throw Error("", "centreline", "expected a stretch with room for the eyes, found none",
-                    "give a smaller clearance or separation");
+                    "a colon is flown through where there is more room than its eyes take");
     std::vector<FlightRun> runs = line.runs();
     if (backwards) std::reverse(runs.begin(), runs.end());
     std::vector<PathSample> samples;
@@ -100,7 +100,7 @@ RecordedPath centrelineFlight(const FreeDistance& freeDistance, const Centreline
             const double time = start + duration * static_cast<double>(k) / pieces;
             samples.push_back({time, {stops[k].position, view.orientation()}});
         }
-        start += duration + kCut;
+        start += duration + kFlightCut;
     }
     return RecordedPath(std::move(samples), "flight along the centreline");
 }

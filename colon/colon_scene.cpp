@@ -59,19 +59,25 @@ LumenField lumenOfGrey(const Study& study, const ColonOptions& options, std::vec
     return lumen;
 }
 
+// What is said of a colon is of its study.
+template <typename Work>
+auto inTheNameOf(const ColonOptions& options, const Work& work) {
+    try {
+        return work();
+    } catch (const Error& error) {
+        throw Error(options.study.empty() ? "colon" : options.study.string(), "", error.what(),
+                    "render, play and view show any volume from outside with --isosurface");
+    }
+}
+
 // The colon in a study that was read.
 FoundColon findColon(const Study& study, const ColonOptions& options, Progress& progress) {
     FoundColon found;
     found.format = study.format;
     found.studyFrame = study.isMask ? study.mask.frame : study.grey.frame;
     found.notes = study.notes;
-    try {
-        found.lumen = study.isMask ? lumenFromMask(study.mask, options.segmentation, progress)
-                                   : lumenOfGrey(study, options, found.notes, progress);
-    } catch (const Error& error) {
-        throw Error(options.study.empty() ? "colon" : options.study.string(), "", error.what(),
-                    "--isosurface shows any volume from outside");
-    }
+    found.lumen = study.isMask ? lumenFromMask(study.mask, options.segmentation, progress)
+                               : lumenOfGrey(study, options, found.notes, progress);
     const DistanceVolume distance = distanceToOutside(found.lumen.lumen);
     found.centreline = findCentreline(found.lumen, distance, options.centreline, progress);
     return found;
@@ -148,7 +154,8 @@ void placeViewer(ColonScene& scene, const ColonOptions& options) {
     const auto freeDistance = [&scene](const glm::dvec3& p, double upTo) {
         return scene.freeDistanceAt(p, upTo);
     };
-    scene.path = centrelineFlight(freeDistance, scene.centreline, flight);
+    scene.path =
+        inTheNameOf(options, [&] { return centrelineFlight(freeDistance, scene.centreline, flight); });
     scene.startPose = scene.path.samples().front().pose;
 }
 
@@ -305,7 +312,7 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
         return scene;
     }
     refuseTurned(options);
-    FoundColon found = findColon(study, options, progress);
+    FoundColon found = inTheNameOf(options, [&] { return findColon(study, options, progress); });
     found.polyps = std::move(polyps);
     study = {};
     if (options.cache) writeColonCache(key, found);

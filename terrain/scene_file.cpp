@@ -6,17 +6,18 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/camera/view_ranges.h"
 #include "engine/image/packed_color.h"
 #include "terrain/built_in_terrain.h"
+#include "terrain/scene_ranges.h"
 #include "terrain/toml_document.h"
 
 namespace stereonav {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr NumberRange kShare{0.0, 1.0, false, false};
-constexpr NumberRange kTurn{-360.0, 360.0, false, false};
-constexpr NumberRange kUpright{-90.0, 90.0, false, false};
+constexpr NumberRange kShare = within(0, 1);
+constexpr NumberRange kDistance = within(0, 1e9, "metres");
 
 // Values are kept where single precision holds them.
 void read(TomlSection& section, const std::string& key, float& value, const NumberRange& range) {
@@ -55,7 +56,7 @@ void readGenerated(TomlSection& section, SceneFile& scene) {
 void readTerrain(TomlSection section, const fs::path& folder, SceneFile& scene) {
     readFile(section, "dem", folder, scene.dem);
     readGenerated(section, scene);
-    section.read("vertical_scale", scene.verticalScale, {0.0, 1e6, true, false});
+    section.read("vertical_scale", scene.verticalScale, kVerticalScaleRange);
     std::string nodata = "fill";
     section.read("nodata", nodata);
     scene.openHoles = nodata == "open";
@@ -78,17 +79,17 @@ void readColorAndSky(TomlSection color, TomlSection sky, const fs::path& folder,
 }
 
 void readLook(TomlSection section, TerrainLook& look) {
-    section.readDegrees("sun_azimuth_deg", look.sunAzimuth, kTurn);
-    section.readDegrees("sun_elevation_deg", look.sunElevation, {0.0, 90.0, false, false});
+    section.readDegrees("sun_azimuth_deg", look.sunAzimuth, kTurnRange);
+    section.readDegrees("sun_elevation_deg", look.sunElevation, kUprightRange);
     read(section, "ambient", look.ambient, kShare);
-    section.read("fog_distance_m", look.fogDistance, kNotNegative);
+    section.read("fog_distance_m", look.fogDistance, kDistance);
     double fog[3] = {srgbFromLinear(look.fogColor.x), srgbFromLinear(look.fogColor.y),
                      srgbFromLinear(look.fogColor.z)};
     section.read("fog_color", fog, kShare);
     if (section.has("fog_color"))
         for (int k = 0; k < 3; ++k) look.fogColor[k] = linearFromSrgb(static_cast<float>(fog[k]));
-    read(section, "specular", look.specular, {0.0, 10.0, false, false});
-    read(section, "shininess", look.shininess, {1.0, 1e4, false, false});
+    read(section, "specular", look.specular, within(0, 10));
+    read(section, "shininess", look.shininess, within(1, 1e4));
 }
 
 LandmarkFile readLandmark(TomlSection& section, const fs::path& folder) {
@@ -97,22 +98,22 @@ LandmarkFile readLandmark(TomlSection& section, const fs::path& folder) {
     if (!section.has("mesh"))
         section.note("mesh", "expected a mesh for the landmark, found none", "add mesh = \"file.glb\"");
     double position[2] = {0, 0};
-    section.read("position_m", position, kAnyNumber);
+    section.read("position_m", position, kPlaceRange);
     landmark.positionWorld = {position[0], position[1]};
-    read(section, "z_m", landmark.z, kAnyNumber);
-    section.readDegrees("heading_deg", landmark.heading, kTurn);
-    section.read("scale", landmark.scale, {0.0, 1e9, true, false});
+    read(section, "z_m", landmark.z, kPlaceRange);
+    section.readDegrees("heading_deg", landmark.heading, kTurnRange);
+    section.read("scale", landmark.scale, above(0, 1e9));
     return landmark;
 }
 
 void readStart(TomlSection section, SceneFile& scene) {
     double position[3] = {0, 0, 0};
-    section.read("position_m", position, kAnyNumber);
+    section.read("position_m", position, kPlaceRange);
     if (section.has("position_m")) scene.startPosition = glm::dvec3(position[0], position[1], position[2]);
     section.read("above_ground", scene.startAboveGround);
-    section.readDegrees("heading_deg", scene.startHeading, kTurn);
-    section.readDegrees("pitch_deg", scene.startPitch, kUpright);
-    section.readDegrees("roll_deg", scene.startRoll, kTurn);
+    section.readDegrees("heading_deg", scene.startHeading, kTurnRange);
+    section.readDegrees("pitch_deg", scene.startPitch, kUprightRange);
+    section.readDegrees("roll_deg", scene.startRoll, kTurnRange);
     if (section.has("position_m")) return;
     for (const char* key : {"above_ground", "heading_deg", "pitch_deg", "roll_deg"})
         if (section.has(key))
@@ -121,10 +122,10 @@ void readStart(TomlSection section, SceneFile& scene) {
 
 void readFlightAndStereo(TomlSection flight, TomlSection stereo, const fs::path& folder, SceneFile& scene) {
     readFile(flight, "path", folder, scene.path);
-    flight.read("clearance_m", scene.clearance, kPositive);
-    read(stereo, "separation_m", scene.separation, kNotNegative);
-    read(stereo, "zero_parallax_m", scene.zeroParallax, kPositive);
-    stereo.readDegrees("fov_deg", scene.verticalFov, {0.0, 180.0, true, true});
+    flight.read("clearance_m", scene.clearance, kClearanceRange);
+    read(stereo, "separation_m", scene.separation, kSeparationRange);
+    read(stereo, "zero_parallax_m", scene.zeroParallax, kZeroParallaxRange);
+    stereo.readDegrees("fov_deg", scene.verticalFov, kFovRange);
 }
 
 // The same as data/scenes/built_in.toml, which is not needed to fly.

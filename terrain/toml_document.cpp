@@ -55,15 +55,17 @@ std::string shown(const toml::value& value) {
     return value.is_table() ? "a table" : "a date or time";
 }
 
-std::string described(const NumberRange& range, const std::string& unit) {
+std::string described(const NumberRange& range, const std::string& what) {
     const bool low = std::isfinite(range.low), high = std::isfinite(range.high);
-    if (low && high && !range.openLow && !range.openHigh)
-        return fmt::format("{} from {:g} to {:g}", unit, range.low, range.high);
-    std::string text = unit;
-    if (low) text += fmt::format("{} {:g}", range.openLow ? " above" : " of at least", range.low);
-    if (low && high) text += " and";
-    if (high) text += fmt::format("{} {:g}", range.openHigh ? " below" : " of at most", range.high);
-    return text;
+    std::string text = what;
+    if (low && high && !range.openLow && !range.openHigh) {
+        text += fmt::format(" from {} to {}", shortNumber(range.low), shortNumber(range.high));
+    } else {
+        if (low) text += (range.openLow ? " above " : " of at least ") + shortNumber(range.low);
+        if (low && high) text += " and";
+        if (high) text += (range.openHigh ? " below " : " of at most ") + shortNumber(range.high);
+    }
+    return *range.unit ? text + " " + range.unit : text;
 }
 
 bool isNumberIn(const toml::value& value, const NumberRange& range, double& number) {
@@ -73,9 +75,7 @@ bool isNumberIn(const toml::value& value, const NumberRange& range, double& numb
         number = value.as_floating();
     else
         return false;
-    if (!std::isfinite(number)) return false;
-    return (range.openLow ? number > range.low : number >= range.low) &&
-           (range.openHigh ? number < range.high : number <= range.high);
+    return range.holds(number);
 }
 
 // The parser recurses into brackets; hostile files are refused before it sees them.

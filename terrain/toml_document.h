@@ -4,22 +4,14 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-namespace stereonav {
+#include "engine/math/number_range.h"
 
-// Numbers that a key takes. Open ends are not taken themselves.
-struct NumberRange {
-    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
-    bool openLow = false, openHigh = false;
-};
-constexpr NumberRange kAnyNumber{};
-constexpr NumberRange kNotNegative{0.0, std::numeric_limits<double>::infinity(), false, false};
-constexpr NumberRange kPositive{0.0, std::numeric_limits<double>::infinity(), true, false};
+namespace stereonav {
 
 class TomlSection;
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "engine/volume/volume.h"
 
@@ -35,5 +36,12 @@ constexpr std::array<double, 3> kLifts{0.25, 0.5, 1.0};
 // Start of rays from a point of voxel space with a unit world normal, kept within the volume's box.
 glm::dvec3 liftedStart(const GreyVolume& volume, double isovalue, const glm::dvec3& voxel,
                        const glm::dvec3& normal);
+
+// The nearest place where the trilinear value is `value`, along the normal or, where it is not there, along
+// the 26 directions to voxels around, within kNearSurface voxels; none where there is none. voxel: inside the
+// volume.
+constexpr double kNearSurface = 1.75;
+std::optional<glm::dvec3> nearestOfValue(const GreyVolume& volume, const glm::dvec3& voxel, double value,
+                                         const glm::dvec3& normal);
 
 }  // namespace stereonav

@@ -130,10 +130,16 @@ struct TexelLighter::State {
 
     // False where the texel lies on no surface.
     bool startOf(const glm::ivec3& texel, PathStart& start) const {
-        const glm::dvec3 voxel = voxelOf(texel), normal = surfaceNormal(volume, voxel);
+        glm::dvec3 voxel = voxelOf(texel), normal = surfaceNormal(volume, voxel);
         if (normal == glm::dvec3(0.0)) return false;
-        const double isovalue = tracedIsovalue(plainValue(volume, voxel), least);
-        start = startFrom(voxel, isovalue, normal, texels.index(texel));
+        double value = plainValue(volume, voxel);
+        const double shown = std::clamp(value, sampling.lowest, sampling.highest);
+        if (shown != value)
+            if (const auto place = nearestOfValue(volume, voxel, shown, normal)) {
+                const glm::dvec3 there = surfaceNormal(volume, *place);
+                if (there != glm::dvec3(0.0)) voxel = *place, normal = there, value = shown;
+            }
+        start = startFrom(voxel, tracedIsovalue(value, least), normal, texels.index(texel));
         return true;
     }
     bool startOf(const SurfacePoint& point, PathStart& start) const {

@@ -35,17 +35,18 @@ PhaseFunction parsePhaseFunction(std::string_view text, const std::string& sourc
     return PhaseFunction::table(points, source);
 }
 
-PhaseFunction henyeyGreensteinOf(const std::vector<std::string_view>& words, const std::string& text) {
+PhaseFunction henyeyGreensteinOf(const std::vector<std::string_view>& words, const std::string& text,
+                                 const std::string& asked) {
     std::vector<float> g;
     for (std::size_t n = 1; n < words.size(); ++n) {
         const std::optional<double> value = numberOf(words[n]);
         if (value) g.push_back(static_cast<float>(*value));
     }
     if (g.size() + 1 != words.size() || (g.size() != 1 && g.size() != 3))
-        throw Error("phase function", "",
-                    fmt::format("expected 1 or 3 numbers after \"hg\", got \"{}\"", text),
+        throw Error(asked, "", fmt::format("expected 1 or 3 numbers after \"hg\", got \"{}\"", text),
                     "write \"hg 0.8\", or \"hg 0.8 0.7 0.6\" for red, green and blue");
-    return PhaseFunction::henyeyGreenstein(g.size() == 1 ? glm::vec3(g[0]) : glm::vec3(g[0], g[1], g[2]));
+    return PhaseFunction::henyeyGreenstein(g.size() == 1 ? glm::vec3(g[0]) : glm::vec3(g[0], g[1], g[2]),
+                                           asked);
 }
 
 }  // namespace
@@ -57,16 +58,18 @@ std::string phasePresetNames() {
     return names;
 }
 
-PhaseFunction findPhaseFunction(const std::string& text) {
+PhaseFunction findPhaseFunction(const std::string& text, const std::string& asked) {
     const auto words = wordsOf(text);
     if (words.size() == 1 && words[0] == "none") return {};
-    if (!words.empty() && words[0] == "hg") return henyeyGreensteinOf(words, text);
+    if (!words.empty() && words[0] == "hg") return henyeyGreensteinOf(words, text, asked);
     std::error_code code;
     if (std::filesystem::is_regular_file(text, code)) return parsePhaseFunction(readTextFile(text), text);
     for (const PhasePreset& preset : phasePresets())
         if (text == preset.name) return parsePhaseFunction(preset.text, std::string(preset.name));
     throw Error(
-        text, "", "expected a phase function, found neither a file nor a name",
+        asked, "",
+        fmt::format("expected a phase function, found neither a file nor a name in \"{}\"",
+                    text.substr(0, 40)),
         "write \"none\", \"hg G\" with G between -1 and 1, a file's name, or one of " + phasePresetNames());
 }
 

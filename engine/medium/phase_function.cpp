@@ -16,7 +16,7 @@ namespace stereonav {
 namespace {
 
 constexpr double kStep = kPi / PhaseFunction::kEntries;
-constexpr double kMostAsymmetry = 0.999;
+constexpr float kMostAsymmetry = 0.999f;
 
 // Integrals over interval i of sin (the share of the sphere, times 2) and of sin times the place in the
 // interval, 0 to 1: with them the integral of what is linear is exact.
@@ -112,13 +112,12 @@ void PhaseFunction::accumulate() {
                 mCumulative[i][c] + 0.5 * integral(allSineMoments()[i], mEntries[i][c], mEntries[i + 1][c]);
 }
 
-PhaseFunction PhaseFunction::henyeyGreenstein(const glm::vec3& g) {
+PhaseFunction PhaseFunction::henyeyGreenstein(const glm::vec3& g, const std::string& source) {
     for (int c = 0; c < 3; ++c)
-        if (!(std::abs(g[c]) < kMostAsymmetry))
-            throw Error(
-                "phase function", "",
-                fmt::format("expected an asymmetry between -{0} and {0}, got {1}", kMostAsymmetry, g[c]),
-                "0 scatters evenly, 0.9 mostly straight on");
+        if (!(std::abs(g[c]) <= kMostAsymmetry))
+            throw Error(source, "",
+                        fmt::format("expected an asymmetry from -{0} to {0}, got {1}", kMostAsymmetry, g[c]),
+                        "0 scatters evenly, 0.9 mostly straight on");
     std::vector<glm::dvec3> weights(kEntries + 1);
     for (int i = 0; i <= kEntries; ++i)
         for (int c = 0; c < 3; ++c) weights[i][c] = henyeyGreensteinWeight(g[c], std::cos(i * kStep));

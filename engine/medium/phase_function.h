@@ -17,8 +17,8 @@ public:
     static constexpr int kEntries = 1024;  // intervals; evenly spaced in the angle, linear between
 
     PhaseFunction();  // 1 for every angle
-    // Throws Error unless every |g| < 0.999.
-    static PhaseFunction henyeyGreenstein(const glm::vec3& g);
+    // Throws Error, in the name of `source`, unless every |g| <= 0.999.
+    static PhaseFunction henyeyGreenstein(const glm::vec3& g, const std::string& source = "phase function");
     // Angle in degrees (0: straight on), and the weight of each colour; strictly increasing from 0 to 180,
     // weights finite and >= 0, not all 0; scaled here to the mean 1. Throws Error.
     struct Point {
@@ -55,7 +55,8 @@ std::span<const PhasePreset> phasePresets();
 std::string phasePresetNames();  // "a, b, c"
 
 // "none", "hg G" or "hg G_RED G_GREEN G_BLUE", a preset's name, or a file: lines "angle_deg red green blue".
-// Throws.
-PhaseFunction findPhaseFunction(const std::string& text);
+// Throws Error: of what is in a file with the file's name, else in the name of `asked`, where the text is
+// from.
+PhaseFunction findPhaseFunction(const std::string& text, const std::string& asked = "phase function");
 
 }  // namespace stereonav

@@ -229,7 +229,7 @@ TEST_F(AmbientLight, RefusesWhatDoesNotFitOrHasNoEffect) {
         options.insert(options.begin(), {"render", scene, "--out", "a.png"});
         expectRefused(options, words);
     };
-    refused({"--ambient", "0"}, {"--ambient", "above 0"});
+    refused({"--ambient", "0"}, {"--ambient", "more than 0 and at most 1e6 mm"});
     refused({"--ambient", "3", "--light", "b"}, {"--ambient", "--light"});
     refused({"--ambient", "3", "--ambient-method", "much"}, {"--ambient-method", "much", "t-beta [B]"});
     refused({"--ambient", "3", "--ambient-method", "t-beta 1000"}, {"0.01 to 100"});

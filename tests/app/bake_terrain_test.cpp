@@ -68,7 +68,8 @@ TEST_F(BakeTerrain, RefusesWhatMakesNoSense) {
     expectRefused({"bake", scene, "--error", "0.1"}, {"--error", "terrain"});
     expectRefused({"bake", scene, "--isovalues", "1,2"}, {"--isovalues", "terrain"});
     expectRefused({"bake", scene, "--resolution", "2"}, {"--resolution", "0.001 to 1"});
-    expectRefused({"bake", scene, "--bounces", "9"}, {"--bounces", "0 to 4"});
+    expectRefused({"bake", scene, "--bounces", "9"}, {"--bounces", "0 to 8"});
+    expectRefused({"bake", scene, "--bounces", "5"}, {"--bounces", "0 to 4"});
     expectRefused({"bake", scene, "--albedo", "1.5"}, {"--albedo"});
     expectRefused({"bake", scene, "--samples", "0"}, {"--samples"});
     expectRefused({"render", scene, "--sun", "east", "--out", "p.png"}, {"--sun", "azimuth,elevation"});

@@ -15,10 +15,10 @@ std::vector<std::string> small(std::vector<std::string> more) {
 }
 
 TEST_F(Quality, WhatCanNotBeIsRefused) {
-    expectRefused(small({"--quality", "1.5"}), {"--quality", "expected 0 to 1, got 1.5"});
+    expectRefused(small({"--quality", "1.5"}), {"--quality", "expected 0 to 1, got \"1.5\""});
     expectRefused(small({"--quality", "nan"}), {"--quality", "expected 0 to 1"});
-    expectRefused(small({"--target-psnr", "0"}), {"--target-psnr", "expected 1 to 100, got 0"});
-    expectRefused(small({"--target-ms", "-3"}), {"--target-ms", "got -3"});
+    expectRefused(small({"--target-psnr", "0"}), {"--target-psnr", "expected 1 to 100 dB, got \"0\""});
+    expectRefused(small({"--target-ms", "-3"}), {"--target-ms", "got \"-3\""});
     expectRefused(small({"--quality", "0.5", "--method", "paper"}), {"--quality", "paper"});
     expectRefused(small({"cloud", "--quality", "0.5"}), {"--quality", "medium"});
 }

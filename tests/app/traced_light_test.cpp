@@ -63,7 +63,7 @@ TEST_F(TracedLight, RefusesWhatDoesNotFit) {
         more.insert(more.begin(), {"render", scene, "--out", "a.png"});
         expectRefused(more, words);
     };
-    refused({"--light", "traced", "--samples", "0"}, {"--samples", "got 0"});
+    refused({"--light", "traced", "--samples", "0"}, {"--samples", "got \"0\""});
     refused({"--light", "traced", "--method", "linear"}, {"--method", "linear", "traced"});
     refused({"--light", "traced", "--quality", "0.5"}, {"--quality", "traced"});
     refused({"--light", "traced", "--point-light", "1,2"}, {"--point-light", "x,y,z", "1,2"});

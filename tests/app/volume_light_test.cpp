@@ -177,7 +177,7 @@ TEST_F(VolumeLight, RefusesWhatDoesNotFit) {
     expectRefused({"render", maskedTube(), "--light", "lazy", "--sky", light, "--out", "a.png"},
                   {"--sky", "closed"});
     expectRefused({"render", scene, "--light", light, "--exposure", "-1", "--out", "a.png"},
-                  {"--exposure", "above 0"});
+                  {"--exposure", "1e-30 to 1e6"});
     expectRefused({"render", scene, "--light", light, "--turn", "30", "--out", "a.png"},
                   {"transfer", "stands still"});
     expectRefused({"render", scene, "--light", "none.bake", "--out", "a.png"}, {"none.bake", "bake"});

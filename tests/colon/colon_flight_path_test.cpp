@@ -43,6 +43,41 @@ TEST(CentrelineFlight, NeverReachesTheWallInAThroat) {
     }
 }
 
+// What is told of a flight against a look at every tenth of a millisecond of it.
+TEST(CentrelineFlight, TheClearanceToldIsTheLeastOfHeadAndEyes) {
+    for (const AnalyticLumen& lumen :
+         {straightTube(), torus(), foldedTube(0.02, 0.008), throat(0.0045), throat(0.003)}) {
+        const RecordedPath path = pathIn(lumen);
+        for (const double separation : {0.0, 0.004}) {
+            double head = 1, eyes = 1;
+            for (double t = 0; t <= path.duration(); t += 0.0001) {
+                const Pose pose = path.at(t);
+                head = std::min(head, lumen.distance(pose.position));
+                for (const double side : {-separation / 2, separation / 2})
+                    eyes = std::min(eyes, lumen.distance(pose.position + side * pose.right()));
+            }
+            const FlightClearance told = clearanceOf(path, lumen.freeDistance(), separation);
+            EXPECT_LE(told.head, head) << lumen.name;
+            EXPECT_GE(told.head, head - 2e-5) << lumen.name;
+            EXPECT_LE(told.eyes, eyes) << lumen.name << separation;
+            EXPECT_GE(told.eyes, eyes - 2e-5) << lumen.name << separation;
+        }
+    }
+}
+
+// A fold that the samples pass between two looks.
+TEST(CentrelineFlight, TheClearanceToldKnowsWhatLiesBetweenSamples) {
+    const glm::dvec3 edge(0, 0.0105, 0.003);
+    const FreeDistance free = [&](const glm::dvec3& p, double upTo) {
+        return std::min(glm::distance(p, edge), upTo);
+    };
+    const Pose first = poseFromAngles({0, 0, 0}, 0, 0, 0), last = poseFromAngles({0, 0.04, 0}, 0, 0, 0);
+    const RecordedPath path({{0, first}, {1, last}}, "test");
+    const FlightClearance told = clearanceOf(path, free, 0.002);
+    EXPECT_NEAR(told.head, 0.003, 1e-5);
+    EXPECT_NEAR(told.eyes, std::hypot(0.003, 0.001), 1e-5);
+}
+
 TEST(CentrelineFlight, IsEvenAndStaysOnTheLine) {
     for (const AnalyticLumen& lumen : {straightTube(), torus(), flexure()})
         for (const bool backwards : {false, true}) {

@@ -53,11 +53,11 @@ Eyes Drawing::eyes(const std::string& method) {
     frame.render(mScene.startPose);
     if (mScene.lazyLight) {
         for (int look = 0; look < 2; ++look)  // at some pixels, then at all
-            mScene.lazyLight->seen(views().left, frame.left());
+            mScene.lazyLight->seen(frame.views().left, frame.left());
         mScene.lazyLight->waitUntilDone();
         frame.render(mScene.startPose);
     }
-    if (mScene.tracedLight) mScene.tracedLight->light(views(), frame.left(), frame.right(), progress);
+    if (mScene.tracedLight) mScene.tracedLight->light(frame.views(), frame.left(), frame.right(), progress);
     return {frame.left(), frame.right()};
 }
 

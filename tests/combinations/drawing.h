@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/narrowed_eyes.h"
 #include "app/scene_loading.h"
 #include "engine/image/eye_image.h"
 
@@ -35,7 +36,9 @@ public:
     long long notFinite() const { return mNotFinite; }
 
     const LoadedScene& scene() const { return mScene; }
-    StereoViews views() const { return mScene.viewsAt(mScene.startPose); }
+    StereoViews views() const {
+        return makeStereoViews(mScene.startPose, mScene.lens, NarrowedEyes(mScene).at(mScene.startPose, 0));
+    }
 
 private:
     RenderOptions mOptions;

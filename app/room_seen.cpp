@@ -1,0 +1,65 @@
+#include "app/room_seen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "app/view_status.h"
+#include "engine/image/eye_image.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kComfortSeconds = 1.0;  // time constant
+constexpr double kComfortShare = 0.95;   // of the parallax that is warned of
+constexpr double kLeastComfort = 0.2;
+
+// Of the picture's middle ninth; infinite where nothing is hit there.
+double medianAhead(const Plane<float>& depth, int step) {
+    std::vector<float> depths;
+    for (int y = depth.height() / 3; y < depth.height() - depth.height() / 3; y += step)
+        for (int x = depth.width() / 3; x < depth.width() - depth.width() / 3; x += step)
+            depths.push_back(depth.at(x, y));
+    if (depths.empty()) return static_cast<double>(kMissDepth);
+    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+    std::nth_element(depths.begin(), middle, depths.end());
+    return static_cast<double>(*middle);
+}
+
+}  // namespace
+
+RoomSeen roomSeen(const Plane<float>& viewDepth, int step) {
+    float nearest = kMissDepth, farthest = 0;
+    for (int y = 0; y < viewDepth.height(); y += step)
+        for (int x = 0; x < viewDepth.width(); x += step) {
+            nearest = std::min(nearest, viewDepth.at(x, y));
+            farthest = std::max(farthest, viewDepth.at(x, y));
+        }
+    return {static_cast<double>(nearest), static_cast<double>(farthest), medianAhead(viewDepth, step)};
+}
+
+ParallaxRange parallaxOf(const StereoViews& views, const RoomSeen& room) {
+    const double width = std::max(views.left.width, 1);
+    const auto share = [&](double depth) {
+        return depth > 0 ? (views.shiftAtInfinity - views.parallaxScale / depth) / width : 0.0;
+    };
+    return {share(room.nearest), share(room.farthest)};
+}
+
+void ComfortLimit::observe(double separation, const ParallaxRange& parallax) {
+    if (!(separation > 0)) return;
+    const double used = std::max({(parallax.far - parallax.near) / kParallaxBudget,
+                                  parallax.near / kNearestParallax, parallax.far / kFarthestParallax});
+    // Parallax grows with the separation, so this does not depend on what the share is now.
+    mSeparation = used > 0 ? kComfortShare * separation / used : 0;
+}
+
+StereoSetting ComfortLimit::limited(StereoSetting wanted, double dt) {
+    const double target =
+        mSeparation > 0 ? std::clamp(mSeparation / wanted.separation, kLeastComfort, 1.0) : 1.0;
+    if (dt > 0) mShare = target + (mShare - target) * std::exp(-dt / kComfortSeconds);
+    wanted.separation *= mShare;
+    return wanted;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,44 @@
+// What a picture tells of the room around the eyes, and eyes that suit it: in the window, in pictures and in
+// videos alike.
+#pragma once
+
+#include <functional>
+
+#include "engine/camera/stereo_rig.h"
+#include "engine/image/plane.h"
+
+namespace stereonav {
+
+struct RoomSeen {
+    double nearest = 0, farthest = 0;  // view depths, metres; what is not hit is infinitely far
+    double ahead = 0;                  // the median in the picture's middle ninth
+};
+// Of every step-th pixel of every step-th row.
+RoomSeen roomSeen(const Plane<float>& viewDepth, int step);
+
+// Where what was seen lies, as shares of the picture's width: negative before the screen.
+struct ParallaxRange {
+    double near = 0, far = 0;
+};
+ParallaxRange parallaxOf(const StereoViews& views, const RoomSeen& room);
+
+// Makes eyes that suit the room around them: one step on by dt seconds. free: distance around the head;
+// depth: view depth in the middle of the picture; metres.
+using StereoFollower = std::function<StereoSetting(double free, double depth, double dt)>;
+
+// What suits the room may still be too much for the picture's nearest and farthest things: brings eyes
+// together until their parallax is comfortable, slowly.
+class ComfortLimit {
+public:
+    // A picture was made with eyes so far apart.
+    void observe(double separation, const ParallaxRange& parallax);
+    // The setting with its eyes as near to each other as is comfortable; dt: seconds since the last.
+    StereoSetting limited(StereoSetting wanted, double dt);
+
+private:
+    // The share of the wanted separation that is comfortable now; and the separation in metres that the last
+    // picture would suit, 0: any.
+    double mShare = 1, mSeparation = 0;
+};
+
+}  // namespace stereonav

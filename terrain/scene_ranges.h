@@ -1,0 +1,10 @@
+// Ranges of what is said of terrains, on the command line and in scene files alike.
+#pragma once
+
+#include "engine/math/number_range.h"
+
+namespace stereonav {
+
+constexpr NumberRange kVerticalScaleRange = within(1e-6, 1e6);
+
+}  // namespace stereonav

@@ -1,0 +1,88 @@
+// Refusals name the file or the option that they are about, in our words and in one line.
+#include <gtest/gtest.h>
+
+#include "tests/app/volume_input.h"
+
+namespace stereonav::test {
+namespace {
+
+class Messages : public VolumeTest {
+protected:
+    // A lumen of one voxel across: nothing flies through it.
+    std::string thread() const {
+        return nrrd("thread.nrrd", {24, 24, 40, 1, "uchar", ""},
+                    [](int i, int j, int k) { return i == 12 && j == 12 && k > 2 && k < 38 ? 1 : 0; });
+    }
+};
+
+TEST_F(Messages, OfAColonWithoutRoomNameTheStudy) {
+    const std::string study = thread();
+    for (const char* command : {"info", "centreline", "render"}) {
+        std::vector<std::string> all{command, study, "--no-cache"};
+        if (std::string(command) != "info")
+            all.insert(all.end(), {"--out", command[0] == 'c' ? "a.txt" : "a.png"});
+        expectRefused(all, {"stereonav: " + study + ": centreline: expected a stretch with room for the eyes",
+                            "; render, play and view show any volume from outside with --isosurface"});
+    }
+}
+
+TEST_F(Messages, OfMethodsNameTheOption) {
+    expectRefused({"render", hills(), "--method", "magic", "--out", "a.png"},
+                  {"stereonav: --method: there is no method"});
+    expectRefused({"render", "cloud", "--method", "linear", "--out", "a.png"},
+                  {"stereonav: --method: there is no method \"linear\" of making two eyes of a medium"});
+    expectRefused({"compare", hills(), "--methods", "full,magic"},
+                  {"stereonav: --methods: there is no method"});
+    expectRefused({"compare", "cloud", "--methods", "linear"}, {"stereonav: --methods: there is no method"});
+}
+
+TEST_F(Messages, NameTheOptionThatWasGivenAndNoOther) {
+    const std::string scene = ball();
+    const std::string out = "a.png";
+    expectRefused({"render", scene, "--exposure", "2", "--out", out},
+                  {"stereonav: --exposure: expected with light"});
+    expectRefused({"render", scene, "--turn", "9", "--out", out}, {"stereonav: --turn: expected with light"});
+    expectRefused({"render", scene, "--bounces", "2", "--out", out},
+                  {"stereonav: --bounces: expected with --light traced"});
+    expectRefused({"render", scene, "--ambient-lamp", "0.5", "--out", out},
+                  {"stereonav: --ambient-lamp: expected with"});
+    expectRefused({"render", scene, "--modulate-sigma", "2", "--out", out},
+                  {"stereonav: --modulate-sigma: expected with"});
+    expectRefused({"render", "cloud", "--target-ms", "9", "--out", out},
+                  {"stereonav: --target-ms: does not go with"});
+    expectRefused({"render", hills(), "--target-psnr", "40", "--method", "paper", "--out", out},
+                  {"stereonav: --target-psnr: does not go with the method"});
+}
+
+TEST_F(Messages, OfTheCommandLineAreInOurWords) {
+    expectRefused({"render", hills(), "--nonsense", "3", "--out", "a.png"},
+                  {"stereonav: --nonsense: there is no such option here; see stereonav render --help"});
+    expectRefused({"mesh", "terrain", "terrain", "--out", "a.glb"},
+                  {"stereonav: terrain: is one word too many; see stereonav mesh"});
+    expectRefused({"fly"}, {"stereonav: fly: there is no such command; see stereonav --help"});
+    expectRefused({"mesh", "terrain"}, {"stereonav: --out: is required; see stereonav mesh --help"});
+    expectRefused({"render", "--out"}, {"stereonav: --out: expected a value, found none"});
+    expectRefused({"render", "--fov", "40", "--fov", "50", "--out", "a.png"},
+                  {"stereonav: --fov: is given more than once"});
+    expectRefused({"render", "--out", "a.png", "--out", "b.png"},
+                  {"stereonav: --out: is given more than once"});
+}
+
+TEST_F(Messages, SayWhatWasFound) {
+    const std::string text = input("words.txt", "hello\n");
+    expectRefused({"centreline", "cloud", "--out", "a.txt"}, {"cloud: expected a CT study, found a medium"});
+    expectRefused({"centreline", text, "--out", "a.txt"},
+                  {text + ": expected a CT study, found a terrain or another"});
+    expectRefused({"mesh", "wax", "--out", "a.glb"}, {"wax: expected a terrain, found a medium"});
+    expectRefused({"report", "--compare", text, "--out", "r"},
+                  {text + ": expected a report as JSON, found what is none at byte 1"});
+    expectRefused({"report", "--compare", input("a.json", "{}"), "--out", "r"},
+                  {"a.json: expected a report, found JSON"});
+    expectRefused({"report", "--stability", text, "--out", "r"},
+                  {text + ":1: expected a row of the stability tests, found \"hello\""});
+    expectRefused({"report", "--papers", "--data", "nowhere", "--out", "r"},
+                  {"--data: expected a folder, got \"nowhere\""});
+}
+
+}  // namespace
+}  // namespace stereonav::test
