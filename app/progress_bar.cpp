@@ -12,20 +12,6 @@ namespace {
 constexpr double kRedraw_ms = 80.0;           // often enough to look alive, rare enough to cost nothing
 constexpr double kLineInterval_ms = 10000.0;  // where the lines stay
 
-// Set by the signal handler, which can reach nothing else; cleared by the next bar.
-volatile std::sig_atomic_t interrupted = 0;
-
-void interrupt(int) {
-    interrupted = 1;
-}
-
-void catchSignal(int signal, struct sigaction& former) {
-    struct sigaction action = {};
-    action.sa_handler = interrupt;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second one ends the program
-    sigaction(signal, &action, &former);
-}
-
 }  // namespace
 
 std::string progressLine(double fraction, const std::string& what, int barWidth) {
@@ -42,19 +28,13 @@ ProgressBar::ProgressBar(bool shown)
       mTerminal(isatty(STDERR_FILENO) != 0),
       mProgress([this](double fraction, const std::string& what) { show(fraction, what); }) {
     mNext_ms = mTerminal ? 0.0 : kLineInterval_ms;
-    interrupted = 0;
-    catchSignal(SIGINT, mFormerInterrupt);
-    catchSignal(SIGTERM, mFormerTerminate);
 }
 
 ProgressBar::~ProgressBar() {
     clear();
-    sigaction(SIGINT, &mFormerInterrupt, nullptr);
-    sigaction(SIGTERM, &mFormerTerminate, nullptr);
 }
 
 void ProgressBar::show(double fraction, const std::string& what) {
-    if (interrupted != 0) mProgress.cancel();
     if (!mShown) return;
     const std::lock_guard lock(mMutex);
     const double now = mSinceStart.elapsed_ms();

@@ -1,9 +1,7 @@
 // A progress bar on stderr: redrawn in place on a terminal; elsewhere one line every ten seconds, so
-// that logs stay short and short jobs say nothing. While it lives, Ctrl-C cancels the job, which then
-// takes its half-written files away; a second Ctrl-C ends the program at once.
+// that logs stay short and short jobs say nothing.
 #pragma once
 
-#include <csignal>
 #include <mutex>
 #include <string>
 
@@ -14,7 +12,7 @@ namespace stereonav {
 
 class ProgressBar {
 public:
-    // shown: else it only listens for Ctrl-C.
+    // shown: else it says nothing.
     explicit ProgressBar(bool shown = true);
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
@@ -31,7 +29,6 @@ private:
     Stopwatch mSinceStart;
     double mNext_ms;
     bool mShown, mTerminal, mDrawn = false;
-    struct sigaction mFormerInterrupt = {}, mFormerTerminate = {};
     Progress mProgress;
 };
 
