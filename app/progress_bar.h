@@ -1,7 +1,8 @@
 // A progress bar on stderr: redrawn in place on a terminal; elsewhere one line every ten seconds, so
-// that logs stay short and short jobs say nothing.
+// that logs stay short and short jobs say nothing. Between reports it says how long the present work takes.
 #pragma once
 
+#include <atomic>
 #include <mutex>
 #include <string>
 
@@ -24,10 +25,14 @@ public:
 
 private:
     void show(double fraction, const std::string& what);
+    void showAgain();  // while a loop runs that reports nothing
+    void draw(double now_ms);
 
     std::mutex mMutex;  // reports come from any thread
     Stopwatch mSinceStart;
-    double mNext_ms;
+    std::atomic<double> mNext_ms;
+    double mFraction = 0, mReported_ms = 0;  // the last report
+    std::string mWhat;
     bool mShown, mTerminal, mDrawn = false;
     Progress mProgress;
 };

@@ -41,20 +41,21 @@ double leftOf(const fs::path& group, const char* limit, const char* used, const 
 }
 
 // Version 2 has one tree, whose line begins with "0::"; version 1 one of memory.
-double leftOfGroups() {
-    const fs::path root = "/sys/fs/cgroup";
+double leftOfGroups(const fs::path& system) {
+    const fs::path root = system / "sys/fs/cgroup";
     double left = kUnlimited;
-    std::ifstream groups("/proc/self/cgroup");
+    std::ifstream groups(system / "proc/self/cgroup");
     for (std::string line; std::getline(groups, line);) {
         const bool second = line.starts_with("0::");
         if (!second && line.find(":memory:") == std::string::npos) continue;
         const fs::path top = second ? root : root / "memory";
-        fs::path group = top / fs::path(line.substr(line.rfind(':') + 1)).relative_path();
+        const fs::path name = fs::path(line.substr(line.rfind(':') + 1)).relative_path();
+        fs::path group = name.empty() ? top : top / name;
         for (;; group = group.parent_path()) {  // a limit above counts too
             left = std::min(left, second ? leftOf(group, "memory.max", "memory.current", "inactive_file")
                                          : leftOf(group, "memory.limit_in_bytes", "memory.usage_in_bytes",
                                                   "total_inactive_file"));
-            if (group == top || !group.has_relative_path() || group == "/") break;
+            if (group == top || group == group.parent_path()) break;
         }
     }
     return left;
@@ -62,9 +63,9 @@ double leftOfGroups() {
 
 }  // namespace
 
-double availableMemory() {
-    const double kilobytes = valueIn("/proc/meminfo", "MemAvailable:", kUnlimited);
-    return std::min(1024 * kilobytes, leftOfGroups());
+double availableMemory(const fs::path& root) {
+    const double kilobytes = valueIn(root / "proc/meminfo", "MemAvailable:", kUnlimited);
+    return std::min(1024 * kilobytes, leftOfGroups(root));
 }
 
 std::string memoryText(double bytes) {

@@ -12,7 +12,9 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <utility>
 
+#include "engine/base/loop_watch.h"
 #include "engine/base/stop.h"
 
 namespace stereonav {
@@ -24,6 +26,7 @@ struct Arena {
     std::unique_ptr<tbb::global_control> limit;
     std::shared_ptr<tbb::task_arena> tasks;
     void* const stop = stopOfThisProgram();
+    std::function<void()> look;  // loop_watch.h
 
     static Arena& own() {
         static Arena arena;
@@ -59,7 +62,8 @@ struct Arena {
 
 // Cancelled may come out of loops that the program's first thread starts: there it is caught.
 bool isFirstThread() {
-    return gettid() == getpid();
+    static thread_local const bool is = gettid() == getpid();
+    return is;
 }
 
 }  // namespace
@@ -83,11 +87,17 @@ void shareLoops(void* program) {
     shareStop(arena->stop);
 }
 
+void watchLoops(std::function<void()> look) {
+    Arena::instance().look = std::move(look);
+}
+
 void parallelFor(int count, const std::function<void(int)>& work, Schedule schedule) {
     if (count <= 0) return;
     const bool mayStop = isFirstThread();
-    const auto body = [&work, mayStop](int i) {
+    const auto& look = Arena::instance().look;
+    const auto body = [&work, &look, mayStop](int i) {
         if (mayStop) throwIfStopped();
+        if (look && isFirstThread()) look();
         work(i);
     };
     const auto arena = Arena::instance().get();

@@ -291,6 +291,18 @@ TEST_F(Output, LandmarksPathsAndEarlierReportsAreNeverWrittenOver) {
     EXPECT_NE(contentOf(path).find("110"), std::string::npos);
 }
 
+TEST_F(Output, AnEarlierReportIsNotReplacedByTheOneThatIsComparedWithIt) {
+    const std::vector<std::string> report = {"report", "--quick", "--parts", "stability", "--out", "report"};
+    ASSERT_EQ(run(report).status, 0);
+    const std::string before = contentOf(place() / "report/report.json");
+    std::vector<std::string> again = report;
+    again.insert(again.end(), {"--compare", "report/report.json"});
+    const Outcome outcome = run(again);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("is read in this run"), std::string::npos) << outcome.err;
+    EXPECT_EQ(contentOf(place() / "report/report.json"), before);
+}
+
 TEST_F(Output, PipesAreNotReadFrom) {
     const std::string pipe = (mFolder / "pipe.tif").string(), scene = hills();
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);

@@ -115,6 +115,10 @@ std::vector<FaultCase> FaultTest::cases() const {
         {"bake volume",
          {"bake", study, "--no-cache", "--samples", "1", "--resolution", "0.2", "--out", "a.bake"},
          ""},
+        {"report",
+         {"report", "--quick", "--parts", "stability", "--scene", scene, "--out", "report"},
+         "",
+         true},
         {"info --json", {"info", scene, "--size", "32x24", "--json"}, ""}};
 }
 

@@ -57,8 +57,9 @@ TEST_F(Faults, OfBakes) {
     tryAll("bake", kSample);
 }
 
-TEST_F(Faults, OfFacts) {
+TEST_F(Faults, OfFactsAndReports) {
     tryAll("info", kSample);
+    tryAll("report", kSample);
 }
 
 // The layer itself: a run without a fault makes calls of each kind, and one that fails is seen.
