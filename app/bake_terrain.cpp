@@ -132,7 +132,6 @@ int bakeTerrain(const BakeOptions& options) {
     SceneOptions unlit = options.scene;
     unlit.light.clear();
     const LoadedScene scene = loadScene(unlit, SizeOption{}, bar.progress());
-    checkNotRead({{"--out", isTerrainLight(options.out) ? "" : options.out}});
     const Heightfield& ground = scene.terrain->ground;
     const std::filesystem::path file =
         options.out.empty() ? terrainLightCache(ground) : std::filesystem::path(options.out);
