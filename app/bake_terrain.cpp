@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "app/output_place.h"
@@ -15,6 +16,7 @@
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "terrain/ground_rays.h"
+#include "terrain/terrain_bake_part.h"
 #include "terrain/terrain_light.h"
 
 namespace stereonav {
@@ -105,6 +107,20 @@ bool holds(const std::filesystem::path& file, const Heightfield& ground,
     }
 }
 
+// None where it was stopped and what is done is kept.
+std::optional<TerrainLight> bakeOrKeep(const Heightfield& ground, const TerrainLightSettings& settings,
+                                       ProgressBar& bar) {
+    try {
+        return bakeTerrainLight(ground, settings, bar.progress(), true);
+    } catch (const Cancelled&) {
+        if (!std::filesystem::exists(terrainBakePart(terrainLightKey(ground, settings)))) throw;
+        bar.clear();
+        std::fprintf(stderr,
+                     "stereonav: stopped; what is done is kept, and the next run goes on from there\n");
+        return std::nullopt;
+    }
+}
+
 }  // namespace
 
 int bakeTerrain(const BakeOptions& options) {
@@ -125,7 +141,9 @@ int bakeTerrain(const BakeOptions& options) {
         return 0;
     }
     const Stopwatch watch;
-    const TerrainLight light = bakeTerrainLight(ground, settings, bar.progress());
+    const std::optional<TerrainLight> baked = bakeOrKeep(ground, settings, bar);
+    if (!baked) return 1;
+    const TerrainLight& light = *baked;
     const double seconds = watch.elapsed_ms() / 1000;
     saveTerrainLight(file, light);
     bar.clear();

@@ -13,6 +13,7 @@
 #include "app/progress_bar.h"
 #include "app/scene_loading.h"
 #include "engine/base/error.h"
+#include "engine/base/stop.h"
 #include "engine/base/stopwatch.h"
 #include "engine/light/bake_job.h"
 
@@ -109,6 +110,7 @@ int bakeVolume(const BakeOptions& options) {
     BakeKeeping keeping;
     keeping.keep = [&](const BakeSums& now) { writeBakeFile(file, identity, now); };
     const Stopwatch watch;
+    const FinishingWork keepsWhatIsDone;  // a stop is an end like others
     const BakeEnd end = runBake(sums, sourceOf(lighter), goalOf(options), progress,
                                 peers.count() == 1 ? keeping : BakeKeeping{}, shareOf(peers, keeping));
     peers.gather(sums);

@@ -36,6 +36,7 @@ int runCentreline(const CentrelineOptions& options) {
     checkCentrelineOptions(options);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, SizeOption{}, bar.progress());
+    checkNotRead({{"--out", options.out}});
     if (!scene.colon || !scene.colon->isColon())
         throw Error(options.scene.scene, "", "no colon was found, so there is no centreline",
                     "give --seed x,y,z inside it");

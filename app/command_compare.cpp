@@ -151,6 +151,7 @@ int runCompare(const CompareOptions& options) {
     if (!options.path.empty()) path = readPath(options.path);
     ProgressBar bar;
     LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    checkNotRead({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});
     if (options.relativeSeparation > 0.0)
         scene.stereo.separation = scene.stereo.zeroParallax * options.relativeSeparation;
     const RecordedPath& flight = flightOf(scene, path, options.path);

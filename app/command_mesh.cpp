@@ -34,6 +34,7 @@ int runMesh(const MeshOptions& options) {
     checkMeshOptions(options);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, SizeOption{}, bar.progress());
+    checkNotRead({{"--out", options.out}});
     const Heightfield& ground = scene.terrain->ground;
     const double halfSpacing = 0.5 * std::min(ground.spacing().x, ground.spacing().y);
     const double error = options.error_m < 0 ? halfSpacing : options.error_m;

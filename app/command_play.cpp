@@ -10,6 +10,7 @@
 #include "app/timed_poses.h"
 #include "app/video_file.h"
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "engine/image/image_file.h"
 
 namespace stereonav {
@@ -60,7 +61,8 @@ public:
         if (mFolder.empty() && !mVideo) return;
         const Plane<PackedColor> picture = frame.compose(mMode);
         if (!mFolder.empty())
-            writeColorImage(std::filesystem::path(mFolder) / fmt::format("frame_{:05d}.png", index), picture);
+            writeColorImage(std::filesystem::path(mFolder) / fmt::format("frame_{:05d}.png", index), picture,
+                            Flush::ToSystem);
         if (mVideo) mVideo->add(picture);
     }
 
@@ -92,6 +94,7 @@ int runPlay(const PlayOptions& options) {
     if (!options.path.empty()) path = readPath(options.path);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    checkNotRead({{"--video", options.video}});
     const std::vector<TimedPose> poses = posesOf(options, flightOf(scene, path, options.path));
     FrameSink sink(options, mode);
     StereoFrame frame(scene, options.method);

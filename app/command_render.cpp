@@ -42,6 +42,7 @@ int runRender(const RenderOptions& options) {
     if (!options.pose.empty()) pose = poseFromText(options.pose);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    checkNotRead({{"--out", options.out}});
     StereoFrame frame(scene, method);
     frame.refine(options.scene, bar.progress());
     bar.progress().report(0.9, "casting");

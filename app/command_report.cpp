@@ -127,6 +127,8 @@ int runReport(const ReportOptions& options) {
     if (!options.papers && !options.data.empty())
         throw Error("--data", "", "expected with --papers", "add it, or name scenes with --scene");
     const PaperData checked(options.data);
+    for (const char* name : {"report.csv", "papers.csv", "report.json", "index.html"})
+        checkNotRead({{"--out", (fs::path(options.out) / name).string()}});
     ProgressBar bar;
     ReportRun run(options, bar.progress());
     if (options.threads > 0) setThreadCount(options.threads);

@@ -1,11 +1,13 @@
 // The program's entry: parses the command line and turns every error into one line and exit status 1.
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 
 #include "app/arguments.h"
 #include "app/process_facts.h"
 #include "engine/base/error.h"
+#include "engine/base/stop.h"
 
 namespace {
 
@@ -20,6 +22,7 @@ std::string printable(std::string text) {
 
 int main(int argc, char** argv) {
     stereonav::noteStart();
+    stereonav::catchStopSignals();
     try {
         const int status = stereonav::runCommandLine(argc, argv);
         // What was printed has arrived, or the run has failed.
@@ -28,6 +31,8 @@ int main(int argc, char** argv) {
         return status;
     } catch (const stereonav::Cancelled&) {
         std::fprintf(stderr, "stereonav: stopped\n");
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "stereonav: there is not enough memory; free some, or ask for less\n");
     } catch (const std::exception& error) {
         std::fprintf(stderr, "stereonav: %s\n", printable(error.what()).c_str());
     }

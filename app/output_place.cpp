@@ -81,6 +81,17 @@ void checkNoInput(const NamedPlace& output, const std::vector<NamedPlace>& input
                         "name another file");
 }
 
+void checkNotRead(std::initializer_list<NamedPlace> outputs) {
+    for (const NamedPlace& output : outputs) {
+        if (output.place.empty()) continue;
+        try {
+            checkIsNoInput(output.place);
+        } catch (const Error& error) {
+            throw Error(output.option, "", error.what(), "");
+        }
+    }
+}
+
 std::FILE* messagesBeside(std::initializer_list<NamedPlace> outputs) {
     bool toStandardOutput = false;
     for (auto output = outputs.begin(); output != outputs.end(); ++output) {

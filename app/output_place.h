@@ -31,6 +31,10 @@ void makeOutputFolder(const std::filesystem::path& folder);
 // Throws Error where an output is one of the inputs, under whatever name, since it would be destroyed.
 void checkNoInput(const NamedPlace& output, const std::vector<NamedPlace>& inputs);
 
+// Throws Error where one of these outputs is a file that has been read since the program began, by whomever
+// (engine/base/files_read.h): known once the scene is loaded, and said before the long work starts.
+void checkNotRead(std::initializer_list<NamedPlace> outputs);
+
 // Where to print what there is to say beside these outputs: standard output, or standard error where one of
 // them goes to standard output. Throws Error where two go to the same place.
 std::FILE* messagesBeside(std::initializer_list<NamedPlace> outputs);

@@ -6,25 +6,13 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "engine/base/loop_watch.h"
+
 namespace stereonav {
 namespace {
 
 constexpr double kRedraw_ms = 80.0;           // often enough to look alive, rare enough to cost nothing
 constexpr double kLineInterval_ms = 10000.0;  // where the lines stay
-
-// Set by the signal handler, which can reach nothing else; cleared by the next bar.
-volatile std::sig_atomic_t interrupted = 0;
-
-void interrupt(int) {
-    interrupted = 1;
-}
-
-void catchSignal(int signal, struct sigaction& former) {
-    struct sigaction action = {};
-    action.sa_handler = interrupt;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second one ends the program
-    sigaction(signal, &action, &former);
-}
 
 }  // namespace
 
@@ -42,28 +30,42 @@ ProgressBar::ProgressBar(bool shown)
       mTerminal(isatty(STDERR_FILENO) != 0),
       mProgress([this](double fraction, const std::string& what) { show(fraction, what); }) {
     mNext_ms = mTerminal ? 0.0 : kLineInterval_ms;
-    interrupted = 0;
-    catchSignal(SIGINT, mFormerInterrupt);
-    catchSignal(SIGTERM, mFormerTerminate);
+    if (mShown) watchLoops([this] { showAgain(); });
 }
 
 ProgressBar::~ProgressBar() {
+    if (mShown) watchLoops({});
     clear();
-    sigaction(SIGINT, &mFormerInterrupt, nullptr);
-    sigaction(SIGTERM, &mFormerTerminate, nullptr);
 }
 
 void ProgressBar::show(double fraction, const std::string& what) {
-    if (interrupted != 0) mProgress.cancel();
     if (!mShown) return;
     const std::lock_guard lock(mMutex);
     const double now = mSinceStart.elapsed_ms();
+    if (what != mWhat || fraction != mFraction) mReported_ms = now;
+    mFraction = fraction;
+    if (what != mWhat) mWhat = what;
+    if (now >= mNext_ms) draw(now);
+}
+
+void ProgressBar::showAgain() {
+    const double now = mSinceStart.elapsed_ms();
     if (now < mNext_ms) return;
-    mNext_ms = now + (mTerminal ? kRedraw_ms : kLineInterval_ms);
+    const std::unique_lock lock(mMutex, std::try_to_lock);
+    if (lock) draw(now);
+}
+
+// Under the mutex.
+void ProgressBar::draw(double now_ms) {
+    constexpr double kLong_ms = 2000;  // of one report, from which on its time is told
+    mNext_ms = now_ms + (mTerminal ? kRedraw_ms : kLineInterval_ms);
+    const double since_ms = now_ms - mReported_ms;
+    const std::string what =
+        since_ms < kLong_ms ? mWhat : fmt::format("{}, {:.0f} s", mWhat, since_ms / 1000);
     if (mTerminal)
-        std::fprintf(stderr, "\r\033[K%s", progressLine(fraction, what, 30).c_str());
+        std::fprintf(stderr, "\r\033[K%s", progressLine(mFraction, what, 30).c_str());
     else
-        std::fprintf(stderr, "%3d %% %s\n", static_cast<int>(fraction * 100.0), what.c_str());
+        std::fprintf(stderr, "%3d %% %s\n", static_cast<int>(mFraction * 100.0), what.c_str());
     std::fflush(stderr);
     mDrawn = true;
 }

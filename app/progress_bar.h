@@ -1,9 +1,8 @@
 // A progress bar on stderr: redrawn in place on a terminal; elsewhere one line every ten seconds, so
-// that logs stay short and short jobs say nothing. While it lives, Ctrl-C cancels the job, which then
-// takes its half-written files away; a second Ctrl-C ends the program at once.
+// that logs stay short and short jobs say nothing. Between reports it says how long the present work takes.
 #pragma once
 
-#include <csignal>
+#include <atomic>
 #include <mutex>
 #include <string>
 
@@ -14,7 +13,7 @@ namespace stereonav {
 
 class ProgressBar {
 public:
-    // shown: else it only listens for Ctrl-C.
+    // shown: else it says nothing.
     explicit ProgressBar(bool shown = true);
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
@@ -26,12 +25,15 @@ public:
 
 private:
     void show(double fraction, const std::string& what);
+    void showAgain();  // while a loop runs that reports nothing
+    void draw(double now_ms);
 
     std::mutex mMutex;  // reports come from any thread
     Stopwatch mSinceStart;
-    double mNext_ms;
+    std::atomic<double> mNext_ms;
+    double mFraction = 0, mReported_ms = 0;  // the last report
+    std::string mWhat;
     bool mShown, mTerminal, mDrawn = false;
-    struct sigaction mFormerInterrupt = {}, mFormerTerminate = {};
     Progress mProgress;
 };
 

@@ -1,8 +1,8 @@
 #include "app/scene_loading.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -16,6 +16,8 @@
 #include "app/terrain_loading.h"
 #include "app/volume_light.h"
 #include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/memory.h"
 #include "engine/base/parallel.h"
 #include "engine/math/constants.h"
 
@@ -80,8 +82,15 @@ void refuseTracedElsewhere(const SceneOptions& options) {
                     "leave it out");
 }
 
-long long memoryBytes() {
-    return static_cast<long long>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGE_SIZE);
+// Of what is named to be read: no pipe or device, from which nothing may ever come.
+void checkSource(const NamedPlace& input) {
+    std::error_code code;
+    if (input.place.empty() || std::filesystem::is_directory(input.place, code)) return;
+    try {
+        checkFileToRead(input.place);
+    } catch (const Error& error) {
+        throw Error(input.option, "", error.what(), "");
+    }
 }
 
 }  // namespace
@@ -91,12 +100,14 @@ void checkSize(const SizeOption& size, int bytesPerPixel) {
     const std::string got = fmt::format("{}x{}", size.width, size.height);
     if (size.width < 1 || size.height < 1 || size.width > kLargest || size.height > kLargest)
         throw Error("--size", "", "expected 1 to 32768 pixels a side, got " + got, "try 1280x720");
-    const long long bytes = static_cast<long long>(bytesPerPixel) * size.width * size.height;
-    if (bytes > memoryBytes() / 2)
+    const double bytes = static_cast<double>(bytesPerPixel) * size.width * size.height;
+    const double there = availableMemory(), share = std::sqrt(std::min(1.0, there / bytes));
+    if (bytes > there)
         throw Error("--size", "",
-                    fmt::format("{} needs {:.1f} GB, more than half of this machine's {:.1f} GB", got,
-                                static_cast<double>(bytes) / 1e9, static_cast<double>(memoryBytes()) / 1e9),
-                    "choose a smaller size");
+                    fmt::format("{} needs {} of memory, and {} can be had", got, memoryText(bytes),
+                                memoryText(there)),
+                    fmt::format("{}x{} would fit", std::max(1, static_cast<int>(share * size.width)),
+                                std::max(1, static_cast<int>(share * size.height))));
 }
 
 SceneKind kindOf(const std::string& name) {
@@ -110,6 +121,7 @@ SceneKind kindOf(const std::string& name) {
     if (name == "cloud" || name == "wax") return SceneKind::Medium;
     std::error_code code;
     if (!std::filesystem::exists(name, code)) throw Error(name, "", "no such file", kAdvice);
+    if (!std::filesystem::is_directory(name, code)) checkFileToRead(name);
     if (looksLikeStudy(name)) return SceneKind::Volume;
     if (std::filesystem::is_directory(name, code))
         throw Error(name, "", "expected a file or a folder of DICOM slices, found a folder without any",
@@ -139,6 +151,7 @@ std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
 LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress) {
     checkSize(size);
     refuseTracedElsewhere(options);
+    for (const NamedPlace& input : inputsOf(options)) checkSource(input);
     const SimdTarget simd = simdFromText(options.simd);
     if (options.threads > 0) setThreadCount(options.threads);
     checkMediumOptions(options);

@@ -83,7 +83,7 @@ const RecordedPath& flightOf(const LoadedScene& scene, const std::optional<Recor
 // the SSIM's intermediate pictures.
 constexpr int kRenderBytesPerPixel = 96, kVideoBytesPerPixel = 384, kCompareBytesPerPixel = 320;
 
-// 1 to 32768 pixels a side, and no more than half of this machine's memory. Throws Error.
+// 1 to 32768 pixels a side, and no more than the memory that can be had. Throws Error.
 void checkSize(const SizeOption& size, int bytesPerPixel = kRenderBytesPerPixel);
 
 // "x,y,z,heading,pitch,roll" in metres and degrees; the last ones may be left out (0). Throws Error.

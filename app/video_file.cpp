@@ -1,9 +1,9 @@
 #include "app/video_file.h"
 
-#include <fstream>
 #include <string>
 
 #include "app/output_place.h"
+#include "app/video_check.h"
 #include "app/video_sink.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -22,23 +22,6 @@ const char* codecOf(const fs::path& file) {
     return nullptr;
 }
 
-// What a writer holds back for the end of the file, at most.
-constexpr std::size_t kWritersBuffer = 1 << 16;
-
-// Whether so much more fits. Where it does not, the disk is full, and an index or the like at the end, which
-// nobody counts, may be missing.
-bool takesMore(const fs::path& file) {
-    std::error_code code;
-    const std::uintmax_t bytes = fs::file_size(file, code);
-    if (code) return false;
-    std::ofstream out(file, std::ios::binary | std::ios::app);
-    out << std::string(kWritersBuffer, '\0');
-    out.close();
-    const bool fits = out.good();
-    fs::resize_file(file, bytes, code);
-    return fits && !code;
-}
-
 }  // namespace
 
 std::unique_ptr<VideoSink> openVideoSink(const fs::path& file, const char* codec, double framesPerSecond,
@@ -53,6 +36,7 @@ struct VideoFile::State {
     PendingFile pending;
     std::unique_ptr<VideoSink> sink;  // before `pending` goes
     int width, height;                // of a frame as given
+    long long frames = 0;
 };
 
 void checkVideoFile(const std::string& option, const fs::path& file) {
@@ -82,10 +66,11 @@ void VideoFile::add(const Plane<PackedColor>& frame) {
         throw Error(mState->place.string(), "", "expected frames of one size",
                     "keep the size while recording");
     mState->sink->add(frame);
+    ++mState->frames;
 }
 
 void VideoFile::finish() {
-    if (!mState->sink->close() || !takesMore(mState->pending.temporary()))
+    if (!mState->sink->close() || !isEndedVideo(mState->pending.temporary(), mState->frames))
         throw Error(mState->place.string(), "", "can not be written: not all of it arrived",
                     "check that the disk has room");
     mState->pending.finish();

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/base/stop.h"
 
 namespace stereonav {
 namespace {
@@ -127,7 +128,11 @@ struct GroundRays::State {
         }
         rtcReleaseGeometry(geometry);
         if (!filled) failed();
+        // It takes half a minute for the largest grounds.
+        rtcSetSceneProgressMonitorFunction(
+            scene.get(), [](void*, double) { return !stopWished(); }, nullptr);
         rtcCommitScene(scene.get());
+        throwIfStopped();
         if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE) failed();
     }
 

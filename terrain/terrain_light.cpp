@@ -5,17 +5,20 @@
 #include "terrain/terrain_light.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/base/memory.h"
 #include "engine/base/parallel.h"
+#include "engine/base/stop.h"
 #include "engine/light/spherical_harmonics.h"
+#include "terrain/terrain_bake_part.h"
 #include "terrain/terrain_transfer.h"
 
 namespace stereonav {
@@ -23,6 +26,7 @@ namespace {
 
 constexpr int kBakeVersion = 1;  // of what is baked: a change gives other keys
 constexpr int kBand = 16;        // rows between two looks at the progress
+constexpr int kLargestStride = 1000;
 
 void checkRange(const char* name, double value, double low, double high, int step = 1) {
     const bool whole = step <= 1 || std::fmod(value, step) == 0;
@@ -43,27 +47,42 @@ void checkSettings(const TerrainLightSettings& s) {
 }
 
 // Bytes held at once: three transfer fields or the two results, horizons, openness, Embree's vertices.
-void checkMemory(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {
+double memoryOf(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {
     const double each = s.kind == TerrainLightKind::Openness
                             ? 1.0 + s.azimuths
                             : 1.0 + s.azimuths + 4 * sizeof(std::int16_t) * lightHarmonics(s.order);
-    const double needed = each * static_cast<double>(grid.count()) + 40.0 * ground.width() * ground.height();
-    const double there =
-        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-    if (needed <= 0.75 * there) return;
-    throw Error("", "",
-                fmt::format("light for {}x{} samples needs {:.1f} GB, this machine has {:.1f} GB", grid.width,
-                            grid.height, needed / 1e9, there / 1e9),
-                "bake at a lower resolution");
+    return each * static_cast<double>(grid.count()) + 40.0 * ground.width() * ground.height();
 }
 
-// Runs work(row) for all rows; the job's share from `from` to `to`.
+void checkMemoryOf(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {
+    const double needed = memoryOf(ground, grid, s), there = availableMemory();
+    if (needed <= there) return;
+    const auto fits = [&](int stride) { return memoryOf(ground, LightGrid(ground, stride), s) <= there; };
+    int stride = grid.stride;
+    while (stride < kLargestStride && !fits(stride)) ++stride;
+    throw Error("", "",
+                fmt::format("light for {}x{} samples needs {} of memory, and {} can be had", grid.width,
+                            grid.height, memoryText(needed), memoryText(there)),
+                fits(stride)
+                    ? fmt::format("--resolution {:.3f} would fit", std::floor(1000.0 / stride) / 1000)
+                    : "no resolution would fit: bake a part of this ground");
+}
+
+// Runs work(row) for all rows that are not done; the job's share from `from` to `to`.
 template <typename Work>
-void eachRow(int rows, Progress& progress, double from, double to, const char* what, const Work& work) {
-    for (int first = 0; first < rows; first += kBand) {
-        progress.report(from + (to - from) * first / rows, what);
-        parallelFor(std::min(kBand, rows - first), [&](int k) { work(first + k); });
+void eachRow(std::int32_t& done, int rows, Progress& progress, double from, double to, const char* what,
+             const Work& work) {
+    while (done < rows) {
+        progress.report(from + (to - from) * done / rows, what);
+        const int band = std::min(kBand, rows - done);
+        parallelFor(band, [&](int k) { work(done + k); });
+        done += band;
     }
+}
+
+template <typename T>
+std::span<std::byte> bytesOf(std::vector<T>& values, std::size_t first, std::size_t count) {
+    return std::as_writable_bytes(std::span(values).subspan(first, count));
 }
 
 std::int16_t quantized(float value) {
@@ -81,34 +100,103 @@ Hash hashOf(const Heightfield& ground) {
 
 class Bake {
 public:
-    Bake(const Heightfield& ground, const TerrainLightSettings& settings, Progress& progress)
-        : mGround(ground), mSettings(settings), mProgress(progress), mGrid(ground, settings.stride) {
+    Bake(const Heightfield& ground, const TerrainLightSettings& settings, Progress& progress, bool keeps)
+        : mGround(ground),
+          mSettings(settings),
+          mProgress(progress),
+          mGrid(ground, settings.stride),
+          mKeeps(keeps) {
         checkSettings(settings);
-        checkMemory(ground, mGrid, settings);
+        checkMemoryOf(ground, mGrid, settings);
     }
 
     TerrainLight run() {
+        try {
+            TerrainLight light = bake();
+            std::error_code code;
+            if (mKeeps) std::filesystem::remove(terrainBakePart(light.key), code);
+            return light;
+        } catch (const Cancelled&) {
+            const FinishingWork keepsWhatIsDone;
+            if (mKeeps && (mDone.phase > 0 || mDone.rows > 0)) keepBakePart(mLight.key, mDone, blocksDone());
+            throw;
+        }
+    }
+
+private:
+    TerrainLight bake() {
         mProgress.report(0, "building the ground for rays");
         const GroundRays rays(mGround);
         mLight.settings = mSettings;
         mLight.grid = mGrid;
         mLight.key = terrainLightKey(mGround, mSettings);
-        mLight.openness.resize(mGrid.count());
-        mLight.horizon.resize(mGrid.count() * mSettings.azimuths);
         const bool transfer = mSettings.kind == TerrainLightKind::Transfer;
-        if (transfer) mDirect.resize(mGrid.count() * mCount);
-        bakeDirect(rays, transfer ? mSettings.bounces == 0 ? 0.9 : 0.5 : 1.0);
+        goOn();
+        if (mDone.phase == 0) {
+            bakeDirect(rays, transfer ? mSettings.bounces == 0 ? 0.9 : 0.5 : 1.0);
+            if (transfer) mTotal = mDirect;
+            nextPhase();
+        }
         if (!transfer) {
+            mProgress.report(1, "baked");
             mLight.horizon = {};
             return std::move(mLight);
         }
-        mTotal = mDirect;
-        for (int b = 0; b < mSettings.bounces; ++b) bakeBounce(rays, b);
+        while (mDone.phase <= mSettings.bounces) {
+            bakeBounce(rays, mDone.phase - 1);
+            nextPhase();
+        }
+        mNext = {};
         intoPlanes();
+        mProgress.report(1, "baked");
         return std::move(mLight);
     }
 
-private:
+    void nextPhase() {
+        ++mDone.phase;
+        mDone.rows = 0;
+        const bool another = mSettings.kind == TerrainLightKind::Transfer && mDone.phase <= mSettings.bounces;
+        if (another) mNext.resize(mTotal.size());
+    }
+
+    void allocate() {
+        const bool transfer = mSettings.kind == TerrainLightKind::Transfer;
+        mLight.openness.assign(mGrid.count(), 0);
+        mLight.horizon.assign(mGrid.count() * mSettings.azimuths, 0);
+        if (transfer) mDirect.assign(mGrid.count() * mCount, 0);
+        if (mDone.phase == 0) return;
+        mTotal.resize(mDirect.size());
+        mNext.resize(mDirect.size());
+    }
+
+    // What was reached, in whole rows: of the first phase, and of the present one.
+    BakeBlocks blocksDone() {
+        const bool first = mDone.phase == 0;
+        const std::size_t row = static_cast<std::size_t>(mGrid.width);
+        const std::size_t samples = row * static_cast<std::size_t>(first ? mDone.rows : mGrid.height);
+        BakeBlocks blocks{bytesOf(mLight.openness, 0, samples)};
+        for (int a = 0; a < mSettings.azimuths; ++a)
+            blocks.push_back(bytesOf(mLight.horizon, a * mGrid.count(), samples));
+        if (!mDirect.empty()) blocks.push_back(bytesOf(mDirect, 0, samples * mCount));
+        if (first) return blocks;
+        blocks.push_back(bytesOf(mTotal, 0, mTotal.size()));
+        blocks.push_back(bytesOf(mNext, 0, mDone.rows * row * mCount));
+        return blocks;
+    }
+
+    // From where an earlier run of the same bake was stopped.
+    void goOn() {
+        if (mKeeps) mDone = keptBakePart(mLight.key);
+        const bool transfer = mSettings.kind == TerrainLightKind::Transfer;
+        if (mDone.phase < 0 || mDone.phase > (transfer ? mSettings.bounces + 1 : 1) || mDone.rows < 0 ||
+            mDone.rows > mGrid.height)
+            mDone = {};
+        allocate();
+        if ((mDone.phase == 0 && mDone.rows == 0) || readBakePart(mLight.key, blocksDone())) return;
+        mDone = {};
+        allocate();
+    }
+
     bool known(int i, int j) const { return std::isfinite(mGround.sample(mGrid.column(i), mGrid.row(j))); }
     std::size_t sampleAt(int i, int j) const { return static_cast<std::size_t>(j) * mGrid.width + i; }
     void setWedges(int i, int j, SkyWedges& wedges) const {
@@ -118,7 +206,7 @@ private:
 
     void bakeDirect(const GroundRays& rays, double to) {
         const SkyTransfer sky(mSettings.order, mSettings.azimuths);
-        eachRow(mGrid.height, mProgress, 0, to, "casting rays for the horizon", [&](int j) {
+        eachRow(mDone.rows, mGrid.height, mProgress, 0, to, "casting rays for the horizon", [&](int j) {
             bakeHorizonRow(rays, mGrid, j, mSettings.azimuths, &mLight.horizon[sampleAt(0, j)],
                            mGrid.count());
             SkyWedges wedges(mSettings.azimuths);
@@ -138,8 +226,7 @@ private:
 
     void bakeBounce(const GroundRays& rays, int bounce) {
         const double from = 0.5 + 0.45 * bounce / mSettings.bounces, to = from + 0.45 / mSettings.bounces;
-        TransferField next(mTotal.size());
-        eachRow(mGrid.height, mProgress, from, to, "casting rays for bounced light", [&](int j) {
+        eachRow(mDone.rows, mGrid.height, mProgress, from, to, "casting rays for bounced light", [&](int j) {
             SkyWedges wedges(mSettings.azimuths);
             float bounced[kMaxHarmonics];
             const GatherSetting setting{mSettings.rays, mSettings.albedo, mSettings.seed, mCount};
@@ -149,10 +236,10 @@ private:
                 gatherBounce(rays, mGrid, i, j, wedges, mTotal, setting, bounced);
                 const std::size_t at = sampleAt(i, j) * mCount;
                 for (int k = 0; k < mCount; ++k)
-                    next[at + k] = quantized(static_cast<float>(mDirect[at + k]) + bounced[k]);
+                    mNext[at + k] = quantized(static_cast<float>(mDirect[at + k]) + bounced[k]);
             }
         });
-        mTotal = std::move(next);
+        std::swap(mTotal, mNext);
     }
 
     void intoPlanes() {
@@ -184,7 +271,9 @@ private:
     const int mCount = lightHarmonics(mSettings.order);
     const std::vector<float> mUnit = units();
     TerrainLight mLight;
-    TransferField mDirect, mTotal;
+    TransferField mDirect, mTotal, mNext;
+    const bool mKeeps;
+    BakeReached mDone;
 };
 
 }  // namespace
@@ -229,10 +318,8 @@ std::uint64_t terrainLightKey(const Heightfield& ground, const TerrainLightSetti
 }
 
 TerrainLight bakeTerrainLight(const Heightfield& ground, const TerrainLightSettings& settings,
-                              Progress& progress) {
-    TerrainLight light = Bake(ground, settings, progress).run();
-    progress.report(1, "baked");
-    return light;
+                              Progress& progress, bool keeps) {
+    return Bake(ground, settings, progress, keeps).run();
 }
 
 }  // namespace stereonav

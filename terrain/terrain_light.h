@@ -107,9 +107,10 @@ std::uint64_t terrainLightKey(const Heightfield& ground, const TerrainLightSetti
 std::filesystem::path terrainLightCache(const Heightfield& ground);
 
 // Throws Error for settings outside their ranges and where the memory would not suffice; Cancelled. The
-// result does not depend on the thread count.
+// result does not depend on the thread count. keeps: where it is cancelled what is done is kept in the cache,
+// and the same bake goes on from there, to the same bytes.
 TerrainLight bakeTerrainLight(const Heightfield& ground, const TerrainLightSettings& settings,
-                              Progress& progress);
+                              Progress& progress, bool keeps = false);
 
 // Written beside and renamed. Throws Error.
 void saveTerrainLight(const std::filesystem::path& file, const TerrainLight& light);

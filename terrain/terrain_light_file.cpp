@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 #include <fstream>
+#include <stdexcept>
 #include <system_error>
 
 #include "engine/base/error.h"
@@ -157,17 +158,20 @@ void checkGround(const std::string& name, const TerrainLight& light, const Heigh
 void saveTerrainLight(const std::filesystem::path& file, const TerrainLight& light) {
     const LightHeader header = headerOf(light);
     const std::uint64_t sum = checksum(header, light);
-    writeFileAtomically(file, [&](const std::filesystem::path& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
-        out.write(reinterpret_cast<const char*>(&header), sizeof header);
-        write(out, light.openness);
-        write(out, light.horizon);
-        write(out, light.full);
-        write(out, light.bounced);
-        out.write(reinterpret_cast<const char*>(&sum), sizeof sum);
-        out.close();
-        if (!out) throw Error(file.string(), "", "could not be written", "is the disk full?");
-    });
+    writeFileAtomically(
+        file,
+        [&](const std::filesystem::path& temporary) {
+            std::ofstream out(temporary, std::ios::binary);
+            out.write(reinterpret_cast<const char*>(&header), sizeof header);
+            write(out, light.openness);
+            write(out, light.horizon);
+            write(out, light.full);
+            write(out, light.bounced);
+            out.write(reinterpret_cast<const char*>(&sum), sizeof sum);
+            out.close();
+            if (!out) throw Error(file.string(), "", "could not be written", "is the disk full?");
+        },
+        Over::Anything);  // what was there was looked at: it is another bake
 }
 
 bool isTerrainLight(const std::filesystem::path& file) {
@@ -192,6 +196,8 @@ TerrainLight loadTerrainLight(const std::filesystem::path& file, const Heightfie
     read(in, sizes.transfer, light.bounced);
     std::uint64_t sum = 0;
     in.read(reinterpret_cast<char*>(&sum), sizeof sum);
+    // What can not be read now may be whole: unlike damage this is no reason to make it anew.
+    if (in.bad()) throw std::runtime_error(name + ": can not be read to its end; check the disk it is on");
     if (!in || sum != checksum(header, light))
         throw Error(name, "", "the checksum does not fit the content: the file is damaged", kBakeAgain);
     if (ground != nullptr) checkGround(name, light, *ground);

@@ -18,8 +18,9 @@ public:
               int height) {
         const cv::Size size(width + width % 2, height + height % 2);
         mFile = file.string();
-        return mWriter.open(file.string(), cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]),
-                            framesPerSecond, size);
+        return mWriter.open(file.string(), cv::CAP_FFMPEG,
+                            cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]), framesPerSecond,
+                            size);
     }
 
     void add(const Plane<PackedColor>& frame) override {

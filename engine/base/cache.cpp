@@ -32,11 +32,13 @@ std::vector<Kept> keptFiles(const fs::path& folder) {
 }
 
 void makeRoom(const fs::path& justWritten, std::uintmax_t most) {
-    std::uintmax_t bytes = 0;
+    std::error_code code;
+    std::uintmax_t bytes = fs::file_size(justWritten, code);  // first: two times may be the same
+    if (code) bytes = 0;
     for (const Kept& kept : keptFiles(justWritten.parent_path())) {
+        if (kept.file == justWritten) continue;
         bytes += kept.bytes;
-        std::error_code code;
-        if (bytes > most && kept.file != justWritten) fs::remove(kept.file, code);
+        if (bytes > most) fs::remove(kept.file, code);
     }
 }
 

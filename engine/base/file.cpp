@@ -1,17 +1,18 @@
 #include "engine/base/file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/files_read.h"
+#include "engine/base/memory.h"
 
 namespace stereonav {
 namespace fs = std::filesystem;
@@ -19,6 +20,7 @@ namespace {
 
 constexpr int kMostLinks = 40;  // as Linux: more go round in circles
 constexpr std::size_t kBlock = 1 << 20;
+constexpr std::size_t kLongestStem = 200;  // bytes, so that a temporary's name is not too long
 constexpr const char* kCheckPlace = "check that the folder exists and has room and write permission";
 
 Error unwritable(const fs::path& path, int reason) {
@@ -54,9 +56,14 @@ fs::path folderOf(const fs::path& file) {
 
 fs::path besides(const fs::path& file) {
     fs::path temporary = file;
-    temporary.replace_filename("." + file.stem().string() + "." + std::to_string(getpid()) + ".part" +
-                               file.extension().string());
+    temporary.replace_filename("." + file.stem().string().substr(0, kLongestStem) + "." +
+                               std::to_string(getpid()) + ".part" + file.extension().string());
     return temporary;
+}
+
+Error unreadable(const fs::path& path, int reason) {
+    return {path.string(), "", std::string("can not be read: ") + std::strerror(reason),
+            "check the name and its permissions, and the disk it is on"};
 }
 
 // Closed once, so that what the system says at the end is heard.
@@ -64,7 +71,7 @@ class OpenFile {
 public:
     // place: what errors name.
     OpenFile(fs::path place, const fs::path& path, int flags)
-        : mPlace(std::move(place)), mFile(open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666)) {
+        : mPlace(std::move(place)), mFile(open(path.c_str(), flags | O_CLOEXEC, 0666)) {
         if (mFile < 0) throw unwritable(mPlace, errno);
     }
     ~OpenFile() {
@@ -82,6 +89,22 @@ public:
             bytes -= static_cast<std::size_t>(written);
         }
     }
+    // Bytes that were read, fewer than asked for at the end alone.
+    std::size_t read(char* data, std::size_t bytes) const {
+        std::size_t all = 0;
+        while (all < bytes) {
+            const ssize_t got = ::read(mFile, data + all, bytes - all);
+            if (got < 0 && errno == EINTR) continue;
+            if (got < 0) throw unreadable(mPlace, errno);
+            if (got == 0) break;
+            all += static_cast<std::size_t>(got);
+        }
+        return all;
+    }
+    // Until all of it is on the disk: some systems take bytes first and find room for them later.
+    void flush() const {
+        if (fsync(mFile) != 0 && errno != EINVAL && errno != EROFS) throw unwritable(mPlace, errno);
+    }
     void finish() {
         const int file = std::exchange(mFile, -1);
         if (close(file) != 0 && errno != EINTR) throw unwritable(mPlace, errno);
@@ -91,6 +114,14 @@ private:
     fs::path mPlace;
     int mFile;
 };
+
+// That the new name stays, too. The content is safe already, so an error is none.
+void flushFolder(const fs::path& folder) {
+    const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0) return;
+    fsync(file);
+    close(file);
+}
 
 // Calls put(write), with write(data, bytes) to a stream or to standard output.
 template <typename Put>
@@ -102,7 +133,7 @@ void intoStream(const fs::path& place, const Put& put) {
         });
         return;
     }
-    OpenFile out(place, place, 0);
+    OpenFile out(place, place, O_WRONLY);
     put([&](const char* data, std::size_t bytes) { out.write(data, bytes); });
     out.finish();
 }
@@ -126,15 +157,45 @@ void checkFolder(const fs::path& path, const fs::path& target) {
 
 }  // namespace
 
-std::string readTextFile(const fs::path& path) {
+std::string kindOfFile(const fs::path& path) {
     std::error_code code;
-    if (fs::is_directory(path, code))
-        throw Error(path.string(), "", "expected a file, found a folder", "name the file itself");
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throw Error(path.string(), "", "can not be opened", "check the name and its permissions");
-    std::ostringstream content;
-    content << in.rdbuf();
-    return content.str();
+    switch (fs::status(path, code).type()) {
+        case fs::file_type::directory:
+            return "a folder";
+        case fs::file_type::fifo:
+            return "a pipe";
+        case fs::file_type::character:
+        case fs::file_type::block:
+            return "a device";
+        case fs::file_type::socket:
+            return "a socket";
+        default:
+            return "something else";
+    }
+}
+
+void checkFileToRead(const fs::path& path) {
+    std::error_code code;
+    const fs::file_status is = fs::status(path, code);
+    if (!fs::exists(is) || fs::is_regular_file(is)) return;
+    throw Error(path.string(), "", "expected a file, found " + kindOfFile(path),
+                fs::is_directory(is) ? "name the file itself" : "copy what comes out of it into a file");
+}
+
+std::string readTextFile(const fs::path& path) {
+    checkFileToRead(path);
+    struct stat is {};
+    if (stat(path.c_str(), &is) != 0 || access(path.c_str(), R_OK) != 0)
+        throw Error(path.string(), "", "can not be opened", "check the name and its permissions");
+    checkMemory(path.string(), static_cast<double>(is.st_size), "name a smaller file");
+    OpenFile in(path, path, O_RDONLY);
+    std::string content(static_cast<std::size_t>(is.st_size), '\0');
+    content.resize(in.read(content.data(), content.size()));
+    for (std::string more(kBlock, '\0');;) {  // it grew, or is one that does not tell its size
+        const std::size_t bytes = in.read(more.data(), more.size());
+        if (bytes == 0) return content;
+        content.append(more, 0, bytes);
+    }
 }
 
 bool isStandardOutput(const fs::path& path) {
@@ -152,7 +213,7 @@ void checkPlaceForFile(const fs::path& path) {
     const fs::path target = endOfLinks(path), probe = besides(target);
     checkFolder(path, target);
     try {
-        OpenFile(path, probe, O_CREAT | O_TRUNC);
+        OpenFile(path, probe, O_WRONLY | O_CREAT | O_TRUNC);
     } catch (const Error&) {
         throw Error(path.string(), "",
                     "can not be written: \"" + folderOf(target).string() + "\" takes no new file",
@@ -162,11 +223,14 @@ void checkPlaceForFile(const fs::path& path) {
     fs::remove(probe, code);
 }
 
-PendingFile::PendingFile(const fs::path& place) : mPlace(place) {
+PendingFile::PendingFile(const fs::path& place, Over over) : mPlace(place), mOver(over) {
     if (!isStandardOutput(place) && !isStream(place)) {
         mTarget = endOfLinks(place);
         checkFolder(place, mTarget);
+        if (folderOf(mTarget) == cacheFolder()) mOver = Over::Anything;
+        checkNotRead();
         mTemporary = besides(mTarget);
+        mUnfinished.emplace(mTemporary.c_str());
         return;
     }
     std::error_code code;
@@ -174,6 +238,8 @@ PendingFile::PendingFile(const fs::path& place) : mPlace(place) {
     if (!mkdtemp(folder.data())) throw unwritable(folder, errno);
     mOwnFolder = folder;
     mTemporary = mOwnFolder / ("part" + place.extension().string());
+    mUnfinished.emplace(mTemporary.c_str());
+    mUnfinishedFolder.emplace(mOwnFolder.c_str());
 }
 
 PendingFile::~PendingFile() {
@@ -182,26 +248,42 @@ PendingFile::~PendingFile() {
     if (!mOwnFolder.empty()) fs::remove_all(mOwnFolder, code);
 }
 
-void PendingFile::finish() {
+void PendingFile::checkNotRead() const {
+    if (mOver == Over::NothingRead) checkIsNoInput(mPlace);
+}
+
+void PendingFile::finish(Flush flush) {
+    if (!mOwnFolder.empty()) return intoPlace();
+    checkNotRead();
     std::error_code code;
-    if (mOwnFolder.empty()) {
-        if (const fs::file_status was = fs::status(mTarget, code); fs::is_regular_file(was))
-            fs::permissions(mTemporary, was.permissions(), code);
-        fs::rename(mTemporary, mTarget, code);
-        if (code) throw unwritable(mPlace, code.value());
-        return;
+    if (const fs::file_status was = fs::status(mTarget, code); fs::is_regular_file(was))
+        fs::permissions(mTemporary, was.permissions(), code);
+    if (flush == Flush::ToDisk) {
+        OpenFile written(mPlace, mTemporary, O_RDWR);
+        written.flush();
+        written.finish();
     }
-    std::ifstream in(mTemporary, std::ios::binary);
-    if (!in) throw unwritable(mPlace, 0);
+    fs::rename(mTemporary, mTarget, code);
+    if (code) throw unwritable(mPlace, code.value());
+    forgetFileRead(mTarget);
+    if (flush == Flush::ToDisk) flushFolder(folderOf(mTarget));
+}
+
+void PendingFile::intoPlace() {
+    const OpenFile in(mPlace, mTemporary, O_RDONLY);
     intoStream(mPlace, [&](const auto& write) {
         std::string block(kBlock, '\0');
-        while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
-            write(block.data(), static_cast<std::size_t>(in.gcount()));
+        while (const std::size_t bytes = in.read(block.data(), block.size())) write(block.data(), bytes);
     });
 }
 
-void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-    PendingFile file(path);
+void checkIsNoInput(const fs::path& place) {
+    if (!isStandardOutput(place) && !isStream(place) && wasFileRead(place))
+        throw Error(place.string(), "", "is read in this run, and would be lost", "name another file");
+}
+
+void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write, Over over) {
+    PendingFile file(path, over);
     try {
         write(file.temporary());
     } catch (const fs::filesystem_error& error) {
@@ -210,14 +292,14 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
     file.finish();
 }
 
-void writeTextFile(const fs::path& path, const std::string& content) {
+void writeTextFile(const fs::path& path, const std::string& content, Flush flush) {
     if (isStandardOutput(path) || isStream(path))
         return intoStream(path, [&](const auto& write) { write(content.data(), content.size()); });
     PendingFile file(path);
-    OpenFile out(path, file.temporary(), O_CREAT | O_TRUNC);
+    OpenFile out(path, file.temporary(), O_WRONLY | O_CREAT | O_TRUNC);
     out.write(content.data(), content.size());
     out.finish();
-    file.finish();
+    file.finish(flush);
 }
 
 fs::path cacheFolder() {

@@ -4,11 +4,20 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+
+#include "engine/base/stop.h"
 
 namespace stereonav {
 
-// Throws Error naming the path when it can not be read.
+// Throws Error where there is something else than a file: a folder, or a pipe or device, of which nobody
+// knows whether anything comes out of it. What is not there passes: the reader says so.
+void checkFileToRead(const std::filesystem::path& path);
+// "a folder", "a pipe"..., for messages.
+std::string kindOfFile(const std::filesystem::path& path);
+
+// Throws Error naming the path when it can not be read, is no file, or is more than there is memory.
 std::string readTextFile(const std::filesystem::path& path);
 
 // "-", or a name that the system has for it, as /dev/stdout.
@@ -18,6 +27,16 @@ bool isStandardOutput(const std::filesystem::path& path);
 // Tries for real whether a file can be made, leaves nothing.
 void checkPlaceForFile(const std::filesystem::path& path);
 
+// Throws Error where the place is a file that this run has read (files_read.h): it would be lost.
+void checkIsNoInput(const std::filesystem::path& place);
+
+// What a new file may be put over. Anything is for files of our own that a run reads and goes on with; what
+// lies in cacheFolder() is such.
+enum class Over { NothingRead, Anything };
+// Whether a file is put in its place when it is on the disk, or when the system has it: where there are many,
+// waiting for each takes longer than making it, and all are made again after a power cut.
+enum class Flush { ToDisk, ToSystem };
+
 // A file that is made under another name of the same extension, temporary(), until finish() puts it into its
 // place. What the place is:
 // - a file, or nothing yet in a folder that is there: the temporary lies beside it and is renamed into it,
@@ -25,30 +44,37 @@ void checkPlaceForFile(const std::filesystem::path& path);
 //   the permissions of the one it replaces;
 // - a link: the same for what it points to;
 // - a pipe, a device or standard output: the bytes are written into it at the end.
-// A missing folder is an error, but for cacheFolder(), which is made.
+// A missing folder is an error, but for cacheFolder(), which is made; so is a file that this run has read.
 class PendingFile {
 public:
     // Throws Error, as checkPlaceForFile() does.
-    explicit PendingFile(const std::filesystem::path& place);
+    explicit PendingFile(const std::filesystem::path& place, Over over = Over::NothingRead);
     ~PendingFile();  // removes what was not finished
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;
 
     const std::filesystem::path& temporary() const { return mTemporary; }
     // Throws Error where there is no temporary, or it does not get into its place.
-    void finish();
+    void finish(Flush flush = Flush::ToDisk);
 
 private:
+    void checkNotRead() const;
+    void intoPlace();  // of a stream
+
     std::filesystem::path mPlace, mTarget, mTemporary;
     std::filesystem::path mOwnFolder;  // of the temporary of a stream; "" where it lies beside its place
+    Over mOver;
+    std::optional<UnfinishedFile> mUnfinished, mUnfinishedFolder;
 };
 
 // Calls write(temporary) with the temporary of a PendingFile, then finishes it. On any exception the place is
 // as it was. Throws Error when it can not be written.
 void writeFileAtomically(const std::filesystem::path& path,
-                         const std::function<void(const std::filesystem::path&)>& write);
+                         const std::function<void(const std::filesystem::path&)>& write,
+                         Over over = Over::NothingRead);
 
-void writeTextFile(const std::filesystem::path& path, const std::string& content);
+void writeTextFile(const std::filesystem::path& path, const std::string& content,
+                   Flush flush = Flush::ToDisk);
 
 // Where computed things are kept between runs: $XDG_CACHE_HOME/stereonav or ~/.cache/stereonav.
 std::filesystem::path cacheFolder();

@@ -6,11 +6,16 @@
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <utility>
+
+#include "engine/base/loop_watch.h"
+#include "engine/base/stop.h"
 
 namespace stereonav {
 namespace {
@@ -20,6 +25,8 @@ struct Arena {
     int threads = 0;
     std::unique_ptr<tbb::global_control> limit;
     std::shared_ptr<tbb::task_arena> tasks;
+    void* const stop = stopOfThisProgram();
+    std::function<void()> look;  // loop_watch.h
 
     static Arena& own() {
         static Arena arena;
@@ -53,6 +60,12 @@ struct Arena {
     }
 };
 
+// Cancelled may come out of loops that the program's first thread starts: there it is caught.
+bool isFirstThread() {
+    static thread_local const bool is = gettid() == getpid();
+    return is;
+}
+
 }  // namespace
 
 void setThreadCount(int threads) {
@@ -69,11 +82,24 @@ void* loopsOfThisProgram() {
 }
 
 void shareLoops(void* program) {
-    Arena::used() = static_cast<Arena*>(program);
+    auto* const arena = static_cast<Arena*>(program);
+    Arena::used() = arena;
+    shareStop(arena->stop);
 }
 
-void parallelFor(int count, const std::function<void(int)>& body, Schedule schedule) {
+void watchLoops(std::function<void()> look) {
+    Arena::instance().look = std::move(look);
+}
+
+void parallelFor(int count, const std::function<void(int)>& work, Schedule schedule) {
     if (count <= 0) return;
+    const bool mayStop = isFirstThread();
+    const auto& look = Arena::instance().look;
+    const auto body = [&work, &look, mayStop](int i) {
+        if (mayStop) throwIfStopped();
+        if (look && isFirstThread()) look();
+        work(i);
+    };
     const auto arena = Arena::instance().get();
     const int threads = arena->max_concurrency();
     if (threads == 1 || count == 1) {

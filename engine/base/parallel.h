@@ -17,7 +17,8 @@ enum class Schedule {
 void setThreadCount(int threads);
 int threadCount();
 
-// Calls body(i) for every i in [0, count). The first exception thrown by a body is rethrown here.
+// Calls body(i) for every i in [0, count). The first exception thrown by a body is rethrown here. Started by
+// the program's first thread it throws Cancelled once a stop is wished (stop.h).
 void parallelFor(int count, const std::function<void(int)>& body, Schedule schedule = Schedule::Dynamic);
 
 // A module (module.h) has this code a second time: it takes over the program's threads before its first loop.

@@ -1,5 +1,6 @@
 // Progress of a long job, and the wish to stop it. The job calls report() now and then, from any
-// thread; the listener (a bar, a window) may ask to cancel, which throws Cancelled out of report().
+// thread; the listener (a bar, a window) may ask to cancel, which throws Cancelled out of report(), as a wish
+// to stop the whole run does (stop.h).
 #pragma once
 
 #include <atomic>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/stop.h"
 
 namespace stereonav {
 
@@ -18,11 +20,12 @@ public:
     explicit Progress(Listener listener) : mListener(std::move(listener)) {}
 
     void cancel() { mCancelled = true; }
-    bool cancelled() const { return mCancelled; }
+    bool cancelled() const { return mCancelled || stopWished(); }
 
-    // fraction in [0, 1]. Throws Cancelled once cancel() was called.
+    // fraction in [0, 1]. Throws Cancelled once cancel() was called, or the run is to stop.
     void report(double fraction, const std::string& what) {
         if (mCancelled) throw Cancelled();
+        throwIfStopped();
         if (mListener) mListener(fraction, what);
     }
 

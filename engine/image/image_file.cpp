@@ -38,12 +38,12 @@ LinearImage readLinearImage(const std::filesystem::path& file) {
     return file.extension() == ".hdr" ? readRadianceImage(file) : pictures().readLinearImage(file);
 }
 
-void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image) {
+void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image, Flush flush) {
     const std::string extension = isStandardOutput(file) ? ".png" : file.extension().string();
     if (extension.empty() || !canWritePicture(extension))
         throw Error(file.string(), "", "can not be written as a picture", "use .png or .jpg");
     const std::vector<unsigned char> bytes = encodeColorImage(image, extension);
-    writeTextFile(file, {bytes.begin(), bytes.end()});
+    writeTextFile(file, {bytes.begin(), bytes.end()}, flush);
 }
 
 bool canWritePicture(const std::string& extension) {

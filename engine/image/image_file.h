@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/file.h"
 #include "engine/image/packed_color.h"
 #include "engine/image/plane.h"
 
@@ -31,7 +32,8 @@ LinearImage readLinearImage(const std::filesystem::path& file);
 
 // By extension (.png, .jpg, ...), 8-bit sRGB; "-" is PNG to standard output. Written as all files are
 // (engine/base/file.h). Throws Error.
-void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image);
+void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image,
+                     Flush flush = Flush::ToDisk);
 // Whether there is a way to write pictures with this extension, as in ".png".
 bool canWritePicture(const std::string& extension);
 

@@ -119,10 +119,12 @@ Header headerOf(const BakeIdentity& identity, const BakeSums& sums, std::span<co
 struct Useless {
     std::string why;  // never leaves this file
 };
+struct DiskFails {};  // neither: what can not be read now may be whole, and is not baked over
 
 void take(std::istream& in, void* to, std::size_t bytes) {
-    if (bytes > 0 && !in.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes)))
-        throw Useless{"can not be read to its end"};
+    if (bytes == 0 || in.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes))) return;
+    if (in.bad()) throw DiskFails();
+    throw Useless{"can not be read to its end"};
 }
 
 // Counts are small enough for all sums below to be exact.
@@ -282,7 +284,11 @@ std::optional<BakeFile> readBakeFile(const fs::path& file, std::optional<std::ui
     }
     try {
         std::ifstream in(file, std::ios::binary);
+        if (!in) throw DiskFails();
         return readFrom(in, bytes, key);
+    } catch (const DiskFails&) {
+        throw Error(file.string(), "", "can not be read to its end: the disk reports an error",
+                    "copy it to another disk, or name another with --out");
     } catch (const Useless& useless) {
         problem = useless.why;
     } catch (const Error& error) {  // too large for this machine
@@ -304,20 +310,23 @@ bool isForeignFile(const fs::path& file) {
 void writeBakeFile(const fs::path& file, const BakeIdentity& identity, const BakeSums& sums) {
     const std::vector<BrickRecord> records = recordsOf(sums);
     const Header header = headerOf(identity, sums, records);
-    writeFileAtomically(file, [&](const fs::path& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
-        const auto put = [&](const void* data, std::size_t bytes) {
-            out.write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
-        };
-        put(&header, sizeof header);
-        put(records.data(), records.size() * sizeof(BrickRecord));
-        put(sumBytes(sums).data(), sumBytes(sums).size());
-        put(aliveBytes(sums).data(), aliveBytes(sums).size());
-        out.close();
-        if (!out)
-            throw Error(file.string(), "", "can not be written",
-                        "check that the folder exists and has room and write permission");
-    });
+    writeFileAtomically(
+        file,
+        [&](const fs::path& temporary) {
+            std::ofstream out(temporary, std::ios::binary);
+            const auto put = [&](const void* data, std::size_t bytes) {
+                out.write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
+            };
+            put(&header, sizeof header);
+            put(records.data(), records.size() * sizeof(BrickRecord));
+            put(sumBytes(sums).data(), sumBytes(sums).size());
+            put(aliveBytes(sums).data(), aliveBytes(sums).size());
+            out.close();
+            if (!out)
+                throw Error(file.string(), "", "can not be written",
+                            "check that the folder exists and has room and write permission");
+        },
+        Over::Anything);  // the bake goes on from what was there
 }
 
 }  // namespace stereonav

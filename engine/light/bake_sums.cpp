@@ -1,7 +1,6 @@
 #include "engine/light/bake_sums.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/base/parallel.h"
 #include "engine/math/half_float.h"
 #include "engine/math/luminance.h"
@@ -19,17 +19,16 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-double memoryBytes() {
-    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-}
-
-void checkMemory(std::size_t texels, const BakeShape& shape) {
+// Texels lie along surfaces: they grow with the square of the resolution.
+void checkTexelMemory(std::size_t texels, const BakeShape& shape) {
     const double bytes = static_cast<double>(texels) * static_cast<double>(shape.bytesPerTexel());
-    if (bytes > memoryBytes() / 2)
-        throw Error("", "bake",
-                    fmt::format("{} texels need {:.1f} GB, more than half of this machine's {:.1f} GB",
-                                texels, bytes / 1e9, memoryBytes() / 1e9),
-                    "choose a lower resolution or fewer isovalues");
+    const double there = availableMemory();
+    if (bytes <= there) return;
+    throw Error("", "bake",
+                fmt::format("{} texels need {} of memory, and {} can be had", texels, memoryText(bytes),
+                            memoryText(there)),
+                fmt::format("{:.0f} % of this --resolution would fit, or fewer isovalues",
+                            std::floor(100 * std::sqrt(there / bytes))));
 }
 
 template <typename T>
@@ -71,7 +70,7 @@ BakeSums::BakeSums(const VolumeFrame& texels, std::vector<TexelBrick> bricks, co
         count += static_cast<std::size_t>(countTexels(brick.wanted));
     }
     mFirst.push_back(count);
-    checkMemory(count, shape);
+    checkTexelMemory(count, shape);
     if (shape.kind == BakeKind::Transfer) {
         mTransfer = LazyArray<float>(count * static_cast<std::size_t>(shape.numbersPerTexel()));
         mAlive = LazyArray<std::uint8_t>(count);

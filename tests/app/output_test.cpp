@@ -251,5 +251,69 @@ TEST_F(Output, TheInputIsNeverWrittenOver) {
     EXPECT_EQ(contentOf(picture), whole);
 }
 
+// Nobody named them: what a library opens beside what it was told to counts as well.
+TEST_F(Output, WhatLibrariesReadIsNeverWrittenOver) {
+    const std::string scene = hills();
+    const auto expectKept = [&](std::vector<std::string> arguments, const std::string& option,
+                                const std::string& file) {
+        const std::string before = contentOf(file);
+        arguments.insert(arguments.end(), {option, file});
+        expectRefused(arguments, {option, "is read in this run, and would be lost"});
+        EXPECT_EQ(contentOf(file), before) << file;
+    };
+    expectKept(comparing(), "--json", input("hills.asc.aux.xml", "<PAMDataset></PAMDataset>"));
+    expectKept(comparing(), "--csv", input("hills.prj", "LOCAL_CS[\"here\",UNIT[\"metre\",1]]\n"));
+
+    const std::string whole = contentOf(maskedTube());
+    input("tube.raw", whole.substr(whole.find("\n\n") + 2));
+    const std::string detached =
+        input("tube.nhdr", whole.substr(0, whole.find("\n\n")) + "\ndata file: tube.raw\n");
+    const std::string raw = (mFolder / "tube.raw").string();
+    fs::create_symlink(raw, mFolder / "tube.txt");
+    expectKept({"centreline", detached, "--no-cache"}, "--out", (mFolder / "tube.txt").string());
+    EXPECT_TRUE(fs::is_symlink(mFolder / "tube.txt"));
+}
+
+TEST_F(Output, LandmarksPathsAndEarlierReportsAreNeverWrittenOver) {
+    const std::string scene = hills(), mark = (mFolder / "mark.glb").string();
+    ASSERT_EQ(run({"mesh", scene, "--out", mark}).status, 0);
+    const std::string whole = contentOf(mark);
+    const std::string scenery = input(
+        "s.toml", "[terrain]\ndem = \"hills.asc\"\n[[landmark]]\nmesh = \"mark.glb\"\nposition_m = [0, 0]\n");
+    expectRefused({"mesh", scenery, "--out", mark}, {"--out", "a landmark of SCENE"});
+    EXPECT_EQ(contentOf(mark), whole);
+    const std::string path = input("flight.path", "0 100 100 500 0 0 0 1\n1 110 100 500 0 0 0 1\n");
+    fs::create_symlink(path, mFolder / "flight.avi");
+    for (const std::string option : {"--video"})
+        expectRefused(
+            {"play", scene, "--path", path, "--size", "32x24", option, (mFolder / "flight.avi").string()},
+            {option, "is read in this run"});
+    EXPECT_NE(contentOf(path).find("110"), std::string::npos);
+}
+
+TEST_F(Output, AnEarlierReportIsNotReplacedByTheOneThatIsComparedWithIt) {
+    const std::vector<std::string> report = {"report", "--quick", "--parts", "stability", "--out", "report"};
+    ASSERT_EQ(run(report).status, 0);
+    const std::string before = contentOf(place() / "report/report.json");
+    std::vector<std::string> again = report;
+    again.insert(again.end(), {"--compare", "report/report.json"});
+    const Outcome outcome = run(again);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("is read in this run"), std::string::npos) << outcome.err;
+    EXPECT_EQ(contentOf(place() / "report/report.json"), before);
+}
+
+TEST_F(Output, PipesAreNotReadFrom) {
+    const std::string pipe = (mFolder / "pipe.tif").string(), scene = hills();
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    expectRefused({"info", pipe}, {"pipe.tif", "found a pipe"});
+    expectRefused({"info", "/dev/zero"}, {"/dev/zero", "found a device"});
+    expectRefused({"render", scene, "--image", pipe, "--out", "a.png"}, {"--image", "found a pipe"});
+    expectRefused({"render", scene, "--sky", pipe, "--out", "a.png"}, {"--sky", "found a pipe"});
+    expectRefused({"play", scene, "--path", pipe, "--hash"}, {"pipe.tif"});
+    expectRefused({"render", maskedTube(), "--transfer", pipe, "--out", "a.png"}, {"found a pipe"});
+    expectRefused({"info", input("s.toml", "[terrain]\ndem = \"pipe.tif\"\n")}, {"found a pipe"});
+}
+
 }  // namespace
 }  // namespace stereonav::test

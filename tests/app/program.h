@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -117,6 +118,7 @@ private:
         const int outFile = open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
         const int errFile = open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
         if (outFile < 0 || errFile < 0 || chdir(place().c_str()) != 0) return;
+        signal(SIGINT, SIG_DFL);  // a shell has it ignored by what it runs in the background
         dup2(outFile, STDOUT_FILENO);
         dup2(errFile, STDERR_FILENO);
         std::vector<char*> argv{const_cast<char*>(STEREONAV_PROGRAM)};

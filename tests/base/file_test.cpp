@@ -1,6 +1,7 @@
 // Files are written whole or not at all, and nothing is left beside them.
 #include "engine/base/file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -17,6 +18,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/files_read.h"
 
 namespace stereonav {
 namespace {
@@ -126,7 +128,7 @@ TEST_F(FileTest, PipesAreWrittenInto) {
     EXPECT_NO_THROW(checkPlaceForFile(in("pipe.txt")));
     for (const bool whole : {true, false}) {
         std::string read;
-        std::thread reader([&] { read = readTextFile(in("pipe.txt")); });
+        std::thread reader([&] { std::getline(std::ifstream(in("pipe.txt")), read, '\0'); });
         if (whole)
             writeTextFile(in("pipe.txt"), "a line");
         else
@@ -139,6 +141,56 @@ TEST_F(FileTest, PipesAreWrittenInto) {
         EXPECT_TRUE(fs::is_fifo(in("pipe.txt")));
     }
     EXPECT_EQ(entries(), 1);
+}
+
+// Nothing may ever come out of them.
+TEST_F(FileTest, PipesAndDevicesAreNotRead) {
+    ASSERT_EQ(mkfifo(in("pipe").c_str(), 0600), 0);
+    EXPECT_THAT(messageOf([&] { readTextFile(in("pipe")); }), HasSubstr("expected a file, found a pipe"));
+    EXPECT_THAT(messageOf([&] { readTextFile("/dev/zero"); }), HasSubstr("expected a file, found a device"));
+    EXPECT_THAT(messageOf([&] { checkFileToRead(in("")); }), HasSubstr("expected a file, found a folder"));
+    EXPECT_NO_THROW(checkFileToRead(in("not there")));
+}
+
+TEST_F(FileTest, WhatWasReadIsNotReplaced) {
+    writeTextFile(in("a.txt"), "old");
+    fs::create_hard_link(in("a.txt"), in("b.txt"));
+    fs::create_symlink(in("a.txt"), in("link.txt"));
+    const int file = open(in("a.txt").c_str(), O_RDONLY);
+    noteFileRead(file);
+    close(file);
+    for (const char* name : {"a.txt", "b.txt", "link.txt"}) {
+        const fs::path place = in(name);
+        EXPECT_THAT(messageOf([&] { writeTextFile(place, "new"); }), HasSubstr("is read in this run"));
+        EXPECT_EQ(readTextFile(place), "old");
+    }
+    EXPECT_EQ(entries(), 3);
+    writeTextFile(in("c.txt"), "new");  // next to it
+    const auto write = [](const fs::path& temporary) { std::ofstream(temporary) << "new"; };
+    writeFileAtomically(in("a.txt"), write, Over::Anything);
+    EXPECT_EQ(readTextFile(in("a.txt")), "new");
+    writeTextFile(in("a.txt"), "newer");  // which is another file now
+    EXPECT_EQ(readTextFile(in("b.txt")), "old");
+}
+
+// It began to be read while it was made: seen at the end.
+TEST_F(FileTest, WhatIsReadMeanwhileIsNotReplaced) {
+    writeTextFile(in("a.txt"), "old");
+    const auto write = [&](const fs::path& temporary) {
+        std::ofstream(temporary) << "new";
+        const int file = open(in("a.txt").c_str(), O_RDONLY);
+        noteFileRead(file);
+        close(file);
+    };
+    EXPECT_THAT(messageOf([&] { writeFileAtomically(in("a.txt"), write); }), HasSubstr("would be lost"));
+    EXPECT_EQ(readTextFile(in("a.txt")), "old");
+    EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(FileTest, LongNamesAreWritten) {
+    const std::string name = std::string(250, 'a') + ".txt";
+    writeTextFile(in(name), "x");
+    EXPECT_EQ(readTextFile(in(name)), "x");
 }
 
 // As the superuser too, who could put a file in its place.

@@ -1,0 +1,45 @@
+// The wish of the user or the system to end the run (SIGINT, SIGTERM), and what is left of a run that ends at
+// once. Loops and reports of progress ask here, so that a stop comes out of them as Cancelled, which takes
+// unfinished files away. What sits in a library meanwhile, or in a write that nobody reads, does not hold the
+// run: after kMostStopping_ms it ends where it is, its unfinished files taken away all the same.
+#pragma once
+
+namespace stereonav {
+
+// From the first signal to the end, but for what is being finished.
+constexpr int kMostStopping_ms = 700;
+
+// From here on SIGINT and SIGTERM are such wishes, unless whoever started the program had them ignored. A
+// second one ends the run at once.
+void catchStopSignals();
+
+bool stopWished();
+// Throws Cancelled where one is wished, unless something is being finished.
+void throwIfStopped();
+
+// While one lives, what was done so far is being finished or kept: nothing is cut off.
+class FinishingWork {
+public:
+    FinishingWork();
+    ~FinishingWork();
+    FinishingWork(const FinishingWork&) = delete;
+    FinishingWork& operator=(const FinishingWork&) = delete;
+};
+
+// A file that is not complete, or a folder that holds one: taken away where the run ends at once.
+class UnfinishedFile {
+public:
+    explicit UnfinishedFile(const char* path);
+    ~UnfinishedFile();
+    UnfinishedFile(const UnfinishedFile&) = delete;
+    UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+
+private:
+    int mSlot;
+};
+
+// A module has this code a second time (module.h): it follows the program's wish.
+void* stopOfThisProgram();
+void shareStop(void* program);
+
+}  // namespace stereonav

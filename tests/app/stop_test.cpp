@@ -1,0 +1,127 @@
+// SIGTERM and SIGINT at any time: the run ends soon, says so, and leaves neither half a file nor a lost one.
+#include <sys/stat.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "tests/app/volume_input.h"
+
+namespace stereonav::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// Seconds that a stop may take: one on a machine that does nothing else; tests run beside others.
+constexpr double kLongestStop = 10;
+
+class Stop : public VolumeTest {
+protected:
+    struct Job {
+        std::string name;
+        std::vector<std::string> arguments;
+        std::string old;     // a file in the place that holds something before; "": none
+        bool keeps = false;  // what is done, as a file of its own
+    };
+
+    std::vector<Job> jobs() const {
+        const std::string scene = ground();
+        return {
+            {"render",
+             {"render", "wax", "--size", "600x600", "--slices", "20000", "--out", "a.png"},
+             "a.png"},
+            {"play", {"play", scene, "--size", "400x300", "--frames", "5000", "--out", "frames"}, "", true},
+            {"video", {"play", scene, "--size", "400x300", "--frames", "5000", "--video", "a.mkv"}, "a.mkv"},
+            {"compare",
+             {"compare", scene, "--size", "600x400", "--frames", "500", "--json", "a.json"},
+             "a.json"},
+            {"mesh", {"mesh", scene, "--error", "0", "--out", "a.glb"}, "a.glb"},
+            {"centreline", {"centreline", "colon", "--no-cache", "--out", "a.vtp"}, "a.vtp"},
+            {"bake terrain",
+             {"bake", scene, "--samples", "4096", "--resolution", "1", "--out", "a.light"},
+             ""},
+            {"bake volume",
+             {"bake", maskedTube(), "--no-cache", "--samples", "1000000", "--out", "a.bake"},
+             "",
+             true},
+            {"info", {"info", scene, "--size", "8000x8000"}, ""},
+            {"report", {"report", "--minutes", "5", "--out", "report"}, ""}};
+    }
+
+    std::string ground() const {
+        return grid("ground.asc", 500, 500, 30.0, [](int i, int j) { return 100 + (i * 37 + j * 91) % 50; });
+    }
+
+    // Milliseconds until it ended; what it left is checked.
+    double stopAfter(const Job& job, double seconds, int signal) const {
+        for (const auto& entry : fs::directory_iterator(place())) fs::remove_all(entry.path());
+        if (!job.old.empty()) std::ofstream(place() / job.old) << "old";
+        const pid_t child = start(job.arguments);
+        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+        const auto before = Clock::now();
+        kill(child, signal);
+        const Outcome outcome = await(child);
+        const double taken = std::chrono::duration<double, std::milli>(Clock::now() - before).count();
+        if (outcome.status == 0) return taken;  // it was done
+        const bool wasNotThereYet = seconds < 0.1 && outcome.status == -1;
+        if (!wasNotThereYet) {
+            EXPECT_EQ(outcome.status, 1) << outcome.err;
+            EXPECT_NE(outcome.err.find("stopped"), std::string::npos) << outcome.err;
+        }
+        for (const auto& entry : fs::recursive_directory_iterator(place())) {
+            EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
+            if (entry.path() == place() / job.old)
+                EXPECT_EQ(contentOf(entry.path()), "old");
+            else
+                EXPECT_TRUE(job.keeps) << entry.path() << " was left behind";
+        }
+        if (!job.old.empty()) {
+            EXPECT_TRUE(fs::exists(place() / job.old));
+        }
+        return taken;
+    }
+};
+
+TEST_F(Stop, EndsEveryCommandSoonAndLeavesNothing) {
+    for (const Job& job : jobs())
+        for (const double seconds : {0.02, 0.3, 1.0}) {
+            SCOPED_TRACE(job.name + " after " + std::to_string(seconds) + " s");
+            const double taken = stopAfter(job, seconds, SIGTERM);
+            EXPECT_LT(taken, 1000 * kLongestStop);
+            if (const char* file = std::getenv("STEREONAV_STOP_TABLE"))
+                std::ofstream(file, std::ios::app) << job.name << '\t' << seconds << '\t' << taken << '\n';
+        }
+}
+
+TEST_F(Stop, ByTheKeyboardIsTheSame) {
+    EXPECT_LT(stopAfter(jobs()[0], 0.3, SIGINT), 1000 * kLongestStop);
+    EXPECT_LT(stopAfter(jobs()[2], 0.3, SIGINT), 1000 * kLongestStop);
+}
+
+// Nobody reads the other end of the pipe: the write never ends, the run does.
+TEST_F(Stop, EndsARunThatNobodyListensTo) {
+    const std::string pipe = (mFolder / "pipe.png").string();
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const int other = open(pipe.c_str(), O_RDWR);
+    const pid_t child = start({"render", ground(), "--size", "900x900", "--out", pipe});
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    kill(child, SIGTERM);
+    const Outcome outcome = await(child);
+    close(other);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.err, "stereonav: stopped\n");
+    EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+// As a shell has it for jobs in the background: their keyboard is another's.
+TEST_F(Stop, WhatWasIgnoredStaysIgnored) {
+    const std::string command = "trap '' INT; '" STEREONAV_PROGRAM "' play '" + ground() +
+                                "' --size 400x300 --frames 20 --hash >'" + (mFolder / "out").string() +
+                                "' & sleep 0.2; kill -INT $!; wait $!";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    EXPECT_NE(contentOf(mFolder / "out").find("hash "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stereonav::test

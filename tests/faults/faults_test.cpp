@@ -1,0 +1,75 @@
+// Each call to the system fails once under each command: never a wrong file and exit status 0, never a lost
+// one. STEREONAV_ALL_FAULTS=1 tries every call but of videos' writes, STEREONAV_FAULT_TABLE=FILE keeps what
+// came of them.
+#include <fstream>
+
+#include "tests/faults/fault_case.h"
+
+namespace stereonav::test {
+namespace {
+
+constexpr std::uint64_t kSample = 1, kMost = 400;  // of a kind and command
+
+class Faults : public FaultTest {
+protected:
+    void tryAll(const std::string& prefix, std::uint64_t sample) const {
+        const bool whole = std::getenv("STEREONAV_ALL_FAULTS") != nullptr;
+        int tried = 0;
+        for (const FaultCase& one : cases()) {
+            if (!one.name.starts_with(prefix)) continue;
+            const auto tallies = tryFaults(one, whole ? kMost : sample);
+            for (std::size_t k = 0; k < tallies.size(); ++k) {
+                keep(one.name, kFaultKinds[k], tallies[k]);
+                tried += tallies[k].tried;
+            }
+        }
+        EXPECT_GT(tried, 0);
+    }
+
+private:
+    static void keep(const std::string& name, const std::string& kind, const FaultTally& tally) {
+        const char* file = std::getenv("STEREONAV_FAULT_TABLE");
+        if (!file || tally.calls == 0) return;
+        std::ofstream(file, std::ios::app)
+            << name << '\t' << kind << '\t' << tally.calls << '\t' << tally.tried << '\t' << tally.refused
+            << '\t' << tally.whole << '\n';
+    }
+};
+
+TEST_F(Faults, OfPictures) {
+    tryAll("render", kSample);
+}
+
+TEST_F(Faults, OfFlights) {
+    tryAll("play", kSample);
+}
+
+TEST_F(Faults, OfComparisons) {
+    tryAll("compare", kSample);
+}
+
+TEST_F(Faults, OfMeshesAndCentrelines) {
+    tryAll("mesh", kSample);
+    tryAll("centreline", kSample);
+}
+
+TEST_F(Faults, OfBakes) {
+    tryAll("bake", kSample);
+}
+
+TEST_F(Faults, OfFactsAndReports) {
+    tryAll("info", kSample);
+    tryAll("report", kSample);
+}
+
+// The layer itself: a run without a fault makes calls of each kind, and one that fails is seen.
+TEST_F(Faults, AreSeen) {
+    const FaultCase picture = cases().front();
+    const auto tallies = tryFaults(picture, 1);
+    for (std::size_t k = 0; k < tallies.size(); ++k) EXPECT_GT(tallies[k].calls, 0u) << kFaultKinds[k];
+    EXPECT_EQ(tallies[0].refused, 1) << "a write that failed";
+    EXPECT_EQ(tallies[2].refused, 1) << "a file that was not renamed";
+}
+
+}  // namespace
+}  // namespace stereonav::test
