@@ -2,9 +2,9 @@
 add_library(stereonav_options INTERFACE)
 target_compile_options(stereonav_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wno-unknown-pragmas
   -ffp-contract=off -fno-math-errno -fno-trapping-math
-  -Wno-restrict)  # false positives of g++ 12 on std::string operator+ (gcc bug 105651)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # false positives of g++ 12 on std::string operator+ (gcc bug 105651)
 if(CMAKE_UNITY_BUILD)  # g++ takes a source that a unity source includes for a header
-  target_compile_options(stereonav_options INTERFACE -Wno-subobject-linkage)
+  target_compile_options(stereonav_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
 if(STEREONAV_WERROR)
   target_compile_options(stereonav_options INTERFACE -Werror)
@@ -13,6 +13,9 @@ if(STEREONAV_SANITIZE)
   target_compile_options(stereonav_options INTERFACE -fsanitize=${STEREONAV_SANITIZE}
     -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(stereonav_options INTERFACE -fsanitize=${STEREONAV_SANITIZE})
+endif()
+if(STEREONAV_FUZZ)  # all that is ours counts its edges
+  target_compile_options(stereonav_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 target_include_directories(stereonav_options INTERFACE ${CMAKE_SOURCE_DIR})
 

@@ -74,8 +74,11 @@ function(stereonav_module name folder)
   add_library(${target} MODULE)
   stereonav_sources(${target} ${folder} ONLY ${ARG_ONLY})
   target_link_libraries(${target} PRIVATE engine_base ${ARG_LINK})
-  # Everything it needs itself is there when it links, and bound when it loads.
-  target_link_options(${target} PRIVATE -Wl,--no-undefined -Wl,-z,now)
+  # Everything it needs itself is there when it links, and bound when it loads. clang's sanitizers are in the program.
+  if(NOT STEREONAV_FUZZ)
+    target_link_options(${target} PRIVATE -Wl,--no-undefined)
+  endif()
+  target_link_options(${target} PRIVATE -Wl,-z,now)
   set_target_properties(${target} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/stereonav)
 endfunction()

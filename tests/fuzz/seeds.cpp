@@ -1,0 +1,156 @@
+// Writes the inputs that fuzzing starts from, with the program's own writers where it has them: one folder a
+// reader in the folder that is named.
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include "colon/centreline.h"
+#include "colon/colon_cache.h"
+#include "colon/study.h"
+#include "engine/base/file.h"
+#include "engine/base/progress.h"
+#include "engine/camera/recorded_path.h"
+#include "engine/image/image_file.h"
+#include "engine/light/bake_file.h"
+#include "terrain/heightfield.h"
+#include "terrain/terrain_light.h"
+#include "tests/fuzz/readers.h"
+
+namespace {
+namespace fs = std::filesystem;
+using namespace stereonav;
+
+constexpr int kSide = 6;
+
+VolumeFrame smallFrame() {
+    VolumeFrame frame;
+    frame.size = glm::ivec3(kSide);
+    frame.spacing = glm::dvec3(0.001);
+    return frame;
+}
+
+MaskVolume smallMask() {
+    MaskVolume mask;
+    mask.frame = smallFrame();
+    mask.values.assign(mask.frame.count(), 0);
+    for (int k = 1; k < kSide - 1; ++k) mask.values[mask.frame.index(3, 3, k)] = 1;
+    return mask;
+}
+
+Centreline smallLine() {
+    Centreline line;
+    for (int n = 0; n < 4; ++n) line.points.push_back({{0.001 * n, 0.002, 0.003}, 0.01, n < 2 ? 1 : 2});
+    return line;
+}
+
+void writePaths(const fs::path& folder) {
+    std::vector<PathSample> samples(3);
+    for (int n = 0; n < 3; ++n) {
+        samples[n].time = n;
+        samples[n].pose.position = {n, 2.0 * n, 3.0};
+    }
+    const RecordedPath path(samples, "seed");
+    writePath(folder / "path-text/seed.path", path);
+    writePath(folder / "path-gltf/seed.gltf", path);
+    writePath(folder / "path-gltf/seed.glb", path);
+}
+
+// A triangle whose buffer is within the text.
+constexpr const char* kTriangle = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"mesh":0,"translation":[1,2,3],"scale":[2,2,2]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0.25,1]}}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+
+constexpr const char* kGrid =
+    "ncols 3\nnrows 2\nxllcorner 500000\nyllcorner 4000000\ncellsize 30\n"
+    "NODATA_value -9999\n1 2 3\n4 -9999 6\n";
+
+std::string niftiText() {
+    std::array<char, 352 + 2 * 64> bytes{};
+    const auto put = [&](std::size_t at, auto value) {
+        std::memcpy(bytes.data() + at, &value, sizeof value);
+    };
+    put(0, std::int32_t{348});
+    for (int n = 0; n < 4; ++n) put(40 + 2 * n, static_cast<std::int16_t>(n == 0 ? 3 : 4));
+    put(70, std::int16_t{4});   // signed 16-bit
+    put(72, std::int16_t{16});  // bits
+    for (int n = 0; n < 4; ++n) put(76 + 4 * n, 1.0f);
+    put(108, 352.0f);  // where the samples begin
+    put(112, 1.0f);    // slope
+    std::memcpy(bytes.data() + 344, "n+1", 4);
+    for (int n = 0; n < 64; ++n) put(352 + 2 * n, static_cast<std::int16_t>(20 * n - 1000));
+    return {bytes.data(), bytes.size()};
+}
+
+void writeBakes(const fs::path& folder) {
+    const BakeShape shape;
+    std::vector<TexelBrick> bricks(1);
+    bricks[0].wanted.fill(~std::uint64_t{0});
+    const BakeSums sums(smallFrame(), bricks, shape);
+    writeBakeFile(folder / "bake/seed", {1, 2}, sums);
+
+    const Heightfield ground(3, 3, {30.0, 30.0}, std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9});
+    Progress progress;
+    TerrainLightSettings settings;
+    settings.rays = 16;
+    saveTerrainLight(folder / "ground-light/seed", bakeTerrainLight(ground, settings, progress));
+}
+
+void writeColon(const fs::path& folder) {
+    setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+    Progress progress;
+    const FoundColon found{"NRRD", lumenFromMask(smallMask(), {}, progress), smallLine(), {}, {"a note"}};
+    writeColonCache(1, found);
+    fs::create_directories(folder / "colon-cache");
+    for (const auto& entry : fs::directory_iterator(cacheFolder()))
+        fs::rename(entry.path(), folder / "colon-cache/seed");
+    fs::remove_all(cacheFolder());
+}
+
+void writeSeeds(const fs::path& folder) {
+    for (const fuzz::Reader& reader : fuzz::readers()) fs::create_directories(folder / reader.name);
+    writePaths(folder);
+    writeTextFile(folder / "landmark/seed", kTriangle);
+    writeTextFile(folder / "probe/seed",
+                  std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n") + std::string(32, '\x80'));
+    writeColorImage(folder / "picture/seed.png", Plane<PackedColor>(5, 3));
+    for (const char* end : {"text/seed.txt", "vtp/seed.vtp", "vtk/seed.vtk"})
+        writeCentreline(folder / (std::string("line-") + end), smallLine());
+    writeMask(folder / "nrrd/seed.nrrd", smallMask(), "");
+    writeTextFile(folder / "nrrd/raw",
+                  "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nendian: little\n"
+                  "encoding: raw\nspace: left-posterior-superior\n"
+                  "space directions: (1,0,0) (0,1,0) (0,0,1)\n\n0123456789abcdef");
+    writeTextFile(folder / "metaimage/seed",
+                  "ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\n"
+                  "ElementType = MET_SHORT\nElementSpacing = 1 1 1\n"
+                  "ElementDataFile = LOCAL\n0123456789abcdef");
+    writeTextFile(folder / "nifti/seed", niftiText());
+    writeTextFile(folder / "raster/seed", kGrid);
+    writeBakes(folder);
+    writeColon(folder);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
+        return 1;
+    }
+    try {
+        writeSeeds(argv[1]);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "fuzz_seeds: %s\n", error.what());
+        return 1;
+    }
+}
