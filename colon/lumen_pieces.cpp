@@ -73,7 +73,8 @@ public:
         way[start] = 0;
         Far far{start, 0};
         while (!queue.empty()) {
-            const auto [walked, n] = queue.top();
+            const double walked = queue.top().first;
+            const std::size_t n = queue.top().second;
             queue.pop();
             if (walked > way[n]) continue;
             if (walked > far.way) far = {n, walked};

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t kImageType = 0x00080008, kSopClass = 0x00080016, kModality = 0x00080060,
                         kSeriesDescription = 0x0008103e, kKernel = 0x00181210, kSeriesUid = 0x0020000e,
                         kPosition = 0x00200032, kOrientation = 0x00200037, kPlanePosition = 0x00209113,
-                        kPlaneOrientation = 0x00209116, kSamples = 0x00280002, kFrames = 0x00280008,
+                        kPlaneOrientation = 0x00209116, kSamplesOfPixel = 0x00280002, kFrames = 0x00280008,
                         kRows = 0x00280010, kColumns = 0x00280011, kPixelSpacing = 0x00280030,
                         kBitsAllocated = 0x00280100, kSigned = 0x00280103, kPadding = 0x00280120,
                         kPaddingLimit = 0x00280121, kIntercept = 0x00281052, kSlope = 0x00281053,
@@ -147,7 +147,7 @@ std::vector<DicomSlice> readSlices(const fs::path& path, bool& isDicom) {
     slice.kernel = slice.kernel.substr(0, slice.kernel.find('\\'));  // the first of several
     slice.rows = file.word(kRows, 0);
     slice.columns = file.word(kColumns, 0);
-    slice.samples = file.word(kSamples, 1);
+    slice.samples = file.word(kSamplesOfPixel, 1);
     const auto frames = set.numbers(kFrames, 1);
     if (!frames.empty()) slice.frames = static_cast<int>(std::clamp(frames[0], 1.0, 1.0 * kMostFrames));
     slice.damage = file.damage();

@@ -37,7 +37,7 @@ VolumeFrame smallFrame() {
 MaskVolume smallMask() {
     MaskVolume mask;
     mask.frame = smallFrame();
-    mask.values.assign(mask.frame.count(), 0);
+    mask.values = LazyArray<std::uint8_t>(mask.frame.count());
     for (int k = 1; k < kSide - 1; ++k) mask.values[mask.frame.index(3, 3, k)] = 1;
     return mask;
 }
@@ -97,7 +97,7 @@ void writeBakes(const fs::path& folder) {
     const BakeSums sums(smallFrame(), bricks, shape);
     writeBakeFile(folder / "bake/seed", {1, 2}, sums);
 
-    const Heightfield ground(3, 3, {30.0, 30.0}, std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9});
+    const Heightfield ground(3, 3, {30.0, 30.0}, std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9}, "seed");
     Progress progress;
     TerrainLightSettings settings;
     settings.rays = 16;
