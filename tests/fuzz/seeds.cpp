@@ -1,5 +1,6 @@
 // Writes the inputs that fuzzing starts from, with the program's own writers where it has them: one folder a
 // reader in the folder that is named.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include "colon/centreline.h"
 #include "colon/colon_cache.h"
 #include "colon/study.h"
+#include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/progress.h"
 #include "engine/camera/recorded_path.h"
@@ -110,8 +112,11 @@ void writeColon(const fs::path& folder) {
     const FoundColon found{"NRRD", lumenFromMask(smallMask(), {}, progress), smallLine(), {}, {"a note"}};
     writeColonCache(1, found);
     fs::create_directories(folder / "colon-cache");
-    for (const auto& entry : fs::directory_iterator(cacheFolder()))
-        fs::rename(entry.path(), folder / "colon-cache/seed");
+    const auto reader = std::ranges::find(fuzz::readers(), "colon-cache", &fuzz::Reader::name);
+    if (!fs::exists(folder / reader->file))
+        throw Error(reader->file, "", "is not where a colon is kept: its version was raised",
+                    "name it so in readers.cpp");
+    fs::rename(folder / reader->file, folder / "colon-cache/seed");
     fs::remove_all(cacheFolder());
 }
 
