@@ -126,10 +126,6 @@ void addLight(std::vector<Rule>& all) {
                    "--method",
                    {{is(Factor::Light, {"traced"}), is(Factor::Scene, volumes), isLeftOut(Factor::Medium),
                      isNot(Factor::Method, {"auto", "full"})}}});
-    all.push_back({"nothing is warped",
-                   "--quality",
-                   {{is(Factor::Light, {"traced"}), is(Factor::Scene, volumes), isLeftOut(Factor::Medium),
-                     isGiven(Factor::Quality)}}});
     all.push_back(
         {"openness weakens the lamp's light",
          "--exposure",
@@ -223,6 +219,12 @@ void addMedia(std::vector<Rule>& all) {
                    {{is(Factor::Scene, kBuiltInMedia), isLeftOut(Factor::Fineness)}}});
 }
 
+// The dial's options, each named as it was given.
+struct Dial {
+    const char *level, *option;
+};
+constexpr Dial kDials[]{{"share", "--quality"}, {"psnr", "--target-psnr"}, {"time", "--target-ms"}};
+
 void addMethods(std::vector<Rule>& all) {
     const Names swept = Names{"auto"} + kPairMethods;
     const Names onlyPairs{"sweep", "own-samples", "two-sweeps"};
@@ -235,13 +237,19 @@ void addMethods(std::vector<Rule>& all) {
         {"nothing is swept",
          "method",
          {{isNot(Factor::Scene, kBuiltInMedia), isLeftOut(Factor::Medium), is(Factor::Method, onlyPairs)}}});
-    all.push_back({"nothing is warped", "--quality", {{isGiven(Factor::Medium), isGiven(Factor::Quality)}}});
-    all.push_back(
-        {"nothing is warped", "--quality", {{is(Factor::Scene, kBuiltInMedia), isGiven(Factor::Quality)}}});
-    all.push_back({"no expected error is known",
-                   "--quality",
-                   {{isNot(Factor::Scene, kBuiltInMedia), isLeftOut(Factor::Medium), isGiven(Factor::Quality),
-                     isNot(Factor::Method, {"auto", "linear", "cubic", "selective"})}}});
+    for (const Dial& dial : kDials) {
+        const Clause::Part given = is(Factor::Quality, {dial.level});
+        all.push_back({"nothing is warped", dial.option, {{isGiven(Factor::Medium), given}}});
+        all.push_back({"nothing is warped", dial.option, {{is(Factor::Scene, kBuiltInMedia), given}}});
+        all.push_back({"no expected error is known",
+                       dial.option,
+                       {{isNot(Factor::Scene, kBuiltInMedia), isLeftOut(Factor::Medium), given,
+                         isNot(Factor::Method, {"auto", "linear", "cubic", "selective"})}}});
+        all.push_back({"nothing is warped",
+                       dial.option,
+                       {{is(Factor::Light, {"traced"}), is(Factor::Scene, kOutside + kColons),
+                         isLeftOut(Factor::Medium), given}}});
+    }
     all.push_back({"opacity to modulate",
                    "--modulate",
                    {{is(Factor::Scene, kOutside), isLeftOut(Factor::Medium), isGiven(Factor::Modulation),
