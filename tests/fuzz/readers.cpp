@@ -84,6 +84,7 @@ constexpr Reader kReaders[] = {
     {"nifti", "study.nii", study},
     {"nifti-gz", "study.nii.gz", study},
     {"metaimage", "study.mha", study},
+    {"dicom", "study.dcm", study},
     {"raster", "ground.tif",
      [](const fs::path& file) {
          Progress progress;

@@ -22,6 +22,7 @@
 #include "terrain/heightfield.h"
 #include "terrain/terrain_light.h"
 #include "tests/fuzz/readers.h"
+#include "tests/support/dicom_files.h"
 
 namespace {
 namespace fs = std::filesystem;
@@ -139,6 +140,12 @@ void writeSeeds(const fs::path& folder) {
                   "ElementType = MET_SHORT\nElementSpacing = 1 1 1\n"
                   "ElementDataFile = LOCAL\n0123456789abcdef");
     writeTextFile(folder / "nifti/seed", niftiText());
+    test::DicomSpec frames;
+    for (int n = 0; n < 3; ++n) frames.frames.push_back({10, 20, 30.0 + n});
+    test::writeDicom(folder / "dicom/seed", frames);
+    frames.knownLengths = false;
+    frames.syntax = test::DicomSyntax::Implicit;
+    test::writeDicom(folder / "dicom/implicit", frames);
     writeTextFile(folder / "raster/seed", kGrid);
     writeBakes(folder);
     writeColon(folder);
