@@ -41,10 +41,8 @@ LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& p
     mChoice = plan.inputs.choice;
     if (mChoice.region) mChoice.region = &mRegion;
     // Where the surface is moved later on, texels far from this one stand for their own values'.
-    TexelSampling sampling = plan.inputs.sampling;
-    sampling.lowest = static_cast<double>(mChoice.lowest);
-    sampling.highest = static_cast<double>(mChoice.highest);
-    mLighter = std::make_unique<TexelLighter>(mField, plan.inputs.texels, plan.inputs.light, sampling);
+    mLighter =
+        std::make_unique<TexelLighter>(mField, plan.inputs.texels, plan.inputs.light, plan.inputs.sampling);
     LazyBakeSetting setting;
     setting.shape = plan.inputs.shape;
     mBake = std::make_unique<LazyBake>(mField, mChoice, sourceOf(*mLighter), *mLight, setting);

@@ -256,6 +256,10 @@ VolumeBakePlan planVolumeBake(const ColonScene& scene, const BakeOptions& option
     in.shape.channels = a.x == a.y && a.y == a.z ? 1 : 3;
     in.texels = texelFrame(field.frame, options.resolution.value_or(1));
     in.choice = choiceOf(scene, options);
+    if (!in.choice.full) {
+        in.sampling.lowest = static_cast<double>(in.choice.lowest);
+        in.sampling.highest = static_cast<double>(in.choice.highest);
+    }
     plan.bricks = wantedBricks(field, in.texels, in.choice, progress);
     require(!plan.bricks.empty(), options.isovalues.empty() ? "SCENE" : "--isovalues",
             "no surface is there to be lit", "choose values inside the volume's");

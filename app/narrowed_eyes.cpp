@@ -31,7 +31,7 @@ void NarrowedEyes::step(const Pose& head, double free, const RoomSeen& room, dou
 }
 
 StereoSetting NarrowedEyes::at(const Pose& head, double time) {
-    if (!mScene.eyesFollow) return mScene.stereo;
+    if (!mScene.eyesFollow || !mScene.renderer) return mScene.stereo;  // a medium has no depths to look at
     const EyeView view = makeEyeView(head, smallOf(mScene.lens));
     mLook.resize(view.width, view.height, mScene.renderer->viewDependence());
     renderEye(*mScene.renderer, view, mLook);

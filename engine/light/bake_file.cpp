@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the file's form, or what the same inputs give, changes.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::array<char, 8> kMagic{'S', 'N', 'L', 'I', 'G', 'H', 'T', '\n'};
 
 struct Header {
