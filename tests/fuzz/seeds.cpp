@@ -110,7 +110,11 @@ void writeBakes(const fs::path& folder) {
 void writeColon(const fs::path& folder) {
     setenv("XDG_CACHE_HOME", folder.c_str(), 1);
     Progress progress;
-    const FoundColon found{"NRRD", lumenFromMask(smallMask(), {}, progress), smallLine(), {}, {"a note"}};
+    FoundColon found;
+    found.format = "NRRD";
+    found.lumen = lumenFromMask(smallMask(), {}, progress);
+    found.centreline = smallLine();
+    found.notes = {"a note"};
     writeColonCache(1, found);
     fs::create_directories(folder / "colon-cache");
     const auto reader = std::ranges::find(fuzz::readers(), "colon-cache", &fuzz::Reader::name);
