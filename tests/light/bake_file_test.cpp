@@ -150,7 +150,7 @@ TEST_F(BakeFileTest, SaysWhatIsWrong) {
         bytes[at] = static_cast<char>(bytes[at] ^ 2);
         return problemOf(bytes);
     };
-    EXPECT_THAT(changed(8), HasSubstr("format version 3"));
+    EXPECT_THAT(changed(8), HasSubstr("format version " + std::to_string(whole[8] ^ 2)));
     EXPECT_THAT(changed(58), HasSubstr("header"));
     EXPECT_THAT(changed(kHeaderBytes + 20), HasSubstr("bricks"));
     EXPECT_THAT(changed(whole.size() - 3), HasSubstr("sums"));
