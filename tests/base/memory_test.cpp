@@ -42,8 +42,8 @@ TEST_F(MemoryTest, IsInfiniteWhereNothingTells) {
 }
 
 TEST_F(MemoryTest, OfAGroupIsWhatItLeaves) {
-    put("proc/self/cgroup", "0::/work/one\n");
-    const std::string group = "sys/fs/cgroup/work/one/";
+    put("proc/self/cgroup", "0::/jobs/one\n");
+    const std::string group = "sys/fs/cgroup/jobs/one/";
     put(group + "memory.max", "3000000000\n");
     put(group + "memory.current", "1000000000\n");
     EXPECT_EQ(availableMemory(mRoot), 2e9);
@@ -51,8 +51,8 @@ TEST_F(MemoryTest, OfAGroupIsWhatItLeaves) {
     EXPECT_EQ(availableMemory(mRoot), 2.4e9) << "files that are kept in memory are given back";
     put(group + "memory.max", "max\n");
     EXPECT_EQ(availableMemory(mRoot), 8000000.0 * 1024);
-    put("sys/fs/cgroup/work/memory.max", "1500000000\n");  // the one above
-    put("sys/fs/cgroup/work/memory.current", "500000000\n");
+    put("sys/fs/cgroup/jobs/memory.max", "1500000000\n");  // the one above
+    put("sys/fs/cgroup/jobs/memory.current", "500000000\n");
     EXPECT_EQ(availableMemory(mRoot), 1e9);
     put("sys/fs/cgroup/memory.max", "700000000\n");  // what a container sees as its own
     put("sys/fs/cgroup/memory.current", "800000000\n");

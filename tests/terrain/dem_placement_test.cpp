@@ -16,16 +16,12 @@ using test::compareWithGdal;
 using test::errorOf;
 using test::GdalReading;
 using test::RasterSpec;
+using test::readGround;
 using test::TempFolder;
 using test::writeRaster;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-
-DemGrid readPlaced(const std::filesystem::path& file) {
-    Progress progress;
-    return readDem(file, 1, progress);
-}
 
 void expectLine(const std::string& message, const std::filesystem::path& file, const std::string& what) {
     EXPECT_THAT(message, AllOf(HasSubstr(file.string() + ":"), HasSubstr(what), Not(HasSubstr("\n"))));
@@ -73,7 +69,7 @@ TEST(DemPlacement, ControlPointsOfAStraightGridAreATransform) {
         std::vector<glm::dvec2> pixels(kTwelve.begin(), kTwelve.begin() + static_cast<long>(count));
         if (count < 12) pixels = {{0, 0}, {90, 0}, {90, 70}, {0, 70}}, pixels.resize(count);
         const auto file = writeRaster(folder / "straight.tif", pointSpec(pixels, turnedPlace));
-        const DemGrid dem = readPlaced(file);
+        const DemGrid dem = readGround(file);
         EXPECT_TRUE(dem.georeferenced);
         EXPECT_TRUE(dem.source.points.empty());
         EXPECT_THAT(dem.source.placedBy,
@@ -89,7 +85,7 @@ TEST(DemPlacement, ControlPointsOfAStraightGridAreATransform) {
 TEST(DemPlacement, ControlPointsOfABentGridAreAPolynomial) {
     const TempFolder folder;
     const auto file = writeRaster(folder / "bent.tif", pointSpec(kTwelve, bentPlace));
-    const DemGrid dem = readPlaced(file);
+    const DemGrid dem = readGround(file);
     EXPECT_EQ(dem.source.points.size(), 12u);
     EXPECT_THAT(dem.source.placedBy, HasSubstr("by a polynomial of the second order, off by"));
     const Compared all = compareWithGdal(dem, GdalReading(file, 1, dem.grid.wkt));
@@ -117,7 +113,7 @@ TEST(DemPlacement, PicturesFollowControlPoints) {
     bare.width = 180;
     bare.height = 140;
     bare.placed = false;
-    const Georeference place = readPlaced(scene.dem).source;
+    const Georeference place = readGround(scene.dem).source;
     for (const auto& image : {pictureOf("bare.png",
                                         [&] {
                                             bare.driver = "PNG";
@@ -127,7 +123,7 @@ TEST(DemPlacement, PicturesFollowControlPoints) {
         scene.image = image;
         Progress progress;
         const TerrainScene terrain = loadTerrain(scene, progress);
-        const DemGrid dem = readPlaced(scene.dem);
+        const DemGrid dem = readGround(scene.dem);
         const GdalReading truth(scene.dem, 1, dem.grid.wkt);
         const auto& texels = terrain.color.level(0);
         int red = 0, blue = 0;
@@ -151,7 +147,7 @@ TEST(DemPlacement, ControlPointsThatPlaceNothingAreRefused) {
     const TempFolder folder;
     const auto refused = [&](const char* name, const RasterSpec& spec, const std::string& what) {
         const auto file = writeRaster(folder / name, spec);
-        expectLine(errorOf([&] { readPlaced(file); }), file, "ground control points: " + what);
+        expectLine(errorOf([&] { readGround(file); }), file, "ground control points: " + what);
     };
     refused("two.tif", pointSpec({{0, 0}, {90, 70}}, turnedPlace), "expected at least 3, found 2");
     refused("line.tif", pointSpec({{0, 0}, {30, 20}, {60, 40}, {90, 60}}, turnedPlace),
@@ -174,7 +170,7 @@ TEST(DemPlacement, RationalPolynomialsAloneAreRefused) {
             dataset.SetMetadataItem(key, "1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0", "RPC");
     };
     const auto file = writeRaster(folder / "rpc.tif", spec);
-    expectLine(errorOf([&] { readPlaced(file); }), file, "found rational polynomials (RPC) alone");
+    expectLine(errorOf([&] { readGround(file); }), file, "found rational polynomials (RPC) alone");
 }
 
 RasterSpec polarSpec(int epsg, double middleX, double middleY, int samples, double step) {
@@ -192,7 +188,7 @@ TEST(DemPlacement, GroundOverAPoleKeepsItsProjection) {
     const TempFolder folder;
     for (const auto& [epsg, scale] : {std::pair{3031, 0.97277}, {3413, 0.96986}}) {
         const auto file = writeRaster(folder / "pole.tif", polarSpec(epsg, 0, 0, 200, 1000));
-        const DemGrid dem = readPlaced(file);
+        const DemGrid dem = readGround(file);
         EXPECT_EQ(dem.width, 200);
         EXPECT_EQ(dem.height, 200);
         EXPECT_NEAR(dem.spacing.x, 1000 / scale, 0.1) << epsg;
@@ -211,7 +207,7 @@ TEST(DemPlacement, TurnedGroundOverAPoleIsMadeLevel) {
     const double s = 1000 * std::sin(0.4), c = 1000 * std::cos(0.4);
     spec.transform = {-50 * c - 50 * s, c, s, 50 * c - 50 * s, s, -c};
     const auto file = writeRaster(folder / "turned.tif", spec);
-    const DemGrid dem = readPlaced(file);
+    const DemGrid dem = readGround(file);
     EXPECT_THAT(dem.projection,
                 AllOf(HasSubstr("turned level in its own projection"), HasSubstr("over the pole")));
     EXPECT_NEAR(dem.spacing.x, 1000 / 0.97277, 0.1);
@@ -224,7 +220,7 @@ TEST(DemPlacement, TurnedGroundOverAPoleIsMadeLevel) {
 TEST(DemPlacement, GroundBesideAPoleIsBroughtToMetres) {
     const TempFolder folder;
     const auto file = writeRaster(folder / "beside.tif", polarSpec(3413, 90000, -40000, 120, 1000));
-    const DemGrid dem = readPlaced(file);
+    const DemGrid dem = readGround(file);
     EXPECT_THAT(dem.projection, HasSubstr("local transverse Mercator"));
     EXPECT_NEAR(dem.spacing.x, 1000 / 0.96986, 1);
     const Compared all = compareWithGdal(dem, GdalReading(file, 1, dem.grid.wkt));
@@ -234,9 +230,9 @@ TEST(DemPlacement, GroundBesideAPoleIsBroughtToMetres) {
 TEST(DemPlacement, HalfAGlobeOverAPoleIsRefused) {
     const TempFolder folder;
     const auto file = writeRaster(folder / "half.tif", polarSpec(3413, 0, 0, 100, 120000));
-    expectLine(errorOf([&] { readPlaced(file); }), file, "scales differ by at most 1.2 times");
+    expectLine(errorOf([&] { readGround(file); }), file, "scales differ by at most 1.2 times");
     // Antarctica whole.
-    EXPECT_EQ(readPlaced(writeRaster(folder / "south.tif", polarSpec(3031, 0, 0, 100, 60000))).width, 100);
+    EXPECT_EQ(readGround(writeRaster(folder / "south.tif", polarSpec(3031, 0, 0, 100, 60000))).width, 100);
 }
 
 // A survey's own plane, not tied to the Earth, in feet: turned level in it.
@@ -251,7 +247,7 @@ TEST(DemPlacement, TurnedLocalPlaneInFeet) {
         ASSERT_EQ(dataset.SetSpatialRef(&local), CE_None);
     };
     const auto file = writeRaster(folder / "site.tif", spec);
-    const DemGrid dem = readPlaced(file);
+    const DemGrid dem = readGround(file);
     EXPECT_NEAR(dem.spacing.x, 10 * 0.3048, 1e-9);
     const Compared all = compareWithGdal(dem, GdalReading(file, 1, ""));
     EXPECT_EQ(all.wrong, 0) << all.first;

@@ -16,6 +16,7 @@ using test::compareWithGdal;
 using test::errorOf;
 using test::GdalReading;
 using test::RasterSpec;
+using test::readGround;
 using test::TempFolder;
 using test::writeRaster;
 using testing::AllOf;
@@ -23,11 +24,6 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr double kSurveyFoot = 1200.0 / 3937;
-
-DemGrid readValues(const std::filesystem::path& file) {
-    Progress progress;
-    return readDem(file, 1, progress);
-}
 
 RasterSpec oddSpec(GDALDataType type = GDT_Float32) {
     RasterSpec spec;
@@ -43,7 +39,7 @@ RasterSpec oddSpec(GDALDataType type = GDT_Float32) {
 // missing: samples of the grid that have to be missing, -1 where it is resampled.
 void expectAsGdal(const std::filesystem::path& file, int missing = 0, int band = 1, double metres = 1) {
     SCOPED_TRACE(file.filename().string());
-    const DemGrid dem = readValues(file);
+    const DemGrid dem = readGround(file);
     const Compared all =
         compareWithGdal(dem, GdalReading(file, band, dem.georeferenced ? dem.grid.wkt : ""), metres);
     EXPECT_EQ(all.wrong, 0) << all.first;
@@ -111,11 +107,11 @@ TEST(DemValues, ScaleAndOffset) {
         for (int c = 0; c < spec.width; ++c) stored100 += spec.value(c, r, 0) == 100;
     ASSERT_GT(stored100, 10);
     expectAsGdal(file, stored100);
-    EXPECT_EQ(readValues(file).heightUnit, "stored times 0.1 plus -50.25");
-    EXPECT_EQ(readValues(file).missingValue, "100");
+    EXPECT_EQ(readGround(file).heightUnit, "stored times 0.1 plus -50.25");
+    EXPECT_EQ(readGround(file).missingValue, "100");
     spec.adorn = [](GDALDataset& dataset) { dataset.GetRasterBand(1)->SetScale(0); };
     const auto flat = writeRaster(folder / "flat.tif", spec);
-    EXPECT_THAT(errorOf([&] { readValues(flat); }), HasSubstr("expected a scale other than 0"));
+    EXPECT_THAT(errorOf([&] { readGround(flat); }), HasSubstr("expected a scale other than 0"));
 }
 
 TEST(DemValues, SignedBytes) {
@@ -123,7 +119,7 @@ TEST(DemValues, SignedBytes) {
     RasterSpec spec = oddSpec(GDT_Byte);
     spec.options = {"PIXELTYPE=SIGNEDBYTE"};
     spec.value = [](int c, int r, int) { return (c + 7 * r) % 256; };
-    const DemGrid dem = readValues(writeRaster(folder / "signed.tif", spec));
+    const DemGrid dem = readGround(writeRaster(folder / "signed.tif", spec));
     for (int r = 0; r < spec.height; ++r)
         for (int c = 0; c < spec.width; ++c) {
             const int stored = (c + 7 * r) % 256;
@@ -146,7 +142,7 @@ TEST(DemValues, MissingSamplesAsGivenOrMasked) {
         spec.value = [=](int c, int r, int b) { return c == 3 && r < 9 ? nodata : usual(c, r, b); };
         const auto file = writeRaster(folder / name, spec);
         expectAsGdal(file, 9);
-        EXPECT_EQ(readValues(file).missingValue, said);
+        EXPECT_EQ(readGround(file).missingValue, said);
     };
     with("nan.tif", GDT_Float32, NAN, "nan");
     with("least.tif", GDT_Int32, -2147483648.0, "-2.14748365e+09");
@@ -166,7 +162,7 @@ TEST(DemValues, MissingSamplesAsGivenOrMasked) {
     };
     const auto file = writeRaster(folder / "masked.tif", masked);
     expectAsGdal(file, 20);
-    EXPECT_EQ(readValues(file).missingValue, "by a mask");
+    EXPECT_EQ(readGround(file).missingValue, "by a mask");
     RasterSpec alpha = oddSpec(GDT_UInt16);
     alpha.bands = 2;
     alpha.value = [](int c, int r, int band) { return band == 0 ? 100 + c : (r == 4 ? 0 : 65535); };
@@ -181,12 +177,12 @@ TEST(DemValues, CustomaryMissingValues) {
     const TempFolder folder;
     RasterSpec spec = oddSpec();
     spec.value = [](int c, int r, int) { return c == 7 && r < 5 ? -9999.0 : 300.0 + c; };
-    DemGrid dem = readValues(writeRaster(folder / "land.tif", spec));
+    DemGrid dem = readGround(writeRaster(folder / "land.tif", spec));
     EXPECT_EQ(dem.sourceMissing, 5);
     EXPECT_THAT(dem.missingValue, HasSubstr("-9999, as is customary: the file names none"));
     // The sea floor may lie there.
     spec.value = [](int c, int r, int) { return c == 7 && r < 5 ? -9999.0 : -9990.0 + c; };
-    dem = readValues(writeRaster(folder / "trench.tif", spec));
+    dem = readGround(writeRaster(folder / "trench.tif", spec));
     EXPECT_EQ(dem.sourceMissing, 0);
     EXPECT_EQ(dem.missingValue, "");
 }
@@ -198,7 +194,7 @@ TEST(DemValues, UnitsOfHeights) {
         spec.unit = unit;
         const auto file = writeRaster(folder / name, spec);
         expectAsGdal(file, 0, 1, metres);
-        EXPECT_EQ(readValues(file).heightUnit, said);
+        EXPECT_EQ(readGround(file).heightUnit, said);
     };
     in("metre.tif", "metre", 1, "");
     in("ft.tif", "ft", 0.3048, "ft, 0.3048 m each, by the band");
@@ -217,7 +213,7 @@ TEST(DemValues, UnitsOfHeights) {
         };
         const auto file = writeRaster(folder / (std::string(version) + ".tif"), spec);
         expectAsGdal(file, 0, 1, kSurveyFoot);
-        EXPECT_THAT(readValues(file).heightUnit,
+        EXPECT_THAT(readGround(file).heightUnit,
                     AllOf(HasSubstr("US survey foot"), HasSubstr("0.30480061 m each")));
     }
 }
@@ -230,7 +226,7 @@ TEST(DemValues, UnitsOfThePlan) {
         spec.linearMetres = metres;
         spec.transform = {500000 / metres, 100, 0, 5000000 / metres, 0, -50};
         const auto file = writeRaster(folder / "feet.tif", spec);
-        const DemGrid dem = readValues(file);
+        const DemGrid dem = readGround(file);
         EXPECT_NEAR(dem.spacing.x, 100 * metres, 1e-9);
         EXPECT_NEAR(dem.spacing.y, 50 * metres, 1e-9);
         EXPECT_THAT(dem.projection, HasSubstr("m a unit"));
@@ -274,7 +270,7 @@ TEST(DemValues, OfSeveralBandsThatOfHeights) {
                             const char* said) {
         const auto file = writeRaster(folder / name, spec);
         expectAsGdal(file, 0, band, metres);
-        EXPECT_EQ(readValues(file).band, said);
+        EXPECT_EQ(readGround(file).band, said);
     };
     RasterSpec spec = bandSpec(3, GDT_Int16);
     spec.adorn = [](GDALDataset& dataset) {
@@ -291,7 +287,7 @@ TEST(DemValues, OfSeveralBandsThatOfHeights) {
     chosen("unit.tif", spec, 2, 0.3048, "band 2 of 2: it alone has a unit of length");
     chosen("silent.tif", bandSpec(4, GDT_Float32), 1, 1, "band 1 of 4: the first; none is called heights");
     const auto picture = writeRaster(folder / "rgb.tif", bandSpec(3, GDT_UInt16));
-    EXPECT_THAT(errorOf([&] { readValues(picture); }),
+    EXPECT_THAT(errorOf([&] { readGround(picture); }),
                 HasSubstr("found a picture (GTiff, 3 bands of UInt16)"));
 }
 
@@ -300,11 +296,11 @@ TEST(DemValues, HeightsThatFloatsCanNotHold) {
     RasterSpec spec = oddSpec(GDT_Float64);
     spec.value = [](int c, int r, int) { return 9e6 + 0.3 * c - 0.1 * r; };
     const auto steps = writeRaster(folder / "steps.tif", spec);
-    EXPECT_THAT(errorOf([&] { readValues(steps); }),
+    EXPECT_THAT(errorOf([&] { readGround(steps); }),
                 AllOf(HasSubstr(steps.string() + ":heights: expected relief that single precision holds"),
                       HasSubstr("subtract a constant"), Not(HasSubstr("\n"))));
     spec.value = [](int c, int r, int) { return 3e6 + 300.3 * c - 100.1 * r; };  // a planet's radius
-    EXPECT_EQ(readValues(writeRaster(folder / "radius.tif", spec)).sourceMissing, 0);
+    EXPECT_EQ(readGround(writeRaster(folder / "radius.tif", spec)).sourceMissing, 0);
     Progress progress;
     const auto hills = writeRaster(folder / "hills.tif", oddSpec());
     for (const double scale : {1e300, 1e6, 1e-300})
@@ -338,7 +334,7 @@ TEST(DemValues, VirtualRasterOfLocalFiles) {
     writeRaster(folder / "right.tif", oddSpec(GDT_Int16));
     const auto file = folder.text("both.vrt", virtualRaster("left.tif", "right.tif"));
     expectAsGdal(file, 33, 1, kSurveyFoot);  // the column between them
-    EXPECT_EQ(readValues(file).heightUnit,
+    EXPECT_EQ(readGround(file).heightUnit,
               "US survey foot, 0.30480061 m each, by the vertical reference system");
 }
 
@@ -351,7 +347,7 @@ TEST(DemValues, VirtualRastersOfOtherThingsAreRefused) {
                 "</GDAL_WMS>");
     const auto refused = [&](const std::string& right, const std::string& what) {
         const auto file = folder.text("both.vrt", virtualRaster("left.tif", right));
-        EXPECT_THAT(errorOf([&] { readValues(file); }),
+        EXPECT_THAT(errorOf([&] { readGround(file); }),
                     AllOf(HasSubstr(file.string() + ": "), HasSubstr(what), Not(HasSubstr("\n"))));
     };
     refused("http://localhost:9/right.tif",
@@ -363,7 +359,7 @@ TEST(DemValues, VirtualRastersOfOtherThingsAreRefused) {
     refused("map.xml", "names \"map.xml\", and that is no raster of a format read here");
     refused("both.vrt", "found virtual rasters that name each other");
     const auto damaged = folder.text("cut.vrt", virtualRaster("left.tif", "left.tif").substr(0, 300));
-    EXPECT_THAT(errorOf([&] { readValues(damaged); }), HasSubstr("found damaged XML"));
+    EXPECT_THAT(errorOf([&] { readGround(damaged); }), HasSubstr("found damaged XML"));
 }
 
 TEST(DemValues, AddressesAndPipesAreRefused) {
@@ -371,13 +367,13 @@ TEST(DemValues, AddressesAndPipesAreRefused) {
          {"/vsicurl/http://localhost:9/a.tif", "http://localhost:9/a.tif", "https:/host/a.tif",
           "folder/http:/host/a.tif", "/vsis3/bucket/a.tif", "s3://bucket/a.tif"})
         EXPECT_THAT(
-            errorOf([&] { readValues(name); }),
+            errorOf([&] { readGround(name); }),
             AllOf(HasSubstr(std::string(name) + ": expected a file on this machine, found an address"),
                   HasSubstr("fetch it first"), Not(HasSubstr("\n"))));
     const TempFolder folder;
     const auto pipe = folder / "pipe.tif";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-    EXPECT_THAT(errorOf([&] { readValues(pipe); }), HasSubstr("found a pipe or a device"));
+    EXPECT_THAT(errorOf([&] { readGround(pipe); }), HasSubstr("found a pipe or a device"));
 }
 
 }  // namespace

@@ -17,6 +17,11 @@
 
 namespace stereonav::test {
 
+inline DemGrid readGround(const std::filesystem::path& file) {
+    Progress progress;
+    return readDem(file, 1, progress);
+}
+
 class GdalReading {
 public:
     // wkt: the system of the places that pixelOf() takes; "" for the file's own.
