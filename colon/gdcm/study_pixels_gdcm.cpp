@@ -104,6 +104,9 @@ void takeFormat(const std::filesystem::path& file, const gdcm::PixelFormat& form
 }  // namespace
 
 DecodedPixels decodePicture(const PackedPicture& picture) {
+    // One at a time: a run that decoded damaged pictures on several threads ended within the codecs.
+    static std::mutex codecs;
+    const std::lock_guard lock(codecs);
     const QuietThread quiet;
     prepareGdcm();
     const auto fail = [&](const std::string& problem) {
