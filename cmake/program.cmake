@@ -65,3 +65,6 @@ include(cmake/version.cmake)
 install(TARGETS stereonav RUNTIME DESTINATION bin)
 install(DIRECTORY ${CMAKE_BINARY_DIR}/lib/stereonav DESTINATION lib FILES_MATCHING PATTERN "stereonav_*.so"
   PATTERN "stereonav_test*" EXCLUDE)
+if(TARGET stereonav_gdcm)
+  install(TARGETS stereonav_gdcm RUNTIME DESTINATION lib/stereonav)
+endif()

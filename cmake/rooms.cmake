@@ -39,7 +39,7 @@ function(stereonav_kernels target)
 endfunction()
 
 # stereonav_room(folder [NAME target] [ONLY files] [EXCLUDE files] [LINK targets] [MODULES modules] [SHARED_WITH_MODULES])
-# MODULES: those that its functions load when first called. SHARED_WITH_MODULES: modules may link it too; each then has
+# MODULES: modules and helpers that its functions load or start when first called. SHARED_WITH_MODULES: modules may link it too; each then has
 # a copy of its own, which is hidden from the others.
 function(stereonav_room folder)
   cmake_parse_arguments(ARG "SHARED_WITH_MODULES" "NAME" "ONLY;EXCLUDE;LINK;MODULES" ${ARGN})
@@ -81,4 +81,16 @@ function(stereonav_module name folder)
   target_link_options(${target} PRIVATE -Wl,-z,now)
   set_target_properties(${target} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/stereonav)
+endfunction()
+
+# A part of the program that runs as a process of its own when first asked (engine/base/helper_program.h): all sources of
+# `folder` in lib/stereonav/stereonav_<name>.
+# stereonav_helper(name folder [ONLY files] [LINK targets])
+function(stereonav_helper name folder)
+  cmake_parse_arguments(ARG "" "" "ONLY;LINK" ${ARGN})
+  set(target stereonav_${name})
+  add_executable(${target})
+  stereonav_sources(${target} ${folder} ONLY ${ARG_ONLY})
+  target_link_libraries(${target} PRIVATE engine_base ${ARG_LINK})
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/stereonav)
 endfunction()

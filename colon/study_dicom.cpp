@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 
+#include "colon/picture_decoder.h"
 #include "colon/study_parts.h"
 #include "engine/base/parallel.h"
 
@@ -80,11 +81,12 @@ void takeSlices(const DicomSeries& series, RawStudy& raw, PixelCounts& counts, P
     const auto groups = byFile(series);
     std::size_t done = 0;
     std::mutex reporting;
+    PictureDecoder decoder;
     raw.bytes = LazyArray<unsigned char>(raw.frame.count() * sizeof(T));
     parallelFor(static_cast<int>(groups.size()), [&](int n) {
         if (progress.cancelled()) throw Cancelled();
         if (std::is_integral_v<T> && !counts.fits) return;
-        decodeSlices(groups[n], [&](const DicomSlice& slice, const double* stored) {
+        decodeSlices(groups[n], decoder, [&](const DicomSlice& slice, const double* stored) {
             const auto k = static_cast<std::size_t>(&slice - series.slices.data());
             takeHu(slice, stored, reinterpret_cast<T*>(raw.bytes.data()) + perSlice * k, counts);
             const std::lock_guard lock(reporting);

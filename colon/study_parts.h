@@ -13,6 +13,8 @@
 
 namespace stereonav {
 
+class PictureDecoder;  // picture_decoder.h
+
 enum class SampleType { UInt8, Int8, UInt16, Int16, UInt32, Int32, UInt64, Int64, Float32, Float64 };
 int bytesOf(SampleType type);
 
@@ -122,7 +124,7 @@ SlicePlaces placeSlices(const std::filesystem::path& folder, std::vector<DicomSl
 
 // --- study_pixels.cpp
 // Calls use(slice, its pixels as stored, widened) for these, all of one file. Throws Error.
-void decodeSlices(const std::vector<const DicomSlice*>& slices,
+void decodeSlices(const std::vector<const DicomSlice*>& slices, PictureDecoder& decoder,
                   const std::function<void(const DicomSlice&, const double*)>& use);
 
 // --- study_resample.cpp

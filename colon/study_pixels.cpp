@@ -8,8 +8,8 @@
 #include <optional>
 #include <string_view>
 
+#include "colon/picture_decoder.h"
 #include "colon/study_dicom_file.h"
-#include "colon/study_module.h"
 #include "colon/study_parts.h"
 
 namespace stereonav {
@@ -213,7 +213,7 @@ std::vector<Parts> partsOfFrames(const fs::path& path, const DicomFile& file, in
 
 }  // namespace
 
-void decodeSlices(const std::vector<const DicomSlice*>& slices,
+void decodeSlices(const std::vector<const DicomSlice*>& slices, PictureDecoder& decoder,
                   const std::function<void(const DicomSlice&, const double*)>& use) {
     const DicomSlice& first = *slices.front();
     const DicomFile file(first.file);
@@ -243,7 +243,7 @@ void decodeSlices(const std::vector<const DicomSlice*>& slices,
                                   layout.isSigned,
                                   parts[frame]};
             checkPicture(picture);
-            const DecodedPixels decoded = decodePicture(picture);
+            const DecodedPixels decoded = decoder.decode(picture);
             widenAny(decoded.bytes.data(), count,
                      PixelLayout{decoded.bits, 0, decoded.bits, decoded.isSigned, false}, values);
         }

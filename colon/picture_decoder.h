@@ -1,17 +1,21 @@
-// What the readers of studies ask of the module stereonav_gdcm (GDCM); colon/gdcm has the function.
+// Compressed pictures of DICOM files, unpacked by the helper program stereonav_gdcm (GDCM; colon/gdcm).
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "engine/base/helper_program.h"
 
 namespace stereonav {
 
 // Whole numbers in this machine's byte order.
 struct DecodedPixels {
-    std::vector<char> bytes;
+    std::string bytes;
     int bits = 16;  // a pixel: 8, 16 or 32
     bool isSigned = false;
 };
@@ -24,11 +28,18 @@ struct PackedPicture {
     bool isSigned = false;
     std::vector<std::string_view> parts;
 };
-// Nothing is printed. Throws Error.
-DecodedPixels decodePicture(const PackedPicture& picture);
 
-struct StudyFunctions {
-    decltype(&stereonav::decodePicture) decodePicture;
+// Starts helpers as they are asked for, one for each thread that decodes at once, and ends them with itself.
+class PictureDecoder {
+public:
+    // From any thread. Throws Error naming the picture's file, and Cancelled.
+    DecodedPixels decode(const PackedPicture& picture);
+
+private:
+    std::unique_ptr<HelperProgram> takeHelper();
+
+    std::mutex mLock;
+    std::vector<std::unique_ptr<HelperProgram>> mIdle;
 };
 
 }  // namespace stereonav
