@@ -13,6 +13,7 @@
 #include "colon/colon_flight.h"
 #include "colon/transfer_presets.h"
 #include "engine/base/error.h"
+#include "engine/frame/cast_frames.h"
 #include "engine/math/constants.h"
 #include "engine/volume/volume_renderer.h"
 
@@ -231,6 +232,7 @@ void setViews(const SceneOptions& options, SimdTarget simd, LoadedScene& scene) 
     adjustViews(options, scene);
     scene.startPose = colon.startPose;
     scene.path = colon.path;
+    scene.frames = std::make_unique<CastFrames>(*scene.renderer);
     scene.methods = methodsFor(*scene.renderer);
     std::erase(scene.methods, RightEyeMethod::Cubic);
     const double largest = separationOf(scene).largest;

@@ -46,14 +46,13 @@ std::vector<RightEyeMethod> methodsOf(const CompareOptions& options, const Loade
     return methods.empty() ? scene.methods : methods;
 }
 
-std::vector<PairMethod> pairMethodsOf(const CompareOptions& options) {
-    std::vector<PairMethod> methods;
+std::vector<std::string_view> sweepMethodsOf(const CompareOptions& options, const FrameMaker& frames) {
+    std::vector<std::string_view> methods;
     for (const std::string& name : options.methods) {
-        const PairMethod method = pairMethodFromText(name);
+        const std::string_view method = sweepMethodFromText(name);
         if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
     }
-    if (methods.empty())
-        for (const NamedPairMethod& named : kPairMethods) methods.push_back(named.method);
+    if (methods.empty()) methods.assign(frames.methods().begin(), frames.methods().end());
     return methods;
 }
 
@@ -77,7 +76,7 @@ void writePictures(const ComparedFrame& frame, const fs::path& folder) {
 void writePictures(const ComparedPair& pair, const fs::path& folder) {
     constexpr int kFactor = 20;
     for (const PairPicture& picture : pair.pictures) {
-        const std::string name(nameOf(picture.method));
+        const std::string name(picture.method);
         writeColorImage(folder / (name + "_left.png"), picture.left.color);
         writeColorImage(folder / (name + "_right.png"), picture.right.color);
         writeColorImage(folder / (name + "_left_difference_x20.png"),
@@ -90,7 +89,7 @@ void writePictures(const ComparedPair& pair, const fs::path& folder) {
 std::vector<MethodFigures> comparedPairs(const CompareOptions& options, const LoadedScene& scene,
                                          const RecordedPath& path, Progress& progress) {
     PairComparisonSetting setting;
-    setting.methods = pairMethodsOf(options);
+    setting.methods = sweepMethodsOf(options, *scene.frames);
     setting.repeats = options.repeats;
     const std::vector<TimedPose> poses = timedFrames(path, options.frames);
     const int shown = static_cast<int>(poses.size()) / 2;
@@ -99,7 +98,7 @@ std::vector<MethodFigures> comparedPairs(const CompareOptions& options, const Lo
         makeOutputFolder(options.images);
         writePictures(pair, options.images);
     };
-    return comparePairs(*scene.pair, poses, scene.lens, scene.stereo, setting, progress, listener);
+    return comparePairs(*scene.frames, poses, scene.lens, scene.stereo, setting, progress, listener);
 }
 
 std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const LoadedScene& scene,
@@ -156,8 +155,8 @@ int runCompare(const CompareOptions& options) {
         scene.stereo.separation = scene.stereo.zeroParallax * options.relativeSeparation;
     const RecordedPath& flight = flightOf(scene, path, options.path);
     ComparisonReport report = describe(options, scene, options.frames);
-    report.methods = scene.pair ? comparedPairs(options, scene, flight, bar.progress())
-                                : comparedMethods(options, scene, flight, bar.progress());
+    report.methods = scene.medium ? comparedPairs(options, scene, flight, bar.progress())
+                                  : comparedMethods(options, scene, flight, bar.progress());
     writeResults(options, report);
     bar.clear();
     std::fputs(tableOf(report).c_str(), messages);

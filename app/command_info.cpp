@@ -70,7 +70,7 @@ Json sweepJson(const LoadedScene& scene) {
     json["zero_parallax_m"] = scene.stereo.zeroParallax;
     json["threads"] = threadCount();
     json["simd"] = std::string(nameOf(scene.simd));
-    json["method"] = std::string(nameOf(PairMethod::Sweep));
+    json["method"] = std::string(scene.frames->defaultMethod());
     return json;
 }
 

@@ -105,15 +105,15 @@ int runPlay(const PlayOptions& options) {
         bar.progress().report(static_cast<double>(k) / static_cast<double>(poses.size()),
                               fmt::format("frame {} of {}", k + 1, poses.size()));
         frame.render(poses[k].pose, poses[k].time);
-        left_ms.push_back(frame.left_ms());
-        right_ms.push_back(frame.timings().right_ms());
-        both_ms.push_back(frame.both_ms());
+        left_ms.push_back(frame.timings().left_ms);
+        right_ms.push_back(frame.timings().right_ms);
+        both_ms.push_back(frame.timings().both_ms);
         if (options.hash) frame.addTo(hash);
         sink.add(frame, static_cast<int>(k));
     }
     sink.finish();
     bar.clear();
-    if (scene.pair)
+    if (frame.timings().left_ms == 0)  // made together
         std::printf("%zu frames, median both eyes %.2f ms\n", poses.size(), medianOf(both_ms));
     else
         std::printf("%zu frames, median left %.2f ms, right %.2f ms\n", poses.size(), medianOf(left_ms),

@@ -15,9 +15,9 @@ namespace {
 void printEyes(std::FILE* to, const StereoFrame& frame, const Plane<PackedColor>& picture,
                const std::string& file) {
     const double pixels = static_cast<double>(frame.madeIn().width) * frame.madeIn().height;
-    const RightEyeTimings& t = frame.timings();
+    const RightEyeTimings& t = *frame.timings().warped;
     std::fprintf(to, "%s: %dx%d, left %.2f ms, right %.2f ms, holes %.2f %%\n", file.c_str(), picture.width(),
-                 picture.height(), frame.left_ms(), t.right_ms(),
+                 picture.height(), frame.timings().left_ms, t.right_ms(),
                  100.0 * static_cast<double>(t.holePixels) / pixels);
     if (!frame.way().empty()) std::fprintf(to, "  by %s\n", frame.way().c_str());
     if (t.boundPsnr_db > 0)
@@ -63,9 +63,9 @@ int runRender(const RenderOptions& options) {
     const Plane<PackedColor> picture = frame.compose(mode);
     writeColorImage(options.out, picture);
     bar.clear();
-    if (scene.pair) {
+    if (!frame.timings().warped) {
         std::fprintf(messages, "%s: %dx%d, both eyes %.2f ms\n", options.out.c_str(), picture.width(),
-                     picture.height(), frame.both_ms());
+                     picture.height(), frame.timings().both_ms);
         return 0;
     }
     printEyes(messages, frame, picture, options.out);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/info_text.h"
-#include "app/medium_renderer.h"
 #include "app/view_status.h"
 #include "engine/base/pages.h"
 
@@ -43,11 +42,9 @@ std::vector<Held> heldBy(const LoadedScene& loaded) {
         for (const Plane<float>& level : layer.levels)
             heights += sizeof(float) * static_cast<std::size_t>(level.width()) * level.height();
     add("heights", heights);
-    EyeImage left, right;
-    loaded.pair->renderPair(loaded.viewsAt(loaded.startPose), 0, PairMethod::Sweep, left, right);
-    const auto& renderer = dynamic_cast<const MediumRenderer&>(*loaded.pair);
-    add("sweep", renderer.sweepBytes());
-    add("pictures", renderer.pictureBytes());
+    EyePair frame;
+    loaded.frames->make(loaded.viewsAt(loaded.startPose), 0, {}, frame);
+    for (const HeldBytes& part : loaded.frames->held()) add(part.what, part.bytes);
     return held;
 }
 

@@ -11,7 +11,6 @@
 #include "app/colon_loading.h"
 #include "app/medium_noise.h"
 #include "app/medium_options.h"
-#include "app/medium_renderer.h"
 #include "app/medium_terrain.h"
 #include "app/terrain_loading.h"
 #include "colon/built_in_colon.h"
@@ -19,6 +18,7 @@
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
 #include "engine/medium/built_in_media.h"
+#include "engine/medium/swept_frames.h"
 #include "engine/nav/navigator.h"
 #include "terrain/sky_map.h"
 
@@ -248,9 +248,10 @@ LoadedScene loadMediumScene(const SceneOptions& options, SimdTarget simd, Progre
                                                      : volumeMedium(options, simd, progress);
     MediumScene& shown = *scene.medium;
     applyMediumOptions(options.medium, shown);
-    auto renderer = std::make_unique<MediumRenderer>(shown, simd);
-    scene.simd = renderer->target();
-    scene.pair = std::move(renderer);
+    auto frames = std::make_unique<SweptFrames>(shown, simd);
+    scene.simd = frames->target();
+    scene.swept = frames.get();
+    scene.frames = std::move(frames);
     scene.renderer.reset();
     scene.methods.clear();
     scene.moveSun = nullptr;

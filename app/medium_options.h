@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/commands.h"
-#include "app/medium_scene.h"
+#include "engine/medium/medium_scene.h"
 
 namespace stereonav {
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/medium/swept_frames.h"
 
 namespace stereonav {
 namespace {
@@ -15,15 +16,15 @@ constexpr int kEdgeRadius = 2;  // pixels, as for eyes that are cast
 
 // One method's pictures and the fastest of its runs of the frame at hand.
 struct Runner {
-    PairMethod method;
-    EyeImage left, right;
-    PairTimings best;
+    std::string_view method;
+    EyePair frame;
+    FrameTimings best;
 
-    explicit Runner(PairMethod m) : method(m) {}
+    explicit Runner(std::string_view m) : method(m) {}
 
-    void run(PairRenderer& renderer, const StereoViews& views, double time, bool first) {
-        const PairTimings timings = renderer.renderPair(views, time, method, left, right);
-        if (first || timings.both_ms < best.both_ms) best = timings;
+    void run(FrameMaker& frames, const StereoViews& views, double time, bool first) {
+        frames.make(views, time, {method, {}}, frame);
+        if (first || frame.timings.both_ms < best.both_ms) best = frame.timings;
     }
 };
 
@@ -40,46 +41,47 @@ Plane<T> oneAboveTheOther(const Plane<T>& top, const Plane<T>& bottom) {
 }
 
 Plane<PackedColor> colorsOf(const Runner& runner) {
-    return oneAboveTheOther(runner.left.color, runner.right.color);
+    return oneAboveTheOther(runner.frame.left.color, runner.frame.right.color);
 }
 
 MethodFigures figuresOf(const Runner& runner, const Runner& truth, const Plane<std::uint8_t>& edges) {
     MethodFigures figures;
-    figures.name = nameOf(runner.method);
+    figures.name = runner.method;
     figures.left_ms = truth.best.left_ms;
-    figures.warp_ms = runner.best.splat_ms;
+    const RightEyeTimings splat = runner.best.warped.value_or(RightEyeTimings{});
+    figures.warp_ms = splat.warp_ms;
     figures.right_ms =
         runner.best.both_ms - (runner.best.left_ms > 0 ? runner.best.left_ms : figures.left_ms);
     figures.fill_ms = figures.right_ms - figures.warp_ms;
     figures.full_right_ms = truth.best.right_ms;
-    figures.hole_percent = 100.0 * static_cast<double>(runner.best.unknownPixels) /
-                           (static_cast<double>(runner.right.width()) * runner.right.height());
+    figures.hole_percent = 100.0 * static_cast<double>(splat.holePixels) /
+                           (static_cast<double>(runner.frame.right.width()) * runner.frame.right.height());
     figures.difference = differenceOf(colorsOf(truth), colorsOf(runner), edges);
     return figures;
 }
 
-std::vector<MethodFigures> compareFrame(PairRenderer& renderer, const StereoViews& views, double time,
+std::vector<MethodFigures> compareFrame(FrameMaker& frames, const StereoViews& views, double time,
                                         const PairComparisonSetting& setting, int index,
                                         const ComparedPairListener& listener) {
-    Runner truth(PairMethod::TwoSweeps);
+    Runner truth(kTwoSweepsMethod);
     std::vector<Runner> others;
-    for (const PairMethod method : setting.methods)
-        if (method != PairMethod::TwoSweeps) others.emplace_back(method);
+    for (const std::string_view method : setting.methods)
+        if (method != kTwoSweepsMethod) others.emplace_back(method);
     for (int repeat = 0; repeat < setting.repeats; ++repeat) {
-        truth.run(renderer, views, time, repeat == 0);
-        for (Runner& runner : others) runner.run(renderer, views, time, repeat == 0);
+        truth.run(frames, views, time, repeat == 0);
+        for (Runner& runner : others) runner.run(frames, views, time, repeat == 0);
     }
     const Plane<std::uint8_t> none(views.left.width, 2 * views.left.height);
     const Plane<std::uint8_t> edges =
-        edgeMask(none, oneAboveTheOther(truth.left.viewDepth, truth.right.viewDepth), views.parallaxScale,
-                 kEdgeRadius);
-    ComparedPair pair{index, truth.left, truth.right, {}};
+        edgeMask(none, oneAboveTheOther(truth.frame.left.viewDepth, truth.frame.right.viewDepth),
+                 views.parallaxScale, kEdgeRadius);
+    ComparedPair pair{index, truth.frame.left, truth.frame.right, {}};
     std::vector<MethodFigures> figures;
     auto other = others.begin();
-    for (const PairMethod method : setting.methods) {
-        const Runner& runner = method == PairMethod::TwoSweeps ? truth : *other++;
+    for (const std::string_view method : setting.methods) {
+        const Runner& runner = method == kTwoSweepsMethod ? truth : *other++;
         figures.push_back(figuresOf(runner, truth, edges));
-        pair.pictures.push_back({method, runner.left, runner.right});
+        pair.pictures.push_back({method, runner.frame.left, runner.frame.right});
     }
     if (listener) listener(pair);
     return figures;
@@ -87,7 +89,7 @@ std::vector<MethodFigures> compareFrame(PairRenderer& renderer, const StereoView
 
 }  // namespace
 
-std::vector<MethodFigures> comparePairs(PairRenderer& renderer, const std::vector<TimedPose>& poses,
+std::vector<MethodFigures> comparePairs(FrameMaker& frames, const std::vector<TimedPose>& poses,
                                         const Lens& lens, const StereoSetting& stereo,
                                         const PairComparisonSetting& setting, Progress& progress,
                                         const ComparedPairListener& listener) {
@@ -100,12 +102,12 @@ std::vector<MethodFigures> comparePairs(PairRenderer& renderer, const std::vecto
                         fmt::format("frame {} of {}", n + 1, poses.size()));
         const StereoViews views = makeStereoViews(poses[n].pose, lens, stereo);
         const auto figures =
-            compareFrame(renderer, views, poses[n].time, setting, static_cast<int>(n), listener);
+            compareFrame(frames, views, poses[n].time, setting, static_cast<int>(n), listener);
         for (std::size_t k = 0; k < figures.size(); ++k) byMethod[k].push_back(figures[k]);
     }
     std::vector<MethodFigures> result;
-    for (const auto& frames : byMethod) {
-        result.push_back(medianOf(frames));
+    for (const auto& ofFrames : byMethod) {
+        result.push_back(medianOf(ofFrames));
         result.back().true_psnr_db = std::numeric_limits<double>::quiet_NaN();
         result.back().holesOfWarped_percent = std::numeric_limits<double>::quiet_NaN();
         result.back().surface_psnr_db = std::numeric_limits<double>::quiet_NaN();

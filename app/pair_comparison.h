@@ -5,15 +5,15 @@
 #include <functional>
 #include <vector>
 
-#include "app/pair_renderer.h"
 #include "app/timed_poses.h"
 #include "engine/base/progress.h"
+#include "engine/frame/frame_maker.h"
 #include "engine/metrics/method_comparison.h"
 
 namespace stereonav {
 
 struct PairPicture {
-    PairMethod method;
+    std::string_view method;
     const EyeImage &left, &right;
 };
 struct ComparedPair {
@@ -24,8 +24,8 @@ struct ComparedPair {
 using ComparedPairListener = std::function<void(const ComparedPair&)>;
 
 struct PairComparisonSetting {
-    std::vector<PairMethod> methods;
-    int repeats = 3;  // timed runs of a frame, >= 1; the fastest counts
+    std::vector<std::string_view> methods;  // of SweptFrames
+    int repeats = 3;                        // timed runs of a frame, >= 1; the fastest counts
 };
 
 // Medians over the frames, in the order of the methods. Of MethodFigures: left_ms is one eye alone, right_ms
@@ -33,7 +33,7 @@ struct PairComparisonSetting {
 // hole_percent are rays without a known start. Errors are those of both eyes together, against two sweeps;
 // there is no finer truth and no warp: true_psnr_db, holesOfWarped_percent and surface_psnr_db are NaN.
 // Throws Error without poses or methods; Cancelled.
-std::vector<MethodFigures> comparePairs(PairRenderer& renderer, const std::vector<TimedPose>& poses,
+std::vector<MethodFigures> comparePairs(FrameMaker& frames, const std::vector<TimedPose>& poses,
                                         const Lens& lens, const StereoSetting& stereo,
                                         const PairComparisonSetting& setting, Progress& progress,
                                         const ComparedPairListener& listener);

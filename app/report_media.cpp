@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "app/report_run.h"
 #include "engine/image/image_file.h"
+#include "engine/medium/swept_frames.h"
 #include "engine/metrics/image_difference.h"
 
 namespace stereonav {
@@ -15,22 +15,22 @@ namespace {
 
 struct PairWay {
     std::string name, detail;
-    PairMethod method = PairMethod::Sweep;
+    std::string_view method = kSweepMethod;
     SweepSetting sweep;
     bool isDefault = false;
 };
 
 std::vector<PairWay> waysOf(ReportRun& run, const SweepSetting& own) {
     std::vector<PairWay> ways;
-    for (const NamedPairMethod& named : kPairMethods)
-        ways.push_back({std::string(named.name), fmt::format("{} slices", own.slices), named.method, own,
-                        named.method == PairMethod::Sweep});
+    for (const std::string_view method : kSweepMethods)
+        ways.push_back(
+            {std::string(method), fmt::format("{} slices", own.slices), method, own, method == kSweepMethod});
     SweepSetting changed = own;
     for (const int slices : run.brief() ? std::vector<int>{64} : std::vector<int>{32, 64, 128, 512}) {
         changed.slices = slices;
         if (slices != own.slices)
-            ways.push_back({fmt::format("sweep {} slices", slices), "both eyes in one", PairMethod::Sweep,
-                            changed, false});
+            ways.push_back(
+                {fmt::format("sweep {} slices", slices), "both eyes in one", kSweepMethod, changed, false});
     }
     changed = own;
     for (const int size : run.brief() ? std::vector<int>{64} : std::vector<int>{64, 128, 512}) {
@@ -38,7 +38,7 @@ std::vector<PairWay> waysOf(ReportRun& run, const SweepSetting& own) {
         if (size != own.lightSize)
             ways.push_back({fmt::format("sweep buffer {}", size),
                             fmt::format("{} slices, texels a side of the light's buffer", own.slices),
-                            PairMethod::Sweep, changed, false});
+                            kSweepMethod, changed, false});
     }
     return ways;
 }
@@ -61,7 +61,7 @@ public:
         finest.shadingWidth = 0;
         finest.slices = run.pick(512, 2048);
         mTruths.resize(mViews.size());
-        for (std::size_t n = 0; n < mViews.size(); ++n) sweep(finest, PairMethod::TwoSweeps, n, mTruths[n]);
+        for (std::size_t n = 0; n < mViews.size(); ++n) sweep(finest, kTwoSweepsMethod, n, mTruths[n]);
         mTruthSlices = finest.slices;
     }
 
@@ -74,7 +74,7 @@ public:
         for (std::size_t n = 0; n < mViews.size(); ++n)
             for (std::size_t r = 0; r < static_cast<std::size_t>(repeats); ++r)
                 for (std::size_t k = 0; k < ways.size(); ++k) {
-                    ms[k][r] += sweep(ways[k].sweep, ways[k].method, n, mEyes) / frames;
+                    ms[k][r] += sweep(ways[k].sweep, ways[k].method, n, mFrame) / frames;
                     if (r == 0) addErrors(n, points[k]);
                 }
         for (std::size_t k = 0; k < ways.size(); ++k) {
@@ -87,13 +87,13 @@ public:
 
     // Of the right eye in the first frame, its truth, and the left eye.
     ReportPictures pictures() {
-        sweep(mOwn, PairMethod::Sweep, 0, mEyes);
+        sweep(mOwn, kSweepMethod, 0, mFrame);
         return {"Pictures, " + mTitle,
                 "The first frame of the flight.",
-                {{"left eye", encodeColorImage(mEyes[0].color, ".png")},
-                 {"right eye, in the same sweep", encodeColorImage(mEyes[1].color, ".png")},
+                {{"left eye", encodeColorImage(mFrame.left.color, ".png")},
+                 {"right eye, in the same sweep", encodeColorImage(mFrame.right.color, ".png")},
                  {fmt::format("right eye, a sweep of its own in {} slices", mTruthSlices),
-                  encodeColorImage(mTruths[0][1].color, ".png")}}};
+                  encodeColorImage(mTruths[0].right.color, ".png")}}};
     }
 
     std::string setting() const {
@@ -104,23 +104,23 @@ public:
     const SweepSetting& own() const { return mOwn; }
 
 private:
-    using Eyes = std::array<EyeImage, 2>;
+    using Eye = EyeImage EyePair::*;
 
     // Squares are summed up in the point's error.
     void addErrors(std::size_t frame, WayPoint& point) const {
-        for (std::size_t e = 0; e < mEyes.size(); ++e) {
-            const double square = squareOf(mTruths[frame][e], mEyes[e]);
+        for (const Eye eye : {&EyePair::left, &EyePair::right}) {
+            const double square = squareOf(mTruths[frame].*eye, mFrame.*eye);
             point.way.error += square;
             point.worstError = std::max(point.worstError, std::sqrt(square));
         }
     }
 
-    double sweep(const SweepSetting& setting, PairMethod method, std::size_t frame, Eyes& eyes) {
+    double sweep(const SweepSetting& setting, std::string_view method, std::size_t index, EyePair& frame) {
         mRun.tell("volume light in stereo, " + mTitle);
         mScene.medium->sweep = setting;
-        const double ms = mScene.pair->renderPair(mViews[frame], 0, method, eyes[0], eyes[1]).both_ms;
+        mScene.frames->make(mViews[index], 0, {method, {}}, frame);
         mScene.medium->sweep = mOwn;
-        return ms;
+        return frame.timings.both_ms;
     }
 
     ReportRun& mRun;
@@ -128,8 +128,8 @@ private:
     std::string mTitle;
     SweepSetting mOwn;
     std::vector<StereoViews> mViews;
-    std::vector<Eyes> mTruths;
-    Eyes mEyes;
+    std::vector<EyePair> mTruths;
+    EyePair mFrame;
     int mTruthSlices = 0;
 };
 
@@ -164,8 +164,8 @@ WayChart separationsChart(ReportRun& run, ReportScene& scene) {
         PairTrial trial(run, scene, 1, 1.0 / part);
         if (chart.points.empty()) chart = emptyChart(trial);
         const PairWay way{fmt::format("1/{}", part),
-                          fmt::format("eyes 1/{} of the zero-parallax distance apart", part),
-                          PairMethod::Sweep, trial.own(), part == 30};
+                          fmt::format("eyes 1/{} of the zero-parallax distance apart", part), kSweepMethod,
+                          trial.own(), part == 30};
         chart.points.push_back(trial.pointsOf({way}, run.pick(2, 3)).front());
     }
     chart.id = "pair-separation/" + scene.id;

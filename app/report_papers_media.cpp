@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "app/medium_scene.h"
 #include "app/report_papers_data.h"
 #include "app/report_papers_gpu.h"
 #include "app/report_papers_run.h"
@@ -15,6 +14,7 @@
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/medium/built_in_media.h"
+#include "engine/medium/medium_scene.h"
 #include "engine/medium/medium_sweep.h"
 
 namespace stereonav {

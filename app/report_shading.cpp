@@ -8,11 +8,11 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/medium_scene.h"
 #include "app/report_run.h"
 #include "app/report_subjects.h"
 #include "engine/base/parallel.h"
 #include "engine/medium/built_in_media.h"
+#include "engine/medium/medium_scene.h"
 #include "engine/medium/medium_sweep.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/volume/plain_volume_caster.h"

@@ -20,6 +20,7 @@
 #include "engine/base/memory.h"
 #include "engine/base/parallel.h"
 #include "engine/math/constants.h"
+#include "engine/medium/swept_frames.h"
 
 namespace stereonav {
 namespace {
@@ -191,6 +192,14 @@ std::optional<RightEyeMethod> methodFromText(const std::string& name, const char
     for (const NamedMethod& method : kRightEyeMethods)
         known += std::string(known.empty() ? "" : ", ") + std::string(method.name);
     throw Error(option, "", "there is no method \"" + name + "\"", "the methods are " + known);
+}
+
+std::string_view sweepMethodFromText(const std::string& name, const char* option) {
+    if (name == "auto") return kSweepMethod;
+    const auto known = std::find(kSweepMethods.begin(), kSweepMethods.end(), name);
+    if (known != kSweepMethods.end()) return *known;
+    throw Error(option, "", "there is no method \"" + name + "\" of making two eyes of a medium",
+                fmt::format("the methods are {}", fmt::join(kSweepMethods, ", ")));
 }
 
 OutputMode modeFromText(const std::string& name) {

@@ -9,21 +9,23 @@
 
 #include "app/commands.h"
 #include "app/lazy_light.h"
-#include "app/medium_scene.h"
 #include "app/output_place.h"
-#include "app/pair_renderer.h"
 #include "app/room_seen.h"
 #include "app/traced_light.h"
 #include "app/view_sky.h"
 #include "colon/colon_scene.h"
 #include "engine/base/progress.h"
+#include "engine/frame/frame_maker.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/math/simd_target.h"
+#include "engine/medium/medium_scene.h"
 #include "engine/nav/flight.h"
 #include "engine/stereo/frame_plan.h"
 #include "terrain/terrain_scene.h"
 
 namespace stereonav {
+
+class SweptFrames;  // engine/medium/swept_frames.h
 
 struct LoadedScene {
     std::string name;  // as given, "terrain" for the built-in one
@@ -36,11 +38,11 @@ struct LoadedScene {
     std::shared_ptr<LazyLight> lazyLight;      // of a volume lit while it is shown; else null
     std::shared_ptr<TracedLight> tracedLight;  // of one lit at every pixel of a picture; else null
     std::shared_ptr<ViewSky> sky;              // over baked transfer, where SceneOptions::skyTurns; else null
-    // One of the two.
-    std::unique_ptr<EyeRenderer> renderer;
-    std::unique_ptr<PairRenderer> pair;  // of a medium
-    SimdTarget simd = SimdTarget::Auto;  // that the renderer uses
-    Lens lens;                           // with the size asked for
+    std::unique_ptr<EyeRenderer> renderer;     // null for a medium
+    std::unique_ptr<FrameMaker> frames;        // of the renderer's rays, or of the medium
+    SweptFrames* swept = nullptr;              // what frames is, of a medium
+    SimdTarget simd = SimdTarget::Auto;        // that the renderer uses
+    Lens lens;                                 // with the size asked for
     StereoSetting stereo;
     Pose startPose;
     RecordedPath path;                    // the scene's own flight
@@ -89,9 +91,11 @@ void checkSize(const SizeOption& size, int bytesPerPixel = kRenderBytesPerPixel)
 // "x,y,z,heading,pitch,roll" in metres and degrees; the last ones may be left out (0). Throws Error.
 Pose poseFromText(const std::string& text);
 
-// A method by name, none for "auto": the scene's default, since what is written to files must not depend on
-// what was measured. Throws Error with the known names.
+// A way of making the right eye by name, none for "auto": the scene's default, since what is written to files
+// must not depend on what was measured. Throws Error with the known names.
 std::optional<RightEyeMethod> methodFromText(const std::string& name, const char* option = "--method");
+// ... and one of making both eyes of a medium, its default for "auto".
+std::string_view sweepMethodFromText(const std::string& name, const char* option = "--method");
 OutputMode modeFromText(const std::string& name);
 // Separation, zero parallax and field of view that were asked for.
 void adjustViews(const SceneOptions& options, LoadedScene& scene);

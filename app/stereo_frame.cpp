@@ -5,7 +5,6 @@
 
 #include "app/medium_options.h"
 #include "app/quality.h"
-#include "engine/base/stopwatch.h"
 #include "engine/image/enlarge.h"
 
 namespace stereonav {
@@ -21,7 +20,7 @@ void addRows(Hash& hash, const Plane<T>& plane) {
 
 void checkMethod(const SceneOptions& options, const std::string& method, const char* option) {
     if (showsMedium(options))
-        pairMethodFromText(method, option);
+        sweepMethodFromText(method, option);
     else
         methodFromText(method, option);
     checkQuality(options, method);
@@ -29,18 +28,17 @@ void checkMethod(const SceneOptions& options, const std::string& method, const c
 
 StereoFrame::StereoFrame(const LoadedScene& scene, const std::string& method)
     : mScene(scene), mMethod(method), mLens(scene.lens), mEyes(scene) {
-    if (scene.pair)
-        mPairMethod = pairMethodFromText(method);
-    else
-        mWarp.method = methodFromText(method).value_or(scene.defaultMethod());
+    mWay.method = method == "auto" ? scene.frames->defaultMethod()
+                  : scene.medium   ? sweepMethodFromText(method)
+                                   : nameOf(*methodFromText(method));
 }
 
 void StereoFrame::refine(const SceneOptions& options, Progress& progress) {
-    if (mScene.pair) return;
+    if (!mScene.renderer) return;
     const auto plan = qualityOf(options, mScene, mMethod, progress);
     if (!plan) return;
-    mWarp = plan->setting;
-    mWay = plan->name;
+    mWay = {nameOf(plan->setting.method), plan->setting};
+    mWayName = plan->name;
     const Lens& whole = mScene.lens;
     mLens.width = std::max(1, static_cast<int>(std::lround(plan->scale * whole.width)));
     mLens.height = std::max(1, static_cast<int>(std::lround(plan->scale * whole.height)));
@@ -53,21 +51,14 @@ void StereoFrame::render(const Pose& head, double time) {
     mStereo = mEyes.at(head, time);
     mViews = makeStereoViews(head, mScene.lens, mStereo);
     const StereoViews views = makeStereoViews(head, mLens, mStereo);
-    if (mScene.pair) {
-        mPair = mScene.pair->renderPair(views, time, mPairMethod, mLeft, mRight);
-        return;
-    }
-    mLeft.resize(views.left.width, views.left.height, mScene.renderer->viewDependence());
-    const Stopwatch watch;
-    renderEye(*mScene.renderer, views.left, mLeft);
-    mLeft_ms = watch.elapsed_ms();
-    mTimings = mEye.render(*mScene.renderer, views, mLeft, mWarp, mRight);
+    mScene.frames->make(views, time, mWay, mFrame);
     if (!isSmaller()) return;
-    for (EyeImage* eye : {&mLeft, &mRight}) *eye = enlarged(*eye, mScene.lens.width, mScene.lens.height);
+    for (EyeImage* eye : {&mFrame.left, &mFrame.right})
+        *eye = enlarged(*eye, mScene.lens.width, mScene.lens.height);
 }
 
 void StereoFrame::addTo(Hash& hash) const {
-    for (const EyeImage* eye : {&mLeft, &mRight}) {
+    for (const EyeImage* eye : {&mFrame.left, &mFrame.right}) {
         addRows(hash, eye->color);
         addRows(hash, eye->viewDepth);
     }

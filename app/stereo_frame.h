@@ -15,7 +15,7 @@ void checkMethod(const SceneOptions& options, const std::string& method, const c
 
 class StereoFrame {
 public:
-    // method: a right eye's, or of a medium a pair's; "auto": the scene's default.
+    // method: one of the scene's FrameMaker, or "auto" for its default.
     StereoFrame(const LoadedScene& scene, const std::string& method);
     // How the right eye is made and which warped pixels are cast as well, from options; measures the scene
     // where they ask for it.
@@ -29,19 +29,17 @@ public:
     const StereoViews& views() const { return mViews; }
     const StereoSetting& stereo() const { return mStereo; }
     // Of what is worked out for the two pictures as a whole.
-    EyeImage& left() { return mLeft; }
-    EyeImage& right() { return mRight; }
-    const EyeImage& left() const { return mLeft; }
-    const EyeImage& right() const { return mRight; }
+    EyeImage& left() { return mFrame.left; }
+    EyeImage& right() { return mFrame.right; }
+    const EyeImage& left() const { return mFrame.left; }
+    const EyeImage& right() const { return mFrame.right; }
     // What refine() chose, "" where nothing was wished; and the size in which eyes are made, to be enlarged.
-    const std::string& way() const { return mWay; }
+    const std::string& way() const { return mWayName; }
     const Lens& madeIn() const { return mLens; }
     bool isSmaller() const { return mLens.width < mScene.lens.width || mLens.height < mScene.lens.height; }
-    double left_ms() const { return mLeft_ms; }
-    const RightEyeTimings& timings() const { return mTimings; }
-    double both_ms() const { return mScene.pair ? mPair.both_ms : mLeft_ms + mTimings.right_ms(); }
+    const FrameTimings& timings() const { return mFrame.timings; }
     Plane<PackedColor> compose(OutputMode mode) const {
-        return composeStereo(mLeft.color, mRight.color, {mode, false, false});
+        return composeStereo(mFrame.left.color, mFrame.right.color, {mode, false, false});
     }
 
     // Colour and depth of both eyes, pixels only.
@@ -49,18 +47,13 @@ public:
 
 private:
     const LoadedScene& mScene;
-    std::string mMethod, mWay;
+    std::string mMethod, mWayName;
     Lens mLens;
-    WarpSetting mWarp;
-    PairMethod mPairMethod = PairMethod::Sweep;
+    FrameWay mWay;
     NarrowedEyes mEyes;
     StereoSetting mStereo;
     StereoViews mViews;  // with the size asked for
-    RightEye mEye;
-    EyeImage mLeft, mRight;
-    double mLeft_ms = 0;
-    RightEyeTimings mTimings;
-    PairTimings mPair;
+    EyePair mFrame;
 };
 
 }  // namespace stereonav

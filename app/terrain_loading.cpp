@@ -7,6 +7,7 @@
 #include "app/medium_options.h"
 #include "app/option_numbers.h"
 #include "engine/base/error.h"
+#include "engine/frame/cast_frames.h"
 #include "engine/math/constants.h"
 #include "engine/nav/navigator.h"
 #include "terrain/scene_file.h"
@@ -116,6 +117,7 @@ LoadedScene loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progr
     scene.stereo = terrain.stereo;
     scene.startPose = terrain.startPose;
     scene.path = terrain.path;
+    scene.frames = std::make_unique<CastFrames>(*scene.renderer);
     scene.methods = methodsFor(*scene.renderer);
     scene.makeFlight = [&terrain]() -> std::unique_ptr<Flight> {
         const auto ground = [&terrain](const glm::dvec2& place) { return terrain.ground.heightAt(place); };

@@ -28,8 +28,7 @@ ViewScene viewOf(const std::shared_ptr<LoadedScene>& loaded, const ViewOptions& 
                  ViewSweep* sweep, Progress& progress) {
     ViewScene scene;
     scene.owner = loaded;
-    scene.renderer = loaded->renderer.get();
-    scene.pair = loaded->pair.get();
+    scene.frames = loaded->frames.get();
     scene.makeFlight = loaded->makeFlight;
     scene.path = loaded->path;
     scene.lens = loaded->lens;
@@ -40,8 +39,8 @@ ViewScene viewOf(const std::shared_ptr<LoadedScene>& loaded, const ViewOptions& 
     scene.lightStays = whyLightStays(*loaded, options.scene);
     if (loaded->medium) {
         addMedium(*loaded, scene);
-        if (sweep) sweep->use(*loaded->pair, scene);
-        scene.pairMethod = pairMethodFromText(options.method);
+        if (sweep) sweep->use(*loaded->swept, scene);
+        scene.way.method = sweepMethodFromText(options.method);
         return scene;
     }
     if (loaded->moveSun) {
@@ -65,14 +64,13 @@ ViewScene viewOf(const std::shared_ptr<LoadedScene>& loaded, const ViewOptions& 
             changed.ambientMethods = methods;  // one that was given stays among them
             return changed;
         };
-    scene.method = methodFromText(options.method).value_or(loaded->defaultMethod());
+    scene.way.method = nameOf(methodFromText(options.method).value_or(loaded->defaultMethod()));
     // A study is opened quickly: it gets its default.
     if (const auto plan = qualityOf(options.scene, *loaded, options.method, progress)) {
-        scene.warp = plan->setting;
-        scene.method = plan->setting.method;
+        scene.way = {nameOf(plan->setting.method), plan->setting};
     } else if (measure && options.method == "auto" && loaded->terrain) {
         progress.report(1.0, "measuring how to make the right eye");
-        scene.method = planScene(*loaded).method;
+        scene.way.method = nameOf(planScene(*loaded).method);
     }
     return scene;
 }

@@ -33,8 +33,8 @@ bool samePose(const Pose& a, const Pose& b) {
 bool sameFrame(const FrameRequest& a, const FrameRequest& b) {
     return samePose(a.pose, b.pose) && a.lens.width == b.lens.width && a.lens.height == b.lens.height &&
            a.stereo.separation == b.stereo.separation && a.stereo.zeroParallax == b.stereo.zeroParallax &&
-           a.warp.method == b.warp.method && a.pairMethod == b.pairMethod && a.model == b.model &&
-           a.time == b.time && a.twoEyes == b.twoEyes && a.mode == b.mode && a.sun == b.sun;
+           a.way.method == b.way.method && a.model == b.model && a.time == b.time && a.twoEyes == b.twoEyes &&
+           a.mode == b.mode && a.sun == b.sun;
 }
 
 bool asksForMotion(const FlightInput& input) {
@@ -62,8 +62,7 @@ ViewSession::ViewSession(std::shared_ptr<const ViewScene> scene, const Options& 
       mAmbient(mScene->ambient),
       mMode(options.mode),
       mFirstMode(options.mode),
-      mMethod(mScene->method),
-      mPairMethod(mScene->pairMethod),
+      mMethod(mScene->way.method),
       mModel(mScene->model) {}
 
 void ViewSession::replaceScene(std::shared_ptr<const ViewScene> scene) {
@@ -76,13 +75,12 @@ void ViewSession::replaceScene(std::shared_ptr<const ViewScene> scene) {
     mFlight = std::move(flight);
     // Light that was turned stays so over the same study.
     const bool lightStays = mScene->moveSun && scene->moveSun && mScene->turnsSky == scene->turnsSky;
-    const bool methodStays = scene->changed && scene->method == mScene->method;
+    const bool methodStays = scene->changed && scene->way.method == mScene->way.method;
     mScene = std::move(scene);
     if (mOwnPath) mPath = mScene->path;
     mStereo.replaceScene(*mScene);
     if (!lightStays) mSun = mScene->sun;
-    if (!methodStays) mMethod = mScene->method;
-    mPairMethod = mScene->pairMethod;
+    if (!methodStays) mMethod = mScene->way.method;
     mModel = mScene->model;
     // More may be asked for than a scene made in between shows.
     if (!mScene->changed) forgetSceneChange();
@@ -223,17 +221,10 @@ void ViewSession::nextModel() {
 }
 
 void ViewSession::nextMethod() {
-    if (mScene->pair) {
-        mPairMethod =
-            static_cast<PairMethod>((static_cast<std::size_t>(mPairMethod) + 1) % kPairMethods.size());
-        return notify(fmt::format("both eyes: {}", nameOf(mPairMethod)));
-    }
-    const auto at = std::find_if(kRightEyeMethods.begin(), kRightEyeMethods.end(),
-                                 [&](const NamedMethod& m) { return m.method == mMethod; });
-    const std::size_t next =
-        (static_cast<std::size_t>(at - kRightEyeMethods.begin()) + 1) % kRightEyeMethods.size();
-    mMethod = kRightEyeMethods[next].method;
-    notify(fmt::format("right eye: {}", kRightEyeMethods[next].name));
+    const std::span<const std::string_view> methods = mScene->frames->methods();
+    const auto at = std::find(methods.begin(), methods.end(), mMethod);
+    mMethod = methods[(static_cast<std::size_t>(at - methods.begin()) + 1) % methods.size()];
+    notify(fmt::format("{}: {}", mScene->frames->whatMethodsMake(), mMethod));
 }
 
 void ViewSession::reset() {
@@ -241,8 +232,7 @@ void ViewSession::reset() {
     mFlight->goHome();
     mStereo.reset(*mScene);
     mMode = mFirstMode;
-    mMethod = mScene->method;
-    mPairMethod = mScene->pairMethod;
+    mMethod = mScene->way.method;
     mModel = mScene->model;
     mSun = mScene->sun;
     mStereoOn = true;
@@ -352,9 +342,7 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
     wanted.lens.width = eyeWidth;
     wanted.lens.height = eyeHeight;
     wanted.stereo = mStereo.now();
-    wanted.warp = mScene->warp;
-    wanted.warp.method = mMethod;
-    wanted.pairMethod = mPairMethod;
+    wanted.way = {mMethod, mScene->way.warp};
     wanted.model = mModel;
     wanted.time = mTime;
     wanted.sun = mSun;

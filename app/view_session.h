@@ -193,8 +193,7 @@ private:
     bool mStudyWished = false;
     int mSliceWidth = 1, mSliceHeight = 1;  // pixels of the last slice picture
     OutputMode mMode, mFirstMode;
-    RightEyeMethod mMethod;
-    PairMethod mPairMethod;
+    std::string_view mMethod;
     int mModel = 0;
     double mTime = 0;  // seconds, of what moves by itself
     bool mStereoOn = true, mSwapped = false, mLinear = false, mHelp = false, mQuit = false, mCaptured = false;

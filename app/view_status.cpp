@@ -15,24 +15,22 @@ std::string lengthText(double metres) {
 std::string frameText(const ViewFrame& frame, double framesPerSecond) {
     // Nothing is known of the rate before the first frames that followed each other.
     std::string line = framesPerSecond > 0 ? fmt::format("{:.1f} fps  ", framesPerSecond) : "";
-    const bool together = frame.pair.both_ms > 0;
-    if (together && !(frame.pair.left_ms > 0))
-        line += fmt::format("both eyes {:.1f} ms", frame.pair.both_ms);
+    const FrameTimings& timings = frame.timings;
+    if (timings.left_ms > 0)
+        line += fmt::format("left {:.1f} ms", timings.left_ms);
     else
-        line += fmt::format("left {:.1f} ms", together ? frame.pair.left_ms : frame.left_ms);
+        line += fmt::format("both eyes {:.1f} ms", timings.both_ms);
     if (!frame.request.twoEyes) return line + "  one eye";
     const double pixels = static_cast<double>(frame.left.width()) * frame.left.height();
-    if (together) {
-        if (frame.pair.right_ms > 0) line += fmt::format("  right {:.1f} ms", frame.pair.right_ms);
-        line += fmt::format("  {}", nameOf(frame.request.pairMethod));
-    } else {
-        line += fmt::format("  warp {:.1f} ms  fill {:.1f} ms  holes {:.1f} %  {}",
-                            frame.rightTimings.warp_ms, frame.rightTimings.fill_ms,
-                            100 * static_cast<double>(frame.rightTimings.holePixels) / pixels,
-                            nameOf(frame.request.warp.method));
-        if (frame.rightTimings.boundPsnr_db > 0)
-            line += fmt::format("  at least {:.0f} dB", frame.rightTimings.boundPsnr_db);
-    }
+    if (timings.warped)
+        line += fmt::format("  warp {:.1f} ms  fill {:.1f} ms  holes {:.1f} %", timings.warped->warp_ms,
+                            timings.warped->fill_ms,
+                            100 * static_cast<double>(timings.warped->holePixels) / pixels);
+    else if (timings.right_ms > 0)
+        line += fmt::format("  right {:.1f} ms", timings.right_ms);
+    line += fmt::format("  {}", frame.request.way.method);
+    if (timings.warped && timings.warped->boundPsnr_db > 0)
+        line += fmt::format("  at least {:.0f} dB", timings.warped->boundPsnr_db);
     line += fmt::format("  separation {}  zero parallax {}  parallax {:+.1f} to {:+.1f} %",
                         lengthText(frame.request.stereo.separation),
                         lengthText(frame.request.stereo.zeroParallax), 100 * frame.nearParallax,

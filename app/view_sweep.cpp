@@ -128,12 +128,11 @@ std::string ViewSweep::takeNotice() {
     return std::exchange(mNotice, "");
 }
 
-void ViewSweep::use(PairRenderer& pair, ViewScene& view) {
-    auto& renderer = dynamic_cast<MediumRenderer&>(pair);
+void ViewSweep::use(SweptFrames& frames, ViewScene& view) {
     if (mContext)
-        renderer.setSweep(
+        frames.setSweep(
             gpuSweep(mContext.get(), mChoice, [this](const std::string& notice) { tell(notice); }));
-    view.sweepName = [&renderer] { return renderer.sweptElsewhere() ? kGpuSweep : kCpuSweep; };
+    view.sweepName = [&frames] { return frames.sweptElsewhere() ? kGpuSweep : kCpuSweep; };
 }
 
 }  // namespace stereonav

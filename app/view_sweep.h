@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "app/medium_renderer.h"
 #include "app/view_worker.h"
+#include "engine/medium/swept_frames.h"
 
 namespace stereonav {
 
@@ -40,8 +40,8 @@ public:
     explicit ViewSweep(SweepChoice choice);
     ~ViewSweep();  // after all scenes that use it
 
-    // pair: of a medium; lives as long as `view`. Any thread.
-    void use(PairRenderer& pair, ViewScene& view);
+    // frames: lives as long as `view`. Any thread.
+    void use(SweptFrames& frames, ViewScene& view);
     // Why the graphics card does not sweep although it was asked to, "" otherwise; told once. Any thread.
     std::string takeNotice();
 

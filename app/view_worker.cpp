@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/stopwatch.h"
-
 namespace stereonav {
 namespace {
 
@@ -23,51 +21,24 @@ void lookAround(const StereoViews* views, ViewFrame& frame) {
     frame.farParallax = parallax.far;
 }
 
-// Of a medium.
-void renderTogether(const ViewScene& scene, const FrameRequest& request, ViewFrame& frame) {
-    if (scene.setModel) scene.setModel(request.model);
-    frame.pair = {};
-    if (request.twoEyes) {
-        const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
-        frame.pair = scene.pair->renderPair(views, request.time, request.pairMethod, frame.left, frame.right);
-        lookAround(&views, frame);
-    } else {
-        const Stopwatch watch;
-        scene.pair->renderOne(makeEyeView(request.pose, request.lens), request.time, frame.left);
-        frame.left_ms = watch.elapsed_ms();
-        frame.right = {};
-        lookAround(nullptr, frame);
-    }
-    if (scene.sweepName) frame.sweep = scene.sweepName();
-}
-
-void renderFrame(const ViewScene& scene, const FrameRequest& request, RightEye& rightEye, ViewFrame& frame) {
+void renderFrame(const ViewScene& scene, const FrameRequest& request, ViewFrame& frame) {
     frame.request = request;
-    frame.sweep.clear();
-    if (scene.moveSun) scene.moveSun(request.sun);
-    frame.rightTimings = {};
     frame.nearParallax = frame.farParallax = 0;
-    frame.depthAhead = kMissDepth;
-    if (scene.pair) return renderTogether(scene, request, frame);
-    const EyeRenderer& renderer = *scene.renderer;
-    frame.left.resize(request.lens.width, request.lens.height, renderer.viewDependence());
-    const Stopwatch watch;
-    if (!request.twoEyes) {
-        const EyeView view = makeEyeView(request.pose, request.lens);
-        renderEye(renderer, view, frame.left);
-        frame.left_ms = watch.elapsed_ms();
-        frame.right = {};
-        lookAround(nullptr, frame);
-        if (scene.seen) scene.seen(view, frame.left);
-        return;
+    if (scene.moveSun) scene.moveSun(request.sun);
+    if (scene.setModel) scene.setModel(request.model);
+    std::optional<StereoViews> views;
+    EyeView view = makeEyeView(request.pose, request.lens);
+    if (request.twoEyes) {
+        views = makeStereoViews(request.pose, request.lens, request.stereo);
+        view = views->left;
+        scene.frames->make(*views, request.time, request.way, frame);
+    } else {
+        scene.frames->makeOne(view, request.time, frame);
     }
-    const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
-    renderEye(renderer, views.left, frame.left);
-    frame.left_ms = watch.elapsed_ms();
-    frame.rightTimings = rightEye.render(renderer, views, frame.left, request.warp, frame.right);
-    lookAround(&views, frame);
+    lookAround(views ? &*views : nullptr, frame);
     // Not between the eyes, which are to be lit alike.
-    if (scene.seen) scene.seen(views.left, frame.left);
+    if (scene.seen) scene.seen(view, frame.left);
+    frame.sweep = scene.sweepName ? scene.sweepName() : "";
 }
 
 }  // namespace
@@ -207,7 +178,6 @@ std::shared_ptr<const ViewScene> ViewWorker::scene() const {
 // --- rendering
 
 void ViewWorker::renderFrames() {
-    RightEye rightEye;
     std::optional<Job> last;
     std::uint64_t changes = 0;
     try {
@@ -215,7 +185,7 @@ void ViewWorker::renderFrames() {
             last = job;
             if (job->scene->lightChanges) changes = job->scene->lightChanges();
             auto frame = mPool->take();
-            renderFrame(*job->scene, job->request, rightEye, *frame);
+            renderFrame(*job->scene, job->request, *frame);
             auto shared = mPool->share(std::move(frame));
             {
                 const std::lock_guard lock(mMutex);

@@ -15,14 +15,13 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/pair_renderer.h"
 #include "app/room_seen.h"
 #include "engine/base/progress.h"
 #include "engine/camera/recorded_path.h"
 #include "engine/camera/stereo_rig.h"
+#include "engine/frame/frame_maker.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/nav/flight.h"
-#include "engine/stereo/right_eye.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav {
@@ -58,16 +57,12 @@ struct PlaceOnLine {
 // A scene as the viewer needs it, whatever it shows. Immutable, read by both threads.
 struct ViewScene {
     std::shared_ptr<const void> owner;  // of all that the rest refers to
-    // One of the two; the second is used on the thread that makes frames alone.
-    const EyeRenderer* renderer = nullptr;
-    PairRenderer* pair = nullptr;
+    FrameMaker* frames = nullptr;       // used on the thread that makes frames alone
     std::function<std::unique_ptr<Flight>()> makeFlight;
     RecordedPath path;  // the scene's own flight
     Lens lens;
     StereoSetting stereo;
-    RightEyeMethod method = kDefaultRightEyeMethod;
-    WarpSetting warp;  // of whatever method: as planned when the scene was opened
-    PairMethod pairMethod = PairMethod::Sweep;
+    FrameWay way;  // as planned when the scene was opened; its method has a name
 
     // Of media: the models to choose from, and the choice before a frame, on the thread that makes frames.
     std::vector<std::string> models;
@@ -120,8 +115,7 @@ struct FrameRequest {
     Pose pose;
     Lens lens;
     StereoSetting stereo;
-    WarpSetting warp;
-    PairMethod pairMethod = PairMethod::Sweep;
+    FrameWay way;
     int model = 0;                       // of ViewScene::models
     double time = 0;                     // seconds, where the scene is animated
     SunPlace sun;                        // where it can be moved
@@ -129,12 +123,8 @@ struct FrameRequest {
     OutputMode mode = OutputMode::Left;  // that the eyes' size was chosen for
 };
 
-struct ViewFrame {
+struct ViewFrame : EyePair {
     FrameRequest request;
-    EyeImage left, right;  // right.color is empty with one eye
-    double left_ms = 0;
-    RightEyeTimings rightTimings;
-    PairTimings pair;   // of both eyes made together
     std::string sweep;  // where they were swept, "" where nobody tells
     // Parallax of the nearest and the farthest thing, as shares of the width; positive is behind the screen.
     double nearParallax = 0, farParallax = 0;

@@ -46,7 +46,7 @@ ViewSweep::ViewSweep(SweepChoice choice) : mChoice(choice) {
 
 ViewSweep::~ViewSweep() = default;
 
-void ViewSweep::use(PairRenderer&, ViewScene&) {
+void ViewSweep::use(SweptFrames&, ViewScene&) {
     without();
 }
 

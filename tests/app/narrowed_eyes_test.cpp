@@ -93,7 +93,8 @@ TEST_F(NarrowedEyesTest, LeaveFewerPixelsToCastAgain) {
     StereoFrame narrow(follows, "auto"), wide(stays, "auto");
     narrow.render(follows.startPose);
     wide.render(stays.startPose);
-    EXPECT_LT(narrow.timings().holePixels, 0.7 * static_cast<double>(wide.timings().holePixels));
+    EXPECT_LT(narrow.timings().warped->holePixels,
+              0.7 * static_cast<double>(wide.timings().warped->holePixels));
 }
 
 TEST_F(NarrowedEyesTest, AreThoseOfRenderAndPlayAlike) {

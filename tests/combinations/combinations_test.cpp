@@ -115,7 +115,7 @@ private:
             expect(tooFar(full.right, *castByOracle(drawing.scene(), views.right), besideOracle(mRow)),
                    "right eye beside the oracle");
         }
-        if (!drawing.scene().pair) return;
+        if (!drawing.scene().medium) return;
         const bool together = drawing.sweepsTogether();
         const std::vector<std::vector<EyeView>> sweeps =
             together ? std::vector<std::vector<EyeView>>{{views.left, views.right}}

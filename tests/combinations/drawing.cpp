@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "app/medium_renderer.h"
 #include "app/stereo_frame.h"
+#include "engine/medium/swept_frames.h"
 
 namespace stereonav::test {
 namespace {
@@ -37,9 +37,8 @@ long long notFiniteIn(const MediumPicture& picture) {
 // Sweeps elsewhere are asked for where a window is open; here what they are given is looked at.
 Drawing::Drawing(const RenderOptions& options, SimdTarget set)
     : mOptions(withSet(options, set)), mScene(loaded(mOptions)) {
-    auto* medium = dynamic_cast<MediumRenderer*>(mScene.pair.get());
-    if (!medium) return;
-    medium->setSweep([this](const SweepTask& task, const std::function<void()>& cpu) {
+    if (!mScene.swept) return;
+    mScene.swept->setSweep([this](const SweepTask& task, const std::function<void()>& cpu) {
         cpu();
         for (const MediumPicture& picture : task.pictures) mNotFinite += notFiniteIn(picture);
         return false;
@@ -66,7 +65,7 @@ bool Drawing::sweepsTogether() const {
 }
 
 Eyes Drawing::inFull() {
-    if (!mScene.pair) return eyes("full");
+    if (!mScene.medium) return eyes("full");
     return eyes(sweepsTogether() ? "own-samples" : "two-sweeps");
 }
 

@@ -2,31 +2,41 @@
 // frames, and what moves by itself moves with the clock.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
 
 #include "app/view_session.h"
 #include "app/view_status.h"
+#include "engine/medium/swept_frames.h"
 #include "engine/nav/navigator.h"
 
 namespace stereonav {
 namespace {
 
 // Both eyes in the colour of the method and the model, with the time as depth.
-class Fog : public PairRenderer {
+class Fog : public FrameMaker {
 public:
-    PairTimings renderPair(const StereoViews& views, double time, PairMethod method, EyeImage& left,
-                           EyeImage& right) override {
-        paint(views.left, time, static_cast<PackedColor>(method), left);
-        paint(views.right, time, static_cast<PackedColor>(10 * model + 100), right);
-        PairTimings timings;
-        timings.both_ms = 12.5;
-        if (method == PairMethod::DepthSplat) timings.left_ms = 8, timings.right_ms = 4.5;
-        return timings;
+    std::span<const std::string_view> methods() const override { return kSweepMethods; }
+    std::string_view defaultMethod() const override { return kSweepMethod; }
+    std::string_view whatMethodsMake() const override { return "both eyes"; }
+    void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) override {
+        paint(views.left, time, colorOf(way.method), frame.left);
+        paint(views.right, time, static_cast<PackedColor>(10 * model + 100), frame.right);
+        frame.timings = {};
+        frame.timings.both_ms = 12.5;
+        if (way.method == kDepthSplatMethod) frame.timings.left_ms = 8, frame.timings.right_ms = 4.5;
     }
-    void renderOne(const EyeView& view, double time, EyeImage& image) override {
-        paint(view, time, 1000, image);
+    void makeOne(const EyeView& view, double time, EyePair& frame) override {
+        paint(view, time, 1000, frame.left);
+        frame.right = {};
+        frame.timings = {};
+        frame.timings.both_ms = frame.timings.left_ms = 6.25;
+    }
+    static PackedColor colorOf(std::string_view method) {
+        return static_cast<PackedColor>(std::find(kSweepMethods.begin(), kSweepMethods.end(), method) -
+                                        kSweepMethods.begin());
     }
     int model = -1;
 
@@ -44,7 +54,8 @@ private:
 ViewScene fogScene() {
     auto fog = std::make_shared<Fog>();
     ViewScene scene;
-    scene.pair = fog.get();
+    scene.frames = fog.get();
+    scene.way.method = kSweepMethod;
     scene.models = {"emission", "surface", "direct"};
     scene.model = 1;
     scene.setModel = [fog = fog.get()](int model) { fog->model = model; };
@@ -77,22 +88,21 @@ std::shared_ptr<const ViewFrame> frameOf(ViewWorker& worker, const FrameRequest&
 TEST(ViewMedium, ModelsAndMethodsAreSteppedThroughAndReset) {
     ViewSession s = sessionOf(fogScene());
     std::vector<int> models;
-    std::vector<PairMethod> methods;
+    std::vector<std::string_view> methods;
     for (int n = 0; n < 5; ++n) {
         models.push_back(s.requestFor(80, 40).model);
-        methods.push_back(s.requestFor(80, 40).pairMethod);
+        methods.push_back(s.requestFor(80, 40).way.method);
         const long long before = s.requestFor(80, 40).version;
         s.act({ViewCommand::NextModel});
         s.act({ViewCommand::NextMethod});
         EXPECT_GT(s.requestFor(80, 40).version, before) << "a new frame is asked for";
     }
     EXPECT_THAT(models, testing::ElementsAre(1, 2, 0, 1, 2));
-    EXPECT_THAT(methods,
-                testing::ElementsAre(PairMethod::Sweep, PairMethod::OwnSamples, PairMethod::TwoSweeps,
-                                     PairMethod::DepthSplat, PairMethod::Sweep));
+    EXPECT_THAT(methods, testing::ElementsAre(kSweepMethod, kOwnSamplesMethod, kTwoSweepsMethod,
+                                              kDepthSplatMethod, kSweepMethod));
     s.act({ViewCommand::Reset});
     EXPECT_EQ(s.requestFor(80, 40).model, 1);
-    EXPECT_EQ(s.requestFor(80, 40).pairMethod, PairMethod::Sweep);
+    EXPECT_EQ(s.requestFor(80, 40).way.method, kSweepMethod);
     s.act({ViewCommand::HigherSun});
     EXPECT_GT(s.requestFor(80, 40).sun.elevation, 0.5);
 }
@@ -134,16 +144,16 @@ TEST(ViewMedium, TheWorkerMakesBothEyesTogether) {
     FrameRequest request = s.requestFor(80, 40);
     request.time = 3;
     request.model = 2;
-    request.pairMethod = PairMethod::DepthSplat;
+    request.way.method = kDepthSplatMethod;
     const auto frame = frameOf(worker, request);
     ASSERT_NE(frame, nullptr);
-    EXPECT_EQ(frame->left.color.at(3, 4), static_cast<PackedColor>(PairMethod::DepthSplat));
+    EXPECT_EQ(frame->left.color.at(3, 4), Fog::colorOf(kDepthSplatMethod));
     EXPECT_EQ(frame->right.color.at(3, 4), 120u);
     EXPECT_EQ(frame->depthAhead, 13.0);
     EXPECT_LT(frame->nearParallax, 0) << "13 m away, before the screen";
     EXPECT_NE(frameText(*frame, 10).find("left 8.0 ms  right 4.5 ms  depthsplat"), std::string::npos)
         << frameText(*frame, 10);
-    request.pairMethod = PairMethod::Sweep;
+    request.way.method = kSweepMethod;
     EXPECT_NE(frameText(*frameOf(worker, request), 10).find("both eyes 12.5 ms  sweep"), std::string::npos);
     EXPECT_NE(s.statusLine(*frame, 10).find("  direct"), std::string::npos) << "the frame's model";
     request.twoEyes = false;

@@ -12,6 +12,7 @@
 
 #include "app/view_status.h"
 #include "engine/nav/navigator.h"
+#include "tests/display/fake_frames.h"
 
 namespace stereonav {
 namespace {
@@ -30,6 +31,9 @@ ViewScene flatScene() {
     scene.path = RecordedPath(
         {{2.0, poseFromAngles({0, 0, 500}, 0, 0, 0)}, {4.0, poseFromAngles({100, 0, 500}, 0, 0, 0)}}, "test");
     scene.stereo = {20.0, 600.0};
+    static FakeFrames frames;
+    scene.frames = &frames;
+    scene.way.method = frames.defaultMethod();
     return scene;
 }
 
@@ -47,7 +51,7 @@ protected:
         ViewFrame frame;
         frame.left.resize(10, 10);
         frame.request.stereo = {20.0, 600.0};
-        frame.rightTimings = {0.4, 0.3, 7};
+        frame.timings.warped = {0.4, 0.3, 7};
         frame.nearParallax = nearest;
         frame.farParallax = farthest;
         return frame;
@@ -182,7 +186,7 @@ TEST_F(ViewSessionTest, ParallaxBeyondTheBudgetIsSaid) {
 
 TEST_F(ViewSessionTest, TheLineHoldsTheFigures) {
     ViewFrame frame = frameWith(-0.01, 0.015);
-    frame.left_ms = 3.14;
+    frame.timings.left_ms = 3.14;
     const std::string line = session().statusLine(frame, 24.04);
     for (const char* part : {"24.0 fps", "left 3.1 ms", "warp 0.4 ms", "fill 0.3 ms", "holes 7.0 %",
                              "side-by-side", "separation 20.0 m", "zero parallax 600 m", "-1.0 to +1.5 %"})

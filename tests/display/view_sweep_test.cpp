@@ -98,7 +98,7 @@ protected:
 
     EglContext mContext;
     std::vector<std::string> mTold;
-    EyeImage mLeft, mRight;
+    EyePair mFrame;
 };
 
 // As in medium_gpu_test.cpp: rays end where less than this is left of them.
@@ -144,7 +144,7 @@ private:
 
 TEST_F(ViewSweepTest, PicturesAreThoseOfTheProcessor) {
     MediumScene scene = sceneOf({16, 15, 14});
-    MediumRenderer renderer(scene);
+    SweptFrames renderer(scene);
     const auto both = std::make_shared<Both>(chooser(SweepChoice::Gpu));
     renderer.setSweep(
         [both](const SweepTask& task, const std::function<void()>& cpu) { return (*both)(task, cpu); });
@@ -153,9 +153,9 @@ TEST_F(ViewSweepTest, PicturesAreThoseOfTheProcessor) {
         SCOPED_TRACE(nameOf(model));
         scene.look.model = model;
         both->pictures = 0;
-        renderer.renderPair(views(), 0, PairMethod::Sweep, mLeft, mRight);
-        renderer.renderPair(views(), 0, PairMethod::TwoSweeps, mLeft, mRight);
-        renderer.renderOne(views().left, 0, mLeft);
+        renderer.make(views(), 0, {kSweepMethod, {}}, mFrame);
+        renderer.make(views(), 0, {kTwoSweepsMethod, {}}, mFrame);
+        renderer.makeOne(views().left, 0, mFrame);
         EXPECT_EQ(both->pictures, 5);
         EXPECT_TRUE(renderer.sweptElsewhere());
     }
@@ -164,20 +164,20 @@ TEST_F(ViewSweepTest, PicturesAreThoseOfTheProcessor) {
 
 TEST_F(ViewSweepTest, TheDepthSplatStaysOnTheProcessor) {
     MediumScene scene = sceneOf({16, 15, 14});
-    MediumRenderer renderer(scene);
+    SweptFrames renderer(scene);
     int asked = 0;
     renderer.setSweep([&](const SweepTask&, const std::function<void()>& cpu) {
         ++asked;
         cpu();
         return true;
     });
-    renderer.renderPair(views(), 0, PairMethod::Sweep, mLeft, mRight);
+    renderer.make(views(), 0, {kSweepMethod, {}}, mFrame);
     EXPECT_TRUE(renderer.sweptElsewhere());
     EXPECT_EQ(asked, 1);
-    renderer.renderPair(views(), 0, PairMethod::DepthSplat, mLeft, mRight);
+    renderer.make(views(), 0, {kDepthSplatMethod, {}}, mFrame);
     EXPECT_FALSE(renderer.sweptElsewhere());
     EXPECT_EQ(asked, 1);
-    renderer.renderOne(views().left, 0, mLeft);
+    renderer.makeOne(views().left, 0, mFrame);
     EXPECT_EQ(asked, 2);
 }
 
@@ -186,17 +186,17 @@ TEST_F(ViewSweepTest, WhatDoesNotFitIsToldOnceAndDoneOnTheProcessor) {
     glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
     if (most > 1 << 16) GTEST_SKIP() << "volumes of any length fit here";
     const MediumScene scene = sceneOf({most + 1, 200, 2});
-    MediumRenderer here(scene), asked(scene);
+    SweptFrames here(scene), asked(scene);
     asked.setSweep(chooser(SweepChoice::Gpu));
-    EyeImage left, right;
-    here.renderPair(views(), 0, PairMethod::Sweep, left, right);
+    EyePair expected;
+    here.make(views(), 0, {}, expected);
     for (int frame = 0; frame < 2; ++frame) {
-        asked.renderPair(views(), 0, PairMethod::Sweep, mLeft, mRight);
+        asked.make(views(), 0, {kSweepMethod, {}}, mFrame);
         EXPECT_FALSE(asked.sweptElsewhere());
-        for (int y = 0; y < left.height(); ++y)
-            for (int x = 0; x < left.width(); ++x) {
-                ASSERT_EQ(mLeft.color.at(x, y), left.color.at(x, y));
-                ASSERT_EQ(mRight.color.at(x, y), right.color.at(x, y));
+        for (int y = 0; y < expected.left.height(); ++y)
+            for (int x = 0; x < expected.left.width(); ++x) {
+                ASSERT_EQ(mFrame.left.color.at(x, y), expected.left.color.at(x, y));
+                ASSERT_EQ(mFrame.right.color.at(x, y), expected.right.color.at(x, y));
             }
     }
     ASSERT_EQ(mTold.size(), 1u);

@@ -8,6 +8,7 @@
 #include "app/view_input.h"
 #include "app/view_session.h"
 #include "app/view_status.h"
+#include "tests/display/fake_frames.h"
 
 namespace stereonav {
 namespace {
@@ -43,6 +44,8 @@ class ViewVolume : public testing::Test {
 protected:
     ViewVolume() {
         mScene->makeFlight = [this] { return std::make_unique<Hover>(mClearance); };
+        mScene->frames = &mFrames;
+        mScene->way.method = mFrames.defaultMethod();
         mScene->stereo = {0.001, 0.03};
         mScene->largestSeparation = 0.004;
         mScene->canBeTranslucent = true;
@@ -74,6 +77,7 @@ protected:
     }
 
     double mClearance = 0.01;
+    FakeFrames mFrames;
     std::shared_ptr<ViewScene> mScene = std::make_shared<ViewScene>();
     std::shared_ptr<SliceStudy> mStudy = std::make_shared<SliceStudy>();
 };
@@ -351,19 +355,19 @@ TEST_F(ViewVolume, WhatWasChangedInPlaceGoesOn) {
     for (int i = 0; i < 60; ++i) s.step(forward, kFrame);
     s.act({ViewCommand::Play});
     s.act({ViewCommand::NextMethod});
-    const RightEyeMethod method = s.requestFor(100, 100).warp.method;
-    EXPECT_NE(method, mScene->method);
+    const std::string_view method = s.requestFor(100, 100).way.method;
+    EXPECT_NE(method, mScene->way.method);
     s.step({}, 0.1);
     auto other = std::make_shared<ViewScene>(*mScene);
     other->changed = true;
     s.replaceScene(other);
     EXPECT_TRUE(s.playing());
-    EXPECT_EQ(s.requestFor(100, 100).warp.method, method);
+    EXPECT_EQ(s.requestFor(100, 100).way.method, method);
     other = std::make_shared<ViewScene>(*mScene);
     other->changed = true;
-    other->method = RightEyeMethod::Selective;
+    other->way.method = "selective";
     s.replaceScene(other);
-    EXPECT_EQ(s.requestFor(100, 100).warp.method, RightEyeMethod::Selective) << "another default";
+    EXPECT_EQ(s.requestFor(100, 100).way.method, "selective") << "another default";
     s.replaceScene(mScene);
     EXPECT_FALSE(s.playing());
 }
@@ -379,14 +383,14 @@ TEST_F(ViewVolume, AnotherSceneTakesThePlaceAndTheFlightGoesOn) {
     const StereoSetting eyes = s.stereo();
     const long long version = s.requestFor(100, 100).version;
     auto other = std::make_shared<ViewScene>(*mScene);
-    other->method = RightEyeMethod::DepthSplat;
+    other->way.method = "depthsplat";
     other->translucent = true;
     s.replaceScene(other);
     EXPECT_EQ(s.pose().position, here);
     EXPECT_EQ(s.flight().mode(), 1);
     EXPECT_EQ(s.stereo().separation, eyes.separation);
     EXPECT_GT(s.requestFor(100, 100).version, version) << "it must be drawn, though nothing moved";
-    EXPECT_EQ(s.requestFor(100, 100).warp.method, RightEyeMethod::DepthSplat);
+    EXPECT_EQ(s.requestFor(100, 100).way.method, "depthsplat");
     s.act({ViewCommand::ToggleTranslucent});
     EXPECT_EQ(s.takeSceneChange()->translucent, false) << "from what is shown now";
 }

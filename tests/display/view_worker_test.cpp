@@ -13,6 +13,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
+#include "engine/frame/cast_frames.h"
 
 namespace stereonav {
 namespace {
@@ -48,8 +49,14 @@ private:
 
 ViewScene sceneOf(std::shared_ptr<Wall> wall) {
     ViewScene scene;
-    scene.renderer = wall.get();
-    scene.owner = std::move(wall);
+    struct Cast {
+        std::shared_ptr<Wall> wall;
+        CastFrames frames;
+    };
+    CastFrames frames(*wall);
+    auto cast = std::make_shared<Cast>(Cast{std::move(wall), std::move(frames)});
+    scene.frames = &cast->frames;
+    scene.owner = std::move(cast);
     return scene;
 }
 
@@ -61,7 +68,7 @@ FrameRequest requestAt(long long version, double height) {
     request.lens.width = 40;
     request.lens.height = 20;
     request.stereo = {2.0, 50.0};
-    request.warp.method = RightEyeMethod::Full;
+    request.way.method = "full";
     return request;
 }
 

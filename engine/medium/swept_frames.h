@@ -1,14 +1,15 @@
-// Both eyes of a medium by sweeps, on the processor or by what is set in its place.
+// Frames of media, by sweeps on the processor or by what is set in its place.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "app/medium_scene.h"
-#include "app/pair_renderer.h"
+#include "engine/frame/frame_maker.h"
+#include "engine/medium/medium_scene.h"
 #include "engine/medium/medium_sweep.h"
 #include "engine/stereo/right_eye.h"
 
@@ -27,23 +28,37 @@ struct SweepTask {
 // Sweeps elsewhere, or calls cpu(), which does it here; true: what the pictures hold was made elsewhere.
 using SweepChooser = std::function<bool(const SweepTask& task, const std::function<void()>& cpu)>;
 
-class MediumRenderer final : public PairRenderer {
+// Methods of SweptFrames.
+constexpr std::string_view kSweepMethod =
+    "sweep";  // both eyes in one, from one light; the right reads what the left saw
+constexpr std::string_view kOwnSamplesMethod =
+    "own-samples";  // the same, but that each eye takes samples of its own
+constexpr std::string_view kTwoSweepsMethod =
+    "two-sweeps";  // one for each eye: what the others are measured against
+// The left eye's depths splatted to the right, whose rays start there (W12). FrameTimings::warped: the splat,
+// the sweep after it, and the rays of which no start was known.
+constexpr std::string_view kDepthSplatMethod = "depthsplat";
+constexpr std::array<std::string_view, 4> kSweepMethods{kSweepMethod, kOwnSamplesMethod, kTwoSweepsMethod,
+                                                        kDepthSplatMethod};
+
+class SweptFrames final : public FrameMaker {
 public:
     // scene must outlive this; its look is read at each frame.
-    explicit MediumRenderer(const MediumScene& scene, SimdTarget simd = SimdTarget::Auto);
+    explicit SweptFrames(const MediumScene& scene, SimdTarget simd = SimdTarget::Auto);
 
-    PairTimings renderPair(const StereoViews& views, double time, PairMethod method, EyeImage& left,
-                           EyeImage& right) override;
-    void renderOne(const EyeView& view, double time, EyeImage& image) override;
+    std::span<const std::string_view> methods() const override { return kSweepMethods; }
+    std::string_view defaultMethod() const override { return kSweepMethod; }
+    std::string_view whatMethodsMake() const override { return "both eyes"; }
+    void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) override;
+    void makeOne(const EyeView& view, double time, EyePair& frame) override;
+    // What sweeps read and write, and their pictures before they are packed.
+    std::vector<HeldBytes> held() const override;
 
     // Asked at each sweep from now on, but for those of the depth splat, whose rays start in depths.
     void setSweep(SweepChooser chooser) { mChooser = std::move(chooser); }
     bool sweptElsewhere() const { return mElsewhere; }  // the last one
 
     SimdTarget target() const { return mSweep.target(); }
-    // Held between frames: what sweeps read and write, and their pictures before they are packed.
-    std::size_t sweepBytes() const;
-    std::size_t pictureBytes() const;
 
 private:
     class RightRays;

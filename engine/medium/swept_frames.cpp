@@ -1,5 +1,5 @@
 // The four ways to two eyes of a medium, and what is put behind it.
-#include "app/medium_renderer.h"
+#include "engine/medium/swept_frames.h"
 
 #include <algorithm>
 #include <array>
@@ -8,38 +8,17 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 
 namespace stereonav {
 
-void MediumScene::turnLight(double azimuth, double elevation) {
-    look.light.direction = -glm::dvec3(std::sin(azimuth) * std::cos(elevation),
-                                       std::cos(azimuth) * std::cos(elevation), std::sin(elevation));
-}
-
-MediumTransfer allSurface(const MediumTransfer& transfer) {
-    const auto shaded = [](auto materials) {
-        for (auto& material : materials) material.material.surface = 1;
-        return materials;
-    };
-    if (!transfer.regions().empty())
-        return MediumTransfer(shaded(transfer.regions()), transfer.referenceLength(), "surface");
-    return MediumTransfer(shaded(transfer.points()), transfer.referenceLength(), "surface");
-}
-
-Medium allSurface(const Medium& layers) {
-    std::vector<HeightLayer> shaded = layers.layers();
-    for (HeightLayer& layer : shaded)
-        for (OpticalProperties& entry : layer.table.entries) entry.surface = 1;
-    return Medium(std::move(shaded), layers.perturbation());
-}
-
 // The right eye as the splat of depths sees it: one tile, swept from the depths that it is given.
-class MediumRenderer::RightRays final : public EyeRenderer {
+class SweptFrames::RightRays final : public EyeRenderer {
 public:
     // nearest: metres along the view, before which nothing is expected where the left eye does not look.
-    RightRays(MediumRenderer& renderer, double time, double nearest)
+    RightRays(SweptFrames& renderer, double time, double nearest)
         : mRenderer(renderer), mTime(time), mNearest(nearest) {}
 
     int tileCount(const EyeView&) const override { return 1; }
@@ -64,7 +43,7 @@ public:
     }
 
 private:
-    MediumRenderer& mRenderer;
+    SweptFrames& mRenderer;
     double mTime, mNearest;
 };
 
@@ -78,40 +57,37 @@ double nearestExpected(const EyeImage& left) {
     return kMargin * nearest;
 }
 
-MediumRenderer::MediumRenderer(const MediumScene& scene, SimdTarget simd)
+SweptFrames::SweptFrames(const MediumScene& scene, SimdTarget simd)
     : mScene(scene), mSweep(scene.medium, simd), mPictures(2) {}
 
-std::size_t MediumRenderer::sweepBytes() const {
-    return mSweep.heldBytes() + (mSurface ? mSurface->sweep.heldBytes() : 0);
-}
-
-std::size_t MediumRenderer::pictureBytes() const {
+std::vector<HeldBytes> SweptFrames::held() const {
     std::size_t pixels = 0;
     for (const MediumPicture& picture : mPictures)
         pixels += static_cast<std::size_t>(picture.light.width()) * picture.light.height();
-    return pixels * (sizeof(glm::vec4) + sizeof(float));
+    return {{"sweep", mSweep.heldBytes() + (mSurface ? mSurface->sweep.heldBytes() : 0)},
+            {"pictures", pixels * (sizeof(glm::vec4) + sizeof(float))}};
 }
 
-bool MediumRenderer::showsSurface() const {
+bool SweptFrames::showsSurface() const {
     return mScene.look.model == MediumModel::Surface && mScene.makeSurface;
 }
 
-const Medium& MediumRenderer::medium() const {
+const Medium& SweptFrames::medium() const {
     return showsSurface() ? mSurface->medium : mScene.medium;
 }
 
-MediumSweep& MediumRenderer::sweep() {
+MediumSweep& SweptFrames::sweep() {
     if (!showsSurface()) return mSweep;
     if (!mSurface) mSurface = std::make_unique<Surface>(mScene.makeSurface(), mSweep.target());
     return mSurface->sweep;
 }
 
-glm::vec3 MediumRenderer::behind(const EyeView& view, int x, int y) const {
+glm::vec3 SweptFrames::behind(const EyeView& view, int x, int y) const {
     return mScene.sky ? mScene.sky(glm::normalize(view.rayDirection(x + 0.5, y + 0.5)))
                       : mScene.look.background;
 }
 
-void MediumRenderer::pack(const MediumPicture& picture, const EyeView& view, EyeImage& image) const {
+void SweptFrames::pack(const MediumPicture& picture, const EyeView& view, EyeImage& image) const {
     image.resize(view.width, view.height);
     parallelFor(view.height, [&](int y) {
         for (int x = 0; x < view.width; ++x) {
@@ -124,8 +100,8 @@ void MediumRenderer::pack(const MediumPicture& picture, const EyeView& view, Eye
     });
 }
 
-void MediumRenderer::sweepEyes(std::span<const EyeView> eyes, double time,
-                               std::span<const Plane<float>> starts, bool shares) {
+void SweptFrames::sweepEyes(std::span<const EyeView> eyes, double time, std::span<const Plane<float>> starts,
+                            bool shares) {
     MediumSweep& sweep = this->sweep();
     SweepSetting setting = mScene.sweep;
     if (!shares) setting.sharedWidth = 0;
@@ -137,43 +113,47 @@ void MediumRenderer::sweepEyes(std::span<const EyeView> eyes, double time,
     mElsewhere = mChooser({medium(), mScene.look, setting, eyes, head, time, pictures}, cpu);
 }
 
-void MediumRenderer::sweepOne(const EyeView& view, double time, std::span<const Plane<float>> starts,
-                              EyeImage& image) {
+void SweptFrames::sweepOne(const EyeView& view, double time, std::span<const Plane<float>> starts,
+                           EyeImage& image) {
     sweepEyes({&view, 1}, time, starts);
     pack(mPictures[0], view, image);
 }
 
-void MediumRenderer::renderOne(const EyeView& view, double time, EyeImage& image) {
+void SweptFrames::makeOne(const EyeView& view, double time, EyePair& frame) {
+    const Stopwatch watch;
     mHere = false;
-    sweepOne(view, time, {}, image);
+    sweepOne(view, time, {}, frame.left);
+    frame.right = {};
+    frame.timings = {};
+    frame.timings.both_ms = frame.timings.left_ms = watch.elapsed_ms();
 }
 
-PairTimings MediumRenderer::renderPair(const StereoViews& views, double time, PairMethod method,
-                                       EyeImage& left, EyeImage& right) {
-    PairTimings timings;
+void SweptFrames::make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) {
+    const std::string_view method = way.method.empty() ? defaultMethod() : way.method;
+    if (std::find(kSweepMethods.begin(), kSweepMethods.end(), method) == kSweepMethods.end())
+        throw Error("", "", "there is no method \"" + std::string(method) + "\" of sweeping both eyes",
+                    "use one of methods()");
+    frame.timings = {};
     const Stopwatch watch;
-    mHere = method == PairMethod::DepthSplat;
-    if (method == PairMethod::Sweep || method == PairMethod::OwnSamples) {
+    mHere = method == kDepthSplatMethod;
+    if (method == kSweepMethod || method == kOwnSamplesMethod) {
         const std::array<EyeView, 2> eyes{views.left, views.right};
-        sweepEyes(eyes, time, {}, method == PairMethod::Sweep);
-        pack(mPictures[0], views.left, left);
-        pack(mPictures[1], views.right, right);
-        timings.both_ms = watch.elapsed_ms();
-        return timings;
+        sweepEyes(eyes, time, {}, method == kSweepMethod);
+        pack(mPictures[0], views.left, frame.left);
+        pack(mPictures[1], views.right, frame.right);
+        frame.timings.both_ms = watch.elapsed_ms();
+        return;
     }
-    left.resize(views.left.width, views.left.height);
-    sweepOne(views.left, time, {}, left);
-    timings.left_ms = watch.elapsed_ms();
+    frame.left.resize(views.left.width, views.left.height);
+    sweepOne(views.left, time, {}, frame.left);
+    frame.timings.left_ms = watch.elapsed_ms();
     WarpSetting setting;
-    setting.method = method == PairMethod::DepthSplat ? RightEyeMethod::DepthSplat : RightEyeMethod::Full;
-    const RightRays rays(*this, time, nearestExpected(left));
-    const RightEyeTimings ofRight = mSplat.render(rays, views, left, setting, right);
-    timings.both_ms = watch.elapsed_ms();
-    timings.right_ms = timings.both_ms - timings.left_ms;
-    if (method == PairMethod::TwoSweeps) return timings;
-    timings.splat_ms = ofRight.warp_ms;
-    timings.unknownPixels = ofRight.holePixels;
-    return timings;
+    setting.method = method == kDepthSplatMethod ? RightEyeMethod::DepthSplat : RightEyeMethod::Full;
+    const RightRays rays(*this, time, nearestExpected(frame.left));
+    const RightEyeTimings ofRight = mSplat.render(rays, views, frame.left, setting, frame.right);
+    frame.timings.both_ms = watch.elapsed_ms();
+    frame.timings.right_ms = frame.timings.both_ms - frame.timings.left_ms;
+    if (method == kDepthSplatMethod) frame.timings.warped = ofRight;
 }
 
 }  // namespace stereonav

@@ -1,0 +1,56 @@
+#include "engine/frame/cast_frames.h"
+
+#include <array>
+#include <string>
+
+#include "engine/base/error.h"
+#include "engine/base/stopwatch.h"
+
+namespace stereonav {
+namespace {
+
+constexpr auto kNames = [] {
+    std::array<std::string_view, kRightEyeMethods.size()> names;
+    for (std::size_t n = 0; n < names.size(); ++n) names[n] = kRightEyeMethods[n].name;
+    return names;
+}();
+
+RightEyeMethod methodNamed(std::string_view name) {
+    if (const auto method = rightEyeMethodFromName(name)) return *method;
+    throw Error("", "", "there is no method \"" + std::string(name) + "\" of making the right eye",
+                "use one of methods()");
+}
+
+}  // namespace
+
+std::span<const std::string_view> CastFrames::methods() const {
+    return kNames;
+}
+
+std::string_view CastFrames::defaultMethod() const {
+    return nameOf(defaultMethodFor(mRenderer));
+}
+
+void CastFrames::make(const StereoViews& views, double, const FrameWay& way, EyePair& frame) {
+    WarpSetting setting = way.warp;
+    setting.method = methodNamed(way.method.empty() ? defaultMethod() : way.method);
+    frame.left.resize(views.left.width, views.left.height, mRenderer.viewDependence());
+    const Stopwatch watch;
+    renderEye(mRenderer, views.left, frame.left);
+    frame.timings.left_ms = watch.elapsed_ms();
+    const RightEyeTimings right = mRightEye.render(mRenderer, views, frame.left, setting, frame.right);
+    frame.timings.right_ms = right.right_ms();
+    frame.timings.both_ms = frame.timings.left_ms + frame.timings.right_ms;
+    frame.timings.warped = right;
+}
+
+void CastFrames::makeOne(const EyeView& view, double, EyePair& frame) {
+    frame.left.resize(view.width, view.height, mRenderer.viewDependence());
+    frame.right = {};
+    const Stopwatch watch;
+    renderEye(mRenderer, view, frame.left);
+    frame.timings = {};
+    frame.timings.both_ms = frame.timings.left_ms = watch.elapsed_ms();
+}
+
+}  // namespace stereonav

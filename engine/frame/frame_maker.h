@@ -1,0 +1,61 @@
+// One frame of a scene: both eyes, by whatever way the scene has of making them. Commands and the window make
+// their frames through this and need not know what is behind it: rays and a warped right eye (cast_frames.h),
+// or a sweep through a medium for both (engine/medium/swept_frames.h).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/camera/stereo_rig.h"
+#include "engine/image/eye_image.h"
+#include "engine/stereo/right_eye.h"
+
+namespace stereonav {
+
+// How the eyes are to be made.
+struct FrameWay {
+    std::string_view method;  // one of FrameMaker::methods(); "": the default
+    WarpSetting warp;         // of methods that warp: all but which one it is
+};
+
+struct FrameTimings {
+    double both_ms = 0;                     // of the whole frame
+    double left_ms = 0, right_ms = 0;       // of each eye; 0 where they are made together
+    std::optional<RightEyeTimings> warped;  // of a right eye that came from the left one
+};
+
+struct EyePair {
+    EyeImage left, right;  // right: without pixels where one eye was made
+    FrameTimings timings;
+};
+
+// What is held between frames beside the pictures, bytes.
+struct HeldBytes {
+    const char* what;
+    std::size_t bytes;
+};
+
+// Not for two threads at once; the work inside runs on all threads.
+class FrameMaker {
+public:
+    virtual ~FrameMaker() = default;
+
+    // Names of the ways to two eyes, in a fixed order, all valid for ever.
+    virtual std::span<const std::string_view> methods() const = 0;
+    virtual std::string_view defaultMethod() const = 0;
+    // What these methods make, as in "right eye": the rest is the same for all.
+    virtual std::string_view whatMethodsMake() const = 0;
+
+    // Both eyes; sizes the images. time: seconds, of what moves by itself. Throws Error for a method that is
+    // not among methods().
+    virtual void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) = 0;
+    // One eye, into frame.left.
+    virtual void makeOne(const EyeView& view, double time, EyePair& frame) = 0;
+
+    virtual std::vector<HeldBytes> held() const { return {}; }
+};
+
+}  // namespace stereonav
