@@ -7,15 +7,16 @@
 
 #include "app/comparison_report.h"
 #include "app/output_place.h"
-#include "app/pair_comparison.h"
 #include "app/progress_bar.h"
 #include "app/stereo_frame.h"
-#include "app/timed_poses.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/parallel.h"
+#include "engine/camera/timed_poses.h"
 #include "engine/image/image_file.h"
+#include "engine/medium/swept_frames.h"
 #include "engine/metrics/difference_picture.h"
+#include "engine/metrics/pair_comparison.h"
 
 namespace stereonav {
 namespace {
@@ -89,6 +90,7 @@ void writePictures(const ComparedPair& pair, const fs::path& folder) {
 std::vector<MethodFigures> comparedPairs(const CompareOptions& options, const LoadedScene& scene,
                                          const RecordedPath& path, Progress& progress) {
     PairComparisonSetting setting;
+    setting.truth = kTwoSweepsMethod;
     setting.methods = sweepMethodsOf(options, *scene.frames);
     setting.repeats = options.repeats;
     const std::vector<TimedPose> poses = timedFrames(path, options.frames);

@@ -140,11 +140,8 @@ int runInfo(const InfoOptions& options) {
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
     ProcessFacts process;
     takeWhenReady(process);
-    std::optional<FramePlan> plan;
-    if (scene.renderer) {
-        bar.progress().report(0.95, "measuring");
-        plan = planScene(scene);
-    }
+    bar.progress().report(0.95, "measuring");
+    const std::optional<FramePlan> plan = planScene(scene);
     takeAtEnd(process);
     bar.clear();
     if (options.json) {

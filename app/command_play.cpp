@@ -7,10 +7,10 @@
 #include "app/output_place.h"
 #include "app/progress_bar.h"
 #include "app/stereo_frame.h"
-#include "app/timed_poses.h"
 #include "app/video_file.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/camera/timed_poses.h"
 #include "engine/image/image_file.h"
 
 namespace stereonav {

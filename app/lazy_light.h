@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/view_sky.h"
 #include "colon/colon_scene.h"
 #include "engine/camera/eye_view.h"
 #include "engine/image/eye_image.h"
 #include "engine/light/lazy_bake.h"
 #include "engine/light/texel_light.h"
+#include "engine/light/turning_sky.h"
 
 namespace stereonav {
 

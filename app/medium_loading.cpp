@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "app/colon_loading.h"
-#include "app/medium_noise.h"
 #include "app/medium_options.h"
 #include "app/medium_terrain.h"
 #include "app/terrain_loading.h"
@@ -18,6 +17,7 @@
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
 #include "engine/medium/built_in_media.h"
+#include "engine/medium/noise_file.h"
 #include "engine/medium/swept_frames.h"
 #include "engine/nav/navigator.h"
 #include "terrain/sky_map.h"

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "app/medium_noise.h"
 #include "app/option_numbers.h"
 #include "app/volume_light.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
+#include "engine/medium/noise_file.h"
 
 namespace stereonav {
 namespace {

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/medium_noise.h"
 #include "app/medium_options.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/medium/noise_file.h"
 
 namespace stereonav {
 namespace {

@@ -2,9 +2,9 @@
 // go wider apart than the scene has them.
 #pragma once
 
-#include "app/room_seen.h"
 #include "app/scene_loading.h"
 #include "engine/image/eye_image.h"
+#include "engine/stereo/room_seen.h"
 
 namespace stereonav {
 

@@ -9,7 +9,6 @@ namespace stereonav {
 namespace {
 
 constexpr int kCalibrationFrames = 15;  // of the scene's flight, beside the start pose
-constexpr int kTimedRepeats = 2;        // where times are wished for
 
 bool wantsQuality(const QualityOptions& q) {
     return q.quality || q.targetPsnr_db || q.target_ms;
@@ -43,16 +42,8 @@ std::optional<QualityPlan> qualityOf(const SceneOptions& options, const LoadedSc
     const QualityOptions& q = options.quality;
     if (!wantsQuality(q)) return std::nullopt;
     progress.report(0.85, "measuring what error is to be expected");
-    QualityWish wish{q.quality, q.targetPsnr_db, q.target_ms, false};
-    std::vector<NamedWarp> warps = warpsWorthTrying(*scene.renderer);
-    if (const auto named = methodFromText(method)) {
-        warps.erase(warps.begin(), warps.end() - 1);
-        warps.insert(warps.begin(), {std::string(nameOf(*named)), {}});
-        warps.front().setting.method = *named;
-        wish.firstAlone = true;
-    }
-    const int repeats = q.target_ms ? kTimedRepeats : 1;
-    return planQuality(measureWarps(*scene.renderer, calibrationViews(scene), warps, repeats), wish);
+    return scene.frames->meet({q.quality, q.targetPsnr_db, q.target_ms, false},
+                              method == "auto" ? "" : method, calibrationViews(scene));
 }
 
 }  // namespace stereonav

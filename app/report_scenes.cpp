@@ -54,7 +54,7 @@ std::string planesText(const FramePlan& plan) {
 
 ReportTable sceneTable(ReportRun& run, const ReportScene& scene) {
     run.tell("frame plan, " + scene.title);
-    const FramePlan plan = planScene(scene.loaded);
+    const FramePlan plan = planScene(scene.loaded).value();
     ReportTable table{scene.title, "", {"", "what was read and what a frame holds"}, {}};
     table.rows = rowsOfInfo(scene.loaded.terrain ? terrainText(scene.loaded) : colonText(scene.loaded));
     table.rows.push_back({"loading", fmt::format("{:.0f} ms", scene.load_ms)});

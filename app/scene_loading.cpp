@@ -221,12 +221,12 @@ void adjustViews(const SceneOptions& options, LoadedScene& scene) {
     if (options.fov_deg > 0.0) scene.lens.verticalFov = options.fov_deg * kRadians;
 }
 
-FramePlan planScene(const LoadedScene& scene) {
+std::optional<FramePlan> planScene(const LoadedScene& scene) {
     constexpr int kPosesAlongTheFlight = 4;
     std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};
     if (!scene.path.samples().empty())
         for (const Pose& pose : scene.path.frames(kPosesAlongTheFlight)) views.push_back(scene.viewsAt(pose));
-    return planFrame(*scene.renderer, views);
+    return scene.frames->measure(views);
 }
 
 std::string machineName() {

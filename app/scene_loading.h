@@ -10,17 +10,17 @@
 #include "app/commands.h"
 #include "app/lazy_light.h"
 #include "app/output_place.h"
-#include "app/room_seen.h"
 #include "app/traced_light.h"
-#include "app/view_sky.h"
 #include "colon/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/frame/frame_maker.h"
 #include "engine/image/stereo_compose.h"
+#include "engine/light/turning_sky.h"
 #include "engine/math/simd_target.h"
 #include "engine/medium/medium_scene.h"
 #include "engine/nav/flight.h"
 #include "engine/stereo/frame_plan.h"
+#include "engine/stereo/room_seen.h"
 #include "terrain/terrain_scene.h"
 
 namespace stereonav {
@@ -37,7 +37,7 @@ struct LoadedScene {
     std::optional<double> modulateSigma;       // of opacity modulation, given or chosen; none: without
     std::shared_ptr<LazyLight> lazyLight;      // of a volume lit while it is shown; else null
     std::shared_ptr<TracedLight> tracedLight;  // of one lit at every pixel of a picture; else null
-    std::shared_ptr<ViewSky> sky;              // over baked transfer, where SceneOptions::skyTurns; else null
+    std::shared_ptr<TurningSky> sky;           // over baked transfer, where SceneOptions::skyTurns; else null
     std::unique_ptr<EyeRenderer> renderer;     // null for a medium
     std::unique_ptr<FrameMaker> frames;        // of the renderer's rays, or of the medium
     SweptFrames* swept = nullptr;              // what frames is, of a medium
@@ -101,8 +101,9 @@ OutputMode modeFromText(const std::string& name);
 void adjustViews(const SceneOptions& options, LoadedScene& scene);
 SimdTarget simdFromText(const std::string& name);
 
-// The frame plan of a loaded scene: measured at the start pose and along its flight.
-FramePlan planScene(const LoadedScene& scene);
+// The frame plan of a loaded scene: measured at the start pose and along its flight. Nothing where there is
+// nothing to weigh.
+std::optional<FramePlan> planScene(const LoadedScene& scene);
 
 // The processor's name, "unknown" where the system does not tell.
 std::string machineName();

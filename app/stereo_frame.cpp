@@ -34,7 +34,6 @@ StereoFrame::StereoFrame(const LoadedScene& scene, const std::string& method)
 }
 
 void StereoFrame::refine(const SceneOptions& options, Progress& progress) {
-    if (!mScene.renderer) return;
     const auto plan = qualityOf(options, mScene, mMethod, progress);
     if (!plan) return;
     mWay = {nameOf(plan->setting.method), plan->setting};

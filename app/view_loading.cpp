@@ -70,7 +70,7 @@ ViewScene viewOf(const std::shared_ptr<LoadedScene>& loaded, const ViewOptions& 
         scene.way = {nameOf(plan->setting.method), plan->setting};
     } else if (measure && options.method == "auto" && loaded->terrain) {
         progress.report(1.0, "measuring how to make the right eye");
-        scene.way.method = nameOf(planScene(*loaded).method);
+        if (const auto measured = planScene(*loaded)) scene.way.method = nameOf(measured->method);
     }
     return scene;
 }

@@ -7,10 +7,6 @@
 
 namespace stereonav {
 
-// Parallax that is comfortable, as shares of the picture's width: the whole range, and the short
-// excursions that broadcasters allow before and behind the screen.
-constexpr double kParallaxBudget = 0.03, kNearestParallax = -0.025, kFarthestParallax = 0.04;
-
 // Metres in the unit that suits the size: "1.3 mm", "20.0 m", "1.25 km".
 std::string lengthText(double metres);
 

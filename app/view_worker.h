@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/room_seen.h"
 #include "engine/base/progress.h"
 #include "engine/camera/recorded_path.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/frame/frame_maker.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/nav/flight.h"
+#include "engine/stereo/room_seen.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav {

@@ -41,7 +41,7 @@ double meanLight(const IlluminationVolume& light) {
     return weight > 0 ? sum / weight : 0.0;
 }
 
-std::shared_ptr<ViewSky> applyBaked(const SceneOptions& options, ColonScene& scene, Progress& progress) {
+std::shared_ptr<TurningSky> applyBaked(const SceneOptions& options, ColonScene& scene, Progress& progress) {
     BakedLight baked = loadBakedLight(options.light, scene, progress);
     BakedLook& look = scene.volume.look.baked;
     const bool transfer = baked.kind == BakeKind::Transfer;
@@ -71,8 +71,8 @@ std::shared_ptr<ViewSky> applyBaked(const SceneOptions& options, ColonScene& sce
     auto beyond = std::make_shared<IlluminationVolume>(lightBeyond(*light));
     look.beyond = beyond;
     if (!transfer || !options.skyTurns) return nullptr;
-    return std::make_shared<ViewSky>(std::move(baked.transfer), std::move(straight), std::move(light),
-                                     skyTurnOf(options), std::move(beyond));
+    return std::make_shared<TurningSky>(std::move(baked.transfer), std::move(straight), std::move(light),
+                                        skyTurnOf(options), std::move(beyond));
 }
 
 // Up and to the left behind the one who looks, as far away as what is looked at is large.
@@ -165,12 +165,12 @@ void checkVolumeLight(const SceneOptions& options) {
     checkAmbientLight(volume, options.light);
 }
 
-std::shared_ptr<ViewSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene,
-                                          Progress& progress) {
+std::shared_ptr<TurningSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene,
+                                             Progress& progress) {
     const VolumeOptions& volume = options.volume;
     if (!volume.shading.empty()) shadingOf(volume.shading).apply(scene);
     const bool file = !options.light.empty() && !isLazyLight(options.light) && options.light != kTracedLight;
-    std::shared_ptr<ViewSky> sky;
+    std::shared_ptr<TurningSky> sky;
     if (file) sky = applyBaked(options, scene, progress);
     return sky;
 }

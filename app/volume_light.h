@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/view_sky.h"
 #include "colon/colon_scene.h"
 #include "engine/base/progress.h"
+#include "engine/light/turning_sky.h"
 
 namespace stereonav {
 
@@ -18,7 +18,8 @@ void checkVolumeLight(const SceneOptions& options);
 // --light, --sky, --turn, --exposure and --shading into the scene's look (--ambient and --modulate: see
 // volume_ambient.h). Gives the sky, where it is one that turns and options.skyTurns; else null. Throws Error,
 // Cancelled.
-std::shared_ptr<ViewSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene, Progress& progress);
+std::shared_ptr<TurningSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene,
+                                             Progress& progress);
 
 // The harmonics of --sky, or of an overcast one, before they are turned. Throws Error.
 std::vector<glm::vec3> skyHarmonics(const SceneOptions& options, int order);

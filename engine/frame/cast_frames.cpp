@@ -53,4 +53,22 @@ void CastFrames::makeOne(const EyeView& view, double, EyePair& frame) {
     frame.timings.both_ms = frame.timings.left_ms = watch.elapsed_ms();
 }
 
+std::optional<FramePlan> CastFrames::measure(std::span<const StereoViews> views) {
+    return planFrame(mRenderer, views);
+}
+
+std::optional<QualityPlan> CastFrames::meet(const QualityWish& wish, std::string_view method,
+                                            std::span<const StereoViews> views) {
+    constexpr int kTimedRepeats = 2;  // where times are wished for
+    QualityWish wished = wish;
+    std::vector<NamedWarp> warps = warpsWorthTrying(mRenderer);
+    if (!method.empty()) {
+        warps.erase(warps.begin(), warps.end() - 1);
+        warps.insert(warps.begin(), {std::string(method), {}});
+        warps.front().setting.method = methodNamed(method);
+        wished.firstAlone = true;
+    }
+    return planQuality(measureWarps(mRenderer, views, warps, wish.target_ms ? kTimedRepeats : 1), wished);
+}
+
 }  // namespace stereonav

@@ -17,6 +17,9 @@ public:
     std::string_view whatMethodsMake() const override { return "right eye"; }
     void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) override;
     void makeOne(const EyeView& view, double time, EyePair& frame) override;
+    std::optional<FramePlan> measure(std::span<const StereoViews> views) override;
+    std::optional<QualityPlan> meet(const QualityWish& wish, std::string_view method,
+                                    std::span<const StereoViews> views) override;
 
 private:
     const EyeRenderer& mRenderer;

@@ -11,6 +11,8 @@
 
 #include "engine/camera/stereo_rig.h"
 #include "engine/image/eye_image.h"
+#include "engine/stereo/frame_plan.h"
+#include "engine/stereo/quality_plan.h"
 #include "engine/stereo/right_eye.h"
 
 namespace stereonav {
@@ -54,6 +56,17 @@ public:
     virtual void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) = 0;
     // One eye, into frame.left.
     virtual void makeOne(const EyeView& view, double time, EyePair& frame) = 0;
+
+    // Which method is worth its time on frames like these (all of one size, at least one), by measuring;
+    // nothing where there is nothing to weigh.
+    virtual std::optional<FramePlan> measure(std::span<const StereoViews>) { return std::nullopt; }
+    // The way that meets a wish for quality at the least cost, measured on frames like these
+    // (quality_plan.h). method: to be kept, or "" for any. Nothing where methods have no such dial. Throws
+    // Error.
+    virtual std::optional<QualityPlan> meet(const QualityWish&, std::string_view /*method*/,
+                                            std::span<const StereoViews>) {
+        return std::nullopt;
+    }
 
     virtual std::vector<HeldBytes> held() const { return {}; }
 };

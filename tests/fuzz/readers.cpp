@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstring>
 
-#include "app/medium_noise.h"
 #include "colon/centreline.h"
 #include "colon/colon_cache.h"
 #include "colon/study.h"
@@ -15,6 +14,7 @@
 #include "engine/image/radiance_file.h"
 #include "engine/light/bake_file.h"
 #include "engine/medium/medium_transfer.h"
+#include "engine/medium/noise_file.h"
 #include "engine/medium/phase_function.h"
 #include "engine/volume/transfer_function.h"
 #include "terrain/dem_reader.h"

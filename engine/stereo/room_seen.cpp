@@ -1,10 +1,9 @@
-#include "app/room_seen.h"
+#include "engine/stereo/room_seen.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "app/view_status.h"
 #include "engine/image/eye_image.h"
 
 namespace stereonav {

@@ -25,13 +25,13 @@ struct SkyTurn {
 std::vector<glm::vec3> turnedSky(const std::vector<glm::vec3>& straight, const SkyTurn& turn);
 
 // Used by one thread, that which makes frames.
-class ViewSky {
+class TurningSky {
 public:
     // straight: the sky's harmonics before it is turned; light: lit by it at `turn`, all of it, of the
     // transfer's frame; beyond: of light (lightBeyond), brought up to date once all of that is; null: none.
-    ViewSky(TransferVolume transfer, std::vector<glm::vec3> straight,
-            std::shared_ptr<IlluminationVolume> light, const SkyTurn& turn,
-            std::shared_ptr<IlluminationVolume> beyond = nullptr);
+    TurningSky(TransferVolume transfer, std::vector<glm::vec3> straight,
+               std::shared_ptr<IlluminationVolume> light, const SkyTurn& turn,
+               std::shared_ptr<IlluminationVolume> beyond = nullptr);
 
     const SkyTurn& turn() const { return mTurn; }
     // Before a frame: lights what the last one saw. Cheap where the sky stands there already.

@@ -1,5 +1,5 @@
 // Each frame runs all methods in turn, again and again, so that drift of the machine's speed meets all alike.
-#include "app/pair_comparison.h"
+#include "engine/metrics/pair_comparison.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "engine/base/error.h"
-#include "engine/medium/swept_frames.h"
 
 namespace stereonav {
 namespace {
@@ -15,12 +14,12 @@ namespace {
 constexpr int kEdgeRadius = 2;  // pixels, as for eyes that are cast
 
 // One method's pictures and the fastest of its runs of the frame at hand.
-struct Runner {
+struct PairRunner {
     std::string_view method;
     EyePair frame;
     FrameTimings best;
 
-    explicit Runner(std::string_view m) : method(m) {}
+    explicit PairRunner(std::string_view m) : method(m) {}
 
     void run(FrameMaker& frames, const StereoViews& views, double time, bool first) {
         frames.make(views, time, {method, {}}, frame);
@@ -40,11 +39,11 @@ Plane<T> oneAboveTheOther(const Plane<T>& top, const Plane<T>& bottom) {
     return both;
 }
 
-Plane<PackedColor> colorsOf(const Runner& runner) {
+Plane<PackedColor> colorsOf(const PairRunner& runner) {
     return oneAboveTheOther(runner.frame.left.color, runner.frame.right.color);
 }
 
-MethodFigures figuresOf(const Runner& runner, const Runner& truth, const Plane<std::uint8_t>& edges) {
+MethodFigures figuresOf(const PairRunner& runner, const PairRunner& truth, const Plane<std::uint8_t>& edges) {
     MethodFigures figures;
     figures.name = runner.method;
     figures.left_ms = truth.best.left_ms;
@@ -63,13 +62,13 @@ MethodFigures figuresOf(const Runner& runner, const Runner& truth, const Plane<s
 std::vector<MethodFigures> compareFrame(FrameMaker& frames, const StereoViews& views, double time,
                                         const PairComparisonSetting& setting, int index,
                                         const ComparedPairListener& listener) {
-    Runner truth(kTwoSweepsMethod);
-    std::vector<Runner> others;
+    PairRunner truth(setting.truth);
+    std::vector<PairRunner> others;
     for (const std::string_view method : setting.methods)
-        if (method != kTwoSweepsMethod) others.emplace_back(method);
+        if (method != setting.truth) others.emplace_back(method);
     for (int repeat = 0; repeat < setting.repeats; ++repeat) {
         truth.run(frames, views, time, repeat == 0);
-        for (Runner& runner : others) runner.run(frames, views, time, repeat == 0);
+        for (PairRunner& runner : others) runner.run(frames, views, time, repeat == 0);
     }
     const Plane<std::uint8_t> none(views.left.width, 2 * views.left.height);
     const Plane<std::uint8_t> edges =
@@ -79,7 +78,7 @@ std::vector<MethodFigures> compareFrame(FrameMaker& frames, const StereoViews& v
     std::vector<MethodFigures> figures;
     auto other = others.begin();
     for (const std::string_view method : setting.methods) {
-        const Runner& runner = method == kTwoSweepsMethod ? truth : *other++;
+        const PairRunner& runner = method == setting.truth ? truth : *other++;
         figures.push_back(figuresOf(runner, truth, edges));
         pair.pictures.push_back({method, runner.frame.left, runner.frame.right});
     }

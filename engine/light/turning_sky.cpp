@@ -1,4 +1,4 @@
-#include "app/view_sky.h"
+#include "engine/light/turning_sky.h"
 
 #include <cmath>
 #include <utility>
@@ -29,9 +29,9 @@ std::vector<glm::vec3> turnedSky(const std::vector<glm::vec3>& straight, const S
     return turned;
 }
 
-ViewSky::ViewSky(TransferVolume transfer, std::vector<glm::vec3> straight,
-                 std::shared_ptr<IlluminationVolume> light, const SkyTurn& turn,
-                 std::shared_ptr<IlluminationVolume> beyond)
+TurningSky::TurningSky(TransferVolume transfer, std::vector<glm::vec3> straight,
+                       std::shared_ptr<IlluminationVolume> light, const SkyTurn& turn,
+                       std::shared_ptr<IlluminationVolume> beyond)
     : mTransfer(std::move(transfer)),
       mStraight(std::move(straight)),
       mLight(std::move(light)),
@@ -40,7 +40,7 @@ ViewSky::ViewSky(TransferVolume transfer, std::vector<glm::vec3> straight,
       mLitAt(mTransfer.bricks().size(), 0),
       mNext(mTransfer.bricks().size()) {}
 
-void ViewSky::turnTo(const SkyTurn& turn) {
+void TurningSky::turnTo(const SkyTurn& turn) {
     if (turn == mTurn) return;
     mTurn = turn;
     mNow = turnedSky(mStraight, turn);
@@ -51,7 +51,7 @@ void ViewSky::turnTo(const SkyTurn& turn) {
     mTransfer.relight(mNow, stale, *mLight);
 }
 
-void ViewSky::seen(const EyeView& view, const EyeImage& image) {
+void TurningSky::seen(const EyeView& view, const EyeImage& image) {
     mSeen = mTransfer.heldAmong(bricksSeen(view, image, *mLight));
     std::vector<std::uint32_t> stale;
     addStale(mSeen, stale);
@@ -65,12 +65,12 @@ void ViewSky::seen(const EyeView& view, const EyeImage& image) {
     ++mChanges;
 }
 
-void ViewSky::addStale(const std::vector<std::uint32_t>& bricks, std::vector<std::uint32_t>& stale) {
+void TurningSky::addStale(const std::vector<std::uint32_t>& bricks, std::vector<std::uint32_t>& stale) {
     for (const std::uint32_t n : bricks)
         if (std::exchange(mLitAt[n], mTurns) != mTurns) stale.push_back(n);
 }
 
-void ViewSky::addRest(std::vector<std::uint32_t>& stale) {
+void TurningSky::addRest(std::vector<std::uint32_t>& stale) {
     std::size_t texels = 0;
     for (; mNext < mLitAt.size() && texels < kTexelsAfterAFrame; ++mNext) {
         if (std::exchange(mLitAt[mNext], mTurns) == mTurns) continue;

@@ -1,4 +1,4 @@
-#include "app/timed_poses.h"
+#include "engine/camera/timed_poses.h"
 
 namespace stereonav {
 namespace {

@@ -1,6 +1,6 @@
 // The sky over baked transfer: what was seen last is lit before a frame, the rest after frames; in the end
 // every texel is as if all had been lit at once.
-#include "app/view_sky.h"
+#include "engine/light/turning_sky.h"
 
 #include <gmock/gmock.h>
 
@@ -73,7 +73,7 @@ struct SkySubject {
     TransferVolume transfer = wall();  // to compare with
     std::vector<glm::vec3> straight = harmonicsOf(glm::normalize(glm::dvec3(0.3, -0.5, 0.7)));
     std::shared_ptr<IlluminationVolume> light = std::make_shared<IlluminationVolume>(transfer.frame());
-    ViewSky sky;
+    TurningSky sky;
     SkySubject() : sky(wall(), straight, light, {}) { transfer.relightAll(straight, *light); }
 
     IlluminationVolume all(const SkyTurn& turn) const {
@@ -84,11 +84,11 @@ struct SkySubject {
 };
 
 // What lies beyond the texels that are known follows them, once all of them are lit.
-TEST(ViewSky, LightBeyondTurnsToo) {
+TEST(TurningSky, LightBeyondTurnsToo) {
     const SkySubject by;
     auto beyond = std::make_shared<IlluminationVolume>(lightBeyond(*by.light));
     const IlluminationVolume before = lightBeyond(*by.light);
-    ViewSky sky(wall(), by.straight, by.light, {}, beyond);
+    TurningSky sky(wall(), by.straight, by.light, {}, beyond);
     const SkyTurn turn{1.1, 0.3};
     sky.turnTo(turn);
     EyeImage nothing;
@@ -106,7 +106,7 @@ TEST(ViewSky, LightBeyondTurnsToo) {
     EXPECT_EQ(sky.changes(), changes) << "and then it rests";
 }
 
-TEST(ViewSky, TurnsAsItSays) {
+TEST(TurningSky, TurnsAsItSays) {
     constexpr double kQuarter = std::numbers::pi / 2;
     const struct {
         SkyTurn turn;
@@ -125,7 +125,7 @@ TEST(ViewSky, TurnsAsItSays) {
     EXPECT_ANY_THROW(turnedSky({}, {}));
 }
 
-TEST(ViewSky, WhatIsSeenIsLitBeforeTheFrame) {
+TEST(TurningSky, WhatIsSeenIsLitBeforeTheFrame) {
     SkySubject s;
     const Frame here({0.6, 0.04, 0.6});
     s.sky.seen(here.view, here.image);
@@ -146,7 +146,7 @@ TEST(ViewSky, WhatIsSeenIsLitBeforeTheFrame) {
     EXPECT_EQ(s.sky.changes(), 1u) << "nothing is left";
 }
 
-TEST(ViewSky, TurnedAgainAndAgainIsAsTurnedOnce) {
+TEST(TurningSky, TurnedAgainAndAgainIsAsTurnedOnce) {
     SkySubject s;
     for (int n = 0; n <= 20; ++n) {
         const SkyTurn turn{0.3 * n, 0.05 * n};

@@ -9,6 +9,10 @@
 
 namespace stereonav {
 
+// Parallax that is comfortable, as shares of the picture's width: the whole range, and the short
+// excursions that broadcasters allow before and behind the screen.
+constexpr double kParallaxBudget = 0.03, kNearestParallax = -0.025, kFarthestParallax = 0.04;
+
 struct RoomSeen {
     double nearest = 0, farthest = 0;  // view depths, metres; what is not hit is infinitely far
     double ahead = 0;                  // the median in the picture's middle ninth

@@ -1,5 +1,5 @@
 // Named noise scaled to the medium, and the text file that says the same in metres.
-#include "app/medium_noise.h"
+#include "engine/medium/noise_file.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace stereonav {
 namespace {
 
-constexpr const char* kAdvice =
+constexpr const char* kNoiseAdvice =
     "write a line a scale, as in \"size 200 displacement 15 extinction 0.5 velocity 3 0 0\"";
 
 // Large billows and ever smaller ones, drifting.
@@ -45,9 +45,9 @@ Perturbation furNoise(double extent) {
 }
 
 // The lines of one file, each checked where it stands.
-class Parser {
+class NoiseParser {
 public:
-    explicit Parser(std::string source) : mSource(std::move(source)) {}
+    explicit NoiseParser(std::string source) : mSource(std::move(source)) {}
 
     void line(std::string_view text) {
         ++mLine;
@@ -68,7 +68,7 @@ public:
     }
 
     Perturbation finish() {
-        if (mNoise.scales.empty()) throw Error(mSource, "", "expected at least one scale", kAdvice);
+        if (mNoise.scales.empty()) throw Error(mSource, "", "expected at least one scale", kNoiseAdvice);
         checkPerturbation(mNoise, mSource);
         return std::move(mNoise);
     }
@@ -126,7 +126,7 @@ private:
         if (mAt < mWords.size()) fail(fmt::format("expected one number, got {}", mWords.size() - 1));
     }
     [[noreturn]] void fail(const std::string& problem) const {
-        throw Error(mSource, std::to_string(mLine), problem, kAdvice);
+        throw Error(mSource, std::to_string(mLine), problem, kNoiseAdvice);
     }
 
     std::string mSource;
@@ -139,7 +139,7 @@ private:
 }  // namespace
 
 Perturbation parseNoise(std::string_view text, const std::string& source) {
-    Parser parser(source);
+    NoiseParser parser(source);
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find('\n', at), text.size());
         parser.line(text.substr(at, end - at));
