@@ -28,6 +28,13 @@ Nearness besideOracle(const Row& row) {
     const bool shadows = levelOf(row, Factor::Shading).ends_with("-shadows");
     return {6, shadows ? 0.06 : 0.02, shadows ? 6.0 : 1.0};
 }
+bool isShadedBetweenPlaces(const Row& row) {
+    return showsMedium(row) && !isTerrain(row) && !given(row, Factor::Noise) &&
+           levelOf(row, Factor::Model) != "emission" && levelOf(row, Factor::Fineness) != "each";
+}
+Nearness besideEachSample(const Row&) {
+    return {6, 0.02, 1.0};
+}
 bool isSeenOtherwiseByOracle(const Row& row) {
     return isColon(row) && (given(row, Factor::Opacity) || levelOf(row, Factor::Size) == "64x1");
 }
