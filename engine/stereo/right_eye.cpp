@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <vector>
 
@@ -52,6 +53,7 @@ struct WarpJob {
     EyeImage& right;
     Plane<std::uint8_t>& mask;
     ViewDependence dependence;
+    bool airDiffers;  // colours have the left eye's air before them
 
     int width() const { return left.width(); }
     float shift() const { return static_cast<float>(views.shiftAtInfinity); }
@@ -237,6 +239,7 @@ void warpRow(const EyeRenderer& renderer, const WarpJob& job, ResampleFunction r
             break;
     }
     shadeAgain(renderer, job, scratch, y);
+    if (job.airDiffers) renderer.changeAir(job.views.left, job.views.right, y, job.right);
     if (isInverse(job.setting.method) && !leavesHoles(job.setting.method) && renderer.startsAtKnownDepth())
         startHoles(job, y);
 }
@@ -368,7 +371,9 @@ RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews&
     // Of several depths nothing is asked of the right eye.
     right.resize(width, height, dependence == ViewDependence::Depths ? ViewDependence::None : dependence);
     mState->resize(width, height, setting.method == RightEyeMethod::Paper);
-    const WarpJob job{views, left, setting, right, mState->mask, dependence};
+    const bool again = dependence == ViewDependence::Highlight || dependence == ViewDependence::Normal;
+    const bool airDiffers = !again && renderer.airDiffers(glm::distance(views.left.eye, views.right.eye));
+    const WarpJob job{views, left, setting, right, mState->mask, dependence, airDiffers};
 
     RightEyeTimings timings;
     Stopwatch watch;
