@@ -212,10 +212,21 @@ void startHoles(const WarpJob& job, int y) {
     }
 }
 
-void shadeAgain(const EyeRenderer& renderer, const WarpJob& job, const Scratch& scratch, int y) {
+// Does it with the pixels' own depths; afterwards the row holds those that rays may start from again.
+template <typename Shade>
+void withOwnDepths(const WarpJob& job, Scratch& scratch, int y, const Shade& shade) {
+    if (isInverse(job.setting.method)) return shade();
+    float* depth = job.right.viewDepth.row(y);
+    std::copy_n(depth, job.width(), scratch.column.begin());
+    useOwnDepths(job, scratch, y);
+    shade();
+    std::copy_n(scratch.column.begin(), job.width(), depth);
+}
+
+void shadeAgain(const EyeRenderer& renderer, const WarpJob& job, Scratch& scratch, int y) {
     if (job.dependence == ViewDependence::Highlight) {
         warpHighlight(job, scratch, y);
-        shadeHighlightAgain(renderer, job, y);
+        withOwnDepths(job, scratch, y, [&] { shadeHighlightAgain(renderer, job, y); });
     } else if (job.dependence == ViewDependence::Normal) {
         if (!isInverse(job.setting.method)) useOwnDepths(job, scratch, y);
         renderer.shadeAgain(job.views.right, y, 0, job.width(), job.right);

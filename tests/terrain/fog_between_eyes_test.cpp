@@ -41,8 +41,8 @@ struct Pair {
 };
 Pair renderBoth(const TerrainRenderer& renderer, const StereoViews& v, RightEyeMethod method) {
     Pair pair;
-    pair.left.resize(203, 150);
-    pair.full.resize(203, 150);
+    pair.left.resize(203, 150, renderer.viewDependence());
+    pair.full.resize(203, 150, renderer.viewDependence());
     renderEye(renderer, v.left, pair.left);
     renderEye(renderer, v.right, pair.full);
     RightEye eye;
@@ -86,6 +86,22 @@ TEST(FogBetweenEyes, WarpedPixelsAreSeenThroughTheRightEyesOwn) {
             EXPECT_LE(d.beyond, d.ground / 100) << nameOf(method) << ", most " << d.most;
         }
     }
+}
+
+// A splat reaches its neighbours, of which the nearest says from where rays may start; a highlight and the
+// fog before it are as far away as the pixel itself. On rough ground 1.6 % of the pixels are off by more than
+// 6 steps, at the depths of the nearest splats 2.4 %.
+TEST(FogBetweenEyes, SplatsAreShadedAtTheirOwnDepths) {
+    TerrainScene scene = waves(400);
+    scene.ground = test::makeGround("rough", 65, 65, 3);
+    scene.look.specular = 0.6f;
+    scene.look.shininess = 3;
+    const Pose pose = poseFromAngles({0, 0, scene.ground.maxHeight() + 30.0}, 0.2, -0.15, 0.0);
+    const StereoViews v = makeStereoViews(pose, {203, 150, 1.6, 1.0, 1.0}, {20, 190});
+    const TerrainRenderer renderer(scene);
+    const Differences d = differences(renderBoth(renderer, v, RightEyeMethod::Paper), 6);
+    EXPECT_GT(d.ground, 14000);
+    EXPECT_LE(d.beyond, d.ground / 50) << "most " << d.most;
 }
 
 // By definition, in double precision.
