@@ -44,6 +44,10 @@ public:
     void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override {
         mSound->shadeAgain(view, y, x0, x1, image);
     }
+    bool airDiffers(double separation) const override { return mSound->airDiffers(separation); }
+    void changeAir(const EyeView& from, const EyeView& view, int y, EyeImage& image) const override {
+        mSound->changeAir(from, view, y, image);
+    }
     bool translucent() const override { return mSound->translucent(); }
     void renderTileFromDepth(const EyeView& view, int tile, EyeImage& image) const override {
         mSound->renderTileFromDepth(view, tile, image);

@@ -27,6 +27,10 @@ public:
     void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override {
         mInner.shadeAgain(view, y, x0, x1, image);
     }
+    bool airDiffers(double separation) const override { return mInner.airDiffers(separation); }
+    void changeAir(const EyeView& from, const EyeView& view, int y, EyeImage& image) const override {
+        mInner.changeAir(from, view, y, image);
+    }
     bool translucent() const override { return mInner.translucent(); }
 
 private:

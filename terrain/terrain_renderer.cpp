@@ -13,6 +13,7 @@
 #include "engine/base/error.h"
 #include "terrain/caster_types.h"
 #include "terrain/fog.h"
+#include "terrain/fog_row.h"
 #include "terrain/height_pyramid.h"
 #include "terrain/hole_rays.h"
 #include "terrain/landmark.h"
@@ -97,6 +98,7 @@ struct TerrainRenderer::State {
     HeightPyramid pyramid;
     CasterScene scene, clear;  // clear: without its fog
     const CasterKernels* kernels;
+    FogRowFunction changeFog;
     Specular specular;
     Fog fog;
     SimdTarget target;
@@ -107,6 +109,7 @@ struct TerrainRenderer::State {
           fog(terrain.look),
           target(availableTarget(wanted)) {
         kernels = &kernelsFor(target);
+        changeFog = kernelsOf<FogRowFunction>(target, plain::changeFog, avx2::changeFog, avx512::changeFog);
         scene.ground = groundData(terrain.ground, pyramid);
         scene.texture = textureData(terrain.color, terrain.ground.spacing(), filter);
         scene.sky = {terrain.sky.map().row(0), terrain.sky.map().width(), terrain.sky.map().stride()};
@@ -211,6 +214,30 @@ void TerrainRenderer::shadeRows(const EyeView& view, int y0, int y1, EyeImage& i
 
 ViewDependence TerrainRenderer::viewDependence() const {
     return mState->specular.active() ? ViewDependence::Highlight : ViewDependence::None;
+}
+// Of a way that is shorter by a separation of that share of the fog's distance 0.2 % more light arrives: at
+// most one step of a packed channel, where the fog is black and what is seen white.
+bool TerrainRenderer::airDiffers(double separation) const {
+    constexpr double kUnseenShare = 1.0 / 500;
+    return static_cast<double>(mState->scene.fog.perMetre) * separation > kUnseenShare;
+}
+
+void TerrainRenderer::changeAir(const EyeView& from, const EyeView& view, int y, EyeImage& image) const {
+    const FogData& fog = mState->scene.fog;
+    FogRow row;
+    row.color = image.color.row(y);
+    row.depth = image.viewDepth.row(y);
+    row.width = image.width();
+    row.firstX = static_cast<float>(view.xMin + 0.5 * view.pixelWidth());
+    row.perX = static_cast<float>(view.pixelWidth());
+    row.y = static_cast<float>(view.yMax - (y + 0.5) * view.pixelHeight());
+    const glm::dvec3 offset = view.eye - from.eye;
+    row.offset[0] = static_cast<float>(glm::dot(offset, view.right));
+    row.offset[1] = static_cast<float>(glm::dot(offset, view.up));
+    row.offset[2] = static_cast<float>(glm::dot(offset, view.forward));
+    row.perMetre = fog.perMetre;
+    std::copy_n(fog.linear, 3, row.linear);
+    mState->changeFog(row);
 }
 void TerrainRenderer::sunMoved() {
     mState->specular = specularOf(mScene);

@@ -34,6 +34,9 @@ public:
     ViewDependence viewDependence() const override;
     void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override;
 
+    bool airDiffers(double separation) const override;
+    void changeAir(const EyeView& from, const EyeView& view, int y, EyeImage& image) const override;
+
     // Colours rows y0 .. y1 - 1 of an upright view from the depths in image.viewDepth, which another caster
     // found: the same shading for comparing casters.
     void shadeRows(const EyeView& view, int y0, int y1, EyeImage& image) const;

@@ -65,6 +65,18 @@ public:
         (void)view, (void)y, (void)x0, (void)x1, (void)image;
     }
 
+    // Whether the air before what is seen differs visibly between two eyes that are so many metres apart.
+    virtual bool airDiffers(double separation) const {
+        (void)separation;
+        return false;
+    }
+    // Changes `color` in row y of a picture of `view`, whose colours were seen by `from`, to what `view` sees
+    // through its own air, from viewDepth; where that is 0 nothing has to hold. Called where airDiffers() and
+    // colours are not evaluated again by shadeAgain.
+    virtual void changeAir(const EyeView& from, const EyeView& view, int y, EyeImage& image) const {
+        (void)from, (void)view, (void)y, (void)image;
+    }
+
     // Whether a pixel's colour is gathered from several depths, so that it can not be warped as a whole.
     // viewDepth is then where the ray first meets anything.
     virtual bool translucent() const { return false; }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <vector>
 
@@ -52,6 +53,7 @@ struct WarpJob {
     EyeImage& right;
     Plane<std::uint8_t>& mask;
     ViewDependence dependence;
+    bool airDiffers;  // colours have the left eye's air before them
 
     int width() const { return left.width(); }
     float shift() const { return static_cast<float>(views.shiftAtInfinity); }
@@ -210,10 +212,21 @@ void startHoles(const WarpJob& job, int y) {
     }
 }
 
-void shadeAgain(const EyeRenderer& renderer, const WarpJob& job, const Scratch& scratch, int y) {
+// Does it with the pixels' own depths; afterwards the row holds those that rays may start from again.
+template <typename Shade>
+void withOwnDepths(const WarpJob& job, Scratch& scratch, int y, const Shade& shade) {
+    if (isInverse(job.setting.method)) return shade();
+    float* depth = job.right.viewDepth.row(y);
+    std::copy_n(depth, job.width(), scratch.column.begin());
+    useOwnDepths(job, scratch, y);
+    shade();
+    std::copy_n(scratch.column.begin(), job.width(), depth);
+}
+
+void shadeAgain(const EyeRenderer& renderer, const WarpJob& job, Scratch& scratch, int y) {
     if (job.dependence == ViewDependence::Highlight) {
         warpHighlight(job, scratch, y);
-        shadeHighlightAgain(renderer, job, y);
+        withOwnDepths(job, scratch, y, [&] { shadeHighlightAgain(renderer, job, y); });
     } else if (job.dependence == ViewDependence::Normal) {
         if (!isInverse(job.setting.method)) useOwnDepths(job, scratch, y);
         renderer.shadeAgain(job.views.right, y, 0, job.width(), job.right);
@@ -237,6 +250,7 @@ void warpRow(const EyeRenderer& renderer, const WarpJob& job, ResampleFunction r
             break;
     }
     shadeAgain(renderer, job, scratch, y);
+    if (job.airDiffers) renderer.changeAir(job.views.left, job.views.right, y, job.right);
     if (isInverse(job.setting.method) && !leavesHoles(job.setting.method) && renderer.startsAtKnownDepth())
         startHoles(job, y);
 }
@@ -368,7 +382,9 @@ RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews&
     // Of several depths nothing is asked of the right eye.
     right.resize(width, height, dependence == ViewDependence::Depths ? ViewDependence::None : dependence);
     mState->resize(width, height, setting.method == RightEyeMethod::Paper);
-    const WarpJob job{views, left, setting, right, mState->mask, dependence};
+    const bool again = dependence == ViewDependence::Highlight || dependence == ViewDependence::Normal;
+    const bool airDiffers = !again && renderer.airDiffers(glm::distance(views.left.eye, views.right.eye));
+    const WarpJob job{views, left, setting, right, mState->mask, dependence, airDiffers};
 
     RightEyeTimings timings;
     Stopwatch watch;

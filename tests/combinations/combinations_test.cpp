@@ -9,11 +9,13 @@
 #include "app/arguments.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/base/stopwatch.h"
 #include "engine/image/image_file.h"
 #include "tests/app/program.h"
 #include "tests/combinations/bounds.h"
 #include "tests/combinations/contact_sheet.h"
 #include "tests/combinations/drawing.h"
+#include "tests/combinations/figures.h"
 #include "tests/combinations/inputs.h"
 #include "tests/combinations/judging.h"
 #include "tests/combinations/oracle.h"
@@ -21,8 +23,19 @@
 namespace stereonav::test {
 namespace {
 
+// Those that a file names, a line each, as failures say them.
+std::vector<Row> rowsOfFile(const std::string& file) {
+    std::ifstream in(file);
+    std::vector<Row> rows;
+    for (std::string line; std::getline(in, line);)
+        if (!line.empty()) rows.push_back(rowFrom(line));
+    if (rows.empty()) throw std::runtime_error("no combination is named in " + file);
+    return rows;
+}
+
 const std::vector<Row>& drawnRows() {
     static const std::vector<Row> rows = [] {
+        if (const char* file = std::getenv("STEREONAV_COMBINATIONS")) return rowsOfFile(file);
         const Covering all = covering();
         return all.cover(wantedTuples(all, std::getenv("STEREONAV_ALL_TRIPLES") != nullptr),
                          kCombinationsSeed);
@@ -75,7 +88,10 @@ public:
             const Eyes& drawn = mDrawn;
             if (set == SimdTarget::Plain) {
                 plain = full;
-                checkOracle(drawing, full);
+                if (isShadedBetweenPlaces(mRow))
+                    checkEachSample(full);
+                else
+                    checkOracle(drawing, full);
             }
             const std::string name(nameOf(set));
             if (drawing.notFinite() > 0)
@@ -85,8 +101,10 @@ public:
                 expect(wrongNumbers(eyes->left), name + ", left eye " + what);
                 expect(wrongNumbers(eyes->right), name + ", right eye " + what);
             }
-            expect(tooFar(full.left, plain.left, betweenSets(mRow)), name + ", left eye beside plain");
-            expect(tooFar(full.right, plain.right, betweenSets(mRow)), name + ", right eye beside plain");
+            if (set != SimdTarget::Plain) {
+                expectNear(full.left, plain.left, betweenSets(mRow), name + ", left eye beside plain");
+                expectNear(full.right, plain.right, betweenSets(mRow), name + ", right eye beside plain");
+            }
             if (!isTimed(mRow)) expect(differentBits(drawn.left, full.left), name + ", left eyes");
             checkRight(drawn.right, full.right, name);
             if (!isTimed(mRow)) checkThreads(drawing, drawn, name);
@@ -106,14 +124,38 @@ private:
         if (!problem.empty()) mFindings += where + ": " + problem + "\n";
     }
 
+    void expectNear(const EyeImage& image, const EyeImage& oracle, const Nearness& bound,
+                    const std::string& what) {
+        expect(tooFar(image, oracle, bound), what);
+        const Nearness holds = nearnessThatHolds(image, oracle, bound.beyond);
+        noteFigure(what, holds.steps, holds.mean, textOf(mRow));
+    }
+    void expectNear(const EyeImage& image, const OraclePicture& oracle, const std::string& what) {
+        std::string problem;
+        const EyeImage other = packed(oracle, problem);
+        expect(problem, what);
+        expectNear(image, other, besideOracle(mRow), what);
+    }
+
+    // The oracle stands for shading each sample, and that for shading between places.
+    void checkEachSample(const Eyes& full) {
+        RenderOptions options = mOptions;
+        options.scene.medium.shadingWidth = 0;
+        Drawing drawing(options, SimdTarget::Plain);
+        const Eyes each = drawing.inFull();
+        checkOracle(drawing, each);
+        expectNear(full.left, each.left, besideEachSample(mRow), "left eye beside each sample");
+        expectNear(full.right, each.right, besideEachSample(mRow), "right eye beside each sample");
+    }
+
     // Plain kernels against double precision; other sets are held against plain kernels.
     void checkOracle(const Drawing& drawing, const Eyes& full) {
         const StereoViews views = drawing.views();
         if (isSeenOtherwiseByOracle(mRow)) return;
         if (const auto left = castByOracle(drawing.scene(), views.left)) {
-            expect(tooFar(full.left, *left, besideOracle(mRow)), "left eye beside the oracle");
-            expect(tooFar(full.right, *castByOracle(drawing.scene(), views.right), besideOracle(mRow)),
-                   "right eye beside the oracle");
+            expectNear(full.left, *left, "left eye beside the oracle");
+            expectNear(full.right, *castByOracle(drawing.scene(), views.right),
+                       "right eye beside the oracle");
         }
         if (!drawing.scene().medium) return;
         const bool together = drawing.sweepsTogether();
@@ -123,13 +165,15 @@ private:
         std::vector<OraclePicture> eyes;
         for (const std::vector<EyeView>& sweep : sweeps)
             for (OraclePicture& eye : sweptByOracle(drawing.scene(), sweep)) eyes.push_back(std::move(eye));
-        expect(tooFar(full.left, eyes.at(0), besideOracle(mRow)), "left eye beside the oracle");
-        expect(tooFar(full.right, eyes.at(1), besideOracle(mRow)), "right eye beside the oracle");
+        expectNear(full.left, eyes.at(0), "left eye beside the oracle");
+        expectNear(full.right, eyes.at(1), "right eye beside the oracle");
     }
 
     void checkRight(const EyeImage& right, const EyeImage& full, const std::string& name) {
         if (const auto range = rangeOfRight(mRow)) {
             expect(outOfRange(right, full, *range), name + ", right eye beside the full one");
+            noteFigure(name + ", right eye in range", rangeThatHolds(right, full, *range).steps, 0,
+                       textOf(mRow));
             expect(strangeFlatness(right, full, range->reach, range->beyond), name + ", right eye");
         }
         if (const auto bound = nearnessOfRight(mRow))
@@ -177,6 +221,7 @@ TEST_P(Combinations, AreDrawnAsByThePlainOracle) {
         const Arguments line = mInputs->commandLine(row);
         setThreadCount(kUsualThreads);
         std::string findings;
+        const Stopwatch watch;
         try {
             Drawn one(row, line);
             one.check();
@@ -187,6 +232,7 @@ TEST_P(Combinations, AreDrawnAsByThePlainOracle) {
         } catch (const std::exception& error) {
             findings = std::string("refused: ") + error.what() + "\n";
         }
+        noteFigure("milliseconds", static_cast<int>(watch.elapsed_ms()), 0, textOf(row));
         if (!findings.empty()) ADD_FAILURE() << textOf(row) << "\n  " << shellLine(line) << "\n" << findings;
         ++drawn;
     }

@@ -1,7 +1,9 @@
 #include "tests/combinations/covering.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <stdexcept>
 #include <utility>
 
 namespace stereonav::test {
@@ -124,38 +126,87 @@ Covering::Domains Covering::everything() const {
     return domains;
 }
 
-// Narrows the domains to the tuple where that leaves something for each factor.
-bool Covering::take(const Tuple& tuple, Domains& domains) const {
-    bool news = false;
-    for (const Level& at : tuple) {
-        const LevelSet domain = domains[static_cast<std::size_t>(at.factor)];
-        if (!(domain & bit(at.level))) return false;
-        news = news || domain != bit(at.level);
+// Tuples side by side, levels packed: there are some 300,000, and each row looks at all that are left.
+struct Covering::Entry {
+    std::array<std::uint8_t, 7> factor{}, level{};
+    std::uint8_t count = 0;
+    Level operator[](int n) const {
+        return {factor[static_cast<std::size_t>(n)], level[static_cast<std::size_t>(n)]};
     }
-    if (!news) return true;
-    Domains trial = domains;
-    for (const Level& at : tuple) trial[static_cast<std::size_t>(at.factor)] = bit(at.level);
-    if (!propagate(trial)) return false;
-    domains = std::move(trial);
-    return true;
+    int size() const { return count; }
+    bool heldBy(const Row& row) const {
+        for (std::size_t n = 0; n < count; ++n)
+            if (row[factor[n]] != level[n]) return false;
+        return true;
+    }
+};
+
+Covering::Entry Covering::packed(const Tuple& tuple) {
+    Entry entry;
+    if (tuple.size() > entry.factor.size()) throw std::logic_error("a tuple of more than seven");
+    for (const Level& at : tuple) {
+        entry.factor[entry.count] = static_cast<std::uint8_t>(at.factor);
+        entry.level[entry.count++] = static_cast<std::uint8_t>(at.level);
+    }
+    return entry;
+}
+
+// The domains narrowed to the tuple; whether that leaves something for each factor.
+bool Covering::narrow(const Entry& tuple, Domains& domains) const {
+    for (int n = 0; n < tuple.size(); ++n)
+        domains[static_cast<std::size_t>(tuple[n].factor)] &= bit(tuple[n].level);
+    return propagate(domains);
+}
+
+// Whether the tuple is possible, and not sure to hold.
+bool Covering::bringsNews(const Entry& tuple, const Domains& domains) {
+    bool news = false;
+    for (int n = 0; n < tuple.size(); ++n) {
+        const LevelSet domain = domains[static_cast<std::size_t>(tuple[n].factor)];
+        if (!(domain & bit(tuple[n].level))) return false;
+        news = news || domain != bit(tuple[n].level);
+    }
+    return news;
+}
+
+// Narrows the domains to the tuple where that leaves something for each factor.
+void Covering::take(const Entry& tuple, Domains& domains, Domains& trial) const {
+    if (!bringsNews(tuple, domains)) return;
+    trial = domains;
+    if (narrow(tuple, trial)) std::swap(domains, trial);
 }
 
 // The first tuple, and then as many others as go with it, in a random order.
-std::optional<Row> Covering::fill(const std::vector<const Tuple*>& open, std::uint64_t& random) const {
+std::optional<Row> Covering::fill(std::vector<Entry>& open, std::uint64_t& random) const {
+    // After so many most others no longer go with it, and are passed over without being shuffled.
+    constexpr std::size_t kAtFirst = 1000;
     Domains domains = everything();
-    if (!take(*open.front(), domains)) return std::nullopt;
-    std::vector<const Tuple*> order(open.begin() + 1, open.end());
-    shuffle(order, random);
-    for (const Tuple* tuple : order) take(*tuple, domains);
+    if (!narrow(open.front(), domains)) return std::nullopt;
+    Domains trial;
+    const std::size_t all = open.size(), some = std::min(kAtFirst, all);
+    for (std::size_t n = 1; n < some; ++n) {  // the first stays first
+        std::swap(open[n], open[n + next(random) % (all - n)]);
+        take(open[n], domains, trial);
+    }
+    std::vector<const Entry*> rest;
+    for (std::size_t n = some; n < all; ++n)
+        if (bringsNews(open[n], domains)) rest.push_back(&open[n]);
+    shuffle(rest, random);
+    for (const Entry* entry : rest) take(*entry, domains, trial);
     if (search(domains, random)) return rowOf(domains);
-    return complete(*open.front(), next(random));
+    Tuple first;
+    for (int n = 0; n < open.front().size(); ++n) first.push_back(open.front()[n]);
+    return complete(first, next(random));
 }
 
 std::vector<Row> Covering::cover(const std::vector<Tuple>& tuples, std::uint64_t seed) const {
     constexpr int kTries = 12;  // rows tried for each one that is kept
     std::uint64_t random = seed;
-    std::vector<const Tuple*> open;
-    for (const Tuple& tuple : tuples) open.push_back(&tuple);
+    // Most of what is not allowed shows at once, and need not be looked at for each row.
+    std::vector<Entry> open;
+    Domains trial;
+    for (const Tuple& tuple : tuples)
+        if (narrow(packed(tuple), trial = everything())) open.push_back(packed(tuple));
     shuffle(open, random);
     std::vector<Row> rows;
     while (!open.empty()) {
@@ -165,14 +216,15 @@ std::vector<Row> Covering::cover(const std::vector<Tuple>& tuples, std::uint64_t
             const std::optional<Row> row = fill(open, random);
             if (!row) break;
             const auto count =
-                std::count_if(open.begin(), open.end(), [&](const Tuple* t) { return holds(*row, *t); });
+                std::count_if(open.begin(), open.end(), [&](const Entry& t) { return t.heldBy(*row); });
             if (count > bestCount) best = *row, bestCount = count;
         }
         if (bestCount == 0) {  // not allowed
-            open.erase(open.begin());
+            std::swap(open.front(), open.back());
+            open.pop_back();
             continue;
         }
-        std::erase_if(open, [&](const Tuple* tuple) { return holds(best, *tuple); });
+        std::erase_if(open, [&](const Entry& t) { return t.heldBy(best); });
         rows.push_back(std::move(best));
     }
     return rows;

@@ -47,8 +47,12 @@ private:
     using Domains = std::vector<LevelSet>;  // what each factor may still be
     Domains everything() const;
     bool propagate(Domains& domains) const;
-    bool take(const Tuple& tuple, Domains& domains) const;
-    std::optional<Row> fill(const std::vector<const Tuple*>& open, std::uint64_t& random) const;
+    struct Entry;  // a tuple, packed
+    static Entry packed(const Tuple& tuple);
+    bool narrow(const Entry& tuple, Domains& domains) const;
+    static bool bringsNews(const Entry& tuple, const Domains& domains);
+    void take(const Entry& tuple, Domains& domains, Domains& trial) const;
+    std::optional<Row> fill(std::vector<Entry>& open, std::uint64_t& random) const;
     bool search(Domains& domains, std::uint64_t& random) const;
 
     std::vector<int> mLevels;

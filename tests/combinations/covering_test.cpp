@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
 
 #include "tests/combinations/model.h"
 
@@ -76,12 +78,20 @@ TEST(Covering, IsTheSameEachTime) {
     EXPECT_EQ(covering.cover(pairs, 5), covering.cover(pairs, 5));
 }
 
+TEST(Combinations, AreRefusedByATextThatNamesWhatThereIsNot) {
+    EXPECT_THROW(rowFrom("scene hills.asc, light of the moon"), std::runtime_error);
+    EXPECT_EQ(textOf(rowFrom("scene wax, size 1x1")), "scene wax, size 1x1");
+}
+
 TEST(Combinations, HoldEveryPairAndTheTriplesThatAreAllowed) {
     const Covering all = covering();
-    const std::vector<Tuple> tuples = wantedTuples(all, false);
+    const std::vector<Tuple> tuples = wantedTuples(all, std::getenv("STEREONAV_ALL_TRIPLES") != nullptr);
     const std::vector<Row> rows = all.cover(tuples, kCombinationsSeed);
     const std::vector<Clause> clauses = clausesOf(rules());
-    for (const Row& row : rows) EXPECT_TRUE(allowed(row, clauses)) << textOf(row);
+    for (const Row& row : rows) {
+        EXPECT_TRUE(allowed(row, clauses)) << textOf(row);
+        EXPECT_EQ(rowFrom(textOf(row)), row) << textOf(row);
+    }
     long long covered = 0;
     for (const Tuple& tuple : tuples) {
         const bool held =

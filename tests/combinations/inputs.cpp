@@ -48,7 +48,18 @@ constexpr const char* kRegionsMedium =
     "reference_mm 10\nregion value 0.2 0.5 400 900 gradient 0 0 inf inf color 0.9 0.5 0.4 opacity 0.6 "
     "surface 0.5\n"
     "region value 100 200 1500 2000 gradient 5 15 inf inf color 0.4 0.6 0.9 opacity 0.8\n";
-constexpr const char* kNoise = "seed 5\nsize 0.05 displacement 0.002 extinction 0.4 color 0.2 0.1 0\n";
+
+// As large as the medium's own detail; or a thousandth of that, finer than any pixel and than where floats
+// can tell places at its distance.
+std::string noiseOf(const Row& row) {
+    double size = 0.05;  // metres
+    if (isTerrain(row)) size = 80;
+    if (levelOf(row, Factor::Scene) == "cloud") size = 400;
+    if (levelOf(row, Factor::Noise) == "fine") size /= 1000;
+    std::ostringstream text;
+    text << "seed 5\nsize " << size << " displacement " << 0.04 * size << " extinction 0.4 color 0.2 0.1 0\n";
+    return text.str();
+}
 
 void add(Arguments& line, const Arguments& more) {
     line.insert(line.end(), more.begin(), more.end());
@@ -234,8 +245,9 @@ void Inputs::addMedium(const Row& row, Arguments& line) {
     if (lamp == "place") add(line, {"--lamp", lampOf(row)});
     const std::string& noise = levelOf(row, Factor::Noise);
     if (noise == "fur") add(line, {"--noise", "fur"});
-    if (noise == "file")
-        add(line, {"--noise", once("noise.txt", [](const std::string& at) { writeBytes(at, kNoise); })});
+    if (noise == "file" || noise == "fine")
+        add(line, {"--noise",
+                   once(noise + "_noise.txt", [&](const std::string& at) { writeBytes(at, noiseOf(row)); })});
     // above the lowest ground, of the relief also where its heights are scaled
     if (given(row, Factor::Mist))
         add(line, {"--mist", levelOf(row, Factor::Scene) == "relief.tif" ? "1100,1.5" : "900,1.5"});

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <utility>
+#include <vector>
 
 namespace stereonav::test {
 namespace {
@@ -56,6 +58,26 @@ Limits limitsAround(const EyeImage& image, int x, int y, int reach) {
                 limits.high[channel] = std::max(limits.high[channel], value);
             }
     return limits;
+}
+
+// By which the pixel's channels leave what the oracle has about it; 0 or less: they do not.
+int stepsOutside(const EyeImage& image, const EyeImage& oracle, int x, int y, int reach) {
+    const Limits limits = limitsAround(oracle, x, y, reach);
+    const PackedColor c = image.color.at(x, y);
+    int steps = 0;
+    for (int channel = 0; channel < 3; ++channel)
+        steps = std::max({steps, limits.low[channel] - channelOf(c, channel),
+                          channelOf(c, channel) - limits.high[channel]});
+    return steps;
+}
+
+// The fewest steps that no more than that share differ by more than.
+int stepsThatHold(std::vector<int> differences, double beyond) {
+    const auto allowed = static_cast<std::size_t>(beyond * static_cast<double>(differences.size()));
+    if (allowed >= differences.size()) return 0;
+    std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(allowed),
+                     differences.end(), std::greater<>());
+    return differences[allowed];
 }
 
 }  // namespace
@@ -114,17 +136,32 @@ std::string outOfRange(const EyeImage& image, const EyeImage& oracle, const Rang
     if (!sameSize(image, oracle)) return "sizes differ";
     Counted wrong;
     eachPixel(image, [&](int x, int y) {
-        const Limits limits = limitsAround(oracle, x, y, range.reach);
-        const PackedColor c = image.color.at(x, y);
-        bool out = false;
-        for (int channel = 0; channel < 3; ++channel)
-            out = out || channelOf(c, channel) < limits.low[channel] - range.steps ||
-                  channelOf(c, channel) > limits.high[channel] + range.steps;
-        if (out)
+        if (stepsOutside(image, oracle, x, y, range.reach) > range.steps)
             wrong.add(x, y,
-                      fmt::format("{} where there is {}", colorText(c), colorText(oracle.color.at(x, y))));
+                      fmt::format("{} where there is {}", colorText(image.color.at(x, y)),
+                                  colorText(oracle.color.at(x, y))));
     });
     return wrong.text(image, range.beyond, "are like nothing about them");
+}
+
+Nearness nearnessThatHolds(const EyeImage& image, const EyeImage& oracle, double beyond) {
+    std::vector<int> differences;
+    double sum = 0;
+    eachPixel(image, [&](int x, int y) {
+        const PackedColor a = image.color.at(x, y), b = oracle.color.at(x, y);
+        for (int channel = 0; channel < 3; ++channel)
+            sum += std::abs(channelOf(a, channel) - channelOf(b, channel));
+        differences.push_back(channelDifference(a, b));
+    });
+    const double mean = sum / (3.0 * image.width() * image.height());
+    return {stepsThatHold(std::move(differences), beyond), beyond, mean};
+}
+
+Range rangeThatHolds(const EyeImage& image, const EyeImage& oracle, const Range& range) {
+    std::vector<int> differences;
+    eachPixel(image,
+              [&](int x, int y) { differences.push_back(stepsOutside(image, oracle, x, y, range.reach)); });
+    return {range.reach, stepsThatHold(std::move(differences), range.beyond), range.beyond};
 }
 
 std::string strangeFlatness(const EyeImage& image, const EyeImage& oracle, int reach, double share) {

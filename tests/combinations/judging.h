@@ -26,6 +26,8 @@ struct Nearness {
     double mean = 1023;  // steps, over all pixels and channels
 };
 std::string tooFar(const EyeImage& image, const EyeImage& oracle, const Nearness& bound);
+// The tightest bound that holds, where as many pixels may be beyond.
+Nearness nearnessThatHolds(const EyeImage& image, const EyeImage& oracle, double beyond);
 
 // Pixels whose colour lies by more than `steps` outside of what the oracle has within `reach` pixels.
 struct Range {
@@ -33,6 +35,7 @@ struct Range {
     double beyond = 0;  // share of pixels
 };
 std::string outOfRange(const EyeImage& image, const EyeImage& oracle, const Range& range);
+Range rangeThatHolds(const EyeImage& image, const EyeImage& oracle, const Range& range);
 
 // Pixels that are black, white or of the background, all over, where the oracle has nothing like it within
 // `reach` pixels. background: what is packed where nothing is met.

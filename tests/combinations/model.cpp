@@ -286,7 +286,7 @@ const std::vector<FactorLevels>& factorTable() {
         {Factor::Model, "model", {"as it is", "emission", "surface", "direct", "indirect"}},
         {Factor::Phase, "phase", {"none", "hg", "spectral"}},
         {Factor::Lamp, "lamp", {"as it is", "from", "head", "place"}},
-        {Factor::Noise, "noise", {"as it is", "fur", "file"}},
+        {Factor::Noise, "noise", {"as it is", "fur", "file", "fine"}},
         {Factor::Mist, "mist", {"none", "mist"}},
         {Factor::Fineness, "fineness", {"as it is", "coarse", "odd", "narrow", "each"}},
         {Factor::Separation, "separation", {"as it is", "zero", "wide"}},
@@ -385,6 +385,24 @@ std::string textOf(const Row& row) {
         if (factor.factor == Factor::Scene || given(row, factor.factor))
             text += (text.empty() ? "" : ", ") + std::string(factor.name) + " " + levelOf(row, factor.factor);
     return text;
+}
+
+Row rowFrom(const std::string& text) {
+    Row row(factorTable().size(), 0);
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(", ", at), text.size());
+        const std::string said = text.substr(at, end - at);
+        bool known = false;
+        for (const FactorLevels& factor : factorTable())
+            for (std::size_t level = 0; level < factor.levels.size(); ++level)
+                if (said == std::string(factor.name) + " " + factor.levels[level]) {
+                    row[static_cast<std::size_t>(factor.factor)] = static_cast<int>(level);
+                    known = true;
+                }
+        if (!known) throw std::runtime_error("no factor has the level \"" + said + "\"");
+        at = end + 2;
+    }
+    return row;
 }
 
 }  // namespace stereonav::test

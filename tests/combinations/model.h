@@ -78,7 +78,9 @@ Covering coveringUnder(const std::vector<Rule>& some);
 // Those of every pair of factors, and of triples of light, look and method; or of every triple.
 std::vector<Tuple> wantedTuples(const Covering& covering, bool allTriples);
 
-// "Scene=balls, Light=transfer, ...": what is said.
+// "scene balls.nrrd, light transfer, ...": what is said.
 std::string textOf(const Row& row);
+// The row that such a text stands for. Throws std::runtime_error where it names what there is not.
+Row rowFrom(const std::string& text);
 
 }  // namespace stereonav::test

@@ -98,17 +98,17 @@ std::vector<OraclePicture> sweptByOracle(const LoadedScene& scene, const std::ve
     return oracles;
 }
 
-std::string tooFar(const EyeImage& image, const OraclePicture& oracle, const Nearness& bound) {
-    EyeImage packed;
-    packed.resize(oracle.width, oracle.height);
+EyeImage packed(const OraclePicture& oracle, std::string& problem) {
+    EyeImage image;
+    image.resize(oracle.width, oracle.height);
     for (int y = 0; y < oracle.height; ++y)
         for (int x = 0; x < oracle.width; ++x) {
             const glm::dvec3& light = oracle.at(x, y);
             if (!std::isfinite(light.x + light.y + light.z))
-                return fmt::format("the oracle itself has no number at {},{}", x, y);
-            packed.color.at(x, y) = packColor(glm::vec3(light));
+                problem = fmt::format("the oracle itself has no number at {},{}", x, y);
+            image.color.at(x, y) = packColor(glm::vec3(light));
         }
-    return tooFar(image, packed, bound);
+    return image;
 }
 
 }  // namespace stereonav::test

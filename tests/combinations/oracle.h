@@ -24,7 +24,7 @@ std::optional<OraclePicture> castByOracle(const LoadedScene& scene, const EyeVie
 // By the plain sweep, a picture for each eye; none where rays are cast. Eyes are swept together.
 std::vector<OraclePicture> sweptByOracle(const LoadedScene& scene, const std::vector<EyeView>& eyes);
 
-// "" where the picture's colours are the oracle's, packed, within the bound.
-std::string tooFar(const EyeImage& image, const OraclePicture& oracle, const Nearness& bound);
+// As an eye's picture. Colours that are no numbers are said in `problem`.
+EyeImage packed(const OraclePicture& oracle, std::string& problem);
 
 }  // namespace stereonav::test

@@ -8,20 +8,8 @@
 #include "raster_files.h"
 #include "terrain/terrain_loader.h"
 
-namespace stereonav {
+namespace stereonav::test {
 namespace {
-
-using test::Compared;
-using test::compareWithGdal;
-using test::errorOf;
-using test::GdalReading;
-using test::RasterSpec;
-using test::readGround;
-using test::TempFolder;
-using test::writeRaster;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 void expectLine(const std::string& message, const std::filesystem::path& file, const std::string& what) {
     EXPECT_THAT(message, AllOf(HasSubstr(file.string() + ":"), HasSubstr(what), Not(HasSubstr("\n"))));
@@ -255,4 +243,4 @@ TEST(DemPlacement, TurnedLocalPlaneInFeet) {
 }
 
 }  // namespace
-}  // namespace stereonav
+}  // namespace stereonav::test

@@ -6,16 +6,8 @@
 
 #include "raster_files.h"
 
-namespace stereonav {
+namespace stereonav::test {
 namespace {
-
-using test::errorOf;
-using test::RasterSpec;
-using test::TempFolder;
-using test::writeRaster;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 DemGrid read(const std::filesystem::path& file, double verticalScale = 1) {
     Progress progress;
@@ -490,4 +482,4 @@ TEST(DemReader, RealDegrees) {
 }
 
 }  // namespace
-}  // namespace stereonav
+}  // namespace stereonav::test

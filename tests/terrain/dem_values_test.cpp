@@ -8,20 +8,8 @@
 #include "raster_files.h"
 #include "terrain/dem_reader.h"
 
-namespace stereonav {
+namespace stereonav::test {
 namespace {
-
-using test::Compared;
-using test::compareWithGdal;
-using test::errorOf;
-using test::GdalReading;
-using test::RasterSpec;
-using test::readGround;
-using test::TempFolder;
-using test::writeRaster;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr double kSurveyFoot = 1200.0 / 3937;
 
@@ -377,4 +365,4 @@ TEST(DemValues, AddressesAndPipesAreRefused) {
 }
 
 }  // namespace
-}  // namespace stereonav
+}  // namespace stereonav::test

@@ -20,6 +20,11 @@
 
 namespace stereonav::test {
 
+// What one line of message is held against.
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
 class TempFolder {
 public:
     TempFolder() {
