@@ -132,9 +132,9 @@ void addScene(CLI::App& command, SceneOptions& options) {
     command.add_option("--sky", options.sky, "an equirectangular picture or a light probe (.hdr)");
     command.add_option(
         "--light", options.light,
-        "baked light: a file; of a terrain also auto, for the one that bake has put by; of a "
-        "volume in view also lazy, worked out while one flies, or lazy-transfer, for a sky that turns; in "
-        "render also traced, paths from every pixel");
+        "baked light: a file; of a terrain also auto, the bake in the cache; of a volume, in view and "
+        "render, also lazy, computed where one looks, or lazy-transfer, for a sky that turns; in render "
+        "also traced, paths from every pixel");
     addNumbers(command, "--sun", options.sun, sunNumbers(), kSunHelp);
     addNumber(command, "--separation", options.separation_m, kSeparationRange,
               "of the eyes: 0.001 is a millimetre, and usual in a colon",

@@ -1,7 +1,7 @@
 // The numbers that choose paths, as pure functions of (key, sample, dimension), so that a path never depends
 // on what was traced before it: hashes, or the first two dimensions of Sobol's sequence under nested uniform
 // (Owen) scrambling by hashing (Burley 2020, with Vegdahl's constants), a scrambling and a shuffle of its own
-// for each pair of dimensions. The kernels have the same functions in vectors (path_numbers_simd.h).
+// for each pair of dimensions. The kernels have the same functions in vectors (path_vector_numbers.h).
 #pragma once
 
 #include <cstdint>

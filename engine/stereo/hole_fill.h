@@ -18,8 +18,8 @@ public:
     static constexpr int kTaskHoles = 1024;  // a band with more holes is cut
     static constexpr int kTaskRows = 128;    // into pieces of so many rows
 
-    // Casts every pixel whose mask is 255 (the others' is 0) and gives their number. image.viewDepth is 0
-    // there before. Dynamic takes the bands in the order of decreasing number of holes, one at a time.
+    // Casts every pixel whose mask is 255 (the others' is 0) and gives their number. image.viewDepth there
+    // is 0, or as startsAtKnownDepth() wants it. Dynamic takes the fullest bands first, one at a time.
     long long fill(const EyeRenderer& renderer, const EyeView& view, const Plane<std::uint8_t>& mask,
                    Schedule schedule, EyeImage& image);
 
