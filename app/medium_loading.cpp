@@ -251,6 +251,7 @@ LoadedScene loadMediumScene(const SceneOptions& options, SimdTarget simd, Progre
     auto renderer = std::make_unique<MediumRenderer>(shown, simd);
     scene.simd = renderer->target();
     scene.pair = std::move(renderer);
+    if (scene.eyesFollow) scene.wall = std::move(scene.renderer);
     scene.renderer.reset();
     scene.methods.clear();
     scene.moveSun = nullptr;

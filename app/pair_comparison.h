@@ -25,7 +25,8 @@ using ComparedPairListener = std::function<void(const ComparedPair&)>;
 
 struct PairComparisonSetting {
     std::vector<PairMethod> methods;
-    int repeats = 3;  // timed runs of a frame, >= 1; the fastest counts
+    int repeats = 3;                  // timed runs of a frame, >= 1; the fastest counts
+    std::vector<StereoSetting> eyes;  // one a pose; empty: the same at all
 };
 
 // Medians over the frames, in the order of the methods. Of MethodFigures: left_ms is one eye alone, right_ms

@@ -39,6 +39,8 @@ struct LoadedScene {
     // One of the two.
     std::unique_ptr<EyeRenderer> renderer;
     std::unique_ptr<PairRenderer> pair;  // of a medium
+    std::unique_ptr<EyeRenderer>
+        wall;  // of a medium inside a colon: what tells its eyes of the room; else null
     SimdTarget simd = SimdTarget::Auto;  // that the renderer uses
     Lens lens;                           // with the size asked for
     StereoSetting stereo;
