@@ -6,7 +6,7 @@
 namespace stereonav {
 
 // Into the cache, where `--light auto` looks for the light of the same ground, or into options.out. What is
-// done is not kept when it is stopped: all of it takes seconds to minutes. Throws Error, Cancelled.
+// done is kept when it is stopped, and the next run goes on from there. Throws Error, Cancelled.
 int bakeTerrain(const BakeOptions& options);
 
 }  // namespace stereonav

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "app/comparison_report.h"
+#include "app/narrowed_eyes.h"
 #include "app/output_place.h"
 #include "app/progress_bar.h"
 #include "app/stereo_frame.h"
@@ -87,13 +88,22 @@ void writePictures(const ComparedPair& pair, const fs::path& folder) {
     }
 }
 
+// As render and play have them: together where the room is narrow.
+std::vector<StereoSetting> eyesAt(const LoadedScene& scene, const std::vector<TimedPose>& poses) {
+    NarrowedEyes eyes(scene);
+    std::vector<StereoSetting> all;
+    for (const TimedPose& pose : poses) all.push_back(eyes.at(pose.pose, pose.time));
+    return all;
+}
+
 std::vector<MethodFigures> comparedPairs(const CompareOptions& options, const LoadedScene& scene,
-                                         const RecordedPath& path, Progress& progress) {
+                                         const std::vector<TimedPose>& poses,
+                                         const std::vector<StereoSetting>& eyes, Progress& progress) {
     PairComparisonSetting setting;
+    setting.eyes = eyes;
     setting.truth = kTwoSweepsMethod;
     setting.methods = sweepMethodsOf(options, *scene.frames);
     setting.repeats = options.repeats;
-    const std::vector<TimedPose> poses = timedFrames(path, options.frames);
     const int shown = static_cast<int>(poses.size()) / 2;
     const auto listener = [&](const ComparedPair& pair) {
         if (options.images.empty() || pair.index != shown) return;
@@ -104,11 +114,14 @@ std::vector<MethodFigures> comparedPairs(const CompareOptions& options, const Lo
 }
 
 std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const LoadedScene& scene,
-                                           const RecordedPath& path, Progress& progress) {
+                                           const std::vector<TimedPose>& frames,
+                                           const std::vector<StereoSetting>& eyes, Progress& progress) {
     ComparisonSetting setting;
+    setting.eyes = eyes;
     setting.repeats = options.repeats;
     setting.methods = methodsOf(options, scene);
-    const std::vector<Pose> poses = path.frames(options.frames);
+    std::vector<Pose> poses;
+    for (const TimedPose& frame : frames) poses.push_back(frame.pose);
     const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
     const auto listener = [&](const ComparedFrame& frame) {
         if (options.images.empty() || frame.index != shown) return;
@@ -138,6 +151,7 @@ ComparisonReport describe(const CompareOptions& options, const LoadedScene& scen
     report.frames = frames;
     report.repeats = options.repeats;
     report.stereo = scene.stereo;
+    report.least = scene.stereo.separation;
     return report;
 }
 
@@ -153,12 +167,16 @@ int runCompare(const CompareOptions& options) {
     ProgressBar bar;
     LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
     checkNotRead({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});
-    if (options.relativeSeparation > 0.0)
+    if (options.relativeSeparation > 0.0) {
         scene.stereo.separation = scene.stereo.zeroParallax * options.relativeSeparation;
-    const RecordedPath& flight = flightOf(scene, path, options.path);
+        scene.eyesFollow = false;  // what is asked for is what is measured
+    }
+    const std::vector<TimedPose> poses = timedFrames(flightOf(scene, path, options.path), options.frames);
+    const std::vector<StereoSetting> eyes = eyesAt(scene, poses);
     ComparisonReport report = describe(options, scene, options.frames);
-    report.methods = scene.medium ? comparedPairs(options, scene, flight, bar.progress())
-                                  : comparedMethods(options, scene, flight, bar.progress());
+    for (const StereoSetting& eye : eyes) report.least = std::min(report.least, eye.separation);
+    report.methods = scene.medium ? comparedPairs(options, scene, poses, eyes, bar.progress())
+                                  : comparedMethods(options, scene, poses, eyes, bar.progress());
     writeResults(options, report);
     bar.clear();
     std::fputs(tableOf(report).c_str(), messages);

@@ -67,10 +67,13 @@ std::string csvText(const std::string& text) {
 }  // namespace
 
 std::string tableOf(const ComparisonReport& report) {
-    std::string table = captionOf(report) + fmt::format(", separation {:.4g} m = 1/{:.3g} of {:.4g} m\n",
-                                                        report.stereo.separation,
-                                                        report.stereo.zeroParallax / report.stereo.separation,
-                                                        report.stereo.zeroParallax);
+    std::string table =
+        captionOf(report) +
+        fmt::format(", separation {:.4g} m = 1/{:.3g} of {:.4g} m{}\n", report.stereo.separation,
+                    report.stereo.zeroParallax / report.stereo.separation, report.stereo.zeroParallax,
+                    report.least < report.stereo.separation
+                        ? fmt::format(", {:.4g} m where narrow", report.least)
+                        : "");
     table += fmt::format("{:<10}", "method");
     for (const Field& field : kFields) table += fmt::format(" {:>{}}", field.name, widthOf(field));
     for (const MethodFigures& method : report.methods) {
@@ -95,6 +98,7 @@ std::string jsonOf(const ComparisonReport& report) {
     json["frames"] = report.frames;
     json["repeats"] = report.repeats;
     json["separation_m"] = report.stereo.separation;
+    json["least_separation_m"] = report.least;
     json["zero_parallax_m"] = report.stereo.zeroParallax;
     json["methods"] = nlohmann::ordered_json::array();
     for (const MethodFigures& method : report.methods) {

@@ -153,7 +153,9 @@ std::string colonText(const LoadedScene& scene) {
     line("spacing", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", kMm * frame.spacing.x, kMm * frame.spacing.y,
                                 kMm * frame.spacing.z));
     line("values",
-         fmt::format("{:.6g} .. {:.6g}, surface at {:.6g}", range.lowest, range.highest, isovalueOf(colon)));
+         // Those of a colon are around its lumen alone, without fluid; a mask's are smoothed.
+         fmt::format("{:.6g} .. {:.6g}{}, surface at {:.6g}", range.lowest, range.highest,
+                     colon.isColon() ? " of what is kept" : "", isovalueOf(colon)));
     line("wall", colon.volume.look.transfer.empty() ? "opaque" : "translucent");
     if (colon.isColon()) {
         line("segments", std::to_string(colon.lumen.segments.size()));

@@ -252,6 +252,7 @@ LoadedScene loadMediumScene(const SceneOptions& options, SimdTarget simd, Progre
     scene.simd = frames->target();
     scene.swept = frames.get();
     scene.frames = std::move(frames);
+    if (scene.eyesFollow) scene.wall = std::move(scene.renderer);
     scene.renderer.reset();
     scene.methods.clear();
     scene.moveSun = nullptr;

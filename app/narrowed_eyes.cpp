@@ -31,10 +31,12 @@ void NarrowedEyes::step(const Pose& head, double free, const RoomSeen& room, dou
 }
 
 StereoSetting NarrowedEyes::at(const Pose& head, double time) {
-    if (!mScene.eyesFollow || !mScene.renderer) return mScene.stereo;  // a medium has no depths to look at
+    // A medium's own depths are somewhere within it; where the room ends its wall says.
+    const EyeRenderer* const seen = mScene.renderer ? mScene.renderer.get() : mScene.wall.get();
+    if (!mScene.eyesFollow || !seen) return mScene.stereo;
     const EyeView view = makeEyeView(head, smallOf(mScene.lens));
-    mLook.resize(view.width, view.height, mScene.renderer->viewDependence());
-    renderEye(*mScene.renderer, view, mLook);
+    mLook.resize(view.width, view.height, seen->viewDependence());
+    renderEye(*seen, view, mLook);
     const RoomSeen room = roomSeen(mLook.viewDepth, 1);
     const double free = mScene.clearanceAt(head);
     double left = time - mTime;

@@ -94,6 +94,21 @@ void checkSource(const NamedPlace& input) {
     }
 }
 
+// Studies are sent zipped; what is in an archive is not looked for.
+void refuseArchive(const std::string& name) {
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(name, code)) return;
+    char head[6] = {};
+    std::ifstream(name, std::ios::binary).read(head, sizeof head);
+    const std::string_view begins(head, sizeof head);
+    const std::pair<std::string_view, const char*> kinds[] = {
+        {{"PK\3\4", 4}, "zip"}, {{"7z\xbc\xaf\x27\x1c", 6}, "7z"}, {{"Rar!\x1a\7", 6}, "rar"}};
+    for (const auto& [start, kind] : kinds)
+        if (begins.starts_with(start))
+            throw Error(name, "", fmt::format("expected a scene or a study, found an archive ({})", kind),
+                        "unpack it, and name the file or folder that was in it");
+}
+
 }  // namespace
 
 void checkSize(const SizeOption& size, int bytesPerPixel) {
@@ -123,6 +138,7 @@ SceneKind kindOf(const std::string& name) {
     std::error_code code;
     if (!std::filesystem::exists(name, code)) throw Error(name, "", "no such file", kAdvice);
     if (!std::filesystem::is_directory(name, code)) checkFileToRead(name);
+    refuseArchive(name);
     if (looksLikeStudy(name)) return SceneKind::Volume;
     if (std::filesystem::is_directory(name, code))
         throw Error(name, "", "expected a file or a folder of DICOM slices, found a folder without any",

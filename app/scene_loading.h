@@ -41,8 +41,9 @@ struct LoadedScene {
     std::unique_ptr<EyeRenderer> renderer;     // null for a medium
     std::unique_ptr<FrameMaker> frames;        // of the renderer's rays, or of the medium
     SweptFrames* swept = nullptr;              // what frames is, of a medium
-    SimdTarget simd = SimdTarget::Auto;        // that the renderer uses
-    Lens lens;                                 // with the size asked for
+    std::unique_ptr<EyeRenderer> wall;   // of a medium inside a colon: tells its eyes of the room; else null
+    SimdTarget simd = SimdTarget::Auto;  // that the renderer uses
+    Lens lens;                           // with the size asked for
     StereoSetting stereo;
     Pose startPose;
     RecordedPath path;                    // the scene's own flight

@@ -181,6 +181,7 @@ ColonScene sceneOf(FoundColon found, const ColonOptions& options, Progress& prog
 
 ColonScene surfaceOf(Study study, const ColonOptions& options, const std::string& note, Progress& progress) {
     GreyVolume grey = study.isMask ? greyOf(study.mask) : std::move(study.grey);
+    study.mask = {};
     const VolumeFrame whole = grey.frame;
     if (options.up) turnUp(grey.frame, *options.up);
     ColonScene scene = isosurfaceScene(std::move(grey), options, progress);
@@ -244,7 +245,11 @@ ColonScene sharing(const ColonScene& scene) {
 }
 
 Study readOrMake(const ColonOptions& options, std::vector<Polyp>& polyps, Progress& progress) {
-    if (!options.study.empty()) return readStudy(options.study, options.reading, progress);
+    if (!options.study.empty()) {
+        StudyOptions reading = options.reading;
+        if (options.isosurface) reading.working = kSurfaceWorking;
+        return readStudy(options.study, reading, progress);
+    }
     BuiltInColon colon = builtInColon(options.builtIn, progress);
     polyps = std::move(colon.polyps);
     Study study;

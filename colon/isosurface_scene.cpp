@@ -13,6 +13,7 @@
 
 #include "colon/transfer_presets.h"
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/math/constants.h"
 
 namespace stereonav {
@@ -193,7 +194,10 @@ ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progres
     look.diffuse = 0.88f;
     look.background = {0.012f, 0.014f, 0.018f};
     look.transfer = transferOf(options, isovalue, look.surface);
+    checkMemory("the surface of a volume", kSurfaceWorking * static_cast<double>(grey.frame.count()),
+                "crop the volume or make it coarser");
     scene.volume.field = padded(grey);
+    grey = {};
     scene.volume.cells = cellsAt(scene.volume.field, isovalue, look.transfer, progress);
     placeViewer(scene);
     scene.clearance = options.clearance > 0 ? options.clearance : 0.01 * scene.extent;

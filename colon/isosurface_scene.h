@@ -21,7 +21,13 @@ bool looksLikeHounsfield(const GreyVolume& grey);
 // 1979).
 IsovalueChoice chooseIsovalue(const GreyVolume& grey);
 
-// Throws Error when nothing or all of the volume reaches the isovalue; Cancelled.
+// Bytes a voxel that isosurfaceScene() takes at once beside the values: the volume with a border, flags of
+// cells, distances and their squares. What rays need of the cells that hold surface comes after that, and is
+// checked when they are counted.
+constexpr double kSurfaceWorking = 9.5;
+
+// Throws Error when nothing or all of the volume reaches the isovalue, and where memory does not suffice;
+// Cancelled.
 ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress);
 
 // Another isovalue (of the volume's values; none: the present one), and the transfer function of the options,

@@ -100,6 +100,7 @@ LumenField lumenFromMask(const MaskVolume& mask, const SegmentationSetting& sett
     const Pieces cut = cutOut(pieces, kept, crop);
     std::vector<int> all(cut.parts.list.size());
     std::iota(all.begin(), all.end(), 0);
+    checkLumenMemory(crop);
     lumen.field = GreyVolume(crop.frame);
     lumen.isovalue = kMaskWall;
     setSegments(cut, orderOf(cut, all, crop.frame), lumen);

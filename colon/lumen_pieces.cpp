@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -187,6 +188,15 @@ LumenCrop cropAround(glm::ivec3 first, glm::ivec3 last, int margin, const Volume
     }
     crop.frame = study.cropped(crop.first, end - crop.first);
     return crop;
+}
+
+void checkLumenMemory(const LumenCrop& crop) {
+    // The field, the lumen, marks or cells, distances and their squares.
+    constexpr double kBytes = 2 + 1 + 1 + 2 + 4;
+    const glm::ivec3 size = crop.frame.size;
+    checkMemory(fmt::format("a lumen of {} x {} x {} voxels", size.x, size.y, size.z),
+                kBytes * static_cast<double>(crop.frame.count()),
+                "name its pieces with --seed x,y,z, or make the study coarser");
 }
 
 void setSegments(const Pieces& pieces, const std::vector<int>& ordered, LumenField& lumen) {

@@ -46,6 +46,9 @@ struct LumenCrop {
 LumenCrop cropAround(const Pieces& pieces, const std::vector<int>& kept, const VolumeFrame& study);
 LumenCrop cropAround(glm::ivec3 first, glm::ivec3 last, int margin, const VolumeFrame& study);
 
+// Throws Error where what is made of a lumen in this crop does not fit into the memory that can be had.
+void checkLumenMemory(const LumenCrop& crop);
+
 // lumen and segments of a LumenField from pieces in order. `pieces` lies in the frame of `lumen.field`.
 void setSegments(const Pieces& pieces, const std::vector<int>& ordered, LumenField& lumen);
 

@@ -75,6 +75,7 @@ LumenCrop cropOf(const GreyVolume& study, const AirPieces& air, const FluidPools
 
 // HU in the crop's frame; tissue beyond the study and on the outermost voxels, which closes the lumen.
 GreyVolume cutField(const GreyVolume& study, const LumenCrop& crop) {
+    checkLumenMemory(crop);
     GreyVolume field(crop.frame);
     const glm::ivec3 size = crop.frame.size;
     parallelFor(size.z, [&](int k) {

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Counts up when the reader gives other voxels or frames for the same bytes.
-constexpr std::int64_t kReaderVersion = 2;
+constexpr std::int64_t kReaderVersion = 3;
 constexpr std::size_t kHashBlock = 4 << 20;
 
 bool isVolumeName(const fs::path& path) {

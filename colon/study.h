@@ -19,6 +19,8 @@ struct StudyOptions {
     std::string series;     // of a DICOM folder with several: its number in the list (1, 2, ...) or its UID
     bool resample = false;  // mend uneven or tilted slices onto an even upright grid
     std::optional<int> label;  // the one label of a mask with several
+    // Bytes a voxel that the caller will take beside the values: what does not fit with them is not read.
+    double working = 0;
 };
 
 struct Study {
@@ -47,8 +49,8 @@ bool looksLikeStudy(const std::filesystem::path& path);
 // The study's key without decoding its voxels, for looking into the cache first.
 std::uint64_t studyKey(const std::filesystem::path& path, const StudyOptions& options);
 
-// Throws Error (one line: what was expected, what was found, what to do), Cancelled. The size is checked
-// against this machine's memory before it is taken.
+// Throws Error (one line: what was expected, what was found, what to do), Cancelled. What reading and
+// options.working need is held against the memory that can be had before any is taken.
 Study readStudy(const std::filesystem::path& path, const StudyOptions& options, Progress& progress);
 
 // Names and texts that a NRRD header carries for those who know them ("key:=value").

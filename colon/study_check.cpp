@@ -1,10 +1,12 @@
-// Sizes of studies against what this machine holds, before memory is taken.
+// Sizes of studies against the memory that can be had, before any is taken.
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "colon/study_parts.h"
+#include "engine/base/memory.h"
 
 namespace stereonav {
 namespace {
@@ -39,7 +41,12 @@ std::string sizeText(const std::vector<std::uint64_t>& size) {
     return fmt::format("{}", fmt::join(size, " x "));
 }
 
-void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, int bytesPerVoxel) {
+double bytesHeld(int sampleBytes, const StudyOptions& options) {
+    constexpr double kValue = sizeof(std::int16_t);
+    return kValue + std::max<double>(sampleBytes, options.working);
+}
+
+void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, double bytesPerVoxel) {
     // In floating point, so that no product overflows.
     double voxels = 1;
     for (const std::uint64_t n : size) voxels *= static_cast<double>(n);
@@ -49,14 +56,18 @@ void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, 
                         fmt::format("expected a volume with 2 or more voxels along each axis, found {}",
                                     sizeText(size)),
                         "a single slice has no depth: give the whole series");
-    const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGE_SIZE);
+    const double there = availableMemory(), needed = voxels * bytesPerVoxel;
     bool tooLong = false;
     for (const std::uint64_t n : size) tooLong |= n > std::numeric_limits<int>::max();
-    if (tooLong || voxels * bytesPerVoxel > memory)
-        throw Error(file, "",
-                    fmt::format("{} voxels need {}, this machine has {}", sizeText(size),
-                                bytesText(voxels * bytesPerVoxel), bytesText(memory)),
-                    "crop the volume or make it coarser");
+    if (!tooLong && needed <= there) return;
+    const double share = std::cbrt(std::min(1.0, there / needed));
+    std::vector<std::uint64_t> fits;
+    for (const std::uint64_t n : size)
+        fits.push_back(static_cast<std::uint64_t>(std::max(1.0, share * static_cast<double>(n))));
+    throw Error(file, "",
+                fmt::format("{} voxels need {} of memory, and {} can be had", sizeText(size),
+                            bytesText(needed), bytesText(there)),
+                fmt::format("crop the volume or make it coarser: {} would fit", sizeText(fits)));
 }
 
 }  // namespace stereonav

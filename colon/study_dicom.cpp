@@ -36,6 +36,14 @@ struct PixelCounts {
     std::atomic<bool> fits = true;  // all values are whole and fit into 16 bits
 };
 
+// PS3.3 C.11.1.1.1: numbers below the first count as it, those beyond the last as that.
+double tableValue(const DicomSlice& slice, double stored) {
+    const auto last = static_cast<std::int64_t>(slice.table->size()) - 1;
+    const std::int64_t at =
+        std::clamp<std::int64_t>(static_cast<std::int64_t>(stored) - slice.tableFirst, 0, last);
+    return (*slice.table)[static_cast<std::size_t>(at)];
+}
+
 // One slice in HU. Padding, and all that is too low for CT, becomes kLeastHu.
 template <typename T>
 void takeHu(const DicomSlice& slice, const double* stored, T* target, PixelCounts& counts) {
@@ -44,7 +52,7 @@ void takeHu(const DicomSlice& slice, const double* stored, T* target, PixelCount
     std::size_t padded = 0;
     bool fits = true;
     for (std::size_t n = 0; n < count; ++n) {
-        double value = stored[n] * slice.slope + slice.intercept;
+        double value = slice.table ? tableValue(slice, stored[n]) : stored[n] * slice.slope + slice.intercept;
         const bool padding = slice.hasPadding && stored[n] >= static_cast<double>(slice.padding) &&
                              stored[n] <= static_cast<double>(slice.paddingLimit);
         if (ct && (padding || value < kLeastHu)) {
@@ -102,6 +110,12 @@ std::size_t decodeAll(const DicomSeries& series, RawStudy& raw, Progress& progre
     raw.type = SampleType::Int16;
     takeSlices<std::int16_t>(series, raw, whole, progress);
     if (whole.fits) return whole.padding;
+    const glm::ivec3 size = raw.frame.size;
+    checkSize(series.slices.front().file.parent_path().string(),
+              {static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y),
+               static_cast<std::uint64_t>(size.z)},
+              sizeof(float));  // beside the whole numbers, which are given back then
+    raw.bytes = {};
     raw.type = SampleType::Float32;
     takeSlices<float>(series, raw, fractions, progress);
     return fractions.padding;
@@ -219,12 +233,14 @@ VolumeFile readDicom(const fs::path& place, const StudyOptions& options, Progres
     checkSize(place.string(),
               {static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y),
                static_cast<std::uint64_t>(size.z)},
-              2 * static_cast<int>(sizeof(std::int16_t)));
+              bytesHeld(sizeof(std::int16_t), options));
     progress.report(0.1, fmt::format("reading {} slices", size.z));
     VolumeFile result;
     result.format = "DICOM";
     result.description = joined({first.modality, first.description, first.kernel});
     result.notes = series.notes;
+    if (!first.placedBy.empty()) result.notes.push_back("frames placed by " + first.placedBy);
+    if (first.table) result.notes.push_back("values by the file's table (modality LUT)");
     result.raw.frame = places.frame;
     if (const std::size_t padded = decodeAll(series, result.raw, progress); padded > 0)
         result.notes.push_back(

@@ -20,16 +20,17 @@ constexpr std::uint32_t kUnknownLength = 0xffffffff;
 constexpr std::uint32_t kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xfffee0dd;
 constexpr std::uint32_t kPixels = 0x7fe00010;
 constexpr int kDeepest = 32;                     // sequences within sequences
-constexpr std::uint64_t kLongestKept = 1 << 16;  // bytes of a value
+constexpr std::uint64_t kLongestKept = 1 << 17;  // bytes of a value: a table of 65536
 constexpr std::uint64_t kMostUnpacked = 4ull << 30;
 constexpr const char *kImplicit = "1.2.840.10008.1.2", *kDeflated = "1.2.840.10008.1.2.1.99",
                      *kBigEndian = "1.2.840.10008.1.2.2", *kDirectory = "1.2.840.10008.1.3.10";
 
-constexpr std::uint32_t kKept[] = {0x00080008, 0x00080016, 0x00080060, 0x0008103e, 0x00181210, 0x0020000e,
-                                   0x00200032, 0x00200037, 0x00209113, 0x00209116, 0x00280002, 0x00280008,
-                                   0x00280010, 0x00280011, 0x00280030, 0x00280100, 0x00280101, 0x00280102,
-                                   0x00280103, 0x00280120, 0x00280121, 0x00281052, 0x00281053, 0x00283000,
-                                   0x00289110, 0x00289145, 0x52009229, 0x52009230};
+constexpr std::uint32_t kKept[] = {0x00080008, 0x00080016, 0x00080060, 0x0008103e, 0x00180088, 0x00181210,
+                                   0x0020000e, 0x00200032, 0x00200037, 0x00209113, 0x00209116, 0x00280002,
+                                   0x00280008, 0x00280010, 0x00280011, 0x00280030, 0x00280100, 0x00280101,
+                                   0x00280102, 0x00280103, 0x00280120, 0x00280121, 0x00281052, 0x00281053,
+                                   0x00283000, 0x00283002, 0x00283006, 0x00289110, 0x00289145, 0x3004000c,
+                                   0x3004000e, 0x52009229, 0x52009230};
 
 bool isKept(std::uint32_t tag) {
     return std::binary_search(std::begin(kKept), std::end(kKept), tag);
@@ -38,7 +39,7 @@ bool isKept(std::uint32_t tag) {
 // Sequences by their tags, for syntaxes that do not say it.
 bool isSequence(std::uint32_t tag) {
     return tag == 0x52009229 || tag == 0x52009230 || tag == 0x00209113 || tag == 0x00209116 ||
-           tag == 0x00289110 || tag == 0x00289145;
+           tag == 0x00283000 || tag == 0x00289110 || tag == 0x00289145;
 }
 
 bool isOneOf(const char* kind, std::initializer_list<const char*> names) {
@@ -206,6 +207,7 @@ private:
         Pixels& pixels = mFile.mPixels;
         pixels.found = true;
         pixels.at = h.body;
+        pixels.words = mExplicit && std::memcmp(mData + h.body - 8, "OW", 2) == 0;
         pixels.encapsulated = h.length == kUnknownLength;
         if (!pixels.encapsulated) {
             pixels.bytes = std::min<std::uint64_t>(h.length, end - h.body);

@@ -37,6 +37,7 @@ class DicomFile {
 public:
     struct Pixels {
         bool found = false, encapsulated = false;
+        bool words = false;               // stands in words of 16 bits (OW), which big-endian files turn over
         std::uint64_t at = 0, bytes = 0;  // of data()
         std::vector<std::pair<std::uint64_t, std::uint64_t>>
             fragments;  // place and bytes; the first: offsets

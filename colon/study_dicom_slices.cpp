@@ -20,8 +20,10 @@ constexpr std::uint32_t kImageType = 0x00080008, kSopClass = 0x00080016, kModali
                         kRows = 0x00280010, kColumns = 0x00280011, kPixelSpacing = 0x00280030,
                         kBitsAllocated = 0x00280100, kSigned = 0x00280103, kPadding = 0x00280120,
                         kPaddingLimit = 0x00280121, kIntercept = 0x00281052, kSlope = 0x00281053,
-                        kModalityLut = 0x00283000, kMeasures = 0x00289110, kTransformation = 0x00289145,
-                        kShared = 0x52009229, kPerFrame = 0x52009230;
+                        kModalityLut = 0x00283000, kTableHead = 0x00283002, kTableData = 0x00283006,
+                        kSpacingBetween = 0x00180088, kFrameOffsets = 0x3004000c, kDoseScaling = 0x3004000e,
+                        kMeasures = 0x00289110, kTransformation = 0x00289145, kShared = 0x52009229,
+                        kPerFrame = 0x52009230;
 constexpr const char* kSecondaryCapture = "1.2.840.10008.5.1.4.1.1.7";
 constexpr int kMostFrames = 100000;
 
@@ -49,7 +51,10 @@ void takeSpacing(const DicomItem& item, DicomSlice& slice) {
 }
 
 void takeRescale(const DicomItem& item, DicomSlice& slice) {
-    if (const auto slope = item.numbers(kSlope, 1); !slope.empty()) slice.slope = slope[0];
+    if (const auto slope = item.numbers(kSlope, 1); !slope.empty())
+        slice.slope = slope[0];
+    else if (const auto dose = item.numbers(kDoseScaling, 1); !dose.empty())
+        slice.slope = dose[0];
     if (const auto start = item.numbers(kIntercept, 1); !start.empty()) slice.intercept = start[0];
 }
 
@@ -124,10 +129,64 @@ std::string damageOf(const DicomFile& file, const DicomSlice& slice) {
     if (!pixels.encapsulated && pixels.bytes < expected)
         return fmt::format("is cut off: {} bytes of its pixels are missing", expected - pixels.bytes);
     if (pixels.encapsulated && pixels.fragments.size() < 2) return "is cut off or damaged: it has no pixels";
-    if (const DicomValue* table = file.set().find(kModalityLut);
-        table && !table->items.empty() && !file.set().find(kSlope))
-        return "has values by a table (modality LUT), which is not read";
     return "";
+}
+
+// Values by a table (PS3.3 C.11.1): its head says how many, the first number that it is for, and bits of
+// each. Returns what is wrong, "" where nothing is.
+std::string takeTable(const DicomFile& file, DicomSlice& slice) {
+    const DicomValue* sequence = file.set().find(kModalityLut);
+    if (!sequence || sequence->items.empty()) return "";
+    if (file.set().find(kSlope))
+        return "has both a table of values (modality LUT) and a rescale slope: which counts is not known";
+    const DicomValue *head = sequence->items[0].find(kTableHead), *data = sequence->items[0].find(kTableData);
+    if (!head || !data || head->bytes.size() < 6)
+        return "is damaged: its table of values has no head or no data";
+    const auto word = [&](const std::string& bytes, std::size_t n) {
+        const int a = static_cast<unsigned char>(bytes[2 * n]),
+                  b = static_cast<unsigned char>(bytes[2 * n + 1]);
+        return static_cast<std::uint16_t>(file.bigEndian() ? a << 8 | b : a | b << 8);
+    };
+    const std::size_t count = word(head->bytes, 0) == 0 ? 65536 : word(head->bytes, 0);
+    const int bits = word(head->bytes, 2);
+    const bool isSigned = file.word(kSigned, 0) == 1;
+    slice.tableFirst = isSigned ? static_cast<std::int16_t>(word(head->bytes, 1)) : word(head->bytes, 1);
+    const bool bytesEach = bits == 8 && data->bytes.size() == (count + 1) / 2 * 2;
+    if (!bytesEach && (bits < 8 || bits > 16 || data->bytes.size() != 2 * count))
+        return fmt::format("is damaged: its table of {} values of {} bits has {} bytes", count, bits,
+                           data->bytes.size());
+    std::vector<std::uint16_t> values(count);
+    for (std::size_t n = 0; n < count; ++n)
+        values[n] = bytesEach ? static_cast<unsigned char>(data->bytes[n]) : word(data->bytes, n);
+    slice.table = std::make_shared<const std::vector<std::uint16_t>>(std::move(values));
+    return "";
+}
+
+// Frames without functional groups: along the normal by offsets of their own (PS3.3 C.8.8.3.2), or by one
+// distance between them. None where the file says neither.
+std::vector<DicomSlice> steppedFrames(const DicomItem& set, const DicomSlice& all) {
+    const auto count = static_cast<std::size_t>(all.frames);
+    std::vector<double> offsets = set.numbers(kFrameOffsets, count);
+    std::string by = "their offsets (3004,000c)";
+    if (offsets.size() != count) {
+        const auto step = set.numbers(kSpacingBetween, 1);
+        if (step.empty() || !(step[0] > 0)) return {};
+        by = fmt::format("a distance of {:g} mm (0018,0088): the file has no places of each", step[0]);
+        offsets.clear();
+        for (std::size_t n = 0; n < count; ++n) offsets.push_back(step[0] * static_cast<double>(n));
+    }
+    std::vector<DicomSlice> slices;
+    const glm::dvec3 normal = glm::cross(all.along, all.down);
+    for (std::size_t n = 0; n < count; ++n) {
+        DicomSlice slice = all;
+        slice.frame = static_cast<int>(n);
+        slice.name = fmt::format("{} frame {}", all.name, n + 1);
+        slice.position += (offsets[n] - offsets[0]) * normal;
+        slice.placedBy = by;
+        slice.hasPlace = true;
+        slices.push_back(std::move(slice));
+    }
+    return slices;
 }
 
 }  // namespace
@@ -156,6 +215,7 @@ std::vector<DicomSlice> readSlices(const fs::path& path, bool& isDicom) {
         slice.damage = "is cut off or damaged: it has no picture";
     }
     if (slice.damage.empty()) slice.damage = damageOf(file, slice);
+    if (slice.damage.empty()) slice.damage = takeTable(file, slice);
     if (!slice.damage.empty() && slice.uid.empty())  // of any series
         throw Error(path.string(), "", slice.damage, "copy the file again, or take it out of the folder");
     slice.aside = asideOf(slice, set);
@@ -175,6 +235,8 @@ std::vector<DicomSlice> readSlices(const fs::path& path, bool& isDicom) {
     takeOrientation(set, slice, orientation);
     takeSpacing(set, slice);
     slice.hasPlace = position && orientation && slice.frames == 1;
+    if (position && orientation && slice.frames > 1 && slice.damage.empty())
+        if (std::vector<DicomSlice> slices = steppedFrames(set, slice); !slices.empty()) return slices;
     return {slice};
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,9 +57,12 @@ decltype(auto) withSamples(const RawStudy& raw, Use&& use) {
 }
 
 // --- study_check.cpp
-// Throws Error unless there are two or more voxels along each axis and `bytesPerVoxel` a voxel fit into this
-// machine's memory.
-void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, int bytesPerVoxel);
+// Throws Error unless there are two or more voxels along each axis and `bytesPerVoxel` a voxel fit into the
+// memory that can be had; it says what would fit.
+void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, double bytesPerVoxel);
+// Bytes a voxel that are held at once from samples of so many bytes to values, and with what the caller takes
+// beside those.
+double bytesHeld(int sampleBytes, const StudyOptions& options);
 // "512 x 512 x 20"
 std::string sizeText(const std::vector<std::uint64_t>& size);
 
@@ -86,8 +90,12 @@ struct DicomSlice {
     double slope = 1, intercept = 0;
     bool hasPlace = false, hasSpacing = false, hasPadding = false;
     std::int64_t padding = 0, paddingLimit = 0;  // stored numbers
-    std::string damage;                          // a clause that fits behind the name; "" where there is none
-    std::string aside;  // what it is where it is no slice of a volume: "localizer"; "" else
+    // Values of stored numbers from tableFirst on, the last one's from there on; null: slope and intercept.
+    std::shared_ptr<const std::vector<std::uint16_t>> table;
+    std::int64_t tableFirst = 0;
+    std::string placedBy;  // of frames without places of their own; "" else
+    std::string damage;    // a clause that fits behind the name; "" where there is none
+    std::string aside;     // what it is where it is no slice of a volume: "localizer"; "" else
 };
 // Of a DICOM file, none where it is not an image. Throws Error.
 std::vector<DicomSlice> readSlices(const std::filesystem::path& file, bool& isDicom);

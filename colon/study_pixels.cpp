@@ -226,10 +226,23 @@ void decodeSlices(const std::vector<const DicomSlice*>& slices, PictureDecoder& 
         checkSyntax(first.file, file.syntax());
         parts = partsOfFrames(first.file, file, first.frames);
     }
+    // Words of 16 bits: a big-endian file turns each of them over, whatever the pixels are (PS3.5 6.2, OW).
+    const std::uint64_t each = static_cast<std::uint64_t>(layout.bits / 8);
+    const bool inWords = parts.empty() && each != 2 && file.bigEndian() && file.pixels().words;
+    PixelLayout little = layout;
+    little.turned = std::endian::native == std::endian::big;
+    std::vector<unsigned char> bytes;
     std::vector<double> values;
     for (const DicomSlice* slice : slices) {
         const auto frame = static_cast<std::size_t>(std::max(slice->frame, 0));
-        if (parts.empty()) {
+        if (inWords) {
+            const unsigned char* pixels = file.data() + file.pixels().at;
+            const std::uint64_t last = file.pixels().bytes - 1;
+            bytes.resize(count * each);
+            for (std::uint64_t n = 0; n < bytes.size(); ++n)
+                bytes[n] = pixels[std::min((frame * bytes.size() + n) ^ 1, last)];
+            widenAny(bytes.data(), count, little, values);
+        } else if (parts.empty()) {
             widenAny(file.data() + file.pixels().at + frame * count * (layout.bits / 8), count, layout,
                      values);
         } else {

@@ -43,9 +43,10 @@ void checkOne(const Stack& stack, const DicomSlice& slice) {
     if (!slice.damage.empty()) stack.refuse(slice.name + " " + slice.damage, "copy the file again");
     if ((slice.frames != 1 && !slice.hasPlace) || slice.samples != 1)
         stack.refuse(
-            fmt::format("{} holds {} frames of {} numbers a pixel, expected one grey slice or places of "
-                        "all frames",
-                        slice.name, slice.frames, slice.samples),
+            fmt::format(
+                "{} holds {} frames of {} numbers a pixel, expected one grey slice, or frames with places "
+                "of their own, offsets or a spacing between slices",
+                slice.name, slice.frames, slice.samples),
             "convert it to single slices");
     if (!slice.hasPlace)
         stack.refuse(slice.name + " has no position and orientation of its slice", "choose another series");
@@ -145,7 +146,7 @@ VolumeFrame frameOf(const Stack& stack, double step_mm) {
 SlicePlaces placeSlices(const fs::path& folder, std::vector<DicomSlice>& slices, bool resample,
                         const std::string& strangers) {
     Stack stack{folder, slices, strangers, glm::dvec3(0, 0, 1)};
-    if (slices.size() == 1 && !slices[0].damage.empty()) checkOne(stack, slices[0]);
+    if (slices.size() == 1 && (!slices[0].damage.empty() || slices[0].frames > 1)) checkOne(stack, slices[0]);
     if (slices.size() < 2) {
         std::error_code code;
         const bool file = fs::is_regular_file(folder, code);

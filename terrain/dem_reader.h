@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <string>
 #include <vector>
@@ -41,6 +42,10 @@ struct DemGrid {
 // 1 % (web Mercator) are brought to metres; over a pole the file's projection stays. Without a georeference a
 // sample is a metre wide, except for a GSI tile: spacing from a path that ends in zoom/x/y.png, else that of
 // zoom 14 at 36 degrees north. Throws Error named by the file; Cancelled.
-DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress);
+// after: the bytes that the caller will hold at once for so many samples, these heights among them; where
+// they, or what reading takes, do not fit into the memory that can be had, nothing is read.
+using BytesForSamples = std::function<double(double samples)>;
+DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
+                const BytesForSamples& after = {});
 
 }  // namespace stereonav

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/base/parallel.h"
 #include "terrain/raster_file.h"
 #include "terrain/sun_and_sky.h"
@@ -23,7 +24,9 @@ namespace {
 
 constexpr double kMostTexels = 1 << 26;  // 256 MiB, a third more with the mip levels
 constexpr int kMostSide = 32768;
-constexpr double kLitDensity = 2.0;  // texels a sample where light is baked in
+constexpr double kPictureBytes = 4 + 1 + 4 * 2;    // a pixel of a picture, and its bands while it is read
+constexpr double kTextureBytes = 4 + 4 * 4.0 / 3;  // a texel: the picture, and with its mip levels
+constexpr double kLitDensity = 2.0;                // texels a sample where light is baked in
 constexpr const char* kAdvice = "give a JPEG, PNG or TIFF picture of the ground";
 
 // Valleys green, then grass, scree and rock, snow on top; t: height as a share of the ground's range.
@@ -198,6 +201,10 @@ float GroundLight::at(const glm::dvec3& unitNormal) const {
     return static_cast<float>(mAmbient + std::max(0.0, glm::dot(unitNormal, mDirect)));
 }
 
+double bytesOfTint(double samples) {
+    return kTextureBytes * std::min(kMostTexels, kLitDensity * kLitDensity * samples);
+}
+
 GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Progress& progress) {
     const Tint tint(ground, look);
     const TextureSize size = textureSize(ground, glm::dvec2(kLitDensity));
@@ -225,6 +232,12 @@ GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& de
     if (window.xMin >= window.xMax || window.yMin >= window.yMax) throwNoOverlap(file);
     progress.report(0, "reading " + file.filename().string());
     const glm::dvec2 shrink = glm::max(glm::dvec2(1.0), pixelsPerTexel(map, texture));
+    const auto pixels = [](int low, int high, double by) { return std::max(1.0, (high - low) / by); };
+    checkMemory(file.string(),
+                kTextureBytes * size.width * size.height + kPictureBytes *
+                                                               pixels(window.xMin, window.xMax, shrink.x) *
+                                                               pixels(window.yMin, window.yMax, shrink.y),
+                "give a smaller picture of the ground");
     const GroundPicture picture = opened->read(window, shrink);
     const Tint tint(ground, look);
     const GroundLight light(look);

@@ -32,6 +32,9 @@ private:
     double mAmbient = 0;
 };
 
+// Bytes that tintedGround() holds at once for ground of so many samples.
+double bytesOfTint(double samples);
+
 // Colour by relative height, rock on steep slopes, lit; two texels a sample each way.
 GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Progress& progress);
 

@@ -2,9 +2,12 @@
 // Lumigraph, 1996), then the membrane solver makes it exact.
 #include "terrain/nodata.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/memory.h"
 #include "terrain/membrane.h"
 
 namespace stereonav {
@@ -12,6 +15,7 @@ namespace {
 
 // Beyond this many missing samples (0.9 GB in the solver) the pyramid's guess stays as it is.
 constexpr std::size_t kMostSolved = 10'000'000;
+constexpr double kSolverBytes = 130;  // a missing sample, all levels
 
 struct FillLevel {
     int width, height;
@@ -75,6 +79,11 @@ long long fillMissing(std::vector<float>& heights, int width, int height, const 
                       Progress& progress) {
     const auto missingCount = static_cast<std::size_t>(countMissing(heights));
     if (missingCount == 0 || missingCount == heights.size()) return 0;
+    const double solved = missingCount <= kMostSolved ? kSolverBytes * static_cast<double>(missingCount) : 0;
+    const double guess = 1.4 * sizeof(float) * static_cast<double>(heights.size());  // a pyramid of them
+    checkMemory(fmt::format("filling {} missing samples", missingCount),
+                std::max(solved, guess) + sizeof(std::size_t) * static_cast<double>(missingCount),
+                "leave them open with --open-holes, or cut out a part");
     std::vector<std::size_t> missing;
     missing.reserve(missingCount);
     for (std::size_t k = 0; k < heights.size(); ++k)

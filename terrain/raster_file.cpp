@@ -14,8 +14,9 @@ const RasterFunctions& gdal() {
 
 }  // namespace
 
-DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress) {
-    return gdal().readDem(file, verticalScale, progress);
+DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
+                const BytesForSamples& after) {
+    return gdal().readDem(file, verticalScale, progress, after);
 }
 
 std::unique_ptr<RasterPicture> openRasterPicture(const std::filesystem::path& file,

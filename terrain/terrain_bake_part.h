@@ -1,9 +1,11 @@
-// What a terrain's bake has done when it is stopped: kept in the cache, so that the next run goes on.
+// What a terrain's bake has done so far: kept in the cache while it runs, band by band of rows, so that one
+// that is stopped has next to nothing left to write, and the next run goes on from there.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,19 +16,34 @@ struct BakeReached {
     std::int32_t phase = 0, rows = 0;
 };
 
+// Rows of one phase, from `first` on.
+struct BakeBand {
+    std::int32_t phase = 0, first = 0, rows = 0;
+};
+
+// What a band holds: memory that is read into, or written.
 using BakeBlocks = std::vector<std::span<std::byte>>;
+using BlocksOfBand = std::function<BakeBlocks(const BakeBand&)>;
 
 // Where the part of the bake with this key lies (terrainLightKey()).
 std::filesystem::path terrainBakePart(std::uint64_t key);
 
-// False where it can not be written; bounded with what else is kept (engine/base/cache.h).
-bool keepBakePart(std::uint64_t key, const BakeReached& reached, const BakeBlocks& blocks);
+// Adds a band to the part of the bake with this key, behind the `after` bytes that hold all before it.
+// Returns the bytes that hold this one too; 0 where it can not be written. Bounded with what else is kept
+// (engine/base/cache.h). Two runs of the same bake may do so at once: bytes are the same wherever both wrote
+// the same bands, and what does not fit together is not read.
+std::uint64_t keepBakeBand(std::uint64_t key, std::uint64_t after, const BakeBand& band,
+                           const BakeBlocks& blocks);
 
-// How far the kept part of this bake is; {0, 0} where there is none.
-BakeReached keptBakePart(std::uint64_t key);
+struct BakeKept {
+    BakeReached reached;
+    std::uint64_t bytes = 0;  // that hold it
+};
 
-// Fills the blocks, which are those of what was reached. False where it is damaged or of another size; the
-// blocks then hold anything.
-bool readBakePart(std::uint64_t key, const BakeBlocks& blocks);
+// Reads what is kept of this bake: calls begin(band) for each band in turn, which follows what came before it
+// (rows in order, then the next phase), and fills what it returns. Ends at the first that is damaged, cut off
+// or not one of this bake's, whose memory it sets to 0.
+// rows: of every phase. Throws Cancelled, as `begin` may.
+BakeKept readBakePart(std::uint64_t key, std::int32_t rows, std::int32_t phases, const BlocksOfBand& begin);
 
 }  // namespace stereonav

@@ -130,8 +130,9 @@ private:
 }  // namespace
 
 void bakeHorizonRow(const GroundRays& rays, const LightGrid& grid, int row, int azimuths,
-                    std::uint8_t* horizon, std::size_t planeSize) {
+                    std::uint8_t* horizon, std::size_t planeSize, const std::function<void()>& each) {
     for (int first = 0; first < grid.width; first += RayPacket::kSize) {
+        each();
         HorizonPacket packet(rays, grid, row, first);
         for (int a = 0; a < azimuths; ++a)
             packet.find(azimuthDirection(a, azimuths), horizon + a * planeSize + first);

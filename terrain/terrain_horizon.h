@@ -2,6 +2,7 @@
 // mesh of ground_rays.h up to the byte's step.
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -17,7 +18,9 @@ glm::dvec2 azimuthDirection(double a, int azimuths);
 glm::dvec3 sampleNormal(const Heightfield& ground, int i, int j);
 
 // One row of baked samples: horizon[a * planeSize + i]. Samples in holes get 0.
-void bakeHorizonRow(const GroundRays& rays, const LightGrid& grid, int row, int azimuths,
-                    std::uint8_t* horizon, std::size_t planeSize);
+// each: called before every few samples, as a row may take seconds; may throw.
+void bakeHorizonRow(
+    const GroundRays& rays, const LightGrid& grid, int row, int azimuths, std::uint8_t* horizon,
+    std::size_t planeSize, const std::function<void()>& each = [] {});
 
 }  // namespace stereonav

@@ -27,6 +27,8 @@ namespace {
 constexpr int kBakeVersion = 1;  // of what is baked: a change gives other keys
 constexpr int kBand = 16;        // rows between two looks at the progress
 constexpr int kLargestStride = 1000;
+constexpr int kLookAt = 64;                     // samples of a row between two looks at the wish to stop
+constexpr std::uint64_t kKeepBytes = 32 << 20;  // done and not kept yet: what a stop has to write at most
 
 void checkRange(const char* name, double value, double low, double high, int step = 1) {
     const bool whole = step <= 1 || std::fmod(value, step) == 0;
@@ -49,7 +51,7 @@ void checkSettings(const TerrainLightSettings& s) {
 // Bytes held at once: three transfer fields or the two results, horizons, openness, Embree's vertices.
 double memoryOf(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {
     const double each = s.kind == TerrainLightKind::Openness
-                            ? 1.0 + s.azimuths
+                            ? 1.0
                             : 1.0 + s.azimuths + 4 * sizeof(std::int16_t) * lightHarmonics(s.order);
     return each * static_cast<double>(grid.count()) + 40.0 * ground.width() * ground.height();
 }
@@ -66,18 +68,6 @@ void checkMemoryOf(const Heightfield& ground, const LightGrid& grid, const Terra
                 fits(stride)
                     ? fmt::format("--resolution {:.3f} would fit", std::floor(1000.0 / stride) / 1000)
                     : "no resolution would fit: bake a part of this ground");
-}
-
-// Runs work(row) for all rows that are not done; the job's share from `from` to `to`.
-template <typename Work>
-void eachRow(std::int32_t& done, int rows, Progress& progress, double from, double to, const char* what,
-             const Work& work) {
-    while (done < rows) {
-        progress.report(from + (to - from) * done / rows, what);
-        const int band = std::min(kBand, rows - done);
-        parallelFor(band, [&](int k) { work(done + k); });
-        done += band;
-    }
 }
 
 template <typename T>
@@ -118,7 +108,7 @@ public:
             return light;
         } catch (const Cancelled&) {
             const FinishingWork keepsWhatIsDone;
-            if (mKeeps && (mDone.phase > 0 || mDone.rows > 0)) keepBakePart(mLight.key, mDone, blocksDone());
+            keepDone();
             throw;
         }
     }
@@ -130,16 +120,13 @@ private:
         mLight.settings = mSettings;
         mLight.grid = mGrid;
         mLight.key = terrainLightKey(mGround, mSettings);
-        const bool transfer = mSettings.kind == TerrainLightKind::Transfer;
         goOn();
         if (mDone.phase == 0) {
-            bakeDirect(rays, transfer ? mSettings.bounces == 0 ? 0.9 : 0.5 : 1.0);
-            if (transfer) mTotal = mDirect;
+            bakeDirect(rays, isTransfer() ? mSettings.bounces == 0 ? 0.9 : 0.5 : 1.0);
             nextPhase();
         }
-        if (!transfer) {
+        if (!isTransfer()) {
             mProgress.report(1, "baked");
-            mLight.horizon = {};
             return std::move(mLight);
         }
         while (mDone.phase <= mSettings.bounces) {
@@ -152,71 +139,114 @@ private:
         return std::move(mLight);
     }
 
+    bool isTransfer() const { return mSettings.kind == TerrainLightKind::Transfer; }
+    int phases() const { return isTransfer() ? mSettings.bounces + 1 : 1; }
+
+    // All rows of the present phase are done.
     void nextPhase() {
+        keepDone();
+        if (mDone.phase == 0)
+            mTotal = mDirect;
+        else
+            std::swap(mTotal, mNext);
         ++mDone.phase;
-        mDone.rows = 0;
-        const bool another = mSettings.kind == TerrainLightKind::Transfer && mDone.phase <= mSettings.bounces;
-        if (another) mNext.resize(mTotal.size());
+        mDone.rows = mKept.rows = 0;
+        mKept.phase = mDone.phase;
+        if (mDone.phase < phases()) mNext.resize(mTotal.size());
     }
 
     void allocate() {
-        const bool transfer = mSettings.kind == TerrainLightKind::Transfer;
         mLight.openness.assign(mGrid.count(), 0);
+        if (!isTransfer()) return;
         mLight.horizon.assign(mGrid.count() * mSettings.azimuths, 0);
-        if (transfer) mDirect.assign(mGrid.count() * mCount, 0);
-        if (mDone.phase == 0) return;
-        mTotal.resize(mDirect.size());
-        mNext.resize(mDirect.size());
+        mDirect.assign(mGrid.count() * mCount, 0);
     }
 
-    // What was reached, in whole rows: of the first phase, and of the present one.
-    BakeBlocks blocksDone() {
-        const bool first = mDone.phase == 0;
+    BakeBlocks blocksOf(const BakeBand& band) {
         const std::size_t row = static_cast<std::size_t>(mGrid.width);
-        const std::size_t samples = row * static_cast<std::size_t>(first ? mDone.rows : mGrid.height);
-        BakeBlocks blocks{bytesOf(mLight.openness, 0, samples)};
+        const std::size_t first = row * static_cast<std::size_t>(band.first),
+                          samples = row * static_cast<std::size_t>(band.rows);
+        if (band.phase > 0) return {bytesOf(mNext, first * mCount, samples * mCount)};
+        BakeBlocks blocks{bytesOf(mLight.openness, first, samples)};
+        if (!isTransfer()) return blocks;
         for (int a = 0; a < mSettings.azimuths; ++a)
-            blocks.push_back(bytesOf(mLight.horizon, a * mGrid.count(), samples));
-        if (!mDirect.empty()) blocks.push_back(bytesOf(mDirect, 0, samples * mCount));
-        if (first) return blocks;
-        blocks.push_back(bytesOf(mTotal, 0, mTotal.size()));
-        blocks.push_back(bytesOf(mNext, 0, mDone.rows * row * mCount));
+            blocks.push_back(bytesOf(mLight.horizon, a * mGrid.count() + first, samples));
+        blocks.push_back(bytesOf(mDirect, first * mCount, samples * mCount));
         return blocks;
     }
 
     // From where an earlier run of the same bake was stopped.
     void goOn() {
-        if (mKeeps) mDone = keptBakePart(mLight.key);
-        const bool transfer = mSettings.kind == TerrainLightKind::Transfer;
-        if (mDone.phase < 0 || mDone.phase > (transfer ? mSettings.bounces + 1 : 1) || mDone.rows < 0 ||
-            mDone.rows > mGrid.height)
-            mDone = {};
         allocate();
-        if ((mDone.phase == 0 && mDone.rows == 0) || readBakePart(mLight.key, blocksDone())) return;
-        mDone = {};
-        allocate();
+        if (!mKeeps) return;
+        const BakeKept kept = readBakePart(mLight.key, mGrid.height, phases(), [&](const BakeBand& band) {
+            if (band.phase > mDone.phase) {
+                mDone.rows = mKept.rows = mGrid.height;
+                nextPhase();
+            }
+            return blocksOf(band);
+        });
+        // A damaged band may have begun a phase: that one is begun all the same.
+        if (kept.reached.phase == mDone.phase) mDone.rows = kept.reached.rows;
+        mKept = mDone;
+        mKeptBytes = kept.bytes;
+    }
+
+    BakeBand notKept() const { return {mDone.phase, mKept.rows, mDone.rows - mKept.rows}; }
+
+    // Rows that are done and not kept yet.
+    void keepDone() {
+        const BakeBand band = notKept();
+        if (!mKeeps || mKeepingFailed || band.rows == 0) return;
+        mKeptBytes = keepBakeBand(mLight.key, mKeptBytes, band, blocksOf(band));
+        mKeepingFailed = mKeptBytes == 0;
+        mKept.rows = mDone.rows;
+    }
+
+    // Runs work(row) for all rows of the phase that are not done; the job's share from `from` to `to`.
+    template <typename Work>
+    void eachRow(double from, double to, const char* what, const Work& work) {
+        while (mDone.rows < mGrid.height) {
+            mProgress.report(from + (to - from) * mDone.rows / mGrid.height, what);
+            const int band = std::min(kBand, mGrid.height - mDone.rows);
+            parallelFor(band, [&](int k) { work(mDone.rows + k); });
+            mDone.rows += band;
+            if (bytesPerRow() * static_cast<std::uint64_t>(notKept().rows) >= kKeepBytes) keepDone();
+        }
+    }
+
+    // A row of a large ground takes seconds.
+    void lookAtWish() const {
+        if (mProgress.cancelled()) throw Cancelled();
+    }
+
+    std::uint64_t bytesPerRow() const {
+        const std::size_t of = sizeof(std::int16_t) * static_cast<std::size_t>(mCount);
+        const std::size_t each = !isTransfer() ? 1 : mDone.phase > 0 ? of : 1 + mSettings.azimuths + of;
+        return static_cast<std::uint64_t>(mGrid.width) * each;
     }
 
     bool known(int i, int j) const { return std::isfinite(mGround.sample(mGrid.column(i), mGrid.row(j))); }
     std::size_t sampleAt(int i, int j) const { return static_cast<std::size_t>(j) * mGrid.width + i; }
-    void setWedges(int i, int j, SkyWedges& wedges) const {
-        wedges.set(sampleNormal(mGround, mGrid.column(i), mGrid.row(j)), &mLight.horizon[sampleAt(i, j)],
-                   mGrid.count());
-    }
-
     void bakeDirect(const GroundRays& rays, double to) {
         const SkyTransfer sky(mSettings.order, mSettings.azimuths);
-        eachRow(mDone.rows, mGrid.height, mProgress, 0, to, "casting rays for the horizon", [&](int j) {
-            bakeHorizonRow(rays, mGrid, j, mSettings.azimuths, &mLight.horizon[sampleAt(0, j)],
-                           mGrid.count());
+        const auto wish = [this] { lookAtWish(); };
+        eachRow(0, to, "casting rays for the horizon", [&](int j) {
+            // Openness needs the horizons of this row alone.
+            const std::size_t width = static_cast<std::size_t>(mGrid.width);
+            std::vector<std::uint8_t> own(isTransfer() ? 0 : width * mSettings.azimuths);
+            std::uint8_t* const horizon = own.empty() ? &mLight.horizon[sampleAt(0, j)] : own.data();
+            const std::size_t plane = own.empty() ? mGrid.count() : width;
+            bakeHorizonRow(rays, mGrid, j, mSettings.azimuths, horizon, plane, wish);
             SkyWedges wedges(mSettings.azimuths);
             float direct[kMaxHarmonics];
             for (int i = 0; i < mGrid.width; ++i) {
+                if (i % kLookAt == 0) lookAtWish();
                 if (!known(i, j)) continue;
-                setWedges(i, j, wedges);
+                wedges.set(sampleNormal(mGround, mGrid.column(i), mGrid.row(j)), horizon + i, plane);
                 mLight.openness[sampleAt(i, j)] =
                     static_cast<std::uint8_t>(std::lround(255 * wedges.openness()));
-                if (mDirect.empty()) continue;
+                if (!isTransfer()) continue;
                 sky.direct(wedges, direct);
                 for (int k = 0; k < mCount; ++k)
                     mDirect[sampleAt(i, j) * mCount + k] = quantized(direct[k] / mUnit[k]);
@@ -226,20 +256,21 @@ private:
 
     void bakeBounce(const GroundRays& rays, int bounce) {
         const double from = 0.5 + 0.45 * bounce / mSettings.bounces, to = from + 0.45 / mSettings.bounces;
-        eachRow(mDone.rows, mGrid.height, mProgress, from, to, "casting rays for bounced light", [&](int j) {
+        eachRow(from, to, "casting rays for bounced light", [&](int j) {
             SkyWedges wedges(mSettings.azimuths);
             float bounced[kMaxHarmonics];
             const GatherSetting setting{mSettings.rays, mSettings.albedo, mSettings.seed, mCount};
             for (int i = 0; i < mGrid.width; ++i) {
+                if (i % kLookAt == 0) lookAtWish();
                 if (!known(i, j)) continue;
-                setWedges(i, j, wedges);
+                wedges.set(sampleNormal(mGround, mGrid.column(i), mGrid.row(j)),
+                           &mLight.horizon[sampleAt(i, j)], mGrid.count());
                 gatherBounce(rays, mGrid, i, j, wedges, mTotal, setting, bounced);
                 const std::size_t at = sampleAt(i, j) * mCount;
                 for (int k = 0; k < mCount; ++k)
                     mNext[at + k] = quantized(static_cast<float>(mDirect[at + k]) + bounced[k]);
             }
         });
-        std::swap(mTotal, mNext);
     }
 
     void intoPlanes() {
@@ -273,7 +304,9 @@ private:
     TerrainLight mLight;
     TransferField mDirect, mTotal, mNext;
     const bool mKeeps;
-    BakeReached mDone;
+    bool mKeepingFailed = false;
+    BakeReached mDone, mKept;
+    std::uint64_t mKeptBytes = 0;  // of the part's file, that hold mKept
 };
 
 }  // namespace

@@ -66,8 +66,16 @@ LoadedGround loadBuiltIn(const SceneFile& file, TerrainScene& scene, Progress& p
     return loaded;
 }
 
+// Heights, the maxima over blocks of them, and colours; a picture's are checked when its size is known.
+double bytesOfGround(double samples, bool tinted) {
+    constexpr double kHeights = 4, kMaxima = 4 * 4.0 / 3;
+    return (kHeights + kMaxima) * samples + (tinted ? bytesOfTint(samples) : 0);
+}
+
 LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progress) {
-    DemGrid dem = readDem(file.dem, file.verticalScale, progress);
+    const bool tinted = file.image.empty();
+    DemGrid dem = readDem(file.dem, file.verticalScale, progress,
+                          [tinted](double samples) { return bytesOfGround(samples, tinted); });
     TerrainReport& report = scene.report;
     report.driver = dem.driver;
     report.sourceCrs = dem.crs;

@@ -15,10 +15,15 @@
 #include <queue>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "terrain/mesh_triangulation.h"
 
 namespace stereonav {
 namespace {
+
+constexpr int kLeastRoom = 1 << 14;
+constexpr double kTriangleBytes =
+    160;  // with its share of the vertices, its place in the queue and in the file
 
 std::int64_t floorDivide(std::int64_t a, std::int64_t b) {
     return a / b - (a % b != 0 && (a < 0) != (b < 0));
@@ -96,6 +101,7 @@ private:
     void insertHoleBorders();
     void insertOnce(const glm::ivec2& point);
     void measure(int triangle);
+    void makeRoom();
     void refine();
     TerrainMesh result() const;
 
@@ -108,6 +114,7 @@ private:
     std::vector<bool> mInserted;  // samples, while hole borders are inserted
     std::vector<int> mChanged;
     int mLast = 0;
+    int mRoom = 0;  // triangles
 };
 
 void Simplifier::insertOnce(const glm::ivec2& point) {
@@ -167,6 +174,14 @@ void Simplifier::measure(int triangle) {
     if (best.error > mError) mQueue.push({best.error, triangle, best.version});
 }
 
+// What a mesh comes to is not known before it is made: before each doubling there has to be memory for it,
+// with the copy that growing arrays take.
+void Simplifier::makeRoom() {
+    mRoom = std::max(2 * mMesh.triangleCount(), kLeastRoom);
+    checkMemory(fmt::format("a mesh of more than {} triangles", mMesh.triangleCount()),
+                kTriangleBytes * mRoom, fmt::format("give a larger --error than {:g} m", mError));
+}
+
 void Simplifier::refine() {
     const double first = mQueue.empty() ? 0.0 : mQueue.top().error;
     for (long long steps = 0; !mQueue.empty(); ++steps) {
@@ -180,6 +195,7 @@ void Simplifier::refine() {
                 std::clamp(std::log(first / worst.error) / std::log(first / mError + 1e-9), 0.0, 1.0),
                 "simplifying");
         mMesh.insert(candidate.sample, worst.triangle, mChanged);
+        if (mMesh.triangleCount() > mRoom) makeRoom();
         mCandidates.resize(mMesh.triangleCount());
         for (const int t : mChanged) measure(t);
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -61,11 +62,22 @@ double leftOfGroups(const fs::path& system) {
     return left;
 }
 
+// Of the user's own limit.
+double leftOfWish() {
+    const char* text = std::getenv("STEREONAV_MEMORY");
+    if (!text) return kUnlimited;
+    char* end = nullptr;
+    const double most = std::strtod(text, &end);
+    if (end == text || *end != '\0' || !(most >= 0))
+        throw Error("STEREONAV_MEMORY", "", fmt::format("expected bytes, got \"{}\"", text), "2e9 are 2 GB");
+    return std::max(0.0, most - 1024 * valueIn("/proc/self/status", "RssAnon:", 0));
+}
+
 }  // namespace
 
 double availableMemory(const fs::path& root) {
     const double kilobytes = valueIn(root / "proc/meminfo", "MemAvailable:", kUnlimited);
-    return std::min(1024 * kilobytes, leftOfGroups(root));
+    return std::min({1024 * kilobytes, leftOfGroups(root), leftOfWish()});
 }
 
 std::string memoryText(double bytes) {

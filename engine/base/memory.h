@@ -7,7 +7,8 @@
 namespace stereonav {
 
 // Bytes that can be had without others being pushed out: what the system says is available, and what the
-// process's control groups leave of their limits. Infinity where nothing tells.
+// process's control groups leave of their limits; of the bytes that the environment variable STEREONAV_MEMORY
+// gives this process, what it has not taken yet. Infinity where nothing tells.
 // root: where proc and sys are; another one for tests.
 double availableMemory(const std::filesystem::path& root = "/");
 

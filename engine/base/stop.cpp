@@ -1,7 +1,10 @@
 #include "engine/base/stop.h"
 
+#include <fcntl.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <climits>
@@ -39,6 +42,7 @@ struct Slot {
 enum : int { kFree, kTaken, kSet };
 std::array<Slot, 32> slots;
 timer_t deadline;
+double pageSize = 4096;
 
 void restart(long milliseconds) {
     itimerspec time{};
@@ -58,9 +62,26 @@ void restart(long milliseconds) {
     _exit(1);
 }
 
+// Bytes of this process in memory; 0 where that is not known. In a signal handler: by the system's own calls,
+// as the program's open() (app/open_watch.cpp) may not be called there.
+double bytesHeld() {
+    const long file = syscall(SYS_openat, AT_FDCWD, "/proc/self/statm", O_RDONLY | O_CLOEXEC);
+    if (file < 0) return 0;
+    char text[64] = {};
+    const long bytes = syscall(SYS_read, file, text, sizeof text - 1);
+    syscall(SYS_close, file);
+    double pages = 0;  // the second number
+    int spaces = 0;
+    for (long n = 0; n < bytes && spaces < 2; ++n) {
+        spaces += text[n] == ' ';
+        if (spaces == 1 && text[n] >= '0' && text[n] <= '9') pages = 10 * pages + (text[n] - '0');
+    }
+    return pages * pageSize;
+}
+
 void onWish(int) {
     if (Stop::own().wished.exchange(true)) endAtOnce();
-    restart(kMostStopping_ms);
+    restart(stoppingTime_ms(bytesHeld()));
 }
 
 void onDeadline(int) {
@@ -84,8 +105,14 @@ bool isIgnored(int signal) {
 
 }  // namespace
 
+int stoppingTime_ms(double bytes) {
+    constexpr double kOfGigabyte_ms = 50, kLeast_ms = 100;
+    return static_cast<int>(std::max(kLeast_ms, kMostStopping_ms - kOfGigabyte_ms * bytes * 1e-9));
+}
+
 void catchStopSignals() {
     Stop::own();  // there before a handler asks for it
+    pageSize = static_cast<double>(sysconf(_SC_PAGE_SIZE));
     sigevent event{};
     event.sigev_notify = SIGEV_SIGNAL;
     event.sigev_signo = SIGALRM;

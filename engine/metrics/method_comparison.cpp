@@ -165,8 +165,9 @@ std::vector<MethodFigures> compareMethods(const EyeRenderer& renderer, const std
     for (int index = 0; index < count; ++index) {
         Progress ofFrame(
             [&](double share, const std::string& what) { progress.report((index + share) / count, what); });
-        const auto figures =
-            comparison.measure(makeStereoViews(poses[index], lens, stereo), index, ofFrame, listener);
+        const auto figures = comparison.measure(
+            makeStereoViews(poses[index], lens, setting.eyes.empty() ? stereo : setting.eyes[index]), index,
+            ofFrame, listener);
         for (std::size_t k = 0; k < figures.size(); ++k) byMethod[k].push_back(figures[k]);
     }
     std::vector<MethodFigures> result;

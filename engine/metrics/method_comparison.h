@@ -16,9 +16,10 @@ namespace stereonav {
 
 struct ComparisonSetting {
     std::vector<RightEyeMethod> methods;
-    int repeats = 3;      // timed runs of a frame, >= 1; the fastest counts
-    int truthFactor = 4;  // the finer truth has truthFactor^2 rays a pixel
-    int edgeRadius = 2;   // pixels by which the edge mask is grown
+    int repeats = 3;                  // timed runs of a frame, >= 1; the fastest counts
+    int truthFactor = 4;              // the finer truth has truthFactor^2 rays a pixel
+    int edgeRadius = 2;               // pixels by which the edge mask is grown
+    std::vector<StereoSetting> eyes;  // one a pose; empty: the same at all
 };
 
 // Times in ms and errors of one method: of one frame, or medians over frames.

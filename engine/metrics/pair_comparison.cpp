@@ -99,7 +99,8 @@ std::vector<MethodFigures> comparePairs(FrameMaker& frames, const std::vector<Ti
     for (std::size_t n = 0; n < poses.size(); ++n) {
         progress.report(static_cast<double>(n) / static_cast<double>(poses.size()),
                         fmt::format("frame {} of {}", n + 1, poses.size()));
-        const StereoViews views = makeStereoViews(poses[n].pose, lens, stereo);
+        const StereoViews views =
+            makeStereoViews(poses[n].pose, lens, setting.eyes.empty() ? stereo : setting.eyes[n]);
         const auto figures =
             compareFrame(frames, views, poses[n].time, setting, static_cast<int>(n), listener);
         for (std::size_t k = 0; k < figures.size(); ++k) byMethod[k].push_back(figures[k]);

@@ -27,6 +27,7 @@ struct PairComparisonSetting {
     std::vector<std::string_view> methods;
     std::string_view truth;  // the method that the others are measured against: one eye after the other
     int repeats = 3;         // timed runs of a frame, >= 1; the fastest counts
+    std::vector<StereoSetting> eyes;  // one a pose; empty: the same at all
 };
 
 // Medians over the frames, in the order of the methods. Of MethodFigures: left_ms is one eye alone, right_ms

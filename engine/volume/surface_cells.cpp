@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/base/pages.h"
 #include "engine/base/parallel.h"
 #include "engine/volume/distance_transform.h"
@@ -282,6 +283,12 @@ void writeRecords(const GreyVolume& volume, const MaskVolume& active, SurfaceCel
         throw Error("", "isosurface", fmt::format("{} cells hold surface, more than 134 million", total),
                     "choose another isovalue or a smaller volume");
     std::partial_sum(first.begin(), first.end(), first.begin());
+    std::size_t bricksHeld = 0;
+    for (int n = 0; n < bricks; ++n) bricksHeld += first[n] != first[n + 1];
+    checkMemory(fmt::format("a surface of {} cells", total),
+                static_cast<double>(total) * sizeof(CellRecord) +
+                    static_cast<double>(bricksHeld) * kBrick * kBrick * kBrick * sizeof(std::uint32_t),
+                "choose another isovalue, a transfer function that shows less, or a smaller volume");
     cells.records = LazyArray<CellRecord>(first.back());
     cells.records.preferLargePages();
     parallelFor(bricks, [&](int n) {

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "terrain/gdal/dem_resample.h"
 #include "terrain/gdal/dem_samples.h"
 #include "terrain/gdal/reference_system.h"
@@ -95,8 +96,6 @@ void placeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGri
 
 void resample(const std::filesystem::path& file, DemGrid& dem, bool ownSystem, std::vector<float>& samples,
               Progress& progress) {
-    dem.grid = metricGrid(dem.source, ownSystem, file);
-    checkRasterSize(file, dem.grid.width, dem.grid.height);
     ResampledDem resampled = resampleDem(samples, dem.source, dem.grid, file, progress);
     samples = std::move(resampled.heights);
     dem.outside = resampled.outside;
@@ -184,13 +183,64 @@ std::string projectionAsItIs(const DemGrid& dem, double metres) {
     return metres == 1.0 ? "as it is" : fmt::format("as it is, {:.9g} m a unit", metres);
 }
 
+// How the samples get to a grid in metres: known before they are read.
+struct Placement {
+    OwnPlane plane;
+    bool asTheyAre = false;  // turned over at most; else resampled onto
+    Georeference grid;       // this
+};
+
+Placement placementOf(const Georeference& source, const std::filesystem::path& file) {
+    Placement placement{ownPlane(source, file), false, source};
+    placement.asTheyAre = placement.plane.metres > 0 && source.points.empty() && source.axisAligned();
+    if (placement.asTheyAre) return placement;
+    placement.grid = metricGrid(source, placement.plane.stays, file);
+    checkRasterSize(file, placement.grid.width, placement.grid.height);
+    return placement;
+}
+
+// Bytes at once: while the samples are read (a run of rows in double precision, GDAL's blocks), are
+// resampled, and afterwards.
+double bytesFor(double width, double height, double resampled, const BytesForSamples& after) {
+    constexpr double kHeight = sizeof(float), kRun = 256 * (sizeof(double) + 1), kTaken = 1.0 / 8;
+    const double read = kHeight * width * height, target = resampled > 0 ? resampled : width * height;
+    const double reading = read + width * kRun + std::min(read, 1.0 * kGdalBlocks);
+    const double resampling = resampled > 0 ? read + (kHeight + kTaken) * resampled : 0;
+    return std::max({reading, resampling, after ? after(target) : kHeight * target});
+}
+
+void checkMemoryFor(const std::filesystem::path& file, const Georeference& source, const Placement& placement,
+                    const BytesForSamples& after) {
+    const double grid = 1.0 * placement.grid.width * placement.grid.height,
+                 perSample = placement.asTheyAre ? 0 : grid / (1.0 * source.width * source.height);
+    const auto needed = [&](double share) {
+        const double width = share * source.width, height = share * source.height;
+        return bytesFor(width, height, perSample * width * height, after);
+    };
+    const double there = availableMemory();
+    if (needed(1) <= there) return;
+    double low = 0, high = 1;  // shares of each side
+    for (int k = 0; k < 20; ++k) (needed(0.5 * (low + high)) <= there ? low : high) = 0.5 * (low + high);
+    const int width = static_cast<int>(low * source.width), height = static_cast<int>(low * source.height);
+    throw Error(
+        file.string(), "size",
+        fmt::format("{} x {} samples need {} of memory, and {} can be had", source.width, source.height,
+                    memoryText(needed(1)), memoryText(there)),
+        width >= 2 && height >= 2
+            ? fmt::format("{0} x {1} would fit: thin it out with gdal_translate -outsize {0} {1}, or cut "
+                          "out a part with -srcwin",
+                          width, height)
+            : "free memory");
+}
+
 // Brings the samples to a grid in metres; dem.grid, dem.projection and dem.spacing follow.
-void placeInMetres(const std::filesystem::path& file, DemGrid& dem, std::vector<float>& samples,
-                   Progress& progress) {
-    const OwnPlane plane = ownPlane(dem.source, file);
+void placeInMetres(const std::filesystem::path& file, const Placement& placement, DemGrid& dem,
+                   std::vector<float>& samples, Progress& progress) {
+    const OwnPlane& plane = placement.plane;
+    dem.grid = placement.grid;
     const std::string given = dem.projection;
     double unit = 1;
-    if (plane.metres > 0 && dem.source.points.empty() && dem.source.axisAligned()) {
+    if (placement.asTheyAre) {
         orient(dem, samples);
         unit = plane.metres;
         dem.projection = projectionAsItIs(dem, unit) + plane.stretch;
@@ -236,7 +286,8 @@ void checkGrid(const std::filesystem::path& file, const DemGrid& dem) {
 
 }  // namespace
 
-DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress) {
+DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
+                const BytesForSamples& after) {
     GdalMessages messages;
     const GdalDataset dataset = openRaster(file, messages, kExpected, kAdvice);
     checkRasterSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
@@ -244,6 +295,8 @@ DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progres
     placeSource(*dataset, file, dem);
     checkPlacement(*dataset, file, dem.georeferenced);
     checkGrid(file, dem);
+    const Placement placement = placementOf(dem.source, file);
+    checkMemoryFor(file, dem.source, placement, after);
     DemSamples read = readSamples(*dataset, messages, file, verticalScale, progress);
     std::vector<float> samples = std::move(read.heights);
     dem.band = std::move(read.band);
@@ -255,7 +308,7 @@ DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progres
                     fmt::format("all {} samples are missing{}", samples.size(),
                                 dem.missingValue.empty() ? "" : " (nodata " + dem.missingValue + ")"),
                     "check the file's nodata value");
-    placeInMetres(file, dem, samples, progress);
+    placeInMetres(file, placement, dem, samples, progress);
     dem.width = dem.grid.width;
     dem.height = dem.grid.height;
     dem.sourceOffset = dem.grid.fromPixel(0.5 * glm::dvec2(dem.width, dem.height));

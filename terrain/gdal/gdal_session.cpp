@@ -25,6 +25,8 @@ constexpr long long kMaxSamples = 1ll << 28;  // 1 GiB of heights; as much again
 void registerDriversOnce() {
     static std::once_flag once;
     std::call_once(once, [] {
+        // Else a twentieth of the machine's memory, some of which the heap keeps after a file is closed.
+        if (!CPLGetConfigOption("GDAL_CACHEMAX", nullptr)) GDALSetCacheMax64(kGdalBlocks);
         for (void (*const add)() : {GDALRegister_GTiff,
                                     GDALRegister_SRTMHGT,
                                     GDALRegister_USGSDEM,

@@ -12,6 +12,10 @@
 
 namespace stereonav {
 
+// Bytes of blocks of files that GDAL keeps, unless the user says otherwise (GDAL_CACHEMAX). Files are read in
+// runs of rows: a row of blocks is enough.
+constexpr int kGdalBlocks = 64 << 20;
+
 // While it lives, GDAL's messages of this thread are kept here and nothing is printed.
 class GdalMessages {
 public:

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "app/colon_loading.h"
 #include "app/stereo_frame.h"
 #include "app/view_stereo.h"
@@ -95,6 +97,42 @@ TEST_F(NarrowedEyesTest, LeaveFewerPixelsToCastAgain) {
     wide.render(stays.startPose);
     EXPECT_LT(narrow.timings().warped->holePixels,
               0.7 * static_cast<double>(wide.timings().warped->holePixels));
+}
+
+TEST_F(NarrowedEyesTest, OfAMediumLookAtTheWallAroundIt) {
+    SceneOptions options = optionsOf(narrowAtItsEnds());
+    const StereoSetting cast = NarrowedEyes(loaded(options)).at(loaded(options).startPose, 0);
+    options.medium.medium = "tissue";
+    const LoadedScene medium = loaded(options);
+    ASSERT_TRUE(medium.eyesFollow);
+    const StereoSetting narrowed = NarrowedEyes(medium).at(medium.startPose, 0);
+    EXPECT_NEAR(narrowed.separation, cast.separation, 1e-9);
+    EXPECT_LT(narrowed.separation, 0.6 * medium.stereo.separation);
+    options.separation_m = medium.stereo.separation;
+    const LoadedScene stays = loaded(options);
+    EXPECT_EQ(NarrowedEyes(stays).at(stays.startPose, 0).separation, stays.stereo.separation);
+}
+
+TEST_F(NarrowedEyesTest, AreThoseOfCompare) {
+    const std::string scene = narrowAtItsEnds();
+    const std::vector<std::string> compare{"compare",  scene,    "--size",    "64x48", "--no-cache",
+                                           "--frames", "1",      "--repeats", "1",     "--images",
+                                           "images",   "--json", "a.json"};
+    const Outcome outcome = run(compare);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(contentOf(place() / "a.json"));
+    EXPECT_LT(json["least_separation_m"].get<double>(), 0.6 * json["separation_m"].get<double>());
+    EXPECT_NE((outcome.out + outcome.err).find("where narrow"), std::string::npos);
+    ASSERT_EQ(run({"render", scene, "--size", "64x48", "--no-cache", "--method", "full", "--mode", "mr",
+                   "--out", "a.png"})
+                  .status,
+              0);
+    EXPECT_EQ(contentOf(place() / "a.png"), contentOf(place() / "images/full_right.png"));
+    std::vector<std::string> asked = compare;
+    asked.insert(asked.end(), {"--relative-separation", "0.0333"});
+    ASSERT_EQ(run(asked).status, 0);
+    const auto kept = nlohmann::json::parse(contentOf(place() / "a.json"));
+    EXPECT_EQ(kept["least_separation_m"], kept["separation_m"]);
 }
 
 TEST_F(NarrowedEyesTest, AreThoseOfRenderAndPlayAlike) {

@@ -30,6 +30,13 @@ TEST_F(VolumeBadInput, NotAVolume) {
     expectSceneRefused((mFolder / "folder").string(), {"folder", "DICOM"});
 }
 
+TEST_F(VolumeBadInput, ArchivesAreToBeUnpacked) {
+    expectSceneRefused(input("study.zip", std::string("PK\3\4\x14\0\0\0", 8) + "slice.dcm"),
+                       {"study.zip", "found an archive (zip)", "unpack it"});
+    expectSceneRefused(input("study", std::string("PK\3\4\x14\0\0\0", 8)), {"study", "archive"});
+    expectSceneRefused(input("study.7z", std::string("7z\xbc\xaf\x27\x1c\0\4", 8)), {"archive (7z)"});
+}
+
 TEST_F(VolumeBadInput, CutOffOrTheWrongNumberOfBytes) {
     const std::string whole = contentOf(maskedTube());
     expectSceneRefused(input("cut.nrrd", whole.substr(0, whole.size() / 2)), {"cut.nrrd"});

@@ -37,6 +37,19 @@ TEST_F(MemoryTest, IsWhatTheSystemSays) {
     EXPECT_EQ(availableMemory(mRoot), 8000000.0 * 1024);
 }
 
+TEST_F(MemoryTest, IsNoMoreThanTheUserWishes) {
+    setenv("STEREONAV_MEMORY", "1e9", 1);
+    EXPECT_LT(availableMemory(mRoot), 1e9) << "what is taken counts";
+    EXPECT_GT(availableMemory(mRoot), 5e8);
+    setenv("STEREONAV_MEMORY", "1e12", 1);
+    EXPECT_EQ(availableMemory(mRoot), 8000000.0 * 1024);
+    for (const char* text : {"", "many", "1e9 bytes", "-1", "nan"}) {
+        setenv("STEREONAV_MEMORY", text, 1);
+        EXPECT_THROW(availableMemory(mRoot), Error) << text;
+    }
+    unsetenv("STEREONAV_MEMORY");
+}
+
 TEST_F(MemoryTest, IsInfiniteWhereNothingTells) {
     EXPECT_EQ(availableMemory(mRoot / "elsewhere"), std::numeric_limits<double>::infinity());
 }

@@ -307,7 +307,7 @@ TEST(StudyNiftiBad, OffsetsAndSizes) {
     s.version = 2;
     s.size = {1'000'000'000'000, 4, 3};
     writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
-    expectError(folder / "a.nii", {"1000000000000 x 4 x 3 voxels need", "this machine has"});
+    expectError(folder / "a.nii", {"1000000000000 x 4 x 3 voxels need", "would fit"});
     s.size = {5, 4, 3, 2};
     writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
     expectError(folder / "a.nii", {"3 axes", "found 4 (5 x 4 x 3 x 2)"});

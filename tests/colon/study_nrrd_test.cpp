@@ -125,6 +125,39 @@ TEST(StudyNrrdEncodings, BothByteOrders) {
     expectError(folder / "d.nrrd", {"endian: little or big"});
 }
 
+template <typename T>
+void expectNrrdType(const std::vector<const char*>& names, double start, double step) {
+    const TemporaryFolder folder;
+    const std::string bytes = bytesOfSamples(ramp<T>(start, step));
+    for (const char* name : names)
+        for (const bool big : {false, true}) {
+            SCOPED_TRACE(fmt::format("{} {}", name, big));
+            const std::string lines = replaced(kShortLines, "type: short", std::string("type: ") + name);
+            expectRamp(read(writeNrrd(folder / "a.nrrd", big ? replaced(lines, "little", "big") : lines,
+                                      big ? turned(bytes, sizeof(T)) : bytes)),
+                       start, step);
+        }
+}
+
+// Under every name that the format's description gives them.
+TEST(StudyNrrdTypes, AllIntegersAndFloats) {
+    expectNrrdType<std::int8_t>({"signed char", "int8", "int8_t"}, -40, 1);
+    expectNrrdType<std::uint8_t>({"uchar", "unsigned char", "uint8", "uint8_t"}, 3, 4);
+    expectNrrdType<std::int16_t>(
+        {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}, -300, 17);
+    expectNrrdType<std::uint16_t>({"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"},
+                                  1000, 1000);
+    expectNrrdType<std::int32_t>({"int", "signed int", "int32", "int32_t"}, -300, 17);
+    expectNrrdType<std::uint32_t>({"uint", "unsigned int", "uint32", "uint32_t"}, 3e9, 1000);
+    expectNrrdType<std::int64_t>({"longlong", "long long", "long long int", "signed long long",
+                                  "signed long long int", "int64", "int64_t"},
+                                 -5e9, 1000);
+    expectNrrdType<std::uint64_t>(
+        {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}, 5e9, 1000);
+    expectNrrdType<float>({"float"}, -300, 17);
+    expectNrrdType<double>({"double"}, -300, 17);
+}
+
 TEST(StudyNrrdEncodings, WhatIsCutOffOrNoNumberIsSaid) {
     const TemporaryFolder folder;
     const std::string bytes = bytesOfSamples(ramp<short>());

@@ -111,21 +111,30 @@ struct DicomSpec {
     SliceSpec slice;
     DicomSyntax syntax = DicomSyntax::Explicit;
     std::string imageType = "ORIGINAL\\PRIMARY\\AXIAL", sopClass = "1.2.840.10008.5.1.4.1.1.2";
-    int samples = 1;
+    int samples = 1, bits = 16;       // bits allocated: 8, 16 or 32
     std::int64_t pixelLength = -1;    // another than the pixels'
     std::vector<glm::dvec3> frames;   // of an enhanced image: their positions
     bool knownLengths = true;         // of sequences
     std::vector<double> intercepts;   // of each frame
     std::vector<std::string> packed;  // compressed pictures in the place of pixels, one a frame
     std::string packedSyntax;
+    int plainFrames = 0;                               // of a file of several without functional groups
+    std::string spacingBetween, offsets, doseScaling;  // "" for none
+    // A modality LUT: its head of three numbers and its bytes; no rescale then.
+    std::vector<int> tableHead;
+    std::vector<int> tableValues;
+    int tableWidth = 2;    // bytes of each
+    bool rescaled = true;  // false: neither slope nor intercept
 };
 
 inline std::string pixelBytes(const DicomSpec& s, const DicomBytes& out) {
     std::vector<std::uint16_t> pixels = s.slice.pixels;
-    const std::size_t frames = std::max<std::size_t>(s.frames.size(), 1);
+    const std::size_t frames =
+        std::max<std::size_t>({s.frames.size(), static_cast<std::size_t>(s.plainFrames), 1});
     pixels.resize(static_cast<std::size_t>(s.slice.columns) * s.slice.rows * frames * s.samples, 1024);
     std::string bytes;
-    for (const std::uint16_t x : pixels) bytes += out.number(x, 2);
+    for (const std::uint16_t x : pixels) bytes += out.number(x, s.bits / 8);
+    if (bytes.size() % 2) bytes += '\0';
     return bytes;
 }
 
@@ -151,6 +160,17 @@ inline void addFrameGroups(const DicomSpec& s, DicomBytes& out) {
     out.sequence(0x52009230, items, s.knownLengths);
 }
 
+inline void addTable(const DicomSpec& s, DicomBytes& out) {
+    DicomBytes table(s.syntax);
+    std::string head, values;
+    for (const int x : s.tableHead) head += out.number(static_cast<std::uint16_t>(x), 2);
+    for (const int x : s.tableValues) values += out.number(static_cast<std::uint16_t>(x), s.tableWidth);
+    if (values.size() % 2) values += '\0';
+    table.element(0x00283002, "US", head);
+    table.element(0x00283006, "OW", values);
+    out.sequence(0x00283000, out.item(table.bytes(), s.knownLengths), s.knownLengths);
+}
+
 inline std::string dicomBytes(const DicomSpec& s) {
     DicomBytes out(s.syntax);
     const SliceSpec& p = s.slice;
@@ -158,6 +178,7 @@ inline std::string dicomBytes(const DicomSpec& s) {
     out.text(0x00080016, "UI", s.sopClass);
     out.text(0x00080060, "CS", p.modality);
     out.text(0x0008103e, "LO", p.description);
+    if (!s.spacingBetween.empty()) out.text(0x00180088, "DS", s.spacingBetween);
     out.text(0x0020000e, "UI", p.uid);
     if (s.frames.empty()) {
         out.text(0x00200032, "DS", numbersText({p.position.x, p.position.y, p.position.z}));
@@ -167,19 +188,22 @@ inline std::string dicomBytes(const DicomSpec& s) {
     out.word(0x00280002, s.samples);
     out.text(0x00280004, "CS", s.samples == 3 ? "RGB" : p.photometric);
     if (!s.frames.empty()) out.text(0x00280008, "IS", std::to_string(s.frames.size()));
+    if (s.plainFrames > 0) out.text(0x00280008, "IS", std::to_string(s.plainFrames));
     out.word(0x00280010, p.rows);
     out.word(0x00280011, p.columns);
     if (s.frames.empty()) out.text(0x00280030, "DS", numbersText({p.spacing.y, p.spacing.x}));
-    out.word(0x00280100, 16);
+    out.word(0x00280100, s.bits);
     out.word(0x00280101, p.bitsStored);
     out.word(0x00280102, p.bitsStored - 1);
     out.word(0x00280103, p.isSigned ? 1 : 0);
-    if (s.frames.empty()) {
+    if (s.frames.empty() && s.rescaled) {
         out.text(0x00281052, "DS", p.intercept);
         out.text(0x00281053, "DS", p.slope);
-    } else {
-        addFrameGroups(s, out);
     }
+    if (!s.tableHead.empty()) addTable(s, out);
+    if (!s.offsets.empty()) out.text(0x3004000c, "DS", s.offsets);
+    if (!s.doseScaling.empty()) out.text(0x3004000e, "DS", s.doseScaling);
+    if (!s.frames.empty()) addFrameGroups(s, out);
     if (s.packed.empty()) {
         out.element(0x7fe00010, "OW", pixelBytes(s, out), s.pixelLength);
         return dicomFile(s.syntax, out.bytes(), s.sopClass);

@@ -7,6 +7,8 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "terrain/ground_rays.h"
+#include "terrain/terrain_horizon.h"
 #include "terrain/terrain_light.h"
 #include "tests/support/test_grounds.h"
 
@@ -89,8 +91,10 @@ TEST_F(TerrainBakePart, OfAnotherBakeIsLeftAlone) {
     EXPECT_TRUE(fs::exists(other));
 }
 
+// What comes before a damaged band counts, and nothing of it or behind it; each band in turn, first and last.
 TEST_F(TerrainBakePart, DamagedIsMadeAnew) {
-    for (const int place : {3, 20, 5000}) {
+    for (const int place : {3, 20, 60, 5000, 60000}) {
+        SCOPED_TRACE(place);
         bakeUntil(0.6);
         std::fstream file(part(), std::ios::in | std::ios::out | std::ios::binary);
         file.seekp(place);
@@ -98,9 +102,77 @@ TEST_F(TerrainBakePart, DamagedIsMadeAnew) {
         file.close();
         expectSame(bake(true));
     }
-    bakeUntil(0.6);
-    fs::resize_file(part(), fs::file_size(part()) - 1);
-    expectSame(bake(true));
+    for (const double end : {0.3, 0.6, 0.85}) {
+        bakeUntil(end);
+        fs::resize_file(part(), fs::file_size(part()) - 1);
+        expectSame(bake(true));
+    }
+}
+
+std::vector<std::byte> filledBytes(std::size_t count, int value) {
+    return std::vector<std::byte>(count, static_cast<std::byte>(value));
+}
+
+// Bands that are kept while the bake runs, as a kill or a power cut may leave them.
+TEST_F(TerrainBakePart, BandsAreReadAsFarAsTheyAreWhole) {
+    constexpr std::uint64_t kKey = 7;
+    constexpr int kRows = 10, kPhases = 2;
+    std::uint64_t end = 0, beforeLast = 0;
+    for (const BakeBand& band : {BakeBand{0, 0, 4}, {0, 4, 6}, {1, 0, 3}}) {
+        auto content = filledBytes(100, 10 * band.phase + band.first);
+        beforeLast = end;
+        end = keepBakeBand(kKey, end, band, {std::span(content)});
+        ASSERT_EQ(end, fs::file_size(terrainBakePart(kKey)));
+    }
+    std::vector<std::byte> got;
+    std::vector<int> firsts;
+    const auto read = [&](std::uint64_t key, int rows, int phases) {
+        firsts.clear();
+        return readBakePart(key, rows, phases, [&](const BakeBand& band) -> BakeBlocks {
+            firsts.push_back(10 * band.phase + band.first);
+            got = filledBytes(100, 0x77);
+            return {std::span(got)};
+        });
+    };
+    BakeKept kept = read(kKey, kRows, kPhases);
+    EXPECT_EQ(kept.reached.phase, 1);
+    EXPECT_EQ(kept.reached.rows, 3);
+    EXPECT_EQ(kept.bytes, end);
+    EXPECT_EQ(firsts, (std::vector{0, 4, 10}));
+    EXPECT_EQ(got, filledBytes(100, 10));
+    EXPECT_EQ(read(kKey, kRows, 1).reached.rows, 10) << "a phase that this bake does not have";
+    EXPECT_EQ(read(kKey, 11, kPhases).reached.rows, 10) << "a phase before its time";
+    EXPECT_EQ(read(kKey + 1, kRows, kPhases).bytes, 0u);
+
+    fs::resize_file(terrainBakePart(kKey), end - 1);
+    kept = read(kKey, kRows, kPhases);
+    EXPECT_EQ(kept.reached.phase, 0);
+    EXPECT_EQ(kept.reached.rows, 10);
+    EXPECT_EQ(kept.bytes, beforeLast);
+    EXPECT_EQ(got, filledBytes(100, 0)) << "nothing of what is cut off stays";
+
+    auto again = filledBytes(100, 10);
+    EXPECT_EQ(keepBakeBand(kKey, kept.bytes, {1, 0, 3}, {std::span(again)}), end);
+    EXPECT_EQ(read(kKey, kRows, kPhases).bytes, end);
+    fs::remove(terrainBakePart(kKey));
+    EXPECT_EQ(keepBakeBand(kKey, end, {1, 3, 3}, {std::span(again)}), 0u)
+        << "the cache was emptied meanwhile";
+    EXPECT_FALSE(fs::exists(terrainBakePart(kKey)));
+}
+
+// A row of a large ground takes longer than a stop may.
+TEST_F(TerrainBakePart, ARowCanBeLeft) {
+    const Heightfield ground = test::makeGround("rough", 200, 9, 1);
+    const GroundRays rays(ground);
+    const LightGrid grid(ground, 1);
+    std::vector<std::uint8_t> horizon(8u * 200, 200);
+    int asked = 0;
+    const auto wish = [&] {
+        if (++asked == 3) throw Cancelled();
+    };
+    EXPECT_THROW(bakeHorizonRow(rays, grid, 4, 8, horizon.data(), 200, wish), Cancelled);
+    EXPECT_EQ(horizon[2 * RayPacket::kSize], 200) << "cast after the wish";
+    EXPECT_NE(horizon[2 * RayPacket::kSize - 1], 200);
 }
 
 }  // namespace
