@@ -95,6 +95,9 @@ void addInfo(CLI::App& app, Parsed& parsed) {
     addMedium(command, parsed.info.scene.medium);
     addSize(command, parsed.info.size, "1280x720");
     command.add_flag("--json", parsed.info.json, "as JSON");
+    command.add_option(
+        "--series-pictures", parsed.info.series,
+        "of a DICOM folder: list its series alone, and write a picture of each into this folder");
     command.callback([&parsed] { parsed.run = [&parsed] { return runInfo(parsed.info); }; });
 }
 

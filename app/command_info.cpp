@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/info_series.h"
 #include "app/info_text.h"
 #include "app/process_facts.h"
 #include "app/progress_bar.h"
@@ -135,6 +136,7 @@ std::string infoLine(const char* name, const std::string& value) {
 }
 
 int runInfo(const InfoOptions& options) {
+    if (!options.series.empty()) return listSeriesOf(options);
     refuseLazyLight(options.scene);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());

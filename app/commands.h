@@ -105,6 +105,8 @@ struct InfoOptions {
     SceneOptions scene;
     SizeOption size;
     bool json = false;
+    std::string
+        series;  // folder for a picture of each series of a DICOM folder, in the place of the rest; "": none
 };
 int runInfo(const InfoOptions& options);
 

@@ -29,7 +29,7 @@ if(NOT STEREONAV_TERRAIN)
   target_sources(program PRIVATE ${CMAKE_SOURCE_DIR}/terrain/sky_map.cpp)  # the sky over media, too
 endif()
 stereonav_part(colon OPTION STEREONAV_COLON LINK colon
-  SOURCES colon_loading.cpp bake_volume.cpp bake_peers_*.cpp info_colon.cpp command_centreline.cpp volume_light.cpp volume_ambient.cpp
+  SOURCES colon_loading.cpp bake_volume.cpp bake_peers_*.cpp info_colon.cpp info_series.cpp command_centreline.cpp volume_light.cpp volume_ambient.cpp
     light_loading.cpp lazy_light.cpp traced_light.cpp)
 stereonav_part(medium OPTION STEREONAV_MEDIUM LINK engine_medium SOURCES medium_*.cpp info_medium.cpp view_sweep.cpp)
 stereonav_part(display OPTION STEREONAV_DISPLAY LINK engine_display

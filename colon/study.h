@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "engine/base/progress.h"
+#include "engine/image/packed_color.h"
+#include "engine/image/plane.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav {
@@ -40,6 +42,17 @@ struct SeriesInfo {
 // The series in a folder of DICOM files, in the order --series counts them, without localizers and the like.
 // Throws Error.
 std::vector<SeriesInfo> listSeries(const std::filesystem::path& folder);
+
+// A series by one of its slices.
+struct SeriesLook {
+    SeriesInfo info;
+    std::string modality;        // "CT"
+    int columns = 0, rows = 0;   // of that slice
+    Plane<PackedColor> picture;  // the middle slice in grey, pixels square; empty where there is a problem
+    std::string problem;         // why it has no picture, one line; "" else
+};
+// Of all of them, in the order of listSeries. Throws Error where the folder holds none.
+std::vector<SeriesLook> lookAtSeries(const std::filesystem::path& folder);
 
 // True where readStudy would try: a folder with DICOM files, or a name ending in .nrrd .nhdr .nii .nii.gz
 // .mha .mhd .dcm .ima; also what begins as DICOM or is a NIfTI pair, and samples of a header beside them,

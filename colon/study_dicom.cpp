@@ -36,14 +36,6 @@ struct PixelCounts {
     std::atomic<bool> fits = true;  // all values are whole and fit into 16 bits
 };
 
-// PS3.3 C.11.1.1.1: numbers below the first count as it, those beyond the last as that.
-double tableValue(const DicomSlice& slice, double stored) {
-    const auto last = static_cast<std::int64_t>(slice.table->size()) - 1;
-    const std::int64_t at =
-        std::clamp<std::int64_t>(static_cast<std::int64_t>(stored) - slice.tableFirst, 0, last);
-    return (*slice.table)[static_cast<std::size_t>(at)];
-}
-
 // One slice in HU. Padding, and all that is too low for CT, becomes kLeastHu.
 template <typename T>
 void takeHu(const DicomSlice& slice, const double* stored, T* target, PixelCounts& counts) {
@@ -52,7 +44,7 @@ void takeHu(const DicomSlice& slice, const double* stored, T* target, PixelCount
     std::size_t padded = 0;
     bool fits = true;
     for (std::size_t n = 0; n < count; ++n) {
-        double value = slice.table ? tableValue(slice, stored[n]) : stored[n] * slice.slope + slice.intercept;
+        double value = valueOf(slice, stored[n]);
         const bool padding = slice.hasPadding && stored[n] >= static_cast<double>(slice.padding) &&
                              stored[n] <= static_cast<double>(slice.paddingLimit);
         if (ct && (padding || value < kLeastHu)) {
@@ -180,6 +172,14 @@ std::string strangersText(const std::vector<std::string>& names) {
 
 }  // namespace
 
+double valueOf(const DicomSlice& slice, double stored) {
+    if (!slice.table) return stored * slice.slope + slice.intercept;
+    const auto last = static_cast<std::int64_t>(slice.table->size()) - 1;
+    const std::int64_t at =
+        std::clamp<std::int64_t>(static_cast<std::int64_t>(stored) - slice.tableFirst, 0, last);
+    return (*slice.table)[static_cast<std::size_t>(at)];
+}
+
 std::vector<DicomSeries> scanFolder(const fs::path& place) {
     Scanned scanned = scanFiles(place);
     const std::string aside = leaveAside(scanned.slices);
@@ -219,7 +219,7 @@ DicomSeries chooseSeries(const fs::path& place, const std::string& wanted) {
     }
     if (wanted.empty())
         throw Error(place.string(), "", fmt::format("holds {} series ({})", all.size(), list),
-                    "choose one with --series N");
+                    "choose one with --series N; info --series-pictures DIR shows them");
     throw Error(place.string(), "", fmt::format("has no series \"{}\", only {}", wanted, list),
                 "choose one of these by its number or UID");
 }

@@ -112,6 +112,9 @@ struct DicomSeries {
 std::vector<DicomSeries> scanFolder(const std::filesystem::path& place);
 // The one asked for; throws Error that lists them otherwise.
 DicomSeries chooseSeries(const std::filesystem::path& place, const std::string& wanted);
+// By its table, where numbers below the first count as it and those beyond the last as that (PS3.3
+// C.11.1.1.1), or by slope and intercept.
+double valueOf(const DicomSlice& slice, double stored);
 VolumeFile readDicom(const std::filesystem::path& place, const StudyOptions& options, Progress& progress);
 
 // --- study_slices.cpp

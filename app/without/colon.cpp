@@ -5,6 +5,7 @@
 #include "app/bake_volume.h"
 #include "app/built_without.h"
 #include "app/colon_loading.h"
+#include "app/info_series.h"
 #include "app/info_text.h"
 #include "app/volume_ambient.h"
 #include "app/volume_light.h"
@@ -19,6 +20,10 @@ namespace {
 }
 
 }  // namespace
+
+int listSeriesOf(const InfoOptions&) {
+    without();
+}
 
 LoadedScene loadColonScene(const SceneOptions&, SimdTarget, Progress&) {
     without();

@@ -6,12 +6,14 @@
 
 #include "../support/dicom_files.h"
 #include "../support/nifti_files.h"
+#include "engine/image/image_file.h"
 #include "tests/app/volume_input.h"
 
 namespace stereonav::test {
 namespace {
 
 using Json = nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 
 class StudyCommands : public VolumeTest {
@@ -85,6 +87,54 @@ TEST_F(StudyCommands, OneDicomFileByName) {
     writeDicom(placeOf("series/one.dcm"), s);
     expectRefused({"info", placeOf("series/one.dcm").string()},
                   {"one.dcm", "2 or more slices, found 1", "give the folder"});
+}
+
+TEST_F(StudyCommands, EverySeriesHasAPicture) {
+    for (int k = 0; k < 3; ++k) {  // of CT: air above, bone below
+        DicomSpec s;
+        s.slice.position.z = 3 * k;
+        s.slice.pixels.assign(30, 24);
+        if (k == 1)
+            for (std::size_t n = 15; n < 30; ++n) s.slice.pixels[n] = 1574;
+        writeDicom(placeOf("s/ct" + std::to_string(k)), s);
+        s = {};  // of MR: rows twice as far apart as columns, from dark to bright
+        s.slice.uid = "1.2.3.2";
+        s.slice.modality = "MR";
+        s.slice.description = "another";
+        s.slice.columns = 5;
+        s.slice.rows = 4;
+        s.slice.spacing = {1, 2};
+        s.slice.position.z = 2 - k;
+        for (int n = 0; n < 20; ++n) s.slice.pixels.push_back(static_cast<std::uint16_t>(n / 5 * 100 + k));
+        writeDicom(placeOf("s/mr" + std::to_string(k)), s);
+        s.slice.uid = "1.2.3.3";
+        s.pixelLength = 0xfffffff0;
+        writeDicom(placeOf("s/broken" + std::to_string(k)), s);
+    }
+    const std::string folder = placeOf("s").string(), pictures = placeOf("pictures").string();
+    const Outcome outcome = runWell({"info", folder, "--series-pictures", pictures, "--json"});
+    const Json list = Json::parse(outcome.out).at("series");
+    ASSERT_EQ(list.size(), 3u);
+    EXPECT_EQ(list[0].at("modality"), "CT");
+    EXPECT_EQ(list[1].at("description"), "another");
+    EXPECT_EQ(list[1].at("slices"), 3);
+    EXPECT_THAT(list[2].at("problem").get<std::string>(), HasSubstr("broken1"));
+    EXPECT_FALSE(list[2].contains("picture"));
+    const Plane<PackedColor> ct = readColorImage(list[0].at("picture").get<std::string>());
+    EXPECT_EQ(ct.at(0, 0), packColor(glm::vec3(0)));
+    EXPECT_EQ(ct.height(), 4) << "rows lie nearer than columns";
+    EXPECT_EQ(ct.at(5, 3), packColor(glm::vec3(1)));
+    const Plane<PackedColor> mr = readColorImage(list[1].at("picture").get<std::string>());
+    EXPECT_EQ(mr.width(), 5);
+    EXPECT_EQ(mr.height(), 8);
+    EXPECT_EQ(mr.at(2, 0), packColor(glm::vec3(0)));
+    EXPECT_EQ(mr.at(2, 7), packColor(glm::vec3(1)));
+    EXPECT_THAT(runWell({"info", folder, "--series-pictures", pictures}).out,
+                AllOf(HasSubstr("1   3 slices of 6 x 5  CT  \"made for a test\""), HasSubstr("series_2.png"),
+                      HasSubstr("broken1")));
+    expectRefused({"info", folder}, {"holds 3 series", "--series N", "--series-pictures DIR"});
+    expectRefused({"info", "colon", "--series-pictures", pictures}, {"--series-pictures", "DICOM"});
+    expectRefused({"info", folder, "--series-pictures", placeOf("no/where").string()}, {"--series-pictures"});
 }
 
 TEST_F(StudyCommands, PartsOfAVolumeNameTheirHeader) {
