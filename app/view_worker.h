@@ -54,7 +54,8 @@ struct PlaceOnLine {
     double along = 0, length = 0;  // metres
 };
 
-// A scene as the viewer needs it, whatever it shows. Immutable, read by both threads.
+// A scene as the viewer needs it, whatever it shows. Read by both threads; what changes behind it (light, the
+// sun, a medium's model) is changed on the thread that makes frames.
 struct ViewScene {
     std::shared_ptr<const void> owner;  // of all that the rest refers to
     FrameMaker* frames = nullptr;       // used on the thread that makes frames alone
