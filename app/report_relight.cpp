@@ -1,5 +1,4 @@
-// The report's chart of transfer under a sky that turns: what dotting every texel costs, by order and
-// compression.
+// The report's chart of transfer under a sky that turns: what dotting every texel costs, by order.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +6,6 @@
 
 #include "app/report_light.h"
 #include "engine/light/spherical_harmonics.h"
-#include "engine/light/transfer_compression.h"
 #include "engine/light/transfer_volume.h"
 
 namespace stereonav {
@@ -22,9 +20,6 @@ std::vector<float> firstBands(const std::vector<float>& means, int from, int ord
         bands.insert(bands.end(), &means[n], &means[n] + some);
     return bands;
 }
-
-// So many that threads are busy for a while.
-constexpr std::size_t kRelit = 50'000;
 
 // Numbers of `wanted` texels in all, those that are there again and again.
 std::vector<float> repeated(const std::vector<float>& numbers, std::size_t wanted) {
@@ -77,54 +72,15 @@ WayPoint relightPoint(ReportRun& run, const LightSubject& subject, const std::ve
     return p;
 }
 
-WayPoint compressedPoint(ReportRun& run, const LightSubject& subject, const std::vector<float>& means,
-                         int clusters, int components) {
-    run.tell("light, compression");
-    TransferCompression settings;
-    settings.clusters = clusters;
-    settings.components = components;
-    const CompressedTransfer small = compressTransfer(means, {kDefaultOrder, 1}, settings);
-    const std::vector<glm::vec3> sky = subject.setup.probe->project(kDefaultOrder);
-    std::vector<double> ms;
-    std::vector<glm::vec3> light(kRelit);
-    for (int n = 0; n < run.pick(15, 50); ++n) {
-        const Stopwatch watch;
-        const TransferLight prepared = small.codebook.prepareLight(sky);
-        forTexels(light.size(), [&](std::size_t first, std::size_t count) {
-            for (std::size_t k = first; k < first + count; ++k)
-                light[k] = small.dot(k % small.count(), prepared);
-        });
-        ms.push_back(watch.elapsed_ms() * 1000 / static_cast<double>(kRelit));
-    }
-    std::vector<double> all;
-    for (std::size_t n = 0; n < subject.texels.size(); ++n)
-        all.push_back(std::max(luminanceOf(light[n]), 0.0));
-    const std::vector<double> lit = subject.onlyLit(all);
-    WayPoint p;
-    p.way = {fmt::format("{} clusters of {}", clusters, components), spreadOf(ms),
-             100 * relativeRms(lit, subject.truth), false};
-    p.worstError = 100 * relativeWorst(lit, subject.truth);
-    p.others = {{"bytes a texel", static_cast<double>(small.codebook.recordBytes())}};
-    p.detail =
-        fmt::format("clustered principal components of order {}: {} clusters, {} components of a byte each",
-                    kDefaultOrder, clusters, components);
-    return p;
-}
-
 }  // namespace
 
 WayChart relightChart(ReportRun& run, const LightSubject& subject) {
-    WayChart chart = lightChart(run, subject, "light/relight", "Turning the sky: order and compression");
+    WayChart chart = lightChart(run, subject, "light/relight", "Turning the sky: order");
     chart.text +=
-        " Time to dot every texel with a turned sky; error against the path-traced light. Compression found "
-        "its clusters "
-        "on these very texels; its times are without writing the volume that frames look up. Bytes a texel "
-        "are in the "
+        " Time to dot every texel with a turned sky; error against the path-traced light. Bytes a texel are "
+        "in the "
         "table.";
-    chart.why =
-        "The program relights half floats into the volume that frames look up; compression is a part of the "
-        "engine that "
-        "no command uses yet.";
+    chart.why = "Order 5 is the default of bake.";
     const int samples = run.pick(512, 2048);
     run.tell("light, transfer");
     const MeasuredTransfer t =
@@ -132,9 +88,6 @@ WayChart relightChart(ReportRun& run, const LightSubject& subject) {
     for (int order = 1; order <= kMaxHarmonicsOrder; ++order)
         chart.points.push_back(
             relightPoint(run, subject, firstBands(t.means, kMaxHarmonicsOrder, order), order));
-    const std::vector<float> means = firstBands(t.means, kMaxHarmonicsOrder, kDefaultOrder);
-    for (const auto& [clusters, components] : {std::pair{16, 4}, std::pair{64, 8}, std::pair{128, 12}})
-        chart.points.push_back(compressedPoint(run, subject, means, clusters, components));
     return chart;
 }
 

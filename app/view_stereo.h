@@ -18,7 +18,6 @@ public:
 
     void scaleSeparation(double factor);
     void scaleZeroParallax(double factor);  // both end following
-    bool canFollow() const { return static_cast<bool>(mMakeFollower); }
     bool follows() const { return static_cast<bool>(mFollower); }
     void follow();
 

@@ -176,10 +176,6 @@ bool Window::shouldClose() const {
     return glfwWindowShouldClose(mHandle) != 0;
 }
 
-void Window::setTitle(const std::string& title) {
-    glfwSetWindowTitle(mHandle, title.c_str());
-}
-
 void Window::handleEvents(double seconds) {
     if (seconds > 0)
         glfwWaitEventsTimeout(seconds);

@@ -40,7 +40,6 @@ public:
     Window& operator=(const Window&) = delete;
 
     bool shouldClose() const;
-    void setTitle(const std::string& title);
     // Handles what happened; waits at most `seconds` for something to happen (0: not at all).
     void handleEvents(double seconds);
     // Ends a wait of handleEvents early; from any thread.

@@ -15,7 +15,4 @@ struct MediumPicture {
     Plane<float> viewDepth;
 };
 
-// Over the background, clipped to 0..1, packed; the size of `image` is set.
-void packPicture(const MediumPicture& picture, const glm::vec3& background, EyeImage& image);
-
 }  // namespace stereonav

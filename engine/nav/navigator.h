@@ -46,9 +46,7 @@ public:
     // Places the viewer (lifted to the clearance where needed) at rest.
     void setPose(const Pose& pose) override;
     void goHome() override { setPose(mHome); }
-    void setHome(const Pose& home) { mHome = home; }
 
-    FlightMode flightMode() const { return mMode; }
     // FollowGround takes up the present height above the ground, but not below followHeight.
     void setMode(FlightMode mode);
 
