@@ -64,6 +64,7 @@ SlicePlaces placesOfGrid(const fs::path& file, VolumeFrame& frame, bool resample
     frame.spacing.z = height;
     places.frame = frame;
     places.largestGap = height;
+    if (places.upright) return places;  // nothing is to be resampled
     const glm::dvec3 shift(glm::dot(frame.axes[0], step), glm::dot(frame.axes[1], step), height);
     for (int k = 0; k < frame.size.z; ++k) places.offsets.push_back(shift * static_cast<double>(k));
     return places;
@@ -99,8 +100,8 @@ VolumeFile readVolumeFile(const fs::path& file, const StudyOptions& options, Pro
     result.raw.slope = header.slope;
     result.raw.intercept = header.intercept;
     result.raw.frame = frameOfHeader(file, header);
+    checkSampleFiles(file, header);  // before anything is taken for as many slices as the header says
     const SlicePlaces places = placesOfGrid(file, result.raw.frame, options.resample);
-    checkSampleFiles(file, header);
     result.raw.bytes = LazyArray<unsigned char>(result.raw.frame.count() * bytesOf(header.type));
     readSamples(file, header, result.raw.bytes.data(), progress);
     progress.report(0.7, "reading " + file.filename().string());

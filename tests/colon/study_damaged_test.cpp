@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -131,6 +132,22 @@ TEST(StudyBad, MetaHeadersThatTheLibraryPrintsOrHangsOver) {
     }
     writeBytes(folder / "a.mha", good + bytes);
     expectRamp(read(folder / "a.mha"));
+}
+
+// Found by fuzzing: places of 60 million slices were kept before the file was looked at.
+TEST(StudyBad, SlicesThatTheFileDoesNotHoldTakeNoMemory) {
+    const TemporaryFolder folder;
+    writeBytes(folder / "a.mha",
+               "ObjectType = Image\nNDims = 3\nDimSize = 2 2 60000000\nElementType = MET_SHORT\n"
+               "ElementDataFile = LOCAL\n0123cdef");
+    const auto peak = [] {
+        rusage used{};
+        getrusage(RUSAGE_SELF, &used);
+        return used.ru_maxrss;  // kB
+    };
+    const long before = peak();
+    expectError(folder / "a.mha", {"a.mha"});
+    EXPECT_LT(peak() - before, 100'000);
 }
 
 TEST(StudyBad, SpacingThatIsNone) {
