@@ -4,8 +4,8 @@
 #include <new>
 #include <string>
 
-#include "app/arguments.h"
-#include "app/process_facts.h"
+#include "app/command/process_facts.h"
+#include "app/options/arguments.h"
 #include "engine/base/error.h"
 #include "engine/base/stop.h"
 

@@ -24,42 +24,49 @@ function(stereonav_part name)
 endfunction()
 
 stereonav_part(terrain OPTION STEREONAV_TERRAIN LINK terrain
-  SOURCES terrain_loading.cpp bake_terrain.cpp info_terrain.cpp command_mesh.cpp medium_terrain.cpp)
+  SOURCES scene/terrain_loading.cpp scene/medium_terrain.cpp
+    command/bake_terrain.cpp command/info_terrain.cpp command/mesh_command.cpp)
 if(NOT STEREONAV_TERRAIN)
   target_sources(program PRIVATE ${CMAKE_SOURCE_DIR}/terrain/sky_map.cpp)  # the sky over media, too
 endif()
 stereonav_part(colon OPTION STEREONAV_COLON LINK colon
-  SOURCES colon_loading.cpp bake_volume.cpp bake_peers_*.cpp info_colon.cpp info_series.cpp command_centreline.cpp volume_light.cpp volume_ambient.cpp
-    light_loading.cpp lazy_light.cpp traced_light.cpp)
-stereonav_part(medium OPTION STEREONAV_MEDIUM LINK engine_medium SOURCES medium_*.cpp info_medium.cpp view_sweep.cpp)
+  SOURCES scene/colon_loading.cpp scene/volume_*.cpp scene/light_loading.cpp scene/lazy_light.cpp
+    scene/traced_light.cpp command/bake_volume.cpp command/bake_peers_*.cpp command/info_colon.cpp
+    command/info_series.cpp command/centreline_command.cpp)
+stereonav_part(medium OPTION STEREONAV_MEDIUM LINK engine_medium
+  SOURCES scene/medium_*.cpp command/info_medium.cpp view/sweep.cpp)
 stereonav_part(display OPTION STEREONAV_DISPLAY LINK engine_display
-  SOURCES command_view.cpp view_input.cpp view_loading.cpp view_session*.cpp view_slices.cpp view_stereo.cpp
-    view_sweep.cpp view_worker.cpp screenshots.cpp slice_picture.cpp report_papers_gpu.cpp)
+  SOURCES view/*.cpp report/papers/gpu.cpp)
 if(STEREONAV_TERRAIN AND STEREONAV_COLON AND STEREONAV_MEDIUM)
   set(whole ON)
 endif()
-stereonav_part(report OPTION whole SOURCES command_report.cpp report_*.cpp)
+stereonav_part(report OPTION whole SOURCES report/*.cpp report/papers/*.cpp)
 
 if(STEREONAV_FAULTS)
-  list(APPEND left_out report_faults_off.cpp)
+  list(APPEND left_out report/faults_off.cpp)
 else()
-  list(APPEND left_out report_faults_on.cpp)
+  list(APPEND left_out report/faults_on.cpp)
 endif()
 if(STEREONAV_MPI AND STEREONAV_COLON)
   find_package(MPI REQUIRED COMPONENTS CXX)
   target_link_libraries(program PUBLIC MPI::MPI_CXX)
-  list(APPEND left_out bake_peers_single.cpp)
+  list(APPEND left_out command/bake_peers_single.cpp)
 else()
-  list(APPEND left_out bake_peers_mpi.cpp)
+  list(APPEND left_out command/bake_peers_mpi.cpp)
 endif()
 if(NOT STEREONAV_MPI)
   list(APPEND without MPI)
 endif()
-stereonav_sources(program app EXCLUDE main.cpp open_watch.cpp ${left_out})
+foreach(folder options scene output command view report report/papers)
+  set(left_out_here ${left_out})
+  list(FILTER left_out_here INCLUDE REGEX "^${folder}/[^/]*$")
+  list(TRANSFORM left_out_here REPLACE "^${folder}/" "")
+  stereonav_sources(program app/${folder} EXCLUDE ${left_out_here})
+endforeach()
 add_executable(stereonav app/main.cpp app/open_watch.cpp)
 target_link_libraries(stereonav PRIVATE stereonav_options program)
 list(JOIN without ", " without)
-set_source_files_properties(app/built_without.cpp PROPERTIES COMPILE_DEFINITIONS
+set_source_files_properties(app/options/built_without.cpp PROPERTIES COMPILE_DEFINITIONS
   "STEREONAV_VERSION=\"${PROJECT_VERSION}\";STEREONAV_WITHOUT=\"${without}\"")
 include(cmake/version.cmake)
 install(TARGETS stereonav RUNTIME DESTINATION bin)

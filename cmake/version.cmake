@@ -20,6 +20,6 @@ set(stereonav_build "${PROJECT_VERSION}, ${CMAKE_BUILD_TYPE}")
 if(STEREONAV_FAULTS)
   string(APPEND stereonav_build ", with deliberate faults")
 endif()
-set_property(SOURCE ${CMAKE_SOURCE_DIR}/app/report_machine.cpp APPEND PROPERTY COMPILE_DEFINITIONS
+set_property(SOURCE ${CMAKE_SOURCE_DIR}/app/report/machine.cpp APPEND PROPERTY COMPILE_DEFINITIONS
   "STEREONAV_COMMIT=\"${stereonav_commit}\"" "STEREONAV_LIBRARIES=\"${stereonav_libraries}\""
   "STEREONAV_BUILD=\"${stereonav_build}\"")

@@ -1,5 +1,5 @@
 // The module stereonav_video: frames through OpenCV's videoio.
-#include "app/video_sink.h"
+#include "app/output/video_sink.h"
 
 #include <cstdlib>
 #include <opencv2/core/utils/logger.hpp>

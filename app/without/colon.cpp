@@ -2,13 +2,13 @@
 // says so.
 #include <nlohmann/json.hpp>
 
-#include "app/bake_volume.h"
-#include "app/built_without.h"
-#include "app/colon_loading.h"
-#include "app/info_series.h"
-#include "app/info_text.h"
-#include "app/volume_ambient.h"
-#include "app/volume_light.h"
+#include "app/command/bake_volume.h"
+#include "app/command/info_series.h"
+#include "app/command/info_text.h"
+#include "app/options/built_without.h"
+#include "app/scene/colon_loading.h"
+#include "app/scene/volume_ambient.h"
+#include "app/scene/volume_light.h"
 #include "colon/study.h"
 #include "colon/transfer_presets.h"
 

@@ -1,8 +1,8 @@
 // Stands in for the window where the program is built without it: everything that needs it says so.
 
-#include "app/built_without.h"
-#include "app/commands.h"
-#include "app/report_papers_gpu.h"
+#include "app/command/commands.h"
+#include "app/options/built_without.h"
+#include "app/report/papers/gpu.h"
 #include "engine/display/window.h"
 
 namespace stereonav {

@@ -2,11 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/built_without.h"
-#include "app/info_text.h"
-#include "app/medium_loading.h"
-#include "app/medium_options.h"
-#include "app/view_sweep.h"
+#include "app/command/info_text.h"
+#include "app/options/built_without.h"
+#include "app/scene/medium_loading.h"
+#include "app/scene/medium_options.h"
+#include "app/view/sweep.h"
 #include "engine/medium/medium_transfer.h"
 
 namespace stereonav {

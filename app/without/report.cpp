@@ -1,5 +1,5 @@
 // Stands in for the report, which needs all kinds of scenes and lights.
-#include "app/commands.h"
+#include "app/command/commands.h"
 #include "engine/base/error.h"
 
 namespace stereonav {

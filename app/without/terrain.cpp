@@ -1,11 +1,11 @@
 // Stands in for terrain where the program is built without it: everything that needs it says so.
 #include <nlohmann/json.hpp>
 
-#include "app/bake_terrain.h"
-#include "app/built_without.h"
-#include "app/info_text.h"
-#include "app/medium_terrain.h"
-#include "app/terrain_loading.h"
+#include "app/command/bake_terrain.h"
+#include "app/command/info_text.h"
+#include "app/options/built_without.h"
+#include "app/scene/medium_terrain.h"
+#include "app/scene/terrain_loading.h"
 
 namespace stereonav {
 namespace {

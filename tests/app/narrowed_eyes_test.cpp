@@ -1,13 +1,13 @@
 // Eyes come together where a lumen is narrow, in pictures and videos as in the window.
-#include "app/narrowed_eyes.h"
+#include "app/command/narrowed_eyes.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "app/colon_loading.h"
-#include "app/stereo_frame.h"
-#include "app/view_stereo.h"
+#include "app/output/stereo_frame.h"
+#include "app/scene/colon_loading.h"
+#include "app/view/stereo.h"
 #include "tests/app/volume_input.h"
 
 namespace stereonav::test {

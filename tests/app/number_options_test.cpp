@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "app/arguments.h"
+#include "app/options/arguments.h"
 #include "engine/base/error.h"
 #include "tests/app/program.h"
 

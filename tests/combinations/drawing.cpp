@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/stereo_frame.h"
+#include "app/output/stereo_frame.h"
 #include "engine/medium/swept_frames.h"
 
 namespace stereonav::test {

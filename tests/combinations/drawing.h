@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "app/commands.h"
-#include "app/narrowed_eyes.h"
-#include "app/scene_loading.h"
+#include "app/command/commands.h"
+#include "app/command/narrowed_eyes.h"
+#include "app/scene/scene_loading.h"
 #include "engine/image/eye_image.h"
 
 namespace stereonav::test {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene_loading.h"
+#include "app/scene/scene_loading.h"
 #include "tests/combinations/judging.h"
 
 namespace stereonav::test {

@@ -1,5 +1,5 @@
 // Slices of a study as pictures: the right way round, with square millimetres, clicks where they are seen.
-#include "app/slice_picture.h"
+#include "app/view/slice_picture.h"
 
 #include <gmock/gmock.h>
 

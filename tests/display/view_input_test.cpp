@@ -1,7 +1,7 @@
 // Keys and gamepad buttons mean what the help says.
-#include "app/view_input.h"
-
 #include <gmock/gmock.h>
+
+#include "app/view/input.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <thread>
 
-#include "app/view_session.h"
-#include "app/view_status.h"
+#include "app/view/session.h"
+#include "app/view/status.h"
 #include "engine/medium/swept_frames.h"
 #include "engine/nav/navigator.h"
 

@@ -1,7 +1,5 @@
 // The viewer's logic without a window: settings move slowly, modes are all reachable, flights are
 // recorded and played, parallax is watched.
-#include "app/view_session.h"
-
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -10,7 +8,8 @@
 #include <numbers>
 #include <set>
 
-#include "app/view_status.h"
+#include "app/view/session.h"
+#include "app/view/status.h"
 #include "engine/nav/navigator.h"
 #include "tests/display/fake_frames.h"
 

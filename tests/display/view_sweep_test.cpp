@@ -1,7 +1,5 @@
 // Where the viewer sweeps media: the graphics card's pictures are the processor's, what it can not do is told
 // once and done on the processor, and the faster of the two is taken. Runs without a display.
-#include "app/view_sweep.h"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
+#include "app/view/sweep.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/display/medium_gpu.h"

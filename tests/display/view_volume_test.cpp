@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "app/view_input.h"
-#include "app/view_session.h"
-#include "app/view_status.h"
+#include "app/view/input.h"
+#include "app/view/session.h"
+#include "app/view/status.h"
 #include "tests/display/fake_frames.h"
 
 namespace stereonav {

@@ -1,7 +1,5 @@
 // The thread beside the window: it never makes the window wait, takes the newest request, reports
 // progress, and hands over what went wrong.
-#include "app/view_worker.h"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/view/worker.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/frame/cast_frames.h"

@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "app/report_papers_coherence.h"
+#include "app/report/papers/coherence.h"
 #include "engine/stereo/right_eye.h"
 #include "tests/support/analytic_scene.h"
 

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/report_json.h"
-#include "app/report_page.h"
-#include "app/report_papers.h"
+#include "app/report/json.h"
+#include "app/report/page.h"
+#include "app/report/papers/papers.h"
 #include "engine/base/error.h"
 #include "tests/support/xml_check.h"
 

@@ -1,13 +1,12 @@
 // Figures of a report as JSON and CSV, and what comparing two of them says.
-#include "app/report_json.h"
-
 #include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/report_page.h"
+#include "app/report/json.h"
+#include "app/report/page.h"
 #include "engine/base/error.h"
 #include "tests/support/xml_check.h"
 

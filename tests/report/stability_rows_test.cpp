@@ -1,8 +1,8 @@
 // The stability table from rows as the tests of tests/stability write them.
 #include <gmock/gmock.h>
 
-#include "app/report_page.h"
-#include "app/report_stability.h"
+#include "app/report/page.h"
+#include "app/report/stability.h"
 #include "engine/base/error.h"
 #include "tests/support/xml_check.h"
 

@@ -1,0 +1,158 @@
+// Bakes a terrain's light into a file: horizons and transfer, or openness alone (terrain/terrain_light.h).
+#include "app/command/bake_terrain.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "app/output/output_place.h"
+#include "app/output/progress_bar.h"
+#include "app/scene/scene_loading.h"
+#include "engine/base/error.h"
+#include "engine/base/stopwatch.h"
+#include "terrain/ground_rays.h"
+#include "terrain/terrain_bake_part.h"
+#include "terrain/terrain_light.h"
+
+namespace stereonav {
+namespace {
+
+TerrainLightKind kindFromText(const std::string& what) {
+    if (what.empty() || what == "transfer") return TerrainLightKind::Transfer;
+    if (what == "openness") return TerrainLightKind::Openness;
+    throw Error("--what", "", "expected transfer or openness for a terrain, got \"" + what + "\"",
+                "transfer has shadows and bounced light, openness the sky's light alone");
+}
+
+int strideFromResolution(double resolution) {
+    const double stride = 1 / resolution;
+    if (!(resolution > 0) || !(stride >= 1 - 1e-9) || !(stride <= 1000))
+        throw Error("--resolution", "",
+                    fmt::format("expected 0.001 to 1 for a terrain, got {:g}", resolution),
+                    "1 bakes every height sample, 0.5 every second one each way");
+    return static_cast<int>(std::lround(stride));
+}
+
+double albedoFromText(const std::string& text) {
+    char* end = nullptr;
+    const double albedo = std::strtod(text.c_str(), &end);
+    if (end == text.c_str() || *end != '\0' || !(albedo >= 0 && albedo <= 1))
+        throw Error("--albedo", "", "expected one number from 0 to 1 for a terrain, got \"" + text + "\"",
+                    "rock and grass send back 0.2 to 0.3 of the light");
+    return albedo;
+}
+
+int wholeIn(const char* option, int value, int low, int high) {
+    if (value < low || value > high)
+        throw Error(option, "", fmt::format("expected {} to {} for a terrain, got {}", low, high, value),
+                    "leave it out for the default");
+    return value;
+}
+
+TerrainLightSettings settingsOf(const BakeOptions& options) {
+    TerrainLightSettings settings;
+    settings.kind = kindFromText(options.what);
+    if (options.resolution) settings.stride = strideFromResolution(*options.resolution);
+    // Rays go in packets.
+    constexpr int kPacket = RayPacket::kSize;
+    if (options.samples)
+        settings.rays = (wholeIn("--samples", *options.samples, 1, 65536) + kPacket - 1) / kPacket * kPacket;
+    if (options.order) settings.order = wholeIn("--order", *options.order, 1, 6);
+    if (options.bounces) settings.bounces = wholeIn("--bounces", *options.bounces, 0, 4);
+    if (!options.albedo.empty()) settings.albedo = albedoFromText(options.albedo);
+    return settings;
+}
+
+void refuseOtherOptions(const BakeOptions& options) {
+    const std::pair<const char*, bool> given[] = {
+        {"--error", options.error.has_value()},      {"--minutes", options.minutes.has_value()},
+        {"--probe", !options.probe.empty()},         {"--light", !options.lights.empty()},
+        {"--isovalues", !options.isovalues.empty()}, {"--full", options.full},
+        {"--reach", options.reach_mm.has_value()},   {"--sky", !options.scene.sky.empty()}};
+    for (const auto& [option, is] : given)
+        if (is)
+            throw Error(option, "", "expected with a CT study, the scene is a terrain",
+                        "a terrain's sun and sky are chosen when it is shown: --sun, --sky");
+}
+
+void refuseBesideOpenness(const BakeOptions& options, TerrainLightKind kind) {
+    if (kind != TerrainLightKind::Openness) return;
+    const std::pair<const char*, bool> given[] = {{"--samples", options.samples.has_value()},
+                                                  {"--order", options.order.has_value()},
+                                                  {"--bounces", options.bounces.has_value()},
+                                                  {"--albedo", !options.albedo.empty()}};
+    for (const auto& [option, is] : given)
+        if (is)
+            throw Error(option, "", "has no effect on a terrain's openness, which is without bounced light",
+                        "leave it out, or bake --what transfer");
+}
+
+// Whether the file holds the same bake already.
+bool holds(const std::filesystem::path& file, const Heightfield& ground,
+           const TerrainLightSettings& settings) {
+    if (!std::filesystem::exists(file)) return false;
+    if (!isTerrainLight(file))
+        throw Error(file.string(), "", "there is something else than a terrain's light in this place",
+                    "choose another with --out");
+    try {
+        return loadTerrainLight(file, nullptr).key == terrainLightKey(ground, settings);
+    } catch (const Error& error) {
+        std::fprintf(stderr, "stereonav: %s: made anew\n", error.what());
+        return false;
+    }
+}
+
+// None where it was stopped and what is done is kept.
+std::optional<TerrainLight> bakeOrKeep(const Heightfield& ground, const TerrainLightSettings& settings,
+                                       ProgressBar& bar) {
+    try {
+        return bakeTerrainLight(ground, settings, bar.progress(), true);
+    } catch (const Cancelled&) {
+        if (!std::filesystem::exists(terrainBakePart(terrainLightKey(ground, settings)))) throw;
+        bar.clear();
+        std::fprintf(stderr,
+                     "stereonav: stopped; what is done is kept, and the next run goes on from there\n");
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+int bakeTerrain(const BakeOptions& options) {
+    refuseOtherOptions(options);
+    const TerrainLightSettings settings = settingsOf(options);
+    refuseBesideOpenness(options, settings.kind);
+    if (!options.out.empty()) checkOutputToReadAgain("--out", options.out);
+    ProgressBar bar;
+    SceneOptions unlit = options.scene;
+    unlit.light.clear();
+    const LoadedScene scene = loadScene(unlit, SizeOption{}, bar.progress());
+    const Heightfield& ground = scene.terrain->ground;
+    const std::filesystem::path file =
+        options.out.empty() ? terrainLightCache(ground) : std::filesystem::path(options.out);
+    if (holds(file, ground, settings)) {
+        bar.clear();
+        std::printf("%s: baked before\n", file.string().c_str());
+        return 0;
+    }
+    const Stopwatch watch;
+    const std::optional<TerrainLight> baked = bakeOrKeep(ground, settings, bar);
+    if (!baked) return 1;
+    const TerrainLight& light = *baked;
+    const double seconds = watch.elapsed_ms() / 1000;
+    saveTerrainLight(file, light);
+    bar.clear();
+    std::printf("%s: %dx%d samples, %.1f MB (%.0f bytes a sample), %.1f s (%.0f samples a second)\n",
+                file.string().c_str(), light.grid.width, light.grid.height,
+                static_cast<double>(light.byteCount()) / 1e6,
+                static_cast<double>(light.byteCount()) / static_cast<double>(light.grid.count()), seconds,
+                static_cast<double>(light.grid.count()) / std::max(seconds, 1e-9));
+    return 0;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,129 @@
+// Goes on from what the file of the same bake holds, or begins; writes the file when done, stopped, and every
+// two minutes between.
+#include "app/command/bake_volume.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/command/bake_peers.h"
+#include "app/output/progress_bar.h"
+#include "app/scene/light_loading.h"
+#include "app/scene/scene_loading.h"
+#include "engine/base/error.h"
+#include "engine/base/stop.h"
+#include "engine/base/stopwatch.h"
+#include "engine/light/bake_job.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kSamples = 256;  // where nothing is said
+
+BakeGoal goalOf(const BakeOptions& options) {
+    BakeGoal goal;
+    goal.samples = options.samples.value_or(options.error || options.minutes ? 0 : kSamples);
+    goal.error = options.error.value_or(0);
+    goal.minutes = options.minutes.value_or(0);
+    return goal;
+}
+
+// What the file holds of this bake, or nothing done yet. A file that can not be used is named.
+BakeSums begin(const std::filesystem::path& file, std::uint64_t key, VolumeBakePlan& plan, bool tell,
+               ProgressBar& bar) {
+    std::string problem;
+    if (auto kept = readBakeFile(file, key, problem)) return std::move(kept->sums);
+    if (!problem.empty() && tell) {
+        bar.clear();
+        std::fprintf(stderr, "stereonav: %s: %s; it is baked anew\n", file.c_str(), problem.c_str());
+    }
+    return BakeSums(plan.inputs.texels, std::move(plan.bricks), plan.inputs.shape);
+}
+
+std::string errorText(double error) {
+    return std::isfinite(error) ? fmt::format("error {:.2g} %", 100 * error) : "error not known";
+}
+
+double samplesIn(const BakeSums& sums) {
+    double all = 0;
+    for (std::size_t n = 0; n < sums.bricks().size(); ++n)
+        all += static_cast<double>(sums.samples[n]) * static_cast<double>(sums.texelsOf(n));
+    return all;
+}
+
+// Samples and time of the run, and where they are.
+void print(const std::string& scene, const VolumeBakePlan& plan, const BakeSums& sums, double done,
+           double seconds, const std::filesystem::path& file) {
+    const double each = samplesIn(sums) / std::max<double>(1, static_cast<double>(sums.texels()));
+    // Of a bake that was stopped some texels have more than others.
+    std::printf("%s: %s of %zu texels, %.0f samples each%s, %s\n", scene.c_str(),
+                std::string(nameOf(sums.shape().kind)).c_str(), sums.texels(), each,
+                each > sums.fewestSamples() ? " on average" : "", errorText(sums.error()).c_str());
+    for (const std::string& note : plan.notes) std::printf("  %s\n", note.c_str());
+    if (done > 0)
+        std::printf("  %.1f s, %.0f samples a second\n", seconds, done / std::max(seconds, 1e-9));
+    else
+        std::printf("  nothing was to be done\n");
+    std::printf("  %s: %.1f MB\n", file.c_str(), static_cast<double>(std::filesystem::file_size(file)) / 1e6);
+}
+
+// Between passes alone, since others must be waited for.
+BakeShare shareOf(const BakePeers& peers, const BakeKeeping& keeping) {
+    BakeShare share;
+    if (peers.count() == 1) return share;
+    share.index = static_cast<std::size_t>(peers.index());
+    share.count = static_cast<std::size_t>(peers.count());
+    share.meet = [&peers, &keeping, sinceKept = Stopwatch()](BakeSums& sums, BakeEnd own) mutable {
+        const BakeEnd end = peers.meet(sums, own);
+        if (!peers.decide(sinceKept.elapsed_ms() > 1000 * keeping.everySeconds)) return end;
+        peers.gather(sums);
+        if (peers.first()) keeping.keep(sums);
+        sinceKept = Stopwatch();
+        return end;
+    };
+    return share;
+}
+
+}  // namespace
+
+int bakeVolume(const BakeOptions& options) {
+    checkBakeOptions(options);
+    const BakePeers peers;
+    ProgressBar bar(peers.first());
+    Progress& progress = bar.progress();
+    SceneOptions shown = options.scene;
+    shown.sky.clear();  // here a colour
+    const int share = peers.threads();
+    if (shown.threads == 0) shown.threads = share;
+    const LoadedScene scene = loadScene(shown, SizeOption{}, progress);
+    VolumeBakePlan plan = planVolumeBake(*scene.colon, options, progress);
+    const BakeIdentity identity{bakeKey(plan.inputs), plan.inputs.content};
+    const std::filesystem::path file =
+        options.out.empty() ? bakeCacheFile(identity.key) : std::filesystem::path(options.out);
+    BakeSums sums = begin(file, identity.key, plan, peers.first(), bar);
+    peers.checkSameStart(sums);
+    const double before = samplesIn(sums);
+    const TexelLighter lighter(scene.colon->volume.field, plan.inputs.texels, plan.inputs.light,
+                               plan.inputs.sampling);
+    BakeKeeping keeping;
+    keeping.keep = [&](const BakeSums& now) { writeBakeFile(file, identity, now); };
+    const Stopwatch watch;
+    const FinishingWork keepsWhatIsDone;  // a stop is an end like others
+    const BakeEnd end = runBake(sums, sourceOf(lighter), goalOf(options), progress,
+                                peers.count() == 1 ? keeping : BakeKeeping{}, shareOf(peers, keeping));
+    peers.gather(sums);
+    if (peers.first()) {
+        const double seconds = watch.elapsed_ms() / 1000, done = samplesIn(sums) - before;
+        if (done > 0 || !std::filesystem::exists(file)) writeBakeFile(file, identity, sums);
+        bar.clear();
+        print(scene.name, plan, sums, done, seconds, file);
+        if (end == BakeEnd::Cancelled)
+            std::fprintf(stderr,
+                         "stereonav: stopped; what is done is kept, and the next run goes on from there\n");
+    }
+    return end == BakeEnd::Cancelled ? 1 : 0;
+}
+
+}  // namespace stereonav

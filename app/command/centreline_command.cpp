@@ -1,0 +1,57 @@
+// `stereonav centreline`: the way through a colon as a file for other tools.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/output/output_place.h"
+#include "app/output/progress_bar.h"
+#include "app/scene/scene_loading.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+
+namespace stereonav {
+namespace {
+
+void checkCentrelineOptions(const CentrelineOptions& options) {
+    if (!isStandardOutput(options.out) && !isCentrelineFileName(options.out))
+        throw Error("--out", "", "expected a file named .txt, .vtp or .vtk, got \"" + options.out + "\"",
+                    "name it centreline.vtp");
+    checkNoInput({"--out", options.out}, inputsOf(options.scene));
+    checkOutputFile("--out", options.out);
+    const SceneKind kind = kindOf(options.scene.scene);
+    if (kind != SceneKind::Volume)
+        throw Error(options.scene.scene.empty() ? "SCENE" : options.scene.scene, "",
+                    fmt::format("expected a CT study, found {}",
+                                kind == SceneKind::Medium          ? "a medium"
+                                : options.scene.scene.empty()      ? "nothing, which is the built-in terrain"
+                                : options.scene.scene == "terrain" ? "the built-in terrain"
+                                                                   : "a terrain or another kind of file"),
+                    "name a study, or colon for the built-in one");
+}
+
+}  // namespace
+
+int runCentreline(const CentrelineOptions& options) {
+    checkCentrelineOptions(options);
+    ProgressBar bar;
+    const LoadedScene scene = loadScene(options.scene, SizeOption{}, bar.progress());
+    checkNotRead({{"--out", options.out}});
+    if (!scene.colon || !scene.colon->isColon())
+        throw Error(options.scene.scene, "", "no colon was found, so there is no centreline",
+                    "give --seed x,y,z inside it");
+    const Centreline& line = scene.colon->centreline;
+    writeCentreline(options.out, line);
+    bar.clear();
+    const auto narrower = [](const CentrelinePoint& a, const CentrelinePoint& b) {
+        return a.radius < b.radius;
+    };
+    const auto [least, most] = std::minmax_element(line.points.begin(), line.points.end(), narrower);
+    std::fprintf(messagesBeside({{"--out", options.out}}),
+                 "%s: %zu points along %.1f mm in %zu segment(s), radius %.1f to %.1f mm\n",
+                 options.out.c_str(), line.points.size(), line.length() * 1e3,
+                 scene.colon->lumen.segments.size(), least->radius * 1e3, most->radius * 1e3);
+    return 0;
+}
+
+}  // namespace stereonav

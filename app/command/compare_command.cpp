@@ -1,0 +1,186 @@
+// `stereonav compare`: flies a path with every method and measures time and error.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/command/comparison_report.h"
+#include "app/command/narrowed_eyes.h"
+#include "app/output/output_place.h"
+#include "app/output/progress_bar.h"
+#include "app/output/stereo_frame.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/parallel.h"
+#include "engine/camera/timed_poses.h"
+#include "engine/image/image_file.h"
+#include "engine/medium/swept_frames.h"
+#include "engine/metrics/difference_picture.h"
+#include "engine/metrics/pair_comparison.h"
+
+namespace stereonav {
+namespace {
+
+namespace fs = std::filesystem;
+
+void checkOptions(const CompareOptions& options) {
+    checkSize(options.size, kCompareBytesPerPixel);
+    if (options.relativeSeparation > 0 && options.scene.separation_m)
+        throw Error("--separation", "", "does not go with --relative-separation", "leave one of them out");
+    for (const NamedPlace& place :
+         {NamedPlace{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}})
+        checkNoInput(place, inputsOf(options.scene));
+    if (!options.json.empty()) checkOutputFile("--json", options.json);
+    if (!options.csv.empty()) checkOutputFile("--csv", options.csv);
+    if (!options.plot.empty()) checkOutputPicture("--plot", options.plot);
+    if (!options.images.empty()) checkOutputFolder("--images", options.images);
+    for (const std::string& name : options.methods) checkMethod(options.scene, name, "--methods");
+}
+
+// Each once, in the order of their first naming; "auto" is the scene's default.
+std::vector<RightEyeMethod> methodsOf(const CompareOptions& options, const LoadedScene& scene) {
+    std::vector<RightEyeMethod> methods;
+    for (const std::string& name : options.methods) {
+        const RightEyeMethod method = methodFromText(name).value_or(scene.defaultMethod());
+        if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
+    }
+    return methods.empty() ? scene.methods : methods;
+}
+
+std::vector<std::string_view> sweepMethodsOf(const CompareOptions& options, const FrameMaker& frames) {
+    std::vector<std::string_view> methods;
+    for (const std::string& name : options.methods) {
+        const std::string_view method = sweepMethodFromText(name);
+        if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
+    }
+    if (methods.empty()) methods.assign(frames.methods().begin(), frames.methods().end());
+    return methods;
+}
+
+// The pictures of one frame: each eye and truth, and of each method its right eye, its holes in red
+// and its difference from the full right cast times five.
+void writePictures(const ComparedFrame& frame, const fs::path& folder) {
+    constexpr int kFactor = 5;  // as in fig. 6e of the paper
+    writeColorImage(folder / "left.png", frame.left.color);
+    writeColorImage(folder / "full_right.png", frame.fullRight.color);
+    writeColorImage(folder / "truth_16_rays.png", frame.truth);
+    for (const MethodPicture& picture : frame.pictures) {
+        const std::string name(nameOf(picture.method));
+        writeColorImage(folder / (name + ".png"), picture.right.color);
+        writeColorImage(folder / (name + "_holes.png"), holesInRed(picture.right.color, picture.holeMask));
+        writeColorImage(folder / (name + "_difference_x5.png"),
+                        differenceTimes(frame.fullRight.color, picture.right.color, kFactor));
+    }
+}
+
+// Of a medium: both eyes of each method, and their differences from two sweeps times twenty.
+void writePictures(const ComparedPair& pair, const fs::path& folder) {
+    constexpr int kFactor = 20;
+    for (const PairPicture& picture : pair.pictures) {
+        const std::string name(picture.method);
+        writeColorImage(folder / (name + "_left.png"), picture.left.color);
+        writeColorImage(folder / (name + "_right.png"), picture.right.color);
+        writeColorImage(folder / (name + "_left_difference_x20.png"),
+                        differenceTimes(pair.left.color, picture.left.color, kFactor));
+        writeColorImage(folder / (name + "_right_difference_x20.png"),
+                        differenceTimes(pair.right.color, picture.right.color, kFactor));
+    }
+}
+
+// As render and play have them: together where the room is narrow.
+std::vector<StereoSetting> eyesAt(const LoadedScene& scene, const std::vector<TimedPose>& poses) {
+    NarrowedEyes eyes(scene);
+    std::vector<StereoSetting> all;
+    for (const TimedPose& pose : poses) all.push_back(eyes.at(pose.pose, pose.time));
+    return all;
+}
+
+std::vector<MethodFigures> comparedPairs(const CompareOptions& options, const LoadedScene& scene,
+                                         const std::vector<TimedPose>& poses,
+                                         const std::vector<StereoSetting>& eyes, Progress& progress) {
+    PairComparisonSetting setting;
+    setting.eyes = eyes;
+    setting.truth = kTwoSweepsMethod;
+    setting.methods = sweepMethodsOf(options, *scene.frames);
+    setting.repeats = options.repeats;
+    const int shown = static_cast<int>(poses.size()) / 2;
+    const auto listener = [&](const ComparedPair& pair) {
+        if (options.images.empty() || pair.index != shown) return;
+        makeOutputFolder(options.images);
+        writePictures(pair, options.images);
+    };
+    return comparePairs(*scene.frames, poses, scene.lens, scene.stereo, setting, progress, listener);
+}
+
+std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const LoadedScene& scene,
+                                           const std::vector<TimedPose>& frames,
+                                           const std::vector<StereoSetting>& eyes, Progress& progress) {
+    ComparisonSetting setting;
+    setting.eyes = eyes;
+    setting.repeats = options.repeats;
+    setting.methods = methodsOf(options, scene);
+    std::vector<Pose> poses;
+    for (const TimedPose& frame : frames) poses.push_back(frame.pose);
+    const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
+    const auto listener = [&](const ComparedFrame& frame) {
+        if (options.images.empty() || frame.index != shown) return;
+        makeOutputFolder(options.images);
+        writePictures(frame, options.images);
+    };
+    return compareMethods(*scene.renderer, poses, scene.lens, scene.stereo, setting, progress, listener);
+}
+
+void writeResults(const CompareOptions& options, const ComparisonReport& report) {
+    if (!options.json.empty()) writeTextFile(options.json, jsonOf(report));
+    if (!options.csv.empty()) writeTextFile(options.csv, csvOf(report));
+    if (!options.plot.empty()) writeColorImage(options.plot, plotOf(report));
+    if (!options.images.empty())
+        writeColorImage(fs::path(options.images) / "error_against_time.png", plotOf(report));
+}
+
+ComparisonReport describe(const CompareOptions& options, const LoadedScene& scene, int frames) {
+    ComparisonReport report;
+    report.scene = scene.name;
+    report.path = options.path;
+    report.machine = machineName();
+    report.simd = std::string(nameOf(scene.simd));
+    report.width = options.size.width;
+    report.height = options.size.height;
+    report.threads = threadCount();
+    report.frames = frames;
+    report.repeats = options.repeats;
+    report.stereo = scene.stereo;
+    report.least = scene.stereo.separation;
+    return report;
+}
+
+}  // namespace
+
+int runCompare(const CompareOptions& options) {
+    refuseLazyLight(options.scene);
+    checkOptions(options);
+    std::FILE* const messages =
+        messagesBeside({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});
+    std::optional<RecordedPath> path;
+    if (!options.path.empty()) path = readPath(options.path);
+    ProgressBar bar;
+    LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    checkNotRead({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});
+    if (options.relativeSeparation > 0.0) {
+        scene.stereo.separation = scene.stereo.zeroParallax * options.relativeSeparation;
+        scene.eyesFollow = false;  // what is asked for is what is measured
+    }
+    const std::vector<TimedPose> poses = timedFrames(flightOf(scene, path, options.path), options.frames);
+    const std::vector<StereoSetting> eyes = eyesAt(scene, poses);
+    ComparisonReport report = describe(options, scene, options.frames);
+    for (const StereoSetting& eye : eyes) report.least = std::min(report.least, eye.separation);
+    report.methods = scene.medium ? comparedPairs(options, scene, poses, eyes, bar.progress())
+                                  : comparedMethods(options, scene, poses, eyes, bar.progress());
+    writeResults(options, report);
+    bar.clear();
+    std::fputs(tableOf(report).c_str(), messages);
+    return 0;
+}
+
+}  // namespace stereonav

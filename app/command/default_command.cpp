@@ -1,0 +1,40 @@
+// `stereonav` without a command: the built-in terrain, as well as this machine can show it.
+#include <cstdio>
+
+#include "app/command/commands.h"
+#include "app/output/output_place.h"
+#include "engine/display/window.h"
+
+namespace stereonav {
+namespace {
+
+// The flight as a video and twelve pictures in out/, then the table of compare.
+int playAndCompare() {
+    checkOutputFolder("out/", "out");
+    std::printf("there is no display: the built-in flight goes to out/\n");
+    PlayOptions pictures;
+    pictures.size = {640, 360};
+    pictures.out = "out";
+    pictures.frames = 12;
+    runPlay(pictures);
+    PlayOptions video = pictures;
+    video.out.clear();
+    video.frames = 0;
+    video.fps = 15;
+    video.video = "out/flight.mp4";
+    runPlay(video);
+    CompareOptions compare;
+    compare.frames = 8;
+    compare.json = "out/compare.json";
+    compare.csv = "out/compare.csv";
+    compare.plot = "out/error_against_time.png";
+    return runCompare(compare);
+}
+
+}  // namespace
+
+int runDefault() {
+    return hasDisplay() ? runView({}) : playAndCompare();
+}
+
+}  // namespace stereonav

@@ -1,0 +1,69 @@
+#include "app/command/info_series.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/output/output_place.h"
+#include "app/scene/scene_loading.h"
+#include "colon/study.h"
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "engine/image/image_file.h"
+
+namespace stereonav {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::filesystem::path pictureFile(const std::string& folder, std::size_t number) {
+    return std::filesystem::path(folder) / fmt::format("series_{}.png", number);
+}
+
+Json jsonOf(const std::vector<SeriesLook>& looks, const std::string& folder) {
+    Json list = Json::array();
+    for (std::size_t n = 0; n < looks.size(); ++n) {
+        const SeriesLook& look = looks[n];
+        Json entry{
+            {"number", n + 1},           {"uid", look.info.uid},       {"description", look.info.description},
+            {"modality", look.modality}, {"slices", look.info.slices}, {"size", {look.columns, look.rows}}};
+        if (look.problem.empty())
+            entry["picture"] = pictureFile(folder, n + 1).string();
+        else
+            entry["problem"] = look.problem;
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
+std::string textOf(const SeriesLook& look, std::size_t number, const std::string& folder) {
+    return fmt::format("  {:<3} {} slices of {} x {}  {}  \"{}\"  {}\n", number, look.info.slices,
+                       look.columns, look.rows, look.modality, look.info.description,
+                       look.problem.empty() ? pictureFile(folder, number).string() : look.problem);
+}
+
+}  // namespace
+
+int listSeriesOf(const InfoOptions& options) {
+    checkOutputFolder("--series-pictures", options.series);
+    if (!isStudy(options.scene.scene))
+        throw Error("--series-pictures", "", "expected with a folder of DICOM slices",
+                    "name one, or leave it out");
+    if (options.scene.threads > 0) setThreadCount(options.scene.threads);
+    const std::vector<SeriesLook> looks = lookAtSeries(options.scene.scene);
+    makeOutputFolder(options.series);
+    for (std::size_t n = 0; n < looks.size(); ++n)
+        if (looks[n].problem.empty()) writeColorImage(pictureFile(options.series, n + 1), looks[n].picture);
+    if (options.json) {
+        const Json json{{"scene", options.scene.scene}, {"series", jsonOf(looks, options.series)}};
+        std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+        return 0;
+    }
+    std::string text = options.scene.scene + "\n";
+    for (std::size_t n = 0; n < looks.size(); ++n) text += textOf(looks[n], n + 1, options.series);
+    std::fputs(text.c_str(), stdout);
+    return 0;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,11 @@
+// `stereonav info FOLDER --series-pictures DIR`: which series a DICOM folder holds, with a picture of each.
+#pragma once
+
+#include "app/command/commands.h"
+
+namespace stereonav {
+
+// Prints the list and writes DIR/series_1.png and so on. Returns the exit status. Throws Error.
+int listSeriesOf(const InfoOptions& options);
+
+}  // namespace stereonav

@@ -1,0 +1,53 @@
+// `stereonav mesh`: the scene's ground as a glTF mesh of chosen error. Landmarks are not part of it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/output/output_place.h"
+#include "app/output/progress_bar.h"
+#include "app/scene/scene_loading.h"
+#include "engine/base/error.h"
+#include "terrain/terrain_mesh.h"
+
+namespace stereonav {
+namespace {
+
+void checkMeshOptions(const MeshOptions& options) {
+    if (!isMeshFileName(options.out))
+        throw Error("--out", "", "expected a file named .glb or .gltf, got \"" + options.out + "\"",
+                    "name it terrain.glb");
+    checkNoInput({"--out", options.out}, inputsOf(options.scene));
+    checkOutputFile("--out", options.out);
+    const SceneKind kind = kindOf(options.scene.scene);
+    if (kind != SceneKind::Terrain)
+        throw Error(
+            options.scene.scene, "",
+            fmt::format("expected a terrain, found a {}", kind == SceneKind::Medium ? "medium" : "volume"),
+            "render, play and view show it; mesh writes the ground of terrains");
+}
+
+}  // namespace
+
+int runMesh(const MeshOptions& options) {
+    checkMeshOptions(options);
+    ProgressBar bar;
+    const LoadedScene scene = loadScene(options.scene, SizeOption{}, bar.progress());
+    checkNotRead({{"--out", options.out}});
+    const Heightfield& ground = scene.terrain->ground;
+    const double halfSpacing = 0.5 * std::min(ground.spacing().x, ground.spacing().y);
+    const double error = options.error_m < 0 ? halfSpacing : options.error_m;
+    const TerrainMesh mesh = simplifyTerrain(ground, error, bar.progress());
+    bar.progress().report(1.0, "writing");
+    writeTerrainMesh(options.out, ground, scene.terrain->color, mesh);
+    bar.clear();
+    const double cells = static_cast<double>(ground.width() - 1) * (ground.height() - 1);
+    std::printf(
+        "%s: %zu triangles over %zu vertices (%.2f %% of the grid's), largest error %.3g m of %.3g m\n",
+        options.out.c_str(), mesh.triangles.size(), mesh.vertices.size(),
+        100.0 * static_cast<double>(mesh.triangles.size()) / (2.0 * cells), mesh.maxError, error);
+    return 0;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,125 @@
+// `stereonav play`: a flight into numbered pictures, a video, or one hash of all frames.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/output/output_place.h"
+#include "app/output/progress_bar.h"
+#include "app/output/stereo_frame.h"
+#include "app/output/video_file.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/camera/timed_poses.h"
+#include "engine/image/image_file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kMostFrames = 1'000'000;
+
+double fpsOf(const PlayOptions& options) {
+    return options.fps.value_or(25);
+}
+
+void checkOptions(const PlayOptions& options) {
+    if (options.out.empty() && options.video.empty() && !options.hash)
+        throw Error("play", "", "expected a place for the frames", "give --out DIR, --video FILE or --hash");
+    if (!options.out.empty()) checkOutputFolder("--out", options.out);
+    if (!options.video.empty()) checkVideoFile("--video", options.video);
+    checkNoInput({"--video", options.video}, inputsOf(options.scene));
+    if (options.fps && options.frames > 0 && options.video.empty())
+        throw Error("--fps", "", "has no effect beside --frames, which says how many pictures there are",
+                    "leave one of them out, or give --video");
+    if (!options.mode.empty() && options.out.empty() && options.video.empty())
+        throw Error("--mode", "", "has no effect on --hash, which is of both eyes", "leave it out");
+    checkSize(options.size, options.video.empty() ? kRenderBytesPerPixel : kVideoBytesPerPixel);
+}
+
+std::vector<TimedPose> posesOf(const PlayOptions& options, const RecordedPath& path) {
+    if (options.frames > 0) return timedFrames(path, options.frames);
+    const double fps = fpsOf(options);
+    if (path.duration() * fps > kMostFrames)
+        throw Error(
+            "--fps", "",
+            fmt::format("{} s at {} frames a second are over {} frames", path.duration(), fps, kMostFrames),
+            "give --frames or fewer frames a second");
+    return timedFramesAtRate(path, fps);
+}
+
+// Where composed frames go; what was not asked for stays unused.
+class FrameSink {
+public:
+    FrameSink(const PlayOptions& options, const OutputMode mode) : mFolder(options.out), mMode(mode) {
+        if (!options.out.empty()) makeOutputFolder(options.out);
+        if (options.video.empty()) return;
+        const auto [width, height] = composedSize(mode, options.size.width, options.size.height);
+        mVideo = std::make_unique<VideoFile>(options.video, fpsOf(options), width, height);
+    }
+
+    void add(const StereoFrame& frame, int index) {
+        if (mFolder.empty() && !mVideo) return;
+        const Plane<PackedColor> picture = frame.compose(mMode);
+        if (!mFolder.empty())
+            writeColorImage(std::filesystem::path(mFolder) / fmt::format("frame_{:05d}.png", index), picture,
+                            Flush::ToSystem);
+        if (mVideo) mVideo->add(picture);
+    }
+
+    void finish() {
+        if (mVideo) mVideo->finish();
+    }
+
+private:
+    std::string mFolder;
+    OutputMode mMode;
+    std::unique_ptr<VideoFile> mVideo;
+};
+
+double medianOf(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace
+
+int runPlay(const PlayOptions& options) {
+    refuseLazyLight(options.scene);
+    checkOptions(options);
+    const OutputMode mode = modeFromText(options.mode.empty() ? "sbsl" : options.mode);
+    checkMethod(options.scene, options.method);
+    // the path first: a bad one should not cost the reading of a large scene
+    std::optional<RecordedPath> path;
+    if (!options.path.empty()) path = readPath(options.path);
+    ProgressBar bar;
+    const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    checkNotRead({{"--video", options.video}});
+    const std::vector<TimedPose> poses = posesOf(options, flightOf(scene, path, options.path));
+    FrameSink sink(options, mode);
+    StereoFrame frame(scene, options.method);
+    frame.refine(options.scene, bar.progress());
+    Hash hash;
+    std::vector<double> left_ms, right_ms, both_ms;
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+        bar.progress().report(static_cast<double>(k) / static_cast<double>(poses.size()),
+                              fmt::format("frame {} of {}", k + 1, poses.size()));
+        frame.render(poses[k].pose, poses[k].time);
+        left_ms.push_back(frame.timings().left_ms);
+        right_ms.push_back(frame.timings().right_ms);
+        both_ms.push_back(frame.timings().both_ms);
+        if (options.hash) frame.addTo(hash);
+        sink.add(frame, static_cast<int>(k));
+    }
+    sink.finish();
+    bar.clear();
+    if (frame.timings().left_ms == 0)  // made together
+        std::printf("%zu frames, median both eyes %.2f ms\n", poses.size(), medianOf(both_ms));
+    else
+        std::printf("%zu frames, median left %.2f ms, right %.2f ms\n", poses.size(), medianOf(left_ms),
+                    medianOf(right_ms));
+    if (options.hash) std::printf("hash %016llx\n", static_cast<unsigned long long>(hash.value()));
+    return 0;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,77 @@
+#include "app/command/process_facts.h"
+
+#include <malloc.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "engine/base/module.h"
+
+namespace stereonav {
+namespace fs = std::filesystem;
+namespace {
+
+struct Start {
+    std::chrono::steady_clock::time_point main;
+    double before_ms = 0;
+};
+
+const Start& start() {
+    static const Start noted = [] {
+        timespec used{};
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+        return Start{std::chrono::steady_clock::now(),
+                     1e3 * static_cast<double>(used.tv_sec) + 1e-6 * static_cast<double>(used.tv_nsec)};
+    }();
+    return noted;
+}
+
+int threadsRunning() {
+    std::error_code code;
+    return static_cast<int>(std::distance(fs::directory_iterator("/proc/self/task", code), {}));
+}
+
+// VmHWM of /proc/self/status, in kB there; 0 where the system does not tell.
+std::size_t peakBytes() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.rfind("VmHWM:", 0) == 0) return 1024 * std::strtoull(line.c_str() + 6, nullptr, 10);
+    return 0;
+}
+
+// "gdal" of ".../lib/stereonav/stereonav_gdal.so".
+std::vector<std::string> modulesAmong(const std::vector<std::string>& libraries) {
+    constexpr const char* kPrefix = "stereonav_";
+    std::vector<std::string> names;
+    for (const fs::path file : libraries)
+        if (const std::string stem = file.stem().string(); stem.rfind(kPrefix, 0) == 0)
+            names.push_back(stem.substr(std::string(kPrefix).size()));
+    return names;
+}
+
+}  // namespace
+
+void noteStart() {
+    start();
+}
+
+void takeWhenReady(ProcessFacts& facts) {
+    const std::chrono::duration<double, std::milli> since = std::chrono::steady_clock::now() - start().main;
+    facts.beforeMain_ms = start().before_ms;
+    facts.ready_ms = since.count();
+    const struct mallinfo2 heap = mallinfo2();
+    facts.heapBytes = heap.uordblks + heap.hblkhd;
+}
+
+void takeAtEnd(ProcessFacts& facts) {
+    facts.threads = threadsRunning();
+    facts.peakBytes = peakBytes();
+    facts.libraries = loadedLibraries();
+    facts.modules = modulesAmong(facts.libraries);
+}
+
+}  // namespace stereonav

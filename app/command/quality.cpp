@@ -1,0 +1,49 @@
+#include "app/command/quality.h"
+
+#include <fmt/format.h>
+
+#include "app/scene/medium_options.h"
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kCalibrationFrames = 15;  // of the scene's flight, beside the start pose
+
+bool wantsQuality(const QualityOptions& q) {
+    return q.quality || q.targetPsnr_db || q.target_ms;
+}
+
+}  // namespace
+
+void checkQuality(const SceneOptions& options, const std::string& method) {
+    const QualityOptions& q = options.quality;
+    if (!wantsQuality(q)) return;
+    const char* given = q.quality ? "--quality" : q.targetPsnr_db ? "--target-psnr" : "--target-ms";
+    if (showsMedium(options))
+        throw Error(given, "", "does not go with a medium, whose eyes are swept together",
+                    "choose --slices and --light-size instead");
+    const auto named = methodFromText(method);
+    if (named && *named != RightEyeMethod::Linear && *named != RightEyeMethod::Cubic &&
+        *named != RightEyeMethod::Selective)
+        throw Error(given, "", fmt::format("does not go with the method {}", method),
+                    "choose linear, cubic or selective, or leave the method out");
+}
+
+std::vector<StereoViews> calibrationViews(const LoadedScene& scene) {
+    std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};
+    if (!scene.path.samples().empty())
+        for (const Pose& pose : scene.path.frames(kCalibrationFrames)) views.push_back(scene.viewsAt(pose));
+    return views;
+}
+
+std::optional<QualityPlan> qualityOf(const SceneOptions& options, const LoadedScene& scene,
+                                     const std::string& method, Progress& progress) {
+    const QualityOptions& q = options.quality;
+    if (!wantsQuality(q)) return std::nullopt;
+    progress.report(0.85, "measuring what error is to be expected");
+    return scene.frames->meet({q.quality, q.targetPsnr_db, q.target_ms, false},
+                              method == "auto" ? "" : method, calibrationViews(scene));
+}
+
+}  // namespace stereonav

@@ -1,0 +1,29 @@
+// The quality dial: from --quality, --target-psnr and --target-ms to how the right eye is made and which of
+// its warped pixels are cast as well.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/command/commands.h"
+#include "app/scene/scene_loading.h"
+#include "engine/base/progress.h"
+#include "engine/stereo/quality_plan.h"
+
+namespace stereonav {
+
+// What can be checked without the scene. Throws Error.
+void checkQuality(const SceneOptions& options, const std::string& method);
+
+// Nothing where none of the options is given. Else measures the scene, on frames of its own flight cast in
+// full: what error is to be expected of each way of making the right eye and, where a time is the target,
+// what it takes; then plans (engine/stereo/quality_plan.h). method: as named by the user, which is then kept,
+// or "auto". Throws Error, Cancelled.
+std::optional<QualityPlan> qualityOf(const SceneOptions& options, const LoadedScene& scene,
+                                     const std::string& method, Progress& progress);
+
+// The frames that a scene is measured on: its start pose and some of its flight.
+std::vector<StereoViews> calibrationViews(const LoadedScene& scene);
+
+}  // namespace stereonav

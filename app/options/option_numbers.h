@@ -1,0 +1,24 @@
+// The lists of numbers that options take, for where they are declared and where they are read.
+#pragma once
+
+#include "app/options/number_text.h"
+
+namespace stereonav {
+
+const NumberList& sunNumbers();         // --sun, --light-from: azimuth, elevation
+const NumberList& lampNumbers();        // --lamp: "head", or a place
+const NumberList& colorNumbers();       // --light-color: one or three
+const NumberList& albedoNumbers();      // --albedo: one or three
+const NumberList& skyNumbers();         // bake --sky: one or three
+const NumberList& mistNumbers();        // --mist: top, optical depth
+const NumberList& poseNumbers();        // --pose: place, and angles
+const NumberList& seedNumbers();        // --seed of a study: millimetres
+const NumberList& isovaluesNumbers();   // --isovalues: low, high
+const NumberList& pointLightNumbers();  // --light of bake, --point-light: a place, and an intensity
+
+constexpr const char* kHeadLamp = "head";
+constexpr const char* kCentrelineLights = "centreline";
+constexpr NumberRange kValueRange = within(-1e30, 1e30);  // of a volume
+constexpr double kBrightestLight = 1e30;                  // well within floats
+
+}  // namespace stereonav

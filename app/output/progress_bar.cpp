@@ -1,0 +1,79 @@
+#include "app/output/progress_bar.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "engine/base/loop_watch.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kRedraw_ms = 80.0;           // often enough to look alive, rare enough to cost nothing
+constexpr double kLineInterval_ms = 10000.0;  // where the lines stay
+
+}  // namespace
+
+std::string progressLine(double fraction, const std::string& what, int barWidth) {
+    fraction = std::clamp(fraction, 0.0, 1.0);
+    const int full = static_cast<int>(fraction * barWidth);
+    std::string bar(static_cast<std::size_t>(full), '=');
+    if (full < barWidth) bar += '>';
+    bar.resize(static_cast<std::size_t>(barWidth), ' ');
+    return fmt::format("[{}] {:3d} % {}", bar, static_cast<int>(fraction * 100.0), what);
+}
+
+ProgressBar::ProgressBar(bool shown)
+    : mShown(shown),
+      mTerminal(isatty(STDERR_FILENO) != 0),
+      mProgress([this](double fraction, const std::string& what) { show(fraction, what); }) {
+    mNext_ms = mTerminal ? 0.0 : kLineInterval_ms;
+    if (mShown) watchLoops([this] { showAgain(); });
+}
+
+ProgressBar::~ProgressBar() {
+    if (mShown) watchLoops({});
+    clear();
+}
+
+void ProgressBar::show(double fraction, const std::string& what) {
+    if (!mShown) return;
+    const std::lock_guard lock(mMutex);
+    const double now = mSinceStart.elapsed_ms();
+    if (what != mWhat || fraction != mFraction) mReported_ms = now;
+    mFraction = fraction;
+    if (what != mWhat) mWhat = what;
+    if (now >= mNext_ms) draw(now);
+}
+
+void ProgressBar::showAgain() {
+    const double now = mSinceStart.elapsed_ms();
+    if (now < mNext_ms) return;
+    const std::unique_lock lock(mMutex, std::try_to_lock);
+    if (lock) draw(now);
+}
+
+// Under the mutex.
+void ProgressBar::draw(double now_ms) {
+    constexpr double kLong_ms = 2000;  // of one report, from which on its time is told
+    mNext_ms = now_ms + (mTerminal ? kRedraw_ms : kLineInterval_ms);
+    const double since_ms = now_ms - mReported_ms;
+    const std::string what =
+        since_ms < kLong_ms ? mWhat : fmt::format("{}, {:.0f} s", mWhat, since_ms / 1000);
+    if (mTerminal)
+        std::fprintf(stderr, "\r\033[K%s", progressLine(mFraction, what, 30).c_str());
+    else
+        std::fprintf(stderr, "%3d %% %s\n", static_cast<int>(mFraction * 100.0), what.c_str());
+    std::fflush(stderr);
+    mDrawn = true;
+}
+
+void ProgressBar::clear() {
+    const std::lock_guard lock(mMutex);
+    if (mTerminal && mDrawn) std::fputs("\r\033[K", stderr);
+    mDrawn = false;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,59 @@
+// One frame of the pipeline without a window: left eye, right eye, one picture for the display.
+#pragma once
+
+#include <string>
+
+#include "app/command/narrowed_eyes.h"
+#include "app/scene/scene_loading.h"
+#include "engine/base/hash.h"
+
+namespace stereonav {
+
+// Throws Error, naming the option that it is of, unless `method` names a way of making two eyes of what the
+// options show. "auto" is one.
+void checkMethod(const SceneOptions& options, const std::string& method, const char* option = "--method");
+
+class StereoFrame {
+public:
+    // method: one of the scene's FrameMaker, or "auto" for its default.
+    StereoFrame(const LoadedScene& scene, const std::string& method);
+    // How the right eye is made and which warped pixels are cast as well, from options; measures the scene
+    // where they ask for it.
+    void refine(const SceneOptions& options, Progress& progress);
+
+    // Both eyes at one pose, as far apart as suits the room there (NarrowedEyes). time: seconds, of what
+    // moves by itself; no less than before.
+    void render(const Pose& head, double time = 0);
+
+    // Those of the last picture.
+    const StereoViews& views() const { return mViews; }
+    const StereoSetting& stereo() const { return mStereo; }
+    // Of what is worked out for the two pictures as a whole.
+    EyeImage& left() { return mFrame.left; }
+    EyeImage& right() { return mFrame.right; }
+    const EyeImage& left() const { return mFrame.left; }
+    const EyeImage& right() const { return mFrame.right; }
+    // What refine() chose, "" where nothing was wished; and the size in which eyes are made, to be enlarged.
+    const std::string& way() const { return mWayName; }
+    const Lens& madeIn() const { return mLens; }
+    bool isSmaller() const { return mLens.width < mScene.lens.width || mLens.height < mScene.lens.height; }
+    const FrameTimings& timings() const { return mFrame.timings; }
+    Plane<PackedColor> compose(OutputMode mode) const {
+        return composeStereo(mFrame.left.color, mFrame.right.color, {mode, false, false});
+    }
+
+    // Colour and depth of both eyes, pixels only.
+    void addTo(Hash& hash) const;
+
+private:
+    const LoadedScene& mScene;
+    std::string mMethod, mWayName;
+    Lens mLens;
+    FrameWay mWay;
+    NarrowedEyes mEyes;
+    StereoSetting mStereo;
+    StereoViews mViews;  // with the size asked for
+    EyePair mFrame;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,106 @@
+// The report's chart of how the ground's colour is read: mip levels, with a bias or none, and more rays a
+// pixel, against many rays a pixel that read the finest level.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "app/report/trial.h"
+#include "engine/metrics/image_difference.h"
+#include "engine/metrics/supersampled_picture.h"
+#include "terrain/terrain_renderer.h"
+
+namespace stereonav {
+namespace {
+
+struct FilterWay {
+    std::string name, detail;
+    GroundFilter filter;
+    int factor = 1;  // rays a pixel, each way
+    bool isDefault = false;
+    std::unique_ptr<TerrainRenderer> renderer = nullptr;
+    std::vector<double> ms = {};  // by repeat, mean frame
+    double squares = 0, worst = 0;
+};
+
+std::vector<FilterWay> waysOf(const LoadedScene& scene) {
+    std::vector<FilterWay> ways;
+    ways.push_back({"mip levels", "bilinear in the level of the ray's footprint", {}, 1, true});
+    for (const double bias : {-1.0, -0.5, 0.5, 1.0})
+        ways.push_back({fmt::format("bias {:+g}", bias),
+                        "levels coarser than the footprint's, or finer",
+                        {true, bias},
+                        1,
+                        false});
+    ways.push_back({"bilinear alone", "the finest level whatever the footprint", {false, 0}, 1, false});
+    ways.push_back({"mip levels, 4 rays", "a pixel, averaged in linear light", {}, 2, false});
+    ways.push_back({"bilinear, 4 rays", "a pixel, averaged in linear light", {false, 0}, 2, false});
+    for (FilterWay& way : ways)
+        way.renderer = std::make_unique<TerrainRenderer>(*scene.terrain, scene.simd, way.filter);
+    return ways;
+}
+
+// Milliseconds of one picture.
+double cast(const FilterWay& way, const EyeView& view, Progress& progress, EyeImage& image) {
+    const Stopwatch watch;
+    if (way.factor == 1)
+        renderEye(*way.renderer, view, image);
+    else
+        image.color = renderSupersampled(*way.renderer, view, way.factor, progress);
+    return watch.elapsed_ms();
+}
+
+}  // namespace
+
+WayChart filteringChart(ReportRun& run, const ReportScene& scene) {
+    const int frames = run.pick(2, 5), repeats = run.pick(3, 5), truthFactor = run.pick(4, 8);
+    const LoadedScene& loaded = scene.loaded;
+    Progress progress([&](double, const std::string&) { run.tell("filtering, " + scene.title); });
+    std::vector<FilterWay> ways = waysOf(loaded);
+    for (FilterWay& way : ways) way.ms.assign(static_cast<std::size_t>(repeats), 0.0);
+    const TerrainRenderer unfiltered(*loaded.terrain, loaded.simd, {false, 0});
+    const std::vector<Pose> poses =
+        loaded.path.samples().empty() ? std::vector<Pose>{loaded.startPose} : loaded.path.frames(frames);
+    const auto count = static_cast<double>(poses.size());
+    EyeImage image;
+    for (const Pose& pose : poses) {
+        const EyeView view = makeEyeView(pose, loaded.lens);
+        image.resize(view.width, view.height, loaded.renderer->viewDependence());
+        const Plane<PackedColor> truth = renderSupersampled(unfiltered, view, truthFactor, progress);
+        for (int r = 0; r < repeats; ++r)
+            for (FilterWay& way : ways) {
+                way.ms[static_cast<std::size_t>(r)] += cast(way, view, progress, image) / count;
+                if (r > 0) continue;
+                const double rms = rmsOfPsnr(psnrOf(truth, image.color));
+                way.squares += rms * rms / count;
+                way.worst = std::max(way.worst, rms);
+            }
+    }
+    WayChart chart;
+    chart.id = "filtering/" + scene.id;
+    chart.title = "Reading the ground's colour, " + scene.title;
+    chart.setting =
+        fmt::format("{}, {} frames", run.settingOf(loaded.lens.width, loaded.lens.height), poses.size());
+    chart.text = fmt::format(
+        "Left eye, mean frame of the flight, {} repeats, against {} rays a pixel that read the finest level: "
+        "edges of the ground's shape are in the error too, which one ray a pixel can not have right.",
+        repeats, truthFactor * truthFactor);
+    chart.why =
+        "A finer level is nearer to the truth of a still picture and shimmers in motion, which no single "
+        "frame shows; a coarser one blurs.";
+    chart.timeLabel = "left eye, ms a frame";
+    chart.timeUnit = "ms";
+    chart.errorLabel = "RMS error, 8-bit levels";
+    chart.errorUnit = "levels";
+    for (const FilterWay& way : ways) {
+        WayPoint point;
+        point.way = {way.name, spreadOf(way.ms), std::sqrt(way.squares), way.isDefault};
+        point.detail = way.detail;
+        point.worstError = way.worst;
+        chart.points.push_back(std::move(point));
+    }
+    return chart;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,194 @@
+// The report's charts of both eyes of media: one sweep, two, or splatted depths, by slices, size of the
+// light's buffer and separation, against a sweep of many slices for each eye. On media's own flights.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/report/run.h"
+#include "engine/image/image_file.h"
+#include "engine/medium/swept_frames.h"
+#include "engine/metrics/image_difference.h"
+
+namespace stereonav {
+namespace {
+
+struct PairWay {
+    std::string name, detail;
+    std::string_view method = kSweepMethod;
+    SweepSetting sweep;
+    bool isDefault = false;
+};
+
+std::vector<PairWay> waysOf(ReportRun& run, const SweepSetting& own) {
+    std::vector<PairWay> ways;
+    for (const std::string_view method : kSweepMethods)
+        ways.push_back(
+            {std::string(method), fmt::format("{} slices", own.slices), method, own, method == kSweepMethod});
+    SweepSetting changed = own;
+    for (const int slices : run.brief() ? std::vector<int>{64} : std::vector<int>{32, 64, 128, 512}) {
+        changed.slices = slices;
+        if (slices != own.slices)
+            ways.push_back(
+                {fmt::format("sweep {} slices", slices), "both eyes in one", kSweepMethod, changed, false});
+    }
+    changed = own;
+    for (const int size : run.brief() ? std::vector<int>{64} : std::vector<int>{64, 128, 512}) {
+        changed.lightSize = size;
+        if (size != own.lightSize)
+            ways.push_back({fmt::format("sweep buffer {}", size),
+                            fmt::format("{} slices, texels a side of the light's buffer", own.slices),
+                            kSweepMethod, changed, false});
+    }
+    return ways;
+}
+
+double squareOf(const EyeImage& truth, const EyeImage& image) {
+    const double psnr = psnrOf(truth.color, image.color);
+    return psnr >= kIdenticalPsnr_db ? 0.0 : 255.0 * 255.0 * std::pow(10.0, -psnr / 10);
+}
+
+// Frames of one medium: their views, and what both eyes ought to see.
+class PairTrial {
+public:
+    PairTrial(ReportRun& run, ReportScene& scene, int frames, double share)
+        : mRun(run), mScene(scene.loaded), mTitle(scene.title), mOwn(scene.loaded.medium->sweep) {
+        mScene.lens.width = run.pick(100, 320);
+        mScene.lens.height = run.pick(80, 256);
+        mScene.stereo.separation = mScene.stereo.zeroParallax * share;
+        for (const Pose& pose : mScene.path.frames(frames)) mViews.push_back(mScene.viewsAt(pose));
+        SweepSetting finest = mOwn;
+        finest.shadingWidth = 0;
+        finest.slices = run.pick(512, 2048);
+        mTruths.resize(mViews.size());
+        for (std::size_t n = 0; n < mViews.size(); ++n) sweep(finest, kTwoSweepsMethod, n, mTruths[n]);
+        mTruthSlices = finest.slices;
+    }
+
+    // All ways one after another in each repeat, so that the machine's moods meet all alike.
+    std::vector<WayPoint> pointsOf(const std::vector<PairWay>& ways, int repeats) {
+        std::vector<std::vector<double>> ms(ways.size(),
+                                            std::vector<double>(static_cast<std::size_t>(repeats), 0.0));
+        std::vector<WayPoint> points(ways.size());
+        const auto frames = static_cast<double>(mViews.size());
+        for (std::size_t n = 0; n < mViews.size(); ++n)
+            for (std::size_t r = 0; r < static_cast<std::size_t>(repeats); ++r)
+                for (std::size_t k = 0; k < ways.size(); ++k) {
+                    ms[k][r] += sweep(ways[k].sweep, ways[k].method, n, mFrame) / frames;
+                    if (r == 0) addErrors(n, points[k]);
+                }
+        for (std::size_t k = 0; k < ways.size(); ++k) {
+            points[k].way = {ways[k].name, spreadOf(ms[k]), std::sqrt(points[k].way.error / (2 * frames)),
+                             ways[k].isDefault};
+            points[k].detail = ways[k].detail;
+        }
+        return points;
+    }
+
+    // Of the right eye in the first frame, its truth, and the left eye.
+    ReportPictures pictures() {
+        sweep(mOwn, kSweepMethod, 0, mFrame);
+        return {"Pictures, " + mTitle,
+                "The first frame of the flight.",
+                {{"left eye", encodeColorImage(mFrame.left.color, ".png")},
+                 {"right eye, in the same sweep", encodeColorImage(mFrame.right.color, ".png")},
+                 {fmt::format("right eye, a sweep of its own in {} slices", mTruthSlices),
+                  encodeColorImage(mTruths[0].right.color, ".png")}}};
+    }
+
+    std::string setting() const {
+        return fmt::format("{}, {} frames", mRun.settingOf(mScene.lens.width, mScene.lens.height),
+                           mViews.size());
+    }
+    int truthSlices() const { return mTruthSlices; }
+    const SweepSetting& own() const { return mOwn; }
+
+private:
+    using Eye = EyeImage EyePair::*;
+
+    // Squares are summed up in the point's error.
+    void addErrors(std::size_t frame, WayPoint& point) const {
+        for (const Eye eye : {&EyePair::left, &EyePair::right}) {
+            const double square = squareOf(mTruths[frame].*eye, mFrame.*eye);
+            point.way.error += square;
+            point.worstError = std::max(point.worstError, std::sqrt(square));
+        }
+    }
+
+    double sweep(const SweepSetting& setting, std::string_view method, std::size_t index, EyePair& frame) {
+        mRun.tell("volume light in stereo, " + mTitle);
+        mScene.medium->sweep = setting;
+        mScene.frames->make(mViews[index], 0, {method, {}}, frame);
+        mScene.medium->sweep = mOwn;
+        return frame.timings.both_ms;
+    }
+
+    ReportRun& mRun;
+    LoadedScene& mScene;
+    std::string mTitle;
+    SweepSetting mOwn;
+    std::vector<StereoViews> mViews;
+    std::vector<EyePair> mTruths;
+    EyePair mFrame;
+    int mTruthSlices = 0;
+};
+
+WayChart emptyChart(const PairTrial& trial) {
+    WayChart chart;
+    chart.setting = trial.setting();
+    chart.timeLabel = "ms a frame, both eyes";
+    chart.timeUnit = "ms";
+    chart.errorLabel = "RMS error, 8-bit levels";
+    chart.errorUnit = "levels";
+    return chart;
+}
+
+WayChart waysChart(ReportRun& run, const ReportScene& scene, PairTrial& trial, int repeats) {
+    WayChart chart = emptyChart(trial);
+    chart.id = "pair/" + scene.id;
+    chart.title = "Both eyes, " + scene.title;
+    chart.text = fmt::format(
+        "The mean frame of the medium's flight, eyes 1/30 of the zero-parallax distance apart, {} repeats; "
+        "both eyes against a sweep of {} slices for each.",
+        repeats, trial.truthSlices());
+    chart.why =
+        "The numbers of slices and of the buffer's texels are one choice for all media "
+        "(docs/volume_light.md).";
+    chart.points = trial.pointsOf(waysOf(run, trial.own()), repeats);
+    return chart;
+}
+
+WayChart separationsChart(ReportRun& run, ReportScene& scene) {
+    WayChart chart;
+    for (const int part : run.brief() ? std::vector<int>{8} : std::vector<int>{1000, 120, 30, 8, 4}) {
+        PairTrial trial(run, scene, 1, 1.0 / part);
+        if (chart.points.empty()) chart = emptyChart(trial);
+        const PairWay way{fmt::format("1/{}", part),
+                          fmt::format("eyes 1/{} of the zero-parallax distance apart", part), kSweepMethod,
+                          trial.own(), part == 30};
+        chart.points.push_back(trial.pointsOf({way}, run.pick(2, 3)).front());
+    }
+    chart.id = "pair-separation/" + scene.id;
+    chart.title = "Separations, " + scene.title;
+    chart.text =
+        "Both eyes in one sweep, from 1/1000 to 1/4 of the zero-parallax distance apart; the ring marks "
+        "1/30. "
+        "Bars upwards reach to the worse eye.";
+    chart.front = false;
+    return chart;
+}
+
+}  // namespace
+
+void reportPairs(ReportRun& run, ReportSection& section) {
+    constexpr double kShare = 1.0 / 30;
+    for (ReportScene& scene : run.media()) {
+        run.checkTime();
+        PairTrial trial(run, scene, run.pick(1, 3), kShare);
+        addChart(run.report(), section, waysChart(run, scene, trial, run.pick(2, 4)));
+        section.blocks.emplace_back(trial.pictures());
+        addChart(run.report(), section, separationsChart(run, scene));
+    }
+}
+
+}  // namespace stereonav

@@ -1,0 +1,205 @@
+// The report's part on volume light: the sweep by slices, size of the light's buffer and cone, against paths
+// traced through the medium and against the same model in many more slices.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/report/run.h"
+#include "engine/base/parallel.h"
+#include "engine/medium/built_in_media.h"
+#include "engine/medium/delta_tracking.h"
+#include "engine/medium/medium_sweep.h"
+#include "engine/medium/medium_transfer.h"
+#include "engine/metrics/image_difference.h"
+
+namespace stereonav {
+namespace {
+
+struct MediumSubject {
+    std::string name;
+    Medium medium;
+    MediumLook look;
+    EyeView view;
+};
+
+// The path tracer knows no surfaces: their weights are taken out.
+MediumTransfer withoutSurface(const char* preset) {
+    const MediumTransfer transfer = findMediumTransfer(preset);
+    std::vector<MediumPoint> points = transfer.points();
+    for (MediumPoint& p : points) p.material.surface = 0;
+    return MediumTransfer(points, transfer.referenceLength(), preset);
+}
+
+// Seen whole, lit over the viewer's shoulder.
+MediumSubject subjectOf(const std::string& name, Medium medium, int size) {
+    constexpr double kHeading = 0.6, kPitch = -0.3;
+    MediumSubject subject{name, std::move(medium), {}, {}};
+    const double whole = glm::length(subject.medium.bounds().high - subject.medium.bounds().low);
+    const Pose middle = poseFromAngles(subject.medium.bounds().center(), kHeading, kPitch, 0);
+    const Pose pose = poseFromAngles(middle.position - 1.6 * whole * middle.forward(), kHeading, kPitch, 0);
+    Lens lens;
+    lens.width = lens.height = size;
+    lens.verticalFov = 0.5;
+    lens.nearDepth = 1e-3 * whole;
+    subject.view = makeEyeView(pose, lens);
+    subject.look.light.direction = glm::normalize(pose.forward() + 0.5 * pose.right() - 0.6 * pose.up());
+    return subject;
+}
+
+// Over black.
+Plane<PackedColor> shown(const Plane<glm::vec4>& light) {
+    Plane<PackedColor> picture(light.width(), light.height());
+    for (int y = 0; y < light.height(); ++y)
+        for (int x = 0; x < light.width(); ++x) picture.at(x, y) = packColor(glm::vec3(light.at(x, y)));
+    return picture;
+}
+
+double rmsOf(const Plane<PackedColor>& truth, const Plane<PackedColor>& picture) {
+    const double psnr = psnrOf(truth, picture);
+    return psnr >= kIdenticalPsnr_db ? 0.0 : 255 * std::pow(10.0, -psnr / 20);
+}
+
+struct SweepWay {
+    std::string name, detail;
+    SweepSetting setting;
+    bool isDefault = false;
+};
+
+std::vector<SweepWay> waysOf(ReportRun& run, bool indirect) {
+    std::vector<SweepWay> ways{{"256 slices", "256 slices, light's buffer 256, cone 0.6", {}, true}};
+    const auto add = [&](const std::string& name, const SweepSetting& setting) {
+        ways.push_back({name,
+                        fmt::format("{} slices, light's buffer {}, cone {:g}", setting.slices,
+                                    setting.lightSize, setting.coneAngle),
+                        setting, false});
+    };
+    SweepSetting setting;
+    for (const int slices :
+         run.brief() ? std::vector<int>{64, 1024} : std::vector<int>{32, 64, 128, 512, 1024}) {
+        setting.slices = slices;
+        add(fmt::format("{} slices", slices), setting);
+    }
+    setting = {};
+    for (const int size : run.brief() ? std::vector<int>{64} : std::vector<int>{32, 64, 128, 512}) {
+        setting.lightSize = size;
+        add(fmt::format("buffer {}", size), setting);
+    }
+    setting = {};
+    if (indirect)
+        for (const double cone :
+             run.brief() ? std::vector<double>{0.0, 1.2} : std::vector<double>{0.0, 0.3, 1.2, 2.0}) {
+            setting.coneAngle = cone;
+            add(fmt::format("cone {:g}", cone), setting);
+        }
+    return ways;
+}
+
+WayChart sweepChart(ReportRun& run, const MediumSubject& subject, const MediumLook& look,
+                    const Plane<PackedColor>& truth) {
+    WayChart chart;
+    chart.timeLabel = "ms a picture";
+    chart.timeUnit = "ms";
+    chart.errorLabel = "RMS error, 8-bit levels";
+    chart.errorUnit = "levels";
+    chart.setting = run.settingOf(subject.view.width, subject.view.height);
+    MediumSweep sweep(subject.medium);
+    for (const SweepWay& way : waysOf(run, look.model == MediumModel::Indirect)) {
+        std::vector<double> ms;
+        MediumPicture picture;
+        for (int n = 0; n < run.pick(2, 5); ++n) {
+            run.tell("volume light, " + subject.name);
+            const Stopwatch watch;
+            sweep.render(look, way.setting, {&subject.view, 1}, subject.view.head, 0, {&picture, 1});
+            ms.push_back(watch.elapsed_ms());
+        }
+        WayPoint point;
+        point.way = {way.name, spreadOf(ms), rmsOf(truth, shown(picture.light)), way.isDefault};
+        point.worstError = point.way.error;
+        point.detail = way.detail;
+        chart.points.push_back(std::move(point));
+    }
+    return chart;
+}
+
+// Of the mean of each pixel, in linear light.
+double truthNoise(const TrackedPicture& tracked) {
+    double sum = 0;
+    for (int y = 0; y < tracked.variance.height(); ++y)
+        for (int x = 0; x < tracked.variance.width(); ++x) {
+            const glm::vec3 v = tracked.variance.at(x, y);
+            sum += (v.x + v.y + v.z) / 3;
+        }
+    return std::sqrt(sum / std::max(1, tracked.variance.width() * tracked.variance.height()));
+}
+
+void againstPaths(ReportRun& run, ReportSection& section, const MediumSubject& subject, MediumModel model) {
+    MediumLook look = subject.look;
+    look.model = model;
+    TrackingSetting tracking;
+    tracking.samples = run.pick(64, 512);
+    tracking.mostScatters = model == MediumModel::Direct ? 1 : 64;
+    tracking.seed = static_cast<std::uint32_t>(run.options().seed);
+    run.tell("volume light, the truth of " + subject.name);
+    const TrackedPicture tracked = trackPicture(subject.medium, look, subject.view, tracking);
+    WayChart chart = sweepChart(run, subject, look, shown(tracked.light));
+    const std::string words = model == MediumModel::Direct ? "direct light" : "direct and indirect light";
+    chart.id = fmt::format("medium/{}/{}", subject.name, nameOf(model));
+    chart.title = fmt::format("Volume light, {}, {}", subject.name, words);
+    chart.text = fmt::format(
+        "The {} sweep of the program's own {}, on the CPU; against paths traced through it ({}), {} a pixel, "
+        "whose own standard "
+        "error is {} in linear light. The model is an approximation: more slices come nearer to the model, "
+        "not to the truth.",
+        words, subject.name, model == MediumModel::Direct ? "scattered once" : "all orders", tracking.samples,
+        numberText(truthNoise(tracked)));
+    if (model == MediumModel::Indirect)
+        chart.why =
+            "The cone is a matter of the medium and of the light's way: what is best here need not be best "
+            "elsewhere.";
+    addChart(run.report(), section, std::move(chart));
+}
+
+void againstManySlices(ReportRun& run, ReportSection& section, const MediumSubject& subject) {
+    SweepSetting finest;
+    finest.slices = run.pick(2048, 8192);
+    finest.shadingWidth = 0;
+    MediumPicture picture;
+    run.tell("volume light, many slices of " + subject.name);
+    MediumSweep sweep(subject.medium);
+    sweep.render(subject.look, finest, {&subject.view, 1}, subject.view.head, 0, {&picture, 1});
+    WayChart chart = sweepChart(run, subject, subject.look, shown(picture.light));
+    std::erase_if(chart.points, [](const WayPoint& p) {
+        return !p.way.isDefault && p.way.name.find("slices") == std::string::npos;
+    });
+    chart.id = fmt::format("medium/{}/slices", subject.name);
+    chart.title = fmt::format("Volume light, {}, slices", subject.name);
+    chart.text = fmt::format("Direct and indirect light against the same model in {} slices.", finest.slices);
+    addChart(run.report(), section, std::move(chart));
+}
+
+}  // namespace
+
+void reportMedium(ReportRun& run, double) {
+    ReportSection section{
+        "volume-light", "Volume light", "Light swept through translucent media, slice by slice.", {}};
+    const int size = run.pick(48, 128);
+    std::vector<MediumSubject> subjects;
+    subjects.push_back(
+        subjectOf("cloud", Medium(makeCloudField(), withoutSurface("cloud"), cloudPerturbation()), size));
+    if (!run.brief())
+        subjects.push_back(subjectOf("wax", Medium(makeWaxField(), withoutSurface("wax")), size));
+    for (const MediumSubject& subject : subjects) {
+        run.checkTime();
+        againstPaths(run, section, subject, MediumModel::Direct);
+        againstPaths(run, section, subject, MediumModel::Indirect);
+        againstManySlices(run, section, subject);
+    }
+    run.checkTime();
+    addChart(run.report(), section, shadingWidthChart(run));
+    reportPairs(run, section);
+    run.report().sections.push_back(std::move(section));
+}
+
+}  // namespace stereonav

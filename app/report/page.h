@@ -1,0 +1,16 @@
+// The page of a report: one self-contained HTML file, charts as inline SVG, pictures inline; for desktop,
+// phone and paper, light and dark.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "app/report/model.h"
+
+namespace stereonav {
+
+std::string pageOf(const Report& report);
+
+std::string base64(std::span<const unsigned char> bytes);
+
+}  // namespace stereonav

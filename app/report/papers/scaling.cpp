@@ -1,0 +1,176 @@
+// How the program's work grows faster with threads, from one to all that the machine runs, beside the
+// processors of the papers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "app/report/light.h"
+#include "app/report/papers/data.h"
+#include "app/report/papers/run.h"
+#include "app/report/papers/trial.h"
+#include "app/report/subjects.h"
+#include "engine/light/bake_rate.h"
+#include "engine/light/occlusion.h"
+#include "engine/medium/built_in_media.h"
+#include "engine/medium/medium_sweep.h"
+#include "engine/volume/surface_cells.h"
+
+namespace stereonav {
+namespace {
+
+struct Work {
+    std::string name, measured;
+    std::function<void()> run;
+    const char* paper;
+    std::string said;
+};
+
+// 1 to 16 one by one where there are so many, more by powers of two, and all.
+std::vector<int> allThreads(int all) {
+    std::vector<int> counts;
+    for (int n = 1; n <= all; n = n < 16 ? n + 1 : 2 * n) counts.push_back(n);
+    if (counts.back() != all) counts.push_back(all);
+    return counts;
+}
+
+EyeView wholeView(const Medium& medium, int size) {
+    const double whole = glm::length(medium.bounds().high - medium.bounds().low);
+    const Pose middle = poseFromAngles(medium.bounds().center(), 0.6, -0.3, 0);
+    Lens lens;
+    lens.width = lens.height = size;
+    lens.verticalFov = 0.5;
+    lens.nearDepth = 1e-3 * whole;
+    return makeEyeView(poseFromAngles(middle.position - 1.6 * whole * middle.forward(), 0.6, -0.3, 0), lens);
+}
+
+// The least time of each work on each number of threads.
+std::vector<std::vector<Spread>> measure(ReportRun& run, const std::vector<Work>& works,
+                                         const std::vector<int>& counts, double seconds) {
+    const ThreadsBack back;
+    std::vector<std::vector<std::vector<double>>> ms(works.size(),
+                                                     std::vector<std::vector<double>>(counts.size()));
+    const Stopwatch watch;
+    const int most = run.pick(3, 15);
+    for (int repeat = 0; repeat < most; ++repeat) {
+        if (repeat >= 2 && watch.elapsed_ms() > 1000 * seconds) break;
+        for (std::size_t w = 0; w < works.size(); ++w)
+            for (std::size_t c = 0; c < counts.size(); ++c) {
+                run.tell("scaling, " + works[w].name);
+                setThreadCount(counts[c]);
+                const Stopwatch one;
+                works[w].run();
+                ms[w][c].push_back(one.elapsed_ms());
+            }
+    }
+    std::vector<std::vector<Spread>> times(works.size());
+    for (std::size_t w = 0; w < works.size(); ++w)
+        for (const auto& list : ms[w]) times[w].push_back(spreadOf(list));
+    return times;
+}
+
+LineChart speedupChart(const std::vector<Work>& works, const std::vector<int>& counts,
+                       const std::vector<std::vector<Spread>>& times) {
+    LineChart chart;
+    chart.chart.title = "Speed-up over threads";
+    chart.chart.xLabel = "threads";
+    chart.chart.yLabel = "times as fast as one";
+    chart.chart.xKind = chart.chart.yKind = ChartScale::Kind::Linear;
+    chart.chart.front = false;
+    for (std::size_t w = 0; w < works.size(); ++w) {
+        ChartSeries series{works[w].name, {}, true};
+        for (std::size_t c = 0; c < counts.size(); ++c)
+            series.points.push_back(
+                {"", exactly(counts[c]), exactly(times[w].front().low / times[w][c].low), false});
+        chart.chart.series.push_back(std::move(series));
+    }
+    ChartSeries theirs{"Wan et al., left image", {}, true};
+    const std::pair<int, double> left[] = {{1, 3.21}, {4, 0.85}, {8, 0.44}, {12, 0.33}, {16, 0.23}};
+    for (const auto& [processors, s] : left)
+        theirs.points.push_back({"", exactly(processors), exactly(left[0].second / s), false});
+    chart.chart.series.push_back(std::move(theirs));
+    chart.text = "From the least times of the repeats.";
+    return chart;
+}
+
+}  // namespace
+
+void reportPapersScaling(ReportRun& run, double seconds) {
+    const std::vector<int> counts = allThreads(threadCount());
+    run.tell("scaling");
+    // A terrain and its right eye, a bake, a sweep, openness and the cells of a surface: each stage's own
+    // loop.
+    SceneOptions options;
+    options.threads = run.options().threads;
+    Progress quiet([&](double, const std::string&) { run.tell("scaling, the terrain"); });
+    const SizeOption size = run.quick() ? SizeOption{250, 200} : SizeOption{1280, 720};
+    const LoadedScene scene = loadScene(options, size, quiet);
+    const StereoViews views = scene.viewsAt(scene.startPose);
+    EyeImage left, right;
+    left.resize(views.left.width, views.left.height, scene.renderer->viewDependence());
+    renderEye(*scene.renderer, views.left, left);
+    RightEye eye;
+    const std::string picture = fmt::format("the generated terrain, {}x{}", size.width, size.height);
+
+    const GreyVolume block = blockWithHoles();
+    const TexelLighter lighter(block, block.frame, clearSkyLight(), {});
+    std::vector<TexelPiece> pieces = inSmallPieces(shuffledBricks(block.frame.size));
+    pieces.resize(std::min<std::size_t>(pieces.size(), run.quick() ? 64 : 1024));
+    const Medium cloud(makeCloudField(), findMediumTransfer("cloud"), cloudPerturbation());
+    MediumSweep sweep(cloud);
+    const EyeView cloudView = wholeView(cloud, run.quick() ? 64 : 256);
+    MediumPicture swept;
+    Progress none;
+
+    const std::string theirs = "near linear: 14 times on 16 processors";
+    const std::vector<Work> works{
+        {"left image of a terrain", picture, [&] { renderEye(*scene.renderer, views.left, left); },
+         "Wan et al. 2004", theirs},
+        {"right image, the default way", picture,
+         [&] { eye.render(*scene.renderer, views, left, {}, right); }, "Wan et al. 2004",
+         "near linear: 13 times on 16 processors"},
+        {"irradiance, 16 samples", "a made block with three holes",
+         [&] { irradianceRate(lighter, pieces, 16, 1e9); }, "Wyman et al. 2006",
+         "run on 30 and 60 processors"},
+        {"sweep, both lights", "the generated cloud",
+         [&] {
+             sweep.render({}, {}, {&cloudView, 1}, cloudView.head, 0, {&swept, 1});
+         },
+         "Kniss et al. 2003", "run on a graphics card"},
+        {"openness, radius 10", "a made block with three holes",
+         [&] { estimateOpenness(block, OcclusionMethod::Gaussian, glm::ivec3(10), none); },
+         "Ruiz et al. 2010", "run on a graphics card"},
+        {"cells of a surface", "a made block with three holes",
+         [&] {
+             findSurfaceCells(
+                 block, {float(kBlockSurface), float(kBlockSurface), float(kBlockSurface), nullptr}, none);
+         },
+         "Wan et al. 2004", "not told"}};
+    const auto times = measure(run, works, counts, seconds);
+    std::vector<PaperRow> rows;
+    for (std::size_t w = 0; w < works.size(); ++w)
+        for (std::size_t c = 0; c < counts.size(); ++c) {
+            PaperRow row;
+            row.paper = works[w].paper;
+            row.table = "Scaling";
+            row.row = works[w].name;
+            row.column = fmt::format("{} thread{}", counts[c], counts[c] == 1 ? "" : "s");
+            row.said = works[w].said;
+            row.ours = times[w][c];
+            row.unit = "ms";
+            row.measured = works[w].measured;
+            row.why = "Times by the clock; hyper-threads and what else runs on the machine cost some of it.";
+            row.how = fmt::format("{:.2f} times as fast as one", times[w].front().low / times[w][c].low);
+            row.kind = PaperRow::Kind::Time;
+            rows.push_back(std::move(row));
+        }
+    ReportSection section{"papers-scaling",
+                          "Scaling over threads",
+                          fmt::format("From one thread to all {} that this machine runs.", counts.back()),
+                          {}};
+    section.blocks.emplace_back(speedupChart(works, counts, times));
+    addPaperRows(run.report(), section, std::move(rows));
+    run.report().sections.push_back(std::move(section));
+}
+
+}  // namespace stereonav

@@ -1,0 +1,73 @@
+// Ways of making both eyes with their schedules, by threads: what the stereo paper's table of times and its
+// section on partitions are put beside.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/report/run.h"
+#include "engine/base/parallel.h"
+#include "engine/stereo/right_eye.h"
+
+namespace stereonav {
+
+// 1, the paper's 4, 8, 12 and 16 as far as this machine goes, and all of its threads.
+std::vector<int> paperThreads(int all);
+
+// Puts the thread count back, whatever happens.
+class ThreadsBack {
+public:
+    ~ThreadsBack();
+
+private:
+    int mBefore = threadCount();
+};
+
+struct StereoWay {
+    std::string name;
+    WarpSetting setting;
+    Schedule leftSchedule = Schedule::Dynamic;
+    bool coherent = true;  // else holes are cast as if nothing were known
+};
+
+// Milliseconds a frame, over repeats; the least is made of each frame's fastest.
+struct StereoTimes {
+    Spread left, warp, fill, right;
+};
+
+// Of all frames together.
+struct StereoCounts {
+    long long surfacePixels = 0, holePixels = 0;   // as surface_difference.h counts them
+    double rightEnd = 0, middle = 0, leftEnd = 0;  // holes there
+    double squares = 0, compared = 0;              // of the error, over channels and frames
+
+    double holesOfWarped_percent() const;
+    double psnr_db() const;
+};
+
+class StereoTrial {
+public:
+    // scene must outlive this. Eyes are 1/30 of the zero-parallax distance apart.
+    StereoTrial(const LoadedScene& scene, std::vector<StereoWay> ways, int frames);
+
+    // By threads, all ways and counts in turn in each repeat; at least `least` repeats.
+    void time(ReportRun& run, const std::string& what, const std::vector<int>& threads, int least, int most,
+              double seconds);
+    const StereoTimes& times(int threads, std::size_t way) const { return mTimes.at(threads)[way]; }
+
+    StereoCounts counts(std::size_t way);
+    int frames() const { return static_cast<int>(mViews.size()); }
+
+private:
+    void castLeft(const StereoViews& views, Schedule schedule);
+
+    const LoadedScene& mScene;
+    std::vector<StereoWay> mWays;
+    std::vector<StereoViews> mViews;
+    std::map<int, std::vector<StereoTimes>> mTimes;
+    RightEye mEye;
+    EyeImage mLeft, mRight, mFull;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,290 @@
+// The report's part on pictures under baked light: against paths traced from every pixel, by samples,
+// resolution and kind of bake, and by how texels are looked up (Wyman et al. 2006, fig. 6; Y5, Y11).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "app/report/light.h"
+#include "engine/base/parallel.h"
+#include "engine/light/bake_job.h"
+#include "engine/light/pixel_path.h"
+#include "engine/light/seen_bricks.h"
+#include "engine/volume/volume_renderer.h"
+
+namespace stereonav {
+namespace {
+
+using Lookup = IlluminationVolume::Lookup;
+using Light = std::shared_ptr<const IlluminationVolume>;
+
+// A look down at the middle hole: its wall, its rim and the plane around it fill the picture.
+EyeView closeView(const VolumeFrame& frame, int width, int height) {
+    constexpr double kHalfWidth = 0.22;  // at view depth 1
+    const glm::dvec3 middle = frame.worldFromVoxel(0.5 * glm::dvec3(frame.size - 1));
+    EyeView view;
+    view.eye = view.head = middle + glm::dvec3(0.018, -0.03, 0.08);
+    view.forward = glm::normalize(middle + glm::dvec3(0, 0, 0.018) - view.eye);
+    view.right = glm::normalize(glm::cross(view.forward, glm::dvec3(0, 1, 0)));
+    view.up = glm::cross(view.right, view.forward);
+    view.xMax = kHalfWidth;
+    view.yMax = kHalfWidth * height / width;
+    view.xMin = -view.xMax;
+    view.yMin = -view.yMax;
+    view.width = width;
+    view.height = height;
+    view.nearDepth = 1e-3;
+    return view;
+}
+
+class PixelSubject {
+public:
+    explicit PixelSubject(ReportRun& run) : mRun(run), mSetup(clearSkyLight()) {
+        mScene.field = blockWithHoles();
+        Progress quiet;
+        const auto surface = static_cast<float>(kBlockSurface);
+        mScene.cells = findSurfaceCells(mScene.field, {surface, surface, surface, nullptr}, quiet);
+        mScene.look.specular = 0;
+        mView = closeView(mScene.field.frame, run.pick(64, 96), run.pick(48, 72));
+        cast(mImage);
+        mTruthSamples = run.pick(512, 2048);
+        // Two halves with noise of their own: their difference is twice the error of their mean.
+        const std::vector<double> a = traced(kTruthStream, mTruthSamples, mTruthHalf_ms),
+                                  b = traced(kTruthStream + 1, mTruthSamples, mTruthHalf_ms);
+        for (std::size_t n = 0; n < a.size(); ++n) mTruth.push_back(0.5 * (a[n] + b[n]));
+        mTruthError = 0.5 * relativeRms(a, b);
+    }
+
+    struct Bake {
+        Light light;
+        double ms = 0;
+        std::vector<double> relight_ms;  // of transfer: of what is seen
+        std::size_t texels = 0;
+    };
+    // Of the texels that the picture looks up.
+    Bake irradiance(int samples, double perVoxel) const {
+        const Made made = make({BakeKind::Irradiance, 0, 1}, samples, perVoxel);
+        return {
+            std::make_shared<IlluminationVolume>(illuminationOf(made.sums)), made.ms, {}, made.sums.texels()};
+    }
+    Bake transfer(int samples) const {
+        const Made made = make({BakeKind::Transfer, kDefaultOrder, 1}, samples, 1);
+        const TransferVolume transfer = transferOf(made.sums);
+        const std::vector<glm::vec3> sky = mSetup.probe->project(kDefaultOrder);
+        auto light = std::make_shared<IlluminationVolume>(transfer.frame());
+        Bake bake{light, made.ms, {}, made.sums.texels()};
+        for (int n = 0; n < repeats(); ++n) {
+            const Stopwatch watch;
+            transfer.relight(sky, transfer.heldAmong(bricksSeen(mView, mImage, *light)), *light);
+            bake.relight_ms.push_back(watch.elapsed_ms());
+        }
+        return bake;
+    }
+
+    // A frame that looks the bake up.
+    WayPoint lookedUp(const Bake& bake, Lookup lookup) {
+        mRun.tell("light, pictures");
+        mScene.look.baked.light = bake.light;
+        mScene.look.baked.lookup = lookup;
+        std::vector<double> ms;
+        EyeImage image;
+        for (int n = 0; n < repeats(); ++n) ms.push_back(cast(image));
+        for (std::size_t n = 0; n < bake.relight_ms.size(); ++n) ms[n] += bake.relight_ms[n];
+        mScene.look.baked = {};
+        return pointOf(ms, lightLookedUp(*bake.light, lookup), bake.ms / 1000, bake.texels);
+    }
+    // A frame whose pixels are traced.
+    WayPoint tracedPoint(int samples) {
+        std::vector<double> ms, light;
+        for (int n = 0; n < mRun.pick(1, 3); ++n) {
+            double took = 0;
+            light = traced(kFirstStream + static_cast<std::uint32_t>(n), samples, took);
+            EyeImage image;
+            ms.push_back(took + cast(image));
+        }
+        return pointOf(ms, light, 0, 0);
+    }
+
+    std::string setting() const {
+        return fmt::format(
+            "{}x{} pixels, {} of them on the surface, {} threads, seed {}, truth of {} paths a pixel",
+            mView.width, mView.height, mTruth.size(), threadCount(), mRun.options().seed, 2 * mTruthSamples);
+    }
+    std::string text() const {
+        return fmt::format(
+            "A look into the middle hole of the made block under a clear sky, {} bounces. Truth: paths "
+            "traced "
+            "from every pixel, {} each, whose own error is {} %. Bakes are of the texels that this picture "
+            "looks up; seconds of them are in the table.",
+            kReportBounces, 2 * mTruthSamples, numberText(100 * mTruthError));
+    }
+
+private:
+    static constexpr std::uint32_t kTruthStream = 1000, kFirstStream = 1;
+    struct Made {
+        BakeSums sums;
+        double ms;
+    };
+
+    int repeats() const { return mRun.pick(15, 40); }
+
+    double cast(EyeImage& image) const {
+        const VolumeRenderer renderer(mScene);
+        image.resize(mView.width, mView.height, renderer.viewDependence());
+        const Stopwatch watch;
+        renderEye(renderer, mView, image);
+        return watch.elapsed_ms();
+    }
+
+    // Luminance at the pixels that show a surface, row by row.
+    template <typename LightAt>
+    std::vector<double> overPixels(const LightAt& lightAt) const {
+        std::vector<double> light;
+        for (int y = 0; y < mView.height; ++y)
+            for (int x = 0; x < mView.width; ++x)
+                if (mImage.viewDepth.at(x, y) < kMissDepth) light.push_back(luminanceOf(lightAt(x, y)));
+        return light;
+    }
+    std::vector<double> traced(std::uint32_t stream, int samples, double& ms) const {
+        TexelSampling sampling;
+        sampling.seed = 1000 * mRun.options().seed + kFirstSeed;
+        const PixelPaths paths(mScene, mSetup, sampling);
+        Plane<TexelSum> sums;
+        Progress telling([this](double, const std::string&) { mRun.tell("light, paths from every pixel"); });
+        const Stopwatch watch;
+        paths.add(mView, mImage.viewDepth, stream, samples, sums, telling);
+        ms = watch.elapsed_ms();
+        return overPixels([&](int x, int y) { return sums.at(x, y).mean; });
+    }
+    std::vector<double> lightLookedUp(const IlluminationVolume& light, Lookup lookup) const {
+        return overPixels([&](int x, int y) {
+            const glm::dvec3 world =
+                mView.pointAt(x + 0.5, y + 0.5, static_cast<double>(mImage.viewDepth.at(x, y)));
+            return lookup == Lookup::NearestIsovalue
+                       ? light.nearestIsovalue(world, mScene.field, mScene.cells.isovalue).value
+                       : light.at(world, lookup).value;
+        });
+    }
+
+    Made make(const BakeShape& shape, int samples, double perVoxel) const {
+        mRun.tell("light, bakes of a picture");
+        const VolumeFrame texels = texelFrame(mScene.field.frame, perVoxel);
+        const IlluminationVolume empty(texels);
+        const auto surface = static_cast<float>(kBlockSurface);
+        const TexelChooser chooser(mScene.field, texels, {surface, surface, nullptr, false});
+        std::vector<TexelBrick> bricks;
+        for (const std::uint32_t number : bricksSeen(mView, mImage, empty, 1))
+            bricks.push_back({number, chooser.brick(number)});
+        std::erase_if(bricks, [](const TexelBrick& brick) { return countTexels(brick.wanted) == 0; });
+        std::sort(bricks.begin(), bricks.end(),
+                  [](const TexelBrick& a, const TexelBrick& b) { return a.number < b.number; });
+        Made made{BakeSums(texels, std::move(bricks), shape), 0};
+        TexelSampling sampling;
+        sampling.seed = 1000 * mRun.options().seed + kFirstSeed + 1;
+        const TexelLighter lighter(mScene.field, texels, mSetup, sampling);
+        Progress quiet;
+        const Stopwatch watch;
+        runBake(made.sums, sourceOf(lighter), {samples, 0, 0}, quiet);
+        made.ms = watch.elapsed_ms();
+        return made;
+    }
+
+    WayPoint pointOf(const std::vector<double>& ms, const std::vector<double>& light, double bake_s,
+                     std::size_t texels) const {
+        WayPoint point;
+        point.way = {"", spreadOf(ms), 100 * relativeRms(light, mTruth), false};
+        point.worstError = 100 * relativeWorst(light, mTruth);
+        point.others = {{"bake, s", bake_s}, {"texels", static_cast<double>(texels)}};
+        return point;
+    }
+
+    ReportRun& mRun;
+    LightSetup mSetup;
+    VolumeScene mScene;
+    EyeView mView;
+    EyeImage mImage;  // depths
+    std::vector<double> mTruth;
+    int mTruthSamples = 0;
+    double mTruthError = 0, mTruthHalf_ms = 0;
+};
+
+WayChart pictureChart(const PixelSubject& subject, const char* id, const char* title) {
+    WayChart chart;
+    chart.id = id;
+    chart.title = title;
+    chart.text = subject.text();
+    chart.setting = subject.setting();
+    chart.timeLabel = "ms a frame";
+    chart.timeUnit = "ms";
+    chart.errorLabel = "RMS error, % of the light";
+    chart.errorUnit = "%";
+    return chart;
+}
+
+void add(WayChart& chart, WayPoint point, const std::string& name, const std::string& detail,
+         bool isDefault = false) {
+    point.way.name = name;
+    point.way.isDefault = isDefault;
+    point.detail = detail;
+    chart.points.push_back(std::move(point));
+}
+
+}  // namespace
+
+void addPixelCharts(ReportRun& run, ReportSection& section) {
+    run.tell("light, paths from every pixel");
+    PixelSubject subject(run);
+    WayChart paths = pictureChart(subject, "light/pixels", "Path tracing");
+    paths.text +=
+        " Traced: nothing is baked, every pixel has so many paths. Baked: light is looked up; transfer is "
+        "dotted "
+        "with the sky in every frame, for what is seen.";
+    paths.why = "More samples and texels cost nothing in a frame, but time and memory in the bake.";
+    for (const int samples : {1, 4, 16, 64, 256})
+        if (samples <= run.pick(64, 256))
+            add(paths, subject.tracedPoint(samples), fmt::format("traced {}", samples),
+                fmt::format("{} paths from every pixel", samples));
+    PixelSubject::Bake usual;
+    for (const int samples : {16, 64, kDefaultSamples}) {
+        const PixelSubject::Bake bake = subject.irradiance(samples, 1);
+        add(paths, subject.lookedUp(bake, Lookup::Trilinear), fmt::format("baked {}", samples),
+            fmt::format("irradiance, {} samples a texel, a texel a voxel", samples),
+            samples == kDefaultSamples);
+        usual = bake;
+    }
+    const PixelSubject::Bake coarse = subject.irradiance(kDefaultSamples, 0.5),
+                             fine = subject.irradiance(run.pick(64, kDefaultSamples), 2);
+    const std::string fineText =
+        fmt::format("irradiance, {} samples a texel, 8 texels a voxel", run.pick(64, kDefaultSamples));
+    add(paths, subject.lookedUp(coarse, Lookup::Trilinear), "baked 1/8",
+        fmt::format("irradiance, {} samples a texel, 1/8 texel a voxel", kDefaultSamples));
+    add(paths, subject.lookedUp(fine, Lookup::Trilinear), "baked 8", fineText);
+    add(paths, subject.lookedUp(subject.transfer(kDefaultSamples), Lookup::Trilinear),
+        fmt::format("transfer {}", kDefaultSamples),
+        fmt::format("order {}, {} samples a texel, a texel a voxel", kDefaultOrder, kDefaultSamples));
+    addChart(run.report(), section, std::move(paths));
+
+    WayChart lookups = pictureChart(subject, "light/lookup", "Lookup of baked light");
+    lookups.text += fmt::format(
+        " Irradiance with {} samples a texel. The trilinear lookup is vector code in the casters, the others "
+        "are there to be compared, in plain code: their times say little.",
+        kDefaultSamples);
+    lookups.why = "Whatever is nearer to the truth here costs more texels, or a lookup of 64 of them.";
+    const std::pair<const char*, Lookup> ways[] = {{"nearest", Lookup::Nearest},
+                                                   {"nearest isovalue", Lookup::NearestIsovalue},
+                                                   {"trilinear", Lookup::Trilinear},
+                                                   {"tricubic", Lookup::Tricubic}};
+    for (const auto& [name, lookup] : ways)
+        add(lookups, subject.lookedUp(usual, lookup), name, "a texel a voxel", lookup == Lookup::Trilinear);
+    for (const auto& [name, lookup] : ways) {
+        if (lookup != Lookup::Trilinear && run.brief()) continue;
+        add(lookups, subject.lookedUp(coarse, lookup), fmt::format("{}, 1/8", name), "1/8 texel a voxel");
+        add(lookups, subject.lookedUp(fine, lookup), fmt::format("{}, 8", name),
+            "8 texels a voxel, " + fineText);
+    }
+    addChart(run.report(), section, std::move(lookups));
+}
+
+}  // namespace stereonav

@@ -1,0 +1,193 @@
+// The report's part on the quality dial: what it picks for a wish among the ways of warping, whether the wish
+// is met on frames that were not measured, and what a smaller picture saves.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/report/trial.h"
+#include "engine/image/enlarge.h"
+#include "engine/metrics/image_difference.h"
+#include "engine/stereo/quality_plan.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kShare = 1.0 / 30;  // of the zero-parallax distance: the eyes' separation
+
+StereoSetting stereoOf(const LoadedScene& scene) {
+    StereoSetting stereo = scene.stereo;
+    stereo.separation = stereo.zeroParallax * kShare;
+    return stereo;
+}
+
+std::vector<Pose> posesOf(const LoadedScene& scene, int frames) {
+    return scene.path.samples().empty() ? std::vector<Pose>{scene.startPose} : scene.path.frames(frames);
+}
+
+MeasuredWarps measured(ReportRun& run, const ReportScene& scene, const std::vector<NamedWarp>& warps) {
+    const LoadedScene& loaded = scene.loaded;
+    std::vector<StereoViews> views;
+    for (const Pose& pose : posesOf(loaded, run.pick(5, 15)))
+        views.push_back(makeStereoViews(pose, loaded.lens, stereoOf(loaded)));
+    run.tell("quality, measuring " + scene.title);
+    return measureWarps(*loaded.renderer, views, warps, 1);
+}
+
+struct Wish {
+    std::string name;
+    QualityWish wish;
+};
+
+std::vector<Wish> wishesOf(ReportRun& run) {
+    std::vector<Wish> wishes;
+    for (const double quality :
+         run.brief() ? std::vector<double>{0.6} : std::vector<double>{0.3, 0.6, 0.9, 0.97})
+        wishes.push_back({fmt::format("quality {:g}", quality), {quality}});
+    for (const double target : run.brief() ? std::vector<double>{50} : std::vector<double>{40, 50, 60})
+        wishes.push_back({fmt::format("{:g} dB", target), {std::nullopt, target}});
+    return wishes;
+}
+
+std::vector<Variant> variantsOf(ReportRun& run, const std::vector<NamedWarp>& warps,
+                                const MeasuredWarps& known) {
+    std::vector<Variant> variants;
+    for (const NamedWarp& warp : warps)
+        variants.push_back({warp.name, "as it is", warp.setting, &warp == &warps.front()});
+    for (const Wish& w : wishesOf(run)) {
+        const QualityPlan plan = planQuality(known, w.wish);
+        variants.push_back({w.name, fmt::format("by {}, {:.1f} % cast", plan.name, 100 * plan.castShare),
+                            plan.setting, false});
+    }
+    return variants;
+}
+
+// Frames between those that were measured.
+WayChart dialChart(ReportRun& run, const ReportScene& scene, double seconds) {
+    const std::vector<NamedWarp> warps = warpsWorthTrying(*scene.loaded.renderer);
+    const MeasuredWarps known = measured(run, scene, warps);
+    RightEyeTrial trial(scene, stereoOf(scene.loaded), variantsOf(run, warps, known), false);
+    trial.run(run, "quality, " + scene.title, run.pick(2, 10), seconds);
+    WayChart chart;
+    chart.id = "quality/" + scene.id;
+    chart.title = "The quality dial, " + scene.title;
+    chart.setting = fmt::format(
+        "{}, {} frames", run.settingOf(scene.loaded.lens.width, scene.loaded.lens.height), trial.frames());
+    chart.text = fmt::format(
+        "Ways of warping as they are, and what is picked and refined for --quality and --target-psnr by "
+        "frames of the same flight measured before; {} repeats, error against the full right cast. The bound "
+        "is what 95 of 100 frames are promised to be better than.",
+        trial.repeats());
+    chart.why = "The default casts the holes alone; whoever wants more turns the dial.";
+    chart.timeLabel = "right eye, ms a frame";
+    chart.timeUnit = "ms";
+    chart.errorLabel = "RMS error, 8-bit levels";
+    chart.errorUnit = "levels";
+    chart.points = trial.points();
+    return chart;
+}
+
+// Both eyes made in a share of the sides and enlarged.
+struct SizeWay {
+    double scale = 1;
+    std::vector<double> ms = {};  // by repeat, mean frame
+    double squares = 0, worst = 0;
+};
+
+double makeEyes(const LoadedScene& scene, const Pose& pose, double scale, RightEye& eye,
+                EyeImage (&eyes)[2]) {
+    Lens lens = scene.lens;
+    lens.width = std::max(1, static_cast<int>(std::lround(scale * lens.width)));
+    lens.height = std::max(1, static_cast<int>(std::lround(scale * lens.height)));
+    const StereoViews views = makeStereoViews(pose, lens, stereoOf(scene));
+    WarpSetting setting;
+    setting.method = scene.defaultMethod();
+    const Stopwatch watch;
+    eyes[0].resize(lens.width, lens.height, scene.renderer->viewDependence());
+    renderEye(*scene.renderer, views.left, eyes[0]);
+    eye.render(*scene.renderer, views, eyes[0], setting, eyes[1]);
+    if (scale < 1)
+        for (EyeImage& image : eyes) image = enlarged(image, scene.lens.width, scene.lens.height);
+    return watch.elapsed_ms();
+}
+
+void addErrors(const EyeImage (&truth)[2], const EyeImage (&eyes)[2], double count, SizeWay& way) {
+    for (int e = 0; e < 2; ++e) {
+        const double rms = rmsOfPsnr(psnrOf(truth[e].color, eyes[e].color));
+        way.squares += rms * rms / (2 * count);
+        way.worst = std::max(way.worst, rms);
+    }
+}
+
+void castInFull(const LoadedScene& scene, const Pose& pose, RightEye& eye, EyeImage (&eyes)[2]) {
+    const StereoViews views = makeStereoViews(pose, scene.lens, stereoOf(scene));
+    eyes[0].resize(views.left.width, views.left.height, scene.renderer->viewDependence());
+    renderEye(*scene.renderer, views.left, eyes[0]);
+    WarpSetting full;
+    full.method = RightEyeMethod::Full;
+    eye.render(*scene.renderer, views, eyes[0], full, eyes[1]);
+}
+
+WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
+    const int repeats = run.pick(2, 4);
+    const std::vector<Pose> poses = posesOf(scene.loaded, run.pick(1, 4));
+    const auto count = static_cast<double>(poses.size());
+    std::vector<SizeWay> ways;
+    for (const double scale : run.brief()
+                                  ? std::vector<double>{1, 0.5}
+                                  : std::vector<double>{1, std::sqrt(0.5), 0.5, std::sqrt(0.125), 0.25})
+        ways.push_back({scale, std::vector<double>(static_cast<std::size_t>(repeats), 0.0)});
+    RightEye eye;
+    EyeImage truth[2], eyes[2];
+    for (const Pose& pose : poses) {
+        run.tell("resolution, " + scene.title);
+        castInFull(scene.loaded, pose, eye, truth);
+        for (std::size_t r = 0; r < static_cast<std::size_t>(repeats); ++r)
+            for (SizeWay& way : ways) {
+                way.ms[r] += makeEyes(scene.loaded, pose, way.scale, eye, eyes) / count;
+                if (r == 0) addErrors(truth, eyes, count, way);
+            }
+    }
+    WayChart chart;
+    chart.id = "resolution/" + scene.id;
+    chart.title = "Smaller pictures, " + scene.title;
+    chart.setting = fmt::format(
+        "{}, {} frames", run.settingOf(scene.loaded.lens.width, scene.loaded.lens.height), poses.size());
+    chart.text = fmt::format(
+        "Both eyes by the default way in a share of the picture's sides, enlarged bilinearly, as --target-ms "
+        "makes them where nothing else is fast enough; {} repeats, against both eyes cast in full.",
+        repeats);
+    chart.timeLabel = "both eyes, ms a frame";
+    chart.timeUnit = "ms";
+    chart.errorLabel = "RMS error, 8-bit levels";
+    chart.errorUnit = "levels";
+    for (const SizeWay& way : ways) {
+        WayPoint point;
+        point.way = {fmt::format("{:.2g}", way.scale), spreadOf(way.ms), std::sqrt(way.squares),
+                     way.scale == 1};
+        point.worstError = way.worst;
+        point.detail = fmt::format("{:.0f} % of the pixels", 100 * way.scale * way.scale);
+        chart.points.push_back(std::move(point));
+    }
+    return chart;
+}
+
+}  // namespace
+
+void reportQuality(ReportRun& run, double seconds) {
+    ReportSection section{"quality",
+                          "Quality by wish",
+                          "What the quality dial makes of a wish, and what a smaller picture saves.",
+                          {}};
+    const Stopwatch watch;
+    for (const ReportScene& scene : run.scenes()) {
+        run.checkTime();
+        const auto left = static_cast<double>(run.scenes().data() + run.scenes().size() - &scene);
+        const double each = std::max(0.0, seconds - watch.elapsed_ms() / 1000) / left;
+        addChart(run.report(), section, dialChart(run, scene, 0.6 * each));
+        addChart(run.report(), section, sizeChart(run, scene));
+    }
+    run.report().sections.push_back(std::move(section));
+}
+
+}  // namespace stereonav

@@ -1,0 +1,161 @@
+// `stereonav report`: one page that says what the program's shortcuts cost and save.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <thread>
+
+#include "app/output/output_place.h"
+#include "app/output/progress_bar.h"
+#include "app/report/json.h"
+#include "app/report/machine.h"
+#include "app/report/page.h"
+#include "app/report/papers/data.h"
+#include "app/report/papers/run.h"
+#include "app/report/run.h"
+#include "app/report/stability.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/parallel.h"
+
+namespace stereonav {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Part {
+    const char* id;  // of its section
+    void (*measure)(ReportRun& run, double seconds);
+    double weight;         // of the time
+    bool surfaces = true;  // measured on scenes whose rays are cast
+    bool media = false;    // ... and on those that are swept
+    bool papers = false;   // of --papers, which load what they need themselves
+};
+constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0},
+                           {"quality", reportQuality, 1.5},
+                           {"casting", reportCasting, 1.0},
+                           {"light", reportLight, 1.0, false},
+                           {"occlusion", reportOcclusion, 0.3, false},
+                           {"volume-light", reportMedium, 2.0, false, true},
+                           {"plan", reportPlan, 2.0},
+                           {"time", reportStages, 2.0},
+                           {"left-out", reportScenes, 0.3},
+                           {"stability", reportStability, 0.0, false},
+                           {"papers-stereo", reportPapersStereo, 3.0, false, false, true},
+                           {"papers-light", reportPapersLight, 5.0, false, false, true},
+                           {"papers-media", reportPapersMedia, 2.0, false, false, true},
+                           {"papers-occlusion", reportPapersOcclusion, 1.0, false, false, true},
+                           {"papers-scaling", reportPapersScaling, 1.0, false, false, true}};
+
+std::vector<Part> partsOf(const ReportOptions& options) {
+    std::string names;
+    for (const Part& part : kParts)
+        if (part.papers == options.papers) names += (names.empty() ? "" : ", ") + std::string(part.id);
+    for (const std::string& id : options.parts)
+        if (std::none_of(std::begin(kParts), std::end(kParts),
+                         [&](const Part& p) { return id == p.id && p.papers == options.papers; }))
+            throw Error("--parts", "", "there is no part \"" + id + "\"",
+                        std::string("the parts ") + (options.papers ? "of --papers " : "") + "are " + names);
+    std::vector<Part> parts;
+    const auto wanted = [&](const Part& part) {
+        return options.parts.empty() ||
+               std::find(options.parts.begin(), options.parts.end(), part.id) != options.parts.end();
+    };
+    for (const Part& part : kParts)
+        if (part.papers == options.papers && wanted(part)) parts.push_back(part);
+    return parts;
+}
+
+void measureAll(ReportRun& run, const std::vector<Part>& parts) {
+    double all = 1e-9;
+    for (const Part& part : parts) all += part.weight;
+    double left = all;
+    ReportTable times{"Where this run's own time went",
+                      "Processor: of all threads together.",
+                      {"part", "planned s", "taken s", "processor s"},
+                      {{"loading", "", fmt::format("{:.1f}", run.elapsed_s()), ""}}};
+    for (const Part& part : parts) {
+        run.feelMood();
+        const double seconds = run.share_s(part.weight, std::max(left, 1e-9)), before = run.elapsed_s();
+        const std::clock_t processor = std::clock();
+        run.begin(part.id, seconds, run.whole_s() * part.weight / all);
+        part.measure(run, seconds);
+        left -= part.weight;
+        times.rows.push_back(
+            {part.id, fmt::format("{:.1f}", seconds), fmt::format("{:.1f}", run.elapsed_s() - before),
+             fmt::format("{:.1f}", static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC)});
+    }
+    run.feelMood();
+    addFigure(run.report(), {kMoodFigure, "ms", "", ReportFigure::Kind::Time, spreadOf(run.mood_ms())});
+    run.report().sections.push_back({"run", "This run", "", {std::move(times)}});
+}
+
+void describeRun(ReportRun& run) {
+    Report& report = run.report();
+    report.machine = machineFacts();
+    report.machine.emplace_back("kind of run", run.quick() ? "quick: fewer frames and repeats" : "full");
+    report.machine.emplace_back("seed", std::to_string(run.options().seed));
+    const std::string noise =
+        noiseWarning(loadAverage(), static_cast<int>(std::thread::hardware_concurrency()));
+    if (!noise.empty()) report.warnings.push_back(noise);
+}
+
+// All at the end, each in one go: a report that is stopped leaves nothing.
+void writeReport(const Report& report, const fs::path& folder) {
+    makeOutputFolder(folder);
+    writeTextFile(folder / "report.csv", figuresCsv(report));
+    if (!report.papers.empty()) writeTextFile(folder / "papers.csv", papersCsv(report.papers));
+    writeTextFile(folder / "report.json", figuresJson(report));
+    writeTextFile(folder / "index.html", pageOf(report));
+}
+
+}  // namespace
+
+int runReport(const ReportOptions& options) {
+    checkOutputFolder("--out", options.out);
+    std::optional<EarlierReport> earlier;
+    if (!options.compare.empty()) earlier = readEarlierReport(options.compare);
+    const long studies = std::ranges::count_if(options.scenes, isStudy);
+    if (options.up && studies == 0)
+        throw Error("--up", "", "expected with a CT study among the scenes", "name one with --scene");
+    // what can not be read is told before minutes are spent
+    if (!options.stability.empty()) stabilitySection(readTextFile(options.stability), options.stability);
+    const std::vector<Part> parts = partsOf(options);
+    if (options.papers && !options.scenes.empty())
+        throw Error("--scene", "", "expected without --papers, which has scenes of its own", "name --data");
+    if (!options.papers && !options.data.empty())
+        throw Error("--data", "", "expected with --papers", "add it, or name scenes with --scene");
+    const PaperData checked(options.data);
+    for (const char* name : {"report.csv", "papers.csv", "report.json", "index.html"})
+        checkNotRead({{"--out", (fs::path(options.out) / name).string()}});
+    ProgressBar bar;
+    ReportRun run(options, bar.progress());
+    if (options.threads > 0) setThreadCount(options.threads);
+    describeRun(run);
+    const auto any = [&](bool Part::*what) {
+        return std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.*what; });
+    };
+    if (!options.papers) loadReportScenes(run, any(&Part::surfaces), any(&Part::media));
+    measureAll(run, parts);
+    Report& report = run.report();
+    if (!run.hurriedParts().empty())
+        report.warnings.push_back(
+            fmt::format("There was less time than planned for: {} measured as in a quick run.",
+                        fmt::join(run.hurriedParts(), ", ")));
+    bool worse = false;
+    if (earlier) {
+        const ReportComparison comparison = compareReports(*earlier, report);
+        worse = comparison.worse();
+        report.sections.insert(report.sections.begin(),
+                               comparisonSection(comparison, *earlier, options.compare));
+    }
+    run.tell("writing");
+    writeReport(report, options.out);
+    bar.clear();
+    std::printf("%s\n", (fs::path(options.out) / "index.html").c_str());
+    if (earlier) std::printf("%s\n", report.sections.front().text.c_str());
+    return worse ? 1 : 0;
+}
+
+}  // namespace stereonav

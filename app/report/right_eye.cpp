@@ -1,0 +1,152 @@
+// The report's first part: every way of making the right eye, error against time, on every scene.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "app/report/trial.h"
+#include "engine/base/parallel.h"
+#include "engine/image/image_file.h"
+#include "engine/metrics/difference_picture.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kSeparationShare = 1.0 / 30;  // of the zero-parallax distance: the eyes' separation
+
+std::vector<Variant> variantsOf(const LoadedScene& scene) {
+    std::vector<Variant> variants;
+    for (const RightEyeMethod method : methodsFor(*scene.renderer)) {
+        variants.push_back(methodVariant(method));
+        variants.back().isDefault = method == scene.defaultMethod();
+    }
+    const bool glass = scene.renderer->translucent();
+    if (glass)
+        for (const float spread : {0.2f, 0.4f, 1.0f, 1.5f, 3.0f})
+            variants.push_back(tuned(RightEyeMethod::Selective, &WarpSetting::mostSpread,
+                                     "largest shift of depths", spread));
+    else
+        for (const float stretch : {1.05f, 1.1f, 1.2f, 1.8f, 2.5f})
+            variants.push_back(
+                tuned(RightEyeMethod::Linear, &WarpSetting::maxStretch, "largest stretch", stretch));
+    if (!glass)
+        for (const float weight : {0.25f, 0.75f})
+            variants.push_back(
+                tuned(RightEyeMethod::Paper, &WarpSetting::weightThreshold, "least weight", weight));
+    return variants;
+}
+
+WayChart chartOf(ReportRun& run, const ReportScene& scene, const RightEyeTrial& trial) {
+    WayChart chart;
+    chart.id = "right_eye/" + scene.id;
+    chart.title = "Right eye, " + scene.title;
+    chart.setting = fmt::format(
+        "{}, {} frames", run.settingOf(scene.loaded.lens.width, scene.loaded.lens.height), trial.frames());
+    chart.text = fmt::format(
+        "Eyes 1/30 of the zero-parallax distance apart; the mean frame of the scene's flight, {} repeats. "
+        "Error "
+        "against the full right cast of one ray a pixel, which is exact by definition; the table has the "
+        "error "
+        "against 16 rays too. A number after a way's name is a setting other than its own.",
+        trial.repeats());
+    chart.why =
+        "The default's thresholds are one choice for all scenes. A lower one casts more pixels again (holes "
+        "in the "
+        "table): where its time is not longer, repeats spread by more than those rays take.";
+    chart.timeLabel = "right eye, ms a frame";
+    chart.timeUnit = "ms";
+    chart.errorLabel = "RMS error, 8-bit levels";
+    chart.errorUnit = "levels";
+    chart.points = trial.points();
+    return chart;
+}
+
+// Pictures of the middle frame by the default way.
+ReportPictures picturesOf(const ReportScene& scene, const StereoSetting& stereo) {
+    const LoadedScene& s = scene.loaded;
+    const std::vector<Pose> poses =
+        s.path.samples().empty() ? std::vector<Pose>{s.startPose} : s.path.frames(3);
+    const StereoViews views = makeStereoViews(poses[poses.size() / 2], s.lens, stereo);
+    EyeImage left, right, full;
+    left.resize(views.left.width, views.left.height, s.renderer->viewDependence());
+    renderEye(*s.renderer, views.left, left);
+    RightEye eye;
+    WarpSetting setting;
+    setting.method = RightEyeMethod::Full;
+    eye.render(*s.renderer, views, left, setting, full);
+    setting.method = s.defaultMethod();
+    eye.render(*s.renderer, views, left, setting, right);
+    ReportPictures pictures{"Pictures, " + scene.title, "From the middle of the flight.", {}};
+    const auto add = [&](const char* title, const Plane<PackedColor>& picture) {
+        pictures.pictures.push_back({title, encodeColorImage(picture, ".png")});
+    };
+    add("left eye", left.color);
+    add("right eye, the default way", right.color);
+    add("cast again, in red", holesInRed(right.color, eye.holeMask()));
+    add("difference from the full cast, times five", differenceTimes(full.color, right.color, 5));
+    return pictures;
+}
+
+// The default way with the eyes ever further apart.
+WayChart separationsOf(ReportRun& run, const ReportScene& scene, double seconds) {
+    const std::vector<int> parts =
+        run.brief() ? std::vector<int>{240, 30, 8} : std::vector<int>{1000, 240, 120, 60, 30, 15, 8, 4};
+    WayChart chart;
+    const Lens& lens = scene.loaded.lens;
+    int least = 1 << 30, most = 0;  // frames
+    for (const int part : parts) {
+        StereoSetting stereo = scene.loaded.stereo;
+        stereo.separation = stereo.zeroParallax / part;
+        Variant v = methodVariant(scene.loaded.defaultMethod());
+        v.name = fmt::format("1/{}", part);
+        v.detail = fmt::format("eyes 1/{} of the zero-parallax distance apart", part);
+        v.isDefault = part == 30;
+        RightEyeTrial trial(scene, stereo, {v}, false);
+        trial.run(run, "separations, " + scene.title, run.pick(2, 6),
+                  seconds / static_cast<double>(parts.size()));
+        chart.points.push_back(trial.points().front());
+        least = std::min(least, trial.frames());
+        most = std::max(most, trial.frames());
+    }
+    chart.id = "separation/" + scene.id;
+    chart.title = "Separations, " + scene.title;
+    chart.setting = fmt::format("{}, {} to {} frames", run.settingOf(lens.width, lens.height), least, most);
+    chart.text =
+        "The default way with the eyes from 1/1000 to 1/4 of the zero-parallax distance apart; the ring "
+        "marks 1/30, "
+        "which the other charts use. Bars upwards reach to the worst frame.";
+    chart.timeLabel = "right eye, ms a frame";
+    chart.timeUnit = "ms";
+    chart.errorLabel = "RMS error, 8-bit levels";
+    chart.errorUnit = "levels";
+    chart.front = false;
+    return chart;
+}
+
+}  // namespace
+
+void reportRightEye(ReportRun& run, double seconds) {
+    ReportSection section{"right-eye",
+                          "The right eye",
+                          "Warping the left eye and casting the holes, against casting every pixel.",
+                          {}};
+    const Stopwatch watch;
+    for (const ReportScene& scene : run.scenes()) {
+        run.checkTime();
+        StereoSetting stereo = scene.loaded.stereo;
+        stereo.separation = stereo.zeroParallax * kSeparationShare;
+        const std::string what = "right eye, " + scene.title;
+        const auto scenesLeft = static_cast<double>(run.scenes().data() + run.scenes().size() - &scene);
+        const double each = std::max(0.0, seconds - watch.elapsed_ms() / 1000) / scenesLeft;
+        RightEyeTrial trial(scene, stereo, variantsOf(scene.loaded), !run.brief());
+        trial.run(run, what, run.pick(3, 12), 0.65 * each);
+        addChart(run.report(), section, chartOf(run, scene, trial));
+        addChart(run.report(), section, separationsOf(run, scene, 0.3 * each));
+        run.tell(what);
+        section.blocks.emplace_back(picturesOf(scene, stereo));
+    }
+    run.report().sections.push_back(std::move(section));
+}
+
+}  // namespace stereonav

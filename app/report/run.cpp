@@ -1,0 +1,103 @@
+#include "app/report/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/report/faults.h"
+#include "engine/base/parallel.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kReportWidth = 500, kReportHeight = 400;  // as Wan et al. 2004
+constexpr double kWallOpacity = 0.95;                   // a millimetre, as theirs
+
+void loadOne(ReportRun& run, const std::string& id, const std::string& title, const SceneOptions& options) {
+    run.tell("loading " + title);
+    Progress quiet([&](double, const std::string&) { run.tell("loading " + title); });
+    const Stopwatch watch;
+    ReportScene scene{id, title, options, loadScene(options, {kReportWidth, kReportHeight}, quiet), 0};
+    scene.load_ms = watch.elapsed_ms();
+    std::vector<ReportScene>& list = scene.loaded.renderer ? run.scenes() : run.media();
+    if (scene.loaded.renderer) scene.loaded.renderer = withFaults(std::move(scene.loaded.renderer));
+    list.push_back(std::move(scene));
+}
+
+void loadWithGlass(ReportRun& run, const std::string& id, SceneOptions options) {
+    loadOne(run, id, id, options);
+    const LoadedScene& scene = run.scenes().back().loaded;
+    if (!scene.colon || !scene.colon->isColon() || scene.renderer->translucent()) return;
+    options.volume.opacity = kWallOpacity;
+    loadOne(run, id + " translucent", id + ", translucent", options);
+}
+
+// A name's last part, and a number where it was taken.
+std::string idOf(const std::string& name, const std::vector<ReportScene>& scenes) {
+    const std::filesystem::path path(name);
+    const std::string stem =
+        path.has_filename() ? path.filename().string() : path.parent_path().filename().string();
+    std::string id = stem;
+    const auto taken = [&] {
+        return std::any_of(scenes.begin(), scenes.end(), [&](const ReportScene& s) { return s.id == id; });
+    };
+    for (int n = 2; taken(); ++n) id = fmt::format("{} {}", stem, n);
+    return id;
+}
+
+}  // namespace
+
+ReportRun::ReportRun(const ReportOptions& options, Progress& progress)
+    : mOptions(options), mProgress(progress) {
+    mReport.quick = options.quick;
+}
+
+double ReportRun::whole_s() const {
+    return mOptions.minutes ? 60 * *mOptions.minutes : quick() ? kQuickReport_s : kFullReport_s;
+}
+
+double ReportRun::share_s(double weight, double weights) const {
+    return std::max(0.0, whole_s() - mWatch.elapsed_ms() / 1000) * weight / weights;
+}
+
+void ReportRun::begin(const std::string& part, double seconds, double planned) {
+    constexpr double kBehind = 0.5;
+    mPart = part;
+    mPartEnd_s = elapsed_s() + seconds;
+    mBehind = !quick() && seconds < kBehind * planned;
+    if (mBehind) mHurried.push_back(part);
+}
+
+void ReportRun::checkTime() {
+    if (brief() || elapsed_s() <= mPartEnd_s) return;
+    mBehind = true;
+    mHurried.push_back("the rest of " + mPart);
+}
+
+void ReportRun::tell(const std::string& what) {
+    mProgress.report(std::min(0.99, mWatch.elapsed_ms() / 1000 / std::max(whole_s(), 1.0)), what);
+}
+
+std::string ReportRun::settingOf(int width, int height) const {
+    const int threads = threadCount();
+    return fmt::format("{}x{}, {} thread{}", width, height, threads, threads == 1 ? "" : "s");
+}
+
+void loadReportScenes(ReportRun& run, bool surfaces, bool media) {
+    std::vector<std::string> names{"terrain", "colon"};
+    if (!run.quick()) names.emplace_back("cloud");
+    for (const std::string& name : run.options().scenes)
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    SceneOptions options;
+    options.threads = run.options().threads;
+    for (const std::string& name : names) {
+        options.scene = name;
+        options.volume.up = isStudy(name) ? run.options().up : std::nullopt;
+        const bool medium = kindOf(name) == SceneKind::Medium;
+        if (medium && media) loadOne(run, name, name, options);
+        if (!medium && surfaces) loadWithGlass(run, idOf(name, run.scenes()), options);
+    }
+}
+
+}  // namespace stereonav

@@ -1,0 +1,94 @@
+// One run of `report`: its scenes, its time, and what it has found so far. Each part of the report is a
+// function that measures within its share of the time and adds a section.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/report/model.h"
+#include "app/report/mood.h"
+#include "app/scene/scene_loading.h"
+#include "engine/base/progress.h"
+#include "engine/base/stopwatch.h"
+
+namespace stereonav {
+
+struct ReportScene {
+    std::string id, title;  // the id is part of figures' ids
+    SceneOptions options;
+    LoadedScene loaded;
+    double load_ms = 0;
+};
+
+// The whole time of a run: full 10 minutes, quick 60 s, less what writing and a slow end may take.
+constexpr double kFullReport_s = 540, kQuickReport_s = 50;
+
+class ReportRun {
+public:
+    ReportRun(const ReportOptions& options, Progress& progress);
+
+    const ReportOptions& options() const { return mOptions; }
+    bool quick() const { return mOptions.quick; }
+    Report& report() { return mReport; }
+    std::vector<ReportScene>& scenes() { return mScenes; }  // whose rays are cast
+    std::vector<ReportScene>& media() { return mMedia; }    // that are swept
+
+    // Less is measured in a quick run, and in parts of a full one that begin behind their time.
+    bool brief() const { return quick() || mBehind; }
+    int pick(int whenBrief, int whenFull) const { return brief() ? whenBrief : whenFull; }
+    // Begins a part that `seconds` are left for, of `planned`.
+    void begin(const std::string& part, double seconds, double planned);
+    // Between charts: from here on the part is brief where its time is up.
+    void checkTime();
+    double elapsed_s() const { return mWatch.elapsed_ms() / 1000; }
+
+    // Seconds that the next part may take: `weight` of what is left, `weights` being that of this part and
+    // all after it.
+    double share_s(double weight, double weights) const;
+    double whole_s() const;
+    const std::vector<std::string>& hurriedParts() const { return mHurried; }
+    // Tells what is done now. Throws Cancelled.
+    void tell(const std::string& what);
+
+    // Does the fixed work that the machine's mood is told by.
+    void feelMood() { mMood_ms.push_back(fixedWork_ms()); }
+    const std::vector<double>& mood_ms() const { return mMood_ms; }
+
+    // "500x400, 2 threads": what all figures of that size share.
+    std::string settingOf(int width, int height) const;
+
+private:
+    const ReportOptions& mOptions;
+    Progress& mProgress;
+    Stopwatch mWatch;
+    Report mReport;
+    std::vector<double> mMood_ms;
+    bool mBehind = false;
+    double mPartEnd_s = 0;  // of the part at hand
+    std::string mPart;
+    std::vector<std::string> mHurried;  // parts that were behind
+    std::vector<ReportScene> mScenes, mMedia;
+};
+
+// The built-in scenes and those that were named, each with its colon's wall opaque and translucent; of media
+// the cloud, in a full run, and those that were named. A scene that is named twice, or built in, comes once.
+void loadReportScenes(ReportRun& run, bool surfaces, bool media);
+
+// The parts, in the order of the page.
+void reportRightEye(ReportRun& run, double seconds);
+void reportCasting(ReportRun& run, double seconds);
+void reportLight(ReportRun& run, double seconds);
+void reportOcclusion(ReportRun& run, double seconds);
+void reportMedium(ReportRun& run, double seconds);
+void reportQuality(ReportRun& run, double seconds);
+void reportPlan(ReportRun& run, double seconds);
+void reportStages(ReportRun& run, double seconds);
+void reportScenes(ReportRun& run, double seconds);
+void reportStability(ReportRun& run, double seconds);
+// Charts that stand in sections of others: of casting, and of volume light.
+WayChart filteringChart(ReportRun& run, const ReportScene& terrain);
+WayChart normalsChart(ReportRun& run);
+WayChart shadingWidthChart(ReportRun& run);
+void reportPairs(ReportRun& run, ReportSection& section);
+
+}  // namespace stereonav

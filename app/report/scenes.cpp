@@ -1,0 +1,156 @@
+// The report's part on what each scene left out: its frame plan, what it holds, and what single features
+// cost; and the stability table.
+#include <fmt/format.h>
+#include <link.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <sstream>
+
+#include "app/command/info_text.h"
+#include "app/report/run.h"
+#include "app/report/stability.h"
+#include "engine/base/file.h"
+#include "engine/base/parallel.h"
+#include "engine/metrics/image_difference.h"
+#include "engine/volume/volume_renderer.h"
+
+namespace stereonav {
+namespace {
+
+int librariesInMemory() {
+    int count = 0;
+    dl_iterate_phdr(
+        [](dl_phdr_info* info, std::size_t, void* data) {
+            *static_cast<int*>(data) += info->dlpi_name != nullptr && info->dlpi_name[0] != '\0';
+            return 0;
+        },
+        &count);
+    return count;
+}
+
+// The lines of `info`, "  name        value", as cells; a line without a name goes on with the one before.
+std::vector<std::vector<std::string>> rowsOfInfo(const std::string& text) {
+    constexpr std::size_t kNameEnd = 14;
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.size() < kNameEnd) continue;
+        std::string name = line.substr(2, kNameEnd - 2);
+        name.erase(name.find_last_not_of(' ') + 1);
+        rows.push_back({name, line.substr(kNameEnd)});
+    }
+    return rows;
+}
+
+std::string planesText(const FramePlan& plan) {
+    std::string planes = "colour, depth";
+    if (plan.dependence == ViewDependence::Highlight) planes += ", base colour";
+    if (plan.viewDependent) planes += ", normal";
+    if (plan.dependence == ViewDependence::Depths) planes += ", depth spread";
+    return planes + ", hole mask";
+}
+
+ReportTable sceneTable(ReportRun& run, const ReportScene& scene) {
+    run.tell("frame plan, " + scene.title);
+    const FramePlan plan = planScene(scene.loaded).value();
+    ReportTable table{scene.title, "", {"", "what was read and what a frame holds"}, {}};
+    table.rows = rowsOfInfo(scene.loaded.terrain ? terrainText(scene.loaded) : colonText(scene.loaded));
+    table.rows.push_back({"loading", fmt::format("{:.0f} ms", scene.load_ms)});
+    table.rows.push_back({"planes", planesText(plan)});
+    table.rows.push_back({"frame", fmt::format("{:.1f} MB at {}x{}", static_cast<double>(plan.bytes) / 1e6,
+                                               plan.width, plan.height)});
+    table.rows.push_back({"right eye", fmt::format("{}: {}", nameOf(plan.method), plan.reason)});
+    addFigure(run.report(), {fmt::format("scene/{}/loading", scene.id), "ms", "", ReportFigure::Kind::Other,
+                             exactly(scene.load_ms)});
+    addFigure(run.report(), {fmt::format("scene/{}/frame bytes", scene.id), "bytes", "",
+                             ReportFigure::Kind::Other, exactly(static_cast<double>(plan.bytes))});
+    return table;
+}
+
+struct Feature {
+    const char* name;
+    VolumeCasting off;
+};
+
+// A frame with a feature and without: left and right eye, what it holds, the right eye's error.
+std::vector<std::string> rowOf(ReportRun& run, const ReportScene& scene, const char* name,
+                               const EyeRenderer& renderer) {
+    StereoSetting stereo = scene.loaded.stereo;
+    stereo.separation = stereo.zeroParallax / 30;
+    const StereoViews views = makeStereoViews(scene.loaded.startPose, scene.loaded.lens, stereo);
+    EyeImage left, right, full;
+    left.resize(views.left.width, views.left.height, renderer.viewDependence());
+    RightEye eye;
+    double left_ms = 1e300, right_ms = 1e300;
+    WarpSetting setting;
+    setting.method = defaultMethodFor(renderer);
+    for (int n = 0; n < run.pick(3, 9); ++n) {
+        run.tell("features, " + scene.title);
+        const Stopwatch watch;
+        renderEye(renderer, views.left, left);
+        left_ms = std::min(left_ms, watch.elapsed_ms());
+        right_ms = std::min(right_ms, eye.render(renderer, views, left, setting, right).right_ms());
+    }
+    setting.method = RightEyeMethod::Full;
+    eye.render(renderer, views, left, setting, full);
+    const double bytes =
+        static_cast<double>(frameBytes(left.width(), left.height(), renderer.viewDependence()));
+    return {scene.title,
+            name,
+            fmt::format("{:.2f}", left_ms),
+            fmt::format("{:.2f}", right_ms),
+            fmt::format("{:.1f}", psnrOf(full.color, right.color)),
+            fmt::format("{:.1f}", bytes / 1e6)};
+}
+
+ReportTable featureTable(ReportRun& run) {
+    ReportTable table{
+        "Single features, off and on",
+        "The start pose; the least times of some repeats; the right eye by the default way, against the same "
+        "scene's full cast (100 dB: identical).",
+        {"scene", "feature", "left ms", "right ms", "right PSNR dB", "planes MB"},
+        {}};
+    for (const ReportScene& scene : run.scenes()) {
+        table.rows.push_back(rowOf(run, scene, "as it is", *scene.loaded.renderer));
+        if (!scene.loaded.colon) continue;
+        VolumeCasting casting;
+        casting.leaping = false;
+        table.rows.push_back(rowOf(run, scene, "without leaping over empty cells",
+                                   VolumeRenderer(scene.loaded.colon->volume, casting)));
+        casting = {};
+        casting.shadeAgain = false;
+        if (!scene.loaded.renderer->translucent())
+            table.rows.push_back(rowOf(run, scene, "without shading again for the right eye",
+                                       VolumeRenderer(scene.loaded.colon->volume, casting)));
+    }
+    return table;
+}
+
+}  // namespace
+
+void reportScenes(ReportRun& run, double) {
+    ReportSection section{"left-out", "What each scene left out", "", {}};
+    section.text = fmt::format(
+        "Planes, memory and stages that a scene does not need are neither allocated nor run. This report "
+        "holds all "
+        "its scenes at once: {} threads, {} shared libraries loaded. stereonav info SCENE tells the same of "
+        "one scene alone.",
+        threadCount(), librariesInMemory());
+    for (const ReportScene& scene : run.scenes()) section.blocks.emplace_back(sceneTable(run, scene));
+    run.checkTime();
+    section.blocks.emplace_back(featureTable(run));
+    run.report().sections.push_back(std::move(section));
+}
+
+void reportStability(ReportRun& run, double) {
+    run.tell("stability rows");
+    const std::filesystem::path file = run.options().stability.empty()
+                                           ? stabilityRowsOfThisBuild()
+                                           : std::filesystem::path(run.options().stability);
+    run.report().sections.push_back(file.empty() ? noStabilitySection()
+                                                 : stabilitySection(readTextFile(file), file.string()));
+}
+
+}  // namespace stereonav

@@ -1,0 +1,178 @@
+// The report's chart of baked light on terrain: by rays, order, azimuths, bounces and spacing of the baked
+// samples, against path tracing at places between them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/report/light.h"
+#include "engine/base/parallel.h"
+#include "terrain/built_in_terrain.h"
+#include "terrain/scene_file.h"
+#include "terrain/sky_map.h"
+#include "terrain/terrain_path_light.h"
+#include "terrain/terrain_relight.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kSunAzimuth = 120, kSunElevation = 25;  // degrees: shadows, and light that bounces into them
+
+// The generated terrain in small, path-traced at places all over it.
+class GroundSubject {
+public:
+    explicit GroundSubject(ReportRun& run) : mRun(run) {
+        run.tell("terrain's light");
+        Progress quiet;
+        const BuiltInTerrain built = generateBuiltInTerrain(1, run.pick(81, 161), quiet, std::nullopt);
+        mGround = Heightfield(built.size, built.size, glm::dvec2(built.spacing), built.heights, "generated");
+        trace();
+    }
+
+    WayPoint pointOf(const std::string& name, const std::string& detail, const TerrainLightSettings& settings,
+                     bool isDefault) {
+        std::vector<double> ms;
+        TerrainLight light;
+        for (int n = 0; n < mRun.pick(2, 5); ++n) {
+            mRun.tell("terrain's light, " + name);
+            Progress quiet;
+            const Stopwatch watch;
+            light = bakeTerrainLight(mGround, settings, quiet);
+            ms.push_back(watch.elapsed_ms());
+        }
+        WayPoint point;
+        point.way = {name,
+                     scaled(spreadOf(ms), 1000 / static_cast<double>(mGround.width() * mGround.height())), 0,
+                     isDefault};
+        point.detail = detail;
+        setErrors(light, point);
+        point.others = {{"bytes a sample",
+                         static_cast<double>(light.byteCount()) / static_cast<double>(light.grid.count())}};
+        return point;
+    }
+
+    std::string size() const { return fmt::format("{}x{}", mGround.width(), mGround.height()); }
+    std::size_t places() const { return mPlaces.size(); }
+    double truthNoise_percent() const { return 100 * std::sqrt(mVariance) / mMean; }
+
+private:
+    void trace() {
+        const auto gradient = [](const glm::dvec3& d) { return gradientSky(glm::vec3(d)); };
+        TerrainLook look;
+        look.sunAzimuth = kSunAzimuth * kDegree;
+        look.sunElevation = kSunElevation * kDegree;
+        const SkyRadiance sky = skyRadiance(gradient);
+        mLight = sunAndSky(look, sky);
+        const float scale = mLight.sky.level.y / sky.level.y;
+        const glm::dvec2 last(mGround.width() - 1, mGround.height() - 1);
+        for (int n = 0; n < mRun.pick(100, 400); ++n)  // evenly spread (Roberts 2018)
+            mPlaces.push_back(glm::dvec2(std::fmod(0.5 + n * 0.75487766624669276, 1.0),
+                                         std::fmod(0.5 + n * 0.56984029099805327, 1.0)) *
+                              last);
+        mTruth.resize(mPlaces.size());
+        std::vector<double> variances(mPlaces.size());
+        const GroundRays rays(mGround);
+        const TerrainLightSettings usual;
+        mRun.tell("terrain's light, the truth");
+        parallelFor(static_cast<int>(mPlaces.size()), [&](int n) {
+            const auto k = static_cast<std::size_t>(n);
+            PathLightSetting setting;
+            setting.albedo = usual.albedo;
+            setting.bounces = usual.bounces;
+            setting.paths = mRun.pick(512, 4096);
+            setting.seed = mRun.options().seed + 7919 * static_cast<std::uint64_t>(n);
+            const PathLight path = tracePathLight(
+                rays, mGround.worldFromGrid(mPlaces[k]), mLight,
+                [&](const glm::dvec3& d) { return scale * gradient(d); }, setting);
+            mTruth[k] = luminanceOf(glm::vec3(path.mean));
+            variances[k] = path.variance;
+        });
+        for (std::size_t n = 0; n < mPlaces.size(); ++n) {
+            mMean += mTruth[n] / static_cast<double>(mPlaces.size());
+            mVariance += variances[n] / static_cast<double>(mPlaces.size());
+        }
+    }
+
+    double brightnessAt(const TerrainLight& light, const GroundBrightness& brightness,
+                        const glm::dvec2& place) const {
+        const LightGrid::Place x = light.grid.placeX(place.x), y = light.grid.placeY(place.y);
+        double sum = 0;
+        for (int c = 0; c < 4; ++c)
+            sum += (c & 1 ? x.next : 1 - x.next) * (c & 2 ? y.next : 1 - y.next) *
+                   luminanceOf(brightness.at(x.index + (c & 1), y.index + (c >> 1)));
+        return sum;
+    }
+
+    void setErrors(const TerrainLight& light, WayPoint& point) const {
+        GroundBrightness brightness;
+        TerrainRelight(mGround, light).relight(mLight, brightness);
+        double squares = 0, worst = 0;
+        for (std::size_t n = 0; n < mPlaces.size(); ++n) {
+            const double off = std::abs(brightnessAt(light, brightness, mPlaces[n]) - mTruth[n]);
+            squares += off * off / static_cast<double>(mPlaces.size());
+            worst = std::max(worst, off);
+        }
+        point.way.error = 100 * std::sqrt(std::max(0.0, squares - mVariance)) / mMean;
+        point.worstError = 100 * worst / mMean;
+    }
+
+    ReportRun& mRun;
+    Heightfield mGround;
+    SunAndSky mLight;
+    std::vector<glm::dvec2> mPlaces;  // grid
+    std::vector<double> mTruth;
+    double mMean = 0, mVariance = 0;
+};
+
+}  // namespace
+
+WayChart terrainLightChart(ReportRun& run) {
+    GroundSubject subject(run);
+    const TerrainLightSettings usual;
+    WayChart chart;
+    chart.id = "light/terrain";
+    chart.title = "Baked light of terrain";
+    chart.setting = fmt::format("{} samples, {} threads, seed {}, truth of {} paths", subject.size(),
+                                threadCount(), run.options().seed, run.pick(512, 4096));
+    chart.text = fmt::format(
+        "The generated terrain in small, the sun {:g} degrees high; light at {} places between samples "
+        "against path "
+        "tracing, whose own noise, {} %, is taken out. Most of the error lies at the edges of shadows. Time "
+        "of "
+        "the bake for 1000 samples of the ground.",
+        kSunElevation, subject.places(), numberText(subject.truthNoise_percent()));
+    chart.why = "The default's order is for skies with more shape than this one.";
+    chart.timeLabel = "ms for 1000 samples";
+    chart.timeUnit = "ms";
+    chart.errorLabel = "RMS error, % of the light";
+    chart.errorUnit = "%";
+    chart.points.push_back(
+        subject.pointOf("as it is",
+                        fmt::format("order {}, {} rays, {} azimuths, {} bounces", usual.order, usual.rays,
+                                    usual.azimuths, usual.bounces),
+                        usual, true));
+    const auto add = [&](auto TerrainLightSettings::*what, const char* name, auto value) {
+        TerrainLightSettings changed = usual;
+        changed.*what = value;
+        chart.points.push_back(
+            subject.pointOf(fmt::format("{} {}", name, value), "the rest as it is", changed, false));
+    };
+    for (const int order : run.brief() ? std::vector<int>{1} : std::vector<int>{1, 2, 3, 6})
+        add(&TerrainLightSettings::order, "order", order);
+    for (const int rays : run.brief() ? std::vector<int>{128} : std::vector<int>{16, 64, 256})
+        add(&TerrainLightSettings::rays, "rays", rays);
+    for (const int azimuths : run.brief() ? std::vector<int>{} : std::vector<int>{16, 64})
+        add(&TerrainLightSettings::azimuths, "azimuths", azimuths);
+    for (const int bounces : run.brief() ? std::vector<int>{0} : std::vector<int>{0, 1})
+        add(&TerrainLightSettings::bounces, "bounces", bounces);
+    for (const int stride : run.brief() ? std::vector<int>{4} : std::vector<int>{2, 4})
+        add(&TerrainLightSettings::stride, "stride", stride);
+    TerrainLightSettings open = usual;
+    open.kind = TerrainLightKind::Openness;
+    chart.points.push_back(subject.pointOf("openness alone", "without horizons and bounces", open, false));
+    return chart;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,160 @@
+#include "app/report/trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/metrics/image_difference.h"
+#include "engine/metrics/supersampled_picture.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kLeastRepeats = 3, kMostRepeats = 9;
+constexpr int kTruthFactor = 4;  // 16 rays a pixel
+
+}  // namespace
+
+Variant methodVariant(RightEyeMethod method) {
+    Variant v{std::string(nameOf(method)), "", {}, false};
+    v.setting.method = method;
+    return v;
+}
+
+Variant tuned(RightEyeMethod method, float WarpSetting::*what, const char* name, float value) {
+    Variant v = methodVariant(method);
+    v.setting.*what = value;
+    v.name = fmt::format("{} {:g}", nameOf(method), value);
+    v.detail = fmt::format("{} {:g}", name, value);
+    return v;
+}
+
+double rmsOfPsnr(double psnr_db) {
+    return psnr_db >= kIdenticalPsnr_db ? 0.0 : 255 * std::pow(10.0, -psnr_db / 20);
+}
+
+RightEyeTrial::RightEyeTrial(const ReportScene& scene, const StereoSetting& stereo,
+                             std::vector<Variant> variants, bool truths)
+    : mTruths(truths),
+      mScene(scene.loaded),
+      mStereo(stereo),
+      mVariants(std::move(variants)),
+      mSums(mVariants.size()),
+      mRepeats(kLeastRepeats) {
+    for (const Variant& v : mVariants) mBounds |= v.setting.refinement.calibration != nullptr;
+}
+
+void RightEyeTrial::run(ReportRun& run, const std::string& what, int frames, double seconds) {
+    std::vector<Pose> poses = posesOf(frames);
+    const Stopwatch watch;
+    for (std::size_t n = 0; n < poses.size(); ++n) {
+        run.tell(what);
+        frame(run, makeStereoViews(poses[n], mScene.lens, mStereo), what);
+        // As many frames as there is time for; the first one is the same for any number of them.
+        const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
+        if (n == 0 && affordable < frames) poses = posesOf(std::max(1, static_cast<int>(affordable)));
+        if (n == 0) chooseRepeats(watch.elapsed_ms(), poses.size(), seconds);
+        for (std::size_t k = 0; k < mSums.size(); ++k) mSums[k].least_ms += mFastest[k];
+    }
+    mFrames = static_cast<int>(poses.size());
+}
+
+std::vector<WayPoint> RightEyeTrial::points() const {
+    std::vector<WayPoint> points;
+    for (std::size_t n = 0; n < mVariants.size(); ++n) points.push_back(pointOf(mVariants[n], mSums[n]));
+    return points;
+}
+
+std::vector<Pose> RightEyeTrial::posesOf(int frames) const {
+    return mScene.path.samples().empty() ? std::vector<Pose>{mScene.startPose} : mScene.path.frames(frames);
+}
+
+// From the first frame, which ran kLeastRepeats times: half of that is truths.
+void RightEyeTrial::chooseRepeats(double first_ms, std::size_t frames, double seconds) {
+    const double perRepeat_ms = mTimed_ms / kLeastRepeats,
+                 fixed_ms = std::max(0.0, first_ms - mTimed_ms) * static_cast<double>(frames);
+    const double affordable =
+        (1000 * seconds - fixed_ms) / std::max(perRepeat_ms * static_cast<double>(frames), 1e-3);
+    mRepeats = std::clamp(static_cast<int>(affordable), kLeastRepeats, kMostRepeats);
+    // what is left of the first frame's repeats
+    for (int r = kLeastRepeats; r < mRepeats; ++r) repeat(r);
+}
+
+void RightEyeTrial::frame(ReportRun& run, const StereoViews& views, const std::string& what) {
+    mViews = views;
+    mLeft.resize(views.left.width, views.left.height, mScene.renderer->viewDependence());
+    renderEye(*mScene.renderer, views.left, mLeft);
+    WarpSetting full;
+    full.method = RightEyeMethod::Full;
+    mEye.render(*mScene.renderer, views, mLeft, full, mFull);
+    Progress quiet([&](double, const std::string&) { run.tell(what); });
+    const Plane<PackedColor> truth =
+        mTruths ? renderSupersampled(*mScene.renderer, views.right, kTruthFactor, quiet)
+                : Plane<PackedColor>();
+    for (std::size_t n = 0; n < mVariants.size(); ++n) measureError(n, truth);
+    mFastest.assign(mVariants.size(), 1e300);
+    const Stopwatch watch;
+    for (int r = 0; r < mRepeats; ++r) {
+        run.tell(what);
+        repeat(r);
+    }
+    mTimed_ms = watch.elapsed_ms();
+}
+
+void RightEyeTrial::measureError(std::size_t n, const Plane<PackedColor>& truth) {
+    const RightEyeTimings timings =
+        mEye.render(*mScene.renderer, mViews, mLeft, mVariants[n].setting, mRight);
+    Plane<std::uint8_t> nothing(mRight.width(), mRight.height());
+    const ImageDifference difference = differenceOf(mFull.color, mRight.color, nothing);
+    const double rms = rmsOfPsnr(difference.psnr_db),
+                 trueRms = mTruths ? rmsOfPsnr(psnrOf(truth, mRight.color)) : 0;
+    Sums& sums = mSums[n];
+    sums.squares += rms * rms;
+    sums.trueSquares += trueRms * trueRms;
+    sums.worst = std::max(sums.worst, rms);
+    sums.ssim += difference.ssim;
+    sums.kept += difference.psnr_db >= timings.boundPsnr_db;
+    sums.bound_db += timings.boundPsnr_db;
+    sums.holes +=
+        static_cast<double>(timings.holePixels) / (static_cast<double>(mRight.width()) * mRight.height());
+}
+
+void RightEyeTrial::repeat(int r) {
+    for (std::size_t n = 0; n < mVariants.size(); ++n) {
+        const RightEyeTimings t = mEye.render(*mScene.renderer, mViews, mLeft, mVariants[n].setting, mRight);
+        const auto add = [r](std::vector<double>& sums, double ms) {
+            sums.resize(std::max(sums.size(), static_cast<std::size_t>(r) + 1));
+            sums[static_cast<std::size_t>(r)] += ms;
+        };
+        add(mSums[n].right_ms, t.right_ms());
+        mFastest[n] = std::min(mFastest[n], t.right_ms());
+        add(mSums[n].warp_ms, t.warp_ms);
+        add(mSums[n].fill_ms, t.fill_ms);
+    }
+}
+
+WayPoint RightEyeTrial::pointOf(const Variant& v, const Sums& sums) const {
+    const double count = mFrames;
+    const auto mean = [count](const std::vector<double>& times) {
+        return scaled(spreadOf(times), 1 / count);
+    };
+    WayPoint point;
+    Spread time = mean(sums.right_ms);
+    time.low = sums.least_ms / count;
+    point.way = {v.name, time, std::sqrt(sums.squares / count), v.isDefault};
+    point.detail = v.detail;
+    point.worstError = sums.worst;
+    point.others = {{"warp ms", mean(sums.warp_ms).median},
+                    {"fill ms", mean(sums.fill_ms).median},
+                    {"holes %", 100 * sums.holes / count},
+                    {"SSIM", sums.ssim / count}};
+    if (mBounds) {
+        point.others.emplace_back("bound dB", sums.bound_db / count);
+        point.others.emplace_back("frames within it %", 100 * sums.kept / count);
+    }
+    if (mTruths) point.others.emplace_back("RMS against 16 rays", std::sqrt(sums.trueSquares / count));
+    return point;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,97 @@
+// The same plan as that of `bake`, for the surface that is shown.
+#include "app/scene/lazy_light.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+#include "app/scene/light_loading.h"
+#include "app/scene/volume_light.h"
+#include "engine/base/error.h"
+#include "engine/light/seen_bricks.h"
+
+namespace stereonav {
+namespace {
+
+double luminance(const glm::vec3& c) {
+    return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+}  // namespace
+
+LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& progress)
+    : mField(scene.volume.field.share()), mRegion(scene.lumen.lumen.share()) {
+    BakeOptions bake;
+    bake.scene = options;
+    bake.probe = options.sky;
+    bake.scene.sky.clear();
+    bake.scene.light.clear();
+    bake.bounces = 1;
+    const bool transfer = options.light == kLazyTransfer;
+    if (transfer && scene.isColon())
+        throw Error("--light", "", "lazy-transfer is 0 everywhere inside a colon, which is closed",
+                    "use lazy, which lights it along its centreline");
+    if (scene.isColon() && !options.sky.empty())
+        throw Error("--sky", "", "nothing of it is seen inside a colon, which is closed",
+                    "leave it out: lazy lights a colon along its centreline");
+    if (transfer) bake.what = nameOf(BakeKind::Transfer);
+    const VolumeBakePlan plan = planVolumeBake(scene, bake, progress);
+    mLight = std::make_shared<IlluminationVolume>(plan.inputs.texels);
+    mChoice = plan.inputs.choice;
+    if (mChoice.region) mChoice.region = &mRegion;
+    // Where the surface is moved later on, texels far from this one stand for their own values'.
+    mLighter =
+        std::make_unique<TexelLighter>(mField, plan.inputs.texels, plan.inputs.light, plan.inputs.sampling);
+    LazyBakeSetting setting;
+    setting.shape = plan.inputs.shape;
+    mBake = std::make_unique<LazyBake>(mField, mChoice, sourceOf(*mLighter), *mLight, setting);
+    double mean = 1;  // of the sky
+    if (const auto& probe = plan.inputs.light.probe) mean = luminance(probe->mean());
+    if (transfer) {
+        mStraight = skyHarmonics(options, setting.shape.order);
+        mean = luminance(mStraight[0]) / std::sqrt(4 * std::numbers::pi);
+        mTurn = skyTurnOf(options);
+        mBake->setLight(turnedSky(mStraight, mTurn));
+    }
+    BakedLook& look = scene.volume.look.baked;
+    look.light = mLight;
+    // As bright as under a sky of 1 all around: what will have been lit is not known yet.
+    look.exposure = static_cast<float>(options.volume.exposure.value_or(mean > 0 ? 1 / mean : 1.0));
+}
+
+void LazyLight::showSurface(float isovalue) {
+    if (mChoice.lowest == isovalue && mChoice.highest == isovalue) return;
+    mChoice.lowest = mChoice.highest = isovalue;
+    mBake->setChoice(mChoice);
+}
+
+void LazyLight::turnTo(const SkyTurn& turn) {
+    if (turn == mTurn) return;
+    mTurn = turn;
+    mBake->setLight(turnedSky(mStraight, turn));
+}
+
+void refuseLazyLight(const SceneOptions& options) {
+    if (isLazyLight(options.light))
+        throw Error("--light", "", options.light + " is expected with view or render",
+                    "bake the light, and name its file");
+}
+
+void LazyLight::waitUntilDone() const {
+    while (!mBake->waitUntilDone(60)) {
+    }
+}
+
+// While one flies some pixels tell enough; they pass over bricks at edges and on slopes seen nearly along,
+// which would stay dark in a picture that stands still.
+void LazyLight::seen(const EyeView& view, const EyeImage& image) {
+    constexpr int kSparse = 4;
+    const std::array<glm::dvec3, 3> place{view.eye, view.rayDirection(0, 0),
+                                          view.rayDirection(view.width, view.height)};
+    const bool still = std::exchange(mPlace, place) == place;
+    mBake->request(bricksSeen(view, image, *mLight, still ? 1 : kSparse));
+    if (!still) ++mLooks;
+}
+
+}  // namespace stereonav

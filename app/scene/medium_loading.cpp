@@ -1,0 +1,266 @@
+// Scenes are loaded as ever; what they hold becomes a medium, and sweeps take the place of rays.
+#include "app/scene/medium_loading.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+#include "app/scene/colon_loading.h"
+#include "app/scene/medium_options.h"
+#include "app/scene/medium_terrain.h"
+#include "app/scene/terrain_loading.h"
+#include "colon/built_in_colon.h"
+#include "colon/study.h"
+#include "engine/base/error.h"
+#include "engine/math/constants.h"
+#include "engine/medium/built_in_media.h"
+#include "engine/medium/noise_file.h"
+#include "engine/medium/swept_frames.h"
+#include "engine/nav/navigator.h"
+#include "terrain/sky_map.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kFov = 40 * kRadians;
+constexpr double kOrbitSeconds = 15;
+constexpr int kOrbitSamples = 180;
+constexpr double kMediumCrossingSeconds = 10;  // at normal speed
+// Where light comes from when nothing is said, seen by one who looks north: from the left, behind and above;
+// of wax from the left and from beyond it, so that it shines through.
+constexpr double kLightAzimuth = 235 * kRadians, kLightElevation = 40 * kRadians;
+constexpr double kWaxAzimuth = 300 * kRadians, kWaxElevation = 30 * kRadians;
+constexpr double kLampCone = 2.2;  // radians: wider than what is seen
+constexpr std::array<MediumModel, 4> kModels{MediumModel::Emission, MediumModel::Surface, MediumModel::Direct,
+                                             MediumModel::Indirect};  // in the order of the enumeration
+// Of parallel light, so that white media are just below white on the screen.
+constexpr float kCloudRadiance = 0.6f, kWaxRadiance = 0.75f, kVolumeRadiance = 0.85f, kLampRadiance = 0.7f;
+constexpr float kSnowRadiance = 0.65f;  // of terrain, but for its own colours, which are dark
+constexpr double kFraming = 0.85;       // of the distance at which a ball around the bounds fills the picture
+// A colon's wall shows grain far away with 250 slices, none in the pictures looked at with 400; ridges and
+// valleys where the light's texels are more than a hundred metres wide.
+constexpr int kTerrainSlices = 1200, kTerrainLight = 512, kColonSlices = 500;
+
+double longestSide(const Medium& medium) {
+    const glm::dvec3 size = medium.bounds().high - medium.bounds().low;
+    return std::max({size.x, size.y, size.z});
+}
+
+// Around the medium, looking at its middle from a little above; at turn 0 northwards.
+Pose orbitPose(const glm::dvec3& middle, double distance, double turn) {
+    Pose pose = poseFromAngles(middle, turn, -0.15, 0);
+    pose.position -= distance * pose.forward();
+    return pose;
+}
+
+// Flight without ground or walls: one may enter.
+std::function<std::unique_ptr<Flight>()> freeFlight(const Pose& home, double extent) {
+    return [home, extent]() -> std::unique_ptr<Flight> {
+        FlightSetting setting;
+        setting.clearance = 1e-6 * extent;
+        setting.followHeight = 1e-3 * extent;
+        setting.speed = extent / kMediumCrossingSeconds;
+        setting.groundStep = 0.1 * extent;
+        const auto noGround = [](const glm::dvec2&) { return std::nan(""); };
+        return std::make_unique<Navigator>(noGround, home, setting);
+    };
+}
+
+void seeFromOutside(const WorldBox& box, LoadedScene& scene) {
+    const double radius = std::max(0.5 * glm::length(box.high - box.low), 1e-6);
+    const double distance = kFraming * radius / std::sin(0.5 * kFov);
+    scene.lens.verticalFov = kFov;
+    scene.lens.nearDepth = 0.005 * radius;
+    scene.stereo.zeroParallax = distance;
+    scene.stereo.separation = distance / 30;
+    scene.startPose = orbitPose(box.center(), distance, 0);
+    std::vector<PathSample> samples;
+    for (int n = 0; n <= kOrbitSamples; ++n)
+        samples.push_back({n * kOrbitSeconds / kOrbitSamples,
+                           orbitPose(box.center(), distance, 2 * kPi * n / kOrbitSamples)});
+    scene.path = RecordedPath(std::move(samples), "the flight around the medium");
+}
+
+void putField(std::shared_ptr<const GreyVolume> field, Perturbation noise, MediumScene& shown) {
+    const MediumTransfer transfer = findMediumTransfer(shown.transfer);
+    shown.medium = Medium(field, transfer, noise);
+    shown.makeSurface = [field = std::move(field), transfer, noise = std::move(noise)] {
+        return Medium(field, allSurface(transfer), noise);
+    };
+}
+
+void refuseWithBuiltIn(const SceneOptions& options) {
+    const std::pair<const char*, bool> given[] = {
+        {"--light", !options.light.empty()},           {"--sky", !options.sky.empty()},
+        {"--isosurface", options.volume.isosurface},   {"--isovalue", options.volume.isovalue.has_value()},
+        {"--label", options.volume.label.has_value()}, {"--series", !options.volume.series.empty()},
+        {"--seed", !options.volume.seeds.empty()},     {"--resample", options.volume.resample},
+        {"--backwards", options.volume.backwards},     {"--exposure", options.volume.exposure.has_value()},
+        {"--turn", options.volume.turn_deg != 0},      {"--tilt", options.volume.tilt_deg != 0},
+        {"--up", options.volume.up.has_value()},       {"--no-cache", !options.volume.cache}};
+    for (const auto& [option, is] : given)
+        if (is)
+            throw Error(option, "", "expected with a CT study, " + options.scene + " is built in",
+                        "leave it out");
+}
+
+LoadedScene builtInMedium(const SceneOptions& options) {
+    refuseWithBuiltIn(options);
+    const bool cloud = options.scene == "cloud";
+    LoadedScene scene;
+    scene.name = options.scene;
+    scene.medium = std::make_unique<MediumScene>();
+    MediumScene& shown = *scene.medium;
+    const std::shared_ptr<GreyVolume> field = cloud ? makeCloudField() : makeWaxField();
+    const glm::dvec3 size = glm::dvec3(field->frame.size) * field->frame.spacing;
+    shown.transfer = options.medium.medium.empty() ? options.scene : options.medium.medium;
+    shown.noise = !options.medium.noise.empty() ? options.medium.noise : cloud ? "cloud" : "none";
+    Perturbation noise = cloud && options.medium.noise.empty()
+                             ? cloudPerturbation()
+                             : findNoise(shown.noise, std::max({size.x, size.y, size.z}));
+    putField(field, std::move(noise), shown);
+    if (cloud) {
+        shown.sky = [](const glm::dvec3& direction) { return gradientSky(glm::vec3(direction)); };
+        shown.turnLight(kLightAzimuth, kLightElevation);
+        shown.look.light.radiance = glm::vec3(kCloudRadiance);
+    } else {
+        shown.look.light.radiance = glm::vec3(kWaxRadiance);
+        shown.look.background = glm::vec3(0.02f);
+        shown.turnLight(kWaxAzimuth, kWaxElevation);
+    }
+    // Without the noise, whose displacements may reach anywhere.
+    seeFromOutside(Medium(field, findMediumTransfer(shown.transfer)).bounds(), scene);
+    adjustViews(options, scene);
+    scene.makeFlight = freeFlight(scene.startPose, longestSide(shown.medium));
+    return scene;
+}
+
+// A colon's field has neither fluid nor what is far from the wall: the study is read again. Null for a mask,
+// which has no grey values.
+std::shared_ptr<const GreyVolume> studyOf(const SceneOptions& options, Progress& progress) {
+    const ColonOptions colon = colonOptionsOf(options);
+    if (colon.study.empty()) return std::make_shared<GreyVolume>(builtInColon(colon.builtIn, progress).grey);
+    Study study = readStudy(colon.study, colon.reading, progress);
+    return study.isMask ? nullptr : std::make_shared<GreyVolume>(std::move(study.grey));
+}
+
+void lightAtHead(const ColonScene& colon, MediumScene& shown) {
+    MediumLight& light = shown.look.light;
+    light.kind = MediumLight::Kind::Lamp;
+    light.atHead = true;
+    light.coneAngle = kLampCone;
+    light.radiance = glm::vec3(kLampRadiance);
+    light.falloff = colon.volume.look.falloff;
+}
+
+LoadedScene volumeMedium(const SceneOptions& options, SimdTarget simd, Progress& progress) {
+    LoadedScene scene = loadColonScene(options, simd, progress);
+    ColonScene& colon = *scene.colon;
+    scene.medium = std::make_unique<MediumScene>();
+    MediumScene& shown = *scene.medium;
+    std::shared_ptr<const GreyVolume> field;
+    if (colon.isColon()) field = studyOf(options, progress);
+    // what the scene holds already, which lives as long
+    if (!field) field = std::shared_ptr<const GreyVolume>(std::shared_ptr<void>(), &colon.volume.field);
+    const glm::dvec3 size = glm::dvec3(field->frame.size) * field->frame.spacing;
+    shown.transfer = options.medium.medium;
+    Perturbation noise;
+    if (!options.medium.noise.empty()) {
+        shown.noise = options.medium.noise;
+        noise = findNoise(shown.noise, std::max({size.x, size.y, size.z}));
+    }
+    putField(field, std::move(noise), shown);
+    shown.look.background = colon.volume.look.background;
+    shown.look.baked = colon.volume.look.baked;
+    if (colon.isColon()) {
+        shown.sweep.slices = kColonSlices;
+        lightAtHead(colon, shown);
+    } else {
+        shown.turnLight(kLightAzimuth, kLightElevation);
+        shown.look.light.radiance = glm::vec3(kVolumeRadiance);
+        scene.makeFlight = freeFlight(scene.startPose, longestSide(shown.medium));
+    }
+    return scene;
+}
+
+// A medium other than the ground has colours of its own.
+void refuseUnseenColors(const SceneOptions& options) {
+    if (options.medium.medium == kGroundMedium) return;
+    const char* advice = "leave it out, or choose --medium ground";
+    if (!options.image.empty())
+        throw Error("--image", "", "has no effect on a terrain shown as another medium than ground", advice);
+    if (!options.sun.empty() && !(options.medium.lightFrom.empty() && options.medium.lamp.empty()))
+        throw Error(
+            "--sun", "",
+            "has no effect on a terrain shown as another medium than ground, under --light-from or --lamp",
+            advice);
+}
+
+LoadedScene terrainAsMedium(const SceneOptions& options, SimdTarget simd, Progress& progress) {
+    if (!options.light.empty())
+        throw Error("--light", "", "does not go with a terrain shown as a medium", "leave one of them out");
+    refuseUnseenColors(options);
+    LoadedScene scene = loadTerrainScene(options, simd, progress);
+    const TerrainScene& terrain = *scene.terrain;
+    scene.medium = std::make_unique<MediumScene>();
+    MediumScene& shown = *scene.medium;
+    shown.transfer = options.medium.medium;
+    if (!options.medium.noise.empty()) shown.noise = options.medium.noise;
+    shown.sweep.slices = options.medium.slices.value_or(kTerrainSlices);
+    shown.sweep.lightSize = options.medium.lightSize.value_or(kTerrainLight);
+    shown.medium = terrainMedium(terrain, options.medium, shown.sweep);
+    shown.makeSurface = [&shown] { return allSurface(shown.medium); };
+    shown.sky = [&terrain](const glm::dvec3& direction) { return skyAt(terrain.sky, direction); };
+    shown.turnLight(terrain.look.sunAzimuth, terrain.look.sunElevation);
+    if (options.medium.medium != kGroundMedium) shown.look.light.radiance = glm::vec3(kSnowRadiance);
+    if (terrain.landmarks) shown.notes.push_back("landmarks are not shown with a medium");
+    return scene;
+}
+
+}  // namespace
+
+void addMedium(const LoadedScene& scene, ViewScene& view) {
+    MediumScene* medium = scene.medium.get();
+    for (const MediumModel model : kModels) view.models.emplace_back(nameOf(model));
+    view.model = static_cast<int>(medium->look.model);
+    view.setModel = [medium](int model) { medium->look.model = kModels[static_cast<std::size_t>(model)]; };
+    view.animated = medium->animated();
+    view.canBeTranslucent = false;
+    view.isovalue.reset();
+    if (!scene.moveSun) return;
+    const glm::dvec3 from = -medium->look.light.direction;
+    view.sun = {std::atan2(from.x, from.y), std::asin(std::clamp(from.z, -1.0, 1.0))};
+    view.moveSun = [turn = scene.moveSun](const SunPlace& sun) { turn(sun.azimuth, sun.elevation); };
+}
+
+LoadedScene loadMediumScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
+    const SceneKind kind = kindOf(options.scene);
+    if (!options.medium.mist.empty() && kind != SceneKind::Terrain)
+        throw Error("--mist", "", "expected with a terrain", "leave it out");
+    if (options.medium.medium == kGroundMedium && kind != SceneKind::Terrain)
+        throw Error("--medium", "", "ground is of terrains",
+                    "the presets are " + mediumPresetNames() + ", or name a file");
+    LoadedScene scene = kind == SceneKind::Medium    ? builtInMedium(options)
+                        : kind == SceneKind::Terrain ? terrainAsMedium(options, simd, progress)
+                                                     : volumeMedium(options, simd, progress);
+    MediumScene& shown = *scene.medium;
+    applyMediumOptions(options.medium, shown);
+    auto frames = std::make_unique<SweptFrames>(shown, simd);
+    scene.simd = frames->target();
+    scene.swept = frames.get();
+    scene.frames = std::move(frames);
+    if (scene.eyesFollow) scene.wall = std::move(scene.renderer);
+    scene.renderer.reset();
+    scene.methods.clear();
+    scene.moveSun = nullptr;
+    if (shown.look.light.kind == MediumLight::Kind::Parallel)
+        scene.moveSun = [medium = scene.medium.get()](double azimuth, double elevation) {
+            medium->turnLight(azimuth, elevation);
+        };
+    return scene;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,149 @@
+// Heights are copied onto a grid of one spacing; colours are read where they are, in the scene's texture.
+#include "app/scene/medium_terrain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "app/scene/medium_options.h"
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "engine/medium/noise_file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kGroundOpacity = 0.9;  // of a layer one sample spacing thick, or kSoftSlices slices
+constexpr double kSoftSlices = 3;       // fewer, and each slice shows as a terrace
+constexpr double kThickness = 0.02;     // of the longer side: how far down the ground is solid
+constexpr double kTaper = 0.5;          // sample spacings over which it begins at least
+constexpr double kMistTaper = 0.3;      // of the mist's thickness
+constexpr float kMistAlbedo = 0.97f;
+constexpr glm::vec3 kMistColor{0.62f};  // beside ground whose colours are as the eye is used to them
+
+// Heights of a grid with the same spacing both ways, row 0 southernmost.
+Plane<float> heightsOf(const Heightfield& ground, double spacing) {
+    const glm::dvec2 extent = ground.spacing() * glm::dvec2(ground.width() - 1, ground.height() - 1);
+    const auto side = [&](double length) { return static_cast<int>(std::lround(length / spacing)) + 1; };
+    Plane<float> heights(side(extent.x), side(extent.y));
+    parallelFor(heights.height(), [&](int y) {
+        for (int x = 0; x < heights.width(); ++x)
+            heights.at(x, y) =
+                static_cast<float>(ground.heightAt(ground.originWorld() + glm::dvec2(x, y) * spacing));
+    });
+    return heights;
+}
+
+// White: the colour is the place's. Light that scatters in the ground goes no further than light that falls
+// straight in.
+MediumTransfer groundTransfer(const Heightfield& ground, double length) {
+    MediumMaterial material;
+    material.color = glm::vec3(1.0f);
+    material.opacity = kGroundOpacity;
+    material.transport = glm::vec3(static_cast<float>(1 - kGroundOpacity));
+    const double range = std::max<double>(ground.maxHeight() - ground.minHeight(), 1.0);
+    return MediumTransfer(std::vector<MediumPoint>{{ground.minHeight() - 0.1 * range, material},
+                                                   {ground.maxHeight() + 0.1 * range, material}},
+                          length, "the ground's colours");
+}
+
+HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& options,
+                        const SweepSetting& sweep) {
+    const Heightfield& ground = terrain.ground;
+    const glm::dvec2 extent = ground.spacing() * glm::dvec2(ground.width() - 1, ground.height() - 1);
+    HeightLayer layer;
+    layer.spacing = std::min(ground.spacing().x, ground.spacing().y);
+    layer.originX = ground.originWorld().x;
+    layer.originY = ground.originWorld().y;
+    layer.levels.push_back(heightsOf(ground, layer.spacing));
+    layer.below = kThickness * std::max(extent.x, extent.y);
+    // A face thinner than slices are apart, or the light's texels wide, shows them as terraces.
+    const double slice = glm::length(extent) / sweep.slices;
+    const double step = std::max(slice, glm::length(extent) / sweep.lightSize);
+    layer.taper = std::min(std::max(kTaper * layer.spacing, step), 0.5 * layer.below);
+    const bool ownColors = options.medium == kGroundMedium;
+    const MediumTransfer transfer = ownColors
+                                        ? groundTransfer(ground, std::max(layer.spacing, kSoftSlices * slice))
+                                        : findMediumTransfer(options.medium);
+    if (ownColors) {  // of the scene, which lives as long
+        layer.color = std::shared_ptr<const ColorTexture>(std::shared_ptr<void>(), &terrain.color);
+        layer.colorSpacing = ground.spacing();
+    }
+    const double margin = 1 + 0.05 * (static_cast<double>(ground.maxHeight()) - ground.minHeight());
+    layer.table = makeMediumTable(transfer, ground.minHeight() - margin, ground.maxHeight() + margin);
+    makeMipLevels(layer);
+    return layer;
+}
+
+// From below the lowest ground up to the top, everywhere the same.
+HeightLayer mistLayer(const TerrainScene& terrain, const Mist& mist) {
+    const Heightfield& ground = terrain.ground;
+    if (!(mist.top > ground.minHeight()))
+        throw Error("--mist", "",
+                    fmt::format("expected a top above the lowest ground, {:.6g} m, got {:.6g} m",
+                                ground.minHeight(), mist.top),
+                    fmt::format("the ground reaches up to {:.6g} m", ground.maxHeight()));
+    const glm::dvec2 extent = ground.spacing() * glm::dvec2(ground.width() - 1, ground.height() - 1);
+    HeightLayer layer;
+    layer.spacing = std::max(extent.x, extent.y);
+    layer.originX = ground.originWorld().x;
+    layer.originY = ground.originWorld().y;
+    Plane<float> top(2, 2);
+    for (int n = 0; n < 4; ++n) top.at(n % 2, n / 2) = static_cast<float>(mist.top);
+    layer.levels.push_back(std::move(top));
+    layer.below = mist.top - ground.minHeight();
+    layer.taper = kMistTaper * layer.below;
+    MediumMaterial material;
+    material.color = kMistColor;
+    // The tapers take away half of their part each.
+    material.opacity = -std::expm1(-mist.opticalDepth / (1 - kMistTaper));
+    // Diffusion: tau_i = tau sqrt(3 (1 - albedo)).
+    material.transport = glm::vec3(std::exp(-static_cast<float>(mist.opticalDepth / (1 - kMistTaper)) *
+                                            std::sqrt(3.0f * (1.0f - kMistAlbedo))));
+    const double margin = 1 + layer.below;
+    const MediumTransfer transfer(
+        std::vector<MediumPoint>{{mist.top - 2 * margin, material}, {mist.top + margin, material}},
+        layer.below, "--mist");
+    layer.table = makeMediumTable(transfer, mist.top - 2 * margin, mist.top + margin);
+    makeMipLevels(layer);
+    return layer;
+}
+
+}  // namespace
+
+Medium terrainMedium(const TerrainScene& terrain, const MediumOptions& options, const SweepSetting& sweep) {
+    std::vector<HeightLayer> layers;
+    layers.push_back(groundLayer(terrain, options, sweep));
+    if (const std::optional<Mist> mist = mistFromText(options.mist))
+        layers.push_back(mistLayer(terrain, *mist));
+    const glm::dvec2 extent =
+        terrain.ground.spacing() * glm::dvec2(terrain.ground.width() - 1, terrain.ground.height() - 1);
+    const double side = std::max(extent.x, extent.y);
+    return Medium(std::move(layers), options.noise.empty() ? Perturbation{} : findNoise(options.noise, side));
+}
+
+glm::vec3 skyAt(const SkyMap& sky, const glm::dvec3& direction) {
+    const Plane<PackedColor>& map = sky.map();
+    if (map.empty()) return glm::vec3(0.0f);
+    const glm::dvec3 size = glm::abs(direction);
+    glm::dvec2 p = glm::dvec2(direction) / (size.x + size.y + size.z);
+    if (direction.z < 0)
+        p = glm::dvec2(std::copysign(1 - std::abs(p.y), p.x), std::copysign(1 - std::abs(p.x), p.y));
+    const glm::dvec2 last(map.width() - 1, map.height() - 1);
+    const glm::dvec2 place = glm::clamp((0.5 * p + 0.5) * (last + 1.0) - 0.5, glm::dvec2(0.0), last);
+    const int i = std::min(static_cast<int>(place.x), std::max(map.width() - 2, 0));
+    const int j = std::min(static_cast<int>(place.y), std::max(map.height() - 2, 0));
+    const float u = static_cast<float>(place.x - i), v = static_cast<float>(place.y - j);
+    const auto at = [&](int x, int y) {
+        return unpackColor(map.at(std::min(x, map.width() - 1), std::min(y, map.height() - 1)));
+    };
+    return glm::mix(glm::mix(at(i, j), at(i + 1, j), u), glm::mix(at(i, j + 1), at(i + 1, j + 1), u), v);
+}
+
+}  // namespace stereonav

@@ -1,0 +1,19 @@
+// Terrain as a height volume (Kniss et al. 2003, section 3.4; row K7), and mist over it.
+#pragma once
+
+#include "app/command/commands.h"
+#include "engine/medium/medium.h"
+#include "engine/medium/sweep_setting.h"
+#include "terrain/terrain_scene.h"
+
+namespace stereonav {
+
+// The ground as a layer in its own colours, read at the place from the scene's texture, or under a transfer
+// function over the height; with --mist a second layer. The ground begins as gradually as the sweep is
+// coarse. The scene must outlive it. Throws Error.
+Medium terrainMedium(const TerrainScene& terrain, const MediumOptions& options, const SweepSetting& sweep);
+
+// The scene's sky by a unit world direction, linear RGB, bilinear between the map's texels.
+glm::vec3 skyAt(const SkyMap& sky, const glm::dvec3& direction);
+
+}  // namespace stereonav

@@ -1,0 +1,257 @@
+#include "app/scene/scene_loading.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <utility>
+
+#include "app/options/option_numbers.h"
+#include "app/scene/colon_loading.h"
+#include "app/scene/medium_loading.h"
+#include "app/scene/medium_options.h"
+#include "app/scene/terrain_loading.h"
+#include "app/scene/volume_light.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/memory.h"
+#include "engine/base/parallel.h"
+#include "engine/math/constants.h"
+#include "engine/medium/swept_frames.h"
+
+namespace stereonav {
+namespace {
+
+void refuseVolumeOptions(const SceneOptions& options) {
+    const VolumeOptions& v = options.volume;
+    const std::pair<const char*, bool> given[] = {{"--series", !v.series.empty()},
+                                                  {"--label", v.label.has_value()},
+                                                  {"--seed", !v.seeds.empty()},
+                                                  {"--resample", v.resample},
+                                                  {"--isosurface", v.isosurface},
+                                                  {"--isovalue", v.isovalue.has_value()},
+                                                  {"--transfer", !v.transfer.empty()},
+                                                  {"--opacity", v.opacity.has_value()},
+                                                  {"--backwards", v.backwards},
+                                                  {"--no-cache", !v.cache},
+                                                  {"--ambient", v.ambient_mm.has_value()},
+                                                  {"--ambient-method", !v.ambientMethod.empty()},
+                                                  {"--ambient-strength", v.ambientStrength.has_value()},
+                                                  {"--ambient-lamp", v.ambientLamp.has_value()},
+                                                  {"--modulate", !v.modulate.empty()},
+                                                  {"--modulate-radius", v.modulateRadius_mm.has_value()},
+                                                  {"--modulate-sigma", v.modulateSigma.has_value()},
+                                                  {"--shading", !v.shading.empty()},
+                                                  {"--exposure", v.exposure.has_value()},
+                                                  {"--turn", v.turn_deg != 0},
+                                                  {"--tilt", v.tilt_deg != 0},
+                                                  {"--up", v.up.has_value()}};
+    for (const auto& [option, is] : given)
+        if (is)
+            throw Error(option, "", "expected with a CT study or the built-in colon, the scene is a terrain",
+                        "leave it out");
+}
+
+void refuseTerrainOptions(const SceneOptions& options) {
+    const std::pair<const char*, bool> given[] = {{"--vertical-scale", options.verticalScale != 0},
+                                                  {"--open-holes", options.openHoles},
+                                                  {"--image", !options.image.empty()},
+                                                  {"--shade-image", options.shadeImage},
+                                                  {"--sun", !options.sun.empty()}};
+    for (const auto& [option, is] : given)
+        if (is) throw Error(option, "", "expected with a terrain, the scene is a CT study", "leave it out");
+}
+
+void refuseTracedElsewhere(const SceneOptions& options) {
+    const bool traced = options.light == kTracedLight;
+    const TracedOptions t = options.traced.value_or(TracedOptions{});
+    const std::pair<const char*, bool> given[] = {{"--samples", t.samples.has_value()},
+                                                  {"--bounces", t.bounces.has_value()},
+                                                  {"--albedo", !t.albedo.empty()},
+                                                  {"--point-light", !t.lights.empty()},
+                                                  {"--reach", t.reach_mm.has_value()}};
+    for (const auto& [option, is] : given)
+        if (is && !traced) throw Error(option, "", "expected with --light traced", "leave it out");
+    if (!traced) return;
+    if (!options.traced)
+        throw Error("--light", "", "traced is expected with render", "bake the light, and name its file");
+    if (showsMedium(options) || kindOf(options.scene) != SceneKind::Volume)
+        throw Error("--light", "", "traced expects the surface of a CT study or of the built-in colon",
+                    "leave it out");
+}
+
+// Of what is named to be read: no pipe or device, from which nothing may ever come.
+void checkSource(const NamedPlace& input) {
+    std::error_code code;
+    if (input.place.empty() || std::filesystem::is_directory(input.place, code)) return;
+    try {
+        checkFileToRead(input.place);
+    } catch (const Error& error) {
+        throw Error(input.option, "", error.what(), "");
+    }
+}
+
+// Studies are sent zipped; what is in an archive is not looked for.
+void refuseArchive(const std::string& name) {
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(name, code)) return;
+    char head[6] = {};
+    std::ifstream(name, std::ios::binary).read(head, sizeof head);
+    const std::string_view begins(head, sizeof head);
+    const std::pair<std::string_view, const char*> kinds[] = {
+        {{"PK\3\4", 4}, "zip"}, {{"7z\xbc\xaf\x27\x1c", 6}, "7z"}, {{"Rar!\x1a\7", 6}, "rar"}};
+    for (const auto& [start, kind] : kinds)
+        if (begins.starts_with(start))
+            throw Error(name, "", fmt::format("expected a scene or a study, found an archive ({})", kind),
+                        "unpack it, and name the file or folder that was in it");
+}
+
+}  // namespace
+
+void checkSize(const SizeOption& size, int bytesPerPixel) {
+    constexpr int kLargest = 32768;
+    const std::string got = fmt::format("{}x{}", size.width, size.height);
+    if (size.width < 1 || size.height < 1 || size.width > kLargest || size.height > kLargest)
+        throw Error("--size", "", "expected 1 to 32768 pixels a side, got " + got, "try 1280x720");
+    const double bytes = static_cast<double>(bytesPerPixel) * size.width * size.height;
+    const double there = availableMemory(), share = std::sqrt(std::min(1.0, there / bytes));
+    if (bytes > there)
+        throw Error("--size", "",
+                    fmt::format("{} needs {} of memory, and {} can be had", got, memoryText(bytes),
+                                memoryText(there)),
+                    fmt::format("{}x{} would fit", std::max(1, static_cast<int>(share * size.width)),
+                                std::max(1, static_cast<int>(share * size.height))));
+}
+
+SceneKind kindOf(const std::string& name) {
+    constexpr const char* kAdvice =
+        "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png), a CT study (a folder of "
+        "DICOM slices, .dcm, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), colon, cloud, wax, or nothing for the "
+        "built-in "
+        "terrain";
+    if (name.empty() || name == "terrain") return SceneKind::Terrain;
+    if (name == "colon") return SceneKind::Volume;
+    if (name == "cloud" || name == "wax") return SceneKind::Medium;
+    std::error_code code;
+    if (!std::filesystem::exists(name, code)) throw Error(name, "", "no such file", kAdvice);
+    if (!std::filesystem::is_directory(name, code)) checkFileToRead(name);
+    refuseArchive(name);
+    if (looksLikeStudy(name)) return SceneKind::Volume;
+    if (std::filesystem::is_directory(name, code))
+        throw Error(name, "", "expected a file or a folder of DICOM slices, found a folder without any",
+                    kAdvice);
+    return SceneKind::Terrain;
+}
+
+bool isStudy(const std::string& name) {
+    return kindOf(name) == SceneKind::Volume && name != "colon";
+}
+
+std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
+    const MediumOptions& m = options.medium;
+    std::vector<NamedPlace> inputs{{"SCENE", options.scene},
+                                   {"--image", options.image},
+                                   {"--sky", options.sky},
+                                   {"--light", options.light},
+                                   {"--transfer", options.volume.transfer},
+                                   {"--medium", m.medium},
+                                   {"--phase", m.phase},
+                                   {"--noise", m.noise}};
+    if (options.scene.ends_with(".toml"))
+        for (NamedPlace& file : filesOfTerrain(options.scene)) inputs.push_back(std::move(file));
+    return inputs;
+}
+
+LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress) {
+    checkSize(size);
+    refuseTracedElsewhere(options);
+    for (const NamedPlace& input : inputsOf(options)) checkSource(input);
+    const SimdTarget simd = simdFromText(options.simd);
+    if (options.threads > 0) setThreadCount(options.threads);
+    checkMediumOptions(options);
+    const bool terrain = kindOf(options.scene) == SceneKind::Terrain;
+    if (terrain)
+        refuseVolumeOptions(options);
+    else
+        refuseTerrainOptions(options);
+    LoadedScene scene = showsMedium(options) ? loadMediumScene(options, simd, progress)
+                        : terrain            ? loadTerrainScene(options, simd, progress)
+                                             : loadColonScene(options, simd, progress);
+    scene.lens.width = size.width;
+    scene.lens.height = size.height;
+    return scene;
+}
+
+const RecordedPath& flightOf(const LoadedScene& scene, const std::optional<RecordedPath>& path,
+                             const std::string& file) {
+    if (path && scene.colon) checkInLumen(*scene.colon, *path, file);
+    if (path) return *path;
+    if (scene.path.samples().empty())
+        throw Error(scene.name, "", "has no flight of its own", "give a recorded one with --path");
+    return scene.path;
+}
+
+Pose poseFromText(const std::string& text) {
+    std::vector<double> values = numbersIn("--pose", poseNumbers(), text).numbers;
+    values.resize(6);  // angles of 0 where none are said
+    return poseFromAngles({values[0], values[1], values[2]}, values[3] * kRadians, values[4] * kRadians,
+                          values[5] * kRadians);
+}
+
+std::optional<RightEyeMethod> methodFromText(const std::string& name, const char* option) {
+    if (name == "auto") return std::nullopt;
+    if (const auto method = rightEyeMethodFromName(name)) return *method;
+    std::string known;
+    for (const NamedMethod& method : kRightEyeMethods)
+        known += std::string(known.empty() ? "" : ", ") + std::string(method.name);
+    throw Error(option, "", "there is no method \"" + name + "\"", "the methods are " + known);
+}
+
+std::string_view sweepMethodFromText(const std::string& name, const char* option) {
+    if (name == "auto") return kSweepMethod;
+    const auto known = std::find(kSweepMethods.begin(), kSweepMethods.end(), name);
+    if (known != kSweepMethods.end()) return *known;
+    throw Error(option, "", "there is no method \"" + name + "\" of making two eyes of a medium",
+                fmt::format("the methods are {}", fmt::join(kSweepMethods, ", ")));
+}
+
+OutputMode modeFromText(const std::string& name) {
+    if (const auto mode = outputModeFromName(name)) return *mode;
+    throw Error("--mode", "", "there is no output mode \"" + name + "\"",
+                "the modes are " + outputModeNames());
+}
+
+SimdTarget simdFromText(const std::string& name) {
+    for (const NamedSimdTarget& known : kSimdTargets)
+        if (known.name == name) return known.target;
+    throw Error("--simd", "", "there is no instruction set \"" + name + "\"",
+                "use auto, plain, avx2 or avx512");
+}
+
+void adjustViews(const SceneOptions& options, LoadedScene& scene) {
+    if (options.separation_m) scene.stereo.separation = *options.separation_m;
+    if (options.zeroParallax_m) scene.stereo.zeroParallax = *options.zeroParallax_m;
+    if (options.fov_deg > 0.0) scene.lens.verticalFov = options.fov_deg * kRadians;
+}
+
+std::optional<FramePlan> planScene(const LoadedScene& scene) {
+    constexpr int kPosesAlongTheFlight = 4;
+    std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};
+    if (!scene.path.samples().empty())
+        for (const Pose& pose : scene.path.frames(kPosesAlongTheFlight)) views.push_back(scene.viewsAt(pose));
+    return scene.frames->measure(views);
+}
+
+std::string machineName() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);) {
+        const std::size_t colon = line.find(": ");
+        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
+    }
+    return "unknown";
+}
+
+}  // namespace stereonav

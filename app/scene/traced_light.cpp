@@ -1,0 +1,102 @@
+// The light is that of `bake`; exposure is chosen from the left picture for both.
+#include "app/scene/traced_light.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/options/number_text.h"
+#include "app/scene/light_loading.h"
+#include "app/scene/medium_options.h"
+#include "app/scene/volume_light.h"
+#include "engine/base/error.h"
+#include "engine/base/stopwatch.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kTracedSamples = 64;  // where nothing is said
+
+// The same light in the words of a bake.
+BakeOptions asBake(const SceneOptions& options) {
+    const TracedOptions traced = options.traced.value_or(TracedOptions{});
+    BakeOptions bake;
+    bake.scene = options;
+    bake.scene.light.clear();
+    bake.scene.volume.cache = true;  // of bakes; nothing is kept of a picture
+    bake.words = {"--point-light", "--sky"};
+    if (numbersFromText(options.sky).empty()) {
+        bake.probe = options.sky;
+        bake.scene.sky.clear();
+    }
+    bake.samples = traced.samples;
+    bake.bounces = traced.bounces;
+    bake.albedo = traced.albedo;
+    bake.lights = traced.lights;
+    bake.reach_mm = traced.reach_mm;
+    return bake;
+}
+
+std::string tracedErrorText(double error) {
+    return std::isfinite(error) ? fmt::format("error at most about {:.2g} %", 100 * error)
+                                : "error not known";
+}
+
+}  // namespace
+
+void checkTracedLight(const SceneOptions& options) {
+    if (options.light != kTracedLight) return;
+    const VolumeOptions& v = options.volume;
+    if (v.skyMoved() || !v.transfer.empty() || v.opacity || !v.shading.empty())
+        throw Error("--light", "", "traced expects an opaque surface under a sky that stands still",
+                    "leave out --turn, --tilt, --transfer, --opacity and --shading");
+    checkBakeOptions(asBake(options));
+}
+
+std::string methodUnderLight(const SceneOptions& options, const std::string& method) {
+    if (options.light != kTracedLight || showsMedium(options)) return method;  // media are refused later
+    if (method != "auto" && method != "full")
+        throw Error("--method", "", fmt::format("{} does not go with --light traced", method),
+                    "leave it out: each eye is traced in full");
+    const QualityOptions& q = options.quality;
+    if (q.quality || q.targetPsnr_db || q.target_ms)
+        throw Error(q.quality         ? "--quality"
+                    : q.targetPsnr_db ? "--target-psnr"
+                                      : "--target-ms",
+                    "", "does not go with --light traced", "leave it out: nothing is warped");
+    return "full";
+}
+
+TracedLight::TracedLight(const SceneOptions& options, const ColonScene& scene)
+    : mOptions(options.volume),
+      mScene(scene),
+      mSamples(options.traced.value_or(TracedOptions{}).samples.value_or(kTracedSamples)) {
+    const LightSetup setup = lightSetupOf(scene, asBake(options), mNotes);
+    mPaths = std::make_unique<PixelPaths>(scene.volume, setup);
+}
+
+void TracedLight::light(const StereoViews& views, EyeImage& left, EyeImage& right, Progress& progress) {
+    const Stopwatch watch;
+    PixelLightFacts facts;
+    float exposure = 1;
+    std::uint32_t eye = 0;
+    for (const auto& [view, image] : {std::pair{&views.left, &left}, std::pair{&views.right, &right}}) {
+        Plane<TexelSum> sums;
+        Progress half([&](double share, const std::string& what) {
+            progress.report((eye + share) / 2, fmt::format("{} eye, {}", eye ? "right" : "left", what));
+        });
+        mPaths->add(*view, image->viewDepth, eye, mSamples, sums, half);
+        if (eye == 0) {
+            facts = factsOf(sums);
+            exposure = exposureOf(mOptions, facts.mean);
+        }
+        showPixelLight(mScene.volume.look, sums, exposure, *image);
+        ++eye;
+    }
+    mNotes.push_back(fmt::format("both eyes traced in {:.2f} s, {} paths a pixel, {}, exposure {:.4g}",
+                                 watch.elapsed_ms() / 1000, mSamples, tracedErrorText(facts.error),
+                                 static_cast<double>(exposure)));
+}
+
+}  // namespace stereonav

@@ -1,0 +1,44 @@
+// A picture of a volume whose every pixel is path traced, in both eyes: what baked light is held against.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/command/commands.h"
+#include "colon/colon_scene.h"
+#include "engine/base/progress.h"
+#include "engine/camera/stereo_rig.h"
+#include "engine/image/eye_image.h"
+#include "engine/light/pixel_path.h"
+
+namespace stereonav {
+
+// What can be checked without the volume, where --light asks for it. Throws Error.
+void checkTracedLight(const SceneOptions& options);
+// The way of the right eye: "full" where --light asks for paths, else the one given. Throws Error for others
+// than that, since each eye is traced for itself.
+std::string methodUnderLight(const SceneOptions& options, const std::string& method);
+
+class TracedLight {
+public:
+    // scene must outlive this. Lit by --sky (a picture all around, or a colour) and --point-light, or by what
+    // bake takes where nothing is said. Throws Error.
+    TracedLight(const SceneOptions& options, const ColonScene& scene);
+
+    // Colours the surface in both pictures, which were cast in full. Throws Cancelled.
+    void light(const StereoViews& views, EyeImage& left, EyeImage& right, Progress& progress);
+
+    // What was done, a line each.
+    const std::vector<std::string>& notes() const { return mNotes; }
+
+private:
+    const VolumeOptions mOptions;
+    const ColonScene& mScene;
+    int mSamples;
+    std::vector<std::string> mNotes;
+    std::unique_ptr<PixelPaths> mPaths;
+};
+
+}  // namespace stereonav

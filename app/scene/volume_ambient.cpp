@@ -1,0 +1,209 @@
+#include "app/scene/volume_ambient.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <tuple>
+
+#include "app/options/number_text.h"
+#include "engine/base/error.h"
+#include "engine/light/occlusion.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kUsualStrength = 1;  // nothing is brighter than its colour
+
+struct Method {
+    OcclusionMethod method;
+    const char* name;
+    double OcclusionEstimate::*number;  // that may follow the name; null: none
+    const char* numberName;
+    double least, most;
+};
+constexpr std::array<Method, 4> kMethods{
+    {{OcclusionMethod::Gaussian, "gaussian", nullptr, "", 0, 0},
+     {OcclusionMethod::Reconstructed, "t-beta", &OcclusionEstimate::beta, "B", kLeastBeta, kMostBeta},
+     {OcclusionMethod::DrawnIn, "drawn-in", &OcclusionEstimate::deviations, "S", kLeastDeviations,
+      kMostDeviations},
+     {OcclusionMethod::Chebyshev, "chebyshev", nullptr, "", 0, 0}}};
+
+glm::ivec3 voxelsOf(const VolumeFrame& frame, const char* option, double radius) {
+    const double largest = largestOcclusionRadius(frame);
+    if (radius > largest * (1 + 1e-6))
+        throw Error(option, "",
+                    fmt::format("expected at most {:.6g} millimetres in this volume, which are {} voxels, "
+                                "got {:.6g}",
+                                1000 * largest, kMostOcclusionRadius, 1000 * radius),
+                    "choose a smaller one");
+    return occlusionRadius(frame, radius);
+}
+
+void refuseColon(const char* option, const ColonScene& scene) {
+    if (scene.isColon())
+        throw Error(option, "", "expected with a volume seen from outside, this one is a colon",
+                    "add --isosurface, or leave it out");
+}
+
+void refuseWithoutEffect(const VolumeOptions& o) {
+    const auto refuse = [](bool when, const char* option, const char* problem, const char* advice) {
+        if (when) throw Error(option, "", problem, advice);
+    };
+    const char* ambientAdvice = "add --ambient, or leave it out";
+    refuse(!o.ambient_mm && o.ambientStrength, "--ambient-strength", "expected with --ambient",
+           ambientAdvice);
+    refuse(!o.ambient_mm && o.ambientLamp, "--ambient-lamp", "expected with --ambient", ambientAdvice);
+    const char* modulateAdvice = "add --modulate variance or gradient, or leave it out";
+    refuse(!modulates(o) && o.modulateRadius_mm, "--modulate-radius", "expected with --modulate",
+           modulateAdvice);
+    refuse(!modulates(o) && o.modulateSigma, "--modulate-sigma", "expected with --modulate", modulateAdvice);
+    refuse(!o.ambientMethod.empty() && !o.ambient_mm && !(modulates(o) && o.modulate == "gradient"),
+           "--ambient-method", "expected with --ambient or --modulate gradient", "leave it out");
+    const std::string& shading = o.shading;
+    refuse(o.ambient_mm && shading == "varying", "--shading",
+           "varying ambient light does not go with --ambient, which takes its place",
+           "leave one of them out");
+    const bool lit = o.ambientLamp && *o.ambientLamp > 0;
+    refuse(o.ambient_mm && !lit && !shading.empty() && shading != "lamp" && shading != "fog", "--shading",
+           "has no effect with --ambient, which is all the light there is",
+           "add --ambient-lamp, or leave it out");
+}
+
+// radiusOption: what gave the radius.
+ModulationSetting modulationSetting(const VolumeOptions& options, const VolumeFrame& frame,
+                                    const char* radiusOption) {
+    ModulationSetting setting;
+    setting.by = options.modulate == "variance" ? ModulatedBy::Variance : ModulatedBy::Gradient;
+    if (setting.by == ModulatedBy::Gradient)
+        setting.openness = occlusionEstimateFromText(options.ambientMethod);
+    setting.sigma = options.modulateSigma;
+    setting.radius = voxelsOf(frame, radiusOption, modulationRadius(options, frame));
+    return setting;
+}
+
+// What a sigma that is chosen looks at. The isovalue is part of the function of --opacity.
+auto shownBy(const VolumeOptions& o) {
+    return std::make_tuple(o.transfer, o.opacity, o.opacity ? o.isovalue : std::nullopt);
+}
+
+}  // namespace
+
+OcclusionEstimate occlusionEstimateFromText(const std::string& text) {
+    if (text.empty()) return {};
+    const std::size_t space = text.find(' ');
+    const std::string name = text.substr(0, space);
+    for (const Method& m : kMethods) {
+        if (name != m.name) continue;
+        OcclusionEstimate estimate(m.method);
+        if (space == std::string::npos) return estimate;
+        const std::vector<double> numbers = numbersFromText(text.substr(space + 1));
+        if (!m.number)
+            throw Error("--ambient-method", "", fmt::format("{} has no number, got \"{}\"", name, text),
+                        "give the name alone");
+        if (numbers.size() != 1 || !(numbers[0] >= m.least && numbers[0] <= m.most))
+            throw Error("--ambient-method", "",
+                        fmt::format("expected {} and one number from {:g} to {:g}, got \"{}\"", name, m.least,
+                                    m.most, text),
+                        fmt::format("as in \"{} 2\"", name));
+        estimate.*m.number = numbers[0];
+        return estimate;
+    }
+    throw Error("--ambient-method", "", "there is no method \"" + text + "\"",
+                "the methods are " + occlusionMethodNames());
+}
+
+std::string textOf(const OcclusionEstimate& estimate) {
+    const OcclusionEstimate usual(estimate.method);
+    for (const Method& m : kMethods)
+        if (m.method == estimate.method)
+            return m.number && estimate != usual ? fmt::format("{} {:g}", m.name, estimate.*m.number)
+                                                 : m.name;
+    return "";
+}
+
+std::string occlusionMethodNames() {
+    std::string names;
+    for (const Method& m : kMethods)
+        names += fmt::format("{}{}{}", names.empty() ? "" : ", ", m.name,
+                             m.number ? fmt::format(" [{}]", m.numberName) : "");
+    return names;
+}
+
+bool modulates(const VolumeOptions& options) {
+    return !options.modulate.empty() && options.modulate != "none";
+}
+
+double modulationRadius(const VolumeOptions& options, const VolumeFrame& frame) {
+    // Ruiz et al. 2010, section 4.2: 10 voxels.
+    const double usual = 10 * std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z});
+    if (options.modulateRadius_mm) return *options.modulateRadius_mm / 1000;
+    return options.ambient_mm ? *options.ambient_mm / 1000 : usual;
+}
+
+void checkAmbientLight(const VolumeOptions& o, const std::string& light) {
+    occlusionEstimateFromText(o.ambientMethod);
+    const std::string& by = o.modulate;
+    if (!by.empty() && by != "none" && by != "variance" && by != "gradient")
+        throw Error("--modulate", "", fmt::format("\"{}\" is not known", by),
+                    "expected one of variance, gradient, none");
+    const NumberRange steepest = above(0, kSteepestOpenness);
+    if (by == "gradient" && o.modulateSigma && !steepest.holds(*o.modulateSigma))
+        throw Error("--modulate-sigma", "",
+                    fmt::format("expected {} beside gradient, got {}", rangeText(steepest),
+                                shortNumber(*o.modulateSigma)),
+                    "a change of openness a voxel; 0.05 is usual on surfaces");
+    if (!light.empty() && o.ambient_mm)
+        throw Error("--ambient", "", "expected without baked light, --light was given too",
+                    "leave one of them out");
+    if (modulates(o) && o.transfer.empty() && !o.opacity)
+        throw Error("--modulate", "", "expected with a translucent volume",
+                    "add --transfer or --opacity, or leave it out");
+    refuseWithoutEffect(o);
+}
+
+void applyAmbient(const VolumeOptions& options, const VolumeOptions* made, ColonScene& scene,
+                  Progress& progress) {
+    AmbientLook& look = scene.volume.look.occlusion;
+    if (!options.ambient_mm) {
+        look = {};
+        return;
+    }
+    refuseColon("--ambient", scene);
+    look.strength = static_cast<float>(options.ambientStrength.value_or(kUsualStrength));
+    look.lampShare = static_cast<float>(options.ambientLamp.value_or(0));
+    const OcclusionEstimate estimate = occlusionEstimateFromText(options.ambientMethod);
+    const GreyVolume& field = scene.volume.field;
+    const glm::ivec3 radius = voxelsOf(field.frame, "--ambient", *options.ambient_mm / 1000);
+    const bool same = made && look.openness &&
+                      occlusionRadius(field.frame, *made->ambient_mm / 1000) == radius &&
+                      occlusionEstimateFromText(made->ambientMethod) == estimate;
+    if (same) return;
+    look.openness =
+        std::make_shared<const OpennessVolume>(estimateOpenness(field, estimate, radius, progress));
+}
+
+std::optional<double> applyModulation(const VolumeOptions& options, const VolumeOptions* made,
+                                      const std::optional<double>& sigma, ColonScene& scene,
+                                      Progress& progress) {
+    std::shared_ptr<const Volume<std::uint8_t>>& to = scene.volume.look.modulation;
+    if (!modulates(options)) {
+        to = nullptr;
+        return std::nullopt;
+    }
+    refuseColon("--modulate", scene);
+    const GreyVolume& field = scene.volume.field;
+    const bool own = options.modulateRadius_mm || !options.ambient_mm;
+    const ModulationSetting setting =
+        modulationSetting(options, field.frame, own ? "--modulate-radius" : "--ambient");
+    const bool same = made && to && setting == modulationSetting(*made, field.frame, "") &&
+                      (setting.sigma || shownBy(*made) == shownBy(options));
+    if (same) return sigma;
+    OpacityModulation modulation = opacityModulation(field, setting, scene.volume.look.transfer, progress);
+    to = std::make_shared<const Volume<std::uint8_t>>(std::move(modulation.share));
+    return modulation.sigma;
+}
+
+}  // namespace stereonav

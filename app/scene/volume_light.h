@@ -1,0 +1,45 @@
+// How a volume is lit, from options: baked light, or one of the models it is compared with.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/command/commands.h"
+#include "colon/colon_scene.h"
+#include "engine/base/progress.h"
+#include "engine/light/turning_sky.h"
+
+namespace stereonav {
+
+// What can be checked without the volume. Throws Error.
+void checkVolumeLight(const SceneOptions& options);
+
+// --light, --sky, --turn, --exposure and --shading into the scene's look (--ambient and --modulate: see
+// volume_ambient.h). Gives the sky, where it is one that turns and options.skyTurns; else null. Throws Error,
+// Cancelled.
+std::shared_ptr<TurningSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene,
+                                             Progress& progress);
+
+// The harmonics of --sky, or of an overcast one, before they are turned. Throws Error.
+std::vector<glm::vec3> skyHarmonics(const SceneOptions& options, int order);
+// --turn.
+SkyTurn skyTurnOf(const SceneOptions& options);
+
+// As --light: light that is worked out while one looks: irradiance, or transfer under a sky that turns.
+constexpr const char *kLazyLight = "lazy", *kLazyTransfer = "lazy-transfer";
+inline bool isLazyLight(const std::string& light) {
+    return light == kLazyLight || light == kLazyTransfer;
+}
+
+// As --light: paths traced from every pixel.
+constexpr const char* kTracedLight = "traced";
+
+// Factor on light whose mean over what is known (of white) is this: --exposure, else such that the mean is
+// shown well; 1 where there is no light.
+float exposureOf(const VolumeOptions& options, double meanLight);
+
+// Names for --shading, separated by commas.
+std::string shadingNames();
+
+}  // namespace stereonav

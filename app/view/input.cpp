@@ -1,0 +1,256 @@
+// The controls, in one place.
+#include "app/view/input.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace stereonav {
+namespace {
+
+constexpr double kTurnRate = 0.9;      // radians a second with a key held
+constexpr double kFast = 4.0;          // times the speed with shift held
+constexpr double kCrossRepeat = 0.05;  // seconds: about as often as held keys
+
+std::optional<ViewAction> actionOfKey(int key) {
+    switch (key) {
+        case GLFW_KEY_ESCAPE:
+            return ViewAction{ViewCommand::Quit};
+        case GLFW_KEY_F1:
+            return ViewAction{ViewCommand::Help};
+        case GLFW_KEY_F12:
+            return ViewAction{ViewCommand::Screenshot};
+        case GLFW_KEY_SPACE:
+            return ViewAction{ViewCommand::Home};
+        case GLFW_KEY_TAB:
+            return ViewAction{ViewCommand::CaptureMouse};
+        case GLFW_KEY_3:
+            return ViewAction{ViewCommand::ToggleStereo};
+        case GLFW_KEY_BACKSPACE:
+        case GLFW_KEY_DELETE:
+            return ViewAction{ViewCommand::RemoveSeed};
+        case GLFW_KEY_ENTER:
+        case GLFW_KEY_KP_ENTER:
+            return ViewAction{ViewCommand::FindAgain};
+        default:
+            return std::nullopt;
+    }
+}
+
+std::optional<OutputMode> modeOfDigit(int key) {
+    switch (key) {
+        case GLFW_KEY_1:
+            return OutputMode::SideBySide;
+        case GLFW_KEY_2:
+            return OutputMode::CrossEyed;
+        case GLFW_KEY_4:
+            return OutputMode::SideBySideHalf;
+        case GLFW_KEY_5:
+            return OutputMode::TopBottom;
+        case GLFW_KEY_6:
+            return OutputMode::Rows;
+        case GLFW_KEY_7:
+            return OutputMode::Columns;
+        case GLFW_KEY_8:
+            return OutputMode::Checkerboard;
+        case GLFW_KEY_9:
+            return OutputMode::RedCyanDubois;
+        case GLFW_KEY_0:
+            return OutputMode::Left;
+        default:
+            return std::nullopt;
+    }
+}
+
+std::optional<ViewCommand> repeatableOfLetter(char letter, bool shift) {
+    switch (letter) {
+        case '[':
+            return ViewCommand::LessSeparation;
+        case ']':
+            return ViewCommand::MoreSeparation;
+        case ';':
+            return ViewCommand::NearerZeroParallax;
+        case '\'':
+            return ViewCommand::FartherZeroParallax;
+        case ',':
+            return ViewCommand::LowerIsovalue;
+        case '.':
+            return ViewCommand::HigherIsovalue;
+        case '-':
+            return ViewCommand::SmallerRadius;
+        case '=':
+            return ViewCommand::LargerRadius;
+        case 'g':
+            return shift ? ViewCommand::LessSigma : ViewCommand::MoreSigma;
+        case 'h':
+            return ViewCommand::LowerSun;
+        case 'u':
+            return ViewCommand::HigherSun;
+        case 'j':
+            return ViewCommand::SunAnticlockwise;
+        case 'k':
+            return ViewCommand::SunClockwise;
+        default:
+            return std::nullopt;
+    }
+}
+
+std::optional<ViewCommand> commandOfLetter(char letter, bool shift) {
+    switch (letter) {
+        case 'f':
+            return ViewCommand::NextFlightMode;
+        case 'x':
+            return ViewCommand::SwapEyes;
+        case 'm':
+            return shift ? ViewCommand::PreviousMode : ViewCommand::NextMode;
+        case 'n':
+            return ViewCommand::NextMethod;
+        case 'i':
+            return ViewCommand::NextModel;
+        case 'l':
+            return ViewCommand::LinearAnaglyph;
+        case 'r':
+            return ViewCommand::Reset;
+        case 'c':
+            return ViewCommand::FollowClearance;
+        case 't':
+            return shift ? ViewCommand::NextTransfer : ViewCommand::ToggleTranslucent;
+        case 'o':
+            return shift ? ViewCommand::PreviousAmbient : ViewCommand::NextAmbient;
+        case 'b':
+            return ViewCommand::NextModulation;
+        case 'v':
+            return ViewCommand::Slices;
+        case 'p':
+            return ViewCommand::Screenshot;
+        case 'z':
+            return shift ? ViewCommand::Play : ViewCommand::Record;
+        default:
+            return std::nullopt;
+    }
+}
+
+// The place on a US keyboard stands in where the layout has no such letter.
+std::optional<ViewCommand> repeatableOfKey(int key) {
+    switch (key) {
+        case GLFW_KEY_LEFT_BRACKET:
+            return ViewCommand::LessSeparation;
+        case GLFW_KEY_RIGHT_BRACKET:
+            return ViewCommand::MoreSeparation;
+        case GLFW_KEY_SEMICOLON:
+            return ViewCommand::NearerZeroParallax;
+        case GLFW_KEY_APOSTROPHE:
+            return ViewCommand::FartherZeroParallax;
+        case GLFW_KEY_MINUS:
+        case GLFW_KEY_KP_SUBTRACT:
+            return ViewCommand::SmallerRadius;
+        case GLFW_KEY_EQUAL:
+        case GLFW_KEY_KP_ADD:
+            return ViewCommand::LargerRadius;
+        case GLFW_KEY_PAGE_UP:
+            return ViewCommand::PreviousSlice;
+        case GLFW_KEY_PAGE_DOWN:
+            return ViewCommand::NextSlice;
+        default:
+            return std::nullopt;
+    }
+}
+
+}  // namespace
+
+std::optional<ViewAction> actionOf(const KeyPress& press) {
+    const char letter = static_cast<char>(std::tolower(static_cast<unsigned char>(press.letter)));
+    if (const auto command = repeatableOfLetter(letter, press.shift)) return ViewAction{*command};
+    if (const auto command = repeatableOfKey(press.key);
+        command && !std::isalpha(static_cast<unsigned char>(letter)))
+        return ViewAction{*command};
+    if (press.repeat) return std::nullopt;
+    if (const auto command = commandOfLetter(letter, press.shift)) return ViewAction{*command};
+    if (const auto mode = modeOfDigit(press.key)) return ViewAction{ViewCommand::SetMode, *mode};
+    return actionOfKey(press.key);
+}
+
+const std::vector<std::pair<std::string, std::string>>& viewHelp() {
+    static const std::vector<std::pair<std::string, std::string>> help = {
+        {"W S A D", "fly forward, back, left, right"},
+        {"Q E", "down, up"},
+        {"arrows, drag", "look around (Tab holds the mouse)"},
+        {", .", "roll; of a volume seen from outside: move its surface"},
+        {"wheel, Shift", "speed, four times the speed"},
+        {"Space, R", "home, reset everything"},
+        {"F", "fly freely, over the ground, along the colon"},
+        {"[ ]", "eyes closer together, further apart"},
+        {"C", "eyes as far apart as the room suits (colon)"},
+        {"; '", "screen (zero parallax) nearer, farther"},
+        {"X", "swap the eyes"},
+        {"3", "stereo on, off"},
+        {"M Shift+M", "next, previous output mode"},
+        {"1 2", "side by side, cross-eyed"},
+        {"4 5", "side by side half, top-bottom"},
+        {"6 7 8", "rows, columns, checkerboard"},
+        {"9 0", "red/cyan Dubois, left eye alone"},
+        {"N", "next way of making the right eye"},
+        {"I", "next model of light (media)"},
+        {"L", "anaglyphs in linear light, or on encoded values"},
+        {"z Z", "record the flight, play it"},
+        {"U H J K", "light or sky higher, lower, round (where it turns)"},
+        {"T Shift+T", "translucent, or opaque; next transfer function"},
+        {"O Shift+O", "ambient light: next, previous method, or none"},
+        {"- =", "what it looks at around: nearer, farther"},
+        {"B", "opacity by variance, by gradient, as it is"},
+        {"G Shift+G", "sigma of that: larger, smaller"},
+        {"V", "slices (volumes): clicks set seeds, Enter looks again"},
+        {"P F12", "save a picture"},
+        {"F1 Esc", "this help, back or quit"},
+    };
+    return help;
+}
+
+glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place) {
+    const auto half = [](double share) { return share < 0.5 ? 2 * share : 2 * share - 1; };
+    if (layout == OutputLayout::SideBySide) return {half(place.x), place.y};
+    if (layout == OutputLayout::TopBottom) return {place.x, half(place.y)};
+    return place;
+}
+
+FlightInput ViewInput::flightOf(const Window& window, const Gamepad& pad) const {
+    const auto axis = [&](int more, int less) {
+        return (window.keyDown(more) ? 1.0 : 0.0) - (window.keyDown(less) ? 1.0 : 0.0);
+    };
+    FlightInput input;
+    input.forward = std::clamp(axis(GLFW_KEY_W, GLFW_KEY_S) - pad.leftStick.y, -1.0, 1.0);
+    input.right = std::clamp(axis(GLFW_KEY_D, GLFW_KEY_A) + pad.leftStick.x, -1.0, 1.0);
+    input.up = std::clamp(axis(GLFW_KEY_E, GLFW_KEY_Q) + pad.rightTrigger - pad.leftTrigger, -1.0, 1.0);
+    input.yawRate = kTurnRate * (axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) + pad.rightStick.x);
+    input.pitchRate = kTurnRate * (axis(GLFW_KEY_UP, GLFW_KEY_DOWN) - pad.rightStick.y);
+    input.rollRate = kTurnRate * axis(GLFW_KEY_PERIOD, GLFW_KEY_COMMA);
+    const bool fast = window.keyDown(GLFW_KEY_LEFT_SHIFT) || window.keyDown(GLFW_KEY_RIGHT_SHIFT);
+    input.speedMultiplier = fast ? kFast : 1.0;
+    return input;
+}
+
+std::vector<ViewAction> ViewInput::actionsOf(const Gamepad& pad, double dt) {
+    std::vector<ViewAction> actions;
+    const auto add = [&](bool now, bool before, ViewCommand command) {
+        if (now && !before) actions.push_back({command});
+    };
+    mCrossHeld += dt;
+    const bool again = mCrossHeld >= kCrossRepeat;
+    add(pad.up, mBefore.up && !again, ViewCommand::HigherSun);
+    add(pad.down, mBefore.down && !again, ViewCommand::LowerSun);
+    add(pad.left, mBefore.left && !again, ViewCommand::SunAnticlockwise);
+    add(pad.right, mBefore.right && !again, ViewCommand::SunClockwise);
+    if (!actions.empty()) mCrossHeld = 0;
+    add(pad.a, mBefore.a, ViewCommand::Home);
+    add(pad.b, mBefore.b, ViewCommand::SwapEyes);
+    add(pad.x, mBefore.x, ViewCommand::NextMode);
+    add(pad.y, mBefore.y, ViewCommand::NextFlightMode);
+    add(pad.leftBumper, mBefore.leftBumper, ViewCommand::LessSeparation);
+    add(pad.rightBumper, mBefore.rightBumper, ViewCommand::MoreSeparation);
+    mBefore = pad;
+    return actions;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,38 @@
+// Scenes for the viewer: loaded, measured, and loaded again with what the user changed in the window.
+#pragma once
+
+#include <future>
+
+#include "app/command/commands.h"
+#include "app/scene/scene_loading.h"
+#include "app/view/session.h"
+#include "app/view/worker.h"
+
+namespace stereonav {
+
+class ViewSweep;
+
+// measure: whether to find out by measuring how the right eye is made best, where the options leave it
+// open; else it is the scene's default. sweep: of media, null for other scenes. Throws Error, Cancelled.
+ViewScene viewSceneOf(const ViewOptions& options, bool measure, ViewSweep* sweep, Progress& progress);
+
+// What the user changed in the window, into `options`, which were made from `first`.
+void applyChange(const SceneChange& change, const ViewOptions& first, SceneOptions& options);
+
+// Reads the slices of a scene beside the window's thread.
+class SliceReading {
+public:
+    ~SliceReading() { mProgress.cancel(); }  // and waits for the end
+
+    bool busy() const { return mReading.valid(); }
+    // Nothing while busy, or for a scene without slices. wake: called when it is done.
+    void start(std::shared_ptr<const ViewScene> scene, std::function<void()> wake);
+    // Null while it is not done; throws what reading threw.
+    std::shared_ptr<const SliceStudy> take();
+
+private:
+    Progress mProgress;
+    std::future<std::shared_ptr<const SliceStudy>> mReading;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,40 @@
+// Saves pictures beside the window's thread; each waits for the frame that shows what was asked for.
+#pragma once
+
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/view/worker.h"
+#include "engine/image/stereo_compose.h"
+
+namespace stereonav {
+
+class Screenshots {
+public:
+    explicit Screenshots(std::filesystem::path folder) : mFolder(std::move(folder)) {}
+
+    void wish(long long version) { mVersions.push_back(version); }
+    bool waiting() const { return !mVersions.empty() || !mSaving.empty(); }
+
+    void take(const std::shared_ptr<const ViewFrame>& frame, const ComposeSetting& setting);
+    // A picture that is there already, shown to both eyes.
+    void take(const Plane<PackedColor>& picture, const ComposeSetting& setting);
+
+    // What happened since, "" when nothing; throws what saving threw.
+    std::string report();
+
+private:
+    // left, right: kept by `owner`.
+    void save(std::shared_ptr<const void> owner, const Plane<PackedColor>& left,
+              const Plane<PackedColor>& right, const ComposeSetting& setting);
+
+    std::filesystem::path mFolder;
+    int mNumber = 0;
+    std::vector<long long> mVersions;
+    std::vector<std::future<std::string>> mSaving;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,380 @@
+// The viewer's state and what each command does to it.
+#include "app/view/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/view/status.h"
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kStereoStep = 1.1;  // separation and zero parallax, a key press
+constexpr double kSpeedStep = 1.2;   // a notch of the wheel
+constexpr double kSlowest = 0.01, kFastest = 100.0;
+constexpr double kNoticeSeconds = 4.0;
+constexpr double kStill = 1e-4;  // of the normal speed, and radians a second: at rest
+
+// Whether so little moved within dt seconds that the flight counts as at rest.
+bool atRest(const Pose& before, const Pose& after, double speed, double dt) {
+    const double moved = glm::length(after.position - before.position);
+    const glm::dquat turned = after.orientation - before.orientation;
+    return moved <= kStill * speed * dt && glm::length(turned) <= kStill * dt;
+}
+
+bool samePose(const Pose& a, const Pose& b) {
+    return a.position == b.position && a.orientation == b.orientation;
+}
+
+bool sameFrame(const FrameRequest& a, const FrameRequest& b) {
+    return samePose(a.pose, b.pose) && a.lens.width == b.lens.width && a.lens.height == b.lens.height &&
+           a.stereo.separation == b.stereo.separation && a.stereo.zeroParallax == b.stereo.zeroParallax &&
+           a.way.method == b.way.method && a.model == b.model && a.time == b.time && a.twoEyes == b.twoEyes &&
+           a.mode == b.mode && a.sun == b.sun;
+}
+
+bool asksForMotion(const FlightInput& input) {
+    for (const double v :
+         {input.forward, input.right, input.up, input.yawRate, input.pitchRate, input.rollRate})
+        if (v != 0) return true;
+    return false;
+}
+
+}  // namespace
+
+ViewSession::ViewSession(std::shared_ptr<const ViewScene> scene, const Options& options)
+    : mScene(std::move(scene)),
+      mFolder(options.folder),
+      mFlight(mScene->makeFlight()),
+      mFirstFlightMode(mFlight->mode()),
+      mPath(options.path ? *options.path : mScene->path),
+      mOwnPath(!options.path),
+      mStereo(*mScene),
+      mSun(mScene->sun),
+      mIsovalue(mScene->isovalue),
+      mTranslucent(mScene->translucent),
+      mTransfer(mScene->transfer),
+      mTriedTransfer(mScene->transfer),
+      mAmbient(mScene->ambient),
+      mMode(options.mode),
+      mFirstMode(options.mode),
+      mMethod(mScene->way.method),
+      mModel(mScene->model) {}
+
+void ViewSession::replaceScene(std::shared_ptr<const ViewScene> scene) {
+    if (!scene->changed) stopPlaying();
+    const Pose here = mFlight->pose();
+    const int mode = mFlight->mode();
+    std::unique_ptr<Flight> flight = scene->makeFlight();
+    if (mode < flight->modeCount()) flight->setMode(mode);
+    flight->setPose(here);
+    mFlight = std::move(flight);
+    // Light that was turned stays so over the same study.
+    const bool lightStays = mScene->moveSun && scene->moveSun && mScene->turnsSky == scene->turnsSky;
+    const bool methodStays = scene->changed && scene->way.method == mScene->way.method;
+    mScene = std::move(scene);
+    if (mOwnPath) mPath = mScene->path;
+    mStereo.replaceScene(*mScene);
+    if (!lightStays) mSun = mScene->sun;
+    if (!methodStays) mMethod = mScene->way.method;
+    mModel = mScene->model;
+    // More may be asked for than a scene made in between shows.
+    if (!mScene->changed) forgetSceneChange();
+    mResting = false;
+    mLooked = true;  // one step at least shows it
+    ++mRequest.version;
+}
+
+std::optional<SceneChange> ViewSession::takeSceneChange() {
+    return std::exchange(mChange, std::nullopt);
+}
+
+void ViewSession::forgetSceneChange() {
+    if (mChange) return;  // asked for since
+    mIsovalue = mScene->isovalue;
+    mTranslucent = mScene->translucent;
+    mTransfer = mScene->transfer;
+    const std::optional<ViewAmbient> before = std::exchange(mAmbient, mScene->ambient);
+    if (!before || !mAmbient) return;
+    // What is not shown keeps its radius for when it is.
+    if (!mAmbient->lit) mAmbient->radius = before->radius;
+    if (mAmbient->modulate.empty() && !mAmbient->lit) mAmbient->modulateRadius = before->modulateRadius;
+}
+
+void ViewSession::act(const ViewAction& action) {
+    mResting = false;
+    if (actOnSlices(action.command) || actOnVolume(action.command) || actOnSun(action.command) ||
+        actOnEyes(action.command) || actOnStereo(action))
+        return;
+    switch (action.command) {
+        case ViewCommand::Quit:
+            mQuit = true;
+            break;
+        case ViewCommand::Help:
+            mHelp = !mHelp;
+            break;
+        case ViewCommand::Screenshot:
+            mScreenshot = true;
+            break;
+        case ViewCommand::CaptureMouse:
+            mCaptured = !mCaptured;
+            break;
+        case ViewCommand::Record:
+            toggleRecording();
+            break;
+        case ViewCommand::Play:
+            togglePlaying();
+            break;
+        default:
+            actOnFlight(action.command);
+    }
+}
+
+bool ViewSession::actOnStereo(const ViewAction& action) {
+    switch (action.command) {
+        case ViewCommand::ToggleStereo:
+            mStereoOn = !mStereoOn;
+            notify(mStereoOn ? "stereo on" : "stereo off");
+            return true;
+        case ViewCommand::SwapEyes:
+            mSwapped = !mSwapped;
+            notify(mSwapped ? "eyes swapped" : "eyes as they are");
+            return true;
+        case ViewCommand::NextMode:
+            stepMode(1);
+            return true;
+        case ViewCommand::PreviousMode:
+            stepMode(-1);
+            return true;
+        case ViewCommand::SetMode:
+            mMode = action.mode;
+            stepMode(0);
+            return true;
+        case ViewCommand::NextMethod:
+            nextMethod();
+            return true;
+        case ViewCommand::NextModel:
+            nextModel();
+            return true;
+        case ViewCommand::LinearAnaglyph:
+            mLinear = !mLinear;
+            notify(mLinear ? "anaglyph in linear light" : "anaglyph on encoded values");
+            return true;
+        default:
+            return false;
+    }
+}
+
+bool ViewSession::actOnEyes(ViewCommand command) {
+    switch (command) {
+        case ViewCommand::LessSeparation:
+            mStereo.scaleSeparation(1 / kStereoStep);
+            return true;
+        case ViewCommand::MoreSeparation:
+            mStereo.scaleSeparation(kStereoStep);
+            return true;
+        case ViewCommand::NearerZeroParallax:
+            mStereo.scaleZeroParallax(1 / kStereoStep);
+            return true;
+        case ViewCommand::FartherZeroParallax:
+            mStereo.scaleZeroParallax(kStereoStep);
+            return true;
+        case ViewCommand::FollowClearance:
+            mStereo.follow();
+            notify(mStereo.follows() ? "the eyes' separation follows the room around them"
+                                     : "the eyes' separation is set by hand here: [ ]");
+            return true;
+        default:
+            return false;
+    }
+}
+
+void ViewSession::actOnFlight(ViewCommand command) {
+    stopPlaying();
+    if (command == ViewCommand::Home) {
+        mFlight->goHome();
+    } else if (command == ViewCommand::Reset) {
+        reset();
+    } else if (command == ViewCommand::NextFlightMode) {
+        const int mode = mFlight->modeCount() > 0 ? (mFlight->mode() + 1) % mFlight->modeCount() : 0;
+        mFlight->setMode(mode);
+        notify(fmt::format("flight: {}", mFlight->modeName(mFlight->mode())));
+    }
+}
+
+// --- modes
+
+void ViewSession::stepMode(int by) {
+    const int count = static_cast<int>(outputModes().size());
+    mMode = static_cast<OutputMode>((static_cast<int>(mMode) + by + count) % count);
+    notify(fmt::format("{} ({})", infoOf(mMode).longName, infoOf(mMode).shortName));
+}
+
+void ViewSession::nextModel() {
+    if (mScene->models.empty()) return notify("lighting models are of media");
+    mModel = (mModel + 1) % static_cast<int>(mScene->models.size());
+    notify("light: " + mScene->models[static_cast<std::size_t>(mModel)]);
+}
+
+void ViewSession::nextMethod() {
+    const std::span<const std::string_view> methods = mScene->frames->methods();
+    const auto at = std::find(methods.begin(), methods.end(), mMethod);
+    mMethod = methods[(static_cast<std::size_t>(at - methods.begin()) + 1) % methods.size()];
+    notify(fmt::format("{}: {}", mScene->frames->whatMethodsMake(), mMethod));
+}
+
+void ViewSession::reset() {
+    mFlight->setMode(mFirstFlightMode);
+    mFlight->goHome();
+    mStereo.reset(*mScene);
+    mMode = mFirstMode;
+    mMethod = mScene->way.method;
+    mModel = mScene->model;
+    mSun = mScene->sun;
+    mStereoOn = true;
+    mSwapped = mLinear = false;
+    mSpeed = 1;
+    notify("reset");
+}
+
+void ViewSession::look(double yaw, double pitch) {
+    if (mPlaying || mSlices || (yaw == 0 && pitch == 0)) return;
+    mFlight->turnBy(yaw, pitch);
+    mLooked = true;
+}
+
+void ViewSession::turnWheel(double notches) {
+    if (notches == 0) return;
+    if (mSlices) return mSlices->turnPages(notches > 0 ? -1 : 1);
+    mSpeed = std::clamp(mSpeed * std::pow(kSpeedStep, notches), kSlowest, kFastest);
+    notify(fmt::format("speed {}/s", lengthText(mSpeed * mFlight->speed())));
+}
+
+void ViewSession::toggleRecording() {
+    if (mRecorder.recording()) return saveFlight();
+    stopPlaying();
+    mRecorder.start(mFlight->pose());
+    notify("recording; z ends it");
+}
+
+void ViewSession::saveFlight() {
+    try {
+        mPath = mRecorder.finish();
+        mOwnPath = false;
+        std::filesystem::path file;
+        int number = 1;
+        do file = mFolder / fmt::format("flight_{:04}.gltf", number++);
+        while (std::filesystem::exists(file));
+        writePath(file, mPath);
+        notify(fmt::format("flight of {:.1f} s recorded in {}; Z plays it", mPath.duration(), file.string()));
+    } catch (const Error& error) {
+        notify(error.what());
+    }
+}
+
+void ViewSession::togglePlaying() {
+    if (mPlaying) return stopPlaying();
+    if (mRecorder.recording()) saveFlight();
+    if (mPath.samples().size() < 2) return notify("there is no flight to play; z records one");
+    mPlaying = true;
+    mPlayTime = 0;
+    mPlayed = mPath.at(mPath.startTime());
+    notify(fmt::format("playing {:.1f} s", mPath.duration()));
+}
+
+void ViewSession::stopPlaying() {
+    if (!mPlaying) return;
+    mPlaying = false;
+    mFlight->setPose(mPlayed);
+    notify(fmt::format("played {:.1f} s", mPlayTime));
+}
+
+void ViewSession::stepPlaying(double dt) {
+    mPlayTime = std::min(mPlayTime + dt, mPath.duration());
+    mPlayed = mPath.at(mPath.startTime() + mPlayTime);
+    if (mPlayTime >= mPath.duration()) stopPlaying();
+}
+
+void ViewSession::fly(const FlightInput& input, double dt) {
+    FlightInput wish = input;
+    wish.speedMultiplier *= mSpeed;
+    if (mIsovalue) wish.rollRate = 0;  // the same keys move the surface
+    const Pose before = mFlight->pose();
+    if (!mResting || asksForMotion(input)) mFlight->step(wish, dt);
+    if (dt > 0)
+        mResting = !asksForMotion(input) && atRest(before, mFlight->pose(), mFlight->speed() * mSpeed, dt);
+    mRecorder.step(dt, mFlight->pose());
+}
+
+void ViewSession::step(const FlightInput& input, double dt) {
+    mStereo.step(mFlight->clearanceNow(), mDepthAhead, dt);
+    const Pose poseBefore = pose();
+    const bool looked = std::exchange(mLooked, false);
+    if (mPlaying) {
+        stepPlaying(dt);
+    } else {
+        fly(input, dt);
+    }
+    if (mScene->animated && dt > 0) mTime = mPlaying ? mPlayTime : mTime + dt;
+    if (mNoticeLeft > 0 && (mNoticeLeft -= dt) <= 0) mNotice.clear();
+    mMoving = mPlaying || recording() || mScene->animated || mStereo.moving() || asksForMotion(input) ||
+              looked || !samePose(poseBefore, pose());
+}
+
+void ViewSession::notify(const std::string& text) {
+    mNotice = text;
+    mNoticeLeft = kNoticeSeconds;
+}
+
+bool ViewSession::takeScreenshotWish() {
+    return std::exchange(mScreenshot, false);
+}
+
+const FrameRequest& ViewSession::requestFor(int width, int height) {
+    const auto [eyeWidth, eyeHeight] = eyeSizeFor(compose().mode, width, height);
+    FrameRequest wanted;
+    wanted.pose = pose();
+    wanted.lens = mScene->lens;
+    wanted.lens.width = eyeWidth;
+    wanted.lens.height = eyeHeight;
+    wanted.stereo = mStereo.now();
+    wanted.way = {mMethod, mScene->way.warp};
+    wanted.model = mModel;
+    wanted.time = mTime;
+    wanted.sun = mSun;
+    wanted.twoEyes = mStereoOn;
+    wanted.mode = compose().mode;
+    wanted.version = mRequest.version;
+    if (wanted.version == 0 || !sameFrame(wanted, mRequest)) ++wanted.version;
+    mRequest = wanted;
+    return mRequest;
+}
+
+ComposeSetting ViewSession::compose() const {
+    return {mStereoOn ? mMode : OutputMode::Left, mStereoOn && mSwapped, mLinear};
+}
+
+std::string ViewSession::statusLine(const ViewFrame& frame, double framesPerSecond) const {
+    std::string line = frameText(frame, framesPerSecond);
+    if (frame.request.twoEyes)
+        line += fmt::format("  {}{}{}", infoOf(mMode).longName, mSwapped ? " swapped" : "",
+                            mStereo.follows() ? "  eyes follow" : "");
+    if (!mScene->models.empty()) line += "  " + mScene->models[static_cast<std::size_t>(frame.request.model)];
+    if (!frame.sweep.empty()) line += "  " + frame.sweep;
+    const double clearance = mFlight->clearanceNow();
+    if (std::isfinite(clearance)) line += "  clearance " + lengthText(clearance);
+    if (mScene->placeOnLine) {
+        const PlaceOnLine place = mScene->placeOnLine(pose().position);
+        line += fmt::format("  at {:.0f} of {:.0f} mm", 1000 * place.along, 1000 * place.length);
+    }
+    line += volumeText();
+    if (mPlaying) line += fmt::format("  playing {:.1f} of {:.1f} s", mPlayTime, mPath.duration());
+    if (recording()) line += fmt::format("  recording {:.1f} s", mRecorder.duration());
+    return line;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,208 @@
+// What the viewer's user does and sees, without a window: flight, stereo settings, output mode, recording
+// and playing, slices and what they ask for. The window's thread owns it and calls step() in turn.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/view/slices.h"
+#include "app/view/stereo.h"
+#include "app/view/worker.h"
+#include "engine/image/stereo_compose.h"
+#include "engine/nav/flight.h"
+#include "engine/nav/path_recorder.h"
+
+namespace stereonav {
+
+enum class ViewCommand {
+    Quit,
+    Help,
+    Screenshot,
+    Home,
+    Reset,
+    NextFlightMode,
+    ToggleStereo,
+    SwapEyes,
+    NextMode,
+    PreviousMode,
+    SetMode,
+    NextMethod,
+    NextModel,
+    LinearAnaglyph,
+    LessSeparation,
+    MoreSeparation,
+    NearerZeroParallax,
+    FartherZeroParallax,
+    Record,
+    Play,
+    CaptureMouse,
+    FollowClearance,
+    LowerIsovalue,
+    HigherIsovalue,
+    ToggleTranslucent,
+    NextTransfer,
+    NextAmbient,
+    PreviousAmbient,
+    SmallerRadius,
+    LargerRadius,
+    NextModulation,
+    LessSigma,
+    MoreSigma,
+    Slices,
+    NextSlice,
+    PreviousSlice,
+    RemoveSeed,
+    FindAgain,
+    LowerSun,
+    HigherSun,
+    SunAnticlockwise,
+    SunClockwise,
+};
+
+struct ViewAction {
+    ViewCommand command;
+    OutputMode mode = OutputMode::Left;  // of SetMode
+};
+
+// Another scene that the user asks for: the same study, seen differently. What is not set stays.
+struct SceneChange {
+    std::optional<double> isovalue;
+    std::optional<bool> translucent;
+    std::optional<std::string> transfer;  // a name, "" for that of the options
+    std::optional<ViewAmbient> ambient;
+    std::optional<std::vector<glm::dvec3>> seeds;  // world
+};
+
+class ViewSession {
+public:
+    struct Options {
+        OutputMode mode = OutputMode::SideBySide;
+        std::optional<RecordedPath> path;  // what Play plays before anything is recorded
+        std::filesystem::path folder;      // for recorded flights
+    };
+    ViewSession(std::shared_ptr<const ViewScene> scene, const Options& options);
+
+    // The flight goes on in another scene, at the same place or where that one has room for it.
+    void replaceScene(std::shared_ptr<const ViewScene> scene);
+    // What was asked for since the last call.
+    std::optional<SceneChange> takeSceneChange();
+    // Of the last change, when it can not be done: what is shown counts again.
+    void forgetSceneChange();
+
+    void act(const ViewAction& action);
+    // Turns by radians: clockwise seen from above, upwards.
+    void look(double yaw, double pitch);
+    void turnWheel(double notches);  // each notch a fifth faster; in the slice view, a slice
+    // In the slice view sets a seed; x, y: pixels of the last slice picture. What to tell, "" when nothing.
+    std::string click(double x, double y);
+    // dt seconds pass. The input's speed multiplier is applied on top of the session's own.
+    void step(const FlightInput& input, double dt);
+    // A frame has come: what it shows guides what follows the room.
+    void observe(const ViewFrame& frame) {
+        mDepthAhead = frame.depthAhead;
+        mStereo.observe(frame);
+    }
+
+    // The slice view. The study is read by the caller, whom takeStudyWish() tells once.
+    bool slicesShown() const { return mSlices.has_value(); }
+    bool takeStudyWish();
+    void showSlices(std::shared_ptr<const SliceStudy> study);
+    const Plane<PackedColor>& slicePicture(int width, int height);
+    long long sliceVersion() const { return mSlices ? mSlices->version() : 0; }
+    std::string sliceStatus() const { return mSlices ? mSlices->status() : ""; }
+
+    // What to render for a framebuffer of this size; the version grows with every difference.
+    const FrameRequest& requestFor(int width, int height);
+    ComposeSetting compose() const;
+
+    bool quit() const { return mQuit; }
+    bool moving() const { return mMoving; }  // things change by themselves: do not sleep
+    bool helpShown() const { return mHelp; }
+    bool mouseCaptured() const { return mCaptured; }
+    // True once after each Screenshot.
+    bool takeScreenshotWish();
+    const std::string& notice() const { return mNotice; }
+    void notify(const std::string& text);
+
+    // "24.0 fps  left 3.1 ms  warp ..."; ASCII, which is all that the overlay's font is asked for.
+    std::string statusLine(const ViewFrame& frame, double framesPerSecond) const;
+
+    const StereoSetting& stereo() const { return mStereo.now(); }
+    bool followsClearance() const { return mStereo.follows(); }
+    OutputMode mode() const { return mMode; }
+    Pose pose() const { return mPlaying ? mPlayed : mFlight->pose(); }
+    const Flight& flight() const { return *mFlight; }
+    bool playing() const { return mPlaying; }
+    bool recording() const { return mRecorder.recording(); }
+
+private:
+    bool actOnStereo(const ViewAction& action);
+    bool actOnEyes(ViewCommand command);
+    bool actOnVolume(ViewCommand command);
+    bool actOnSun(ViewCommand command);
+    void turnSun(double azimuth, double elevation);
+    bool actOnSlices(ViewCommand command);
+    void actOnFlight(ViewCommand command);
+    bool actOnAmbient(ViewCommand command);
+    void moveIsovalue(double steps);
+    void nextTransfer();
+    void stepAmbient(int by);
+    void scaleRadius(double factor);
+    void nextModulation();
+    void scaleSigma(double factor);
+    double sigmaNow() const;
+    std::string ambientText() const;
+    std::string modulationText() const;
+    std::string volumeText() const;
+    void askForChange();
+    void openSlices();
+    void fly(const FlightInput& input, double dt);
+    void stepMode(int by);
+    void nextMethod();
+    void nextModel();
+    void reset();
+    void toggleRecording();
+    void saveFlight();
+    void togglePlaying();
+    void stepPlaying(double dt);
+    void stopPlaying();
+
+    std::shared_ptr<const ViewScene> mScene;
+    std::filesystem::path mFolder;
+    std::unique_ptr<Flight> mFlight;
+    int mFirstFlightMode = 0;
+    PathRecorder mRecorder;
+    RecordedPath mPath;  // what Play plays
+    bool mPlaying = false;
+    double mPlayTime = 0;  // seconds since the path's start
+    Pose mPlayed;
+    bool mOwnPath = false;  // mPath is the scene's own
+    ViewStereo mStereo;
+    double mDepthAhead = 0;  // metres
+    SunPlace mSun;
+    std::optional<double> mIsovalue;
+    bool mTranslucent = false;
+    std::string mTransfer, mTriedTransfer;  // the second may not have gone
+    std::optional<ViewAmbient> mAmbient;
+    std::optional<SceneChange> mChange;
+    std::optional<SliceView> mSlices;
+    std::shared_ptr<const SliceStudy> mStudy;
+    bool mStudyWished = false;
+    int mSliceWidth = 1, mSliceHeight = 1;  // pixels of the last slice picture
+    OutputMode mMode, mFirstMode;
+    std::string_view mMethod;
+    int mModel = 0;
+    double mTime = 0;  // seconds, of what moves by itself
+    bool mStereoOn = true, mSwapped = false, mLinear = false, mHelp = false, mQuit = false, mCaptured = false;
+    bool mMoving = false, mScreenshot = false;
+    bool mResting = false, mLooked = false;
+    double mSpeed = 1;
+    std::string mNotice;
+    double mNoticeLeft = 0;  // seconds
+    FrameRequest mRequest;
+};
+
+}  // namespace stereonav

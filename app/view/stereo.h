@@ -1,0 +1,41 @@
+// The viewer's eyes: how far apart they are and what distance lies in the screen, by hand or following the
+// room around them; never in jumps.
+#pragma once
+
+#include "app/view/worker.h"
+
+namespace stereonav {
+
+class ViewStereo {
+public:
+    // The follower, where the scene has one, is at work from the start.
+    explicit ViewStereo(const ViewScene& scene);
+
+    // The scene's own setting; follows as at the start.
+    void reset(const ViewScene& scene);
+    // Another scene: the eyes stay as they are and go on from there.
+    void replaceScene(const ViewScene& scene);
+
+    void scaleSeparation(double factor);
+    void scaleZeroParallax(double factor);  // both end following
+    bool follows() const { return static_cast<bool>(mFollower); }
+    void follow();
+
+    // A frame has come: the parallax that it shows limits what is followed.
+    void observe(const ViewFrame& frame);
+    // free: distance around the head; depth: in the middle of the last picture; metres.
+    void step(double free, double depth, double dt);
+
+    const StereoSetting& now() const { return mNow; }
+    bool moving() const { return mMoving; }  // since the last step
+
+private:
+    StereoSetting mNow, mTarget;  // and where it slowly goes, by hand
+    double mLargest;              // metres
+    std::function<StereoFollower(const StereoSetting&)> mMakeFollower;
+    StereoFollower mFollower;
+    ComfortLimit mComfort;
+    bool mMoving = false;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,138 @@
+// The choice between the two sweeps, the textures of each medium shown, and the way back to the processor.
+#include "app/view/sweep.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/base/stopwatch.h"
+#include "engine/display/hidden_context.h"
+#include "engine/display/medium_gpu.h"
+
+namespace stereonav {
+namespace {
+
+class GpuSweep {
+public:
+    GpuSweep(HiddenContext* context, SweepChoice choice, std::function<void(const std::string&)> tell)
+        : mContext(context), mTell(std::move(tell)), mDecided(choice != SweepChoice::Auto) {}
+    ~GpuSweep() { end(); }
+    GpuSweep(const GpuSweep&) = delete;
+    GpuSweep& operator=(const GpuSweep&) = delete;
+
+    bool sweep(const SweepTask& task, const std::function<void()>& cpu) {
+        if (!std::exchange(mDecided, true) && !isFaster(task, cpu)) end();
+        if (mUsable && tried(task)) return true;
+        cpu();
+        return false;
+    }
+
+private:
+    // The first frame also compiles shaders, uploads and allocates, so that the second one counts.
+    bool isFaster(const SweepTask& task, const std::function<void()>& cpu) {
+        if (!tried(task)) return false;
+        Stopwatch watch;
+        if (!tried(task)) return false;
+        const double gpu_ms = watch.lap_ms();
+        cpu();
+        if (watch.lap_ms() < gpu_ms) return false;
+        cpu();
+        return gpu_ms < watch.lap_ms();
+    }
+
+    bool tried(const SweepTask& task) {
+        try {
+            const HiddenContext::Use use(mContext);
+            std::unique_ptr<MediumGpu>& gpu = mGpus[&task.medium];
+            if (!gpu) gpu = std::make_unique<MediumGpu>(task.medium);
+            gpu->render(task.look, task.setting, task.eyes, task.head, task.time, task.pictures);
+            return true;
+        } catch (const Error& error) {
+            end();
+            mTell(error.what());
+            return false;
+        }
+    }
+
+    // Names are deleted in the context that they are of, or, where that can not be had, with it.
+    void end() {
+        mUsable = false;
+        if (mGpus.empty()) return;
+        try {
+            const HiddenContext::Use use(mContext);
+            mGpus.clear();
+        } catch (const Error&) {
+            for (auto& [medium, gpu] : mGpus) static_cast<void>(gpu.release());
+        }
+    }
+
+    HiddenContext* mContext;
+    std::function<void(const std::string&)> mTell;
+    bool mDecided, mUsable = true;
+    std::map<const Medium*, std::unique_ptr<MediumGpu>> mGpus;  // of the models that are shown
+};
+
+}  // namespace
+
+SweepChoice sweepFromText(const std::string& text) {
+    if (text == "auto") return SweepChoice::Auto;
+    if (text == "cpu") return SweepChoice::Cpu;
+    if (text == "gpu") return SweepChoice::Gpu;
+    throw Error("--sweep", "", "expected auto, cpu or gpu, got \"" + text + "\"",
+                "auto takes what is faster here");
+}
+
+bool drawsInSoftware(std::string_view renderer) {
+    std::string name(renderer);
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    constexpr std::array kSoftware{"llvmpipe", "softpipe", "swrast", "swiftshader", "software"};
+    return std::any_of(kSoftware.begin(), kSoftware.end(),
+                       [&](const char* known) { return name.find(known) != std::string::npos; });
+}
+
+SweepChooser gpuSweep(HiddenContext* context, SweepChoice choice,
+                      std::function<void(const std::string&)> tell) {
+    auto gpu = std::make_shared<GpuSweep>(context, choice, std::move(tell));
+    return [gpu = std::move(gpu)](const SweepTask& task, const std::function<void()>& cpu) {
+        return gpu->sweep(task, cpu);
+    };
+}
+
+ViewSweep::ViewSweep(SweepChoice choice) : mChoice(choice) {
+    if (choice == SweepChoice::Cpu) return;
+    const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    if (choice == SweepChoice::Auto && (!renderer || drawsInSoftware(renderer))) return;
+    try {
+        mContext = std::make_shared<HiddenContext>();
+    } catch (const Error& error) {
+        tell(error.what());
+    }
+}
+
+ViewSweep::~ViewSweep() = default;
+
+void ViewSweep::tell(const std::string& notice) {
+    if (mChoice != SweepChoice::Gpu) return;  // nobody asked for it
+    const std::lock_guard lock(mMutex);
+    mNotice = "swept on the CPU: " + notice;
+}
+
+std::string ViewSweep::takeNotice() {
+    const std::lock_guard lock(mMutex);
+    return std::exchange(mNotice, "");
+}
+
+void ViewSweep::use(SweptFrames& frames, ViewScene& view) {
+    if (mContext)
+        frames.setSweep(
+            gpuSweep(mContext.get(), mChoice, [this](const std::string& notice) { tell(notice); }));
+    view.sweepName = [&frames] { return frames.sweptElsewhere() ? kGpuSweep : kCpuSweep; };
+}
+
+}  // namespace stereonav

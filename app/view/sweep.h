@@ -1,0 +1,57 @@
+// Where the viewer sweeps media: on the processor or, by --sweep, on the graphics card in a context of its
+// own. Made on the main thread beside the window; scenes use it on the thread that makes frames.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "app/view/worker.h"
+#include "engine/medium/swept_frames.h"
+
+namespace stereonav {
+
+class HiddenContext;
+
+// Of a frame, for the status line: ViewFrame::sweep.
+constexpr const char *kCpuSweep = "CPU sweep", *kGpuSweep = "GPU sweep";
+
+enum class SweepChoice {
+    Auto,  // what makes a scene's first frame faster; under a software renderer the processor, unasked
+    Cpu,
+    Gpu
+};
+// Throws Error with the known names.
+SweepChoice sweepFromText(const std::string& text);
+
+// Whether this GL_RENDERER draws on the processor, by its name.
+bool drawsInSoftware(std::string_view renderer);
+
+// Sweeps one scene's media in `context`, or in what is current where that is null, and goes on with the
+// processor for good where it can not, telling why.
+SweepChooser gpuSweep(HiddenContext* context, SweepChoice choice,
+                      std::function<void(const std::string&)> tell);
+
+class ViewSweep {
+public:
+    // On the main thread with the window's context current. Holds nothing where the processor is chosen.
+    explicit ViewSweep(SweepChoice choice);
+    ~ViewSweep();  // after all scenes that use it
+
+    // frames: lives as long as `view`. Any thread.
+    void use(SweptFrames& frames, ViewScene& view);
+    // Why the graphics card does not sweep although it was asked to, "" otherwise; told once. Any thread.
+    std::string takeNotice();
+
+private:
+    void tell(const std::string& notice);
+
+    SweepChoice mChoice;
+    std::shared_ptr<HiddenContext> mContext;  // null: the processor
+    std::mutex mMutex;                        // guards the notice
+    std::string mNotice;
+};
+
+}  // namespace stereonav
