@@ -3,7 +3,7 @@ stereonav_module(video app/opencv LINK engine_byte_image opencv_imgproc opencv_v
 # All but main(): tests of the program's own functions link it too, so that nothing is compiled twice.
 add_library(program STATIC)
 add_dependencies(program stereonav_video)
-target_link_libraries(program PUBLIC engine_light engine_metrics engine_frame engine_nav
+target_link_libraries(program PUBLIC engine_light engine_metrics engine_scene
   CLI11::CLI11 nlohmann_json::nlohmann_json)
 
 set(left_out "")   # sources of app/ that need what is left out
@@ -24,17 +24,17 @@ function(stereonav_part name)
 endfunction()
 
 stereonav_part(terrain OPTION STEREONAV_TERRAIN LINK terrain
-  SOURCES scene/terrain_loading.cpp scene/medium_terrain.cpp
+  SOURCES scene/terrain_loading.cpp scene/shown_terrain.cpp scene/medium_terrain.cpp
     command/bake_terrain.cpp command/info_terrain.cpp command/mesh_command.cpp)
 if(NOT STEREONAV_TERRAIN)
   target_sources(program PRIVATE ${CMAKE_SOURCE_DIR}/terrain/sky_map.cpp)  # the sky over media, too
 endif()
 stereonav_part(colon OPTION STEREONAV_COLON LINK colon
-  SOURCES scene/colon_loading.cpp scene/volume_*.cpp scene/light_loading.cpp scene/lazy_light.cpp
+  SOURCES scene/colon_loading.cpp scene/volume_*.cpp scene/shown_volume.cpp scene/seen_volume_light.cpp scene/light_loading.cpp scene/lazy_light.cpp
     scene/traced_light.cpp command/bake_volume.cpp command/bake_peers_*.cpp command/info_colon.cpp
     command/info_series.cpp command/centreline_command.cpp)
 stereonav_part(medium OPTION STEREONAV_MEDIUM LINK engine_medium
-  SOURCES scene/medium_*.cpp command/info_medium.cpp view/sweep.cpp)
+  SOURCES scene/medium_*.cpp scene/shown_medium.cpp command/info_medium.cpp view/sweep.cpp)
 stereonav_part(display OPTION STEREONAV_DISPLAY LINK engine_display
   SOURCES view/*.cpp report/papers/gpu.cpp)
 if(STEREONAV_TERRAIN AND STEREONAV_COLON AND STEREONAV_MEDIUM)

@@ -13,6 +13,7 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
+#include "app/scene/terrain_loading.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "terrain/ground_rays.h"
@@ -131,8 +132,9 @@ int bakeTerrain(const BakeOptions& options) {
     ProgressBar bar;
     SceneOptions unlit = options.scene;
     unlit.light.clear();
-    const LoadedScene scene = loadScene(unlit, SizeOption{}, bar.progress());
-    const Heightfield& ground = scene.terrain->ground;
+    checkSceneOptions(unlit);
+    const TerrainScene terrain = terrainOf(unlit, bar.progress());
+    const Heightfield& ground = terrain.ground;
     const std::filesystem::path file =
         options.out.empty() ? terrainLightCache(ground) : std::filesystem::path(options.out);
     if (holds(file, ground, settings)) {

@@ -10,6 +10,7 @@
 
 #include "app/command/bake_peers.h"
 #include "app/output/progress_bar.h"
+#include "app/scene/colon_loading.h"
 #include "app/scene/light_loading.h"
 #include "app/scene/scene_loading.h"
 #include "engine/base/error.h"
@@ -97,15 +98,17 @@ int bakeVolume(const BakeOptions& options) {
     shown.sky.clear();  // here a colour
     const int share = peers.threads();
     if (shown.threads == 0) shown.threads = share;
-    const LoadedScene scene = loadScene(shown, SizeOption{}, progress);
-    VolumeBakePlan plan = planVolumeBake(*scene.colon, options, progress);
+    checkSceneOptions(shown);
+    const LitVolume loaded = litVolumeOf(shown, progress);
+    const ColonScene& scene = loaded.world->colon();
+    VolumeBakePlan plan = planVolumeBake(scene, options, progress);
     const BakeIdentity identity{bakeKey(plan.inputs), plan.inputs.content};
     const std::filesystem::path file =
         options.out.empty() ? bakeCacheFile(identity.key) : std::filesystem::path(options.out);
     BakeSums sums = begin(file, identity.key, plan, peers.first(), bar);
     peers.checkSameStart(sums);
     const double before = samplesIn(sums);
-    const TexelLighter lighter(scene.colon->volume.field, plan.inputs.texels, plan.inputs.light,
+    const TexelLighter lighter(scene.volume.field, plan.inputs.texels, plan.inputs.light,
                                plan.inputs.sampling);
     BakeKeeping keeping;
     keeping.keep = [&](const BakeSums& now) { writeBakeFile(file, identity, now); };
@@ -118,7 +121,7 @@ int bakeVolume(const BakeOptions& options) {
         const double seconds = watch.elapsed_ms() / 1000, done = samplesIn(sums) - before;
         if (done > 0 || !std::filesystem::exists(file)) writeBakeFile(file, identity, sums);
         bar.clear();
-        print(scene.name, plan, sums, done, seconds, file);
+        print(options.scene.scene, plan, sums, done, seconds, file);
         if (end == BakeEnd::Cancelled)
             std::fprintf(stderr,
                          "stereonav: stopped; what is done is kept, and the next run goes on from there\n");

@@ -7,6 +7,7 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
+#include "colon/colon_scene.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
@@ -35,12 +36,13 @@ void checkCentrelineOptions(const CentrelineOptions& options) {
 int runCentreline(const CentrelineOptions& options) {
     checkCentrelineOptions(options);
     ProgressBar bar;
-    const LoadedScene scene = loadScene(options.scene, SizeOption{}, bar.progress());
+    const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress());
     checkNotRead({{"--out", options.out}});
-    if (!scene.colon || !scene.colon->isColon())
+    const auto* const colon = scene->offered<const ColonScene>();
+    if (!colon || !colon->isColon())
         throw Error(options.scene.scene, "", "no colon was found, so there is no centreline",
                     "give --seed x,y,z inside it");
-    const Centreline& line = scene.colon->centreline;
+    const Centreline& line = colon->centreline;
     writeCentreline(options.out, line);
     bar.clear();
     const auto narrower = [](const CentrelinePoint& a, const CentrelinePoint& b) {
@@ -49,8 +51,8 @@ int runCentreline(const CentrelineOptions& options) {
     const auto [least, most] = std::minmax_element(line.points.begin(), line.points.end(), narrower);
     std::fprintf(messagesBeside({{"--out", options.out}}),
                  "%s: %zu points along %.1f mm in %zu segment(s), radius %.1f to %.1f mm\n",
-                 options.out.c_str(), line.points.size(), line.length() * 1e3,
-                 scene.colon->lumen.segments.size(), least->radius * 1e3, most->radius * 1e3);
+                 options.out.c_str(), line.points.size(), line.length() * 1e3, colon->lumen.segments.size(),
+                 least->radius * 1e3, most->radius * 1e3);
     return 0;
 }
 

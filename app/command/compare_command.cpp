@@ -10,6 +10,7 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
+#include "app/scene/lazy_light.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/parallel.h"
@@ -18,6 +19,7 @@
 #include "engine/medium/swept_frames.h"
 #include "engine/metrics/difference_picture.h"
 #include "engine/metrics/pair_comparison.h"
+#include "engine/scene/capabilities.h"
 
 namespace stereonav {
 namespace {
@@ -39,13 +41,13 @@ void checkOptions(const CompareOptions& options) {
 }
 
 // Each once, in the order of their first naming; "auto" is the scene's default.
-std::vector<RightEyeMethod> methodsOf(const CompareOptions& options, const LoadedScene& scene) {
+std::vector<RightEyeMethod> methodsOf(const CompareOptions& options, const RayCast& rays) {
     std::vector<RightEyeMethod> methods;
     for (const std::string& name : options.methods) {
-        const RightEyeMethod method = methodFromText(name).value_or(scene.defaultMethod());
+        const RightEyeMethod method = methodFromText(name).value_or(defaultMethodFor(*rays.renderer));
         if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
     }
-    return methods.empty() ? scene.methods : methods;
+    return methods.empty() ? rays.compared : methods;
 }
 
 std::vector<std::string_view> sweepMethodsOf(const CompareOptions& options, const FrameMaker& frames) {
@@ -89,20 +91,20 @@ void writePictures(const ComparedPair& pair, const fs::path& folder) {
 }
 
 // As render and play have them: together where the room is narrow.
-std::vector<StereoSetting> eyesAt(const LoadedScene& scene, const std::vector<TimedPose>& poses) {
+std::vector<StereoSetting> eyesAt(const Scene& scene, const std::vector<TimedPose>& poses) {
     NarrowedEyes eyes(scene);
     std::vector<StereoSetting> all;
     for (const TimedPose& pose : poses) all.push_back(eyes.at(pose.pose, pose.time));
     return all;
 }
 
-std::vector<MethodFigures> comparedPairs(const CompareOptions& options, const LoadedScene& scene,
+std::vector<MethodFigures> comparedPairs(const CompareOptions& options, const Scene& scene,
                                          const std::vector<TimedPose>& poses,
                                          const std::vector<StereoSetting>& eyes, Progress& progress) {
     PairComparisonSetting setting;
     setting.eyes = eyes;
     setting.truth = kTwoSweepsMethod;
-    setting.methods = sweepMethodsOf(options, *scene.frames);
+    setting.methods = sweepMethodsOf(options, scene.frames());
     setting.repeats = options.repeats;
     const int shown = static_cast<int>(poses.size()) / 2;
     const auto listener = [&](const ComparedPair& pair) {
@@ -110,16 +112,17 @@ std::vector<MethodFigures> comparedPairs(const CompareOptions& options, const Lo
         makeOutputFolder(options.images);
         writePictures(pair, options.images);
     };
-    return comparePairs(*scene.frames, poses, scene.lens, scene.stereo, setting, progress, listener);
+    return comparePairs(scene.frames(), poses, scene.lens, scene.stereo, setting, progress, listener);
 }
 
-std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const LoadedScene& scene,
+std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const Scene& scene,
                                            const std::vector<TimedPose>& frames,
                                            const std::vector<StereoSetting>& eyes, Progress& progress) {
     ComparisonSetting setting;
     setting.eyes = eyes;
     setting.repeats = options.repeats;
-    setting.methods = methodsOf(options, scene);
+    const RayCast& rays = *scene.offered<RayCast>();
+    setting.methods = methodsOf(options, rays);
     std::vector<Pose> poses;
     for (const TimedPose& frame : frames) poses.push_back(frame.pose);
     const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
@@ -128,7 +131,7 @@ std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const 
         makeOutputFolder(options.images);
         writePictures(frame, options.images);
     };
-    return compareMethods(*scene.renderer, poses, scene.lens, scene.stereo, setting, progress, listener);
+    return compareMethods(*rays.renderer, poses, scene.lens, scene.stereo, setting, progress, listener);
 }
 
 void writeResults(const CompareOptions& options, const ComparisonReport& report) {
@@ -139,7 +142,7 @@ void writeResults(const CompareOptions& options, const ComparisonReport& report)
         writeColorImage(fs::path(options.images) / "error_against_time.png", plotOf(report));
 }
 
-ComparisonReport describe(const CompareOptions& options, const LoadedScene& scene, int frames) {
+ComparisonReport describe(const CompareOptions& options, const Scene& scene, int frames) {
     ComparisonReport report;
     report.scene = scene.name;
     report.path = options.path;
@@ -165,18 +168,20 @@ int runCompare(const CompareOptions& options) {
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
     ProgressBar bar;
-    LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress());
+    Scene& scene = *loaded;
     checkNotRead({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});
-    if (options.relativeSeparation > 0.0) {
+    if (options.relativeSeparation > 0.0)
         scene.stereo.separation = scene.stereo.zeroParallax * options.relativeSeparation;
-        scene.eyesFollow = false;  // what is asked for is what is measured
-    }
     const std::vector<TimedPose> poses = timedFrames(flightOf(scene, path, options.path), options.frames);
-    const std::vector<StereoSetting> eyes = eyesAt(scene, poses);
+    // What is asked for is what is measured.
+    const std::vector<StereoSetting> eyes = options.relativeSeparation > 0.0
+                                                ? std::vector<StereoSetting>(poses.size(), scene.stereo)
+                                                : eyesAt(scene, poses);
     ComparisonReport report = describe(options, scene, options.frames);
     for (const StereoSetting& eye : eyes) report.least = std::min(report.least, eye.separation);
-    report.methods = scene.medium ? comparedPairs(options, scene, poses, eyes, bar.progress())
-                                  : comparedMethods(options, scene, poses, eyes, bar.progress());
+    report.methods = scene.offered<RayCast>() ? comparedMethods(options, scene, poses, eyes, bar.progress())
+                                              : comparedPairs(options, scene, poses, eyes, bar.progress());
     writeResults(options, report);
     bar.clear();
     std::fputs(tableOf(report).c_str(), messages);

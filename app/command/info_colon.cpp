@@ -9,6 +9,7 @@
 
 #include "app/command/info_text.h"
 #include "colon/colon_flight.h"
+#include "colon/colon_scene.h"
 #include "engine/base/pages.h"
 
 namespace stereonav {
@@ -76,15 +77,15 @@ double millilitres(const LumenField& lumen) {
 }
 
 // What the flight keeps from the wall, the eyes as far apart as they get.
-FlightClearance clearanceIn(const LoadedScene& scene) {
-    const ColonScene& colon = *scene.colon;
+FlightClearance clearanceIn(const Scene& scene) {
+    const ColonScene& colon = *scene.offered<const ColonScene>();
     if (colon.path.samples().size() < 2) return {};
     const auto free = [&colon](const glm::dvec3& p, double upTo) { return colon.freeDistanceAt(p, upTo); };
     return clearanceOf(colon.path, free, scene.stereo.separation);
 }
 
 // Rounded down: what is kept is no less.
-std::string clearanceText(const LoadedScene& scene) {
+std::string clearanceText(const Scene& scene) {
     const FlightClearance kept = clearanceIn(scene);
     const auto mm = [](double metres) { return std::floor(kMm * metres * 100) / 100; };
     if (kept.head >= ColonFlight::kFarthestClearance)
@@ -98,8 +99,8 @@ double isovalueOf(const ColonScene& colon) {
 
 }  // namespace
 
-Json colonJson(const LoadedScene& scene) {
-    const ColonScene& colon = *scene.colon;
+Json colonJson(const Scene& scene) {
+    const ColonScene& colon = *scene.offered<const ColonScene>();
     const GreyVolume& field = colon.volume.field;
     const GreyRange range = wholeRange(field);
     Json json;
@@ -138,8 +139,8 @@ Json colonJson(const LoadedScene& scene) {
     return json;
 }
 
-std::string colonText(const LoadedScene& scene) {
-    const ColonScene& colon = *scene.colon;
+std::string colonText(const Scene& scene) {
+    const ColonScene& colon = *scene.offered<const ColonScene>();
     const GreyVolume& field = colon.volume.field;
     const VolumeFrame& frame = field.frame;
     const GreyRange range = wholeRange(field);

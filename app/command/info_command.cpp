@@ -7,10 +7,14 @@
 #include "app/command/info_series.h"
 #include "app/command/info_text.h"
 #include "app/command/process_facts.h"
+#include "app/output/length_text.h"
 #include "app/output/progress_bar.h"
+#include "app/scene/lazy_light.h"
 #include "app/scene/scene_loading.h"
-#include "app/view/status.h"
+#include "colon/colon_scene.h"
 #include "engine/base/parallel.h"
+#include "engine/medium/medium_scene.h"
+#include "terrain/terrain_scene.h"
 
 namespace stereonav {
 namespace {
@@ -26,7 +30,7 @@ std::vector<std::string> planesOf(const FramePlan& plan) {
     return planes;
 }
 
-Json planJson(const LoadedScene& scene, const FramePlan& plan) {
+Json planJson(const Scene& scene, const FramePlan& plan) {
     Json json;
     json["size"] = {plan.width, plan.height};
     json["separation_m"] = scene.stereo.separation;
@@ -47,7 +51,7 @@ Json planJson(const LoadedScene& scene, const FramePlan& plan) {
     return json;
 }
 
-std::string planText(const LoadedScene& scene, const FramePlan& plan) {
+std::string planText(const Scene& scene, const FramePlan& plan) {
     std::string text;
     const auto line = [&](const char* name, const std::string& value) { text += infoLine(name, value); };
     line("size", fmt::format("{} x {} pixels an eye", plan.width, plan.height));
@@ -64,18 +68,18 @@ std::string planText(const LoadedScene& scene, const FramePlan& plan) {
 }
 
 // Of a medium there is nothing to weigh: both eyes come from one sweep.
-Json sweepJson(const LoadedScene& scene) {
+Json sweepJson(const Scene& scene) {
     Json json;
     json["size"] = {scene.lens.width, scene.lens.height};
     json["separation_m"] = scene.stereo.separation;
     json["zero_parallax_m"] = scene.stereo.zeroParallax;
     json["threads"] = threadCount();
     json["simd"] = std::string(nameOf(scene.simd));
-    json["method"] = std::string(scene.frames->defaultMethod());
+    json["method"] = std::string(scene.frames().defaultMethod());
     return json;
 }
 
-std::string sweepText(const LoadedScene& scene) {
+std::string sweepText(const Scene& scene) {
     return infoLine("size", fmt::format("{} x {} pixels an eye", scene.lens.width, scene.lens.height)) +
            infoLine("eyes", lengthText(scene.stereo.separation) + " apart, zero parallax at " +
                                 lengthText(scene.stereo.zeroParallax)) +
@@ -139,7 +143,11 @@ int runInfo(const InfoOptions& options) {
     if (!options.series.empty()) return listSeriesOf(options);
     refuseLazyLight(options.scene);
     ProgressBar bar;
-    const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress());
+    const Scene& scene = *loaded;
+    const auto* const terrain = scene.offered<const TerrainScene>();
+    const auto* const volume = scene.offered<const ColonScene>();
+    const auto* const medium = scene.offered<MediumScene>();
     ProcessFacts process;
     takeWhenReady(process);
     bar.progress().report(0.95, "measuring");
@@ -148,18 +156,18 @@ int runInfo(const InfoOptions& options) {
     bar.clear();
     if (options.json) {
         Json json{{"scene", scene.name}};
-        if (scene.terrain) json["terrain"] = terrainJson(scene);
-        if (scene.colon) json["volume"] = colonJson(scene);
-        if (scene.medium) json["medium"] = mediumJson(scene);
+        if (terrain) json["terrain"] = terrainJson(scene);
+        if (volume) json["volume"] = colonJson(scene);
+        if (medium) json["medium"] = mediumJson(scene);
         json["plan"] = plan ? planJson(scene, *plan) : sweepJson(scene);
         json["process"] = processJson(process);
         std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
         return 0;
     }
     std::string text = scene.name + "\n";
-    if (scene.terrain) text += terrainText(scene);
-    if (scene.colon) text += colonText(scene);
-    if (scene.medium) text += mediumText(scene);
+    if (terrain) text += terrainText(scene);
+    if (volume) text += colonText(scene);
+    if (medium) text += mediumText(scene);
     text += "frame plan\n" + (plan ? planText(scene, *plan) : sweepText(scene));
     text += "process\n" + processText(process);
     std::fputs(text.c_str(), stdout);

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "app/command/info_text.h"
-#include "app/view/status.h"
+#include "app/output/length_text.h"
+#include "colon/colon_scene.h"
 #include "engine/base/pages.h"
+#include "engine/medium/medium_scene.h"
 
 namespace stereonav {
 namespace {
@@ -28,14 +30,14 @@ std::string lightText(const MediumLight& light) {
 }
 
 // A field that a volume's scene holds is counted there.
-std::vector<Held> heldBy(const LoadedScene& loaded) {
-    const Medium& medium = loaded.medium->medium;
+std::vector<Held> heldBy(const Scene& loaded) {
+    const Medium& medium = loaded.offered<MediumScene>()->medium;
+    const auto* const volume = loaded.offered<const ColonScene>();
     std::vector<Held> held;
     const auto add = [&](const char* what, std::size_t bytes) {
         if (bytes > 0) held.push_back({what, bytes});
     };
-    if (const GreyVolume* field = medium.field();
-        field && !(loaded.colon && field == &loaded.colon->volume.field))
+    if (const GreyVolume* field = medium.field(); field && !(volume && field == &volume->volume.field))
         add("field", residentBytes(field->values));
     std::size_t heights = 0;
     for (const HeightLayer& layer : medium.layers())
@@ -43,15 +45,15 @@ std::vector<Held> heldBy(const LoadedScene& loaded) {
             heights += sizeof(float) * static_cast<std::size_t>(level.width()) * level.height();
     add("heights", heights);
     EyePair frame;
-    loaded.frames->make(loaded.viewsAt(loaded.startPose), 0, {}, frame);
-    for (const HeldBytes& part : loaded.frames->held()) add(part.what, part.bytes);
+    loaded.frames().make(loaded.viewsAt(loaded.startPose), 0, {}, frame);
+    for (const HeldBytes& part : loaded.frames().held()) add(part.what, part.bytes);
     return held;
 }
 
 }  // namespace
 
-Json mediumJson(const LoadedScene& loaded) {
-    const MediumScene& scene = *loaded.medium;
+Json mediumJson(const Scene& loaded) {
+    const MediumScene& scene = *loaded.offered<MediumScene>();
     const WorldBox& box = scene.medium.bounds();
     const glm::dvec3 size = box.empty() ? glm::dvec3(0.0) : box.high - box.low;
     Json json;
@@ -76,8 +78,8 @@ Json mediumJson(const LoadedScene& loaded) {
     return json;
 }
 
-std::string mediumText(const LoadedScene& loaded) {
-    const MediumScene& scene = *loaded.medium;
+std::string mediumText(const Scene& loaded) {
+    const MediumScene& scene = *loaded.offered<MediumScene>();
     const WorldBox& box = scene.medium.bounds();
     std::string text = "medium\n";
     const auto line = [&](const char* name, const std::string& value) { text += infoLine(name, value); };

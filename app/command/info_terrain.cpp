@@ -8,19 +8,20 @@
 #include "terrain/landmark.h"
 #include "terrain/terrain_illumination.h"
 #include "terrain/terrain_renderer.h"
+#include "terrain/terrain_scene.h"
 
 namespace stereonav {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<Held> heldByTerrain(const LoadedScene& scene) {
-    const TerrainScene& terrain = *scene.terrain;
+std::vector<Held> heldByTerrain(const Scene& scene) {
+    const TerrainScene& terrain = *scene.offered<const TerrainScene>();
     std::vector<Held> held = {{"heights", sizeof(float) * static_cast<std::size_t>(terrain.ground.width()) *
                                               terrain.ground.height()},
                               {"colour", terrain.color.byteCount()},
                               {"sky", terrain.sky.map().byteCount()}};
-    if (const auto* renderer = dynamic_cast<const TerrainRenderer*>(scene.renderer.get()))
+    if (const auto* renderer = scene.offered<const TerrainRenderer>())
         held.push_back({"height pyramid", renderer->byteCount()});
     if (terrain.illumination) held.push_back({"illumination", terrain.illumination->byteCount()});
     return held;
@@ -51,8 +52,8 @@ std::string missingText(const TerrainReport& report) {
 
 }  // namespace
 
-nlohmann::ordered_json terrainJson(const LoadedScene& scene) {
-    const TerrainScene& terrain = *scene.terrain;
+nlohmann::ordered_json terrainJson(const Scene& scene) {
+    const TerrainScene& terrain = *scene.offered<const TerrainScene>();
     const TerrainReport& report = terrain.report;
     const Heightfield& ground = terrain.ground;
     Json json;
@@ -88,8 +89,8 @@ nlohmann::ordered_json terrainJson(const LoadedScene& scene) {
     return json;
 }
 
-std::string terrainText(const LoadedScene& scene) {
-    const TerrainScene& terrain = *scene.terrain;
+std::string terrainText(const Scene& scene) {
+    const TerrainScene& terrain = *scene.offered<const TerrainScene>();
     const TerrainReport& report = terrain.report;
     const Heightfield& ground = terrain.ground;
     std::string text;

@@ -10,13 +10,13 @@
 
 namespace stereonav {
 
-// Of scene.terrain.
-nlohmann::ordered_json terrainJson(const LoadedScene& scene);
-std::string terrainText(const LoadedScene& scene);
+// Of one that offers const TerrainScene.
+nlohmann::ordered_json terrainJson(const Scene& scene);
+std::string terrainText(const Scene& scene);
 
-// Of scene.colon.
-nlohmann::ordered_json colonJson(const LoadedScene& scene);
-std::string colonText(const LoadedScene& scene);
+// Of one that offers const ColonScene.
+nlohmann::ordered_json colonJson(const Scene& scene);
+std::string colonText(const Scene& scene);
 
 // What holds how much memory; nothing that the scene does not have is named.
 struct Held {
@@ -28,9 +28,9 @@ nlohmann::ordered_json heldJson(const std::vector<Held>& held);
 std::string heldText(const std::vector<Held>& held);
 std::size_t bytesOf(const std::vector<Held>& held);
 
-// Of scene.medium: make a frame at the start pose, for what the sweep then holds.
-nlohmann::ordered_json mediumJson(const LoadedScene& scene);
-std::string mediumText(const LoadedScene& scene);
+// Of one that offers MediumScene: make a frame at the start pose, for what the sweep then holds.
+nlohmann::ordered_json mediumJson(const Scene& scene);
+std::string mediumText(const Scene& scene);
 
 // "  name        value\n"
 std::string infoLine(const char* name, const std::string& value);

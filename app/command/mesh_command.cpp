@@ -10,6 +10,7 @@
 #include "app/scene/scene_loading.h"
 #include "engine/base/error.h"
 #include "terrain/terrain_mesh.h"
+#include "terrain/terrain_scene.h"
 
 namespace stereonav {
 namespace {
@@ -33,14 +34,15 @@ void checkMeshOptions(const MeshOptions& options) {
 int runMesh(const MeshOptions& options) {
     checkMeshOptions(options);
     ProgressBar bar;
-    const LoadedScene scene = loadScene(options.scene, SizeOption{}, bar.progress());
+    const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress());
     checkNotRead({{"--out", options.out}});
-    const Heightfield& ground = scene.terrain->ground;
+    const TerrainScene& terrain = *scene->offered<const TerrainScene>();
+    const Heightfield& ground = terrain.ground;
     const double halfSpacing = 0.5 * std::min(ground.spacing().x, ground.spacing().y);
     const double error = options.error_m < 0 ? halfSpacing : options.error_m;
     const TerrainMesh mesh = simplifyTerrain(ground, error, bar.progress());
     bar.progress().report(1.0, "writing");
-    writeTerrainMesh(options.out, ground, scene.terrain->color, mesh);
+    writeTerrainMesh(options.out, ground, terrain.color, mesh);
     bar.clear();
     const double cells = static_cast<double>(ground.width() - 1) * (ground.height() - 1);
     std::printf(

@@ -32,16 +32,16 @@ void NarrowedEyes::step(const Pose& head, double free, const RoomSeen& room, dou
 
 StereoSetting NarrowedEyes::at(const Pose& head, double time) {
     // A medium's own depths are somewhere within it; where the room ends its wall says.
-    const EyeRenderer* const seen = mScene.renderer ? mScene.renderer.get() : mScene.wall.get();
-    if (!mScene.eyesFollow || !seen) return mScene.stereo;
+    const EyeRenderer* const seen = mRoom ? mRoom->wallForPictures() : nullptr;
+    if (!seen) return mScene.stereo;
     const EyeView view = makeEyeView(head, smallOf(mScene.lens));
     mLook.resize(view.width, view.height, seen->viewDependence());
     renderEye(*seen, view, mLook);
     const RoomSeen room = roomSeen(mLook.viewDepth, 1);
-    const double free = mScene.clearanceAt(head);
+    const double free = mRoom->clearanceAt(head);
     double left = time - mTime;
     if (!mFollower) {
-        mFollower = mScene.makeFollower(mScene.stereo);
+        mFollower = mRoom->makeFollower(mScene.stereo);
         left = kSettling;
     }
     for (; left > 0; left -= kStep) step(head, free, room, std::min(left, kStep));

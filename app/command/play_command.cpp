@@ -8,6 +8,7 @@
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
 #include "app/output/video_file.h"
+#include "app/scene/lazy_light.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/camera/timed_poses.h"
@@ -93,7 +94,8 @@ int runPlay(const PlayOptions& options) {
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
     ProgressBar bar;
-    const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress());
+    const Scene& scene = *loaded;
     checkNotRead({{"--video", options.video}});
     const std::vector<TimedPose> poses = posesOf(options, flightOf(scene, path, options.path));
     FrameSink sink(options, mode);

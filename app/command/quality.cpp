@@ -30,20 +30,20 @@ void checkQuality(const SceneOptions& options, const std::string& method) {
                     "choose linear, cubic or selective, or leave the method out");
 }
 
-std::vector<StereoViews> calibrationViews(const LoadedScene& scene) {
+std::vector<StereoViews> calibrationViews(const Scene& scene) {
     std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};
     if (!scene.path.samples().empty())
         for (const Pose& pose : scene.path.frames(kCalibrationFrames)) views.push_back(scene.viewsAt(pose));
     return views;
 }
 
-std::optional<QualityPlan> qualityOf(const SceneOptions& options, const LoadedScene& scene,
+std::optional<QualityPlan> qualityOf(const SceneOptions& options, const Scene& scene,
                                      const std::string& method, Progress& progress) {
     const QualityOptions& q = options.quality;
     if (!wantsQuality(q)) return std::nullopt;
     progress.report(0.85, "measuring what error is to be expected");
-    return scene.frames->meet({q.quality, q.targetPsnr_db, q.target_ms, false},
-                              method == "auto" ? "" : method, calibrationViews(scene));
+    return scene.frames().meet({q.quality, q.targetPsnr_db, q.target_ms, false},
+                               method == "auto" ? "" : method, calibrationViews(scene));
 }
 
 }  // namespace stereonav

@@ -20,10 +20,10 @@ void checkQuality(const SceneOptions& options, const std::string& method);
 // full: what error is to be expected of each way of making the right eye and, where a time is the target,
 // what it takes; then plans (engine/stereo/quality_plan.h). method: as named by the user, which is then kept,
 // or "auto". Throws Error, Cancelled.
-std::optional<QualityPlan> qualityOf(const SceneOptions& options, const LoadedScene& scene,
+std::optional<QualityPlan> qualityOf(const SceneOptions& options, const Scene& scene,
                                      const std::string& method, Progress& progress);
 
 // The frames that a scene is measured on: its start pose and some of its flight.
-std::vector<StereoViews> calibrationViews(const LoadedScene& scene);
+std::vector<StereoViews> calibrationViews(const Scene& scene);
 
 }  // namespace stereonav

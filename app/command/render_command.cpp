@@ -4,9 +4,11 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
+#include "app/scene/traced_light.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/image/image_file.h"
+#include "engine/scene/capabilities.h"
 
 namespace stereonav {
 
@@ -41,25 +43,26 @@ int runRender(const RenderOptions& options) {
     std::optional<Pose> pose;
     if (!options.pose.empty()) pose = poseFromText(options.pose);
     ProgressBar bar;
-    const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
+    const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress());
+    const Scene& scene = *loaded;
     checkNotRead({{"--out", options.out}});
     StereoFrame frame(scene, method);
     frame.refine(options.scene, bar.progress());
     bar.progress().report(0.9, "casting");
     const Pose head = pose ? *pose : scene.startPose;
     frame.render(head);
-    if (scene.lazyLight) {
+    if (SeenLight* const lit = scene.offered<SeenLight>(); lit && lit->beginsDark()) {
         bar.progress().report(0.95, "lighting what is seen");
         const Stopwatch watch;
         for (int look = 0; look < 2; ++look)  // at some pixels, then at all
-            scene.lazyLight->seen(frame.views().left, frame.left());
-        scene.lazyLight->waitUntilDone();
+            lit->seen(frame.views().left, frame.left());
+        lit->waitUntilDone();
         frame.render(head);
         bar.clear();
         std::fprintf(messages, "lit in %.2f s\n", watch.elapsed_ms() / 1000);
     }
-    if (scene.tracedLight)
-        scene.tracedLight->light(frame.views(), frame.left(), frame.right(), bar.progress());
+    PictureLight* const traced = scene.offered<PictureLight>();
+    if (traced) traced->light(frame.views(), frame.left(), frame.right(), bar.progress());
     const Plane<PackedColor> picture = frame.compose(mode);
     writeColorImage(options.out, picture);
     bar.clear();
@@ -69,9 +72,8 @@ int runRender(const RenderOptions& options) {
         return 0;
     }
     printEyes(messages, frame, picture, options.out);
-    if (scene.tracedLight)
-        for (const std::string& note : scene.tracedLight->notes())
-            std::fprintf(messages, "  %s\n", note.c_str());
+    if (traced)
+        for (const std::string& note : traced->notes()) std::fprintf(messages, "  %s\n", note.c_str());
     return 0;
 }
 

@@ -26,11 +26,9 @@ void checkMethod(const SceneOptions& options, const std::string& method, const c
     checkQuality(options, method);
 }
 
-StereoFrame::StereoFrame(const LoadedScene& scene, const std::string& method)
+StereoFrame::StereoFrame(const Scene& scene, const std::string& method)
     : mScene(scene), mMethod(method), mLens(scene.lens), mEyes(scene) {
-    mWay.method = method == "auto" ? scene.frames->defaultMethod()
-                  : scene.medium   ? sweepMethodFromText(method)
-                                   : nameOf(*methodFromText(method));
+    mWay.method = methodNamed(method, scene);
 }
 
 void StereoFrame::refine(const SceneOptions& options, Progress& progress) {
@@ -50,7 +48,7 @@ void StereoFrame::render(const Pose& head, double time) {
     mStereo = mEyes.at(head, time);
     mViews = makeStereoViews(head, mScene.lens, mStereo);
     const StereoViews views = makeStereoViews(head, mLens, mStereo);
-    mScene.frames->make(views, time, mWay, mFrame);
+    mScene.frames().make(views, time, mWay, mFrame);
     if (!isSmaller()) return;
     for (EyeImage* eye : {&mFrame.left, &mFrame.right})
         *eye = enlarged(*eye, mScene.lens.width, mScene.lens.height);

@@ -16,7 +16,7 @@ void checkMethod(const SceneOptions& options, const std::string& method, const c
 class StereoFrame {
 public:
     // method: one of the scene's FrameMaker, or "auto" for its default.
-    StereoFrame(const LoadedScene& scene, const std::string& method);
+    StereoFrame(const Scene& scene, const std::string& method);
     // How the right eye is made and which warped pixels are cast as well, from options; measures the scene
     // where they ask for it.
     void refine(const SceneOptions& options, Progress& progress);
@@ -46,7 +46,7 @@ public:
     void addTo(Hash& hash) const;
 
 private:
-    const LoadedScene& mScene;
+    const Scene& mScene;
     std::string mMethod, mWayName;
     Lens mLens;
     FrameWay mWay;

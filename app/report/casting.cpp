@@ -18,7 +18,7 @@ namespace {
 constexpr double kFinestStep = 1.0 / 16, kDefaultStep = 0.5;
 
 EyeView viewOf(const ReportScene& scene, int frame, int frames) {
-    const LoadedScene& s = scene.loaded;
+    const Scene& s = scene.loaded();
     const Pose pose =
         s.path.samples().empty() ? s.startPose : s.path.frames(frames)[static_cast<std::size_t>(frame)];
     return makeEyeView(pose, s.lens);
@@ -33,13 +33,13 @@ void cast(const VolumeScene& volume, double step, const EyeView& view, EyeImage&
 }
 
 WayChart stepChart(ReportRun& run, const ReportScene& scene) {
-    const VolumeScene& volume = scene.loaded.colon->volume;
+    const VolumeScene& volume = colonOf(scene.loaded())->volume;
     const int frames = run.pick(2, 6), repeats = run.pick(3, 7);
     WayChart chart;
     chart.id = "casting/" + scene.id;
     chart.title = "Distance of samples, " + scene.title;
     chart.setting = fmt::format("{}, {} frames",
-                                run.settingOf(scene.loaded.lens.width, scene.loaded.lens.height), frames);
+                                run.settingOf(scene.loaded().lens.width, scene.loaded().lens.height), frames);
     chart.text = fmt::format(
         "Left eye; distance in the smallest spacing of voxels; error against samples 1/16 of it apart, {} "
         "repeats.",
@@ -129,8 +129,8 @@ WayPoint depthPoint(const std::string& name, const std::string& detail, const st
 }
 
 WayChart terrainChart(ReportRun& run, const ReportScene& scene) {
-    const Heightfield& ground = scene.loaded.terrain->ground;
-    LoadedScene const& s = scene.loaded;
+    const Heightfield& ground = terrainOf(scene.loaded())->ground;
+    const Scene& s = scene.loaded();
     Lens lens = s.lens;
     lens.width = run.pick(100, 200);
     lens.height = run.pick(80, 160);
@@ -164,10 +164,10 @@ WayChart terrainChart(ReportRun& run, const ReportScene& scene) {
         return ns;
     };
     EyeImage image;
-    image.resize(view.width, view.height, s.renderer->viewDependence());
+    image.resize(view.width, view.height, rendererOf(s).viewDependence());
     chart.points.push_back(depthPoint("exact", "vector code, with shading", times([&] {
                                           const Stopwatch watch;
-                                          renderEye(*s.renderer, view, image);
+                                          renderEye(rendererOf(s), view, image);
                                           return watch.elapsed_ms();
                                       }),
                                       {}, true));
@@ -193,7 +193,8 @@ WayChart terrainChart(ReportRun& run, const ReportScene& scene) {
 void addLeaping(ReportRun& run, ReportTable& table, const ReportScene& scene) {
     VolumeCasting walking;
     walking.leaping = false;
-    const VolumeRenderer leaps(scene.loaded.colon->volume), walks(scene.loaded.colon->volume, walking);
+    const VolumeRenderer leaps(colonOf(scene.loaded())->volume),
+        walks(colonOf(scene.loaded())->volume, walking);
     const EyeView view = viewOf(scene, 0, 2);
     EyeImage a, b;
     a.resize(view.width, view.height, leaps.viewDependence());
@@ -225,10 +226,10 @@ void reportCasting(ReportRun& run, double) {
         {}};
     for (const ReportScene& scene : run.scenes()) {
         run.checkTime();
-        if (scene.loaded.terrain) addChart(run.report(), section, terrainChart(run, scene));
-        if (scene.loaded.terrain) addChart(run.report(), section, filteringChart(run, scene));
-        if (!scene.loaded.colon) continue;
-        if (scene.loaded.renderer->translucent())
+        if (terrainOf(scene.loaded())) addChart(run.report(), section, terrainChart(run, scene));
+        if (terrainOf(scene.loaded())) addChart(run.report(), section, filteringChart(run, scene));
+        if (!colonOf(scene.loaded())) continue;
+        if (rendererOf(scene.loaded()).translucent())
             addChart(run.report(), section, stepChart(run, scene));
         else
             addLeaping(run, leaping, scene);

@@ -1,6 +1,5 @@
 // Deliberate faults, to try whether comparing two reports catches them. Only a build with
-// -DSTEREONAV_FAULTS=ON has any (faults_on.cpp); every other one gives the renderer back as it is
-// (faults_off.cpp).
+// -DSTEREONAV_FAULTS=ON has any (faults_on.cpp); every other one gives null (faults_off.cpp).
 #pragma once
 
 #include <memory>
@@ -9,6 +8,7 @@
 
 namespace stereonav {
 
-std::unique_ptr<EyeRenderer> withFaults(std::unique_ptr<EyeRenderer> renderer);
+// The renderer, which must outlive it, with faults; null where there are none.
+std::unique_ptr<EyeRenderer> withFaults(const EyeRenderer& renderer);
 
 }  // namespace stereonav

@@ -15,19 +15,19 @@ double shareFrom(const char* variable) {
 
 class FaultyRenderer final : public EyeRenderer {
 public:
-    explicit FaultyRenderer(std::unique_ptr<EyeRenderer> sound)
-        : mSound(std::move(sound)),
+    explicit FaultyRenderer(const EyeRenderer& sound)
+        : mSound(sound),
           mSlow(shareFrom("STEREONAV_FAULT_SLOW")),
           mDark(shareFrom("STEREONAV_FAULT_ERROR")) {}
 
-    int tileCount(const EyeView& view) const override { return mSound->tileCount(view); }
+    int tileCount(const EyeView& view) const override { return mSound.tileCount(view); }
     void renderTile(const EyeView& view, int tile, EyeImage& image) const override {
-        mSound->renderTile(view, tile, image);
+        mSound.renderTile(view, tile, image);
     }
     void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
                       EyeImage& image) const override {
         const Stopwatch watch;
-        mSound->renderPixels(view, bounds, pixels, image);
+        mSound.renderPixels(view, bounds, pixels, image);
         const double until_ms = watch.elapsed_ms() * (1 + mSlow);
         while (watch.elapsed_ms() < until_ms) continue;
         if (mDark == 0) return;
@@ -35,33 +35,33 @@ public:
             image.color.at(p.x, p.y) =
                 packColor(unpackColor(image.color.at(p.x, p.y)) * static_cast<float>(1 - mDark));
     }
-    bool startsAtKnownDepth() const override { return mSound->startsAtKnownDepth(); }
+    bool startsAtKnownDepth() const override { return mSound.startsAtKnownDepth(); }
     bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
                           double parallaxScale) const override {
-        return mSound->mayHitBeyondEdge(view, rect, column, parallaxScale);
+        return mSound.mayHitBeyondEdge(view, rect, column, parallaxScale);
     }
-    ViewDependence viewDependence() const override { return mSound->viewDependence(); }
+    ViewDependence viewDependence() const override { return mSound.viewDependence(); }
     void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override {
-        mSound->shadeAgain(view, y, x0, x1, image);
+        mSound.shadeAgain(view, y, x0, x1, image);
     }
-    bool airDiffers(double separation) const override { return mSound->airDiffers(separation); }
+    bool airDiffers(double separation) const override { return mSound.airDiffers(separation); }
     void changeAir(const EyeView& from, const EyeView& view, int y, EyeImage& image) const override {
-        mSound->changeAir(from, view, y, image);
+        mSound.changeAir(from, view, y, image);
     }
-    bool translucent() const override { return mSound->translucent(); }
+    bool translucent() const override { return mSound.translucent(); }
     void renderTileFromDepth(const EyeView& view, int tile, EyeImage& image) const override {
-        mSound->renderTileFromDepth(view, tile, image);
+        mSound.renderTileFromDepth(view, tile, image);
     }
 
 private:
-    std::unique_ptr<EyeRenderer> mSound;
+    const EyeRenderer& mSound;
     double mSlow, mDark;
 };
 
 }  // namespace
 
-std::unique_ptr<EyeRenderer> withFaults(std::unique_ptr<EyeRenderer> renderer) {
-    return std::make_unique<FaultyRenderer>(std::move(renderer));
+std::unique_ptr<EyeRenderer> withFaults(const EyeRenderer& renderer) {
+    return std::make_unique<FaultyRenderer>(renderer);
 }
 
 }  // namespace stereonav

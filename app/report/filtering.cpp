@@ -24,7 +24,7 @@ struct FilterWay {
     double squares = 0, worst = 0;
 };
 
-std::vector<FilterWay> waysOf(const LoadedScene& scene) {
+std::vector<FilterWay> waysOf(const Scene& scene) {
     std::vector<FilterWay> ways;
     ways.push_back({"mip levels", "bilinear in the level of the ray's footprint", {}, 1, true});
     for (const double bias : {-1.0, -0.5, 0.5, 1.0})
@@ -37,7 +37,7 @@ std::vector<FilterWay> waysOf(const LoadedScene& scene) {
     ways.push_back({"mip levels, 4 rays", "a pixel, averaged in linear light", {}, 2, false});
     ways.push_back({"bilinear, 4 rays", "a pixel, averaged in linear light", {false, 0}, 2, false});
     for (FilterWay& way : ways)
-        way.renderer = std::make_unique<TerrainRenderer>(*scene.terrain, scene.simd, way.filter);
+        way.renderer = std::make_unique<TerrainRenderer>(*terrainOf(scene), scene.simd, way.filter);
     return ways;
 }
 
@@ -55,18 +55,18 @@ double cast(const FilterWay& way, const EyeView& view, Progress& progress, EyeIm
 
 WayChart filteringChart(ReportRun& run, const ReportScene& scene) {
     const int frames = run.pick(2, 5), repeats = run.pick(3, 5), truthFactor = run.pick(4, 8);
-    const LoadedScene& loaded = scene.loaded;
+    const Scene& loaded = scene.loaded();
     Progress progress([&](double, const std::string&) { run.tell("filtering, " + scene.title); });
     std::vector<FilterWay> ways = waysOf(loaded);
     for (FilterWay& way : ways) way.ms.assign(static_cast<std::size_t>(repeats), 0.0);
-    const TerrainRenderer unfiltered(*loaded.terrain, loaded.simd, {false, 0});
+    const TerrainRenderer unfiltered(*terrainOf(loaded), loaded.simd, {false, 0});
     const std::vector<Pose> poses =
         loaded.path.samples().empty() ? std::vector<Pose>{loaded.startPose} : loaded.path.frames(frames);
     const auto count = static_cast<double>(poses.size());
     EyeImage image;
     for (const Pose& pose : poses) {
         const EyeView view = makeEyeView(pose, loaded.lens);
-        image.resize(view.width, view.height, loaded.renderer->viewDependence());
+        image.resize(view.width, view.height, rendererOf(loaded).viewDependence());
         const Plane<PackedColor> truth = renderSupersampled(unfiltered, view, truthFactor, progress);
         for (int r = 0; r < repeats; ++r)
             for (FilterWay& way : ways) {

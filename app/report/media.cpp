@@ -52,7 +52,10 @@ double squareOf(const EyeImage& truth, const EyeImage& image) {
 class PairTrial {
 public:
     PairTrial(ReportRun& run, ReportScene& scene, int frames, double share)
-        : mRun(run), mScene(scene.loaded), mTitle(scene.title), mOwn(scene.loaded.medium->sweep) {
+        : mRun(run),
+          mScene(*scene.scene),
+          mTitle(scene.title),
+          mOwn(scene.loaded().offered<MediumScene>()->sweep) {
         mScene.lens.width = run.pick(100, 320);
         mScene.lens.height = run.pick(80, 256);
         mScene.stereo.separation = mScene.stereo.zeroParallax * share;
@@ -117,14 +120,14 @@ private:
 
     double sweep(const SweepSetting& setting, std::string_view method, std::size_t index, EyePair& frame) {
         mRun.tell("volume light in stereo, " + mTitle);
-        mScene.medium->sweep = setting;
-        mScene.frames->make(mViews[index], 0, {method, {}}, frame);
-        mScene.medium->sweep = mOwn;
+        mScene.offered<MediumScene>()->sweep = setting;
+        mScene.frames().make(mViews[index], 0, {method, {}}, frame);
+        mScene.offered<MediumScene>()->sweep = mOwn;
         return frame.timings.both_ms;
     }
 
     ReportRun& mRun;
-    LoadedScene& mScene;
+    Scene& mScene;
     std::string mTitle;
     SweepSetting mOwn;
     std::vector<StereoViews> mViews;

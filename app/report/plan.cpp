@@ -47,7 +47,7 @@ void measure(const EyeRenderer& renderer, const std::vector<StereoViews>& views,
     c.warp_ms = warp / static_cast<double>(views.size());
 }
 
-Case caseOf(ReportRun& run, const LoadedScene& scene, const EyeRenderer& renderer, const std::string& title,
+Case caseOf(ReportRun& run, const Scene& scene, const EyeRenderer& renderer, const std::string& title,
             const SizeOption& size, int part) {
     run.tell("warp or cast, " + title);
     Lens lens = scene.lens;
@@ -73,11 +73,11 @@ Case caseOf(ReportRun& run, const LoadedScene& scene, const EyeRenderer& rendere
 }
 
 // The same scene cast without vector instructions: rays that cost more, for where the crossing lies.
-std::unique_ptr<EyeRenderer> plainRenderer(const LoadedScene& scene) {
-    if (scene.terrain) return std::make_unique<TerrainRenderer>(*scene.terrain, SimdTarget::Plain);
+std::unique_ptr<EyeRenderer> plainRenderer(const Scene& scene) {
+    if (terrainOf(scene)) return std::make_unique<TerrainRenderer>(*terrainOf(scene), SimdTarget::Plain);
     VolumeCasting casting;
     casting.target = SimdTarget::Plain;
-    return std::make_unique<VolumeRenderer>(scene.colon->volume, casting);
+    return std::make_unique<VolumeRenderer>(colonOf(scene)->volume, casting);
 }
 
 // Nanoseconds a ray at which warping and casting would cost the same, holes' rays staying as many times
@@ -163,7 +163,7 @@ void reportPlan(ReportRun& run, double seconds) {
     const auto late = [&] { return watch.elapsed_ms() > 1000 * seconds; };
     std::vector<std::string> skipped;
     for (const ReportScene& scene : run.scenes()) {
-        const auto plain = plainRenderer(scene.loaded);
+        const auto plain = plainRenderer(scene.loaded());
         for (const SizeOption& size : sizes)
             for (const int part : parts) {
                 if (late() && !cases.empty() && cases.back().scene.starts_with(scene.title)) {
@@ -171,10 +171,11 @@ void reportPlan(ReportRun& run, double seconds) {
                         fmt::format("{} {}x{} 1/{}", scene.title, size.width, size.height, part));
                     continue;
                 }
-                cases.push_back(caseOf(run, scene.loaded, *scene.loaded.renderer, scene.title, size, part));
+                cases.push_back(
+                    caseOf(run, scene.loaded(), rendererOf(scene.loaded()), scene.title, size, part));
                 if (part == 30 && size.width <= 320)
                     cases.push_back(
-                        caseOf(run, scene.loaded, *plain, scene.title + ", plain code", size, part));
+                        caseOf(run, scene.loaded(), *plain, scene.title + ", plain code", size, part));
             }
     }
     ReportSection section{"plan", "Warp or cast", summaryOf(cases), {}};

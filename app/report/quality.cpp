@@ -15,23 +15,23 @@ namespace {
 
 constexpr double kShare = 1.0 / 30;  // of the zero-parallax distance: the eyes' separation
 
-StereoSetting stereoOf(const LoadedScene& scene) {
+StereoSetting stereoOf(const Scene& scene) {
     StereoSetting stereo = scene.stereo;
     stereo.separation = stereo.zeroParallax * kShare;
     return stereo;
 }
 
-std::vector<Pose> posesOf(const LoadedScene& scene, int frames) {
+std::vector<Pose> posesOf(const Scene& scene, int frames) {
     return scene.path.samples().empty() ? std::vector<Pose>{scene.startPose} : scene.path.frames(frames);
 }
 
 MeasuredWarps measured(ReportRun& run, const ReportScene& scene, const std::vector<NamedWarp>& warps) {
-    const LoadedScene& loaded = scene.loaded;
+    const Scene& loaded = scene.loaded();
     std::vector<StereoViews> views;
     for (const Pose& pose : posesOf(loaded, run.pick(5, 15)))
         views.push_back(makeStereoViews(pose, loaded.lens, stereoOf(loaded)));
     run.tell("quality, measuring " + scene.title);
-    return measureWarps(*loaded.renderer, views, warps, 1);
+    return measureWarps(rendererOf(loaded), views, warps, 1);
 }
 
 struct Wish {
@@ -64,15 +64,16 @@ std::vector<Variant> variantsOf(ReportRun& run, const std::vector<NamedWarp>& wa
 
 // Frames between those that were measured.
 WayChart dialChart(ReportRun& run, const ReportScene& scene, double seconds) {
-    const std::vector<NamedWarp> warps = warpsWorthTrying(*scene.loaded.renderer);
+    const std::vector<NamedWarp> warps = warpsWorthTrying(rendererOf(scene.loaded()));
     const MeasuredWarps known = measured(run, scene, warps);
-    RightEyeTrial trial(scene, stereoOf(scene.loaded), variantsOf(run, warps, known), false);
+    RightEyeTrial trial(scene, stereoOf(scene.loaded()), variantsOf(run, warps, known), false);
     trial.run(run, "quality, " + scene.title, run.pick(2, 10), seconds);
     WayChart chart;
     chart.id = "quality/" + scene.id;
     chart.title = "The quality dial, " + scene.title;
-    chart.setting = fmt::format(
-        "{}, {} frames", run.settingOf(scene.loaded.lens.width, scene.loaded.lens.height), trial.frames());
+    chart.setting =
+        fmt::format("{}, {} frames", run.settingOf(scene.loaded().lens.width, scene.loaded().lens.height),
+                    trial.frames());
     chart.text = fmt::format(
         "Ways of warping as they are, and what is picked and refined for --quality and --target-psnr by "
         "frames of the same flight measured before; {} repeats, error against the full right cast. The bound "
@@ -94,18 +95,17 @@ struct SizeWay {
     double squares = 0, worst = 0;
 };
 
-double makeEyes(const LoadedScene& scene, const Pose& pose, double scale, RightEye& eye,
-                EyeImage (&eyes)[2]) {
+double makeEyes(const Scene& scene, const Pose& pose, double scale, RightEye& eye, EyeImage (&eyes)[2]) {
     Lens lens = scene.lens;
     lens.width = std::max(1, static_cast<int>(std::lround(scale * lens.width)));
     lens.height = std::max(1, static_cast<int>(std::lround(scale * lens.height)));
     const StereoViews views = makeStereoViews(pose, lens, stereoOf(scene));
     WarpSetting setting;
-    setting.method = scene.defaultMethod();
+    setting.method = defaultMethodFor(rendererOf(scene));
     const Stopwatch watch;
-    eyes[0].resize(lens.width, lens.height, scene.renderer->viewDependence());
-    renderEye(*scene.renderer, views.left, eyes[0]);
-    eye.render(*scene.renderer, views, eyes[0], setting, eyes[1]);
+    eyes[0].resize(lens.width, lens.height, rendererOf(scene).viewDependence());
+    renderEye(rendererOf(scene), views.left, eyes[0]);
+    eye.render(rendererOf(scene), views, eyes[0], setting, eyes[1]);
     if (scale < 1)
         for (EyeImage& image : eyes) image = enlarged(image, scene.lens.width, scene.lens.height);
     return watch.elapsed_ms();
@@ -119,18 +119,18 @@ void addErrors(const EyeImage (&truth)[2], const EyeImage (&eyes)[2], double cou
     }
 }
 
-void castInFull(const LoadedScene& scene, const Pose& pose, RightEye& eye, EyeImage (&eyes)[2]) {
+void castInFull(const Scene& scene, const Pose& pose, RightEye& eye, EyeImage (&eyes)[2]) {
     const StereoViews views = makeStereoViews(pose, scene.lens, stereoOf(scene));
-    eyes[0].resize(views.left.width, views.left.height, scene.renderer->viewDependence());
-    renderEye(*scene.renderer, views.left, eyes[0]);
+    eyes[0].resize(views.left.width, views.left.height, rendererOf(scene).viewDependence());
+    renderEye(rendererOf(scene), views.left, eyes[0]);
     WarpSetting full;
     full.method = RightEyeMethod::Full;
-    eye.render(*scene.renderer, views, eyes[0], full, eyes[1]);
+    eye.render(rendererOf(scene), views, eyes[0], full, eyes[1]);
 }
 
 WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
     const int repeats = run.pick(2, 4);
-    const std::vector<Pose> poses = posesOf(scene.loaded, run.pick(1, 4));
+    const std::vector<Pose> poses = posesOf(scene.loaded(), run.pick(1, 4));
     const auto count = static_cast<double>(poses.size());
     std::vector<SizeWay> ways;
     for (const double scale : run.brief()
@@ -141,10 +141,10 @@ WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
     EyeImage truth[2], eyes[2];
     for (const Pose& pose : poses) {
         run.tell("resolution, " + scene.title);
-        castInFull(scene.loaded, pose, eye, truth);
+        castInFull(scene.loaded(), pose, eye, truth);
         for (std::size_t r = 0; r < static_cast<std::size_t>(repeats); ++r)
             for (SizeWay& way : ways) {
-                way.ms[r] += makeEyes(scene.loaded, pose, way.scale, eye, eyes) / count;
+                way.ms[r] += makeEyes(scene.loaded(), pose, way.scale, eye, eyes) / count;
                 if (r == 0) addErrors(truth, eyes, count, way);
             }
     }
@@ -152,7 +152,7 @@ WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
     chart.id = "resolution/" + scene.id;
     chart.title = "Smaller pictures, " + scene.title;
     chart.setting = fmt::format(
-        "{}, {} frames", run.settingOf(scene.loaded.lens.width, scene.loaded.lens.height), poses.size());
+        "{}, {} frames", run.settingOf(scene.loaded().lens.width, scene.loaded().lens.height), poses.size());
     chart.text = fmt::format(
         "Both eyes by the default way in a share of the picture's sides, enlarged bilinearly, as --target-ms "
         "makes them where nothing else is fast enough; {} repeats, against both eyes cast in full.",

@@ -15,13 +15,13 @@ namespace {
 
 constexpr double kSeparationShare = 1.0 / 30;  // of the zero-parallax distance: the eyes' separation
 
-std::vector<Variant> variantsOf(const LoadedScene& scene) {
+std::vector<Variant> variantsOf(const Scene& scene) {
     std::vector<Variant> variants;
-    for (const RightEyeMethod method : methodsFor(*scene.renderer)) {
+    for (const RightEyeMethod method : methodsFor(rendererOf(scene))) {
         variants.push_back(methodVariant(method));
-        variants.back().isDefault = method == scene.defaultMethod();
+        variants.back().isDefault = method == defaultMethodFor(rendererOf(scene));
     }
-    const bool glass = scene.renderer->translucent();
+    const bool glass = rendererOf(scene).translucent();
     if (glass)
         for (const float spread : {0.2f, 0.4f, 1.0f, 1.5f, 3.0f})
             variants.push_back(tuned(RightEyeMethod::Selective, &WarpSetting::mostSpread,
@@ -41,8 +41,9 @@ WayChart chartOf(ReportRun& run, const ReportScene& scene, const RightEyeTrial& 
     WayChart chart;
     chart.id = "right_eye/" + scene.id;
     chart.title = "Right eye, " + scene.title;
-    chart.setting = fmt::format(
-        "{}, {} frames", run.settingOf(scene.loaded.lens.width, scene.loaded.lens.height), trial.frames());
+    chart.setting =
+        fmt::format("{}, {} frames", run.settingOf(scene.loaded().lens.width, scene.loaded().lens.height),
+                    trial.frames());
     chart.text = fmt::format(
         "Eyes 1/30 of the zero-parallax distance apart; the mean frame of the scene's flight, {} repeats. "
         "Error "
@@ -64,19 +65,19 @@ WayChart chartOf(ReportRun& run, const ReportScene& scene, const RightEyeTrial& 
 
 // Pictures of the middle frame by the default way.
 ReportPictures picturesOf(const ReportScene& scene, const StereoSetting& stereo) {
-    const LoadedScene& s = scene.loaded;
+    const Scene& s = scene.loaded();
     const std::vector<Pose> poses =
         s.path.samples().empty() ? std::vector<Pose>{s.startPose} : s.path.frames(3);
     const StereoViews views = makeStereoViews(poses[poses.size() / 2], s.lens, stereo);
     EyeImage left, right, full;
-    left.resize(views.left.width, views.left.height, s.renderer->viewDependence());
-    renderEye(*s.renderer, views.left, left);
+    left.resize(views.left.width, views.left.height, rendererOf(s).viewDependence());
+    renderEye(rendererOf(s), views.left, left);
     RightEye eye;
     WarpSetting setting;
     setting.method = RightEyeMethod::Full;
-    eye.render(*s.renderer, views, left, setting, full);
-    setting.method = s.defaultMethod();
-    eye.render(*s.renderer, views, left, setting, right);
+    eye.render(rendererOf(s), views, left, setting, full);
+    setting.method = defaultMethodFor(rendererOf(s));
+    eye.render(rendererOf(s), views, left, setting, right);
     ReportPictures pictures{"Pictures, " + scene.title, "From the middle of the flight.", {}};
     const auto add = [&](const char* title, const Plane<PackedColor>& picture) {
         pictures.pictures.push_back({title, encodeColorImage(picture, ".png")});
@@ -93,12 +94,12 @@ WayChart separationsOf(ReportRun& run, const ReportScene& scene, double seconds)
     const std::vector<int> parts =
         run.brief() ? std::vector<int>{240, 30, 8} : std::vector<int>{1000, 240, 120, 60, 30, 15, 8, 4};
     WayChart chart;
-    const Lens& lens = scene.loaded.lens;
+    const Lens& lens = scene.loaded().lens;
     int least = 1 << 30, most = 0;  // frames
     for (const int part : parts) {
-        StereoSetting stereo = scene.loaded.stereo;
+        StereoSetting stereo = scene.loaded().stereo;
         stereo.separation = stereo.zeroParallax / part;
-        Variant v = methodVariant(scene.loaded.defaultMethod());
+        Variant v = methodVariant(defaultMethodFor(rendererOf(scene.loaded())));
         v.name = fmt::format("1/{}", part);
         v.detail = fmt::format("eyes 1/{} of the zero-parallax distance apart", part);
         v.isDefault = part == 30;
@@ -134,12 +135,12 @@ void reportRightEye(ReportRun& run, double seconds) {
     const Stopwatch watch;
     for (const ReportScene& scene : run.scenes()) {
         run.checkTime();
-        StereoSetting stereo = scene.loaded.stereo;
+        StereoSetting stereo = scene.loaded().stereo;
         stereo.separation = stereo.zeroParallax * kSeparationShare;
         const std::string what = "right eye, " + scene.title;
         const auto scenesLeft = static_cast<double>(run.scenes().data() + run.scenes().size() - &scene);
         const double each = std::max(0.0, seconds - watch.elapsed_ms() / 1000) / scenesLeft;
-        RightEyeTrial trial(scene, stereo, variantsOf(scene.loaded), !run.brief());
+        RightEyeTrial trial(scene, stereo, variantsOf(scene.loaded()), !run.brief());
         trial.run(run, what, run.pick(3, 12), 0.65 * each);
         addChart(run.report(), section, chartOf(run, scene, trial));
         addChart(run.report(), section, separationsOf(run, scene, 0.3 * each));

@@ -18,17 +18,20 @@ void loadOne(ReportRun& run, const std::string& id, const std::string& title, co
     run.tell("loading " + title);
     Progress quiet([&](double, const std::string&) { run.tell("loading " + title); });
     const Stopwatch watch;
-    ReportScene scene{id, title, options, loadScene(options, {kReportWidth, kReportHeight}, quiet), 0};
+    ReportScene scene{id, title,  options, loadScene(options, {kReportWidth, kReportHeight}, quiet),
+                      0,  nullptr};
     scene.load_ms = watch.elapsed_ms();
-    std::vector<ReportScene>& list = scene.loaded.renderer ? run.scenes() : run.media();
-    if (scene.loaded.renderer) scene.loaded.renderer = withFaults(std::move(scene.loaded.renderer));
+    RayCast* const rays = scene.loaded().offered<RayCast>();
+    std::vector<ReportScene>& list = rays ? run.scenes() : run.media();
+    if (rays) scene.faulty = withFaults(*rays->renderer);
+    if (scene.faulty) rays->renderer = scene.faulty.get();
     list.push_back(std::move(scene));
 }
 
 void loadWithGlass(ReportRun& run, const std::string& id, SceneOptions options) {
     loadOne(run, id, id, options);
-    const LoadedScene& scene = run.scenes().back().loaded;
-    if (!scene.colon || !scene.colon->isColon() || scene.renderer->translucent()) return;
+    const Scene& scene = run.scenes().back().loaded();
+    if (!colonOf(scene) || !colonOf(scene)->isColon() || rendererOf(scene).translucent()) return;
     options.volume.opacity = kWallOpacity;
     loadOne(run, id + " translucent", id + ", translucent", options);
 }

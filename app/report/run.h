@@ -8,16 +8,30 @@
 #include "app/report/model.h"
 #include "app/report/mood.h"
 #include "app/scene/scene_loading.h"
+#include "colon/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/base/stopwatch.h"
+#include "engine/scene/capabilities.h"
+#include "terrain/terrain_scene.h"
 
 namespace stereonav {
+
+// Null where the scene is made of something else.
+inline const ColonScene* colonOf(const Scene& scene) {
+    return scene.offered<const ColonScene>();
+}
+inline const TerrainScene* terrainOf(const Scene& scene) {
+    return scene.offered<const TerrainScene>();
+}
 
 struct ReportScene {
     std::string id, title;  // the id is part of figures' ids
     SceneOptions options;
-    LoadedScene loaded;
+    std::unique_ptr<Scene> scene;
     double load_ms = 0;
+    std::unique_ptr<EyeRenderer> faulty;  // with deliberate faults (faults.h); null: without
+
+    const Scene& loaded() const { return *scene; }
 };
 
 // The whole time of a run: full 10 minutes, quick 60 s, less what writing and a slow end may take.

@@ -54,9 +54,10 @@ std::string planesText(const FramePlan& plan) {
 
 ReportTable sceneTable(ReportRun& run, const ReportScene& scene) {
     run.tell("frame plan, " + scene.title);
-    const FramePlan plan = planScene(scene.loaded).value();
+    const FramePlan plan = planScene(scene.loaded()).value();
     ReportTable table{scene.title, "", {"", "what was read and what a frame holds"}, {}};
-    table.rows = rowsOfInfo(scene.loaded.terrain ? terrainText(scene.loaded) : colonText(scene.loaded));
+    table.rows =
+        rowsOfInfo(terrainOf(scene.loaded()) ? terrainText(scene.loaded()) : colonText(scene.loaded()));
     table.rows.push_back({"loading", fmt::format("{:.0f} ms", scene.load_ms)});
     table.rows.push_back({"planes", planesText(plan)});
     table.rows.push_back({"frame", fmt::format("{:.1f} MB at {}x{}", static_cast<double>(plan.bytes) / 1e6,
@@ -77,9 +78,9 @@ struct Feature {
 // A frame with a feature and without: left and right eye, what it holds, the right eye's error.
 std::vector<std::string> rowOf(ReportRun& run, const ReportScene& scene, const char* name,
                                const EyeRenderer& renderer) {
-    StereoSetting stereo = scene.loaded.stereo;
+    StereoSetting stereo = scene.loaded().stereo;
     stereo.separation = stereo.zeroParallax / 30;
-    const StereoViews views = makeStereoViews(scene.loaded.startPose, scene.loaded.lens, stereo);
+    const StereoViews views = makeStereoViews(scene.loaded().startPose, scene.loaded().lens, stereo);
     EyeImage left, right, full;
     left.resize(views.left.width, views.left.height, renderer.viewDependence());
     RightEye eye;
@@ -113,17 +114,17 @@ ReportTable featureTable(ReportRun& run) {
         {"scene", "feature", "left ms", "right ms", "right PSNR dB", "planes MB"},
         {}};
     for (const ReportScene& scene : run.scenes()) {
-        table.rows.push_back(rowOf(run, scene, "as it is", *scene.loaded.renderer));
-        if (!scene.loaded.colon) continue;
+        table.rows.push_back(rowOf(run, scene, "as it is", rendererOf(scene.loaded())));
+        if (!colonOf(scene.loaded())) continue;
         VolumeCasting casting;
         casting.leaping = false;
         table.rows.push_back(rowOf(run, scene, "without leaping over empty cells",
-                                   VolumeRenderer(scene.loaded.colon->volume, casting)));
+                                   VolumeRenderer(colonOf(scene.loaded())->volume, casting)));
         casting = {};
         casting.shadeAgain = false;
-        if (!scene.loaded.renderer->translucent())
+        if (!rendererOf(scene.loaded()).translucent())
             table.rows.push_back(rowOf(run, scene, "without shading again for the right eye",
-                                       VolumeRenderer(scene.loaded.colon->volume, casting)));
+                                       VolumeRenderer(colonOf(scene.loaded())->volume, casting)));
     }
     return table;
 }

@@ -34,16 +34,16 @@ std::vector<int> threadCounts(int all) {
 
 class StageTrial {
 public:
-    explicit StageTrial(const LoadedScene& scene) : mScene(scene) {}
+    explicit StageTrial(const Scene& scene) : mScene(scene) {}
 
     std::array<double, kStages> once(const StereoViews& views) {
         std::array<double, kStages> ms{};
-        mLeft.resize(views.left.width, views.left.height, mScene.renderer->viewDependence());
+        mLeft.resize(views.left.width, views.left.height, rendererOf(mScene).viewDependence());
         const Stopwatch watch;
-        renderEye(*mScene.renderer, views.left, mLeft);
+        renderEye(rendererOf(mScene), views.left, mLeft);
         ms[kLeft] = watch.elapsed_ms();
         ms[kFull] = right(views, RightEyeMethod::Full).right_ms();
-        const RightEyeTimings own = right(views, mScene.defaultMethod()),
+        const RightEyeTimings own = right(views, defaultMethodFor(rendererOf(mScene))),
                               paper = right(views, RightEyeMethod::Paper);
         ms[kWarp] = own.warp_ms;
         ms[kFill] = own.fill_ms;
@@ -56,10 +56,10 @@ private:
     RightEyeTimings right(const StereoViews& views, RightEyeMethod method) {
         WarpSetting setting;
         setting.method = method;
-        return mEye.render(*mScene.renderer, views, mLeft, setting, mRight);
+        return mEye.render(rendererOf(mScene), views, mLeft, setting, mRight);
     }
 
-    const LoadedScene& mScene;
+    const Scene& mScene;
     RightEye mEye;
     EyeImage mLeft, mRight;
 };
@@ -70,13 +70,13 @@ using TimesByThreads = std::map<int, StageTimes>;
 TimesByThreads measureStages(ReportRun& run, const ReportScene& scene, const std::vector<int>& counts,
                              double seconds) {
     const ThreadsBack back;
-    const std::vector<Pose> poses = scene.loaded.path.samples().empty()
-                                        ? std::vector<Pose>{scene.loaded.startPose}
-                                        : scene.loaded.path.frames(run.pick(2, 5));
-    StereoSetting stereo = scene.loaded.stereo;
+    const std::vector<Pose> poses = scene.loaded().path.samples().empty()
+                                        ? std::vector<Pose>{scene.loaded().startPose}
+                                        : scene.loaded().path.frames(run.pick(2, 5));
+    StereoSetting stereo = scene.loaded().stereo;
     stereo.separation = stereo.zeroParallax / 30;
     std::map<int, std::array<std::vector<double>, kStages>> sums;  // by repeat
-    StageTrial trial(scene.loaded);
+    StageTrial trial(scene.loaded());
     const Stopwatch watch;
     const int most = run.pick(5, 15);
     for (int repeat = 0; repeat < most; ++repeat) {
@@ -87,7 +87,7 @@ TimesByThreads measureStages(ReportRun& run, const ReportScene& scene, const std
             for (const int threads : counts) {
                 run.tell("stages, " + scene.title);
                 setThreadCount(threads);
-                const auto ms = trial.once(makeStereoViews(pose, scene.loaded.lens, stereo));
+                const auto ms = trial.once(makeStereoViews(pose, scene.loaded().lens, stereo));
                 for (std::size_t s = 0; s < kStages; ++s)
                     sums[threads][s].back() += ms[s] / static_cast<double>(poses.size());
             }
@@ -123,15 +123,15 @@ double imbalanceOf(const std::vector<double>& tiles, int threads) {
 }
 
 // Milliseconds of each tile of the left eye, on one thread, the least of three.
-std::vector<double> tileTimes(const LoadedScene& scene) {
+std::vector<double> tileTimes(const Scene& scene) {
     const EyeView view = scene.viewsAt(scene.startPose).left;
     EyeImage image;
-    image.resize(view.width, view.height, scene.renderer->viewDependence());
-    std::vector<double> tiles(static_cast<std::size_t>(scene.renderer->tileCount(view)), 1e300);
+    image.resize(view.width, view.height, rendererOf(scene).viewDependence());
+    std::vector<double> tiles(static_cast<std::size_t>(rendererOf(scene).tileCount(view)), 1e300);
     for (int round = 0; round < 3; ++round)
         for (std::size_t n = 0; n < tiles.size(); ++n) {
             const Stopwatch watch;
-            scene.renderer->renderTile(view, static_cast<int>(n), image);
+            rendererOf(scene).renderTile(view, static_cast<int>(n), image);
             tiles[n] = std::min(tiles[n], watch.elapsed_ms());
         }
     return tiles;
@@ -169,8 +169,8 @@ std::string limitText(const Limits& limits, int threads) {
 void addStageTable(ReportRun& run, ReportSection& section, const ReportScene& scene,
                    const TimesByThreads& times, const std::map<int, double>& triad) {
     const int all = times.rbegin()->first;
-    const std::vector<double> tiles = tileTimes(scene.loaded);
-    const double pixels = static_cast<double>(scene.loaded.lens.width) * scene.loaded.lens.height;
+    const std::vector<double> tiles = tileTimes(scene.loaded());
+    const double pixels = static_cast<double>(scene.loaded().lens.width) * scene.loaded().lens.height;
     ReportTable table{
         "Stages, " + scene.title,
         "Milliseconds a frame: the median and, in brackets, the least and the most of the repeats. Speed-up "
@@ -190,11 +190,11 @@ void addStageTable(ReportRun& run, ReportSection& section, const ReportScene& sc
             row.push_back(spreadText(t.ms[s]));
             addFigure(run.report(),
                       {fmt::format("stages/{}/{}/{} threads/time", scene.id, kStageNames[s], threads), "ms",
-                       fmt::format("{}x{}", scene.loaded.lens.width, scene.loaded.lens.height),
+                       fmt::format("{}x{}", scene.loaded().lens.width, scene.loaded().lens.height),
                        ReportFigure::Kind::Time, t.ms[s]});
         }
         const double least = times.at(all).ms[s].low;
-        const double bytes = leastBytes(s, scene.loaded.renderer->viewDependence()) * pixels;
+        const double bytes = leastBytes(s, rendererOf(scene.loaded()).viewDependence()) * pixels;
         const Limits limits{least > 0 ? times.begin()->second.ms[s].low / least : 0, serialShare(times, s),
                             s == kLeft || s == kFull ? imbalanceOf(tiles, all) : 1.0,
                             least > 0 ? 1e-6 * bytes / least / triad.at(all) : 0, bytes < lastCacheBytes()};

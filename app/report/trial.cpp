@@ -37,7 +37,7 @@ double rmsOfPsnr(double psnr_db) {
 RightEyeTrial::RightEyeTrial(const ReportScene& scene, const StereoSetting& stereo,
                              std::vector<Variant> variants, bool truths)
     : mTruths(truths),
-      mScene(scene.loaded),
+      mScene(scene.loaded()),
       mStereo(stereo),
       mVariants(std::move(variants)),
       mSums(mVariants.size()),
@@ -83,14 +83,14 @@ void RightEyeTrial::chooseRepeats(double first_ms, std::size_t frames, double se
 
 void RightEyeTrial::frame(ReportRun& run, const StereoViews& views, const std::string& what) {
     mViews = views;
-    mLeft.resize(views.left.width, views.left.height, mScene.renderer->viewDependence());
-    renderEye(*mScene.renderer, views.left, mLeft);
+    mLeft.resize(views.left.width, views.left.height, rendererOf(mScene).viewDependence());
+    renderEye(rendererOf(mScene), views.left, mLeft);
     WarpSetting full;
     full.method = RightEyeMethod::Full;
-    mEye.render(*mScene.renderer, views, mLeft, full, mFull);
+    mEye.render(rendererOf(mScene), views, mLeft, full, mFull);
     Progress quiet([&](double, const std::string&) { run.tell(what); });
     const Plane<PackedColor> truth =
-        mTruths ? renderSupersampled(*mScene.renderer, views.right, kTruthFactor, quiet)
+        mTruths ? renderSupersampled(rendererOf(mScene), views.right, kTruthFactor, quiet)
                 : Plane<PackedColor>();
     for (std::size_t n = 0; n < mVariants.size(); ++n) measureError(n, truth);
     mFastest.assign(mVariants.size(), 1e300);
@@ -104,7 +104,7 @@ void RightEyeTrial::frame(ReportRun& run, const StereoViews& views, const std::s
 
 void RightEyeTrial::measureError(std::size_t n, const Plane<PackedColor>& truth) {
     const RightEyeTimings timings =
-        mEye.render(*mScene.renderer, mViews, mLeft, mVariants[n].setting, mRight);
+        mEye.render(rendererOf(mScene), mViews, mLeft, mVariants[n].setting, mRight);
     Plane<std::uint8_t> nothing(mRight.width(), mRight.height());
     const ImageDifference difference = differenceOf(mFull.color, mRight.color, nothing);
     const double rms = rmsOfPsnr(difference.psnr_db),
@@ -122,7 +122,8 @@ void RightEyeTrial::measureError(std::size_t n, const Plane<PackedColor>& truth)
 
 void RightEyeTrial::repeat(int r) {
     for (std::size_t n = 0; n < mVariants.size(); ++n) {
-        const RightEyeTimings t = mEye.render(*mScene.renderer, mViews, mLeft, mVariants[n].setting, mRight);
+        const RightEyeTimings t =
+            mEye.render(rendererOf(mScene), mViews, mLeft, mVariants[n].setting, mRight);
         const auto add = [r](std::vector<double>& sums, double ms) {
             sums.resize(std::max(sums.size(), static_cast<std::size_t>(r) + 1));
             sums[static_cast<std::size_t>(r)] += ms;

@@ -55,7 +55,7 @@ private:
     WayPoint pointOf(const Variant& v, const Sums& sums) const;
 
     bool mTruths, mBounds = false;
-    const LoadedScene& mScene;
+    const Scene& mScene;
     StereoSetting mStereo;
     std::vector<Variant> mVariants;
     std::vector<Sums> mSums;

@@ -11,6 +11,7 @@
 #include "app/scene/colon_loading.h"
 #include "app/scene/medium_options.h"
 #include "app/scene/medium_terrain.h"
+#include "app/scene/shown_medium.h"
 #include "app/scene/terrain_loading.h"
 #include "colon/built_in_colon.h"
 #include "colon/study.h"
@@ -18,8 +19,6 @@
 #include "engine/math/constants.h"
 #include "engine/medium/built_in_media.h"
 #include "engine/medium/noise_file.h"
-#include "engine/medium/swept_frames.h"
-#include "engine/nav/navigator.h"
 #include "terrain/sky_map.h"
 
 namespace stereonav {
@@ -28,14 +27,11 @@ namespace {
 constexpr double kFov = 40 * kRadians;
 constexpr double kOrbitSeconds = 15;
 constexpr int kOrbitSamples = 180;
-constexpr double kMediumCrossingSeconds = 10;  // at normal speed
 // Where light comes from when nothing is said, seen by one who looks north: from the left, behind and above;
 // of wax from the left and from beyond it, so that it shines through.
 constexpr double kLightAzimuth = 235 * kRadians, kLightElevation = 40 * kRadians;
 constexpr double kWaxAzimuth = 300 * kRadians, kWaxElevation = 30 * kRadians;
 constexpr double kLampCone = 2.2;  // radians: wider than what is seen
-constexpr std::array<MediumModel, 4> kModels{MediumModel::Emission, MediumModel::Surface, MediumModel::Direct,
-                                             MediumModel::Indirect};  // in the order of the enumeration
 // Of parallel light, so that white media are just below white on the screen.
 constexpr float kCloudRadiance = 0.6f, kWaxRadiance = 0.75f, kVolumeRadiance = 0.85f, kLampRadiance = 0.7f;
 constexpr float kSnowRadiance = 0.65f;  // of terrain, but for its own colours, which are dark
@@ -44,11 +40,6 @@ constexpr double kFraming = 0.85;       // of the distance at which a ball aroun
 // valleys where the light's texels are more than a hundred metres wide.
 constexpr int kTerrainSlices = 1200, kTerrainLight = 512, kColonSlices = 500;
 
-double longestSide(const Medium& medium) {
-    const glm::dvec3 size = medium.bounds().high - medium.bounds().low;
-    return std::max({size.x, size.y, size.z});
-}
-
 // Around the medium, looking at its middle from a little above; at turn 0 northwards.
 Pose orbitPose(const glm::dvec3& middle, double distance, double turn) {
     Pose pose = poseFromAngles(middle, turn, -0.15, 0);
@@ -56,20 +47,7 @@ Pose orbitPose(const glm::dvec3& middle, double distance, double turn) {
     return pose;
 }
 
-// Flight without ground or walls: one may enter.
-std::function<std::unique_ptr<Flight>()> freeFlight(const Pose& home, double extent) {
-    return [home, extent]() -> std::unique_ptr<Flight> {
-        FlightSetting setting;
-        setting.clearance = 1e-6 * extent;
-        setting.followHeight = 1e-3 * extent;
-        setting.speed = extent / kMediumCrossingSeconds;
-        setting.groundStep = 0.1 * extent;
-        const auto noGround = [](const glm::dvec2&) { return std::nan(""); };
-        return std::make_unique<Navigator>(noGround, home, setting);
-    };
-}
-
-void seeFromOutside(const WorldBox& box, LoadedScene& scene) {
+void seeFromOutside(const WorldBox& box, Scene& scene) {
     const double radius = std::max(0.5 * glm::length(box.high - box.low), 1e-6);
     const double distance = kFraming * radius / std::sin(0.5 * kFov);
     scene.lens.verticalFov = kFov;
@@ -107,13 +85,10 @@ void refuseWithBuiltIn(const SceneOptions& options) {
                         "leave it out");
 }
 
-LoadedScene builtInMedium(const SceneOptions& options) {
+void makeBuiltIn(const SceneOptions& options, ShownMedium& scene) {
     refuseWithBuiltIn(options);
     const bool cloud = options.scene == "cloud";
-    LoadedScene scene;
-    scene.name = options.scene;
-    scene.medium = std::make_unique<MediumScene>();
-    MediumScene& shown = *scene.medium;
+    MediumScene& shown = scene.medium();
     const std::shared_ptr<GreyVolume> field = cloud ? makeCloudField() : makeWaxField();
     const glm::dvec3 size = glm::dvec3(field->frame.size) * field->frame.spacing;
     shown.transfer = options.medium.medium.empty() ? options.scene : options.medium.medium;
@@ -134,8 +109,7 @@ LoadedScene builtInMedium(const SceneOptions& options) {
     // Without the noise, whose displacements may reach anywhere.
     seeFromOutside(Medium(field, findMediumTransfer(shown.transfer)).bounds(), scene);
     adjustViews(options, scene);
-    scene.makeFlight = freeFlight(scene.startPose, longestSide(shown.medium));
-    return scene;
+    scene.flyFreely();
 }
 
 // A colon's field has neither fluid nor what is far from the wall: the study is read again. Null for a mask,
@@ -156,11 +130,11 @@ void lightAtHead(const ColonScene& colon, MediumScene& shown) {
     light.falloff = colon.volume.look.falloff;
 }
 
-LoadedScene volumeMedium(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    LoadedScene scene = loadColonScene(options, simd, progress);
-    ColonScene& colon = *scene.colon;
-    scene.medium = std::make_unique<MediumScene>();
-    MediumScene& shown = *scene.medium;
+void makeFromVolume(const SceneOptions& options, Progress& progress, ShownMedium& scene) {
+    VolumeWorld& world = scene.hold(litVolumeOf(options, progress));
+    world.setViews(options, scene);
+    const ColonScene& colon = world.colon();
+    MediumScene& shown = scene.medium();
     std::shared_ptr<const GreyVolume> field;
     if (colon.isColon()) field = studyOf(options, progress);
     // what the scene holds already, which lives as long
@@ -181,9 +155,8 @@ LoadedScene volumeMedium(const SceneOptions& options, SimdTarget simd, Progress&
     } else {
         shown.turnLight(kLightAzimuth, kLightElevation);
         shown.look.light.radiance = glm::vec3(kVolumeRadiance);
-        scene.makeFlight = freeFlight(scene.startPose, longestSide(shown.medium));
+        scene.flyFreely();
     }
-    return scene;
 }
 
 // A medium other than the ground has colours of its own.
@@ -199,14 +172,12 @@ void refuseUnseenColors(const SceneOptions& options) {
             advice);
 }
 
-LoadedScene terrainAsMedium(const SceneOptions& options, SimdTarget simd, Progress& progress) {
+void makeFromTerrain(const SceneOptions& options, Progress& progress, ShownMedium& scene) {
     if (!options.light.empty())
         throw Error("--light", "", "does not go with a terrain shown as a medium", "leave one of them out");
     refuseUnseenColors(options);
-    LoadedScene scene = loadTerrainScene(options, simd, progress);
-    const TerrainScene& terrain = *scene.terrain;
-    scene.medium = std::make_unique<MediumScene>();
-    MediumScene& shown = *scene.medium;
+    const TerrainScene& terrain = scene.hold(terrainOf(options, progress));
+    MediumScene& shown = scene.medium();
     shown.transfer = options.medium.medium;
     if (!options.medium.noise.empty()) shown.noise = options.medium.noise;
     shown.sweep.slices = options.medium.slices.value_or(kTerrainSlices);
@@ -217,49 +188,26 @@ LoadedScene terrainAsMedium(const SceneOptions& options, SimdTarget simd, Progre
     shown.turnLight(terrain.look.sunAzimuth, terrain.look.sunElevation);
     if (options.medium.medium != kGroundMedium) shown.look.light.radiance = glm::vec3(kSnowRadiance);
     if (terrain.landmarks) shown.notes.push_back("landmarks are not shown with a medium");
-    return scene;
 }
 
 }  // namespace
 
-void addMedium(const LoadedScene& scene, ViewScene& view) {
-    MediumScene* medium = scene.medium.get();
-    for (const MediumModel model : kModels) view.models.emplace_back(nameOf(model));
-    view.model = static_cast<int>(medium->look.model);
-    view.setModel = [medium](int model) { medium->look.model = kModels[static_cast<std::size_t>(model)]; };
-    view.animated = medium->animated();
-    view.canBeTranslucent = false;
-    view.isovalue.reset();
-    if (!scene.moveSun) return;
-    const glm::dvec3 from = -medium->look.light.direction;
-    view.sun = {std::atan2(from.x, from.y), std::asin(std::clamp(from.z, -1.0, 1.0))};
-    view.moveSun = [turn = scene.moveSun](const SunPlace& sun) { turn(sun.azimuth, sun.elevation); };
-}
-
-LoadedScene loadMediumScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
+std::unique_ptr<Scene> loadMediumScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
     const SceneKind kind = kindOf(options.scene);
     if (!options.medium.mist.empty() && kind != SceneKind::Terrain)
         throw Error("--mist", "", "expected with a terrain", "leave it out");
     if (options.medium.medium == kGroundMedium && kind != SceneKind::Terrain)
         throw Error("--medium", "", "ground is of terrains",
                     "the presets are " + mediumPresetNames() + ", or name a file");
-    LoadedScene scene = kind == SceneKind::Medium    ? builtInMedium(options)
-                        : kind == SceneKind::Terrain ? terrainAsMedium(options, simd, progress)
-                                                     : volumeMedium(options, simd, progress);
-    MediumScene& shown = *scene.medium;
-    applyMediumOptions(options.medium, shown);
-    auto frames = std::make_unique<SweptFrames>(shown, simd);
-    scene.simd = frames->target();
-    scene.swept = frames.get();
-    scene.frames = std::move(frames);
-    if (scene.eyesFollow) scene.wall = std::move(scene.renderer);
-    scene.renderer.reset();
-    scene.methods.clear();
-    scene.moveSun = nullptr;
-    if (shown.look.light.kind == MediumLight::Kind::Parallel)
-        scene.moveSun = [medium = scene.medium.get()](double azimuth, double elevation) {
-            medium->turnLight(azimuth, elevation);
-        };
+    auto scene = std::make_unique<ShownMedium>();
+    if (kind == SceneKind::Medium)
+        makeBuiltIn(options, *scene);
+    else if (kind == SceneKind::Terrain)
+        makeFromTerrain(options, progress, *scene);
+    else
+        makeFromVolume(options, progress, *scene);
+    applyMediumOptions(options.medium, scene->medium());
+    scene->begin(simd);
     return scene;
 }
 

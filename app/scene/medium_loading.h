@@ -2,14 +2,10 @@
 #pragma once
 
 #include "app/scene/scene_loading.h"
-#include "app/view/worker.h"
 
 namespace stereonav {
 
 // What the options name, as showsMedium() knows it. Throws Error, Cancelled.
-LoadedScene loadMediumScene(const SceneOptions& options, SimdTarget simd, Progress& progress);
-
-// What the viewer can do with a medium beyond flying through it. scene.medium is there and outlives `view`.
-void addMedium(const LoadedScene& scene, ViewScene& view);
+std::unique_ptr<Scene> loadMediumScene(const SceneOptions& options, SimdTarget simd, Progress& progress);
 
 }  // namespace stereonav

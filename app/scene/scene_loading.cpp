@@ -21,6 +21,7 @@
 #include "engine/base/parallel.h"
 #include "engine/math/constants.h"
 #include "engine/medium/swept_frames.h"
+#include "engine/scene/capabilities.h"
 
 namespace stereonav {
 namespace {
@@ -165,29 +166,35 @@ std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
     return inputs;
 }
 
-LoadedScene loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress) {
-    checkSize(size);
+void checkSceneOptions(const SceneOptions& options) {
     refuseTracedElsewhere(options);
     for (const NamedPlace& input : inputsOf(options)) checkSource(input);
-    const SimdTarget simd = simdFromText(options.simd);
+    simdFromText(options.simd);
     if (options.threads > 0) setThreadCount(options.threads);
     checkMediumOptions(options);
-    const bool terrain = kindOf(options.scene) == SceneKind::Terrain;
-    if (terrain)
+    if (kindOf(options.scene) == SceneKind::Terrain)
         refuseVolumeOptions(options);
     else
         refuseTerrainOptions(options);
-    LoadedScene scene = showsMedium(options) ? loadMediumScene(options, simd, progress)
-                        : terrain            ? loadTerrainScene(options, simd, progress)
-                                             : loadColonScene(options, simd, progress);
-    scene.lens.width = size.width;
-    scene.lens.height = size.height;
+}
+
+std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress) {
+    checkSize(size);
+    checkSceneOptions(options);
+    const SimdTarget simd = simdFromText(options.simd);
+    std::unique_ptr<Scene> scene = showsMedium(options) ? loadMediumScene(options, simd, progress)
+                                   : kindOf(options.scene) == SceneKind::Terrain
+                                       ? loadTerrainScene(options, simd, progress)
+                                       : loadColonScene(options, simd, progress);
+    scene->name = options.scene.empty() ? "terrain" : options.scene;
+    scene->lens.width = size.width;
+    scene->lens.height = size.height;
     return scene;
 }
 
-const RecordedPath& flightOf(const LoadedScene& scene, const std::optional<RecordedPath>& path,
+const RecordedPath& flightOf(const Scene& scene, const std::optional<RecordedPath>& path,
                              const std::string& file) {
-    if (path && scene.colon) checkInLumen(*scene.colon, *path, file);
+    if (path) scene.check(*path, file);
     if (path) return *path;
     if (scene.path.samples().empty())
         throw Error(scene.name, "", "has no flight of its own", "give a recorded one with --path");
@@ -218,6 +225,11 @@ std::string_view sweepMethodFromText(const std::string& name, const char* option
                 fmt::format("the methods are {}", fmt::join(kSweepMethods, ", ")));
 }
 
+std::string_view methodNamed(const std::string& name, const Scene& scene) {
+    if (name == "auto") return scene.frames().defaultMethod();
+    return scene.offered<RayCast>() ? nameOf(*methodFromText(name)) : sweepMethodFromText(name);
+}
+
 OutputMode modeFromText(const std::string& name) {
     if (const auto mode = outputModeFromName(name)) return *mode;
     throw Error("--mode", "", "there is no output mode \"" + name + "\"",
@@ -231,18 +243,18 @@ SimdTarget simdFromText(const std::string& name) {
                 "use auto, plain, avx2 or avx512");
 }
 
-void adjustViews(const SceneOptions& options, LoadedScene& scene) {
+void adjustViews(const SceneOptions& options, Scene& scene) {
     if (options.separation_m) scene.stereo.separation = *options.separation_m;
     if (options.zeroParallax_m) scene.stereo.zeroParallax = *options.zeroParallax_m;
     if (options.fov_deg > 0.0) scene.lens.verticalFov = options.fov_deg * kRadians;
 }
 
-std::optional<FramePlan> planScene(const LoadedScene& scene) {
+std::optional<FramePlan> planScene(const Scene& scene) {
     constexpr int kPosesAlongTheFlight = 4;
     std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};
     if (!scene.path.samples().empty())
         for (const Pose& pose : scene.path.frames(kPosesAlongTheFlight)) views.push_back(scene.viewsAt(pose));
-    return scene.frames->measure(views);
+    return scene.frames().measure(views);
 }
 
 std::string machineName() {

@@ -6,19 +6,15 @@
 
 #include "app/options/option_numbers.h"
 #include "app/scene/medium_options.h"
+#include "app/scene/shown_terrain.h"
 #include "engine/base/error.h"
-#include "engine/frame/cast_frames.h"
 #include "engine/math/constants.h"
-#include "engine/nav/navigator.h"
 #include "terrain/scene_file.h"
 #include "terrain/terrain_illumination.h"
 #include "terrain/terrain_loader.h"
-#include "terrain/terrain_renderer.h"
 
 namespace stereonav {
 namespace {
-
-constexpr double kCrossingSeconds = 45.0;  // to cross the terrain at normal speed
 
 void setSun(const std::string& text, TerrainLook& look) {
     const std::vector<double> n = numbersIn("--sun", sunNumbers(), text).numbers;
@@ -74,18 +70,6 @@ void refuseSunWithoutEffect(const SceneOptions& options, const TerrainScene& ter
                 "ground's light");
 }
 
-FlightSetting flightSettingOf(const TerrainScene& terrain) {
-    const glm::dvec2 spacing = terrain.ground.spacing();
-    const double extent =
-        std::max(spacing.x * (terrain.ground.width() - 1), spacing.y * (terrain.ground.height() - 1));
-    FlightSetting setting;
-    setting.clearance = terrain.clearance;
-    setting.followHeight = std::max(4 * terrain.clearance, extent / 150);
-    setting.speed = extent / kCrossingSeconds;
-    setting.groundStep = 0.5 * std::min(spacing.x, spacing.y);
-    return setting;
-}
-
 }  // namespace
 
 std::vector<NamedPlace> filesOfTerrain(const std::string& toml) {
@@ -98,32 +82,14 @@ std::vector<NamedPlace> filesOfTerrain(const std::string& toml) {
     return files;
 }
 
-LoadedScene loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    LoadedScene scene;
-    scene.name = options.scene.empty() ? "terrain" : options.scene;
-    scene.terrain = std::make_unique<TerrainScene>(loadTerrain(describeTerrain(options), progress));
-    const TerrainScene& terrain = *scene.terrain;
+TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
+    TerrainScene terrain = loadTerrain(describeTerrain(options), progress);
     refuseSunWithoutEffect(options, terrain);
-    auto renderer = std::make_unique<TerrainRenderer>(terrain, simd);
-    scene.simd = renderer->target();
-    if (terrain.illumination)
-        scene.moveSun = [terrain = scene.terrain.get(), renderer = renderer.get()](double azimuth,
-                                                                                   double elevation) {
-            moveSun(*terrain, azimuth, elevation);
-            renderer->sunMoved();
-        };
-    scene.renderer = std::move(renderer);
-    scene.lens = terrain.lens;
-    scene.stereo = terrain.stereo;
-    scene.startPose = terrain.startPose;
-    scene.path = terrain.path;
-    scene.frames = std::make_unique<CastFrames>(*scene.renderer);
-    scene.methods = methodsFor(*scene.renderer);
-    scene.makeFlight = [&terrain]() -> std::unique_ptr<Flight> {
-        const auto ground = [&terrain](const glm::dvec2& place) { return terrain.ground.heightAt(place); };
-        return std::make_unique<Navigator>(ground, terrain.startPose, flightSettingOf(terrain));
-    };
-    return scene;
+    return terrain;
+}
+
+std::unique_ptr<Scene> loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
+    return std::make_unique<ShownTerrain>(terrainOf(options, progress), simd);
 }
 
 }  // namespace stereonav

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/scene/scene_loading.h"
+#include "terrain/terrain_scene.h"
 
 namespace stereonav {
 
@@ -9,6 +10,8 @@ namespace stereonav {
 std::vector<NamedPlace> filesOfTerrain(const std::string& toml);
 
 // Reads or makes the terrain that the options name. Throws Error, Cancelled.
-LoadedScene loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progress& progress);
+TerrainScene terrainOf(const SceneOptions& options, Progress& progress);
+// The same as a scene whose rays are cast.
+std::unique_ptr<Scene> loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progress& progress);
 
 }  // namespace stereonav

@@ -12,6 +12,7 @@
 #include "engine/camera/stereo_rig.h"
 #include "engine/image/eye_image.h"
 #include "engine/light/pixel_path.h"
+#include "engine/scene/capabilities.h"
 
 namespace stereonav {
 
@@ -21,17 +22,15 @@ void checkTracedLight(const SceneOptions& options);
 // than that, since each eye is traced for itself.
 std::string methodUnderLight(const SceneOptions& options, const std::string& method);
 
-class TracedLight {
+class TracedLight final : public PictureLight {
 public:
     // scene must outlive this. Lit by --sky (a picture all around, or a colour) and --point-light, or by what
     // bake takes where nothing is said. Throws Error.
     TracedLight(const SceneOptions& options, const ColonScene& scene);
 
-    // Colours the surface in both pictures, which were cast in full. Throws Cancelled.
-    void light(const StereoViews& views, EyeImage& left, EyeImage& right, Progress& progress);
+    void light(const StereoViews& views, EyeImage& left, EyeImage& right, Progress& progress) override;
 
-    // What was done, a line each.
-    const std::vector<std::string>& notes() const { return mNotes; }
+    const std::vector<std::string>& notes() const override { return mNotes; }
 
 private:
     const VolumeOptions mOptions;

@@ -4,137 +4,72 @@
 #include <utility>
 
 #include "app/command/quality.h"
-#include "app/scene/colon_loading.h"
-#include "app/scene/medium_loading.h"
-#include "app/scene/volume_light.h"
+#include "app/scene/shown_volume.h"
 #include "app/view/sweep.h"
+#include "engine/medium/swept_frames.h"
+#include "engine/scene/slices.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kUsualOpacity = 0.95;  // of a translucent wall a millimetre: that of Wan et al. 2004
-
-// Told where a key would turn it, if it does not turn.
-std::string whyLightStays(const LoadedScene& scene, const SceneOptions& options) {
-    if (scene.medium) return "a lamp lights this medium: --light-from gives light that turns";
-    if (scene.terrain) return "the sun stands still in this ground's colours: --light gives one that moves";
-    if (options.light.empty()) return "a lamp lights this volume: --light gives a sky that turns";
-    if (options.light == kLazyLight)
-        return "the sky is part of this light: --light lazy-transfer has one that turns";
-    return "the sky is baked into this light: bake --what transfer for one that turns";
-}
-
-ViewScene viewOf(const std::shared_ptr<LoadedScene>& loaded, const ViewOptions& options, bool measure,
-                 ViewSweep* sweep, Progress& progress) {
-    ViewScene scene;
-    scene.owner = loaded;
-    scene.frames = loaded->frames.get();
-    scene.makeFlight = loaded->makeFlight;
-    scene.path = loaded->path;
-    scene.lens = loaded->lens;
-    scene.stereo = loaded->stereo;
-    // A recorded flight is looked at once, with the scene that it was given for.
-    if (measure && !options.path.empty()) flightOf(*loaded, readPath(options.path), options.path);
-    if (loaded->colon) addVolume(*loaded, options.scene, scene);
-    scene.lightStays = whyLightStays(*loaded, options.scene);
-    if (loaded->medium) {
-        addMedium(*loaded, scene);
-        if (sweep) sweep->use(*loaded->swept, scene);
-        scene.way.method = sweepMethodFromText(options.method);
-        return scene;
-    }
-    if (loaded->moveSun) {
-        const TerrainLook& look = loaded->terrain->look;
-        scene.sun = {look.sunAzimuth, look.sunElevation};
-        scene.moveSun = [owner = loaded.get()](const SunPlace& sun) {
-            const TerrainLook& now = owner->terrain->look;
-            if (sun.azimuth != now.sunAzimuth || sun.elevation != now.sunElevation)
-                owner->moveSun(sun.azimuth, sun.elevation);
-        };
-    }
-    if (loaded->colon)
-        scene.change = [loaded, options, methods = scene.ambientMethods](const SceneOptions& to,
-                                                                         Progress& p) {
-            ViewOptions next = options;
-            next.scene = to;
-            ViewScene changed =
-                viewOf(std::make_shared<LoadedScene>(changedColonScene(*loaded, options.scene, to, p)), next,
-                       false, nullptr, p);
-            changed.changed = true;
-            changed.ambientMethods = methods;  // one that was given stays among them
-            return changed;
-        };
-    scene.way.method = nameOf(methodFromText(options.method).value_or(loaded->defaultMethod()));
+// How its frames are made, and how it begins.
+OpenScene opened(std::shared_ptr<Scene> shown, const ViewOptions& options, bool measure, Progress& progress) {
+    OpenScene open;
+    const Scene& scene = *shown;
+    if (const auto* const light = scene.offered<TurningLight>()) open.sun = light->place();
+    if (const auto* const models = scene.offered<LightModels>()) open.model = models->now();
+    open.scene = std::move(shown);
+    open.way.method = methodNamed(options.method, scene);
     // A study is opened quickly: it gets its default.
-    if (const auto plan = qualityOf(options.scene, *loaded, options.method, progress)) {
-        scene.way = {nameOf(plan->setting.method), plan->setting};
-    } else if (measure && options.method == "auto" && loaded->terrain) {
+    if (const auto plan = qualityOf(options.scene, scene, options.method, progress)) {
+        open.way = {nameOf(plan->setting.method), plan->setting};
+    } else if (measure && options.method == "auto" && !scene.offered<SurfaceChoices>()) {
         progress.report(1.0, "measuring how to make the right eye");
-        if (const auto measured = planScene(*loaded)) scene.way.method = nameOf(measured->method);
+        if (const auto measured = planScene(scene)) open.way.method = nameOf(measured->method);
     }
-    return scene;
-}
-
-void setTransfer(const SceneChange& change, const VolumeOptions& first, VolumeOptions& volume) {
-    volume.transfer.clear();
-    volume.opacity.reset();
-    if (!change.translucent.value_or(false)) return;
-    volume.transfer = change.transfer.value_or("");
-    if (!volume.transfer.empty()) return;
-    volume.transfer = first.transfer;
-    volume.opacity = first.opacity;
-    if (volume.transfer.empty() && !volume.opacity) volume.opacity = kUsualOpacity;
-}
-
-// What has no effect is left out, since it would be refused.
-void setAmbient(const ViewAmbient& to, bool translucent, const VolumeOptions& first, VolumeOptions& volume) {
-    const bool modulated = translucent && !to.modulate.empty();
-    volume.ambient_mm.reset();
-    volume.ambientStrength.reset();
-    volume.ambientLamp.reset();
-    volume.modulateRadius_mm.reset();
-    volume.modulateSigma.reset();
-    volume.ambientMethod = to.lit || (modulated && to.modulate == "gradient") ? to.method : "";
-    volume.modulate = modulated ? to.modulate : "";
-    if (to.lit) {
-        volume.ambient_mm = 1000 * to.radius;
-        volume.ambientStrength = first.ambientStrength;
-        volume.ambientLamp = first.ambientLamp;
-    }
-    if (modulated) volume.modulateRadius_mm = 1000 * to.modulateRadius;
-    if (modulated && to.sigma > 0) volume.modulateSigma = to.sigma;
+    return open;
 }
 
 }  // namespace
 
-ViewScene viewSceneOf(const ViewOptions& options, bool measure, ViewSweep* sweep, Progress& progress) {
-    return viewOf(std::make_shared<LoadedScene>(loadScene(options.scene, options.size, progress)), options,
-                  measure, sweep, progress);
+OpenScene openScene(const ViewOptions& options, bool measure, ViewSweep* sweep, Progress& progress) {
+    std::shared_ptr<Scene> scene = loadScene(options.scene, options.size, progress);
+    // A recorded flight is looked at once, with the scene that it was given for.
+    if (measure && !options.path.empty()) scene->check(readPath(options.path), options.path);
+    if (auto* const swept = scene->offered<SweptFrames>(); swept && sweep) sweep->use(*swept);
+    return opened(std::move(scene), options, measure, progress);
 }
 
-void applyChange(const SceneChange& change, const ViewOptions& first, SceneOptions& options) {
-    VolumeOptions& volume = options.volume;
-    if (change.isovalue) volume.isovalue = change.isovalue;
-    if (change.translucent) setTransfer(change, first.scene.volume, volume);
-    if (change.ambient)
-        setAmbient(*change.ambient, change.translucent.value_or(false), first.scene.volume, volume);
+OpenScene changedScene(const OpenScene& now, const SurfaceChange& change, const ViewOptions& options,
+                       Progress& progress) {
+    std::shared_ptr<Scene> scene = now.scene->offered<SurfaceChoices>()->changed(change, progress);
+    OpenScene open = opened(std::move(scene), options, false, progress);
+    open.sun = now.sun;  // frames are made meanwhile, which may turn it
+    open.changed = true;
+    return open;
+}
+
+void applyChange(const SceneChange& change, const SceneOptions& first, SceneOptions& options) {
+    applyChange(change.surface, first, options);
     if (!change.seeds) return;
-    volume.seeds.clear();
-    for (const glm::dvec3& seed : *change.seeds) volume.seeds.push_back(seedText(seed));
+    options.volume.seeds.clear();
+    for (const glm::dvec3& seed : *change.seeds) options.volume.seeds.push_back(seedText(seed));
 }
 
-void SliceReading::start(std::shared_ptr<const ViewScene> scene, std::function<void()> wake) {
-    if (busy() || !scene->readSlices) return;
-    mReading = std::async(std::launch::async, [this, scene = std::move(scene), wake = std::move(wake)] {
-        try {
-            auto study = scene->readSlices(mProgress);
-            wake();
-            return study;
-        } catch (...) {
-            wake();
-            throw;
-        }
-    });
+void SliceReading::start(std::shared_ptr<const OpenScene> scene, std::function<void()> wake) {
+    const auto* const source = scene->scene->offered<SliceSource>();
+    if (busy() || !source) return;
+    mReading =
+        std::async(std::launch::async, [this, source, scene = std::move(scene), wake = std::move(wake)] {
+            try {
+                auto study = source->readSlices(mProgress);
+                wake();
+                return study;
+            } catch (...) {
+                wake();
+                throw;
+            }
+        });
 }
 
 std::shared_ptr<const SliceStudy> SliceReading::take() {

@@ -14,10 +14,13 @@ class ViewSweep;
 
 // measure: whether to find out by measuring how the right eye is made best, where the options leave it
 // open; else it is the scene's default. sweep: of media, null for other scenes. Throws Error, Cancelled.
-ViewScene viewSceneOf(const ViewOptions& options, bool measure, ViewSweep* sweep, Progress& progress);
+OpenScene openScene(const ViewOptions& options, bool measure, ViewSweep* sweep, Progress& progress);
+// One that offers SurfaceChoices, so changed; on the thread that loads. Throws Error, Cancelled.
+OpenScene changedScene(const OpenScene& now, const SurfaceChange& change, const ViewOptions& options,
+                       Progress& progress);
 
 // What the user changed in the window, into `options`, which were made from `first`.
-void applyChange(const SceneChange& change, const ViewOptions& first, SceneOptions& options);
+void applyChange(const SceneChange& change, const SceneOptions& first, SceneOptions& options);
 
 // Reads the slices of a scene beside the window's thread.
 class SliceReading {
@@ -26,7 +29,7 @@ public:
 
     bool busy() const { return mReading.valid(); }
     // Nothing while busy, or for a scene without slices. wake: called when it is done.
-    void start(std::shared_ptr<const ViewScene> scene, std::function<void()> wake);
+    void start(std::shared_ptr<const OpenScene> scene, std::function<void()> wake);
     // Null while it is not done; throws what reading threw.
     std::shared_ptr<const SliceStudy> take();
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/output/length_text.h"
 #include "app/view/status.h"
 #include "engine/base/error.h"
 
@@ -46,42 +47,49 @@ bool asksForMotion(const FlightInput& input) {
 
 }  // namespace
 
-ViewSession::ViewSession(std::shared_ptr<const ViewScene> scene, const Options& options)
+ViewSession::ViewSession(std::shared_ptr<const OpenScene> scene, const Options& options)
     : mScene(std::move(scene)),
       mFolder(options.folder),
-      mFlight(mScene->makeFlight()),
+      mFlight(shown().makeFlight()),
       mFirstFlightMode(mFlight->mode()),
-      mPath(options.path ? *options.path : mScene->path),
+      mPath(options.path ? *options.path : shown().path),
       mOwnPath(!options.path),
-      mStereo(*mScene),
+      mStereo(shown()),
       mSun(mScene->sun),
-      mIsovalue(mScene->isovalue),
-      mTranslucent(mScene->translucent),
-      mTransfer(mScene->transfer),
-      mTriedTransfer(mScene->transfer),
-      mAmbient(mScene->ambient),
       mMode(options.mode),
       mFirstMode(options.mode),
       mMethod(mScene->way.method),
-      mModel(mScene->model) {}
+      mModel(mScene->model) {
+    takeSurface();
+    if (const auto* const surface = offered<SurfaceChoices>()) mTriedTransfer = surface->transfer;
+}
 
-void ViewSession::replaceScene(std::shared_ptr<const ViewScene> scene) {
+void ViewSession::takeSurface() {
+    const auto* const surface = offered<SurfaceChoices>();
+    mIsovalue = surface ? surface->isovalue : std::nullopt;
+    mTranslucent = surface && surface->translucent;
+    mTransfer = surface ? surface->transfer : "";
+    mAmbient = surface ? surface->ambient : std::nullopt;
+}
+
+void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
     if (!scene->changed) stopPlaying();
     const Pose here = mFlight->pose();
     const int mode = mFlight->mode();
-    std::unique_ptr<Flight> flight = scene->makeFlight();
+    std::unique_ptr<Flight> flight = scene->scene->makeFlight();
     if (mode < flight->modeCount()) flight->setMode(mode);
     flight->setPose(here);
     mFlight = std::move(flight);
     // Light that was turned stays so over the same study.
-    const bool lightStays = mScene->moveSun && scene->moveSun && mScene->turnsSky == scene->turnsSky;
+    const auto *const before = offered<TurningLight>(), *const after = scene->scene->offered<TurningLight>();
+    const bool lightStays = before && after && before->isSky() == after->isSky();
     const bool methodStays = scene->changed && scene->way.method == mScene->way.method;
+    mStereo.replaceScene(*scene->scene);
     mScene = std::move(scene);
-    if (mOwnPath) mPath = mScene->path;
-    mStereo.replaceScene(*mScene);
+    if (mOwnPath) mPath = shown().path;
     if (!lightStays) mSun = mScene->sun;
-    if (!methodStays) mMethod = mScene->way.method;
     mModel = mScene->model;
+    if (!methodStays) mMethod = mScene->way.method;
     // More may be asked for than a scene made in between shows.
     if (!mScene->changed) forgetSceneChange();
     mResting = false;
@@ -95,10 +103,8 @@ std::optional<SceneChange> ViewSession::takeSceneChange() {
 
 void ViewSession::forgetSceneChange() {
     if (mChange) return;  // asked for since
-    mIsovalue = mScene->isovalue;
-    mTranslucent = mScene->translucent;
-    mTransfer = mScene->transfer;
-    const std::optional<ViewAmbient> before = std::exchange(mAmbient, mScene->ambient);
+    const std::optional<AmbientChoice> before = mAmbient;
+    takeSurface();
     if (!before || !mAmbient) return;
     // What is not shown keeps its radius for when it is.
     if (!mAmbient->lit) mAmbient->radius = before->radius;
@@ -215,22 +221,23 @@ void ViewSession::stepMode(int by) {
 }
 
 void ViewSession::nextModel() {
-    if (mScene->models.empty()) return notify("lighting models are of media");
-    mModel = (mModel + 1) % static_cast<int>(mScene->models.size());
-    notify("light: " + mScene->models[static_cast<std::size_t>(mModel)]);
+    const auto* const models = offered<LightModels>();
+    if (!models || models->names().empty()) return notify("lighting models are of media");
+    mModel = (mModel + 1) % static_cast<int>(models->names().size());
+    notify("light: " + models->names()[static_cast<std::size_t>(mModel)]);
 }
 
 void ViewSession::nextMethod() {
-    const std::span<const std::string_view> methods = mScene->frames->methods();
+    const std::span<const std::string_view> methods = shown().frames().methods();
     const auto at = std::find(methods.begin(), methods.end(), mMethod);
     mMethod = methods[(static_cast<std::size_t>(at - methods.begin()) + 1) % methods.size()];
-    notify(fmt::format("{}: {}", mScene->frames->whatMethodsMake(), mMethod));
+    notify(fmt::format("{}: {}", shown().frames().whatMethodsMake(), mMethod));
 }
 
 void ViewSession::reset() {
     mFlight->setMode(mFirstFlightMode);
     mFlight->goHome();
-    mStereo.reset(*mScene);
+    mStereo.reset(shown());
     mMode = mFirstMode;
     mMethod = mScene->way.method;
     mModel = mScene->model;
@@ -311,6 +318,7 @@ void ViewSession::fly(const FlightInput& input, double dt) {
 }
 
 void ViewSession::step(const FlightInput& input, double dt) {
+    const bool animated = offered<Animation>() != nullptr;
     mStereo.step(mFlight->clearanceNow(), mDepthAhead, dt);
     const Pose poseBefore = pose();
     const bool looked = std::exchange(mLooked, false);
@@ -319,10 +327,10 @@ void ViewSession::step(const FlightInput& input, double dt) {
     } else {
         fly(input, dt);
     }
-    if (mScene->animated && dt > 0) mTime = mPlaying ? mPlayTime : mTime + dt;
+    if (animated && dt > 0) mTime = mPlaying ? mPlayTime : mTime + dt;
     if (mNoticeLeft > 0 && (mNoticeLeft -= dt) <= 0) mNotice.clear();
-    mMoving = mPlaying || recording() || mScene->animated || mStereo.moving() || asksForMotion(input) ||
-              looked || !samePose(poseBefore, pose());
+    mMoving = mPlaying || recording() || animated || mStereo.moving() || asksForMotion(input) || looked ||
+              !samePose(poseBefore, pose());
 }
 
 void ViewSession::notify(const std::string& text) {
@@ -338,7 +346,7 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
     const auto [eyeWidth, eyeHeight] = eyeSizeFor(compose().mode, width, height);
     FrameRequest wanted;
     wanted.pose = pose();
-    wanted.lens = mScene->lens;
+    wanted.lens = shown().lens;
     wanted.lens.width = eyeWidth;
     wanted.lens.height = eyeHeight;
     wanted.stereo = mStereo.now();
@@ -363,12 +371,14 @@ std::string ViewSession::statusLine(const ViewFrame& frame, double framesPerSeco
     if (frame.request.twoEyes)
         line += fmt::format("  {}{}{}", infoOf(mMode).longName, mSwapped ? " swapped" : "",
                             mStereo.follows() ? "  eyes follow" : "");
-    if (!mScene->models.empty()) line += "  " + mScene->models[static_cast<std::size_t>(frame.request.model)];
+    const auto* const models = offered<LightModels>();
+    if (models && !models->names().empty())
+        line += "  " + models->names()[static_cast<std::size_t>(frame.request.model)];
     if (!frame.sweep.empty()) line += "  " + frame.sweep;
     const double clearance = mFlight->clearanceNow();
     if (std::isfinite(clearance)) line += "  clearance " + lengthText(clearance);
-    if (mScene->placeOnLine) {
-        const PlaceOnLine place = mScene->placeOnLine(pose().position);
+    if (const auto* const through = offered<LineThrough>()) {
+        const PlaceOnLine place = through->placeOnLine(pose().position);
         line += fmt::format("  at {:.0f} of {:.0f} mm", 1000 * place.along, 1000 * place.length);
     }
     line += volumeText();

@@ -67,12 +67,10 @@ struct ViewAction {
     OutputMode mode = OutputMode::Left;  // of SetMode
 };
 
-// Another scene that the user asks for: the same study, seen differently. What is not set stays.
+// Another scene that the user asks for: the same study, seen differently, or with its lumen found again from
+// other seeds.
 struct SceneChange {
-    std::optional<double> isovalue;
-    std::optional<bool> translucent;
-    std::optional<std::string> transfer;  // a name, "" for that of the options
-    std::optional<ViewAmbient> ambient;
+    SurfaceChange surface;
     std::optional<std::vector<glm::dvec3>> seeds;  // world
 };
 
@@ -83,10 +81,10 @@ public:
         std::optional<RecordedPath> path;  // what Play plays before anything is recorded
         std::filesystem::path folder;      // for recorded flights
     };
-    ViewSession(std::shared_ptr<const ViewScene> scene, const Options& options);
+    ViewSession(std::shared_ptr<const OpenScene> scene, const Options& options);
 
     // The flight goes on in another scene, at the same place or where that one has room for it.
-    void replaceScene(std::shared_ptr<const ViewScene> scene);
+    void replaceScene(std::shared_ptr<const OpenScene> scene);
     // What was asked for since the last call.
     std::optional<SceneChange> takeSceneChange();
     // Of the last change, when it can not be done: what is shown counts again.
@@ -164,13 +162,20 @@ private:
     void nextMethod();
     void nextModel();
     void reset();
+    void takeSurface();
     void toggleRecording();
     void saveFlight();
     void togglePlaying();
     void stepPlaying(double dt);
     void stopPlaying();
 
-    std::shared_ptr<const ViewScene> mScene;
+    const Scene& shown() const { return *mScene->scene; }
+    template <typename C>
+    C* offered() const {
+        return shown().offered<C>();
+    }
+
+    std::shared_ptr<const OpenScene> mScene;
     std::filesystem::path mFolder;
     std::unique_ptr<Flight> mFlight;
     int mFirstFlightMode = 0;
@@ -186,7 +191,7 @@ private:
     std::optional<double> mIsovalue;
     bool mTranslucent = false;
     std::string mTransfer, mTriedTransfer;  // the second may not have gone
-    std::optional<ViewAmbient> mAmbient;
+    std::optional<AmbientChoice> mAmbient;
     std::optional<SceneChange> mChange;
     std::optional<SliceView> mSlices;
     std::shared_ptr<const SliceStudy> mStudy;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "app/output/length_text.h"
 #include "app/view/session.h"
 #include "app/view/status.h"
 
@@ -21,7 +22,7 @@ bool ViewSession::actOnVolume(ViewCommand command) {
             moveIsovalue(1);
             return true;
         case ViewCommand::ToggleTranslucent:
-            if (!mScene->canBeTranslucent) return true;
+            if (!offered<SurfaceChoices>()) return true;
             mTranslucent = !mTranslucent;
             askForChange();
             notify(mTranslucent ? "translucent" : "opaque");
@@ -64,12 +65,17 @@ bool ViewSession::actOnAmbient(ViewCommand command) {
 }
 
 void ViewSession::askForChange() {
-    mChange = SceneChange{mIsovalue, mTranslucent, mTransfer, mAmbient, std::nullopt};
+    SceneChange& change = mChange.emplace();
+    change.surface.isovalue = mIsovalue;
+    change.surface.translucent = mTranslucent;
+    change.surface.transfer = mTransfer;
+    change.surface.ambient = mAmbient;
 }
 
 void ViewSession::nextTransfer() {
-    const std::vector<std::string>& all = mScene->transfers;
-    if (!mScene->canBeTranslucent || all.empty()) return;
+    const auto* const surface = offered<SurfaceChoices>();
+    if (!surface || surface->transfers.empty()) return;
+    const std::vector<std::string>& all = surface->transfers;
     const auto at = std::find(all.begin(), all.end(), mTriedTransfer);
     // One that is opaque is first seen as it would be.
     if (mTranslucent) mTransfer = at == all.end() || at + 1 == all.end() ? all.front() : *(at + 1);
@@ -81,7 +87,7 @@ void ViewSession::nextTransfer() {
 
 // Off, and then each method.
 void ViewSession::stepAmbient(int by) {
-    const std::vector<std::string>& methods = mScene->ambientMethods;
+    const std::vector<std::string>& methods = offered<SurfaceChoices>()->ambientMethods;
     if (methods.empty()) return notify("baked light takes the place of ambient light");
     const auto count = static_cast<int>(methods.size()) + 1;
     const auto now = std::find(methods.begin(), methods.end(),
@@ -100,7 +106,8 @@ void ViewSession::scaleRadius(double factor) {
         return notify("a radius is of ambient light (O), or of modulated opacity (B)");
     double& radius = mAmbient->lit ? mAmbient->radius : mAmbient->modulateRadius;
     const bool together = mAmbient->lit && mAmbient->modulateRadius == mAmbient->radius;
-    const double wanted = std::clamp(radius * factor, mScene->smallestRadius, mScene->largestRadius);
+    const double wanted = std::clamp(radius * factor, offered<SurfaceChoices>()->smallestRadius,
+                                     offered<SurfaceChoices>()->largestRadius);
     if (wanted == radius)
         return notify(
             fmt::format("{} is as {} as it can be", lengthText(radius), factor < 1 ? "near" : "far"));
@@ -120,13 +127,13 @@ void ViewSession::nextModulation() {
 }
 
 double ViewSession::sigmaNow() const {
-    return mAmbient->sigma > 0 ? mAmbient->sigma : mScene->chosenSigma;
+    return mAmbient->sigma > 0 ? mAmbient->sigma : offered<SurfaceChoices>()->chosenSigma;
 }
 
 void ViewSession::scaleSigma(double factor) {
     if (!mTranslucent || mAmbient->modulate.empty() || !(sigmaNow() > 0))
         return notify("a sigma is of modulated opacity: B");
-    const double most = mAmbient->modulate == "gradient" ? 1.0 : mScene->largestSigma;
+    const double most = mAmbient->modulate == "gradient" ? 1.0 : offered<SurfaceChoices>()->largestSigma;
     mAmbient->sigma = std::clamp(sigmaNow() * factor, most * 1e-6, most);
     askForChange();
     notify(modulationText());
@@ -174,16 +181,19 @@ bool ViewSession::actOnSun(ViewCommand command) {
 }
 
 void ViewSession::turnSun(double azimuth, double elevation) {
-    if (!mScene->moveSun)
-        return notify(mScene->lightStays.empty()
+    const auto* const light = offered<TurningLight>();
+    if (!light) {
+        const std::string why = shown().whyLightStays();
+        return notify(why.empty()
                           ? "light turns over terrain and volumes where it is baked so, and around media"
-                          : mScene->lightStays);
+                          : why);
+    }
     constexpr double kTurn = 2 * std::numbers::pi, kLowestSun = -0.15;
-    const double lowest = mScene->turnsSky ? -0.25 * kTurn : kLowestSun;
+    const double lowest = light->isSky() ? -0.25 * kTurn : kLowestSun;
     mSun.azimuth = std::fmod(mSun.azimuth + azimuth + kTurn, kTurn);
     mSun.elevation = std::clamp(mSun.elevation + elevation, lowest, 0.25 * kTurn);
     const auto degrees = [](double angle) { return std::round(angle * 360 / kTurn) + 0.0; };  // no -0
-    notify(mScene->turnsSky
+    notify(light->isSky()
                ? fmt::format("sky turned by {:.0f} degrees, tilted by {:.0f}",
                              degrees(std::remainder(-mSun.azimuth, kTurn)), degrees(mSun.elevation))
                : fmt::format("sun at {:.0f} degrees, {:.0f} high", degrees(mSun.azimuth),
@@ -192,7 +202,7 @@ void ViewSession::turnSun(double azimuth, double elevation) {
 
 void ViewSession::moveIsovalue(double steps) {
     if (!mIsovalue) return;
-    *mIsovalue += steps * mScene->isovalueStep;
+    *mIsovalue += steps * offered<SurfaceChoices>()->isovalueStep;
     askForChange();
     notify(fmt::format("surface at {:.6g}", *mIsovalue));
 }
@@ -223,7 +233,9 @@ bool ViewSession::actOnSlices(ViewCommand command) {
             mSlices->removeSeed();
             return true;
         case ViewCommand::FindAgain:
-            mChange = SceneChange{std::nullopt, mTranslucent, mTransfer, mAmbient, mSlices->seeds()};
+            askForChange();
+            mChange->surface.isovalue.reset();
+            mChange->seeds = mSlices->seeds();
             notify(mSlices->seeds().empty() ? "looking for the colon again, without seeds"
                                             : "looking for the colon again, from the seeds");
             return true;
@@ -234,7 +246,7 @@ bool ViewSession::actOnSlices(ViewCommand command) {
 
 void ViewSession::openSlices() {
     if (mStudy) return showSlices(mStudy);
-    if (!mScene->readSlices) return notify("there are no slices of a terrain");
+    if (!offered<SliceSource>()) return notify("there are no slices of a terrain");
     mStudyWished = true;
     notify("reading the slices");
 }
@@ -245,7 +257,8 @@ bool ViewSession::takeStudyWish() {
 
 void ViewSession::showSlices(std::shared_ptr<const SliceStudy> study) {
     mStudy = std::move(study);
-    mSlices.emplace(mStudy, pose().position, mScene->seeds);
+    const auto* const source = offered<SliceSource>();
+    mSlices.emplace(mStudy, pose().position, source ? source->seeds() : std::vector<glm::dvec3>{});
 }
 
 const Plane<PackedColor>& ViewSession::slicePicture(int width, int height) {

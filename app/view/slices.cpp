@@ -71,13 +71,14 @@ std::string SliceView::status() const {
 }
 
 const Plane<PackedColor>& SliceView::picture(int width, int height, const glm::dvec3& eye,
-                                             const std::shared_ptr<const ViewScene>& scene) {
+                                             const std::shared_ptr<const OpenScene>& scene) {
     const bool moved = glm::length(eye - mDrawnEye) > kEyeMoved;
     if (!mChanged && !moved && mPicture.width() == width && mPicture.height() == height &&
         mDrawnScene == scene)
         return mPicture;
+    const SliceSource* const source = scene ? scene->scene->offered<SliceSource>() : nullptr;
     SliceContent content{
-        &mStudy->grey, mStudy->windowWidth, mStudy->windowLevel, scene ? scene->lumen : nullptr, {}};
+        &mStudy->grey, mStudy->windowWidth, mStudy->windowLevel, source ? source->lumen() : nullptr, {}};
     content.marks.push_back({eye, kEyeColor, true});
     for (const glm::dvec3& seed : mSeeds) content.marks.push_back({seed, kSeedColor, false});
     mPicture = drawSlice(content, layout(width, height), mSlice, width, height);

@@ -8,6 +8,7 @@
 
 #include "app/view/slice_picture.h"
 #include "app/view/worker.h"
+#include "engine/scene/slices.h"
 
 namespace stereonav {
 
@@ -30,7 +31,7 @@ public:
     // lumen may be null. Asked for again with the same arguments and nothing changed, nothing is drawn:
     // version() tells.
     const Plane<PackedColor>& picture(int width, int height, const glm::dvec3& eye,
-                                      const std::shared_ptr<const ViewScene>& scene);
+                                      const std::shared_ptr<const OpenScene>& scene);
     long long version() const { return mVersion; }
 
 private:
@@ -41,7 +42,7 @@ private:
     int mSlice = 0;
     std::vector<glm::dvec3> mSeeds;
     Plane<PackedColor> mPicture;
-    std::shared_ptr<const ViewScene> mDrawnScene;
+    std::shared_ptr<const OpenScene> mDrawnScene;
     glm::dvec3 mDrawnEye{0.0};
     bool mChanged = true;
     long long mVersion = 0;

@@ -7,9 +7,6 @@
 
 namespace stereonav {
 
-// Metres in the unit that suits the size: "1.3 mm", "20.0 m", "1.25 km".
-std::string lengthText(double metres);
-
 // Times, holes, method and stereo setting of a frame. framesPerSecond: 0 while it is not known.
 std::string frameText(const ViewFrame& frame, double framesPerSecond);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/view/status.h"
 
@@ -22,29 +23,32 @@ double approach(double now, double target, double dt) {
 
 }  // namespace
 
-ViewStereo::ViewStereo(const ViewScene& scene) {
+ViewStereo::ViewStereo(const Scene& scene) {
     reset(scene);
     mNow = mTarget;
     if (follows()) follow();  // from there
 }
 
-void ViewStereo::reset(const ViewScene& scene) {
-    mTarget = scene.stereo;
-    mLargest = scene.largestSeparation;
-    mMakeFollower = scene.makeFollower;
-    mFollower = nullptr;
-    if (scene.followsAtStart) follow();
+void ViewStereo::look(const Scene& scene) {
+    mRoom = scene.offered<RoomAround>();
+    mLargest = mRoom ? mRoom->largestSeparation() : std::numeric_limits<double>::infinity();
 }
 
-void ViewStereo::replaceScene(const ViewScene& scene) {
-    mLargest = scene.largestSeparation;
-    mMakeFollower = scene.makeFollower;
+void ViewStereo::reset(const Scene& scene) {
+    mTarget = scene.stereo;
+    look(scene);
+    mFollower = nullptr;
+    if (mRoom && mRoom->followsAtStart()) follow();
+}
+
+void ViewStereo::replaceScene(const Scene& scene) {
+    look(scene);
     if (follows()) follow();
     mTarget.separation = std::min(mTarget.separation, mLargest);
 }
 
 void ViewStereo::follow() {
-    mFollower = mMakeFollower ? mMakeFollower(mNow) : nullptr;
+    mFollower = mRoom ? mRoom->makeFollower(mNow) : nullptr;
 }
 
 void ViewStereo::scaleSeparation(double factor) {

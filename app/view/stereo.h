@@ -9,12 +9,12 @@ namespace stereonav {
 class ViewStereo {
 public:
     // The follower, where the scene has one, is at work from the start.
-    explicit ViewStereo(const ViewScene& scene);
+    explicit ViewStereo(const Scene& scene);
 
     // The scene's own setting; follows as at the start.
-    void reset(const ViewScene& scene);
+    void reset(const Scene& scene);
     // Another scene: the eyes stay as they are and go on from there.
-    void replaceScene(const ViewScene& scene);
+    void replaceScene(const Scene& scene);
 
     void scaleSeparation(double factor);
     void scaleZeroParallax(double factor);  // both end following
@@ -30,9 +30,11 @@ public:
     bool moving() const { return mMoving; }  // since the last step
 
 private:
-    StereoSetting mNow, mTarget;  // and where it slowly goes, by hand
-    double mLargest;              // metres
-    std::function<StereoFollower(const StereoSetting&)> mMakeFollower;
+    void look(const Scene& scene);
+
+    StereoSetting mNow, mTarget;        // and where it slowly goes, by hand
+    double mLargest;                    // metres
+    const RoomAround* mRoom = nullptr;  // the scene's, which outlives this or is replaced first
     StereoFollower mFollower;
     ComfortLimit mComfort;
     bool mMoving = false;

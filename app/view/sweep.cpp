@@ -128,11 +128,10 @@ std::string ViewSweep::takeNotice() {
     return std::exchange(mNotice, "");
 }
 
-void ViewSweep::use(SweptFrames& frames, ViewScene& view) {
+void ViewSweep::use(SweptFrames& frames) {
     if (mContext)
         frames.setSweep(
             gpuSweep(mContext.get(), mChoice, [this](const std::string& notice) { tell(notice); }));
-    view.sweepName = [&frames] { return frames.sweptElsewhere() ? kGpuSweep : kCpuSweep; };
 }
 
 }  // namespace stereonav

@@ -8,15 +8,11 @@
 #include <string>
 #include <string_view>
 
-#include "app/view/worker.h"
 #include "engine/medium/swept_frames.h"
 
 namespace stereonav {
 
 class HiddenContext;
-
-// Of a frame, for the status line: ViewFrame::sweep.
-constexpr const char *kCpuSweep = "CPU sweep", *kGpuSweep = "GPU sweep";
 
 enum class SweepChoice {
     Auto,  // what makes a scene's first frame faster; under a software renderer the processor, unasked
@@ -40,8 +36,8 @@ public:
     explicit ViewSweep(SweepChoice choice);
     ~ViewSweep();  // after all scenes that use it
 
-    // frames: lives as long as `view`. Any thread.
-    void use(SweptFrames& frames, ViewScene& view);
+    // The scene's frames, which it offers, are swept here from now on. Any thread.
+    void use(SweptFrames& frames);
     // Why the graphics card does not sweep although it was asked to, "" otherwise; told once. Any thread.
     std::string takeNotice();
 

@@ -68,7 +68,7 @@ public:
           mOverlay(mWindow),
           mScreenshots(options.shots),
           mWorker([options, sweep = mSweep.get()](
-                      Progress& progress) { return viewSceneOf(options, true, sweep, progress); },
+                      Progress& progress) { return openScene(options, true, sweep, progress); },
                   [] { Window::wake(); }) {}
 
     void run() {
@@ -136,7 +136,7 @@ private:
         const std::vector<glm::dvec2> clicks = mWindow.takeClicks();
         mSession->turnWheel(mWindow.takeWheel());
         if (size.x < 1 || size.y < 1) return;
-        const double radiansPerUnit = mScene->lens.verticalFov / size.y;
+        const double radiansPerUnit = mScene->scene->lens.verticalFov / size.y;
         mSession->look(drag.x * radiansPerUnit, -drag.y * radiansPerUnit);
         const OutputMode mode = mSession->compose().mode;
         const auto [width, height] = eyeSizeFor(mode, size.x, size.y);
@@ -156,14 +156,15 @@ private:
     // What the session wants that takes longer than a frame.
     void followWishes() {
         if (const auto change = mSession->takeSceneChange()) {
-            applyChange(*change, mOptions, mChanged.scene);
-            if (mScene->change && !change->seeds)
-                mWorker.change([options = mChanged.scene](const ViewScene& now, Progress& progress) {
-                    return now.change(options, progress);
+            applyChange(*change, mOptions.scene, mChanged.scene);
+            if (mScene->scene->offered<SurfaceChoices>() && !change->seeds)
+                mWorker.change([options = mChanged, surface = change->surface](const OpenScene& now,
+                                                                               Progress& progress) {
+                    return changedScene(now, surface, options, progress);
                 });
             else
                 mWorker.reload([options = mChanged, sweep = mSweep.get()](Progress& progress) {
-                    return viewSceneOf(options, false, sweep, progress);
+                    return openScene(options, false, sweep, progress);
                 });
         }
         if (const std::string problem = mWorker.takeReloadProblem(); !problem.empty()) {
@@ -320,7 +321,7 @@ private:
     ComposeSetting mDrawn;
     std::string mStatus, mWarning, mSwept = kCpuSweep;
     long long mAsked = 0, mSliceVersion = 0;
-    std::shared_ptr<const ViewScene> mScene;
+    std::shared_ptr<const OpenScene> mScene;
     SliceReading mSlices;
     bool mNewFrame = false, mQuitWhileLoading = false;
     ViewWorker mWorker;  // after the window, whose wake() it calls until it has ended

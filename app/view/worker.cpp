@@ -21,24 +21,25 @@ void lookAround(const StereoViews* views, ViewFrame& frame) {
     frame.farParallax = parallax.far;
 }
 
-void renderFrame(const ViewScene& scene, const FrameRequest& request, ViewFrame& frame) {
+void renderFrame(const Scene& scene, const FrameRequest& request, ViewFrame& frame) {
     frame.request = request;
     frame.nearParallax = frame.farParallax = 0;
-    if (scene.moveSun) scene.moveSun(request.sun);
-    if (scene.setModel) scene.setModel(request.model);
+    if (auto* const light = scene.offered<TurningLight>()) light->turnTo(request.sun);
+    if (auto* const models = scene.offered<LightModels>()) models->choose(request.model);
     std::optional<StereoViews> views;
     EyeView view = makeEyeView(request.pose, request.lens);
     if (request.twoEyes) {
         views = makeStereoViews(request.pose, request.lens, request.stereo);
         view = views->left;
-        scene.frames->make(*views, request.time, request.way, frame);
+        scene.frames().make(*views, request.time, request.way, frame);
     } else {
-        scene.frames->makeOne(view, request.time, frame);
+        scene.frames().makeOne(view, request.time, frame);
     }
     lookAround(views ? &*views : nullptr, frame);
     // Not between the eyes, which are to be lit alike.
-    if (scene.seen) scene.seen(view, frame.left);
-    frame.sweep = scene.sweepName ? scene.sweepName() : "";
+    if (auto* const light = scene.offered<SeenLight>()) light->seen(view, frame.left);
+    const auto* const place = scene.offered<SweepPlace>();
+    frame.sweep = place ? place->name() : "";
 }
 
 }  // namespace
@@ -125,7 +126,7 @@ ViewWorker::Load ViewWorker::takeWish() {
 
 void ViewWorker::loadOne(const Load& load) {
     try {
-        auto scene = std::make_shared<const ViewScene>(load(*mProgress));
+        auto scene = std::make_shared<const OpenScene>(load(*mProgress));
         const std::lock_guard lock(mMutex);
         if (!mProgress->cancelled()) mScene = std::move(scene);
     } catch (const Cancelled&) {
@@ -169,7 +170,7 @@ std::string ViewWorker::takeReloadProblem() {
     return std::exchange(mReloadProblem, "");
 }
 
-std::shared_ptr<const ViewScene> ViewWorker::scene() const {
+std::shared_ptr<const OpenScene> ViewWorker::scene() const {
     const std::lock_guard lock(mMutex);
     if (mFailure) std::rethrow_exception(mFailure);
     return mScene;
@@ -183,9 +184,10 @@ void ViewWorker::renderFrames() {
     try {
         while (std::optional<Job> job = nextJob(last, changes)) {
             last = job;
-            if (job->scene->lightChanges) changes = job->scene->lightChanges();
+            const auto* const light = job->scene->scene->offered<SeenLight>();
+            if (light) changes = light->changes();
             auto frame = mPool->take();
-            renderFrame(*job->scene, job->request, *frame);
+            renderFrame(*job->scene->scene, job->request, *frame);
             auto shared = mPool->share(std::move(frame));
             {
                 const std::lock_guard lock(mMutex);
@@ -202,11 +204,12 @@ std::optional<ViewWorker::Job> ViewWorker::nextJob(const std::optional<Job>& las
     constexpr std::chrono::milliseconds kLookAtLight{100};
     std::unique_lock lock(mMutex);
     const auto asked = [this] { return mStop || (mRequest && mScene); };
+    const auto* const light = last ? last->scene->scene->offered<SeenLight>() : nullptr;
     while (!asked()) {
-        if (!last || !last->scene->lightChanges)
+        if (!light)
             mAsked.wait(lock, asked);
         else if (!mAsked.wait_for(lock, kLookAtLight, asked) && last->scene == mScene &&
-                 mScene->lightChanges() != changes)
+                 light->changes() != changes)
             return last;
     }
     if (mStop) return std::nullopt;

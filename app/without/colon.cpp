@@ -25,23 +25,19 @@ int listSeriesOf(const InfoOptions&) {
     without();
 }
 
-LoadedScene loadColonScene(const SceneOptions&, SimdTarget, Progress&) {
+std::unique_ptr<Scene> loadColonScene(const SceneOptions&, SimdTarget, Progress&) {
     without();
 }
 
-LoadedScene changedColonScene(const LoadedScene&, const SceneOptions&, const SceneOptions&, Progress&) {
+LitVolume litVolumeOf(const SceneOptions&, Progress&) {
+    without();
+}
+
+void applyChange(const SurfaceChange&, const SceneOptions&, SceneOptions&) {
     without();
 }
 
 ColonOptions colonOptionsOf(const SceneOptions&) {
-    without();
-}
-
-void checkInLumen(const ColonScene&, const RecordedPath&, const std::string&) {
-    without();
-}
-
-void addVolume(const LoadedScene&, const SceneOptions&, ViewScene&) {
     without();
 }
 
@@ -53,11 +49,11 @@ int runCentreline(const CentrelineOptions&) {
     without();
 }
 
-nlohmann::ordered_json colonJson(const LoadedScene&) {
+nlohmann::ordered_json colonJson(const Scene&) {
     without();
 }
 
-std::string colonText(const LoadedScene&) {
+std::string colonText(const Scene&) {
     without();
 }
 
@@ -84,28 +80,8 @@ std::string shadingNames() {
 
 void refuseLazyLight(const SceneOptions&) {}
 
-void LazyLight::seen(const EyeView&, const EyeImage&) {
-    without();
-}
-
-void LazyLight::waitUntilDone() const {
-    without();
-}
-
 std::string methodUnderLight(const SceneOptions&, const std::string& method) {
     return method;
-}
-
-void TracedLight::light(const StereoViews&, EyeImage&, EyeImage&, Progress&) {
-    without();
-}
-
-Study readStudy(const std::filesystem::path&, const StudyOptions&, Progress&) {
-    without();
-}
-
-BuiltInColon builtInColon(const BuiltInColonSetting&, Progress&) {
-    without();
 }
 
 }  // namespace stereonav

@@ -18,11 +18,7 @@ namespace {
 
 }  // namespace
 
-LoadedScene loadMediumScene(const SceneOptions&, SimdTarget, Progress&) {
-    without();
-}
-
-void addMedium(const LoadedScene&, ViewScene&) {
+std::unique_ptr<Scene> loadMediumScene(const SceneOptions&, SimdTarget, Progress&) {
     without();
 }
 
@@ -46,7 +42,7 @@ ViewSweep::ViewSweep(SweepChoice choice) : mChoice(choice) {
 
 ViewSweep::~ViewSweep() = default;
 
-void ViewSweep::use(SweptFrames&, ViewScene&) {
+void ViewSweep::use(SweptFrames&) {
     without();
 }
 
@@ -54,11 +50,11 @@ std::string ViewSweep::takeNotice() {
     return "";
 }
 
-nlohmann::ordered_json mediumJson(const LoadedScene&) {
+nlohmann::ordered_json mediumJson(const Scene&) {
     without();
 }
 
-std::string mediumText(const LoadedScene&) {
+std::string mediumText(const Scene&) {
     without();
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 }  // namespace
 
-LoadedScene loadTerrainScene(const SceneOptions&, SimdTarget, Progress&) {
+std::unique_ptr<Scene> loadTerrainScene(const SceneOptions&, SimdTarget, Progress&) {
     without();
 }
 
@@ -32,11 +32,11 @@ int runMesh(const MeshOptions&) {
     without();
 }
 
-nlohmann::ordered_json terrainJson(const LoadedScene&) {
+nlohmann::ordered_json terrainJson(const Scene&) {
     without();
 }
 
-std::string terrainText(const LoadedScene&) {
+std::string terrainText(const Scene&) {
     without();
 }
 

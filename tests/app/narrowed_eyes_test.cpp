@@ -25,7 +25,7 @@ protected:
             return end >= 2 && std::hypot(i - 15.5, j - 15.5) < radius ? 1 : 0;
         });
     }
-    LoadedScene loaded(const SceneOptions& options) const {
+    std::unique_ptr<Scene> loaded(const SceneOptions& options) const {
         Progress progress;
         return loadScene(options, {96, 72}, progress);
     }
@@ -38,41 +38,40 @@ protected:
 };
 
 // Where the window's eyes come to rest at a pose: its own control, fed with its own frames.
-StereoSetting settledInWindow(const LoadedScene& scene, const SceneOptions& options, const Pose& head) {
-    ViewScene view;
-    view.stereo = scene.stereo;
-    addVolume(scene, options, view);
-    ViewStereo stereo(view);
+StereoSetting settledInWindow(const Scene& scene, const Pose& head) {
+    ViewStereo stereo(scene);
     ViewFrame frame;
     for (int step = 0; step < 400; ++step) {
         frame.request.stereo = stereo.now();
         const StereoViews views = makeStereoViews(head, scene.lens, stereo.now());
-        frame.left.resize(scene.lens.width, scene.lens.height, scene.renderer->viewDependence());
-        renderEye(*scene.renderer, views.left, frame.left);
+        frame.left.resize(scene.lens.width, scene.lens.height, rendererOf(scene).viewDependence());
+        renderEye(rendererOf(scene), views.left, frame.left);
         const RoomSeen room = roomSeen(frame.left.viewDepth, 4);
         const ParallaxRange parallax = parallaxOf(views, room);
         frame.nearParallax = parallax.near;
         frame.farParallax = parallax.far;
         stereo.observe(frame);
-        stereo.step(scene.clearanceAt(head), room.ahead, 0.1);
+        stereo.step(scene.offered<RoomAround>()->clearanceAt(head), room.ahead, 0.1);
     }
     return stereo.now();
 }
 
 TEST_F(NarrowedEyesTest, RestWhereTheWindowsDoInANarrowStart) {
     const SceneOptions options = optionsOf(narrowAtItsEnds());
-    const LoadedScene scene = loaded(options);
-    ASSERT_TRUE(scene.eyesFollow);
+    const std::unique_ptr<Scene> sceneLoaded = loaded(options);
+    const Scene& scene = *sceneLoaded;
+    ASSERT_TRUE(scene.offered<RoomAround>()->wallForPictures());
     const StereoSetting narrowed = NarrowedEyes(scene).at(scene.startPose, 0);
     EXPECT_LT(narrowed.separation, 0.6 * scene.stereo.separation);
     EXPECT_LT(narrowed.zeroParallax, scene.stereo.zeroParallax);
-    const StereoSetting window = settledInWindow(scene, options, scene.startPose);
+    const StereoSetting window = settledInWindow(scene, scene.startPose);
     EXPECT_NEAR(narrowed.separation, window.separation, 0.05 * window.separation);
     EXPECT_NEAR(narrowed.zeroParallax, window.zeroParallax, 0.05 * window.zeroParallax);
 }
 
 TEST_F(NarrowedEyesTest, AreNeverWiderThanTheScenesAndFollowSlowly) {
-    const LoadedScene scene = loaded(optionsOf(narrowAtItsEnds()));
+    const std::unique_ptr<Scene> sceneLoaded = loaded(optionsOf(narrowAtItsEnds()));
+    const Scene& scene = *sceneLoaded;
     NarrowedEyes eyes(scene);
     double before = eyes.at(scene.path.at(0), 0).separation, widest = before;
     for (double t = 0.04; t < scene.path.duration(); t += 0.04) {
@@ -87,10 +86,12 @@ TEST_F(NarrowedEyesTest, AreNeverWiderThanTheScenesAndFollowSlowly) {
 
 TEST_F(NarrowedEyesTest, LeaveFewerPixelsToCastAgain) {
     SceneOptions options = optionsOf(narrowAtItsEnds());
-    const LoadedScene follows = loaded(options);
+    const std::unique_ptr<Scene> followsLoaded = loaded(options);
+    const Scene& follows = *followsLoaded;
     options.separation_m = follows.stereo.separation;
-    const LoadedScene stays = loaded(options);
-    EXPECT_FALSE(stays.eyesFollow) << "what is asked for is what is shown";
+    const std::unique_ptr<Scene> staysLoaded = loaded(options);
+    const Scene& stays = *staysLoaded;
+    EXPECT_FALSE(stays.offered<RoomAround>()->wallForPictures()) << "what is asked for is what is shown";
     EXPECT_EQ(NarrowedEyes(stays).at(stays.startPose, 0).separation, stays.stereo.separation);
     StereoFrame narrow(follows, "auto"), wide(stays, "auto");
     narrow.render(follows.startPose);
@@ -101,15 +102,17 @@ TEST_F(NarrowedEyesTest, LeaveFewerPixelsToCastAgain) {
 
 TEST_F(NarrowedEyesTest, OfAMediumLookAtTheWallAroundIt) {
     SceneOptions options = optionsOf(narrowAtItsEnds());
-    const StereoSetting cast = NarrowedEyes(loaded(options)).at(loaded(options).startPose, 0);
+    const StereoSetting cast = NarrowedEyes(*loaded(options)).at(loaded(options)->startPose, 0);
     options.medium.medium = "tissue";
-    const LoadedScene medium = loaded(options);
-    ASSERT_TRUE(medium.eyesFollow);
+    const std::unique_ptr<Scene> mediumLoaded = loaded(options);
+    const Scene& medium = *mediumLoaded;
+    ASSERT_TRUE(medium.offered<RoomAround>()->wallForPictures());
     const StereoSetting narrowed = NarrowedEyes(medium).at(medium.startPose, 0);
     EXPECT_NEAR(narrowed.separation, cast.separation, 1e-9);
     EXPECT_LT(narrowed.separation, 0.6 * medium.stereo.separation);
     options.separation_m = medium.stereo.separation;
-    const LoadedScene stays = loaded(options);
+    const std::unique_ptr<Scene> staysLoaded = loaded(options);
+    const Scene& stays = *staysLoaded;
     EXPECT_EQ(NarrowedEyes(stays).at(stays.startPose, 0).separation, stays.stereo.separation);
 }
 

@@ -14,6 +14,7 @@
 #include "tests/app/program.h"
 #include "tests/combinations/bounds.h"
 #include "tests/combinations/contact_sheet.h"
+#include "engine/medium/medium_scene.h"
 #include "tests/combinations/drawing.h"
 #include "tests/combinations/figures.h"
 #include "tests/combinations/inputs.h"
@@ -157,7 +158,7 @@ private:
             expectNear(full.right, *castByOracle(drawing.scene(), views.right),
                        "right eye beside the oracle");
         }
-        if (!drawing.scene().medium) return;
+        if (!drawing.scene().offered<MediumScene>()) return;
         const bool together = drawing.sweepsTogether();
         const std::vector<std::vector<EyeView>> sweeps =
             together ? std::vector<std::vector<EyeView>>{{views.left, views.right}}

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "app/output/stereo_frame.h"
+#include "app/scene/traced_light.h"
 #include "engine/medium/swept_frames.h"
+#include "engine/scene/capabilities.h"
 
 namespace stereonav::test {
 namespace {
@@ -17,7 +19,7 @@ RenderOptions withSet(RenderOptions options, SimdTarget set) {
     return options;
 }
 
-LoadedScene loaded(const RenderOptions& options) {
+std::unique_ptr<Scene> loaded(const RenderOptions& options) {
     Progress progress;
     return loadScene(options.scene, options.size, progress);
 }
@@ -37,8 +39,9 @@ long long notFiniteIn(const MediumPicture& picture) {
 // Sweeps elsewhere are asked for where a window is open; here what they are given is looked at.
 Drawing::Drawing(const RenderOptions& options, SimdTarget set)
     : mOptions(withSet(options, set)), mScene(loaded(mOptions)) {
-    if (!mScene.swept) return;
-    mScene.swept->setSweep([this](const SweepTask& task, const std::function<void()>& cpu) {
+    auto* const swept = mScene->offered<SweptFrames>();
+    if (!swept) return;
+    swept->setSweep([this](const SweepTask& task, const std::function<void()>& cpu) {
         cpu();
         for (const MediumPicture& picture : task.pictures) mNotFinite += notFiniteIn(picture);
         return false;
@@ -47,16 +50,17 @@ Drawing::Drawing(const RenderOptions& options, SimdTarget set)
 
 Eyes Drawing::eyes(const std::string& method) {
     Progress progress;
-    StereoFrame frame(mScene, method.empty() ? mOptions.method : method);
+    StereoFrame frame(*mScene, method.empty() ? mOptions.method : method);
     if (method.empty()) frame.refine(mOptions.scene, progress);
-    frame.render(mScene.startPose);
-    if (mScene.lazyLight) {
+    frame.render(mScene->startPose);
+    if (auto* const lit = mScene->offered<SeenLight>(); lit && lit->beginsDark()) {
         for (int look = 0; look < 2; ++look)  // at some pixels, then at all
-            mScene.lazyLight->seen(frame.views().left, frame.left());
-        mScene.lazyLight->waitUntilDone();
-        frame.render(mScene.startPose);
+            lit->seen(frame.views().left, frame.left());
+        lit->waitUntilDone();
+        frame.render(mScene->startPose);
     }
-    if (mScene.tracedLight) mScene.tracedLight->light(frame.views(), frame.left(), frame.right(), progress);
+    if (auto* const traced = mScene->offered<PictureLight>())
+        traced->light(frame.views(), frame.left(), frame.right(), progress);
     return {frame.left(), frame.right()};
 }
 
@@ -65,7 +69,7 @@ bool Drawing::sweepsTogether() const {
 }
 
 Eyes Drawing::inFull() {
-    if (!mScene.medium) return eyes("full");
+    if (!mScene->offered<MediumScene>()) return eyes("full");
     return eyes(sweepsTogether() ? "own-samples" : "two-sweeps");
 }
 

@@ -35,15 +35,16 @@ public:
     // What sweeps gave before it was packed: pixels of which a channel is no number, or infinite.
     long long notFinite() const { return mNotFinite; }
 
-    const LoadedScene& scene() const { return mScene; }
+    const Scene& scene() const { return *mScene; }
     StereoViews views() const {
-        return makeStereoViews(mScene.startPose, mScene.lens, NarrowedEyes(mScene).at(mScene.startPose, 0));
+        return makeStereoViews(mScene->startPose, mScene->lens,
+                               NarrowedEyes(*mScene).at(mScene->startPose, 0));
     }
 
 private:
     RenderOptions mOptions;
     long long mNotFinite = 0;
-    LoadedScene mScene;
+    std::unique_ptr<Scene> mScene;
 };
 
 }  // namespace stereonav::test

@@ -7,8 +7,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "colon/colon_scene.h"
 #include "engine/base/parallel.h"
+#include "engine/medium/medium_scene.h"
 #include "engine/medium/plain_sweep.h"
+#include "engine/scene/capabilities.h"
 #include "engine/volume/plain_volume_caster.h"
 
 namespace stereonav::test {
@@ -61,20 +64,21 @@ glm::dvec3 volumeLight(const VolumeScene& volume, const EyeView& view, int x, in
 
 }  // namespace
 
-std::optional<OraclePicture> castByOracle(const LoadedScene& scene, const EyeView& view) {
-    if (!scene.colon || !scene.renderer || scene.tracedLight) return std::nullopt;
+std::optional<OraclePicture> castByOracle(const Scene& scene, const EyeView& view) {
+    const auto* const colon = scene.offered<const ColonScene>();
+    if (!colon || !scene.offered<RayCast>() || scene.offered<PictureLight>()) return std::nullopt;
     OraclePicture picture = blank(view);
     parallelFor(view.height, [&](int y) {
         for (int x = 0; x < view.width; ++x)
             picture.light[static_cast<std::size_t>(y) * view.width + x] =
-                volumeLight(scene.colon->volume, view, x, y);
+                volumeLight(colon->volume, view, x, y);
     });
     return picture;
 }
 
-std::vector<OraclePicture> sweptByOracle(const LoadedScene& scene, const std::vector<EyeView>& eyes) {
-    if (!scene.medium) return {};
-    const MediumScene& shown = *scene.medium;
+std::vector<OraclePicture> sweptByOracle(const Scene& scene, const std::vector<EyeView>& eyes) {
+    if (!scene.offered<MediumScene>()) return {};
+    const MediumScene& shown = *scene.offered<MediumScene>();
     const bool surface = shown.look.model == MediumModel::Surface && shown.makeSurface;
     const Medium made = surface ? shown.makeSurface() : Medium();
     const Medium& medium = surface ? made : shown.medium;

@@ -19,10 +19,10 @@ struct OraclePicture {
 };
 
 // By plain casters; none for terrains, media and light that is traced. view: one of the scene's eyes.
-std::optional<OraclePicture> castByOracle(const LoadedScene& scene, const EyeView& view);
+std::optional<OraclePicture> castByOracle(const Scene& scene, const EyeView& view);
 
 // By the plain sweep, a picture for each eye; none where rays are cast. Eyes are swept together.
-std::vector<OraclePicture> sweptByOracle(const LoadedScene& scene, const std::vector<EyeView>& eyes);
+std::vector<OraclePicture> sweptByOracle(const Scene& scene, const std::vector<EyeView>& eyes);
 
 // As an eye's picture. Colours that are no numbers are said in `problem`.
 EyeImage packed(const OraclePicture& oracle, std::string& problem);

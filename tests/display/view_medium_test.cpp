@@ -11,6 +11,7 @@
 #include "app/view/status.h"
 #include "engine/medium/swept_frames.h"
 #include "engine/nav/navigator.h"
+#include "tests/display/fake_scene.h"
 
 namespace stereonav {
 namespace {
@@ -51,9 +52,9 @@ private:
     }
 };
 
-ViewScene fogScene() {
+FakeParts fogScene() {
     auto fog = std::make_shared<Fog>();
-    ViewScene scene;
+    FakeParts scene;
     scene.frames = fog.get();
     scene.way.method = kSweepMethod;
     scene.models = {"emission", "surface", "direct"};
@@ -72,8 +73,8 @@ ViewScene fogScene() {
     return scene;
 }
 
-ViewSession sessionOf(const ViewScene& scene) {
-    return ViewSession(std::make_shared<ViewScene>(scene), {OutputMode::SideBySide, std::nullopt, "."});
+ViewSession sessionOf(const FakeParts& scene) {
+    return ViewSession(opened(scene), {OutputMode::SideBySide, std::nullopt, "."});
 }
 
 std::shared_ptr<const ViewFrame> frameOf(ViewWorker& worker, const FrameRequest& request) {
@@ -108,7 +109,7 @@ TEST(ViewMedium, ModelsAndMethodsAreSteppedThroughAndReset) {
 }
 
 TEST(ViewMedium, OtherScenesHaveNoModels) {
-    ViewScene scene = fogScene();
+    FakeParts scene = fogScene();
     scene.models.clear();
     ViewSession s = sessionOf(scene);
     const long long before = s.requestFor(80, 40).version;
@@ -124,7 +125,7 @@ TEST(ViewMedium, OnlyWhatMovesByItselfHasAClock) {
     EXPECT_EQ(still.requestFor(80, 40).time, 0.0);
     EXPECT_FALSE(still.moving());
 
-    ViewScene scene = fogScene();
+    FakeParts scene = fogScene();
     scene.animated = true;
     ViewSession s = sessionOf(scene);
     for (int n = 1; n <= 20; ++n) {
@@ -139,7 +140,7 @@ TEST(ViewMedium, OnlyWhatMovesByItselfHasAClock) {
 }
 
 TEST(ViewMedium, TheWorkerMakesBothEyesTogether) {
-    ViewWorker worker([](Progress&) { return fogScene(); }, [] {});
+    ViewWorker worker([](Progress&) { return openOf(fogScene()); }, [] {});
     ViewSession s = sessionOf(fogScene());
     FrameRequest request = s.requestFor(80, 40);
     request.time = 3;

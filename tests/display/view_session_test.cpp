@@ -12,6 +12,7 @@
 #include "app/view/status.h"
 #include "engine/nav/navigator.h"
 #include "tests/display/fake_frames.h"
+#include "tests/display/fake_scene.h"
 
 namespace stereonav {
 namespace {
@@ -20,8 +21,8 @@ namespace fs = std::filesystem;
 
 const Pose kStart = poseFromAngles({0, 0, 500}, 0, -0.1, 0);
 
-ViewScene flatScene() {
-    ViewScene scene;
+FakeParts flatScene() {
+    FakeParts scene;
     scene.makeFlight = []() -> std::unique_ptr<Flight> {
         FlightSetting setting;
         setting.speed = 200;
@@ -43,7 +44,9 @@ protected:
         fs::create_directories(mFolder);
     }
     void TearDown() override { fs::remove_all(mFolder); }
-    ViewSession session() { return ViewSession(mScene, {OutputMode::SideBySide, std::nullopt, mFolder}); }
+    ViewSession session() {
+        return ViewSession(opened(*mScene), {OutputMode::SideBySide, std::nullopt, mFolder});
+    }
 
     // A frame with this range of parallax.
     static ViewFrame frameWith(double nearest, double farthest) {
@@ -56,7 +59,7 @@ protected:
         return frame;
     }
 
-    std::shared_ptr<ViewScene> mScene = std::make_shared<ViewScene>(flatScene());
+    std::shared_ptr<FakeParts> mScene = std::make_shared<FakeParts>(flatScene());
     fs::path mFolder;
 };
 
@@ -257,15 +260,15 @@ TEST_F(ViewSessionTest, TheSkyTurnsAndTilts) {
     EXPECT_NEAR(s.requestFor(640, 360).sun.elevation, std::numbers::pi / 2, 1e-9);
     // Another surface of the same study stays under it; one with another light does not.
     const SunPlace turned = s.requestFor(640, 360).sun;
-    s.replaceScene(std::make_shared<ViewScene>(*mScene));
+    s.replaceScene(opened(*mScene));
     EXPECT_EQ(s.requestFor(640, 360).sun, turned);
     s.act({ViewCommand::Reset});
     EXPECT_EQ(s.requestFor(640, 360).sun, mScene->sun);
     s.act({ViewCommand::SunClockwise});
-    auto other = std::make_shared<ViewScene>(*mScene);
+    auto other = std::make_shared<FakeParts>(*mScene);
     other->moveSun = nullptr;
     other->lightStays = "stays for this reason";
-    s.replaceScene(other);
+    s.replaceScene(opened(*other));
     EXPECT_EQ(s.requestFor(640, 360).sun, mScene->sun);
     s.act({ViewCommand::SunClockwise});
     EXPECT_EQ(s.notice(), "stays for this reason");

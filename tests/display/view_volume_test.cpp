@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "app/output/length_text.h"
 #include "app/view/input.h"
 #include "app/view/session.h"
 #include "app/view/status.h"
 #include "tests/display/fake_frames.h"
+#include "tests/display/fake_scene.h"
 
 namespace stereonav {
 namespace {
@@ -48,7 +50,7 @@ protected:
         mScene->way.method = mFrames.defaultMethod();
         mScene->stereo = {0.001, 0.03};
         mScene->largestSeparation = 0.004;
-        mScene->canBeTranslucent = true;
+        mScene->surface.emplace();
         // Eyes a tenth of the free distance apart, at once.
         mScene->makeFollower = [](const StereoSetting&) -> StereoFollower {
             return [](double free, double depth, double) { return StereoSetting{free / 10, depth}; };
@@ -58,7 +60,9 @@ protected:
         frame.spacing = glm::dvec3(0.001);
         mStudy->grey = GreyVolume(frame);
     }
-    ViewSession session() { return ViewSession(mScene, {OutputMode::SideBySide, std::nullopt, "."}); }
+    ViewSession session() {
+        return ViewSession(opened(*mScene), {OutputMode::SideBySide, std::nullopt, "."});
+    }
     ViewSession sessionWithSlices() {
         ViewSession s = session();
         Pose at;
@@ -78,7 +82,7 @@ protected:
 
     double mClearance = 0.01;
     FakeFrames mFrames;
-    std::shared_ptr<ViewScene> mScene = std::make_shared<ViewScene>();
+    std::shared_ptr<FakeParts> mScene = std::make_shared<FakeParts>();
     std::shared_ptr<SliceStudy> mStudy = std::make_shared<SliceStudy>();
 };
 
@@ -189,15 +193,15 @@ TEST_F(ViewVolume, TheSurfaceMovesWhereThereIsOne) {
     ViewSession without = session();
     without.act({ViewCommand::HigherIsovalue});
     EXPECT_FALSE(without.takeSceneChange().has_value());
-    mScene->isovalue = 300;
-    mScene->isovalueStep = 10;
+    mScene->surface->isovalue = 300;
+    mScene->surface->isovalueStep = 10;
     ViewSession s = session();
     for (int i = 0; i < 3; ++i) s.act({ViewCommand::HigherIsovalue});
     s.act({ViewCommand::LowerIsovalue});
     const auto change = s.takeSceneChange();
     ASSERT_TRUE(change.has_value());
-    EXPECT_EQ(change->isovalue, 320);
-    EXPECT_EQ(change->translucent, false);
+    EXPECT_EQ(change->surface.isovalue, 320);
+    EXPECT_EQ(change->surface.translucent, false);
     EXPECT_FALSE(change->seeds.has_value());
     EXPECT_FALSE(s.takeSceneChange().has_value()) << "asked for once";
     // The keys that move the surface do not roll as well.
@@ -210,40 +214,41 @@ TEST_F(ViewVolume, TheSurfaceMovesWhereThereIsOne) {
     // What could not be done is forgotten.
     s.forgetSceneChange();
     s.act({ViewCommand::HigherIsovalue});
-    EXPECT_EQ(s.takeSceneChange()->isovalue, 310);
+    EXPECT_EQ(s.takeSceneChange()->surface.isovalue, 310);
 }
 
 TEST_F(ViewVolume, TranslucentAndBackKeepsTheSurface) {
     ViewSession s = session();
     s.act({ViewCommand::ToggleTranslucent});
-    EXPECT_EQ(s.takeSceneChange()->translucent, true);
+    EXPECT_EQ(s.takeSceneChange()->surface.translucent, true);
     s.act({ViewCommand::ToggleTranslucent});
-    EXPECT_EQ(s.takeSceneChange()->translucent, false);
-    mScene->canBeTranslucent = false;
+    EXPECT_EQ(s.takeSceneChange()->surface.translucent, false);
+    mScene->surface.reset();
     ViewSession never = session();
     never.act({ViewCommand::ToggleTranslucent});
     EXPECT_FALSE(never.takeSceneChange().has_value());
 }
 
 TEST_F(ViewVolume, TransferFunctionsTakeTurns) {
-    mScene->transfers = {"", "bone", "glass"};
-    ViewSession s = session();
+    mScene->surface->transfers = {"", "bone", "glass"};
+    const auto open = opened(*mScene);
+    ViewSession s(open, {OutputMode::SideBySide, std::nullopt, "."});
     s.act({ViewCommand::NextTransfer});
     auto change = s.takeSceneChange();
-    EXPECT_EQ(change->translucent, true) << "first as it would be";
-    EXPECT_EQ(change->transfer, "");
+    EXPECT_EQ(change->surface.translucent, true) << "first as it would be";
+    EXPECT_EQ(change->surface.transfer, "");
     s.act({ViewCommand::NextTransfer});
-    EXPECT_EQ(s.takeSceneChange()->transfer, "bone");
+    EXPECT_EQ(s.takeSceneChange()->surface.transfer, "bone");
     EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::HasSubstr("bone"));
     // One that can not be shown is not tried again at once.
     s.forgetSceneChange();
     EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::Not(testing::HasSubstr("bone")));
-    mScene->translucent = true;
+    open->scene->offered<SurfaceChoices>()->translucent = true;
     s.forgetSceneChange();
     s.act({ViewCommand::NextTransfer});
-    EXPECT_EQ(s.takeSceneChange()->transfer, "glass");
+    EXPECT_EQ(s.takeSceneChange()->surface.transfer, "glass");
     s.act({ViewCommand::NextTransfer});
-    EXPECT_EQ(s.takeSceneChange()->transfer, "");
+    EXPECT_EQ(s.takeSceneChange()->surface.transfer, "");
 }
 
 TEST_F(ViewVolume, AmbientLightIsChosenByKeys) {
@@ -254,44 +259,44 @@ TEST_F(ViewVolume, AmbientLightIsChosenByKeys) {
         EXPECT_FALSE(without.takeSceneChange().has_value());
         EXPECT_THAT(without.notice(), testing::HasSubstr("seen from outside"));
     }
-    mScene->ambient = ViewAmbient{false, "gaussian", 0.008, "", 0.008, 0};
-    mScene->ambientMethods = {"gaussian", "t-beta", "chebyshev"};
-    mScene->smallestRadius = 0.001;
-    mScene->largestRadius = 0.012;
+    mScene->surface->ambient = AmbientChoice{false, "gaussian", 0.008, "", 0.008, 0};
+    mScene->surface->ambientMethods = {"gaussian", "t-beta", "chebyshev"};
+    mScene->surface->smallestRadius = 0.001;
+    mScene->surface->largestRadius = 0.012;
     ViewSession s = session();
     s.act({ViewCommand::LargerRadius});
     EXPECT_FALSE(s.takeSceneChange().has_value()) << "of what?";
     s.act({ViewCommand::NextAmbient});
-    EXPECT_EQ(s.takeSceneChange()->ambient, (ViewAmbient{true, "gaussian", 0.008, "", 0.008, 0}));
+    EXPECT_EQ(s.takeSceneChange()->surface.ambient, (AmbientChoice{true, "gaussian", 0.008, "", 0.008, 0}));
     EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::HasSubstr("ambient light gaussian within 8.0 mm"));
     s.act({ViewCommand::NextAmbient});
-    EXPECT_EQ(s.takeSceneChange()->ambient->method, "t-beta");
+    EXPECT_EQ(s.takeSceneChange()->surface.ambient->method, "t-beta");
     s.act({ViewCommand::PreviousAmbient});
-    EXPECT_EQ(s.takeSceneChange()->ambient->method, "gaussian");
+    EXPECT_EQ(s.takeSceneChange()->surface.ambient->method, "gaussian");
     s.act({ViewCommand::LargerRadius});
-    EXPECT_DOUBLE_EQ(s.takeSceneChange()->ambient->radius, 0.01);
+    EXPECT_DOUBLE_EQ(s.takeSceneChange()->surface.ambient->radius, 0.01);
     s.act({ViewCommand::LargerRadius});
     s.act({ViewCommand::LargerRadius});
-    EXPECT_DOUBLE_EQ(s.takeSceneChange()->ambient->radius, 0.012);
+    EXPECT_DOUBLE_EQ(s.takeSceneChange()->surface.ambient->radius, 0.012);
     EXPECT_THAT(s.notice(), testing::HasSubstr("as far as it can be"));
     s.act({ViewCommand::PreviousAmbient});
-    EXPECT_FALSE(s.takeSceneChange()->ambient->lit);
+    EXPECT_FALSE(s.takeSceneChange()->surface.ambient->lit);
     EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::Not(testing::HasSubstr("ambient")));
     s.act({ViewCommand::PreviousAmbient});
-    EXPECT_EQ(s.takeSceneChange()->ambient->method, "chebyshev") << "round the other way";
+    EXPECT_EQ(s.takeSceneChange()->surface.ambient->method, "chebyshev") << "round the other way";
     // Where light is baked there is none.
-    mScene->ambientMethods.clear();
+    mScene->surface->ambientMethods.clear();
     ViewSession baked = session();
     baked.act({ViewCommand::NextAmbient});
     EXPECT_FALSE(baked.takeSceneChange().has_value());
 }
 
 TEST_F(ViewVolume, OpacityIsModulatedByKeys) {
-    mScene->ambient = ViewAmbient{false, "gaussian", 0.008, "", 0.008, 0};
-    mScene->smallestRadius = 0.001;
-    mScene->largestRadius = 0.1;
-    mScene->largestSigma = 500;
-    mScene->chosenSigma = 80;
+    mScene->surface->ambient = AmbientChoice{false, "gaussian", 0.008, "", 0.008, 0};
+    mScene->surface->smallestRadius = 0.001;
+    mScene->surface->largestRadius = 0.1;
+    mScene->surface->largestSigma = 500;
+    mScene->surface->chosenSigma = 80;
     ViewSession s = session();
     s.act({ViewCommand::NextModulation});
     EXPECT_FALSE(s.takeSceneChange().has_value());
@@ -299,50 +304,50 @@ TEST_F(ViewVolume, OpacityIsModulatedByKeys) {
     s.act({ViewCommand::ToggleTranslucent});
     s.act({ViewCommand::NextModulation});
     auto change = s.takeSceneChange();
-    EXPECT_EQ(change->translucent, true);
-    EXPECT_EQ(change->ambient->modulate, "variance");
-    EXPECT_EQ(change->ambient->sigma, 0) << "chosen";
+    EXPECT_EQ(change->surface.translucent, true);
+    EXPECT_EQ(change->surface.ambient->modulate, "variance");
+    EXPECT_EQ(change->surface.ambient->sigma, 0) << "chosen";
     EXPECT_THAT(s.statusLine(frameOf(1), 0),
                 testing::HasSubstr("opacity by variance within 8.0 mm, whole from 80"));
     s.act({ViewCommand::MoreSigma});
-    EXPECT_DOUBLE_EQ(s.takeSceneChange()->ambient->sigma, 100);
+    EXPECT_DOUBLE_EQ(s.takeSceneChange()->surface.ambient->sigma, 100);
     s.act({ViewCommand::LessSigma});
-    EXPECT_DOUBLE_EQ(s.takeSceneChange()->ambient->sigma, 80);
+    EXPECT_DOUBLE_EQ(s.takeSceneChange()->surface.ambient->sigma, 80);
     for (int n = 0; n < 20; ++n) s.act({ViewCommand::MoreSigma});
-    EXPECT_DOUBLE_EQ(s.takeSceneChange()->ambient->sigma, 500);
+    EXPECT_DOUBLE_EQ(s.takeSceneChange()->surface.ambient->sigma, 500);
     s.act({ViewCommand::LargerRadius});
     change = s.takeSceneChange();
-    EXPECT_DOUBLE_EQ(change->ambient->modulateRadius, 0.01);
-    EXPECT_DOUBLE_EQ(change->ambient->radius, 0.008) << "ambient light's own";
+    EXPECT_DOUBLE_EQ(change->surface.ambient->modulateRadius, 0.01);
+    EXPECT_DOUBLE_EQ(change->surface.ambient->radius, 0.008) << "ambient light's own";
     s.act({ViewCommand::NextModulation});
     change = s.takeSceneChange();
-    EXPECT_EQ(change->ambient->modulate, "gradient");
-    EXPECT_EQ(change->ambient->sigma, 0);
+    EXPECT_EQ(change->surface.ambient->modulate, "gradient");
+    EXPECT_EQ(change->surface.ambient->sigma, 0);
     for (int n = 0; n < 30; ++n) s.act({ViewCommand::MoreSigma});
-    EXPECT_DOUBLE_EQ(s.takeSceneChange()->ambient->sigma, 1);
+    EXPECT_DOUBLE_EQ(s.takeSceneChange()->surface.ambient->sigma, 1);
     s.act({ViewCommand::NextModulation});
-    EXPECT_EQ(s.takeSceneChange()->ambient->modulate, "");
+    EXPECT_EQ(s.takeSceneChange()->surface.ambient->modulate, "");
 }
 
 // Keys that come while an earlier change is being made count from what was asked for, not from what is shown.
 TEST_F(ViewVolume, NoStepIsLostWhileScenesAreMade) {
-    mScene->isovalue = 300;
-    mScene->isovalueStep = 10;
+    mScene->surface->isovalue = 300;
+    mScene->surface->isovalueStep = 10;
     ViewSession s = session();
     s.act({ViewCommand::HigherIsovalue});
-    EXPECT_EQ(s.takeSceneChange()->isovalue, 310);
+    EXPECT_EQ(s.takeSceneChange()->surface.isovalue, 310);
     s.act({ViewCommand::HigherIsovalue});
-    EXPECT_EQ(s.takeSceneChange()->isovalue, 320);
-    auto first = std::make_shared<ViewScene>(*mScene);
-    first->isovalue = 310;
+    EXPECT_EQ(s.takeSceneChange()->surface.isovalue, 320);
+    auto first = std::make_shared<FakeParts>(*mScene);
+    first->surface->isovalue = 310;
     first->changed = true;
-    s.replaceScene(first);
+    s.replaceScene(opened(*first));
     s.act({ViewCommand::HigherIsovalue});
-    EXPECT_EQ(s.takeSceneChange()->isovalue, 330);
+    EXPECT_EQ(s.takeSceneChange()->surface.isovalue, 330);
     // One that fails is forgotten: what is shown counts again.
     s.forgetSceneChange();
     s.act({ViewCommand::HigherIsovalue});
-    EXPECT_EQ(s.takeSceneChange()->isovalue, 320);
+    EXPECT_EQ(s.takeSceneChange()->surface.isovalue, 320);
 }
 
 // A scene that was made from the one before it: playing goes on, and the way of the right eye that was
@@ -358,17 +363,17 @@ TEST_F(ViewVolume, WhatWasChangedInPlaceGoesOn) {
     const std::string_view method = s.requestFor(100, 100).way.method;
     EXPECT_NE(method, mScene->way.method);
     s.step({}, 0.1);
-    auto other = std::make_shared<ViewScene>(*mScene);
+    auto other = std::make_shared<FakeParts>(*mScene);
     other->changed = true;
-    s.replaceScene(other);
+    s.replaceScene(opened(*other));
     EXPECT_TRUE(s.playing());
     EXPECT_EQ(s.requestFor(100, 100).way.method, method);
-    other = std::make_shared<ViewScene>(*mScene);
+    other = std::make_shared<FakeParts>(*mScene);
     other->changed = true;
     other->way.method = "selective";
-    s.replaceScene(other);
+    s.replaceScene(opened(*other));
     EXPECT_EQ(s.requestFor(100, 100).way.method, "selective") << "another default";
-    s.replaceScene(mScene);
+    s.replaceScene(opened(*mScene));
     EXPECT_FALSE(s.playing());
 }
 
@@ -382,25 +387,26 @@ TEST_F(ViewVolume, AnotherSceneTakesThePlaceAndTheFlightGoesOn) {
     EXPECT_GT(here.x, 0.02);
     const StereoSetting eyes = s.stereo();
     const long long version = s.requestFor(100, 100).version;
-    auto other = std::make_shared<ViewScene>(*mScene);
+    auto other = std::make_shared<FakeParts>(*mScene);
     other->way.method = "depthsplat";
-    other->translucent = true;
-    s.replaceScene(other);
+    other->surface->translucent = true;
+    s.replaceScene(opened(*other));
     EXPECT_EQ(s.pose().position, here);
     EXPECT_EQ(s.flight().mode(), 1);
     EXPECT_EQ(s.stereo().separation, eyes.separation);
     EXPECT_GT(s.requestFor(100, 100).version, version) << "it must be drawn, though nothing moved";
     EXPECT_EQ(s.requestFor(100, 100).way.method, "depthsplat");
     s.act({ViewCommand::ToggleTranslucent});
-    EXPECT_EQ(s.takeSceneChange()->translucent, false) << "from what is shown now";
+    EXPECT_EQ(s.takeSceneChange()->surface.translucent, false) << "from what is shown now";
 }
 
 TEST_F(ViewVolume, SlicesAreReadOnceAndLeftByEscape) {
-    ViewSession s = session();
-    s.act({ViewCommand::Slices});
-    EXPECT_FALSE(s.takeStudyWish()) << "a scene without slices";
-    EXPECT_FALSE(s.slicesShown());
+    ViewSession without = session();
+    without.act({ViewCommand::Slices});
+    EXPECT_FALSE(without.takeStudyWish()) << "a scene without slices";
+    EXPECT_FALSE(without.slicesShown());
     mScene->readSlices = [this](Progress&) { return mStudy; };
+    ViewSession s = session();
     s.act({ViewCommand::Slices});
     EXPECT_TRUE(s.takeStudyWish());
     EXPECT_FALSE(s.takeStudyWish());

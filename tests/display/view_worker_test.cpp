@@ -13,6 +13,7 @@
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/frame/cast_frames.h"
+#include "tests/display/fake_scene.h"
 
 namespace stereonav {
 namespace {
@@ -46,8 +47,8 @@ private:
     std::chrono::milliseconds mPause;
 };
 
-ViewScene sceneOf(std::shared_ptr<Wall> wall) {
-    ViewScene scene;
+FakeParts partsOf(std::shared_ptr<Wall> wall) {
+    FakeParts scene;
     struct Cast {
         std::shared_ptr<Wall> wall;
         CastFrames frames;
@@ -57,6 +58,12 @@ ViewScene sceneOf(std::shared_ptr<Wall> wall) {
     scene.frames = &cast->frames;
     scene.owner = std::move(cast);
     return scene;
+}
+
+OpenScene sceneOf(std::shared_ptr<Wall> wall, const std::string& name = "") {
+    FakeParts parts = partsOf(std::move(wall));
+    parts.name = name;
+    return openOf(parts);
 }
 
 FrameRequest requestAt(long long version, double height) {
@@ -153,13 +160,13 @@ TEST(ViewWorker, DrawsAgainWhenTheLightHasChanged) {
     std::atomic<int> seen{0};
     ViewWorker worker(
         [&](Progress&) {
-            ViewScene scene = sceneOf(std::make_shared<Wall>());
+            FakeParts scene = partsOf(std::make_shared<Wall>());
             scene.seen = [&](const EyeView& view, const EyeImage& image) {
                 EXPECT_EQ(image.width(), view.width);
                 if (++seen < 4) ++changes;
             };
             scene.lightChanges = [&] { return changes.load(); };
-            return scene;
+            return openOf(scene);
         },
         [] {});
     worker.request(requestAt(1, 7));
@@ -185,7 +192,7 @@ TEST(ViewWorker, ReportsProgressAndStopsLoadingWhenClosed) {
     const Stopwatch watch;
     {
         ViewWorker worker(
-            [&](Progress& progress) -> ViewScene {
+            [&](Progress& progress) -> OpenScene {
                 try {
                     for (int i = 0; i < 10000; ++i) {
                         progress.report(0.25, "reading");
@@ -207,7 +214,7 @@ TEST(ViewWorker, ReportsProgressAndStopsLoadingWhenClosed) {
 }
 
 TEST(ViewWorker, WhatLoadingThrowsArrivesAtTheWindow) {
-    ViewWorker worker([](Progress&) -> ViewScene { throw Error("a.tif", "", "is cut off", "copy it again"); },
+    ViewWorker worker([](Progress&) -> OpenScene { throw Error("a.tif", "", "is cut off", "copy it again"); },
                       [] {});
     std::string message;
     ASSERT_TRUE(within(10s, [&] {
@@ -270,7 +277,7 @@ TEST(ViewWorker, TheNewestReloadReplacesOneThatIsNotDone) {
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
     ASSERT_TRUE(within(10s, [&] { return worker.scene() != nullptr; }));
     std::atomic<bool> cancelled = false;
-    worker.reload([&](Progress& progress) -> ViewScene {
+    worker.reload([&](Progress& progress) -> OpenScene {
         try {
             while (true) {
                 progress.report(0.1, "slow");
@@ -282,12 +289,8 @@ TEST(ViewWorker, TheNewestReloadReplacesOneThatIsNotDone) {
         }
     });
     ASSERT_TRUE(within(10s, [&] { return worker.loading().what == "slow"; }));
-    worker.reload([](Progress&) {
-        ViewScene scene = sceneOf(std::make_shared<Wall>());
-        scene.isovalue = 7;
-        return scene;
-    });
-    EXPECT_TRUE(within(10s, [&] { return worker.scene()->isovalue == 7; }));
+    worker.reload([](Progress&) { return sceneOf(std::make_shared<Wall>(), "seven"); });
+    EXPECT_TRUE(within(10s, [&] { return worker.scene()->scene->name == "seven"; }));
     EXPECT_TRUE(cancelled);
     EXPECT_EQ(worker.takeReloadProblem(), "");
 }
@@ -295,24 +298,16 @@ TEST(ViewWorker, TheNewestReloadReplacesOneThatIsNotDone) {
 // Of wishes that come while one is at work the last is done after it, from the scene that it made.
 TEST(ViewWorker, ChangesAreMadeFromTheNewestSceneOneAfterAnother) {
     std::atomic<int> begun = 0, go = 0;
-    ViewWorker worker(
-        [](Progress&) {
-            ViewScene scene = sceneOf(std::make_shared<Wall>());
-            scene.transfer = "first";
-            return scene;
-        },
-        [] {});
+    ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>(), "first"); }, [] {});
     ASSERT_TRUE(within(10s, [&] { return worker.scene() != nullptr; }));
     const auto wish = [&](const std::string& name, int mayGo) {
-        worker.change([&, name, mayGo](const ViewScene& now, Progress& progress) {
+        worker.change([&, name, mayGo](const OpenScene& now, Progress& progress) {
             ++begun;
             while (go < mayGo) {
                 progress.report(0.5, name);
                 std::this_thread::sleep_for(1ms);
             }
-            ViewScene scene = sceneOf(std::make_shared<Wall>());
-            scene.transfer = now.transfer + " " + name;
-            return scene;
+            return sceneOf(std::make_shared<Wall>(), now.scene->name + " " + name);
         });
     };
     wish("a", 1);
@@ -322,9 +317,9 @@ TEST(ViewWorker, ChangesAreMadeFromTheNewestSceneOneAfterAnother) {
     wish("c", 2);
     go = 1;
     ASSERT_TRUE(within(10s, [&] { return begun == 2; })) << "what is at work is not given up";
-    EXPECT_EQ(worker.scene()->transfer, "first a");
+    EXPECT_EQ(worker.scene()->scene->name, "first a");
     go = 2;
-    ASSERT_TRUE(within(10s, [&] { return worker.scene()->transfer == "first a c"; }));
+    ASSERT_TRUE(within(10s, [&] { return worker.scene()->scene->name == "first a c"; }));
     EXPECT_TRUE(within(10s, [&] { return !worker.loading().busy; }));
     EXPECT_EQ(begun, 2) << "one that was not begun is passed over";
     // Loading again does away with what was asked for before it.
@@ -332,12 +327,8 @@ TEST(ViewWorker, ChangesAreMadeFromTheNewestSceneOneAfterAnother) {
     wish("d", 3);
     ASSERT_TRUE(within(10s, [&] { return begun == 3; }));
     wish("e", 3);
-    worker.reload([](Progress&) {
-        ViewScene scene = sceneOf(std::make_shared<Wall>());
-        scene.transfer = "again";
-        return scene;
-    });
-    ASSERT_TRUE(within(10s, [&] { return worker.scene()->transfer == "again"; }));
+    worker.reload([](Progress&) { return sceneOf(std::make_shared<Wall>(), "again"); });
+    ASSERT_TRUE(within(10s, [&] { return worker.scene()->scene->name == "again"; }));
     EXPECT_TRUE(within(10s, [&] { return !worker.loading().busy; }));
     EXPECT_EQ(begun, 3);
     EXPECT_EQ(worker.takeReloadProblem(), "");
@@ -347,7 +338,7 @@ TEST(ViewWorker, AReloadThatFailsLeavesTheSceneAndSaysSoOnce) {
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
     ASSERT_TRUE(within(10s, [&] { return worker.scene() != nullptr; }));
     const auto first = worker.scene();
-    worker.reload([](Progress&) -> ViewScene { throw Error("--seed", "", "hits nothing", "click in air"); });
+    worker.reload([](Progress&) -> OpenScene { throw Error("--seed", "", "hits nothing", "click in air"); });
     std::string problem;
     ASSERT_TRUE(within(10s, [&] { return !(problem = worker.takeReloadProblem()).empty(); }));
     EXPECT_EQ(problem, "--seed: hits nothing; click in air");

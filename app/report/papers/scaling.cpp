@@ -104,11 +104,12 @@ void reportPapersScaling(ReportRun& run, double seconds) {
     options.threads = run.options().threads;
     Progress quiet([&](double, const std::string&) { run.tell("scaling, the terrain"); });
     const SizeOption size = run.quick() ? SizeOption{250, 200} : SizeOption{1280, 720};
-    const LoadedScene scene = loadScene(options, size, quiet);
+    const std::unique_ptr<Scene> loaded = loadScene(options, size, quiet);
+    const Scene& scene = *loaded;
     const StereoViews views = scene.viewsAt(scene.startPose);
     EyeImage left, right;
-    left.resize(views.left.width, views.left.height, scene.renderer->viewDependence());
-    renderEye(*scene.renderer, views.left, left);
+    left.resize(views.left.width, views.left.height, rendererOf(scene).viewDependence());
+    renderEye(rendererOf(scene), views.left, left);
     RightEye eye;
     const std::string picture = fmt::format("the generated terrain, {}x{}", size.width, size.height);
 
@@ -124,10 +125,10 @@ void reportPapersScaling(ReportRun& run, double seconds) {
 
     const std::string theirs = "near linear: 14 times on 16 processors";
     const std::vector<Work> works{
-        {"left image of a terrain", picture, [&] { renderEye(*scene.renderer, views.left, left); },
+        {"left image of a terrain", picture, [&] { renderEye(rendererOf(scene), views.left, left); },
          "Wan et al. 2004", theirs},
         {"right image, the default way", picture,
-         [&] { eye.render(*scene.renderer, views, left, {}, right); }, "Wan et al. 2004",
+         [&] { eye.render(rendererOf(scene), views, left, {}, right); }, "Wan et al. 2004",
          "near linear: 13 times on 16 processors"},
         {"irradiance, 16 samples", "a made block with three holes",
          [&] { irradianceRate(lighter, pieces, 16, 1e9); }, "Wyman et al. 2006",

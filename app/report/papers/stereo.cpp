@@ -58,7 +58,7 @@ StereoWay paperWay(const std::string& name, Schedule left, Schedule warp, Schedu
     return way;
 }
 
-std::vector<StereoWay> terrainWays(const LoadedScene& scene) {
+std::vector<StereoWay> terrainWays(const Scene& scene) {
     using S = Schedule;
     std::vector<StereoWay> ways{paperWay("as there", S::Interleaved, S::Contiguous, S::Dynamic),
                                 paperWay("without coherence", S::Interleaved, S::Contiguous, S::Dynamic),
@@ -69,7 +69,7 @@ std::vector<StereoWay> terrainWays(const LoadedScene& scene) {
                                 paperWay("left eye dynamic", S::Dynamic, S::Contiguous, S::Dynamic),
                                 {"default", {}, S::Dynamic, true}};
     ways[kAlone].coherent = false;
-    ways[kOwn].setting.method = scene.defaultMethod();
+    ways[kOwn].setting.method = defaultMethodFor(rendererOf(scene));
     return ways;
 }
 
@@ -87,7 +87,7 @@ std::string tooFew(int all) {
 
 class StereoTables {
 public:
-    StereoTables(ReportRun& run, const PaperTimes& theirs, const LoadedScene& scene, const std::string& title)
+    StereoTables(ReportRun& run, const PaperTimes& theirs, const Scene& scene, const std::string& title)
         : mRun(run),
           mTheirs(theirs),
           mAll(threadCount()),
@@ -265,19 +265,19 @@ private:
     std::deque<PaperRow> mRows;  // what add() gives stays where it is
 };
 
-LoadedScene load(ReportRun& run, const std::string& what, const SceneOptions& options) {
+std::unique_ptr<Scene> load(ReportRun& run, const std::string& what, const SceneOptions& options) {
     run.tell("loading " + what);
     Progress quiet([&](double, const std::string&) { run.tell("loading " + what); });
     const SizeOption size = run.quick() ? SizeOption{kWidth / 2, kHeight / 2} : SizeOption{kWidth, kHeight};
     return loadScene(options, size, quiet);
 }
 
-std::string groundText(const LoadedScene& scene) {
-    return fmt::format("{}x{} samples", scene.terrain->ground.width(), scene.terrain->ground.height());
+std::string groundText(const Scene& scene) {
+    return fmt::format("{}x{} samples", terrainOf(scene)->ground.width(), terrainOf(scene)->ground.height());
 }
 
 // Section 6: what McMillan's warp leaves open and shows wrongly.
-std::vector<PaperRow> mcMillanRows(ReportRun& run, const LoadedScene& scene, const std::string& measured) {
+std::vector<PaperRow> mcMillanRows(ReportRun& run, const Scene& scene, const std::string& measured) {
     StereoWay way{"mcmillan", {}, Schedule::Dynamic, true};
     way.setting.method = RightEyeMethod::McMillan;
     run.tell("stereo, McMillan's warp");
@@ -309,15 +309,16 @@ std::vector<PaperRow> colonRows(ReportRun& run, const PaperData& data, double se
     options.volume.opacity = 0.95;
     const std::filesystem::path file = data.find("colon/gca00020/large_intestine_mask_clean.nrrd");
     options.scene = file.empty() ? "colon" : file.string();
-    const LoadedScene scene = load(run, "the colon", options);
+    const std::unique_ptr<Scene> loaded = load(run, "the colon", options);
+    const Scene& scene = *loaded;
     std::vector<StereoWay> ways{{"depthsplat", {}, Schedule::Interleaved, true},
                                 {"default", {}, Schedule::Dynamic, true}};
     ways[0].setting.method = RightEyeMethod::DepthSplat;
-    ways[1].setting.method = scene.defaultMethod();
+    ways[1].setting.method = defaultMethodFor(rendererOf(scene));
     StereoTrial trial(scene, ways, run.pick(2, 6));
     const int all = threadCount();
     trial.time(run, "stereo, the colon", {all}, run.pick(2, 3), run.pick(2, 8), seconds);
-    const glm::ivec3 size = scene.colon->volume.field.frame.size;
+    const glm::ivec3 size = colonOf(scene)->volume.field.frame.size;
     const std::string measured =
         fmt::format("{}, {}x{}x{} voxels, 95 % opacity a millimetre, {}x{}, {} frames of its flight",
                     file.empty() ? std::string("the generated colon") + kStandsIn : "a real colon", size.x,
@@ -379,23 +380,23 @@ void reportPapersStereo(ReportRun& run, double seconds) {
     const std::filesystem::path shaded = data.find("terrain/srtm_bigtujunga30m_utm11.tif"),
                                 photo = data.find("terrain/ararat/agri-small-dem-utm38n-30m.tif");
     options.scene = shaded.string();
-    LoadedScene scene = load(run, "the terrain", options);
+    std::unique_ptr<Scene> loaded = load(run, "the terrain", options);
     const std::string title = (shaded.empty() ? std::string("the generated terrain") + kStandsIn
                                               : "San Gabriel Mountains, the paper's region") +
-                              ", " + groundText(scene);
-    append(StereoTables(run, kShaded, scene, title).rows(0.4 * seconds));
-    append(mcMillanRows(run, scene, title));
+                              ", " + groundText(*loaded);
+    append(StereoTables(run, kShaded, *loaded, title).rows(0.4 * seconds));
+    append(mcMillanRows(run, *loaded, title));
     run.checkTime();
     if (!photo.empty()) {
         options.scene = photo.string();
         options.image = data.find("terrain/ararat/agri-small-winter.jpg").string();
-        scene = load(run, "the terrain with its photo", options);
+        loaded = load(run, "the terrain with its photo", options);
     }
     const std::string title7 =
         (photo.empty() ? std::string("the generated terrain with its generated colours") + kStandsIn
                        : "Mount Ararat with its photo") +
-        ", " + groundText(scene);
-    append(StereoTables(run, kPhoto, scene, title7).rows(0.3 * seconds));
+        ", " + groundText(*loaded);
+    append(StereoTables(run, kPhoto, *loaded, title7).rows(0.3 * seconds));
     run.checkTime();
     append(colonRows(run, data, 0.2 * seconds));
     addPaperRows(run.report(), section, std::move(rows));

@@ -61,7 +61,7 @@ double StereoCounts::psnr_db() const {
                        : kIdenticalPsnr_db;
 }
 
-StereoTrial::StereoTrial(const LoadedScene& scene, std::vector<StereoWay> ways, int frames)
+StereoTrial::StereoTrial(const Scene& scene, std::vector<StereoWay> ways, int frames)
     : mScene(scene), mWays(std::move(ways)) {
     StereoSetting stereo = scene.stereo;
     stereo.separation = stereo.zeroParallax / 30;
@@ -71,7 +71,7 @@ StereoTrial::StereoTrial(const LoadedScene& scene, std::vector<StereoWay> ways, 
 }
 
 void StereoTrial::castLeft(const StereoViews& views, Schedule schedule) {
-    const EyeRenderer& renderer = *mScene.renderer;
+    const EyeRenderer& renderer = rendererOf(mScene);
     mLeft.resize(views.left.width, views.left.height, renderer.viewDependence());
     parallelFor(
         renderer.tileCount(views.left), [&](int tile) { renderer.renderTile(views.left, tile, mLeft); },
@@ -81,7 +81,7 @@ void StereoTrial::castLeft(const StereoViews& views, Schedule schedule) {
 void StereoTrial::time(ReportRun& run, const std::string& what, const std::vector<int>& threads, int least,
                        int most, double seconds) {
     const ThreadsBack back;
-    const WithoutCoherence alone(*mScene.renderer);
+    const WithoutCoherence alone(rendererOf(mScene));
     std::map<int, std::vector<Stages>> stages;
     for (const int n : threads) stages[n].resize(mWays.size());
     const Stopwatch watch;
@@ -100,7 +100,7 @@ void StereoTrial::time(ReportRun& run, const std::string& what, const std::vecto
                     castLeft(mViews[frame], mWays[k].leftSchedule);
                     s.left.add(frame, left.elapsed_ms());
                     const EyeRenderer& scene =
-                        mWays[k].coherent ? *mScene.renderer : static_cast<const EyeRenderer&>(alone);
+                        mWays[k].coherent ? rendererOf(mScene) : static_cast<const EyeRenderer&>(alone);
                     const RightEyeTimings t =
                         mEye.render(scene, mViews[frame], mLeft, mWays[k].setting, mRight);
                     s.warp.add(frame, t.warp_ms);
@@ -123,8 +123,8 @@ StereoCounts StereoTrial::counts(std::size_t way) {
     fully.method = RightEyeMethod::Full;
     for (const StereoViews& views : mViews) {
         castLeft(views, Schedule::Dynamic);
-        mEye.render(*mScene.renderer, views, mLeft, fully, mFull);
-        mEye.render(*mScene.renderer, views, mLeft, setting, mRight);
+        mEye.render(rendererOf(mScene), views, mLeft, fully, mFull);
+        mEye.render(rendererOf(mScene), views, mLeft, setting, mRight);
         const bool open = leavesHoles(setting.method);
         const SurfaceDifference d = surfaceDifference(mFull, mRight, mEye.holeMask(), open);
         const GapPixels gaps = gapPixels(mFull, mEye.holeMask());

@@ -49,7 +49,7 @@ struct StereoCounts {
 class StereoTrial {
 public:
     // scene must outlive this. Eyes are 1/30 of the zero-parallax distance apart.
-    StereoTrial(const LoadedScene& scene, std::vector<StereoWay> ways, int frames);
+    StereoTrial(const Scene& scene, std::vector<StereoWay> ways, int frames);
 
     // By threads, all ways and counts in turn in each repeat; at least `least` repeats.
     void time(ReportRun& run, const std::string& what, const std::vector<int>& threads, int least, int most,
@@ -62,7 +62,7 @@ public:
 private:
     void castLeft(const StereoViews& views, Schedule schedule);
 
-    const LoadedScene& mScene;
+    const Scene& mScene;
     std::vector<StereoWay> mWays;
     std::vector<StereoViews> mViews;
     std::map<int, std::vector<StereoTimes>> mTimes;

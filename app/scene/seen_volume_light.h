@@ -1,0 +1,37 @@
+// Light of a volume that goes on while one looks: worked out where it is seen, or a sky over baked transfer
+// that turns.
+#pragma once
+
+#include <memory>
+
+#include "app/scene/lazy_light.h"
+#include "engine/light/turning_sky.h"
+#include "engine/scene/capabilities.h"
+
+namespace stereonav {
+
+// Of one of the two; the other is null. Keys turn clockwise, as the sun goes; --turn and harmonics the other
+// way.
+class SeenVolumeLight final : public SeenLight, public TurningLight {
+public:
+    SeenVolumeLight(std::shared_ptr<LazyLight> lazy, std::shared_ptr<TurningSky> sky)
+        : mLazy(std::move(lazy)), mSky(std::move(sky)) {}
+
+    // Whether it is a TurningLight.
+    bool turns() const { return mSky || mLazy->turns(); }
+
+    void seen(const EyeView& view, const EyeImage& image) override;
+    std::uint64_t changes() const override { return mSky ? mSky->changes() : mLazy->changes(); }
+    void waitUntilDone() const override;
+    bool beginsDark() const override { return mLazy != nullptr; }
+
+    SunPlace place() const override;
+    bool isSky() const override { return true; }
+    void turnTo(const SunPlace& to) override;
+
+private:
+    std::shared_ptr<LazyLight> mLazy;
+    std::shared_ptr<TurningSky> mSky;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,130 @@
+#include "app/scene/shown_medium.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/scene/shown_terrain.h"
+#include "engine/nav/navigator.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kMediumCrossingSeconds = 10;  // at normal speed
+constexpr std::array<MediumModel, 4> kModels{MediumModel::Emission, MediumModel::Surface, MediumModel::Direct,
+                                             MediumModel::Indirect};  // in the order of the enumeration
+
+std::unique_ptr<Flight> freeFlight(const Pose& home, double extent) {
+    FlightSetting setting;
+    setting.clearance = 1e-6 * extent;
+    setting.followHeight = 1e-3 * extent;
+    setting.speed = extent / kMediumCrossingSeconds;
+    setting.groundStep = 0.1 * extent;
+    const auto noGround = [](const glm::dvec2&) { return std::nan(""); };
+    return std::make_unique<Navigator>(noGround, home, setting);
+}
+
+}  // namespace
+
+class ShownMedium::Models final : public LightModels {
+public:
+    explicit Models(MediumLook& look) : mLook(look) {
+        for (const MediumModel model : kModels) mNames.emplace_back(nameOf(model));
+    }
+    const std::vector<std::string>& names() const override { return mNames; }
+    int now() const override { return static_cast<int>(mLook.model); }
+    void choose(int model) override { mLook.model = kModels[static_cast<std::size_t>(model)]; }
+
+private:
+    MediumLook& mLook;
+    std::vector<std::string> mNames;
+};
+
+class ShownMedium::Place final : public SweepPlace {
+public:
+    explicit Place(const SweptFrames& frames) : mFrames(frames) {}
+    std::string name() const override { return mFrames.sweptElsewhere() ? kGpuSweep : kCpuSweep; }
+
+private:
+    const SweptFrames& mFrames;
+};
+
+class ShownMedium::Sun final : public TurningLight {
+public:
+    explicit Sun(MediumScene& medium) : mMedium(medium) {}
+    SunPlace place() const override {
+        const glm::dvec3 from = -mMedium.look.light.direction;
+        return {std::atan2(from.x, from.y), std::asin(std::clamp(from.z, -1.0, 1.0))};
+    }
+    void turnTo(const SunPlace& to) override { mMedium.turnLight(to.azimuth, to.elevation); }
+
+private:
+    MediumScene& mMedium;
+};
+
+ShownMedium::~ShownMedium() = default;
+
+const TerrainScene& ShownMedium::hold(TerrainScene terrain) {
+    mTerrain = std::make_unique<TerrainScene>(std::move(terrain));
+    setViews(*mTerrain, *this);
+    offer<const TerrainScene>(*mTerrain);
+    return *mTerrain;
+}
+
+VolumeWorld& ShownMedium::hold(LitVolume volume) {
+    mVolume = std::move(volume);
+    VolumeWorld& world = *mVolume.world;
+    offer<const ColonScene>(world.colon());
+    offer<RoomAround>(world);
+    offer<SliceSource>(world);
+    if (world.colon().isColon()) offer<LineThrough>(world);
+    if (!mVolume.light.lazy && !mVolume.light.sky) return world;
+    mVolumeLight = std::make_unique<SeenVolumeLight>(mVolume.light.lazy, mVolume.light.sky);
+    offer<SeenLight>(*mVolumeLight);
+    return world;
+}
+
+void ShownMedium::flyFreely() {
+    const glm::dvec3 size = mMedium->medium.bounds().high - mMedium->medium.bounds().low;
+    mFreeExtent = std::max({size.x, size.y, size.z});
+}
+
+void ShownMedium::begin(SimdTarget target) {
+    mFrames = std::make_unique<SweptFrames>(*mMedium, target);
+    simd = mFrames->target();
+    mModels = std::make_unique<Models>(mMedium->look);
+    offer(*mMedium);
+    offer(*mFrames);
+    offer<LightModels>(*mModels);
+    mPlace = std::make_unique<Place>(*mFrames);
+    offer<SweepPlace>(*mPlace);
+    if (mMedium->animated()) offer(mAnimation);
+    if (mVolume.world && mVolume.world->eyesFollow()) {
+        VolumeCasting casting;
+        casting.target = target;
+        mWall = std::make_unique<VolumeRenderer>(mVolume.world->colon().volume, casting);
+        mVolume.world->setWall(mWall.get());
+    }
+    if (mMedium->look.light.kind == MediumLight::Kind::Parallel) {
+        mSun = std::make_unique<Sun>(*mMedium);
+        offer<TurningLight>(*mSun);
+    } else if (mVolumeLight && mVolumeLight->turns()) {
+        offer<TurningLight>(*mVolumeLight);
+    }
+}
+
+std::unique_ptr<Flight> ShownMedium::makeFlight() const {
+    if (mFreeExtent) return freeFlight(startPose, *mFreeExtent);
+    if (mTerrain) return flightOver(*mTerrain);
+    return mVolume.world->makeFlight();
+}
+
+void ShownMedium::check(const RecordedPath& flight, const std::string& file) const {
+    if (mVolume.world) mVolume.world->check(flight, file);
+}
+
+std::string ShownMedium::whyLightStays() const {
+    return mSun ? "" : "a lamp lights this medium: --light-from gives light that turns";
+}
+
+}  // namespace stereonav

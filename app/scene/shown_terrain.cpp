@@ -1,0 +1,74 @@
+#include "app/scene/shown_terrain.h"
+
+#include <algorithm>
+
+#include "engine/nav/navigator.h"
+#include "terrain/terrain_illumination.h"
+#include "terrain/terrain_loader.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kCrossingSeconds = 45.0;  // to cross the terrain at normal speed
+
+FlightSetting flightSettingOf(const TerrainScene& terrain) {
+    const glm::dvec2 spacing = terrain.ground.spacing();
+    const double extent =
+        std::max(spacing.x * (terrain.ground.width() - 1), spacing.y * (terrain.ground.height() - 1));
+    FlightSetting setting;
+    setting.clearance = terrain.clearance;
+    setting.followHeight = std::max(4 * terrain.clearance, extent / 150);
+    setting.speed = extent / kCrossingSeconds;
+    setting.groundStep = 0.5 * std::min(spacing.x, spacing.y);
+    return setting;
+}
+
+}  // namespace
+
+std::unique_ptr<Flight> flightOver(const TerrainScene& terrain) {
+    const auto ground = [&terrain](const glm::dvec2& place) { return terrain.ground.heightAt(place); };
+    return std::make_unique<Navigator>(ground, terrain.startPose, flightSettingOf(terrain));
+}
+
+void setViews(const TerrainScene& terrain, Scene& scene) {
+    scene.lens = terrain.lens;
+    scene.stereo = terrain.stereo;
+    scene.startPose = terrain.startPose;
+    scene.path = terrain.path;
+}
+
+// Over baked light.
+class ShownTerrain::Sun final : public TurningLight {
+public:
+    Sun(TerrainScene& terrain, TerrainRenderer& renderer) : mTerrain(terrain), mRenderer(renderer) {}
+
+    SunPlace place() const override { return {mTerrain.look.sunAzimuth, mTerrain.look.sunElevation}; }
+    void turnTo(const SunPlace& to) override {
+        if (to == place()) return;
+        moveSun(mTerrain, to.azimuth, to.elevation);
+        mRenderer.sunMoved();
+    }
+
+private:
+    TerrainScene& mTerrain;
+    TerrainRenderer& mRenderer;
+};
+
+ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target)
+    : mTerrain(std::move(terrain)), mRenderer(mTerrain, target), mFrames(mRenderer) {
+    setViews(mTerrain, *this);
+    simd = mRenderer.target();
+    mRays = {&mRenderer, methodsFor(mRenderer)};
+    offer(mRays);
+    offer<const TerrainScene>(mTerrain);
+    offer<const TerrainRenderer>(mRenderer);
+    if (!mTerrain.illumination) return;
+    mSun = std::make_unique<Sun>(mTerrain, mRenderer);
+    offer<TurningLight>(*mSun);
+}
+
+std::string ShownTerrain::whyLightStays() const {
+    return mSun ? "" : "the sun stands still in this ground's colours: --light gives one that moves";
+}
+
+}  // namespace stereonav

@@ -1,0 +1,172 @@
+#include "app/scene/shown_volume.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/scene/colon_loading.h"
+#include "app/scene/volume_ambient.h"
+#include "app/scene/volume_light.h"
+#include "colon/transfer_presets.h"
+#include "engine/volume/value_range.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kIsovalueSteps = 100;  // from the smallest value to the largest
+constexpr double kUsualOpacity = 0.95;  // of a translucent wall a millimetre: that of Wan et al. 2004
+
+void setTransfer(const SurfaceChange& change, const VolumeOptions& first, VolumeOptions& volume) {
+    volume.transfer.clear();
+    volume.opacity.reset();
+    if (!change.translucent.value_or(false)) return;
+    volume.transfer = change.transfer.value_or("");
+    if (!volume.transfer.empty()) return;
+    volume.transfer = first.transfer;
+    volume.opacity = first.opacity;
+    if (volume.transfer.empty() && !volume.opacity) volume.opacity = kUsualOpacity;
+}
+
+// What has no effect is left out, since it would be refused.
+void setAmbientOptions(const AmbientChoice& to, bool translucent, const VolumeOptions& first,
+                       VolumeOptions& volume) {
+    const bool modulated = translucent && !to.modulate.empty();
+    volume.ambient_mm.reset();
+    volume.ambientStrength.reset();
+    volume.ambientLamp.reset();
+    volume.modulateRadius_mm.reset();
+    volume.modulateSigma.reset();
+    volume.ambientMethod = to.lit || (modulated && to.modulate == "gradient") ? to.method : "";
+    volume.modulate = modulated ? to.modulate : "";
+    if (to.lit) {
+        volume.ambient_mm = 1000 * to.radius;
+        volume.ambientStrength = first.ambientStrength;
+        volume.ambientLamp = first.ambientLamp;
+    }
+    if (modulated) volume.modulateRadius_mm = 1000 * to.modulateRadius;
+    if (modulated && to.sigma > 0) volume.modulateSigma = to.sigma;
+}
+
+VolumeCasting castingFor(SimdTarget target) {
+    VolumeCasting casting;
+    casting.target = target;
+    return casting;
+}
+
+}  // namespace
+
+void applyChange(const SurfaceChange& change, const SceneOptions& first, SceneOptions& options) {
+    VolumeOptions& volume = options.volume;
+    if (change.isovalue) volume.isovalue = change.isovalue;
+    if (change.translucent) setTransfer(change, first.volume, volume);
+    if (change.ambient)
+        setAmbientOptions(*change.ambient, change.translucent.value_or(false), first.volume, volume);
+}
+
+ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const SceneOptions& made,
+                         SimdTarget target)
+    : mFirst(first),
+      mMade(made),
+      mWorld(std::move(volume.world)),
+      mLighting(std::move(volume.light)),
+      mRenderer(mWorld->colon().volume, castingFor(target)),
+      mFrames(mRenderer) {
+    mWorld->setViews(made, *this);
+    mWorld->setWall(&mRenderer);
+    simd = mRenderer.target();
+    mRays = {&mRenderer, methodsFor(mRenderer)};
+    std::erase(mRays.compared, RightEyeMethod::Cubic);
+    setChoices();
+    offer(mRays);
+    offer(mChoices);
+    offer<RoomAround>(*mWorld);
+    offer<SliceSource>(*mWorld);
+    offer<const ColonScene>(mWorld->colon());
+    if (mWorld->colon().isColon()) offer<LineThrough>(*mWorld);
+    if (mLighting.traced) offer<PictureLight>(*mLighting.traced);
+    offerLight();
+}
+
+void ShownVolume::offerLight() {
+    if (!mLighting.lazy && !mLighting.sky) return;
+    mLight = std::make_unique<SeenVolumeLight>(mLighting.lazy, mLighting.sky);
+    offer<SeenLight>(*mLight);
+    if (mLight->turns()) offer<TurningLight>(*mLight);
+}
+
+void ShownVolume::setChoices() {
+    const ColonScene& colon = mWorld->colon();
+    mChoices.translucent = mRenderer.translucent();
+    mChoices.transfers = {""};  // that of the options, and those that go by names
+    for (const TransferPreset& preset : transferPresets()) {
+        mChoices.transfers.emplace_back(preset.name);
+        if (mMade.volume.transfer == preset.name) mChoices.transfer = preset.name;
+    }
+    mChoices.changed = [this](const SurfaceChange& change, Progress& progress) {
+        return changed(change, progress);
+    };
+    if (colon.isColon()) return;
+    const GreyVolume& field = colon.volume.field;
+    const ValueRange range = rangeOf(field);
+    mChoices.isovalue = colon.volume.cells.isovalue * field.scale + field.offset;
+    mChoices.isovalueStep = (range.highest - range.lowest) / kIsovalueSteps;
+    mChoices.largestSigma = std::max(0.5 * (range.highest - range.lowest), 1e-9);
+    setAmbient();
+}
+
+void ShownVolume::setAmbient() {
+    const VolumeOptions& volume = mMade.volume;
+    const VolumeFrame& frame = mWorld->colon().volume.field.frame;
+    const glm::dvec3 extent = glm::dvec3(frame.size) * frame.spacing;
+    SurfaceChoices& to = mChoices;
+    to.smallestRadius = std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z});
+    to.largestRadius = std::min(largestOcclusionRadius(frame), std::max({extent.x, extent.y, extent.z}));
+    AmbientChoice ambient;
+    ambient.lit = volume.ambient_mm.has_value();
+    ambient.method = textOf(occlusionEstimateFromText(volume.ambientMethod));
+    ambient.modulateRadius = std::min(modulationRadius(volume, frame), to.largestRadius);
+    ambient.radius = ambient.lit ? *volume.ambient_mm / 1000 : ambient.modulateRadius;
+    ambient.modulate = modulates(volume) ? volume.modulate : "";
+    ambient.sigma = volume.modulateSigma.value_or(0);
+    to.ambient = ambient;
+    to.chosenSigma = mLighting.modulateSigma.value_or(0);
+    if (!mMade.light.empty()) return;
+    for (const OcclusionMethod method : {OcclusionMethod::Gaussian, OcclusionMethod::Reconstructed,
+                                         OcclusionMethod::DrawnIn, OcclusionMethod::Chebyshev})
+        to.ambientMethods.push_back(textOf(method));
+    if (std::find(to.ambientMethods.begin(), to.ambientMethods.end(), ambient.method) ==
+        to.ambientMethods.end())
+        to.ambientMethods.push_back(ambient.method);
+}
+
+// What is large and still holds is shared; light that is worked out while one flies goes on.
+std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progress& progress) const {
+    SceneOptions options = mMade;
+    applyChange(change, mFirst, options);
+    checkVolumeLight(options);
+    LitVolume made;
+    made.world = std::make_unique<VolumeWorld>(
+        changedScene(mWorld->colon(), colonOptionsOf(options), progress), options);
+    ColonScene& colon = made.world->colon();
+    made.light = mLighting;
+    made.light.traced = nullptr;  // of pictures
+    applyAmbient(options.volume, &mMade.volume, colon, progress);
+    made.light.modulateSigma =
+        applyModulation(options.volume, &mMade.volume, mLighting.modulateSigma, colon, progress);
+    const float isovalue = colon.volume.cells.isovalue;
+    auto scene = std::make_shared<ShownVolume>(std::move(made), mFirst, options, mRenderer.target());
+    scene->name = name;
+    scene->lens = lens;
+    scene->mChoices.ambientMethods = mChoices.ambientMethods;  // one that was given stays among them
+    if (mLighting.lazy) mLighting.lazy->showSurface(isovalue);
+    return scene;
+}
+
+std::string ShownVolume::whyLightStays() const {
+    if (mLight && mLight->turns()) return "";
+    if (mMade.light.empty()) return "a lamp lights this volume: --light gives a sky that turns";
+    if (mMade.light == kLazyLight)
+        return "the sky is part of this light: --light lazy-transfer has one that turns";
+    return "the sky is baked into this light: bake --what transfer for one that turns";
+}
+
+}  // namespace stereonav

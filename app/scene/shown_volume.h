@@ -1,0 +1,63 @@
+// A volume that rays are cast into, as a scene to fly in or around.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/scene/seen_volume_light.h"
+#include "app/scene/traced_light.h"
+#include "app/scene/volume_world.h"
+#include "engine/frame/cast_frames.h"
+
+namespace stereonav {
+
+// What a volume is lit by beside its look, shared by the scenes that one study is seen as.
+struct VolumeLighting {
+    std::shared_ptr<LazyLight> lazy;      // worked out while it is shown; else null
+    std::shared_ptr<TracedLight> traced;  // of a picture's every pixel; else null
+    std::shared_ptr<TurningSky> sky;      // over baked transfer, where SceneOptions::skyTurns; else null
+    std::optional<double> modulateSigma;  // of opacity modulation, given or chosen; none: without
+};
+
+// A volume and its light, read as options say, before it is decided how its frames are made.
+struct LitVolume {
+    std::unique_ptr<VolumeWorld> world;
+    VolumeLighting light;
+};
+
+// Offers RayCast, RoomAround, SliceSource, SurfaceChoices, const ColonScene; as they are there, LineThrough,
+// TurningLight, SeenLight, PictureLight.
+class ShownVolume final : public Scene {
+public:
+    // first: the options that the study was loaded with, made: those that this scene shows; the same at
+    // first.
+    ShownVolume(LitVolume volume, const SceneOptions& first, const SceneOptions& made, SimdTarget target);
+
+    FrameMaker& frames() const override { return mFrames; }
+    std::unique_ptr<Flight> makeFlight() const override { return mWorld->makeFlight(); }
+    void check(const RecordedPath& flight, const std::string& file) const override {
+        mWorld->check(flight, file);
+    }
+    std::string whyLightStays() const override;
+
+private:
+    void offerLight();
+    void setChoices();
+    void setAmbient();
+    std::shared_ptr<Scene> changed(const SurfaceChange& change, Progress& progress) const;
+
+    SceneOptions mFirst, mMade;
+    std::unique_ptr<VolumeWorld> mWorld;
+    VolumeLighting mLighting;
+    VolumeRenderer mRenderer;
+    RayCast mRays;
+    mutable CastFrames mFrames;
+    std::unique_ptr<SeenVolumeLight> mLight;  // that is worked out while one looks, or turns; else null
+    SurfaceChoices mChoices;
+};
+
+// What the user changed, into `options`; `first`: those that the study was loaded with.
+void applyChange(const SurfaceChange& change, const SceneOptions& first, SceneOptions& options);
+
+}  // namespace stereonav

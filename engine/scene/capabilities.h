@@ -1,0 +1,157 @@
+// What some scenes can do beyond being flown through. A scene offers what it can (Scene::offered).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/progress.h"
+#include "engine/camera/stereo_rig.h"
+#include "engine/image/eye_image.h"
+#include "engine/render/eye_renderer.h"
+#include "engine/stereo/right_eye.h"
+#include "engine/stereo/room_seen.h"
+
+namespace stereonav {
+
+class Scene;
+
+// Its rays are cast: both eyes one by one, the right one by any of the methods.
+struct RayCast {
+    const EyeRenderer* renderer = nullptr;  // never null where it is offered
+    std::vector<RightEyeMethod> compared;   // methods that a comparison runs when none are named
+};
+
+// Of a scene that offers RayCast.
+const EyeRenderer& rendererOf(const Scene& scene);
+
+// Where the sun stands, radians: clockwise from north, above the horizon; or how far a sky is turned
+// clockwise and tilted.
+struct SunPlace {
+    double azimuth = 0, elevation = 0;
+    bool operator==(const SunPlace&) const = default;
+};
+
+// Light that can be turned between frames.
+class TurningLight {
+public:
+    virtual ~TurningLight() = default;
+    virtual SunPlace place() const = 0;
+    // A sky all around: its elevation is how far it is tilted.
+    virtual bool isSky() const { return false; }
+    // Cheap where it stands there already.
+    virtual void turnTo(const SunPlace& place) = 0;
+};
+
+// Light that is worked out while one looks.
+class SeenLight {
+public:
+    virtual ~SeenLight() = default;
+    // What a frame saw is lit next; returns at once.
+    virtual void seen(const EyeView& view, const EyeImage& image) = 0;
+    // Counts changes, after which the last frame is to be drawn again.
+    virtual std::uint64_t changes() const = 0;
+    // Until all that was seen last is lit, for pictures.
+    virtual void waitUntilDone() const {}
+    // Whether a picture is to wait for it: it begins without light.
+    virtual bool beginsDark() const { return false; }
+};
+
+// Light of a picture worked out at every pixel, once both eyes were cast in full.
+class PictureLight {
+public:
+    virtual ~PictureLight() = default;
+    // Throws Cancelled.
+    virtual void light(const StereoViews& views, EyeImage& left, EyeImage& right, Progress& progress) = 0;
+    // What was done, a line each.
+    virtual const std::vector<std::string>& notes() const = 0;
+};
+
+// Ways of lighting to choose from between frames.
+class LightModels {
+public:
+    virtual ~LightModels() = default;
+    virtual const std::vector<std::string>& names() const = 0;
+    virtual int now() const = 0;  // of names()
+    virtual void choose(int model) = 0;
+};
+
+// Tells where its last frame was swept.
+constexpr const char *kCpuSweep = "CPU sweep", *kGpuSweep = "GPU sweep";
+class SweepPlace {
+public:
+    virtual ~SweepPlace() = default;
+    virtual std::string name() const = 0;  // one of these
+};
+
+// It moves by itself, by the time that frames are made at.
+struct Animation {};
+
+// A room whose walls the eyes come near: eyes that suit it.
+class RoomAround {
+public:
+    virtual ~RoomAround() = default;
+    virtual StereoFollower makeFollower(const StereoSetting& from) const = 0;
+    // Distance to what is near, of the head and of eyes as far apart as they get, metres.
+    virtual double clearanceAt(const Pose& head) const = 0;
+    virtual double largestSeparation() const = 0;  // by hand, metres; may be infinite
+    // The window's eyes follow from the start.
+    virtual bool followsAtStart() const = 0;
+    // What tells pictures and videos of the room, whose eyes come together where it is narrow; null: theirs
+    // stay as they are.
+    virtual const EyeRenderer* wallForPictures() const = 0;
+};
+
+// A way through it, along which a place is measured.
+struct PlaceOnLine {
+    double along = 0, length = 0;  // metres
+};
+class LineThrough {
+public:
+    virtual ~LineThrough() = default;
+    virtual PlaceOnLine placeOnLine(const glm::dvec3& world) const = 0;
+};
+
+// How what surrounds a volume's voxels lights them and takes their opacity (app/scene/volume_ambient.h).
+struct AmbientChoice {
+    bool lit = false;           // ambient light in place of the lamp's
+    std::string method;         // that estimates openness, as --ambient-method; "": gaussian
+    double radius = 0;          // metres, of ambient light
+    std::string modulate;       // opacity by this: variance, gradient; "": not modulated
+    double modulateRadius = 0;  // metres
+    double sigma = 0;           // from where on opacity stays whole; 0: chosen
+    bool operator==(const AmbientChoice&) const = default;
+};
+
+// The same volume, seen differently. What is not set stays.
+struct SurfaceChange {
+    std::optional<double> isovalue;
+    std::optional<bool> translucent;
+    std::optional<std::string> transfer;  // a name, "" for that of the options
+    std::optional<AmbientChoice> ambient;
+};
+
+// A surface of a volume that can be another one: what is shown now, and what there is to choose from.
+struct SurfaceChoices {
+    std::optional<double> isovalue;  // none: the surface cannot be moved
+    double isovalueStep = 0;
+    bool translucent = false;
+    std::vector<std::string> transfers;    // "": that of the options
+    std::string transfer;                  // of them: where translucent
+    std::optional<AmbientChoice> ambient;  // none: it has none
+    std::vector<std::string> ambientMethods;
+    double smallestRadius = 0, largestRadius = 0;  // metres
+    double largestSigma = 0;                       // by variance
+    double chosenSigma = 0;                        // where ambient->sigma is 0 and opacity is modulated
+
+    // The scene so changed, from what is there: nothing is read again. May be called while frames are made.
+    // Throws Error, Cancelled.
+    std::function<std::shared_ptr<Scene>(const SurfaceChange& change, Progress& progress)> changed;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,66 @@
+// What a person flies through, whatever it is made of: where one may be, what the eyes are like, a flight of
+// its own, and what makes its frames. What only some scenes can do (a sun that moves, slices to look at) is a
+// small interface of its own that a scene may offer (capabilities.h). Commands and the window ask for the
+// capability, never for the kind of scene.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <typeindex>
+#include <utility>
+#include <vector>
+
+#include "engine/camera/recorded_path.h"
+#include "engine/camera/stereo_rig.h"
+#include "engine/frame/frame_maker.h"
+#include "engine/math/simd_target.h"
+#include "engine/nav/flight.h"
+
+namespace stereonav {
+
+class Scene {
+public:
+    Scene() = default;
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+    virtual ~Scene() = default;
+
+    std::string name;  // as it was asked for
+    Lens lens;         // width and height are the caller's to set
+    StereoSetting stereo;
+    Pose startPose;
+    RecordedPath path;                   // the scene's own flight; empty where there is none
+    SimdTarget simd = SimdTarget::Auto;  // that its frames are made with
+
+    StereoViews viewsAt(const Pose& head) const { return makeStereoViews(head, lens, stereo); }
+
+    // Makes this scene's frames; lives as long as it. To be used by one thread at a time, which is also the
+    // one that changes what capabilities change.
+    virtual FrameMaker& frames() const = 0;
+    virtual std::unique_ptr<Flight> makeFlight() const = 0;
+    // Whether a recorded flight may be played here. Throws Error naming `file`.
+    virtual void check(const RecordedPath& /*path*/, const std::string& /*file*/) const {}
+    // Why its light stands still, for who asks for another; "" where TurningLight is offered.
+    virtual std::string whyLightStays() const { return ""; }
+
+    // What this scene offers of type C, null if it does not; lives as long as the scene.
+    template <typename C>
+    C* offered() const {
+        for (const auto& [type, what] : mOffered)
+            if (type == std::type_index(typeid(C))) return static_cast<C*>(what);
+        return nullptr;
+    }
+
+protected:
+    // capability outlives the scene, or is part of it. At most one of a type.
+    template <typename C>
+    void offer(C& capability) {
+        mOffered.emplace_back(std::type_index(typeid(C)),
+                              const_cast<void*>(static_cast<const void*>(&capability)));
+    }
+
+private:
+    std::vector<std::pair<std::type_index, void*>> mOffered;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,17 @@
+// The smallest and the largest value of a volume.
+#pragma once
+
+#include <cstddef>
+
+#include "engine/volume/volume.h"
+
+namespace stereonav {
+
+struct ValueRange {
+    double lowest = 0, highest = 0;
+};
+
+// Of every voxel, or of some spread evenly where there are more than so many; 0 to 0 of none.
+ValueRange rangeOf(const GreyVolume& grey, std::size_t mostSamples = 4'000'000);
+
+}  // namespace stereonav
