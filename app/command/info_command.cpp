@@ -137,7 +137,6 @@ std::string infoLine(const char* name, const std::string& value) {
 
 int runInfo(const InfoOptions& options) {
     if (!options.series.empty()) return listSeriesOf(options);
-    refuseLazyLight(options.scene);
     ProgressBar bar;
     const LoadedScene scene = loadScene(options.scene, options.size, bar.progress());
     ProcessFacts process;

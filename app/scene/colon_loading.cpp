@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "app/options/option_numbers.h"
+#include "app/options/refusals.h"
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
 #include "colon/colon_flight.h"
@@ -43,41 +44,12 @@ bool castsShadows(const std::string& shading) {
     return shading.ends_with("-shadows");
 }
 
-// Rays through layers know neither shadows nor fog; a lamp outside lights nothing of a closed wall that casts
-// shadows.
-void checkShading(const VolumeOptions& volume) {
-    const std::string& shading = volume.shading;
-    const bool translucent = !volume.transfer.empty() || volume.opacity;
-    if (translucent && (castsShadows(shading) || shading == "fog"))
-        throw Error("--shading", "", shading + " expects an opaque surface",
-                    "leave out --transfer and --opacity, or use lambert or phong");
-}
+// A lamp outside lights nothing of a closed wall that casts shadows.
 void checkShading(const VolumeOptions& volume, const ColonScene& scene) {
     if (scene.isColon() && castsShadows(volume.shading))
         throw Error("--shading", "",
                     volume.shading + " expects a volume seen from outside, this one is a colon",
                     "add --isosurface, or use lambert or phong");
-}
-
-void checkVolumeOptions(const SceneOptions& options) {
-    const VolumeOptions& volume = options.volume;
-    const auto refuse = [](bool when, const char* option, const std::string& problem, const char* advice) {
-        if (when) throw Error(option, "", problem, advice);
-    };
-    if (options.scene == "colon") {
-        const char* problem = "expected with a study's files, the built-in colon has none";
-        refuse(!volume.series.empty(), "--series", problem, "leave it out");
-        refuse(volume.label.has_value(), "--label", problem, "leave it out");
-        refuse(volume.resample, "--resample", problem, "leave it out");
-    }
-    if (volume.isosurface) {
-        const char* problem = "does not go with --isosurface, which looks for no colon";
-        refuse(!volume.seeds.empty(), "--seed", problem, "leave one of them out");
-        refuse(volume.backwards, "--backwards", problem, "leave one of them out");
-    }
-    refuse(!volume.transfer.empty() && volume.opacity, "--opacity", "does not go with --transfer",
-           "leave one of them out");
-    checkShading(volume);
 }
 
 FreeDistance freeDistanceOf(const ColonScene& colon) {
@@ -173,7 +145,6 @@ PlaceOnLine placeOn(const std::vector<CentrelinePoint>& points, const glm::dvec3
 }  // namespace
 
 ColonOptions colonOptionsOf(const SceneOptions& options) {
-    checkVolumeOptions(options);
     const VolumeOptions& volume = options.volume;
     ColonOptions colon;
     if (options.scene != "colon") colon.study = options.scene;
@@ -247,8 +218,7 @@ void setViews(const SceneOptions& options, SimdTarget simd, LoadedScene& scene) 
 }  // namespace
 
 LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    checkVolumeLight(options);
-    checkTracedLight(options);
+    checkAmbientLight(options.volume);
     LoadedScene scene;
     scene.name = options.scene;
     scene.colon = std::make_unique<ColonScene>(loadColon(colonOptionsOf(options), progress));
@@ -272,7 +242,7 @@ LoadedScene loadColonScene(const SceneOptions& options, SimdTarget simd, Progres
 
 LoadedScene changedColonScene(const LoadedScene& now, const SceneOptions& made, const SceneOptions& options,
                               Progress& progress) {
-    checkVolumeLight(options);
+    refuseWhatDoesNotApply(options);
     LoadedScene scene;
     scene.name = now.name;
     scene.colon = std::make_shared<ColonScene>(changedScene(*now.colon, colonOptionsOf(options), progress));

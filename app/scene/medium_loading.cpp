@@ -92,23 +92,7 @@ void putField(std::shared_ptr<const GreyVolume> field, Perturbation noise, Mediu
     };
 }
 
-void refuseWithBuiltIn(const SceneOptions& options) {
-    const std::pair<const char*, bool> given[] = {
-        {"--light", !options.light.empty()},           {"--sky", !options.sky.empty()},
-        {"--isosurface", options.volume.isosurface},   {"--isovalue", options.volume.isovalue.has_value()},
-        {"--label", options.volume.label.has_value()}, {"--series", !options.volume.series.empty()},
-        {"--seed", !options.volume.seeds.empty()},     {"--resample", options.volume.resample},
-        {"--backwards", options.volume.backwards},     {"--exposure", options.volume.exposure.has_value()},
-        {"--turn", options.volume.turn_deg != 0},      {"--tilt", options.volume.tilt_deg != 0},
-        {"--up", options.volume.up.has_value()},       {"--no-cache", !options.volume.cache}};
-    for (const auto& [option, is] : given)
-        if (is)
-            throw Error(option, "", "expected with a CT study, " + options.scene + " is built in",
-                        "leave it out");
-}
-
 LoadedScene builtInMedium(const SceneOptions& options) {
-    refuseWithBuiltIn(options);
     const bool cloud = options.scene == "cloud";
     LoadedScene scene;
     scene.name = options.scene;
@@ -186,23 +170,7 @@ LoadedScene volumeMedium(const SceneOptions& options, SimdTarget simd, Progress&
     return scene;
 }
 
-// A medium other than the ground has colours of its own.
-void refuseUnseenColors(const SceneOptions& options) {
-    if (options.medium.medium == kGroundMedium) return;
-    const char* advice = "leave it out, or choose --medium ground";
-    if (!options.image.empty())
-        throw Error("--image", "", "has no effect on a terrain shown as another medium than ground", advice);
-    if (!options.sun.empty() && !(options.medium.lightFrom.empty() && options.medium.lamp.empty()))
-        throw Error(
-            "--sun", "",
-            "has no effect on a terrain shown as another medium than ground, under --light-from or --lamp",
-            advice);
-}
-
 LoadedScene terrainAsMedium(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    if (!options.light.empty())
-        throw Error("--light", "", "does not go with a terrain shown as a medium", "leave one of them out");
-    refuseUnseenColors(options);
     LoadedScene scene = loadTerrainScene(options, simd, progress);
     const TerrainScene& terrain = *scene.terrain;
     scene.medium = std::make_unique<MediumScene>();
@@ -238,11 +206,6 @@ void addMedium(const LoadedScene& scene, ViewScene& view) {
 
 LoadedScene loadMediumScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
     const SceneKind kind = kindOf(options.scene);
-    if (!options.medium.mist.empty() && kind != SceneKind::Terrain)
-        throw Error("--mist", "", "expected with a terrain", "leave it out");
-    if (options.medium.medium == kGroundMedium && kind != SceneKind::Terrain)
-        throw Error("--medium", "", "ground is of terrains",
-                    "the presets are " + mediumPresetNames() + ", or name a file");
     LoadedScene scene = kind == SceneKind::Medium    ? builtInMedium(options)
                         : kind == SceneKind::Terrain ? terrainAsMedium(options, simd, progress)
                                                      : volumeMedium(options, simd, progress);

@@ -105,6 +105,30 @@ void setAmbient(const ViewAmbient& to, bool translucent, const VolumeOptions& fi
     if (modulated && to.sigma > 0) volume.modulateSigma = to.sigma;
 }
 
+// What may be refused later is what is shown now.
+void noteWhatIsShown(const VolumeOptions& volume, GivenOptions& given) {
+    const auto note = [&](const char* key, bool is, const std::string& text, double number) {
+        given.forget(key);
+        OptionValue value;
+        value.text = text;
+        value.numbers = {number};
+        if (is) given.add(key, value, std::string("--") + key);
+    };
+    const auto number = [&](const char* key, const std::optional<double>& value) {
+        note(key, value.has_value(), "", value.value_or(0));
+    };
+    number("isovalue", volume.isovalue);
+    number("opacity", volume.opacity);
+    number("ambient", volume.ambient_mm);
+    number("ambient-strength", volume.ambientStrength);
+    number("ambient-lamp", volume.ambientLamp);
+    number("modulate-radius", volume.modulateRadius_mm);
+    number("modulate-sigma", volume.modulateSigma);
+    note("transfer", !volume.transfer.empty(), volume.transfer, 0);
+    note("ambient-method", !volume.ambientMethod.empty(), volume.ambientMethod, 0);
+    note("modulate", !volume.modulate.empty(), volume.modulate, 0);
+}
+
 }  // namespace
 
 ViewScene viewSceneOf(const ViewOptions& options, bool measure, ViewSweep* sweep, Progress& progress) {
@@ -118,6 +142,7 @@ void applyChange(const SceneChange& change, const ViewOptions& first, SceneOptio
     if (change.translucent) setTransfer(change, first.scene.volume, volume);
     if (change.ambient)
         setAmbient(*change.ambient, change.translucent.value_or(false), first.scene.volume, volume);
+    noteWhatIsShown(volume, options.given);
     if (!change.seeds) return;
     volume.seeds.clear();
     for (const glm::dvec3& seed : *change.seeds) volume.seeds.push_back(seedText(seed));

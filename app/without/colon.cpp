@@ -82,8 +82,6 @@ std::string shadingNames() {
     return "none";
 }
 
-void refuseLazyLight(const SceneOptions&) {}
-
 void LazyLight::seen(const EyeView&, const EyeImage&) {
     without();
 }
