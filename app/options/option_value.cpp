@@ -1,8 +1,5 @@
 #include "app/options/option_value.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 
 #include "engine/base/error.h"
@@ -29,9 +26,12 @@ Error refusal(const std::string& option, const ValueType& type, const std::strin
     return {option, "", "expected " + type.expected() + ", got " + shownText(text), advice};
 }
 
-// "one of a, b, c"
+// "a, b or c"
 std::string oneOf(const std::vector<std::string>& words) {
-    return fmt::format("one of {}", fmt::join(words, ", "));
+    std::string text;
+    for (std::size_t n = 0; n < words.size(); ++n)
+        text += (n == 0 ? "" : n + 1 == words.size() ? " or " : ", ") + words[n];
+    return text;
 }
 
 // What memory there is for is checked where the size is used.

@@ -32,6 +32,8 @@ std::vector<OptionRule> lightRules() {
     return {
         {[](const Asked& asked) { return asked.shows(kTerrainMedium); },
          "does not go with a terrain shown as a medium", kLeaveOneOut},
+        {[](const Asked& asked) { return asked.shows(kBuiltInMedium) && !isTraced(asked); },
+         "expected with a terrain or a CT study, {SCENE} is built in", kLeaveItOut},
         {[](const Asked& asked) { return isTraced(asked) && !asked.runs(kRender); },
          "traced is expected with render", "bake the light, and name its file"},
         {[](const Asked& asked) { return isTraced(asked) && !asked.shows(kSurfaces); },
@@ -102,7 +104,6 @@ std::vector<Option> lookOptions() {
              "render, also lazy, computed where one looks, or lazy-transfer, for a sky that turns; in "
              "render also traced, paths from every pixel",
          .commands = kShowing,
-         .scenes = kTerrains | kVolumes,
          .rules = lightRules(),
          .take = [](OptionTargets& to, const OptionValue& value) { to.scene->light = value.text; }},
         {.key = "sun",

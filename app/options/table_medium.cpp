@@ -34,6 +34,7 @@ std::vector<Option> mediumItself() {
         {.key = "model",
          .value = wordValue({"emission", "surface", "direct", "indirect"}),
          .help = "emission, surface, direct, or indirect, which is the default",
+         .advice = "the models are emission, surface, direct, indirect",
          .group = kMediumGroup,
          .fallback = "indirect",
          .commands = kShowing,

@@ -123,6 +123,7 @@ std::vector<Option> modulationOptions() {
          .value = wordValue({"variance", "gradient", "none"}),
          .help = "opacity of translucent volumes by the variance of the values around, or by the gradient of "
                  "their openness (Ruiz et al. 2010): variance, gradient or none",
+         .advice = "it is one of variance, gradient, none",
          .group = kStudyGroup,
          .fallback = "none",
          .commands = kShowing,
@@ -226,6 +227,7 @@ std::vector<Option> volumeLookOptions() {
          .value =
              wordValue({"lamp", "lambert", "lambert-shadows", "phong", "phong-shadows", "varying", "fog"}),
          .help = "to compare: lamp, lambert, lambert-shadows, phong, phong-shadows, varying, fog",
+         .advice = "lamp is the default",
          .group = kStudyGroup,
          .fallback = "lamp",
          .commands = kShowing,
