@@ -24,10 +24,7 @@ namespace stereonav {
 namespace {
 
 TerrainLightKind kindFromText(const std::string& what) {
-    if (what.empty() || what == "transfer") return TerrainLightKind::Transfer;
-    if (what == "openness") return TerrainLightKind::Openness;
-    throw Error("--what", "", "expected transfer or openness for a terrain, got \"" + what + "\"",
-                "transfer has shadows and bounced light, openness the sky's light alone");
+    return what == "openness" ? TerrainLightKind::Openness : TerrainLightKind::Transfer;
 }
 
 int strideFromResolution(double resolution) {
@@ -69,30 +66,6 @@ TerrainLightSettings settingsOf(const BakeOptions& options) {
     return settings;
 }
 
-void refuseOtherOptions(const BakeOptions& options) {
-    const std::pair<const char*, bool> given[] = {
-        {"--error", options.error.has_value()},      {"--minutes", options.minutes.has_value()},
-        {"--probe", !options.probe.empty()},         {"--light", !options.lights.empty()},
-        {"--isovalues", !options.isovalues.empty()}, {"--full", options.full},
-        {"--reach", options.reach_mm.has_value()},   {"--sky", !options.scene.sky.empty()}};
-    for (const auto& [option, is] : given)
-        if (is)
-            throw Error(option, "", "expected with a CT study, the scene is a terrain",
-                        "a terrain's sun and sky are chosen when it is shown: --sun, --sky");
-}
-
-void refuseBesideOpenness(const BakeOptions& options, TerrainLightKind kind) {
-    if (kind != TerrainLightKind::Openness) return;
-    const std::pair<const char*, bool> given[] = {{"--samples", options.samples.has_value()},
-                                                  {"--order", options.order.has_value()},
-                                                  {"--bounces", options.bounces.has_value()},
-                                                  {"--albedo", !options.albedo.empty()}};
-    for (const auto& [option, is] : given)
-        if (is)
-            throw Error(option, "", "has no effect on a terrain's openness, which is without bounced light",
-                        "leave it out, or bake --what transfer");
-}
-
 // Whether the file holds the same bake already.
 bool holds(const std::filesystem::path& file, const Heightfield& ground,
            const TerrainLightSettings& settings) {
@@ -125,9 +98,7 @@ std::optional<TerrainLight> bakeOrKeep(const Heightfield& ground, const TerrainL
 }  // namespace
 
 int bakeTerrain(const BakeOptions& options) {
-    refuseOtherOptions(options);
     const TerrainLightSettings settings = settingsOf(options);
-    refuseBesideOpenness(options, settings.kind);
     if (!options.out.empty()) checkOutputToReadAgain("--out", options.out);
     ProgressBar bar;
     SceneOptions unlit = options.scene;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/options/given_options.h"
+
 namespace stereonav {
 
 // Of CT studies; what is not given is chosen from the study.
@@ -93,6 +95,7 @@ struct SceneOptions {
     QualityOptions quality;
     MediumOptions medium;
     std::optional<TracedOptions> traced;  // none: of commands that trace no pictures
+    GivenOptions given;                   // which of these and of the command's own were given
     bool skyTurns = false;  // set by a window: keep what turning the sky over baked transfer takes
     bool inWindow = false;  // set by a window, whose keys change what is shown
 };

@@ -28,8 +28,6 @@ namespace fs = std::filesystem;
 
 void checkOptions(const CompareOptions& options) {
     checkSize(options.size, kCompareBytesPerPixel);
-    if (options.relativeSeparation > 0 && options.scene.separation_m)
-        throw Error("--separation", "", "does not go with --relative-separation", "leave one of them out");
     for (const NamedPlace& place :
          {NamedPlace{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}})
         checkNoInput(place, inputsOf(options.scene));
@@ -161,7 +159,6 @@ ComparisonReport describe(const CompareOptions& options, const Scene& scene, int
 }  // namespace
 
 int runCompare(const CompareOptions& options) {
-    refuseLazyLight(options.scene);
     checkOptions(options);
     std::FILE* const messages =
         messagesBeside({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});

@@ -141,7 +141,6 @@ std::string infoLine(const char* name, const std::string& value) {
 
 int runInfo(const InfoOptions& options) {
     if (!options.series.empty()) return listSeriesOf(options);
-    refuseLazyLight(options.scene);
     ProgressBar bar;
     const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress());
     const Scene& scene = *loaded;

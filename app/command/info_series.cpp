@@ -47,9 +47,7 @@ std::string textOf(const SeriesLook& look, std::size_t number, const std::string
 
 int listSeriesOf(const InfoOptions& options) {
     checkOutputFolder("--series-pictures", options.series);
-    if (!isStudy(options.scene.scene))
-        throw Error("--series-pictures", "", "expected with a folder of DICOM slices",
-                    "name one, or leave it out");
+    kindOf(options.scene.scene);  // throws where there is nothing of this name
     if (options.scene.threads > 0) setThreadCount(options.scene.threads);
     const std::vector<SeriesLook> looks = lookAtSeries(options.scene.scene);
     makeOutputFolder(options.series);

@@ -29,11 +29,6 @@ void checkOptions(const PlayOptions& options) {
     if (!options.out.empty()) checkOutputFolder("--out", options.out);
     if (!options.video.empty()) checkVideoFile("--video", options.video);
     checkNoInput({"--video", options.video}, inputsOf(options.scene));
-    if (options.fps && options.frames > 0 && options.video.empty())
-        throw Error("--fps", "", "has no effect beside --frames, which says how many pictures there are",
-                    "leave one of them out, or give --video");
-    if (!options.mode.empty() && options.out.empty() && options.video.empty())
-        throw Error("--mode", "", "has no effect on --hash, which is of both eyes", "leave it out");
     checkSize(options.size, options.video.empty() ? kRenderBytesPerPixel : kVideoBytesPerPixel);
 }
 
@@ -86,7 +81,6 @@ double medianOf(std::vector<double> values) {
 }  // namespace
 
 int runPlay(const PlayOptions& options) {
-    refuseLazyLight(options.scene);
     checkOptions(options);
     const OutputMode mode = modeFromText(options.mode.empty() ? "sbsl" : options.mode);
     checkMethod(options.scene, options.method);

@@ -16,20 +16,6 @@ bool wantsQuality(const QualityOptions& q) {
 
 }  // namespace
 
-void checkQuality(const SceneOptions& options, const std::string& method) {
-    const QualityOptions& q = options.quality;
-    if (!wantsQuality(q)) return;
-    const char* given = q.quality ? "--quality" : q.targetPsnr_db ? "--target-psnr" : "--target-ms";
-    if (showsMedium(options))
-        throw Error(given, "", "does not go with a medium, whose eyes are swept together",
-                    "choose --slices and --light-size instead");
-    const auto named = methodFromText(method);
-    if (named && *named != RightEyeMethod::Linear && *named != RightEyeMethod::Cubic &&
-        *named != RightEyeMethod::Selective)
-        throw Error(given, "", fmt::format("does not go with the method {}", method),
-                    "choose linear, cubic or selective, or leave the method out");
-}
-
 std::vector<StereoViews> calibrationViews(const Scene& scene) {
     std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};
     if (!scene.path.samples().empty())

@@ -13,9 +13,6 @@
 
 namespace stereonav {
 
-// What can be checked without the scene. Throws Error.
-void checkQuality(const SceneOptions& options, const std::string& method);
-
 // Nothing where none of the options is given. Else measures the scene, on frames of its own flight cast in
 // full: what error is to be expected of each way of making the right eye and, where a time is the target,
 // what it takes; then plans (engine/stereo/quality_plan.h). method: as named by the user, which is then kept,

@@ -8,10 +8,14 @@
 
 namespace stereonav {
 
+// What help names the values of options that take numbers: all others are words and files.
+constexpr const char* kNumberValue = "NUMBER";
+constexpr const char* kNumbersValue = "NUMBERS";
+
 // Parses and runs one command; returns the exit status. Throws what the command throws.
 int runCommandLine(int argc, char** argv);
 
-// Reads a command line as far as it can be checked without running it. Throws Error.
+// Reads a command line and checks it, as far as that goes without running it. Throws Error.
 void checkCommandLine(const std::vector<std::string>& arguments);
 
 // Every option of every command that takes a value.

@@ -23,7 +23,6 @@ void checkMethod(const SceneOptions& options, const std::string& method, const c
         sweepMethodFromText(method, option);
     else
         methodFromText(method, option);
-    checkQuality(options, method);
 }
 
 StereoFrame::StereoFrame(const Scene& scene, const std::string& method)

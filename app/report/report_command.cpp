@@ -122,10 +122,6 @@ int runReport(const ReportOptions& options) {
     // what can not be read is told before minutes are spent
     if (!options.stability.empty()) stabilitySection(readTextFile(options.stability), options.stability);
     const std::vector<Part> parts = partsOf(options);
-    if (options.papers && !options.scenes.empty())
-        throw Error("--scene", "", "expected without --papers, which has scenes of its own", "name --data");
-    if (!options.papers && !options.data.empty())
-        throw Error("--data", "", "expected with --papers", "add it, or name scenes with --scene");
     const PaperData checked(options.data);
     for (const char* name : {"report.csv", "papers.csv", "report.json", "index.html"})
         checkNotRead({{"--out", (fs::path(options.out) / name).string()}});

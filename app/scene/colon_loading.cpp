@@ -26,15 +26,7 @@ bool castsShadows(const std::string& shading) {
     return shading.ends_with("-shadows");
 }
 
-// Rays through layers know neither shadows nor fog; a lamp outside lights nothing of a closed wall that casts
-// shadows.
-void checkShading(const VolumeOptions& volume) {
-    const std::string& shading = volume.shading;
-    const bool translucent = !volume.transfer.empty() || volume.opacity;
-    if (translucent && (castsShadows(shading) || shading == "fog"))
-        throw Error("--shading", "", shading + " expects an opaque surface",
-                    "leave out --transfer and --opacity, or use lambert or phong");
-}
+// A lamp outside lights nothing of a closed wall that casts shadows.
 void checkShading(const VolumeOptions& volume, const ColonScene& scene) {
     if (scene.isColon() && castsShadows(volume.shading))
         throw Error("--shading", "",
@@ -42,31 +34,9 @@ void checkShading(const VolumeOptions& volume, const ColonScene& scene) {
                     "add --isosurface, or use lambert or phong");
 }
 
-void checkVolumeOptions(const SceneOptions& options) {
-    const VolumeOptions& volume = options.volume;
-    const auto refuse = [](bool when, const char* option, const std::string& problem, const char* advice) {
-        if (when) throw Error(option, "", problem, advice);
-    };
-    if (options.scene == "colon") {
-        const char* problem = "expected with a study's files, the built-in colon has none";
-        refuse(!volume.series.empty(), "--series", problem, "leave it out");
-        refuse(volume.label.has_value(), "--label", problem, "leave it out");
-        refuse(volume.resample, "--resample", problem, "leave it out");
-    }
-    if (volume.isosurface) {
-        const char* problem = "does not go with --isosurface, which looks for no colon";
-        refuse(!volume.seeds.empty(), "--seed", problem, "leave one of them out");
-        refuse(volume.backwards, "--backwards", problem, "leave one of them out");
-    }
-    refuse(!volume.transfer.empty() && volume.opacity, "--opacity", "does not go with --transfer",
-           "leave one of them out");
-    checkShading(volume);
-}
-
 }  // namespace
 
 ColonOptions colonOptionsOf(const SceneOptions& options) {
-    checkVolumeOptions(options);
     const VolumeOptions& volume = options.volume;
     ColonOptions colon;
     if (options.scene != "colon") colon.study = options.scene;
@@ -85,8 +55,7 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
 }
 
 LitVolume litVolumeOf(const SceneOptions& options, Progress& progress) {
-    checkVolumeLight(options);
-    checkTracedLight(options);
+    checkAmbientLight(options.volume);
     LitVolume made;
     made.world = std::make_unique<VolumeWorld>(loadColon(colonOptionsOf(options), progress), options);
     ColonScene& colon = made.world->colon();

@@ -72,12 +72,6 @@ void LazyLight::turnTo(const SkyTurn& turn) {
     mBake->setLight(turnedSky(mStraight, turn));
 }
 
-void refuseLazyLight(const SceneOptions& options) {
-    if (isLazyLight(options.light))
-        throw Error("--light", "", options.light + " is expected with view or render",
-                    "bake the light, and name its file");
-}
-
 void LazyLight::waitUntilDone() const {
     while (!mBake->waitUntilDone(60)) {
     }

@@ -17,10 +17,6 @@
 
 namespace stereonav {
 
-// Throws Error where --light asks for it, for commands that draw many frames, each of which would be lit in
-// part.
-void refuseLazyLight(const SceneOptions& options);
-
 class LazyLight {
 public:
     // scene's look is set to show the light. Irradiance is lit by --sky, or by what bake

@@ -54,43 +54,12 @@ PointLight lightFromText(const std::string& text, const char* option) {
     return light;
 }
 
-void checkGoals(const BakeOptions& o) {
-    const char* once = "does not go with another way to end the bake";
-    require(!(o.samples && o.error), "--error", once, "choose one of --samples, --error and --minutes");
-    require(!(o.minutes && (o.samples || o.error)), "--minutes", once,
-            "choose one of --samples, --error and --minutes");
-}
-
 void checkNumbers(const BakeOptions& o) {
     const NumberRange fineness = within(0.125, 8, "texels a voxel");
     require(!o.resolution || fineness.holds(*o.resolution), "--resolution",
             "expected " + rangeText(fineness) + ", got " + shortNumber(o.resolution.value_or(0)),
             "use 0.5, 1 or 2");
     if (!o.isovalues.empty()) isovaluesFromText(o.isovalues);
-}
-
-void checkTogether(const BakeOptions& o, BakeKind kind) {
-    const auto refuse = [](bool when, const char* option, const char* problem, const char* advice) {
-        require(!when, option, problem, advice);
-    };
-    const bool irradiance = kind == BakeKind::Irradiance;
-    const char* why = kind == BakeKind::Transfer
-                          ? "does not go with transfer, whose light is chosen when it is shown"
-                          : "does not go with openness, which is without lights";
-    refuse(!irradiance && !o.probe.empty(), "--probe", why, "leave one of them out");
-    refuse(!irradiance && !o.scene.sky.empty(), "--sky", why, "leave one of them out");
-    refuse(!irradiance && !o.lights.empty(), "--light", why, "leave one of them out");
-    const char* bounceless = "does not go with openness, which is without bounces";
-    refuse(kind == BakeKind::Openness && o.bounces, "--bounces", bounceless, "leave one of them out");
-    refuse(kind == BakeKind::Openness && !o.albedo.empty(), "--albedo", bounceless, "leave one of them out");
-    refuse(kind != BakeKind::Transfer && o.order, "--order", "expected with --what transfer", "leave it out");
-    const char* oneRange = "does not go with another choice of surfaces";
-    refuse(!o.isovalues.empty() && o.scene.volume.isovalue, "--isovalues", oneRange,
-           "choose one of --isovalue, --isovalues and --full");
-    refuse(o.full && !o.isovalues.empty(), "--full", oneRange,
-           "choose one of --isovalue, --isovalues and --full");
-    refuse(!o.scene.volume.cache && o.out.empty(), "--no-cache", "leaves no place for what is baked",
-           "name a file with --out");
 }
 
 TexelChoice choiceOf(const ColonScene& scene, const BakeOptions& options) {
@@ -219,10 +188,7 @@ BakeKind bakeKindFromText(const std::string& what) {
 }
 
 void checkBakeOptions(const BakeOptions& options) {
-    const BakeKind kind = bakeKindFromText(options.what);
-    checkGoals(options);
     checkNumbers(options);
-    checkTogether(options, kind);
     if (options.out.empty()) return;
     checkOutputToReadAgain("--out", options.out);
     require(!isForeignFile(options.out), "--out", "\"" + options.out + "\" is there and is no bake",

@@ -70,23 +70,7 @@ void putField(std::shared_ptr<const GreyVolume> field, Perturbation noise, Mediu
     };
 }
 
-void refuseWithBuiltIn(const SceneOptions& options) {
-    const std::pair<const char*, bool> given[] = {
-        {"--light", !options.light.empty()},           {"--sky", !options.sky.empty()},
-        {"--isosurface", options.volume.isosurface},   {"--isovalue", options.volume.isovalue.has_value()},
-        {"--label", options.volume.label.has_value()}, {"--series", !options.volume.series.empty()},
-        {"--seed", !options.volume.seeds.empty()},     {"--resample", options.volume.resample},
-        {"--backwards", options.volume.backwards},     {"--exposure", options.volume.exposure.has_value()},
-        {"--turn", options.volume.turn_deg != 0},      {"--tilt", options.volume.tilt_deg != 0},
-        {"--up", options.volume.up.has_value()},       {"--no-cache", !options.volume.cache}};
-    for (const auto& [option, is] : given)
-        if (is)
-            throw Error(option, "", "expected with a CT study, " + options.scene + " is built in",
-                        "leave it out");
-}
-
 void makeBuiltIn(const SceneOptions& options, ShownMedium& scene) {
-    refuseWithBuiltIn(options);
     const bool cloud = options.scene == "cloud";
     MediumScene& shown = scene.medium();
     const std::shared_ptr<GreyVolume> field = cloud ? makeCloudField() : makeWaxField();
@@ -159,23 +143,7 @@ void makeFromVolume(const SceneOptions& options, Progress& progress, ShownMedium
     }
 }
 
-// A medium other than the ground has colours of its own.
-void refuseUnseenColors(const SceneOptions& options) {
-    if (options.medium.medium == kGroundMedium) return;
-    const char* advice = "leave it out, or choose --medium ground";
-    if (!options.image.empty())
-        throw Error("--image", "", "has no effect on a terrain shown as another medium than ground", advice);
-    if (!options.sun.empty() && !(options.medium.lightFrom.empty() && options.medium.lamp.empty()))
-        throw Error(
-            "--sun", "",
-            "has no effect on a terrain shown as another medium than ground, under --light-from or --lamp",
-            advice);
-}
-
 void makeFromTerrain(const SceneOptions& options, Progress& progress, ShownMedium& scene) {
-    if (!options.light.empty())
-        throw Error("--light", "", "does not go with a terrain shown as a medium", "leave one of them out");
-    refuseUnseenColors(options);
     const TerrainScene& terrain = scene.hold(terrainOf(options, progress));
     MediumScene& shown = scene.medium();
     shown.transfer = options.medium.medium;
@@ -194,11 +162,6 @@ void makeFromTerrain(const SceneOptions& options, Progress& progress, ShownMediu
 
 std::unique_ptr<Scene> loadMediumScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
     const SceneKind kind = kindOf(options.scene);
-    if (!options.medium.mist.empty() && kind != SceneKind::Terrain)
-        throw Error("--mist", "", "expected with a terrain", "leave it out");
-    if (options.medium.medium == kGroundMedium && kind != SceneKind::Terrain)
-        throw Error("--medium", "", "ground is of terrains",
-                    "the presets are " + mediumPresetNames() + ", or name a file");
     auto scene = std::make_unique<ShownMedium>();
     if (kind == SceneKind::Medium)
         makeBuiltIn(options, *scene);

@@ -50,59 +50,6 @@ MediumModel modelFromText(const std::string& text) {
     throw Error("--model", "", "there is no model \"" + text + "\"", "the models are " + known);
 }
 
-void refuseAll(std::initializer_list<std::pair<const char*, bool>> given, const std::string& problem,
-               const char* advice) {
-    for (const auto& [option, is] : given)
-        if (is) throw Error(option, "", problem, advice);
-}
-
-void refuseWithoutMedium(const MediumOptions& m) {
-    refuseAll({{"--model", !m.model.empty()},
-               {"--phase", !m.phase.empty()},
-               {"--light-from", !m.lightFrom.empty()},
-               {"--lamp", !m.lamp.empty()},
-               {"--light-color", !m.lightColor.empty()},
-               {"--noise", !m.noise.empty()},
-               {"--mist", !m.mist.empty()},
-               {"--slices", m.slices.has_value()},
-               {"--light-size", m.lightSize.has_value()},
-               {"--cone", m.cone_deg.has_value()},
-               {"--shading-width", m.shadingWidth.has_value()}},
-              "expected with a medium", "add --medium, or show cloud or wax");
-}
-
-// What a model leaves out; in a window a key chooses another one.
-void refuseBesideModel(const SceneOptions& options) {
-    const MediumOptions& m = options.medium;
-    if (m.model.empty() || options.inWindow) return;
-    const MediumModel model = modelFromText(m.model);
-    const bool spreads = model == MediumModel::Indirect, scatters = spreads || model == MediumModel::Direct;
-    const bool lit = model != MediumModel::Emission;
-    const std::string problem = "has no effect on the model " + m.model;
-    constexpr const char* kOtherModel = "leave it out, or choose another --model";
-    if (!lit) refuseAll({{"--light-color", !m.lightColor.empty()}}, problem, kOtherModel);
-    if (!scatters) refuseAll({{"--phase", !m.phase.empty()}}, problem, kOtherModel);
-    if (!spreads) refuseAll({{"--cone", m.cone_deg.has_value()}}, problem, kOtherModel);
-}
-
-void refuseOfOtherKinds(const SceneOptions& options) {
-    const VolumeOptions& v = options.volume;
-    refuseAll({{"--transfer", !v.transfer.empty()},
-               {"--opacity", v.opacity.has_value()},
-               {"--shading", !v.shading.empty()},
-               {"--modulate", !v.modulate.empty()},
-               {"--modulate-radius", v.modulateRadius_mm.has_value()},
-               {"--modulate-sigma", v.modulateSigma.has_value()},
-               {"--ambient", v.ambient_mm.has_value()},
-               {"--ambient-method", !v.ambientMethod.empty()},
-               {"--ambient-strength", v.ambientStrength.has_value()},
-               {"--ambient-lamp", v.ambientLamp.has_value()}},
-              "does not go with a medium, which has its own", "leave it out, or leave out --medium");
-    if (isLazyLight(options.light))
-        throw Error("--light", "", options.light + " expects an opaque surface, this is a medium",
-                    "bake the light and name its file");
-}
-
 }  // namespace
 
 bool showsMedium(const SceneOptions& options) {
@@ -117,12 +64,6 @@ std::optional<Mist> mistFromText(const std::string& text) {
 
 void checkMediumOptions(const SceneOptions& options) {
     const MediumOptions& m = options.medium;
-    if (!showsMedium(options)) return refuseWithoutMedium(m);
-    refuseOfOtherKinds(options);
-    refuseBesideModel(options);
-    if (!m.lamp.empty() && !m.lightFrom.empty())
-        throw Error("--lamp", "", "does not go with --light-from", "leave one of them out");
-    if (!m.model.empty()) modelFromText(m.model);
     if (!m.phase.empty()) findPhaseFunction(m.phase, "--phase");
     if (!m.noise.empty()) findNoise(m.noise, 1);
     if (!m.medium.empty() && m.medium != kGroundMedium) findMediumTransfer(m.medium);

@@ -16,7 +16,7 @@ constexpr const char* kGroundMedium = "ground";
 // Whether the options ask for a sweep through a medium instead of rays.
 bool showsMedium(const SceneOptions& options);
 
-// All that can be checked without the scene: ranges, texts, what does not go together. Throws Error.
+// All that can be checked without the scene: files and names. Throws Error.
 void checkMediumOptions(const SceneOptions& options);
 
 // Model, phase function, light and fineness; what is not given stays. Throws Error.

@@ -26,64 +26,6 @@
 namespace stereonav {
 namespace {
 
-void refuseVolumeOptions(const SceneOptions& options) {
-    const VolumeOptions& v = options.volume;
-    const std::pair<const char*, bool> given[] = {{"--series", !v.series.empty()},
-                                                  {"--label", v.label.has_value()},
-                                                  {"--seed", !v.seeds.empty()},
-                                                  {"--resample", v.resample},
-                                                  {"--isosurface", v.isosurface},
-                                                  {"--isovalue", v.isovalue.has_value()},
-                                                  {"--transfer", !v.transfer.empty()},
-                                                  {"--opacity", v.opacity.has_value()},
-                                                  {"--backwards", v.backwards},
-                                                  {"--no-cache", !v.cache},
-                                                  {"--ambient", v.ambient_mm.has_value()},
-                                                  {"--ambient-method", !v.ambientMethod.empty()},
-                                                  {"--ambient-strength", v.ambientStrength.has_value()},
-                                                  {"--ambient-lamp", v.ambientLamp.has_value()},
-                                                  {"--modulate", !v.modulate.empty()},
-                                                  {"--modulate-radius", v.modulateRadius_mm.has_value()},
-                                                  {"--modulate-sigma", v.modulateSigma.has_value()},
-                                                  {"--shading", !v.shading.empty()},
-                                                  {"--exposure", v.exposure.has_value()},
-                                                  {"--turn", v.turn_deg != 0},
-                                                  {"--tilt", v.tilt_deg != 0},
-                                                  {"--up", v.up.has_value()}};
-    for (const auto& [option, is] : given)
-        if (is)
-            throw Error(option, "", "expected with a CT study or the built-in colon, the scene is a terrain",
-                        "leave it out");
-}
-
-void refuseTerrainOptions(const SceneOptions& options) {
-    const std::pair<const char*, bool> given[] = {{"--vertical-scale", options.verticalScale != 0},
-                                                  {"--open-holes", options.openHoles},
-                                                  {"--image", !options.image.empty()},
-                                                  {"--shade-image", options.shadeImage},
-                                                  {"--sun", !options.sun.empty()}};
-    for (const auto& [option, is] : given)
-        if (is) throw Error(option, "", "expected with a terrain, the scene is a CT study", "leave it out");
-}
-
-void refuseTracedElsewhere(const SceneOptions& options) {
-    const bool traced = options.light == kTracedLight;
-    const TracedOptions t = options.traced.value_or(TracedOptions{});
-    const std::pair<const char*, bool> given[] = {{"--samples", t.samples.has_value()},
-                                                  {"--bounces", t.bounces.has_value()},
-                                                  {"--albedo", !t.albedo.empty()},
-                                                  {"--point-light", !t.lights.empty()},
-                                                  {"--reach", t.reach_mm.has_value()}};
-    for (const auto& [option, is] : given)
-        if (is && !traced) throw Error(option, "", "expected with --light traced", "leave it out");
-    if (!traced) return;
-    if (!options.traced)
-        throw Error("--light", "", "traced is expected with render", "bake the light, and name its file");
-    if (showsMedium(options) || kindOf(options.scene) != SceneKind::Volume)
-        throw Error("--light", "", "traced expects the surface of a CT study or of the built-in colon",
-                    "leave it out");
-}
-
 // Of what is named to be read: no pipe or device, from which nothing may ever come.
 void checkSource(const NamedPlace& input) {
     std::error_code code;
@@ -167,15 +109,10 @@ std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
 }
 
 void checkSceneOptions(const SceneOptions& options) {
-    refuseTracedElsewhere(options);
     for (const NamedPlace& input : inputsOf(options)) checkSource(input);
     simdFromText(options.simd);
     if (options.threads > 0) setThreadCount(options.threads);
     checkMediumOptions(options);
-    if (kindOf(options.scene) == SceneKind::Terrain)
-        refuseVolumeOptions(options);
-    else
-        refuseTerrainOptions(options);
 }
 
 std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress) {

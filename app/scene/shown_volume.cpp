@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/options/refusals.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
@@ -46,6 +47,30 @@ void setAmbientOptions(const AmbientChoice& to, bool translucent, const VolumeOp
     if (modulated && to.sigma > 0) volume.modulateSigma = to.sigma;
 }
 
+// What may be refused later is what is shown now.
+void noteWhatIsShown(const VolumeOptions& volume, GivenOptions& given) {
+    const auto note = [&](const char* key, bool is, const std::string& text, double number) {
+        given.forget(key);
+        OptionValue value;
+        value.text = text;
+        value.numbers = {number};
+        if (is) given.add(key, value, std::string("--") + key);
+    };
+    const auto number = [&](const char* key, const std::optional<double>& value) {
+        note(key, value.has_value(), "", value.value_or(0));
+    };
+    number("isovalue", volume.isovalue);
+    number("opacity", volume.opacity);
+    number("ambient", volume.ambient_mm);
+    number("ambient-strength", volume.ambientStrength);
+    number("ambient-lamp", volume.ambientLamp);
+    number("modulate-radius", volume.modulateRadius_mm);
+    number("modulate-sigma", volume.modulateSigma);
+    note("transfer", !volume.transfer.empty(), volume.transfer, 0);
+    note("ambient-method", !volume.ambientMethod.empty(), volume.ambientMethod, 0);
+    note("modulate", !volume.modulate.empty(), volume.modulate, 0);
+}
+
 VolumeCasting castingFor(SimdTarget target) {
     VolumeCasting casting;
     casting.target = target;
@@ -60,6 +85,7 @@ void applyChange(const SurfaceChange& change, const SceneOptions& first, SceneOp
     if (change.translucent) setTransfer(change, first.volume, volume);
     if (change.ambient)
         setAmbientOptions(*change.ambient, change.translucent.value_or(false), first.volume, volume);
+    noteWhatIsShown(volume, options.given);
 }
 
 ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const SceneOptions& made,
@@ -142,7 +168,7 @@ void ShownVolume::setAmbient() {
 std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progress& progress) const {
     SceneOptions options = mMade;
     applyChange(change, mFirst, options);
-    checkVolumeLight(options);
+    refuseWhatDoesNotApply(options);
     LitVolume made;
     made.world = std::make_unique<VolumeWorld>(
         changedScene(mWorld->colon(), colonOptionsOf(options), progress), options);

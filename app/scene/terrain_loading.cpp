@@ -22,25 +22,14 @@ void setSun(const std::string& text, TerrainLook& look) {
     look.sunElevation = n[1] * kRadians;
 }
 
-// Options that a scene of this kind would not show.
+// Options that this terrain would not show.
 void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
-    const auto refuse = [](bool is, const char* option, const char* problem, const char* advice) {
-        if (is) throw Error(option, "", problem, advice);
-    };
-    const MediumOptions& m = options.medium;
-    const bool medium = showsMedium(options);
-    refuse(options.openHoles && scene.builtIn, "--open-holes", "the built-in terrain has no holes",
-           "leave it out, or name an elevation model");
-    refuse(options.shadeImage && scene.image.empty(), "--shade-image", "there is no picture to light",
-           "name one with --image, or leave it out");
-    refuse(options.shadeImage && medium, "--shade-image",
-           "a medium's own light falls on the picture's colours as they are", "leave it out");
-    refuse(medium && m.shadingWidth.has_value(), "--shading-width",
-           "is of surfaces in volumes, a terrain's are shaded at each sample", "leave it out");
-    refuse(!options.sun.empty() && !m.lightFrom.empty(), "--sun", "does not go with --light-from",
-           "leave one of them out: both say where a medium's light comes from");
-    refuse(!options.sun.empty() && !m.lamp.empty(), "--sun", "does not go with --lamp",
-           "leave one of them out: a lamp takes the sun's place");
+    if (options.openHoles && scene.builtIn)
+        throw Error("--open-holes", "", "the built-in terrain has no holes",
+                    "leave it out, or name an elevation model");
+    if (options.shadeImage && scene.image.empty())
+        throw Error("--shade-image", "", "there is no picture to light",
+                    "name one with --image, or leave it out");
 }
 
 // The scene's file with what the options change.

@@ -45,26 +45,8 @@ std::string tracedErrorText(double error) {
 
 }  // namespace
 
-void checkTracedLight(const SceneOptions& options) {
-    if (options.light != kTracedLight) return;
-    const VolumeOptions& v = options.volume;
-    if (v.skyMoved() || !v.transfer.empty() || v.opacity || !v.shading.empty())
-        throw Error("--light", "", "traced expects an opaque surface under a sky that stands still",
-                    "leave out --turn, --tilt, --transfer, --opacity and --shading");
-    checkBakeOptions(asBake(options));
-}
-
 std::string methodUnderLight(const SceneOptions& options, const std::string& method) {
     if (options.light != kTracedLight || showsMedium(options)) return method;  // media are refused later
-    if (method != "auto" && method != "full")
-        throw Error("--method", "", fmt::format("{} does not go with --light traced", method),
-                    "leave it out: each eye is traced in full");
-    const QualityOptions& q = options.quality;
-    if (q.quality || q.targetPsnr_db || q.target_ms)
-        throw Error(q.quality         ? "--quality"
-                    : q.targetPsnr_db ? "--target-psnr"
-                                      : "--target-ms",
-                    "", "does not go with --light traced", "leave it out: nothing is warped");
     return "full";
 }
 

@@ -16,10 +16,7 @@
 
 namespace stereonav {
 
-// What can be checked without the volume, where --light asks for it. Throws Error.
-void checkTracedLight(const SceneOptions& options);
-// The way of the right eye: "full" where --light asks for paths, else the one given. Throws Error for others
-// than that, since each eye is traced for itself.
+// The way of the right eye: "full" where --light asks for paths, else the one given.
 std::string methodUnderLight(const SceneOptions& options, const std::string& method);
 
 class TracedLight final : public PictureLight {

@@ -48,30 +48,6 @@ void refuseColon(const char* option, const ColonScene& scene) {
                     "add --isosurface, or leave it out");
 }
 
-void refuseWithoutEffect(const VolumeOptions& o) {
-    const auto refuse = [](bool when, const char* option, const char* problem, const char* advice) {
-        if (when) throw Error(option, "", problem, advice);
-    };
-    const char* ambientAdvice = "add --ambient, or leave it out";
-    refuse(!o.ambient_mm && o.ambientStrength, "--ambient-strength", "expected with --ambient",
-           ambientAdvice);
-    refuse(!o.ambient_mm && o.ambientLamp, "--ambient-lamp", "expected with --ambient", ambientAdvice);
-    const char* modulateAdvice = "add --modulate variance or gradient, or leave it out";
-    refuse(!modulates(o) && o.modulateRadius_mm, "--modulate-radius", "expected with --modulate",
-           modulateAdvice);
-    refuse(!modulates(o) && o.modulateSigma, "--modulate-sigma", "expected with --modulate", modulateAdvice);
-    refuse(!o.ambientMethod.empty() && !o.ambient_mm && !(modulates(o) && o.modulate == "gradient"),
-           "--ambient-method", "expected with --ambient or --modulate gradient", "leave it out");
-    const std::string& shading = o.shading;
-    refuse(o.ambient_mm && shading == "varying", "--shading",
-           "varying ambient light does not go with --ambient, which takes its place",
-           "leave one of them out");
-    const bool lit = o.ambientLamp && *o.ambientLamp > 0;
-    refuse(o.ambient_mm && !lit && !shading.empty() && shading != "lamp" && shading != "fog", "--shading",
-           "has no effect with --ambient, which is all the light there is",
-           "add --ambient-lamp, or leave it out");
-}
-
 // radiusOption: what gave the radius.
 ModulationSetting modulationSetting(const VolumeOptions& options, const VolumeFrame& frame,
                                     const char* radiusOption) {
@@ -143,25 +119,8 @@ double modulationRadius(const VolumeOptions& options, const VolumeFrame& frame) 
     return options.ambient_mm ? *options.ambient_mm / 1000 : usual;
 }
 
-void checkAmbientLight(const VolumeOptions& o, const std::string& light) {
-    occlusionEstimateFromText(o.ambientMethod);
-    const std::string& by = o.modulate;
-    if (!by.empty() && by != "none" && by != "variance" && by != "gradient")
-        throw Error("--modulate", "", fmt::format("\"{}\" is not known", by),
-                    "expected one of variance, gradient, none");
-    const NumberRange steepest = above(0, kSteepestOpenness);
-    if (by == "gradient" && o.modulateSigma && !steepest.holds(*o.modulateSigma))
-        throw Error("--modulate-sigma", "",
-                    fmt::format("expected {} beside gradient, got {}", rangeText(steepest),
-                                shortNumber(*o.modulateSigma)),
-                    "a change of openness a voxel; 0.05 is usual on surfaces");
-    if (!light.empty() && o.ambient_mm)
-        throw Error("--ambient", "", "expected without baked light, --light was given too",
-                    "leave one of them out");
-    if (modulates(o) && o.transfer.empty() && !o.opacity)
-        throw Error("--modulate", "", "expected with a translucent volume",
-                    "add --transfer or --opacity, or leave it out");
-    refuseWithoutEffect(o);
+void checkAmbientLight(const VolumeOptions& options) {
+    occlusionEstimateFromText(options.ambientMethod);
 }
 
 void applyAmbient(const VolumeOptions& options, const VolumeOptions* made, ColonScene& scene,

@@ -25,9 +25,8 @@ bool modulates(const VolumeOptions& options);
 // Metres that the modulation looks around: as given, or --ambient's, or ten voxels.
 double modulationRadius(const VolumeOptions& options, const VolumeFrame& frame);
 
-// --ambient, --modulate and what goes with them, as far as they can be checked without the volume. Throws
-// Error, also for what would have no effect.
-void checkAmbientLight(const VolumeOptions& options, const std::string& light);
+// What can be checked without the volume. Throws Error.
+void checkAmbientLight(const VolumeOptions& options);
 
 // Into the scene's look, and that is all that it changes. Opacity modulation looks at the look's transfer
 // function. What the look has already is made again only where the options differ from `made`, those that it

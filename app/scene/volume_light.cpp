@@ -144,27 +144,6 @@ float exposureOf(const VolumeOptions& options, double meanLight) {
     return static_cast<float>(options.exposure.value_or(chosen));
 }
 
-void checkVolumeLight(const SceneOptions& options) {
-    const VolumeOptions& volume = options.volume;
-    const bool lazy = isLazyLight(options.light);
-    if (options.light == kLazyLight && volume.skyMoved())
-        throw Error(volume.turn_deg != 0 ? "--turn" : "--tilt", "", "lazy expects a sky that stands still",
-                    "use --light lazy-transfer");
-    if (lazy && (!volume.transfer.empty() || volume.opacity))
-        throw Error("--light", "", options.light + " expects an opaque surface",
-                    "leave out --transfer and --opacity");
-    const std::pair<const char*, bool> ofLight[] = {{"--sky", !options.sky.empty()},
-                                                    {"--turn", volume.turn_deg != 0},
-                                                    {"--tilt", volume.tilt_deg != 0},
-                                                    {"--exposure", volume.exposure.has_value()}};
-    for (const auto& [option, is] : ofLight)
-        if (is && options.light.empty())
-            throw Error(option, "", "expected with light that was baked for a CT study",
-                        "name it with --light, or leave it out");
-    if (!volume.shading.empty()) shadingOf(volume.shading);
-    checkAmbientLight(volume, options.light);
-}
-
 std::shared_ptr<TurningSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene,
                                              Progress& progress) {
     const VolumeOptions& volume = options.volume;

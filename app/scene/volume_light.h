@@ -12,9 +12,6 @@
 
 namespace stereonav {
 
-// What can be checked without the volume. Throws Error.
-void checkVolumeLight(const SceneOptions& options);
-
 // --light, --sky, --turn, --exposure and --shading into the scene's look (--ambient and --modulate: see
 // volume_ambient.h). Gives the sky, where it is one that turns and options.skyTurns; else null. Throws Error,
 // Cancelled.

@@ -328,17 +328,11 @@ private:
     std::optional<ViewSession> mSession;
 };
 
-void checkSweep(const ViewOptions& options) {
-    if (sweepFromText(options.sweep) != SweepChoice::Auto && !showsMedium(options.scene))
-        throw Error("--sweep", "", "expected with a medium", "leave it out, or show one with --medium");
-}
-
 }  // namespace
 
 int runView(const ViewOptions& options) {
     checkSize(options.size);
     checkMethod(options.scene, options.method);
-    checkSweep(options);
     if (!options.shots.empty()) checkOutputFolder("--shots", options.shots);
     ViewOptions shown = options;
     shown.scene.inWindow = true;

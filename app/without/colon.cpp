@@ -78,8 +78,6 @@ std::string shadingNames() {
     return "none";
 }
 
-void refuseLazyLight(const SceneOptions&) {}
-
 std::string methodUnderLight(const SceneOptions&, const std::string& method) {
     return method;
 }

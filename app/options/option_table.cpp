@@ -1,0 +1,59 @@
+#include "app/options/option_table.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace stereonav {
+namespace {
+
+constexpr std::array<CommandFacts, 9> kCommands{{
+    {command::kInfo, "info", "print what was read and the frame plan", scene_type::kAll},
+    {command::kRender, "render", "one pose into a picture", scene_type::kAll},
+    {command::kPlay, "play", "a flight into pictures, a video, or a hash", scene_type::kAll},
+    {command::kCompare, "compare", "measure the ways of making the right eye", scene_type::kAll},
+    {command::kReport, "report",
+     "a page of error against time for every shortcut the program takes; up to 10 minutes", 0},
+    {command::kMesh, "mesh", "the ground with its colour as a glTF mesh", scene_type::kTerrains},
+    {command::kCentreline, "centreline", "the way through a colon, with its radii, as a file",
+     scene_type::kVolumes},
+    {command::kBake, "bake",
+     "light worked out before, with bounces and soft shadows; Ctrl-C keeps what is done",
+     scene_type::kTerrains | scene_type::kVolumes},
+    {command::kView, "view", "fly through the scene in a window", scene_type::kAll},
+}};
+
+std::vector<Option> makeTable() {
+    std::vector<Option> all;
+    for (const auto& part :
+         {sourceOptions, studyOptions, lookOptions, volumeLookOptions, qualityOptions, mediumOptions,
+          tracedOptions, outputOptions, compareOptions, reportOptions, bakeOptions}) {
+        std::vector<Option> some = part();
+        std::move(some.begin(), some.end(), std::back_inserter(all));
+    }
+    return all;
+}
+
+}  // namespace
+
+std::span<const CommandFacts> commandFacts() {
+    return kCommands;
+}
+
+const CommandFacts& factsOf(CommandSet command) {
+    return *std::find_if(kCommands.begin(), kCommands.end(),
+                         [&](const CommandFacts& facts) { return facts.command == command; });
+}
+
+const std::vector<Option>& optionTable() {
+    static const std::vector<Option> table = makeTable();
+    return table;
+}
+
+const Option* findOption(CommandSet command, std::string_view key) {
+    for (const Option& option : optionTable())
+        if ((option.commands & command) && option.key == key) return &option;
+    return nullptr;
+}
+
+}  // namespace stereonav

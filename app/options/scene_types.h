@@ -1,0 +1,30 @@
+// The types of scenes that options are told apart by: what is shown, and by what it is shown.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace stereonav {
+
+struct SceneOptions;
+
+using SceneSet = unsigned;  // bits of scene_type::k...
+
+namespace scene_type {
+constexpr SceneSet kTerrain = 1, kTerrainMedium = 2;      // cast; shown as a medium
+constexpr SceneSet kStudy = 4, kColon = 8;                // a study's files; the built-in colon
+constexpr SceneSet kStudyMedium = 16, kColonMedium = 32;  // ... as a medium
+constexpr SceneSet kBuiltInMedium = 64;                   // cloud, wax
+constexpr SceneSet kTerrains = kTerrain | kTerrainMedium;
+constexpr SceneSet kSurfaces = kStudy | kColon;  // of volumes, not as a medium
+constexpr SceneSet kStudies = kStudy | kStudyMedium;
+constexpr SceneSet kVolumes = kSurfaces | kStudyMedium | kColonMedium;
+constexpr SceneSet kMedia = kTerrainMedium | kStudyMedium | kColonMedium | kBuiltInMedium;
+constexpr SceneSet kCast = kTerrain | kSurfaces;  // by rays
+constexpr SceneSet kAll = kTerrains | kVolumes | kBuiltInMedium;
+}  // namespace scene_type
+
+// One bit; none where the name stands for no scene, which is said when it is loaded.
+std::optional<SceneSet> sceneTypeOf(const SceneOptions& options);
+
+}  // namespace stereonav

@@ -1,0 +1,140 @@
+// Options: how a scene looks, its light and its eyes.
+#include "app/options/option_numbers.h"
+#include "app/options/option_table.h"
+#include "app/options/usual_words.h"
+#include "engine/camera/view_ranges.h"
+
+namespace stereonav {
+namespace {
+
+using namespace command;
+using namespace scene_type;
+
+bool isLazy(const Asked& asked) {
+    return asked.is("light", "lazy") || asked.is("light", "lazy-transfer");
+}
+bool isTraced(const Asked& asked) {
+    return asked.is("light", "traced");
+}
+bool isTranslucent(const Asked& asked) {
+    return asked.has("transfer") || asked.has("opacity");
+}
+bool turnsSky(const Asked& asked) {
+    return asked.given.number("turn") != 0 || asked.given.number("tilt") != 0;
+}
+bool isGround(const Asked& asked) {
+    return asked.is("medium", "ground");
+}
+
+constexpr const char* kGroundAdvice = "leave it out, or choose --medium ground";
+
+std::vector<OptionRule> lightRules() {
+    return {
+        {[](const Asked& asked) { return asked.shows(kTerrainMedium); },
+         "does not go with a terrain shown as a medium", kLeaveOneOut},
+        {[](const Asked& asked) { return asked.shows(kBuiltInMedium) && !isTraced(asked); },
+         "expected with a terrain or a CT study, {SCENE} is built in", kLeaveItOut},
+        {[](const Asked& asked) { return isTraced(asked) && !asked.runs(kRender); },
+         "traced is expected with render", "bake the light, and name its file"},
+        {[](const Asked& asked) { return isTraced(asked) && !asked.shows(kSurfaces); },
+         "traced expects the surface of a CT study or of the built-in colon", kLeaveItOut},
+        {[](const Asked& asked) {
+             return isTraced(asked) && (turnsSky(asked) || isTranslucent(asked) || asked.has("shading"));
+         },
+         "traced expects an opaque surface under a sky that stands still",
+         "leave out --turn, --tilt, --transfer, --opacity and --shading"},
+        {[](const Asked& asked) { return isLazy(asked) && asked.shows(kMedia); },
+         "{light} expects an opaque surface, this is a medium", "bake the light and name its file"},
+        {[](const Asked& asked) { return isLazy(asked) && !asked.runs(kView | kRender); },
+         "{light} is expected with view or render", "bake the light, and name its file"},
+        {[](const Asked& asked) { return isLazy(asked) && isTranslucent(asked); },
+         "{light} expects an opaque surface", "leave out --transfer and --opacity"},
+    };
+}
+
+std::vector<OptionRule> sunRules() {
+    constexpr const char* kOtherMedium =
+        "has no effect on a terrain shown as another medium than ground, under --light-from or --lamp";
+    return {
+        {[](const Asked& asked) {
+             return asked.shows(kTerrainMedium) && !isGround(asked) &&
+                    (asked.has("light-from") || asked.has("lamp"));
+         },
+         kOtherMedium, kGroundAdvice},
+        {[](const Asked& asked) { return asked.has("light-from"); }, "does not go with --light-from",
+         "leave one of them out: both say where a medium's light comes from"},
+        {[](const Asked& asked) { return asked.has("lamp"); }, "does not go with --lamp",
+         "leave one of them out: a lamp takes the sun's place"},
+    };
+}
+
+}  // namespace
+
+std::vector<Option> lookOptions() {
+    return {
+        {.key = "image",
+         .value = fileValue(),
+         .help = "colour of the ground",
+         .commands = kShowing | kMesh,
+         .scenes = kTerrains,
+         .rules = {{[](const Asked& asked) { return asked.shows(kTerrainMedium) && !isGround(asked); },
+                    "has no effect on a terrain shown as another medium than ground", kGroundAdvice}},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->image = value.text; }},
+        {.key = "shade-image",
+         .value = flagValue(),
+         .help = "light that picture by the sun, though it holds the light of its own day",
+         .commands = kShowing | kMesh,
+         .scenes = kTerrains,
+         .rules = {{[](const Asked& asked) { return asked.shows(kTerrainMedium); },
+                    "a medium's own light falls on the picture's colours as they are", kLeaveItOut}},
+         .take = [](OptionTargets& to, const OptionValue&) { to.scene->shadeImage = true; }},
+        {.key = "sky",
+         .value = fileValue(),
+         .help = "an equirectangular picture or a light probe (.hdr)",
+         .commands = kShowing,
+         .scenes = kTerrains | kVolumes,
+         .rules = {{[](const Asked& asked) { return asked.shows(kVolumes) && !asked.has("light"); },
+                    "expected with light that was baked for a CT study",
+                    "name it with --light, or leave it out"}},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->sky = value.text; }},
+        {.key = "light",
+         .value = fileOrWordValue({"auto", "lazy", "lazy-transfer", "traced"}),
+         .help =
+             "baked light: a file; of a terrain also auto, the bake in the cache; of a volume, in view and "
+             "render, also lazy, computed where one looks, or lazy-transfer, for a sky that turns; in "
+             "render also traced, paths from every pixel",
+         .commands = kShowing,
+         .rules = lightRules(),
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->light = value.text; }},
+        {.key = "sun",
+         .value = numbersValue(sunNumbers()),
+         .help = "a terrain's, clockwise from north",
+         .commands = kShowing | kMesh,
+         .scenes = kTerrains,
+         .rules = sunRules(),
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->sun = value.text; }},
+        {.key = "separation",
+         .value = numberValue(kSeparationRange),
+         .help = "of the eyes: 0.001 is a millimetre, and usual in a colon",
+         .advice = "1/30 of the zero-parallax distance is comfortable",
+         .commands = kShowing,
+         .excludes = {{"relative-separation"}},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->separation_m = value.number(); }},
+        {.key = "zero-parallax",
+         .value = numberValue(kZeroParallaxRange),
+         .help = "distance seen in the screen",
+         .advice = "use the distance to what should lie in the screen",
+         .commands = kShowing,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->zeroParallax_m = value.number(); }},
+        {.key = "fov",
+         .value = numberValue(kFovRange),
+         .help = "vertical field of view",
+         .advice = "45 is common",
+         .commands = kShowing,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->fov_deg = value.number(); }},
+    };
+}
+
+}  // namespace stereonav

@@ -1,0 +1,216 @@
+// Options: a scene shown as a medium that light goes through; and the light of traced pictures.
+#include "app/options/option_numbers.h"
+#include "app/options/option_table.h"
+#include "app/options/usual_words.h"
+#include "engine/medium/medium_transfer.h"
+
+namespace stereonav {
+namespace {
+
+using namespace command;
+using namespace scene_type;
+
+// What a model leaves out; in a window a key chooses another one.
+OptionRule unlessModel(bool (*leavesOut)(const Asked&)) {
+    return {leavesOut, "has no effect on the model {model}", "leave it out, or choose another --model"};
+}
+bool ownModel(const Asked& asked) {
+    return asked.has("model") && !asked.runs(kView);
+}
+
+std::vector<Option> mediumItself() {
+    return {
+        {.key = "medium",
+         .value = fileOrWordValue({"ground"}),
+         .help = "show the scene as a medium that light goes through: a file, or one of " +
+                 mediumPresetNames() + "; ground: a terrain in its own colours",
+         .group = kMediumGroup,
+         .commands = kShowing,
+         .rules = {{[](const Asked& asked) {
+                        return asked.is("medium", "ground") && !asked.shows(kTerrains);
+                    },
+                    "ground is of terrains", "the presets are " + mediumPresetNames() + ", or name a file"}},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.medium = value.text; }},
+        {.key = "model",
+         .value = wordValue({"emission", "surface", "direct", "indirect"}),
+         .help = "emission, surface, direct, or indirect, which is the default",
+         .advice = "the models are emission, surface, direct, indirect",
+         .group = kMediumGroup,
+         .fallback = "indirect",
+         .commands = kShowing,
+         .scenes = kMedia,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.model = value.text; }},
+        {.key = "phase",
+         .value = fileOrWordValue({}),
+         .help = "how the medium scatters: none, \"hg G\", a preset or a file",
+         .group = kMediumGroup,
+         .fallback = "none",
+         .commands = kShowing,
+         .scenes = kMedia,
+         .rules = {unlessModel([](const Asked& asked) {
+             return ownModel(asked) && !asked.is("model", "indirect") && !asked.is("model", "direct");
+         })},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.phase = value.text; }},
+        {.key = "noise",
+         .value = fileOrWordValue({"cloud", "fur", "none"}),
+         .help = "detail that moves places and properties: cloud, fur, none, or a file",
+         .group = kMediumGroup,
+         .commands = kShowing,
+         .scenes = kMedia,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.noise = value.text; }},
+        {.key = "mist",
+         .value = numbersValue(mistNumbers()),
+         .help = "over a terrain, up to a height",
+         .group = kMediumGroup,
+         .commands = kShowing,
+         .scenes = kTerrainMedium,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.mist = value.text; }},
+    };
+}
+
+std::vector<Option> mediumLight() {
+    return {
+        {.key = "light-from",
+         .value = numbersValue(sunNumbers()),
+         .help = "where parallel light comes from, clockwise from north",
+         .group = kMediumGroup,
+         .commands = kShowing,
+         .scenes = kMedia,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->medium.lightFrom = value.text; }},
+        {.key = "lamp",
+         .value = numbersValue(lampNumbers()),
+         .help = "a lamp instead; head: midway between the eyes",
+         .group = kMediumGroup,
+         .commands = kShowing,
+         .scenes = kMedia,
+         .excludes = {{"light-from"}},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.lamp = value.text; }},
+        {.key = "light-color",
+         .value = numbersValue(colorNumbers()),
+         .help = "linear",
+         .group = kMediumGroup,
+         .commands = kShowing,
+         .scenes = kMedia,
+         .rules = {unlessModel(
+             [](const Asked& asked) { return ownModel(asked) && asked.is("model", "emission"); })},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->medium.lightColor = value.text; }},
+    };
+}
+
+std::vector<Option> mediumFineness() {
+    return {
+        {.key = "slices",
+         .value = wholeValue(within(1, 65536, "slices")),
+         .help = "across the medium",
+         .advice = "256 is the default; finer is slower",
+         .group = kMediumGroup,
+         .fallback = "256; 1200 of a terrain, 500 in a colon",
+         .commands = kShowing,
+         .scenes = kMedia,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->medium.slices = static_cast<int>(value.whole); }},
+        {.key = "light-size",
+         .value = wholeValue(within(8, 4096, "texels")),
+         .help = "a side of the light's buffer",
+         .advice = "256 is the default",
+         .group = kMediumGroup,
+         .fallback = "256; 512 of a terrain",
+         .commands = kShowing,
+         .scenes = kMedia,
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.scene->medium.lightSize = static_cast<int>(value.whole);
+             }},
+        {.key = "cone",
+         .value = numberValue({0, 180, false, true, "degrees"}),
+         .help = "in which scattered light spreads",
+         .advice = "35 is the default; 0 lets scattered light go straight on",
+         .group = kMediumGroup,
+         .fallback = "35",
+         .commands = kShowing,
+         .scenes = kMedia,
+         .rules = {unlessModel(
+             [](const Asked& asked) { return ownModel(asked) && !asked.is("model", "indirect"); })},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->medium.cone_deg = value.number(); }},
+        {.key = "shading-width",
+         .value = numberValue(within(0, 16, "voxels")),
+         .help = "between the places where surfaces are shaded; 0: at each sample",
+         .advice = "1 is the default; 0 shades at each sample",
+         .group = kMediumGroup,
+         .fallback = "1",
+         .commands = kShowing,
+         .scenes = kMedia,
+         .rules = {{[](const Asked& asked) { return asked.shows(kTerrainMedium); },
+                    "is of surfaces in volumes, a terrain's are shaded at each sample", kLeaveItOut}},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->medium.shadingWidth = value.number(); }},
+    };
+}
+
+OptionRule unlessTraced() {
+    return {[](const Asked& asked) { return !asked.is("light", "traced"); }, "expected with --light traced",
+            kLeaveItOut};
+}
+
+}  // namespace
+
+std::vector<Option> mediumOptions() {
+    std::vector<Option> all = mediumItself();
+    for (const auto& part : {mediumLight(), mediumFineness()})
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+std::vector<Option> tracedOptions() {
+    return {
+        {.key = "samples",
+         .value = wholeValue(kSamplesRange),
+         .help = "paths from each pixel, 64 when left out",
+         .advice = kSamplesAdvice,
+         .group = kTracedGroup,
+         .fallback = "64",
+         .commands = kRender,
+         .rules = {unlessTraced()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->traced->samples = static_cast<int>(value.whole); }},
+        {.key = "bounces",
+         .value = wholeValue(kBouncesRange),
+         .help = kBouncesHelp,
+         .advice = kBouncesAdvice,
+         .group = kTracedGroup,
+         .commands = kRender,
+         .rules = {unlessTraced()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->traced->bounces = static_cast<int>(value.whole); }},
+        {.key = "albedo",
+         .value = numbersValue(albedoNumbers()),
+         .help = kAlbedoHelp,
+         .group = kTracedGroup,
+         .commands = kRender,
+         .rules = {unlessTraced()},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->traced->albedo = value.text; }},
+        {.key = "point-light",
+         .value = numbersValue(pointLightNumbers()),
+         .help = kPointLightHelp,
+         .group = kTracedGroup,
+         .commands = kRender,
+         .rules = {unlessTraced()},
+         .repeated = true,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->traced->lights.push_back(value.text); }},
+        {.key = "reach",
+         .value = numberValue(kReachRange),
+         .help = "that rays look for light from outside",
+         .advice = kReachAdvice,
+         .group = kTracedGroup,
+         .commands = kRender,
+         .rules = {unlessTraced()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->traced->reach_mm = value.number(); }},
+    };
+}
+
+}  // namespace stereonav

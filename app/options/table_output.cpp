@@ -1,0 +1,195 @@
+// Options: how big, in which way, from where, and into what.
+#include "app/options/option_numbers.h"
+#include "app/options/option_table.h"
+#include "app/options/usual_words.h"
+
+namespace stereonav {
+namespace {
+
+using namespace command;
+using namespace scene_type;
+
+void takeSize(OptionTargets& to, const OptionValue& value) {
+    *to.size = {static_cast<int>(value.numbers[0]), static_cast<int>(value.numbers[1])};
+}
+void takeMethod(OptionTargets& to, const OptionValue& value) {
+    *to.method = value.text;
+}
+void takeMode(OptionTargets& to, const OptionValue& value) {
+    *to.mode = value.text;
+}
+void takePath(OptionTargets& to, const OptionValue& value) {
+    *to.path = value.text;
+}
+void takeOut(OptionTargets& to, const OptionValue& value) {
+    *to.out = value.text;
+}
+
+std::vector<Option> viewOptions() {
+    return {
+        {.key = "size",
+         .value = sizeValue(),
+         .help = "WIDTHxHEIGHT of one eye, 1280x720 when left out",
+         .advice = "try 1280x720",
+         .fallback = "1280x720",
+         .commands = kInfo | kRender | kPlay | kView,
+         .take = takeSize},
+        {.key = "size",
+         .value = sizeValue(),
+         .help = "WIDTHxHEIGHT of one eye, 500x400 when left out",
+         .advice = "try 1280x720",
+         .fallback = "500x400",
+         .commands = kCompare,
+         .take = takeSize},
+        {.key = "pose",
+         .value = numbersValue(poseNumbers()),
+         .help = "where the head is; left out: the start pose",
+         .fallback = "the start pose",
+         .commands = kRender,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.render->pose = value.text; }},
+        {.key = "path",
+         .value = fileValue(),
+         .help = "a recorded path (.gltf, .glb, .path); left out: the scene's own",
+         .fallback = "the scene's own",
+         .commands = kPlay | kCompare,
+         .take = takePath},
+        {.key = "path",
+         .value = fileValue(),
+         .help = "a recorded path (.gltf, .glb, .path) for Z to play",
+         .commands = kView,
+         .take = takePath},
+        {.key = "method",
+         .value = textValue(),
+         .help = "how the right eye is made, auto: the best",
+         .fallback = "auto",
+         .commands = kRender | kPlay,
+         .rules = {{[](const Asked& asked) {
+                        return asked.is("light", "traced") && asked.shows(kSurfaces) &&
+                               !asked.is("method", "auto") && !asked.is("method", "full");
+                    },
+                    "{method} does not go with --light traced", "leave it out: each eye is traced in full"}},
+         .take = takeMethod},
+        {.key = "method",
+         .value = textValue(),
+         .help = "how the right eye is made, auto: what measures best here",
+         .fallback = "auto",
+         .commands = kView,
+         .take = takeMethod},
+        {.key = "mode",
+         .value = textValue(),
+         .help = "how two eyes become one picture: ml, mr, sbsl, sbsr, tbl, irl, arcd, ... ",
+         .fallback = "sbsl",
+         .commands = kRender | kPlay | kView,
+         .rules = {{[](const Asked& asked) {
+                        return asked.has("hash") && !asked.has("out") && !asked.has("video");
+                    },
+                    "has no effect on --hash, which is of both eyes", kLeaveItOut}},
+         .take = takeMode},
+        {.key = "sweep",
+         .value = wordValue({"auto", "cpu", "gpu"}),
+         .help = "where a medium is swept: cpu, gpu (OpenGL 4.5), or auto, what is faster here",
+         .advice = "auto takes what is faster here",
+         .fallback = "auto",
+         .commands = kView,
+         .rules = {{[](const Asked& asked) { return !asked.is("sweep", "auto") && !asked.shows(kMedia); },
+                    "expected with a medium", "leave it out, or show one with --medium"}},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.view->sweep = value.text; }},
+        {.key = "shots",
+         .value = fileValue(),
+         .help = "folder for saved pictures and recorded flights",
+         .fallback = "the present one",
+         .commands = kView,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.view->shots = value.text; }},
+    };
+}
+
+std::vector<Option> pictureOptions() {
+    return {
+        {.key = "out",
+         .value = fileValue(),
+         .help = "the picture's file; -: PNG to standard output",
+         .commands = kRender,
+         .required = true,
+         .take = takeOut},
+        {.key = "out",
+         .value = fileValue(),
+         .help = "folder for frame_00000.png and so on",
+         .commands = kPlay,
+         .take = takeOut},
+        {.key = "video",
+         .value = fileValue(),
+         .help = "a video: .mp4, .avi or .mkv (lossless)",
+         .commands = kPlay,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.play->video = value.text; }},
+        {.key = "frames",
+         .value = wholeValue(within(1, 1e6, "frames")),
+         .help = "this many, evenly over the path",
+         .advice = "leave it out for the whole path at --fps",
+         .fallback = "the whole path at --fps",
+         .commands = kPlay,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.play->frames = static_cast<int>(value.whole); }},
+        {.key = "fps",
+         .value = numberValue(within(0.001, 1000, "frames a second")),
+         .help = "25 when left out",
+         .advice = "25 is common",
+         .fallback = "25",
+         .commands = kPlay,
+         .rules = {{[](const Asked& asked) { return asked.has("frames") && !asked.has("video"); },
+                    "has no effect beside --frames, which says how many pictures there are",
+                    "leave one of them out, or give --video"}},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.play->fps = value.number(); }},
+        {.key = "hash",
+         .value = flagValue(),
+         .help = "print one content hash of both eyes of all frames",
+         .commands = kPlay,
+         .take = [](OptionTargets& to, const OptionValue&) { to.play->hash = true; }},
+        {.key = "json",
+         .value = flagValue(),
+         .help = "as JSON",
+         .commands = kInfo,
+         .take = [](OptionTargets& to, const OptionValue&) { to.info->json = true; }},
+        {.key = "series-pictures",
+         .value = fileValue(),
+         .help = "of a DICOM folder: list its series alone, and write a picture of each into this folder",
+         .commands = kInfo,
+         .scenes = kStudies,
+         .elsewhere = {nullptr, "expected with a folder of DICOM slices", "name one, or leave it out"},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.info->series = value.text; }},
+    };
+}
+
+std::vector<Option> meshAndLineOptions() {
+    return {
+        {.key = "out",
+         .value = fileValue(),
+         .help = "the mesh's file, .glb or .gltf",
+         .commands = kMesh,
+         .required = true,
+         .take = takeOut},
+        {.key = "error",
+         .value = numberValue(within(0, 1e9, "metres")),
+         .help = "largest vertical error, half a sample spacing when left out",
+         .advice = "leave it out for half a sample spacing",
+         .fallback = "half a sample spacing",
+         .commands = kMesh,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.mesh->error_m = value.number(); }},
+        {.key = "out",
+         .value = fileValue(),
+         .help = "the line's file, .vtp or .vtk (poly data) or .txt, or -; millimetres, LPS, from the rectum",
+         .commands = kCentreline,
+         .required = true,
+         .take = takeOut},
+    };
+}
+
+}  // namespace
+
+std::vector<Option> outputOptions() {
+    std::vector<Option> all = viewOptions();
+    for (const auto& part : {pictureOptions(), meshAndLineOptions()})
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,79 @@
+// Options: how exact the right eye is.
+#include <algorithm>
+#include <array>
+
+#include "app/options/option_table.h"
+#include "app/options/usual_words.h"
+#include "engine/stereo/quality_plan.h"
+#include "engine/stereo/right_eye.h"
+
+namespace stereonav {
+namespace {
+
+using namespace command;
+using namespace scene_type;
+
+constexpr CommandSet kDialled = kRender | kPlay | kView;
+
+OptionRule notOfMedia() {
+    return {nullptr, "does not go with a medium, whose eyes are swept together",
+            "choose --slices and --light-size instead"};
+}
+
+std::vector<OptionRule> qualityRules() {
+    return {{[](const Asked& asked) { return asked.is("light", "traced") && asked.shows(kSurfaces); },
+             "does not go with --light traced", "leave it out: nothing is warped"},
+            {[](const Asked& asked) {
+                 constexpr std::array kRefined{"linear", "cubic", "selective"};
+                 const std::string method = asked.given.text("method");
+                 return rightEyeMethodFromName(method) &&
+                        std::find(kRefined.begin(), kRefined.end(), method) == kRefined.end();
+             },
+             "does not go with the method {method}",
+             "choose linear, cubic or selective, or leave the method out"}};
+}
+
+}  // namespace
+
+std::vector<Option> qualityOptions() {
+    return {
+        {.key = "quality",
+         .value = numberValue(within(0, 1)),
+         .help =
+             "the share of the warp's expected squared error that is taken away by casting those pixels as "
+             "well; 1 casts all",
+         .advice = "0 casts the holes alone, 1 every pixel",
+         .group = kQualityGroup,
+         .commands = kDialled,
+         .scenes = kCast,
+         .elsewhere = notOfMedia(),
+         .rules = qualityRules(),
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->quality.quality = value.number(); }},
+        {.key = "target-psnr",
+         .value = numberValue(within(1, kMostPsnr_db, "dB")),
+         .help = "against a full cast that 95 of 100 frames shall reach: as many pixels as that takes",
+         .advice = "40 is good, 50 hard to see",
+         .group = kQualityGroup,
+         .commands = kDialled,
+         .scenes = kCast,
+         .elsewhere = notOfMedia(),
+         .rules = qualityRules(),
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->quality.targetPsnr_db = value.number(); }},
+        {.key = "target-ms",
+         .value = numberValue(within(1e-3, 1e6, "ms")),
+         .help = "time for a frame, both eyes: no more pixels are cast than fit; where none do, pictures are "
+                 "made smaller",
+         .advice = "33 is 30 frames a second",
+         .group = kQualityGroup,
+         .commands = kDialled,
+         .scenes = kCast,
+         .elsewhere = notOfMedia(),
+         .rules = qualityRules(),
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->quality.target_ms = value.number(); }},
+    };
+}
+
+}  // namespace stereonav

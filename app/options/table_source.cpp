@@ -1,0 +1,67 @@
+// Options: which scene, and how it is read.
+#include "app/options/option_numbers.h"
+#include "app/options/option_table.h"
+#include "app/options/usual_words.h"
+#include "terrain/scene_ranges.h"
+
+namespace stereonav {
+
+std::vector<Option> sourceOptions() {
+    using namespace command;
+    using namespace scene_type;
+    return {
+        {.key = "SCENE",
+         .value = textValue(),
+         .help =
+             "a scene (.toml), an elevation model, a CT study (.nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd, a "
+             "folder of DICOM slices), or colon, cloud or wax, which are built in; left out: the built-in "
+             "terrain",
+         .fallback = "the built-in terrain",
+         .commands = kShowing | kBake,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->scene = value.text; }},
+        {.key = "SCENE",
+         .value = textValue(),
+         .help = "a scene (.toml) or an elevation model; left out: the built-in terrain",
+         .fallback = "the built-in terrain",
+         .commands = kMesh,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->scene = value.text; }},
+        {.key = "SCENE",
+         .value = textValue(),
+         .help = "a CT study (.nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd, a folder of DICOM slices), or colon, "
+                 "which is built in",
+         .commands = kCentreline,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->scene = value.text; }},
+        {.key = "vertical-scale",
+         .value = numberValue(kVerticalScaleRange),
+         .help = "factor on heights",
+         .advice = "use 1 for true heights",
+         .fallback = "1",
+         .commands = kShowing | kMesh | kBake,
+         .scenes = kTerrains,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->verticalScale = value.number(); }},
+        {.key = "open-holes",
+         .value = flagValue(),
+         .help = "leave missing ground open instead of filling it",
+         .commands = kShowing | kMesh | kBake,
+         .scenes = kTerrains,
+         .take = [](OptionTargets& to, const OptionValue&) { to.scene->openHoles = true; }},
+        {.key = "threads",
+         .value = wholeValue(kThreadsRange),
+         .help = kThreadsHelp,
+         .advice = kThreadsAdvice,
+         .fallback = "0",
+         .commands = kShowing | kMesh | kCentreline | kBake,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->threads = static_cast<int>(value.whole); }},
+        {.key = "simd",
+         .value = wordValue({"auto", "plain", "avx2", "avx512"}),
+         .help = "instruction set: auto, plain, avx2, avx512",
+         .advice = "auto takes the widest that this processor has",
+         .fallback = "auto",
+         .commands = kShowing,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->simd = value.text; }},
+    };
+}
+
+}  // namespace stereonav

@@ -1,0 +1,100 @@
+// Options: which study, where the colon is in it, and which surface is shown instead.
+#include "app/options/option_numbers.h"
+#include "app/options/option_table.h"
+#include "app/options/usual_words.h"
+
+namespace stereonav {
+namespace {
+
+OptionRule unlessColonIsLookedFor() {
+    return {[](const Asked& asked) { return asked.has("isosurface"); },
+            "does not go with --isosurface, which looks for no colon", kLeaveOneOut};
+}
+
+}  // namespace
+
+std::vector<Option> studyOptions() {
+    using namespace command;
+    using namespace scene_type;
+    constexpr CommandSet kReading = kShowing | kCentreline | kBake;
+    return {
+        {.key = "series",
+         .value = textValue(),
+         .help = "of a DICOM folder with several: its number in the list, or its UID",
+         .group = kStudyGroup,
+         .commands = kReading,
+         .scenes = kStudies,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.series = value.text; }},
+        {.key = "label",
+         .value = wholeValue(within(-2147483648.0, 2147483647.0)),
+         .help = "the label of a mask with several",
+         .advice = "stereonav info lists them",
+         .group = kStudyGroup,
+         .commands = kReading,
+         .scenes = kStudies,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.label = static_cast<int>(value.whole); }},
+        {.key = "seed",
+         .value = numbersValue(seedNumbers()),
+         .help = "a place inside the colon, to the patient's left, back and head, as radiology tools show it "
+                 "(RAS ones: turn the first two signs); may be given several times",
+         .group = kStudyGroup,
+         .commands = kReading,
+         .scenes = kVolumes,
+         .rules = {unlessColonIsLookedFor()},
+         .repeated = true,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.seeds.push_back(value.text); }},
+        {.key = "resample",
+         .value = flagValue(),
+         .help = "mend missing, uneven or tilted slices",
+         .group = kStudyGroup,
+         .commands = kReading,
+         .scenes = kStudies,
+         .take = [](OptionTargets& to, const OptionValue&) { to.scene->volume.resample = true; }},
+        {.key = "backwards",
+         .value = flagValue(),
+         .help = "fly from the caecum to the rectum",
+         .group = kStudyGroup,
+         .commands = kReading,
+         .scenes = kVolumes,
+         .rules = {unlessColonIsLookedFor()},
+         .take = [](OptionTargets& to, const OptionValue&) { to.scene->volume.backwards = true; }},
+        {.key = "no-cache",
+         .value = flagValue(),
+         .help = "neither read nor keep what was computed",
+         .group = kStudyGroup,
+         .commands = kReading,
+         .scenes = kVolumes,
+         .rules = {{[](const Asked& asked) { return asked.runs(kBake) && !asked.has("out"); },
+                    "leaves no place for what is baked", "name a file with --out"}},
+         .take = [](OptionTargets& to, const OptionValue&) { to.scene->volume.cache = false; }},
+        {.key = "isosurface",
+         .value = flagValue(),
+         .help = "show the volume from outside, without looking for a colon",
+         .group = kStudyGroup,
+         .commands = kShowing | kBake,
+         .scenes = kVolumes,
+         .take = [](OptionTargets& to, const OptionValue&) { to.scene->volume.isosurface = true; }},
+        {.key = "isovalue",
+         .value = numberValue(kValueRange),
+         .help = "the value of that surface",
+         .advice = "300 shows bone in CT",
+         .group = kStudyGroup,
+         .commands = kShowing | kBake,
+         .scenes = kVolumes,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.isovalue = value.number(); }},
+        {.key = "up",
+         .value = wordValue({"x", "-x", "y", "-y", "z", "-z"}),
+         .help = kUpHelp,
+         .advice = kUpAdvice,
+         .group = kStudyGroup,
+         .fallback = "z",
+         .commands = kShowing | kBake,
+         .scenes = kVolumes,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.up = value.text; }},
+    };
+}
+
+}  // namespace stereonav

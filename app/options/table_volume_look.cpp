@@ -1,0 +1,242 @@
+// Options: how a volume looks. Transfer function, shading, ambient light, modulated opacity, baked light.
+#include "app/options/option_table.h"
+#include "app/options/usual_words.h"
+#include "app/scene/volume_ambient.h"
+#include "app/scene/volume_light.h"
+#include "colon/transfer_presets.h"
+#include "engine/camera/view_ranges.h"
+#include "engine/light/occlusion_modulation.h"
+
+namespace stereonav {
+namespace {
+
+using namespace command;
+using namespace scene_type;
+
+constexpr NumberRange kLookRange = above(0, 1e6, "mm");  // how far around
+constexpr NumberRange kShareRange = within(0, 1);
+constexpr NumberRange kSteepestRange = above(0, kSteepestOpenness);
+
+bool isModulated(const Asked& asked) {
+    return asked.has("modulate") && !asked.is("modulate", "none");
+}
+bool isSeenThrough(const Asked& asked) {
+    return asked.has("transfer") || asked.has("opacity");
+}
+
+OptionRule unlessAmbient() {
+    return {[](const Asked& asked) { return !asked.has("ambient"); }, "expected with --ambient",
+            "add --ambient, or leave it out"};
+}
+OptionRule unlessModulated() {
+    return {[](const Asked& asked) { return !isModulated(asked); }, "expected with --modulate",
+            "add --modulate variance or gradient, or leave it out"};
+}
+OptionRule unlessBaked() {
+    return {[](const Asked& asked) { return !asked.has("light"); },
+            "expected with light that was baked for a CT study", "name it with --light, or leave it out"};
+}
+OptionRule unlessItStands() {
+    return {[](const Asked& asked) {
+                return asked.is("light", "lazy") &&
+                       (asked.given.number("turn") != 0 || asked.given.number("tilt") != 0);
+            },
+            "lazy expects a sky that stands still", "use --light lazy-transfer"};
+}
+
+std::vector<OptionRule> shadingRules() {
+    return {
+        {[](const Asked& asked) {
+             const std::string shading = asked.given.text("shading");
+             return isSeenThrough(asked) && (shading.ends_with("-shadows") || shading == "fog");
+         },
+         "{shading} expects an opaque surface",
+         "leave out --transfer and --opacity, or use lambert or phong"},
+        {[](const Asked& asked) { return asked.has("ambient") && asked.is("shading", "varying"); },
+         "varying ambient light does not go with --ambient, which takes its place", kLeaveOneOut},
+        {[](const Asked& asked) {
+             return asked.has("ambient") && !(asked.given.number("ambient-lamp") > 0) &&
+                    !asked.is("shading", "lamp") && !asked.is("shading", "fog");
+         },
+         "has no effect with --ambient, which is all the light there is",
+         "add --ambient-lamp, or leave it out"},
+    };
+}
+
+std::vector<Option> ambientOptions() {
+    return {
+        {.key = "ambient",
+         .value = numberValue(kLookRange),
+         .help =
+             "ambient light, k times openness times colour in place of the lamp's (Ruiz et al. 2010): how "
+             "far openness looks around; not with --light",
+         .advice = "try ten voxels' worth",
+         .group = kStudyGroup,
+         .commands = kShowing,
+         .scenes = kSurfaces,
+         .rules = {{[](const Asked& asked) { return asked.has("light"); },
+                    "expected without baked light, --light was given too", kLeaveOneOut}},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.ambient_mm = value.number(); }},
+        {.key = "ambient-method",
+         .value = textValue(),
+         .help = "how openness is estimated, gaussian when left out: " + occlusionMethodNames() +
+                 "; B: an exponent in place of the fitted one; S: standard deviations, 3 when left out",
+         .group = kStudyGroup,
+         .fallback = "gaussian",
+         .commands = kShowing,
+         .scenes = kSurfaces,
+         .rules = {{[](const Asked& asked) {
+                        return !asked.has("ambient") && !asked.is("modulate", "gradient");
+                    },
+                    "expected with --ambient or --modulate gradient", kLeaveItOut}},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.ambientMethod = value.text; }},
+        {.key = "ambient-strength",
+         .value = numberValue(above(0, 100)),
+         .help = "k of ambient light, 1 when left out",
+         .advice = "1 is usual, 2 shows a flat wall in its own colour",
+         .group = kStudyGroup,
+         .fallback = "1",
+         .commands = kShowing,
+         .scenes = kSurfaces,
+         .rules = {unlessAmbient()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.ambientStrength = value.number(); }},
+        {.key = "ambient-lamp",
+         .value = numberValue(kShareRange),
+         .help = "share of the lamp's direct light beside it",
+         .advice = "0 is ambient light alone, 1 adds all of the lamp's direct light",
+         .group = kStudyGroup,
+         .fallback = "0",
+         .commands = kShowing,
+         .scenes = kSurfaces,
+         .rules = {unlessAmbient()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.ambientLamp = value.number(); }},
+    };
+}
+
+std::vector<Option> modulationOptions() {
+    return {
+        {.key = "modulate",
+         .value = wordValue({"variance", "gradient", "none"}),
+         .help = "opacity of translucent volumes by the variance of the values around, or by the gradient of "
+                 "their openness (Ruiz et al. 2010): variance, gradient or none",
+         .advice = "it is one of variance, gradient, none",
+         .group = kStudyGroup,
+         .fallback = "none",
+         .commands = kShowing,
+         .scenes = kSurfaces,
+         .rules = {{[](const Asked& asked) { return isModulated(asked) && !isSeenThrough(asked); },
+                    "expected with a translucent volume", "add --transfer or --opacity, or leave it out"}},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.modulate = value.text; }},
+        {.key = "modulate-radius",
+         .value = numberValue(kLookRange),
+         .help = "how far that looks around; left out: as --ambient, or 10 voxels",
+         .advice = "try ten voxels' worth",
+         .group = kStudyGroup,
+         .fallback = "as --ambient, or 10 voxels",
+         .commands = kShowing,
+         .scenes = kSurfaces,
+         .rules = {unlessModulated()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.modulateRadius_mm = value.number(); }},
+        {.key = "modulate-sigma",
+         .value = numberValue(above(0, 1e6)),
+         .help =
+             "from where on opacity stays whole: a standard deviation in the volume's values, or for "
+             "gradient a change of openness a voxel; left out: such that a tenth of what differs stays whole",
+         .advice = "for gradient 0.05 is usual on surfaces",
+         .group = kStudyGroup,
+         .fallback = "a tenth of what differs stays whole",
+         .commands = kShowing,
+         .scenes = kSurfaces,
+         .rules = {unlessModulated(),
+                   {[](const Asked& asked) {
+                        return asked.is("modulate", "gradient") &&
+                               !kSteepestRange.holds(asked.given.number("modulate-sigma"));
+                    },
+                    "expected " + rangeText(kSteepestRange) + " beside gradient, got {modulate-sigma}",
+                    "a change of openness a voxel; 0.05 is usual on surfaces"}},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.modulateSigma = value.number(); }},
+    };
+}
+
+std::vector<Option> bakedLookOptions() {
+    return {
+        {.key = "exposure",
+         .value = numberValue(within(1e-30, 1e6)),
+         .help = "factor on baked light; left out: by its mean",
+         .advice = "1 shows a white sky of 1 as white",
+         .group = kStudyGroup,
+         .fallback = "by its mean",
+         .commands = kShowing,
+         .scenes = kVolumes,
+         .rules = {unlessBaked()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.exposure = value.number(); }},
+        {.key = "turn",
+         .value = numberValue(kTurnRange),
+         .help = "by which the sky over baked transfer is turned about the vertical",
+         .advice = "90 turns a quarter",
+         .group = kStudyGroup,
+         .fallback = "0",
+         .commands = kShowing,
+         .scenes = kVolumes,
+         .rules = {unlessItStands(), unlessBaked()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.turn_deg = value.number(); }},
+        {.key = "tilt",
+         .value = numberValue(kUprightRange),
+         .help = "by which that sky is tilted before it is turned: what lies north rises",
+         .advice = "turn the sky as well for more: --turn",
+         .group = kStudyGroup,
+         .fallback = "0",
+         .commands = kShowing,
+         .scenes = kVolumes,
+         .rules = {unlessItStands(), unlessBaked()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.tilt_deg = value.number(); }},
+    };
+}
+
+}  // namespace
+
+std::vector<Option> volumeLookOptions() {
+    std::vector<Option> all{
+        {.key = "transfer",
+         .value = fileOrWordValue({}),
+         .help = "colours and opacities by value: translucent; a file, or one of " + transferPresetNames(),
+         .group = kStudyGroup,
+         .commands = kShowing,
+         .scenes = kSurfaces,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.transfer = value.text; }},
+        {.key = "opacity",
+         .value = numberValue(above(0, 1)),
+         .help = "a translucent wall that takes this share of light a mm",
+         .advice = "0.95 is a wall that is nearly opaque within a millimetre",
+         .group = kStudyGroup,
+         .commands = kShowing,
+         .scenes = kSurfaces,
+         .excludes = {{"transfer"}},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.opacity = value.number(); }},
+        {.key = "shading",
+         .value =
+             wordValue({"lamp", "lambert", "lambert-shadows", "phong", "phong-shadows", "varying", "fog"}),
+         .help = "to compare: lamp, lambert, lambert-shadows, phong, phong-shadows, varying, fog",
+         .advice = "lamp is the default",
+         .group = kStudyGroup,
+         .fallback = "lamp",
+         .commands = kShowing,
+         .scenes = kSurfaces,
+         .rules = shadingRules(),
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.shading = value.text; }}};
+    for (const auto& part : {ambientOptions(), modulationOptions(), bakedLookOptions()})
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,40 @@
+// Ranges and words that several options share.
+#pragma once
+
+#include "engine/math/number_range.h"
+
+namespace stereonav {
+
+constexpr const char* kUpHelp =
+    "x, -x, y, -y, z or -z: the axis of a study's file that is to point up, by quarter turns; not where a "
+    "colon is looked for";
+constexpr const char* kUpAdvice = "-z stands a volume on its head";
+
+// Of traced light and of bakes.
+constexpr NumberRange kSamplesRange = within(1, 1 << 24);
+constexpr const char* kSamplesAdvice = "100 is a first look";
+constexpr NumberRange kBouncesRange = within(0, 8);
+constexpr const char* kBouncesHelp = "of light between surfaces";
+constexpr const char* kBouncesAdvice = "2 shows most of it";
+constexpr NumberRange kReachRange = above(0, 1e12, "mm");
+constexpr const char* kReachAdvice = "leave it out for no limit";
+constexpr const char* kAlbedoHelp = "of the surface: one number, or red,green,blue";
+constexpr const char* kPointLightHelp =
+    "a place and its intensity; or centreline and the lights' distance, in a colon; may be given several "
+    "times";
+
+constexpr NumberRange kThreadsRange = within(0, 256);
+constexpr const char* kThreadsHelp = "threads to use, 0 for all processors";
+constexpr const char* kThreadsAdvice = "leave it out to use all processors";
+
+// Headings of help.
+constexpr const char* kStudyGroup = "Options of CT studies";
+constexpr const char* kMediumGroup = "Options of media";
+constexpr const char* kQualityGroup = "Options of quality";
+constexpr const char* kTracedGroup = "Options of --light traced";
+
+// What is refused, and what to do.
+constexpr const char* kLeaveItOut = "leave it out";
+constexpr const char* kLeaveOneOut = "leave one of them out";
+
+}  // namespace stereonav

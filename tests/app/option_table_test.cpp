@@ -1,0 +1,172 @@
+// The table of options: every option is refused in one line where it does not apply, all that are refused are
+// told together, and what stands in the table is what help lists.
+#include "app/options/option_table.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "app/options/arguments.h"
+#include "engine/base/error.h"
+#include "tests/app/volume_input.h"
+
+namespace stereonav::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words operator+(Words a, const Words& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+std::string lineAgainst(const Words& arguments) {
+    try {
+        checkCommandLine(arguments);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// Something that the option takes.
+std::string sampleOf(const Option& option) {
+    const ValueType& type = option.value;
+    if (type.kind == ValueKind::Word) return type.words.front();
+    if (!type.takesNumbers()) return "some";
+    for (const char* text : {"1", "0.5", "1,2", "1,2,3", "8", "64x48"}) {
+        try {
+            readValue("", type, "", text);
+            return text;
+        } catch (const Error&) {
+            continue;
+        }
+    }
+    ADD_FAILURE() << "no sample for " << option.key;
+    return "";
+}
+
+Words given(const Option& option) {
+    if (option.positional()) return {};
+    if (option.value.kind == ValueKind::Flag) return {option.name()};
+    return {option.name(), sampleOf(option)};
+}
+
+// What a command needs beside.
+Words neededBy(const CommandFacts& command) {
+    Words words;
+    for (const Option& option : optionTable())
+        if ((option.commands & command.command) && option.required) words = words + given(option);
+    return words;
+}
+
+class OptionTable : public VolumeTest {
+protected:
+    // A scene of each type, as arguments.
+    std::vector<std::pair<SceneSet, Words>> scenes() const {
+        using namespace scene_type;
+        const std::string study = ball();
+        return {{kTerrain, {"terrain"}},    {kTerrainMedium, {"terrain", "--medium", "ground"}},
+                {kStudy, {study}},          {kStudyMedium, {study, "--medium", "tissue"}},
+                {kColon, {"colon"}},        {kColonMedium, {"colon", "--medium", "tissue"}},
+                {kBuiltInMedium, {"cloud"}}};
+    }
+
+    static bool takesMedium(const CommandFacts& command) {
+        return findOption(command.command, "medium") != nullptr;
+    }
+};
+
+TEST_F(OptionTable, DeclaresEachOptionOnceForACommand) {
+    for (const CommandFacts& command : commandFacts()) {
+        std::set<std::string> keys;
+        for (const Option& option : optionTable()) {
+            if (!(option.commands & command.command)) continue;
+            SCOPED_TRACE(std::string(command.name) + " " + option.name());
+            EXPECT_TRUE(keys.insert(option.key).second);
+            EXPECT_NE(option.take, nullptr);
+            EXPECT_EQ(option.help.find('\n'), std::string::npos);
+            EXPECT_FALSE(option.help.empty());
+            EXPECT_NE(option.scenes, 0u);
+            for (const Exclusion& other : option.excludes)
+                EXPECT_TRUE(std::any_of(optionTable().begin(), optionTable().end(), [&](const Option& all) {
+                    return all.key == std::string(other.key);
+                })) << other.key;
+        }
+    }
+}
+
+TEST_F(OptionTable, RefusesWhatAnotherTypeOfSceneHasInOneLine) {
+    int refused = 0, taken = 0;
+    for (const CommandFacts& command : commandFacts())
+        for (const auto& [type, scene] : scenes()) {
+            if (!(command.scenes & type) || (scene.size() > 1 && !takesMedium(command))) continue;
+            const Words line = Words{command.name} + scene + neededBy(command);
+            ASSERT_EQ(lineAgainst(line), "") << command.name << " " << scene.front();
+            for (const Option& option : optionTable()) {
+                const std::string key = option.key;
+                if (!(option.commands & command.command) || option.positional() || option.required) continue;
+                if (key == "medium") continue;  // says itself what type the scene is of
+                SCOPED_TRACE(command.name + (" " + scene.front()) + " " + scene.back() + " " + option.name());
+                const std::string said = lineAgainst(line + given(option));
+                if (!(option.scenes & type)) {
+                    EXPECT_TRUE(said.starts_with(option.name() + ": ")) << said;
+                    EXPECT_NE(said.find("; "), std::string::npos) << said;
+                    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+                    EXPECT_EQ(said.find('{'), std::string::npos) << said;
+                    ++refused;
+                } else if (option.rules.empty() && option.excludes.empty()) {
+                    EXPECT_EQ(said, "");
+                    ++taken;
+                }
+            }
+        }
+    EXPECT_GT(refused, 500);
+    EXPECT_GT(taken, 500);
+    std::printf("%d options refused, %d taken\n", refused, taken);
+}
+
+TEST_F(OptionTable, TellsAllThatDoesNotApplyTogether) {
+    EXPECT_EQ(
+        lineAgainst({"render", "terrain", "--isovalue", "3", "--slices", "9", "--opacity", "0.5", "--samples",
+                     "2", "--out", "a.png"}),
+        "--isovalue, --opacity: expected with a CT study or the built-in colon, the scene is a terrain; "
+        "leave it out. --slices: expected with a medium; add --medium, or show cloud or wax. --samples: "
+        "expected with --light traced; leave it out");
+    expectRefused({"render", "colon", "--sun", "90,30", "--mist", "900,2", "--opacity", "0.5", "--transfer",
+                   "wall_95", "--out", "a.png"},
+                  {"--sun: expected with a terrain", ". --opacity: does not go with --transfer",
+                   ". --mist: expected with a medium"});
+}
+
+TEST_F(OptionTable, IsWhatHelpLists) {
+    for (const CommandFacts& command : commandFacts()) {
+        const std::string help = run({command.name, "--help"}).out;
+        for (const Option& option : optionTable())
+            if (option.commands & command.command) {
+                EXPECT_NE(help.find(option.name() + " "), std::string::npos)
+                    << command.name << " " << option.name();
+            }
+    }
+}
+
+// What a command does not read it does not take.
+TEST_F(OptionTable, HasForACommandWhatItReads) {
+    const auto keysOf = [](const char* name) {
+        std::set<std::string> keys;
+        for (const CommandFacts& command : commandFacts())
+            if (name == std::string(command.name))
+                for (const Option& option : optionTable())
+                    if (option.commands & command.command) keys.insert(option.key);
+        return keys;
+    };
+    EXPECT_EQ(keysOf("mesh"), (std::set<std::string>{"SCENE", "vertical-scale", "open-holes", "threads",
+                                                     "image", "shade-image", "sun", "out", "error"}));
+    EXPECT_EQ(keysOf("centreline"), (std::set<std::string>{"SCENE", "threads", "series", "label", "seed",
+                                                           "resample", "backwards", "no-cache", "out"}));
+    EXPECT_FALSE(keysOf("bake").contains("simd"));
+    EXPECT_FALSE(keysOf("bake").contains("fov"));
+}
+
+}  // namespace
+}  // namespace stereonav::test
