@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "engine/light/bake_job.h"
+#include "engine/light/bake/bake_job.h"
 
 namespace stereonav {
 

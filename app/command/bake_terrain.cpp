@@ -1,4 +1,5 @@
-// Bakes a terrain's light into a file: horizons and transfer, or openness alone (terrain/terrain_light.h).
+// Bakes a terrain's light into a file: horizons and transfer, or openness alone
+// (terrain/light/terrain_light.h).
 #include "app/command/bake_terrain.h"
 
 #include <fmt/format.h>
@@ -16,9 +17,9 @@
 #include "app/scene/terrain_loading.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
-#include "terrain/ground_rays.h"
-#include "terrain/terrain_bake_part.h"
-#include "terrain/terrain_light.h"
+#include "terrain/ground/ground_rays.h"
+#include "terrain/light/terrain_bake_part.h"
+#include "terrain/light/terrain_light.h"
 
 namespace stereonav {
 namespace {

@@ -16,7 +16,7 @@
 #include "engine/base/error.h"
 #include "engine/base/stop.h"
 #include "engine/base/stopwatch.h"
-#include "engine/light/bake_job.h"
+#include "engine/light/bake/bake_job.h"
 
 namespace stereonav {
 namespace {

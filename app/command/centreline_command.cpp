@@ -7,7 +7,7 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 

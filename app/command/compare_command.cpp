@@ -16,7 +16,7 @@
 #include "engine/base/parallel.h"
 #include "engine/camera/timed_poses.h"
 #include "engine/image/image_file.h"
-#include "engine/medium/swept_frames.h"
+#include "engine/medium/sweep/swept_frames.h"
 #include "engine/metrics/difference_picture.h"
 #include "engine/metrics/pair_comparison.h"
 #include "engine/scene/capabilities.h"

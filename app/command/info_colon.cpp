@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/command/info_text.h"
-#include "colon/colon_flight.h"
-#include "colon/colon_scene.h"
+#include "colon/flight/colon_flight.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/base/pages.h"
 
 namespace stereonav {

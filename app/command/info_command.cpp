@@ -11,10 +11,10 @@
 #include "app/output/progress_bar.h"
 #include "app/scene/lazy_light.h"
 #include "app/scene/scene_loading.h"
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/base/parallel.h"
-#include "engine/medium/medium_scene.h"
-#include "terrain/terrain_scene.h"
+#include "engine/medium/sweep/medium_scene.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "app/command/info_text.h"
 #include "app/output/length_text.h"
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/base/pages.h"
-#include "engine/medium/medium_scene.h"
+#include "engine/medium/sweep/medium_scene.h"
 
 namespace stereonav {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "app/output/output_place.h"
 #include "app/scene/scene_loading.h"
-#include "colon/study.h"
+#include "colon/study/study.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/image/image_file.h"

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command/info_text.h"
-#include "terrain/landmark.h"
-#include "terrain/terrain_illumination.h"
-#include "terrain/terrain_renderer.h"
-#include "terrain/terrain_scene.h"
+#include "terrain/cast/terrain_renderer.h"
+#include "terrain/scene/landmark.h"
+#include "terrain/scene/terrain_illumination.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 namespace {

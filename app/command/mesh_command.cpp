@@ -9,8 +9,8 @@
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
 #include "engine/base/error.h"
-#include "terrain/terrain_mesh.h"
-#include "terrain/terrain_scene.h"
+#include "terrain/mesh/terrain_mesh.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 namespace {

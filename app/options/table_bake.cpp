@@ -2,7 +2,7 @@
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
 #include "app/options/usual_words.h"
-#include "engine/light/spherical_harmonics.h"
+#include "engine/light/skies/spherical_harmonics.h"
 
 namespace stereonav {
 namespace {

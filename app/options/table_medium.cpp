@@ -2,7 +2,7 @@
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
 #include "app/options/usual_words.h"
-#include "engine/medium/medium_transfer.h"
+#include "engine/medium/model/medium_transfer.h"
 
 namespace stereonav {
 namespace {

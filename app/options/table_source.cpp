@@ -2,7 +2,7 @@
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
 #include "app/options/usual_words.h"
-#include "terrain/scene_ranges.h"
+#include "terrain/read/scene_ranges.h"
 
 namespace stereonav {
 

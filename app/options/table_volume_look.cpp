@@ -3,9 +3,9 @@
 #include "app/options/usual_words.h"
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
-#include "colon/transfer_presets.h"
+#include "colon/scene/transfer_presets.h"
 #include "engine/camera/view_ranges.h"
-#include "engine/light/occlusion_modulation.h"
+#include "engine/light/occlusion/occlusion_modulation.h"
 
 namespace stereonav {
 namespace {

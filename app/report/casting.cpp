@@ -9,8 +9,8 @@
 #include "engine/base/parallel.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/volume/volume_renderer.h"
-#include "terrain/equidistant_caster.h"
-#include "terrain/plain_caster.h"
+#include "terrain/cast/equidistant_caster.h"
+#include "terrain/cast/plain_caster.h"
 
 namespace stereonav {
 namespace {

@@ -9,7 +9,7 @@
 #include "app/report/trial.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/metrics/supersampled_picture.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/terrain_renderer.h"
 
 namespace stereonav {
 namespace {

@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "engine/base/parallel.h"
-#include "engine/light/bake_texels.h"
-#include "engine/light/sky_probe.h"
-#include "engine/light/spherical_harmonics.h"
-#include "engine/light/texel_light.h"
+#include "engine/light/paths/texel_light.h"
+#include "engine/light/skies/sky_probe.h"
+#include "engine/light/skies/spherical_harmonics.h"
+#include "engine/light/transfer/bake_texels.h"
 
 namespace stereonav {
 

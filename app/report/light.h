@@ -7,8 +7,8 @@
 
 #include "app/report/run.h"
 #include "app/report/subjects.h"
-#include "engine/light/bake_texels.h"
-#include "engine/light/texel_light.h"
+#include "engine/light/paths/texel_light.h"
+#include "engine/light/transfer/bake_texels.h"
 
 namespace stereonav {
 

@@ -12,7 +12,7 @@
 
 #include "app/scene/scene_loading.h"
 #include "engine/base/parallel.h"
-#include "engine/math/simd_target.h"
+#include "engine/simd/simd_target.h"
 
 // Set by CMake when it configures, for this file alone.
 #ifndef STEREONAV_COMMIT

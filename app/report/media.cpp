@@ -7,7 +7,7 @@
 
 #include "app/report/run.h"
 #include "engine/image/image_file.h"
-#include "engine/medium/swept_frames.h"
+#include "engine/medium/sweep/swept_frames.h"
 #include "engine/metrics/image_difference.h"
 
 namespace stereonav {

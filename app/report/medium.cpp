@@ -8,10 +8,10 @@
 
 #include "app/report/run.h"
 #include "engine/base/parallel.h"
-#include "engine/medium/built_in_media.h"
-#include "engine/medium/delta_tracking.h"
-#include "engine/medium/medium_sweep.h"
-#include "engine/medium/medium_transfer.h"
+#include "engine/medium/model/built_in_media.h"
+#include "engine/medium/model/medium_transfer.h"
+#include "engine/medium/paths/delta_tracking.h"
+#include "engine/medium/sweep/medium_sweep.h"
 #include "engine/metrics/image_difference.h"
 
 namespace stereonav {

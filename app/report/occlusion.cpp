@@ -1,6 +1,6 @@
 // The report's part on ambient occlusion: every estimate of openness and the older methods along 42
 // directions, against openness traced by rays, by radius.
-#include "engine/light/occlusion.h"
+#include "engine/light/occlusion/occlusion.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "app/report/run.h"
 #include "app/report/subjects.h"
 #include "engine/base/parallel.h"
-#include "engine/light/occlusion_rays.h"
+#include "engine/light/occlusion/occlusion_rays.h"
 
 namespace stereonav {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "app/report/light.h"
 #include "engine/base/parallel.h"
-#include "engine/light/bake_job.h"
-#include "engine/light/pixel_path.h"
-#include "engine/light/seen_bricks.h"
+#include "engine/light/bake/bake_job.h"
+#include "engine/light/paths/pixel_path.h"
+#include "engine/light/transfer/seen_bricks.h"
 #include "engine/volume/volume_renderer.h"
 
 namespace stereonav {

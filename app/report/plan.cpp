@@ -9,7 +9,7 @@
 #include "app/report/run.h"
 #include "engine/base/parallel.h"
 #include "engine/volume/volume_renderer.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/terrain_renderer.h"
 
 namespace stereonav {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "app/report/light.h"
-#include "engine/light/spherical_harmonics.h"
-#include "engine/light/transfer_volume.h"
+#include "engine/light/skies/spherical_harmonics.h"
+#include "engine/light/transfer/transfer_volume.h"
 
 namespace stereonav {
 namespace {

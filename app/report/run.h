@@ -8,11 +8,11 @@
 #include "app/report/model.h"
 #include "app/report/mood.h"
 #include "app/scene/scene_loading.h"
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/base/stopwatch.h"
 #include "engine/scene/capabilities.h"
-#include "terrain/terrain_scene.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 

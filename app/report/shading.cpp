@@ -11,9 +11,9 @@
 #include "app/report/run.h"
 #include "app/report/subjects.h"
 #include "engine/base/parallel.h"
-#include "engine/medium/built_in_media.h"
-#include "engine/medium/medium_scene.h"
-#include "engine/medium/medium_sweep.h"
+#include "engine/medium/model/built_in_media.h"
+#include "engine/medium/sweep/medium_scene.h"
+#include "engine/medium/sweep/medium_sweep.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/volume/plain_volume_caster.h"
 

@@ -8,11 +8,11 @@
 
 #include "app/report/light.h"
 #include "engine/base/parallel.h"
-#include "terrain/built_in_terrain.h"
-#include "terrain/scene_file.h"
-#include "terrain/sky_map.h"
-#include "terrain/terrain_path_light.h"
-#include "terrain/terrain_relight.h"
+#include "terrain/built_in/built_in_terrain.h"
+#include "terrain/light/sky_map.h"
+#include "terrain/light/terrain_path_light.h"
+#include "terrain/light/terrain_relight.h"
+#include "terrain/read/scene_file.h"
 
 namespace stereonav {
 namespace {

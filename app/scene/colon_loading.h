@@ -3,7 +3,7 @@
 
 #include "app/scene/scene_loading.h"
 #include "app/scene/shown_volume.h"
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 
 namespace stereonav {
 

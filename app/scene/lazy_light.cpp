@@ -9,7 +9,7 @@
 #include "app/scene/light_loading.h"
 #include "app/scene/volume_light.h"
 #include "engine/base/error.h"
-#include "engine/light/seen_bricks.h"
+#include "engine/light/transfer/seen_bricks.h"
 
 namespace stereonav {
 namespace {

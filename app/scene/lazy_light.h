@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "app/command/commands.h"
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/camera/eye_view.h"
 #include "engine/image/eye_image.h"
-#include "engine/light/lazy_bake.h"
-#include "engine/light/texel_light.h"
-#include "engine/light/turning_sky.h"
+#include "engine/light/bake/lazy_bake.h"
+#include "engine/light/paths/texel_light.h"
+#include "engine/light/transfer/turning_sky.h"
 
 namespace stereonav {
 

@@ -10,7 +10,7 @@
 #include "app/options/option_numbers.h"
 #include "app/output/output_place.h"
 #include "engine/base/error.h"
-#include "engine/light/spherical_harmonics.h"
+#include "engine/light/skies/spherical_harmonics.h"
 
 namespace stereonav {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/command/commands.h"
-#include "colon/colon_scene.h"
-#include "engine/light/bake_file.h"
+#include "colon/scene/colon_scene.h"
+#include "engine/light/bake/bake_file.h"
 
 namespace stereonav {
 

@@ -13,13 +13,13 @@
 #include "app/scene/medium_terrain.h"
 #include "app/scene/shown_medium.h"
 #include "app/scene/terrain_loading.h"
-#include "colon/built_in_colon.h"
-#include "colon/study.h"
+#include "colon/built_in/built_in_colon.h"
+#include "colon/study/study.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
-#include "engine/medium/built_in_media.h"
-#include "engine/medium/noise_file.h"
-#include "terrain/sky_map.h"
+#include "engine/medium/model/built_in_media.h"
+#include "engine/medium/model/noise_file.h"
+#include "terrain/light/sky_map.h"
 
 namespace stereonav {
 namespace {

@@ -13,7 +13,7 @@
 #include "app/scene/volume_light.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
-#include "engine/medium/noise_file.h"
+#include "engine/medium/model/noise_file.h"
 
 namespace stereonav {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/command/commands.h"
-#include "engine/medium/medium_scene.h"
+#include "engine/medium/sweep/medium_scene.h"
 
 namespace stereonav {
 

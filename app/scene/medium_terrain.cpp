@@ -14,7 +14,7 @@
 #include "app/scene/medium_options.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "engine/medium/noise_file.h"
+#include "engine/medium/model/noise_file.h"
 
 namespace stereonav {
 namespace {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "app/command/commands.h"
-#include "engine/medium/medium.h"
-#include "engine/medium/sweep_setting.h"
-#include "terrain/terrain_scene.h"
+#include "engine/medium/model/medium.h"
+#include "engine/medium/sweep/sweep_setting.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 

@@ -20,7 +20,7 @@
 #include "engine/base/memory.h"
 #include "engine/base/parallel.h"
 #include "engine/math/constants.h"
-#include "engine/medium/swept_frames.h"
+#include "engine/medium/sweep/swept_frames.h"
 #include "engine/scene/capabilities.h"
 
 namespace stereonav {

@@ -10,8 +10,8 @@
 #include "app/output/output_place.h"
 #include "engine/base/progress.h"
 #include "engine/image/stereo_compose.h"
-#include "engine/math/simd_target.h"
 #include "engine/scene/scene.h"
+#include "engine/simd/simd_target.h"
 #include "engine/stereo/frame_plan.h"
 #include "engine/stereo/right_eye.h"
 

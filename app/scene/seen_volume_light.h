@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/scene/lazy_light.h"
-#include "engine/light/turning_sky.h"
+#include "engine/light/transfer/turning_sky.h"
 #include "engine/scene/capabilities.h"
 
 namespace stereonav {

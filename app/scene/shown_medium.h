@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "app/scene/shown_volume.h"
-#include "engine/medium/medium_scene.h"
-#include "engine/medium/swept_frames.h"
+#include "engine/medium/sweep/medium_scene.h"
+#include "engine/medium/sweep/swept_frames.h"
 #include "engine/scene/capabilities.h"
 #include "engine/scene/scene.h"
-#include "terrain/terrain_scene.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "engine/nav/navigator.h"
-#include "terrain/terrain_illumination.h"
-#include "terrain/terrain_loader.h"
+#include "terrain/scene/terrain_illumination.h"
+#include "terrain/scene/terrain_loader.h"
 
 namespace stereonav {
 namespace {

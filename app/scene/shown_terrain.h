@@ -6,8 +6,8 @@
 #include "engine/frame/cast_frames.h"
 #include "engine/scene/capabilities.h"
 #include "engine/scene/scene.h"
-#include "terrain/terrain_renderer.h"
-#include "terrain/terrain_scene.h"
+#include "terrain/cast/terrain_renderer.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 

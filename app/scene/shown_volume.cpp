@@ -7,7 +7,7 @@
 #include "app/scene/colon_loading.h"
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
-#include "colon/transfer_presets.h"
+#include "colon/scene/transfer_presets.h"
 #include "engine/volume/value_range.h"
 
 namespace stereonav {

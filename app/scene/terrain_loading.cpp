@@ -9,9 +9,9 @@
 #include "app/scene/shown_terrain.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
-#include "terrain/scene_file.h"
-#include "terrain/terrain_illumination.h"
-#include "terrain/terrain_loader.h"
+#include "terrain/read/scene_file.h"
+#include "terrain/scene/terrain_illumination.h"
+#include "terrain/scene/terrain_loader.h"
 
 namespace stereonav {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/scene/scene_loading.h"
-#include "terrain/terrain_scene.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "app/command/commands.h"
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/image/eye_image.h"
-#include "engine/light/pixel_path.h"
+#include "engine/light/paths/pixel_path.h"
 #include "engine/scene/capabilities.h"
 
 namespace stereonav {

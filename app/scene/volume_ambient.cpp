@@ -10,7 +10,7 @@
 
 #include "app/options/number_text.h"
 #include "engine/base/error.h"
-#include "engine/light/occlusion.h"
+#include "engine/light/occlusion/occlusion.h"
 
 namespace stereonav {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "app/command/commands.h"
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/base/progress.h"
-#include "engine/light/occlusion_modulation.h"
+#include "engine/light/occlusion/occlusion_modulation.h"
 
 namespace stereonav {
 

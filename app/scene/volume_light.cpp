@@ -15,8 +15,8 @@
 #include "app/scene/light_loading.h"
 #include "app/scene/volume_ambient.h"
 #include "engine/base/error.h"
-#include "engine/light/light_beyond.h"
-#include "engine/light/sky_probe.h"
+#include "engine/light/skies/sky_probe.h"
+#include "engine/light/transfer/light_beyond.h"
 #include "engine/math/constants.h"
 
 namespace stereonav {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/command/commands.h"
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/base/progress.h"
-#include "engine/light/turning_sky.h"
+#include "engine/light/transfer/turning_sky.h"
 
 namespace stereonav {
 

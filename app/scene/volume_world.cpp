@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "app/scene/colon_loading.h"
-#include "colon/colon_flight.h"
+#include "colon/flight/colon_flight.h"
 #include "engine/base/error.h"
 #include "engine/volume/value_range.h"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/command/commands.h"
-#include "colon/colon_flight.h"
-#include "colon/colon_scene.h"
+#include "colon/flight/colon_flight.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/nav/flight.h"
 #include "engine/scene/capabilities.h"
 #include "engine/scene/scene.h"

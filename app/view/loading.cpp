@@ -6,7 +6,7 @@
 #include "app/command/quality.h"
 #include "app/scene/shown_volume.h"
 #include "app/view/sweep.h"
-#include "engine/medium/swept_frames.h"
+#include "engine/medium/sweep/swept_frames.h"
 #include "engine/scene/slices.h"
 
 namespace stereonav {

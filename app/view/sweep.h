@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/medium/swept_frames.h"
+#include "engine/medium/sweep/swept_frames.h"
 
 namespace stereonav {
 

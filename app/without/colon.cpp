@@ -9,8 +9,8 @@
 #include "app/scene/colon_loading.h"
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
-#include "colon/study.h"
-#include "colon/transfer_presets.h"
+#include "colon/scene/transfer_presets.h"
+#include "colon/study/study.h"
 
 namespace stereonav {
 namespace {

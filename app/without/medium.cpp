@@ -7,7 +7,7 @@
 #include "app/scene/medium_loading.h"
 #include "app/scene/medium_options.h"
 #include "app/view/sweep.h"
-#include "engine/medium/medium_transfer.h"
+#include "engine/medium/model/medium_transfer.h"
 
 namespace stereonav {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <span>
 
-#include "engine/medium/medium_picture.h"
-#include "engine/medium/sweep_geometry.h"
+#include "engine/medium/model/medium_picture.h"
+#include "engine/medium/sweep/sweep_geometry.h"
 
 namespace stereonav {
 

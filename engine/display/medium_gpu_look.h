@@ -7,7 +7,7 @@
 
 #include "engine/display/gl_object.h"
 #include "engine/display/shader_program.h"
-#include "engine/medium/medium_look.h"
+#include "engine/medium/model/medium_look.h"
 
 namespace stereonav {
 

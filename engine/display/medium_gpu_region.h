@@ -1,7 +1,7 @@
 // The part of an eye's picture in which a slice of the medium's box can be seen: what is drawn of a slab.
 #pragma once
 
-#include "engine/medium/sweep_geometry.h"
+#include "engine/medium/sweep/sweep_geometry.h"
 
 namespace stereonav {
 

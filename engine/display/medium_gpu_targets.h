@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/display/gl_object.h"
-#include "engine/medium/medium_picture.h"
+#include "engine/medium/model/medium_picture.h"
 
 namespace stereonav {
 

@@ -8,7 +8,7 @@
 
 #include "engine/display/gl_object.h"
 #include "engine/display/shader_program.h"
-#include "engine/medium/medium.h"
+#include "engine/medium/model/medium.h"
 
 namespace stereonav {
 

@@ -1,6 +1,6 @@
 // One frame of a scene: both eyes, by whatever way the scene has of making them. Commands and the window make
 // their frames through this and need not know what is behind it: rays and a warped right eye (cast_frames.h),
-// or a sweep through a medium for both (engine/medium/swept_frames.h).
+// or a sweep through a medium for both (engine/medium/sweep/swept_frames.h).
 #pragma once
 
 #include <cstddef>

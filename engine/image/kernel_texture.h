@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/image/texture_data.h"
-#include "engine/math/simd.h"
+#include "engine/simd/simd.h"
 
 namespace stereonav::STEREONAV_ISA {
 

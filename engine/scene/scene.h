@@ -13,8 +13,8 @@
 #include "engine/camera/recorded_path.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/frame/frame_maker.h"
-#include "engine/math/simd_target.h"
 #include "engine/nav/flight.h"
+#include "engine/simd/simd_target.h"
 
 namespace stereonav {
 

@@ -7,8 +7,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "engine/math/kernel_sets.h"
-#include "engine/math/simd_target.h"
+#include "engine/simd/kernel_sets.h"
+#include "engine/simd/simd_target.h"
 
 namespace stereonav {
 

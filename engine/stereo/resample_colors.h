@@ -2,7 +2,7 @@
 // the same bits as packed_resample.h.
 #pragma once
 
-#include "engine/math/simd_rows.h"
+#include "engine/simd/simd_rows.h"
 
 namespace stereonav::STEREONAV_ISA {
 namespace {

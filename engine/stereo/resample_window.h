@@ -3,7 +3,7 @@
 // gather.
 #pragma once
 
-#include "engine/math/simd_rows.h"
+#include "engine/simd/simd_rows.h"
 
 namespace stereonav::STEREONAV_ISA {
 namespace {

@@ -1,6 +1,6 @@
 #include "engine/stereo/row_kernels.h"
 
-#include "engine/math/kernel_sets.h"
+#include "engine/simd/kernel_sets.h"
 
 namespace stereonav {
 

@@ -1,7 +1,7 @@
 // The vector kernels of the inverse warp, one for each instruction set, and the choice at run time.
 #pragma once
 
-#include "engine/math/simd_target.h"
+#include "engine/simd/simd_target.h"
 #include "engine/stereo/warp_row.h"
 
 namespace stereonav {

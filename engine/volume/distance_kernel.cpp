@@ -1,7 +1,7 @@
 // Least squared distance over the lines of a plane, kLanes columns side by side, for one instruction set.
 // The parabolas of Felzenszwalb and Huttenlocher 2012, but no envelope: what is d away can not help a voxel
 // whose distance is below d already, and lumens are narrow, so lines are tried outwards until none can help.
-#include "engine/math/simd.h"
+#include "engine/simd/simd.h"
 #include "engine/volume/distance_kernel_types.h"
 
 #if STEREONAV_ISA_avx512

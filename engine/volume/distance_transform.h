@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "engine/math/simd_target.h"
+#include "engine/simd/simd_target.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav {

@@ -2,7 +2,7 @@
 // Included by kernels only.
 #pragma once
 
-#include "engine/math/simd.h"
+#include "engine/simd/simd.h"
 #include "engine/volume/volume_kernel_types.h"
 
 namespace stereonav::STEREONAV_ISA {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "engine/math/kernel_sets.h"
+#include "engine/simd/kernel_sets.h"
 
 namespace stereonav {
 

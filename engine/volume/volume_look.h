@@ -21,7 +21,7 @@ struct BakedLook {
         Openness     // weakens the lamp: its light, ambient and direct, times the openness
     };
     std::shared_ptr<const IlluminationVolume> light;  // null: none
-    // Known everywhere, coarser (engine/light/light_beyond.h); null: none.
+    // Known everywhere, coarser (engine/light/transfer/light_beyond.h); null: none.
     std::shared_ptr<const IlluminationVolume> beyond;
     Use use = Use::Irradiance;
     float exposure = 1;   // factor on irradiance
@@ -30,7 +30,8 @@ struct BakedLook {
 };
 
 // Openness O of every voxel's surroundings as ambient light (Ruiz et al. 2010, eq. 5): a place of colour C
-// sends k O C, whatever the lamp does; see engine/light/occlusion.h. Not shown where light is baked.
+// sends k O C, whatever the lamp does; see engine/light/occlusion/occlusion.h. Not shown where light is
+// baked.
 struct AmbientLook {
     std::shared_ptr<const Volume<std::uint8_t>> openness;  // 0..255 for 0..1, trilinear between the voxels of
                                                            // the scene's field; null: none
@@ -54,7 +55,7 @@ struct VolumeLook {
     AmbientLook occlusion;      // in place of `ambient` and varyingAmbient
     TransferFunction transfer;  // empty: the opaque surface alone
     // What the transfer function's extinction is multiplied with, 0..255 for 0..1, trilinear between the
-    // voxels of the scene's field (see engine/light/occlusion_modulation.h); null: nothing.
+    // voxels of the scene's field (see engine/light/occlusion/occlusion_modulation.h); null: nothing.
     std::shared_ptr<const Volume<std::uint8_t>> modulation;
 };
 

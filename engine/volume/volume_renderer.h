@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "engine/math/simd_target.h"
 #include "engine/render/eye_renderer.h"
+#include "engine/simd/simd_target.h"
 #include "engine/volume/volume_scene.h"
 
 namespace stereonav {

@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/image/image_file.h"
 #include "engine/volume/plain_volume_caster.h"
 #include "tests/app/volume_input.h"

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
-#include "engine/math/simd_target.h"
+#include "engine/simd/simd_target.h"
 #include "engine/stereo/right_eye.h"
 #include "engine/volume/volume_renderer.h"
 #include "tests/bench/wall_mesh.h"

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "engine/base/error.h"
-#include "engine/math/simd_target.h"
+#include "engine/simd/simd_target.h"
 #include "tests/bench/bench_light_gain.h"
 #include "tests/bench/bench_light_lookup.h"
 #include "tests/bench/bench_light_occlusion.h"

@@ -1,11 +1,11 @@
-// Times of baking all texels of a volume, from a random part of them (engine/light/bake_rate.h). What is
+// Times of baking all texels of a volume, from a random part of them (engine/light/bake/bake_rate.h). What is
 // built once is timed apart and not scaled.
 #pragma once
 
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
-#include "engine/light/bake_rate.h"
-#include "engine/light/isovalue_field.h"
+#include "engine/light/bake/bake_rate.h"
+#include "engine/light/paths/isovalue_field.h"
 #include "tests/bench/bench_light_subject.h"
 
 namespace stereonav::bench {

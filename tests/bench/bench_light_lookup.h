@@ -8,15 +8,15 @@
 #include <memory>
 #include <vector>
 
-#include "colon/isosurface_scene.h"
+#include "colon/scene/isosurface_scene.h"
 #include "engine/base/parallel.h"
 #include "engine/base/progress.h"
 #include "engine/base/stopwatch.h"
 #include "engine/camera/stereo_rig.h"
-#include "engine/light/bake_texels.h"
-#include "engine/light/seen_bricks.h"
-#include "engine/light/texel_light.h"
-#include "engine/light/transfer_volume.h"
+#include "engine/light/paths/texel_light.h"
+#include "engine/light/transfer/bake_texels.h"
+#include "engine/light/transfer/seen_bricks.h"
+#include "engine/light/transfer/transfer_volume.h"
 #include "engine/volume/volume_renderer.h"
 #include "tests/bench/bench_light_subject.h"
 

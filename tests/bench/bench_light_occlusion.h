@@ -11,11 +11,11 @@
 #include <glm/common.hpp>
 #include <string>
 
-#include "colon/study.h"
+#include "colon/study/study.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
-#include "engine/light/occlusion.h"
+#include "engine/light/occlusion/occlusion.h"
 
 namespace stereonav::bench {
 

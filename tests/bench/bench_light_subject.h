@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "colon/study.h"
-#include "engine/light/light_setup.h"
+#include "colon/study/study.h"
+#include "engine/light/skies/light_setup.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav::bench {

@@ -14,12 +14,12 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
-#include "engine/math/simd_target.h"
+#include "engine/simd/simd_target.h"
 #include "engine/stereo/right_eye.h"
-#include "terrain/built_in_terrain.h"
-#include "terrain/equidistant_caster.h"
-#include "terrain/plain_caster.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/built_in/built_in_terrain.h"
+#include "terrain/cast/equidistant_caster.h"
+#include "terrain/cast/plain_caster.h"
+#include "terrain/cast/terrain_renderer.h"
 #include "tests/bench/embree_ground.h"
 
 namespace stereonav::bench {

@@ -13,10 +13,10 @@
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/camera/stereo_rig.h"
-#include "terrain/built_in_terrain.h"
-#include "terrain/terrain_illumination.h"
-#include "terrain/terrain_path_light.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/built_in/built_in_terrain.h"
+#include "terrain/cast/terrain_renderer.h"
+#include "terrain/light/terrain_path_light.h"
+#include "terrain/scene/terrain_illumination.h"
 
 namespace stereonav::bench {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "engine/base/stopwatch.h"
 #include "engine/image/packed_color.h"
-#include "engine/medium/delta_tracking.h"
-#include "engine/medium/medium_picture.h"
+#include "engine/medium/model/medium_picture.h"
+#include "engine/medium/paths/delta_tracking.h"
 
 namespace stereonav::bench {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/base/stopwatch.h"
-#include "engine/medium/medium_sweep.h"
+#include "engine/medium/sweep/medium_sweep.h"
 #include "tests/bench/bench_medium_gpu.h"
 
 namespace stereonav::bench {

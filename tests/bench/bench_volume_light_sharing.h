@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "engine/medium/sweep_sharing.h"
+#include "engine/medium/sweep/sweep_sharing.h"
 #include "tests/bench/bench_volume_light_errors.h"
 #include "tests/bench/bench_volume_light_runs.h"
 #include "tests/bench/bench_volume_light_subjects.h"

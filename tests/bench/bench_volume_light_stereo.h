@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "engine/medium/plain_sweep.h"
+#include "engine/medium/sweep/plain_sweep.h"
 #include "tests/bench/bench_volume_light_errors.h"
 #include "tests/bench/bench_volume_light_runs.h"
 #include "tests/bench/bench_volume_light_subjects.h"

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "colon/study.h"
+#include "colon/study/study.h"
 #include "engine/camera/stereo_rig.h"
-#include "engine/medium/built_in_media.h"
-#include "engine/medium/medium.h"
-#include "engine/medium/medium_look.h"
+#include "engine/medium/model/built_in_media.h"
+#include "engine/medium/model/medium.h"
+#include "engine/medium/model/medium_look.h"
 
 namespace stereonav::bench {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/image/plane.h"
-#include "terrain/heightfield.h"
+#include "terrain/ground/heightfield.h"
 #include "tests/bench/embree_packets.h"
 
 namespace stereonav::bench {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/camera/eye_view.h"
-#include "engine/math/simd_target.h"
+#include "engine/simd/simd_target.h"
 
 namespace stereonav::bench {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/light/bake_texels.h"
-#include "engine/light/occlusion_rays.h"
+#include "engine/light/occlusion/occlusion_rays.h"
+#include "engine/light/transfer/bake_texels.h"
 
 namespace stereonav::bench {
 

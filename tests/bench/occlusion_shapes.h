@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "engine/light/occlusion_formulas.h"
+#include "engine/light/occlusion/occlusion_formulas.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav::bench {

@@ -1,6 +1,6 @@
 // The generated colon: the same on any number of threads, with its axis in air, polyps that are flesh on the
 // wall, and fluid under a level surface.
-#include "colon/built_in_colon.h"
+#include "colon/built_in/built_in_colon.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "colon/built_in_anatomy.h"
-#include "colon/segmentation.h"
+#include "colon/built_in/built_in_anatomy.h"
+#include "colon/segmentation/segmentation.h"
 #include "engine/base/parallel.h"
 #include "engine/volume/plain_volume_caster.h"
 

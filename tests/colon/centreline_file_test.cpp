@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "colon/centreline.h"
+#include "colon/centreline/centreline.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 

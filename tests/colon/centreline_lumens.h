@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "colon/centreline.h"
+#include "colon/centreline/centreline.h"
 
 namespace stereonav::test {
 

@@ -12,9 +12,9 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "colon/centreline.h"
-#include "colon/centreline_probe.h"
-#include "colon/study.h"
+#include "colon/centreline/centreline.h"
+#include "colon/centreline/centreline_probe.h"
+#include "colon/study/study.h"
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
 

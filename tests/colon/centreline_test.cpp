@@ -1,5 +1,5 @@
 // Centrelines of lumens whose axis is known in closed form, and of lumens with hardly any room for one.
-#include "colon/centreline.h"
+#include "colon/centreline/centreline.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The cache gives back what was found, and nothing when its file is damaged, cut off or another's.
-#include "colon/colon_cache.h"
+#include "colon/scene/colon_cache.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "colon/colon_flight.h"
+#include "colon/flight/colon_flight.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
 

@@ -1,5 +1,5 @@
 // The guided and the free flight in lumens whose distances are closed forms.
-#include "colon/colon_flight.h"
+#include "colon/flight/colon_flight.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Opening studies: the built-in colon, the real anatomy, and volumes that are seen from outside.
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
-#include "colon/colon_cache.h"
-#include "colon/isosurface_scene.h"
+#include "colon/scene/colon_cache.h"
+#include "colon/scene/isosurface_scene.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"

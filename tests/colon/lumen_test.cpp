@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "colon/segmentation.h"
+#include "colon/segmentation/segmentation.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 

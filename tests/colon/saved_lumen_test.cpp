@@ -1,6 +1,6 @@
 // The lumen in the cache: written once, read back instead of being found again, and told from files that are
 // another's, outdated or damaged. Nothing is ever written beside the study; a lumen that lies there is read.
-#include "colon/saved_lumen.h"
+#include "colon/scene/saved_lumen.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/base/file.h"
 #include "tests/support/made_ct.h"
 #include "tests/support/volume_files.h"

@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "colon/centreline.h"
-#include "colon/segmentation_air.h"
-#include "colon/segmentation_fluid.h"
+#include "colon/centreline/centreline.h"
+#include "colon/segmentation/segmentation_air.h"
+#include "colon/segmentation/segmentation_fluid.h"
 #include "engine/base/error.h"
 #include "tests/support/made_ct.h"
 

@@ -1,5 +1,5 @@
 // The colon from grey values: made scans whose lumen is known, and one clear line for what can not be.
-#include "colon/segmentation.h"
+#include "colon/segmentation/segmentation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <glm/vector_relational.hpp>
 #include <limits>
 
-#include "colon/lumen_pieces.h"
+#include "colon/segmentation/lumen_pieces.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "tests/support/made_ct.h"

@@ -1,6 +1,6 @@
 // DICOM files in every encoding, one file by name, enhanced images, and forged or damaged ones: read as GDCM
 // reads them, or one line, without a library's own words.
-#include "colon/study_dicom_file.h"
+#include "colon/study/study_dicom_file.h"
 
 #include <fmt/format.h>
 #include <gdcmImageChangeTransferSyntax.h>
@@ -16,7 +16,7 @@
 #include "../camera/temporary_folder.h"
 #include "../support/dicom_files.h"
 #include "../support/read_study.h"
-#include "colon/study.h"
+#include "colon/study/study.h"
 #include "study_dicom_slices.h"
 #include "study_ramp.h"
 

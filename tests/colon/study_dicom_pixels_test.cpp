@@ -9,7 +9,7 @@
 #include "../camera/temporary_folder.h"
 #include "../support/dicom_files.h"
 #include "../support/read_study.h"
-#include "colon/study.h"
+#include "colon/study/study.h"
 #include "study_dicom_slices.h"
 
 namespace stereonav {

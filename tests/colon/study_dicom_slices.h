@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "../support/dicom_files.h"
-#include "colon/study.h"
+#include "colon/study/study.h"
 
 namespace stereonav::test {
 

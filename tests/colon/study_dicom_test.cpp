@@ -10,7 +10,7 @@
 #include "../camera/temporary_folder.h"
 #include "../support/read_study.h"
 #include "../support/volume_files.h"
-#include "colon/study.h"
+#include "colon/study/study.h"
 
 namespace stereonav {
 namespace {

@@ -11,7 +11,7 @@
 #include "../support/nifti_files.h"
 #include "../support/read_study.h"
 #include "../support/volume_files.h"
-#include "colon/study.h"
+#include "colon/study/study.h"
 #include "study_ramp.h"
 
 namespace stereonav {

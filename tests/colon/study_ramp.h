@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "colon/study.h"
+#include "colon/study/study.h"
 
 namespace stereonav::test {
 

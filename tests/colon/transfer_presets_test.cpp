@@ -1,5 +1,5 @@
 // The transfer functions that the program carries: those of data/transfer, each as it says of itself.
-#include "colon/transfer_presets.h"
+#include "colon/scene/transfer_presets.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,10 +7,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "colon/colon_scene.h"
+#include "colon/scene/colon_scene.h"
 #include "engine/base/parallel.h"
-#include "engine/medium/medium_scene.h"
-#include "engine/medium/plain_sweep.h"
+#include "engine/medium/sweep/medium_scene.h"
+#include "engine/medium/sweep/plain_sweep.h"
 #include "engine/scene/capabilities.h"
 #include "engine/volume/plain_volume_caster.h"
 

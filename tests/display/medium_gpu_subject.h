@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/display/medium_gpu.h"
-#include "engine/medium/plain_sweep.h"
+#include "engine/medium/sweep/plain_sweep.h"
 #include "tests/display/egl_context.h"
 
 namespace stereonav::gpu_test {

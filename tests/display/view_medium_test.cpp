@@ -9,7 +9,7 @@
 
 #include "app/view/session.h"
 #include "app/view/status.h"
-#include "engine/medium/swept_frames.h"
+#include "engine/medium/sweep/swept_frames.h"
 #include "engine/nav/navigator.h"
 #include "tests/display/fake_scene.h"
 

@@ -3,24 +3,24 @@
 #include <cstddef>
 #include <cstring>
 
-#include "colon/centreline.h"
-#include "colon/colon_cache.h"
-#include "colon/study.h"
+#include "colon/centreline/centreline.h"
+#include "colon/scene/colon_cache.h"
+#include "colon/study/study.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/progress.h"
 #include "engine/camera/recorded_path.h"
 #include "engine/image/image_file.h"
 #include "engine/image/radiance_file.h"
-#include "engine/light/bake_file.h"
-#include "engine/medium/medium_transfer.h"
-#include "engine/medium/noise_file.h"
-#include "engine/medium/phase_function.h"
+#include "engine/light/bake/bake_file.h"
+#include "engine/medium/model/medium_transfer.h"
+#include "engine/medium/model/noise_file.h"
+#include "engine/medium/model/phase_function.h"
 #include "engine/volume/transfer_function.h"
-#include "terrain/dem_reader.h"
-#include "terrain/landmark_mesh.h"
-#include "terrain/scene_file.h"
-#include "terrain/terrain_light.h"
+#include "terrain/light/terrain_light.h"
+#include "terrain/read/dem_reader.h"
+#include "terrain/read/scene_file.h"
+#include "terrain/scene/landmark_mesh.h"
 
 namespace stereonav::fuzz {
 namespace {

@@ -10,17 +10,17 @@
 #include <filesystem>
 #include <string>
 
-#include "colon/centreline.h"
-#include "colon/colon_cache.h"
-#include "colon/study.h"
+#include "colon/centreline/centreline.h"
+#include "colon/scene/colon_cache.h"
+#include "colon/study/study.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/progress.h"
 #include "engine/camera/recorded_path.h"
 #include "engine/image/image_file.h"
-#include "engine/light/bake_file.h"
-#include "terrain/heightfield.h"
-#include "terrain/terrain_light.h"
+#include "engine/light/bake/bake_file.h"
+#include "terrain/ground/heightfield.h"
+#include "terrain/light/terrain_light.h"
 #include "tests/fuzz/readers.h"
 #include "tests/support/dicom_files.h"
 

@@ -1,5 +1,5 @@
 // Bakes are given back as they were kept; whatever is wrong with a file is named, and none of it is used.
-#include "engine/light/bake_file.h"
+#include "engine/light/bake/bake_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "engine/base/hash.h"
-#include "engine/light/bake_job.h"
+#include "engine/light/bake/bake_job.h"
 #include "tests/volume/test_volumes.h"
 
 namespace stereonav {

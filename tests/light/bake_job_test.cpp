@@ -1,6 +1,6 @@
 // The bake's bookkeeping on made-up samples whose mean and spread are known: the light of a texel is its
 // place plus noise of a known variance.
-#include "engine/light/bake_job.h"
+#include "engine/light/bake/bake_job.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

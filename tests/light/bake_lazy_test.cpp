@@ -10,7 +10,7 @@
 #include <set>
 
 #include "engine/base/stopwatch.h"
-#include "engine/light/lazy_bake.h"
+#include "engine/light/bake/lazy_bake.h"
 #include "tests/volume/test_volumes.h"
 
 namespace stereonav {

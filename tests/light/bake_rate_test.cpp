@@ -1,5 +1,5 @@
 // Rates of lighting texels: what is measured and how it is scaled.
-#include "engine/light/bake_rate.h"
+#include "engine/light/bake/bake_rate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The texels a bake wants are those that lookups at surface points touch: none too few at any resolution,
 // none too many where cells can be told apart one by one.
-#include "engine/light/bake_texels.h"
+#include "engine/light/transfer/bake_texels.h"
 
 #include <gtest/gtest.h>
 

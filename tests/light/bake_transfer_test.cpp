@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/light/spherical_harmonics.h"
-#include "engine/light/transfer_volume.h"
+#include "engine/light/skies/spherical_harmonics.h"
+#include "engine/light/transfer/transfer_volume.h"
 #include "tests/volume/test_volumes.h"
 
 namespace stereonav {

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "engine/base/error.h"
-#include "engine/light/spherical_harmonics.h"
+#include "engine/light/skies/spherical_harmonics.h"
 #include "sphere_quadrature.h"
 #include "turns.h"
 

@@ -1,5 +1,5 @@
 // Light for texels that no bake lit: what closed forms and the known texels say it must be.
-#include "engine/light/light_beyond.h"
+#include "engine/light/transfer/light_beyond.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Light probes: looked up, chosen from by brightness, refused when their pixels are no light.
-#include "engine/light/light_probe.h"
+#include "engine/light/skies/light_probe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "engine/light/texel_light.h"
+#include "engine/light/paths/texel_light.h"
 #include "tests/volume/test_volumes.h"
 
 namespace stereonav::test {

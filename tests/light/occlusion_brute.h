@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <glm/common.hpp>
 
-#include "engine/light/occlusion.h"
-#include "engine/light/occlusion_formulas.h"
+#include "engine/light/occlusion/occlusion.h"
+#include "engine/light/occlusion/occlusion_formulas.h"
 
 namespace stereonav::test {
 

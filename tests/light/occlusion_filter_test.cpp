@@ -8,7 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "engine/light/occlusion.h"
+#include "engine/light/occlusion/occlusion.h"
 #include "occlusion_brute.h"
 
 namespace stereonav {

@@ -1,5 +1,5 @@
 // Opacity modulation and the scale that it finds for itself.
-#include "engine/light/occlusion_modulation.h"
+#include "engine/light/occlusion/occlusion_modulation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Traced openness against closed forms (flat wall, spherical bowl, floor before a wall) and against the light
 // that paths bring from an even sky; the two older methods along 42 directions.
-#include "engine/light/occlusion_rays.h"
+#include "engine/light/occlusion/occlusion_rays.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

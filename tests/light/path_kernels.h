@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/light/isovalue_field.h"
-#include "engine/light/path_scene.h"
+#include "engine/light/paths/isovalue_field.h"
+#include "engine/light/paths/path_scene.h"
 
 namespace stereonav::test {
 

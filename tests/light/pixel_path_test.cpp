@@ -1,6 +1,6 @@
 // Paths traced from every pixel: the furnace's value, closed forms, the oracle path by path, baked light
 // looked up at the same hits, independence of threads.
-#include "engine/light/pixel_path.h"
+#include "engine/light/paths/pixel_path.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"
-#include "engine/light/bake_job.h"
-#include "engine/light/isovalue_surface.h"
-#include "engine/light/path_numbers.h"
-#include "engine/light/path_plain.h"
+#include "engine/light/bake/bake_job.h"
+#include "engine/light/paths/isovalue_surface.h"
+#include "engine/light/paths/path_numbers.h"
+#include "engine/light/paths/path_plain.h"
 #include "engine/math/constants.h"
 #include "engine/volume/volume_renderer.h"
 #include "tests/light/light_scenes.h"

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/light/light_probe.h"
+#include "engine/light/skies/light_probe.h"
 
 namespace stereonav::test {
 

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "engine/base/error.h"
-#include "engine/light/light_probe.h"
-#include "engine/light/spherical_harmonics.h"
+#include "engine/light/skies/light_probe.h"
+#include "engine/light/skies/spherical_harmonics.h"
 #include "engine/math/constants.h"
 #include "probe_pictures.h"
 #include "turns.h"

@@ -1,5 +1,5 @@
 // The bricks that a picture's lookups touch, against every pixel's own eight texels.
-#include "engine/light/seen_bricks.h"
+#include "engine/light/transfer/seen_bricks.h"
 
 #include <gtest/gtest.h>
 

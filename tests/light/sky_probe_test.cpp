@@ -1,5 +1,5 @@
 // Made skies: the sun where it is asked for, closed forms, light that stays finite.
-#include "engine/light/sky_probe.h"
+#include "engine/light/skies/sky_probe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

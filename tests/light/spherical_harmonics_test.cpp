@@ -1,5 +1,5 @@
 // Spherical harmonics against the standard library's, closed forms and an exact quadrature.
-#include "engine/light/spherical_harmonics.h"
+#include "engine/light/skies/spherical_harmonics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

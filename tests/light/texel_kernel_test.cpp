@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "engine/base/parallel.h"
-#include "engine/light/isovalue_surface.h"
-#include "engine/light/path_numbers.h"
-#include "engine/light/path_plain.h"
+#include "engine/light/paths/isovalue_surface.h"
+#include "engine/light/paths/path_numbers.h"
+#include "engine/light/paths/path_plain.h"
 #include "engine/volume/plain_volume_caster.h"
 #include "engine/volume/surface_cells.h"
 #include "tests/light/light_scenes.h"

@@ -2,10 +2,10 @@
 // by z-tests with fixed seeds. A level of 4.5 standard errors is passed by chance but for 7e-6 of the tests.
 #include <gmock/gmock.h>
 
-#include "engine/light/isovalue_surface.h"
-#include "engine/light/path_numbers.h"
-#include "engine/light/path_plain.h"
-#include "engine/light/spherical_harmonics.h"
+#include "engine/light/paths/isovalue_surface.h"
+#include "engine/light/paths/path_numbers.h"
+#include "engine/light/paths/path_plain.h"
+#include "engine/light/skies/spherical_harmonics.h"
 #include "tests/light/light_scenes.h"
 #include "tests/light/path_kernels.h"
 #include "tests/light/probe_pictures.h"

@@ -1,6 +1,6 @@
 // The sky over baked transfer: what was seen last is lit before a frame, the rest after frames; in the end
 // every texel is as if all had been lit at once.
-#include "engine/light/turning_sky.h"
+#include "engine/light/transfer/turning_sky.h"
 
 #include <gmock/gmock.h>
 
@@ -10,8 +10,8 @@
 
 #include "engine/camera/pose.h"
 #include "engine/camera/stereo_rig.h"
-#include "engine/light/light_beyond.h"
-#include "engine/light/spherical_harmonics.h"
+#include "engine/light/skies/spherical_harmonics.h"
+#include "engine/light/transfer/light_beyond.h"
 
 namespace stereonav {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "engine/medium/plain_sweep.h"
+#include "engine/medium/sweep/plain_sweep.h"
 #include "tests/medium/delta_tracking_scenes.h"
 
 namespace stereonav {

@@ -1,6 +1,6 @@
 // Single scattering, transmittance, emission and lamps by delta tracking against closed forms and against
 // quadrature through the medium itself.
-#include "engine/medium/delta_tracking.h"
+#include "engine/medium/paths/delta_tracking.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "engine/medium/delta_tracking_flight.h"
+#include "engine/medium/paths/delta_tracking_flight.h"
 #include "tests/medium/delta_tracking_scenes.h"
 
 namespace stereonav {

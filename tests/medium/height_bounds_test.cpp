@@ -1,6 +1,6 @@
 // Bounds of heights hold what samples of every level find, and a sweep that leaves out by them shows what one
 // does that leaves out nothing.
-#include "engine/medium/height_bounds.h"
+#include "engine/medium/sweep/height_bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <string>
 
-#include "engine/medium/medium_sweep.h"
+#include "engine/medium/sweep/medium_sweep.h"
 #include "sweep_scenes.h"
 
 namespace stereonav {

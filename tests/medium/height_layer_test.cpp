@@ -1,5 +1,5 @@
 // Height fields as thin volumes: levels, interpolation, edges and holes, the taper.
-#include "engine/medium/height_layer.h"
+#include "engine/medium/model/height_layer.h"
 
 #include <gtest/gtest.h>
 

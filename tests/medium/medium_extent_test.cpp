@@ -1,5 +1,5 @@
 // Ranges of a grid, and its cells between two values, against looking at every cell.
-#include "engine/medium/medium_extent.h"
+#include "engine/medium/model/medium_extent.h"
 
 #include <gtest/gtest.h>
 

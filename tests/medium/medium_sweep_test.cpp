@@ -1,12 +1,12 @@
 // The fast sweep against the plain one: every model, both directions, lights of both kinds, noise, layers,
 // gradients, on every instruction set. And what both must not depend on.
-#include "engine/medium/medium_sweep.h"
+#include "engine/medium/sweep/medium_sweep.h"
 
 #include <random>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "engine/math/simd_target.h"
+#include "engine/simd/simd_target.h"
 #include "sweep_scenes.h"
 
 namespace stereonav {

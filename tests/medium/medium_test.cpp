@@ -1,5 +1,5 @@
 // A medium's properties, gradients, bounds and largest extinction, for grids and for layers; built-in fields.
-#include "engine/medium/medium.h"
+#include "engine/medium/model/medium.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
-#include "engine/medium/built_in_media.h"
-#include "engine/medium/medium_look.h"
+#include "engine/medium/model/built_in_media.h"
+#include "engine/medium/model/medium_look.h"
 
 namespace stereonav {
 namespace {

@@ -9,9 +9,9 @@
 #include <random>
 
 #include "engine/base/error.h"
-#include "engine/medium/medium_table.h"
-#include "engine/medium/medium_transfer.h"
-#include "engine/medium/phase_function.h"
+#include "engine/medium/model/medium_table.h"
+#include "engine/medium/model/medium_transfer.h"
+#include "engine/medium/model/phase_function.h"
 #include "tests/support/error_of.h"
 
 namespace stereonav {

@@ -1,5 +1,5 @@
 // Transfer functions of media: extinctions from opacities, mixing, ranges, what is refused; and their table.
-#include "engine/medium/medium_transfer.h"
+#include "engine/medium/model/medium_transfer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
-#include "engine/medium/medium_table.h"
+#include "engine/medium/model/medium_table.h"
 #include "tests/support/error_of.h"
 
 namespace stereonav {

@@ -1,5 +1,5 @@
 // The noise volume: the same everywhere, repeating, sound after a long time; and what it does to properties.
-#include "engine/medium/perturbation.h"
+#include "engine/medium/model/perturbation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

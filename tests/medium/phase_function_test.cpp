@@ -1,5 +1,5 @@
 // Phase functions by table: against the closed form, their mean, and how they are sampled.
-#include "engine/medium/phase_function.h"
+#include "engine/medium/model/phase_function.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Where slices lie: the axis, the faces, the buffers' rays.
-#include "engine/medium/sweep_geometry.h"
+#include "engine/medium/sweep/sweep_geometry.h"
 
 #include <glm/gtc/constants.hpp>
 #include <limits>

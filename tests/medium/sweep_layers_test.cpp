@@ -3,8 +3,8 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "engine/math/simd_target.h"
-#include "engine/medium/medium_sweep.h"
+#include "engine/medium/sweep/medium_sweep.h"
+#include "engine/simd/simd_target.h"
 #include "sweep_scenes.h"
 
 namespace stereonav {

@@ -1,6 +1,6 @@
 // Light that no eye reads any more stays where it is: what eyes read is never left out, pictures do not
 // change by a bit, and what is remembered is bounded.
-#include "engine/medium/sweep_reach.h"
+#include "engine/medium/sweep/sweep_reach.h"
 
 #include <glm/gtc/constants.hpp>
 #include <random>

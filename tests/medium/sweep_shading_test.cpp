@@ -2,8 +2,8 @@
 #include <limits>
 
 #include "engine/base/parallel.h"
-#include "engine/math/simd_target.h"
-#include "engine/medium/medium_sweep.h"
+#include "engine/medium/sweep/medium_sweep.h"
+#include "engine/simd/simd_target.h"
 #include "sweep_scenes.h"
 
 namespace stereonav {

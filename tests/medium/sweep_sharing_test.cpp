@@ -1,13 +1,13 @@
 // Two eyes that share what they see against two that take samples of their own.
-#include "engine/medium/sweep_sharing.h"
+#include "engine/medium/sweep/sweep_sharing.h"
 
 #include <limits>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/math/constants.h"
-#include "engine/math/simd_target.h"
-#include "engine/medium/medium_sweep.h"
+#include "engine/medium/sweep/medium_sweep.h"
+#include "engine/simd/simd_target.h"
 #include "sweep_scenes.h"
 
 namespace stereonav {

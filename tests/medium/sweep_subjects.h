@@ -2,7 +2,7 @@
 // both against the same figures.
 #pragma once
 
-#include "engine/medium/medium_sweep.h"
+#include "engine/medium/sweep/medium_sweep.h"
 #include "sweep_scenes.h"
 
 namespace stereonav::test {

@@ -2,8 +2,8 @@
 // neighbouring entries up in registers (kernel_table_window.h), AVX2 gathers them. Both must say the same.
 #include <random>
 
-#include "engine/math/simd_target.h"
-#include "engine/medium/medium_sweep.h"
+#include "engine/medium/sweep/medium_sweep.h"
+#include "engine/simd/simd_target.h"
 #include "sweep_scenes.h"
 
 namespace stereonav {

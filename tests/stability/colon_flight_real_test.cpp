@@ -10,8 +10,8 @@
 #include <memory>
 #include <random>
 
-#include "colon/colon_flight.h"
-#include "colon/study.h"
+#include "colon/flight/colon_flight.h"
+#include "colon/study/study.h"
 #include "engine/volume/surface_cells.h"
 #include "tests/support/analytic_lumen.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "colon/centreline.h"
+#include "colon/centreline/centreline.h"
 #include "engine/nav/navigator.h"
 #include "tests/stability/stability_scenes.h"
 #include "tests/support/analytic_lumen.h"

@@ -6,8 +6,8 @@
 
 #include "engine/stereo/right_eye.h"
 #include "engine/volume/plain_volume_caster.h"
-#include "terrain/plain_caster.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/plain_caster.h"
+#include "terrain/cast/terrain_renderer.h"
 #include "tests/stability/stability_scenes.h"
 #include "tests/support/stability_row.h"
 #include "tests/support/test_grounds.h"

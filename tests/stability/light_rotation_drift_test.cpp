@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/light/spherical_harmonics.h"
+#include "engine/light/skies/spherical_harmonics.h"
 #include "tests/support/stability_row.h"
 
 namespace stereonav {

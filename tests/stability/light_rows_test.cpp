@@ -6,11 +6,11 @@
 #include <numbers>
 #include <random>
 
-#include "engine/light/light_probe.h"
-#include "engine/light/spherical_harmonics.h"
+#include "engine/light/skies/light_probe.h"
+#include "engine/light/skies/spherical_harmonics.h"
 #include "engine/math/constants.h"
 #include "engine/stereo/right_eye.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/terrain_renderer.h"
 #include "tests/light/occlusion_brute.h"
 #include "tests/light/probe_pictures.h"
 #include "tests/stability/stability_scenes.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "engine/medium/medium_sweep.h"
-#include "engine/medium/plain_sweep.h"
+#include "engine/medium/sweep/medium_sweep.h"
+#include "engine/medium/sweep/plain_sweep.h"
 #include "tests/medium/sweep_scenes.h"
 #include "tests/stability/slab_formulas.h"
 #include "tests/stability/stability_scenes.h"

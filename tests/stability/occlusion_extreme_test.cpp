@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "engine/light/occlusion.h"
-#include "engine/light/occlusion_rays.h"
+#include "engine/light/occlusion/occlusion.h"
+#include "engine/light/occlusion/occlusion_rays.h"
 #include "tests/light/occlusion_brute.h"
 
 namespace stereonav {

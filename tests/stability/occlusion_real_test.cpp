@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <random>
 
-#include "colon/study.h"
+#include "colon/study/study.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "tests/bench/occlusion_errors.h"

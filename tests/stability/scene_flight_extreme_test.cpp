@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "terrain/scene_flight.h"
+#include "terrain/scene/scene_flight.h"
 
 namespace stereonav {
 namespace {

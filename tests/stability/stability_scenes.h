@@ -10,7 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"
-#include "engine/math/simd_target.h"
+#include "engine/simd/simd_target.h"
 #include "engine/volume/volume_renderer.h"
 
 namespace stereonav::test {

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
-#include "terrain/terrain_relight.h"
+#include "terrain/light/terrain_relight.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav {

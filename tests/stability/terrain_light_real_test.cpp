@@ -6,10 +6,10 @@
 #include <cstdio>
 
 #include "engine/base/parallel.h"
-#include "terrain/terrain_illumination.h"
-#include "terrain/terrain_loader.h"
-#include "terrain/terrain_path_light.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/terrain_renderer.h"
+#include "terrain/light/terrain_path_light.h"
+#include "terrain/scene/terrain_illumination.h"
+#include "terrain/scene/terrain_loader.h"
 #include "tests/support/own_cache.h"
 #include "tests/support/test_grounds.h"
 

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "engine/math/constants.h"
-#include "terrain/plain_caster.h"
-#include "terrain/terrain_loader.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/plain_caster.h"
+#include "terrain/cast/terrain_renderer.h"
+#include "terrain/scene/terrain_loader.h"
 #include "tests/stability/stability_scenes.h"
 #include "tests/support/own_cache.h"
 #include "tests/support/stability_row.h"

@@ -8,14 +8,14 @@
 #include <immintrin.h>
 #endif
 
-#include "engine/light/bake_job.h"
-#include "engine/light/occlusion.h"
-#include "engine/light/spherical_harmonics.h"
-#include "engine/medium/plain_sweep.h"
+#include "engine/light/bake/bake_job.h"
+#include "engine/light/occlusion/occlusion.h"
+#include "engine/light/skies/spherical_harmonics.h"
+#include "engine/medium/sweep/plain_sweep.h"
 #include "engine/stereo/right_eye.h"
 #include "engine/volume/distance_transform.h"
-#include "terrain/terrain_light.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/terrain_renderer.h"
+#include "terrain/light/terrain_light.h"
 #include "tests/light/light_scenes.h"
 #include "tests/medium/sweep_scenes.h"
 #include "tests/stability/stability_scenes.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/camera/stereo_rig.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/terrain_renderer.h"
 
 namespace stereonav {
 namespace {

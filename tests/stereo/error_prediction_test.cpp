@@ -11,9 +11,9 @@
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/base/progress.h"
-#include "terrain/scene_file.h"
-#include "terrain/terrain_loader.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/terrain_renderer.h"
+#include "terrain/read/scene_file.h"
+#include "terrain/scene/terrain_loader.h"
 #include "tests/support/own_cache.h"
 
 namespace stereonav {

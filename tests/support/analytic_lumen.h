@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "colon/colon_flight.h"
+#include "colon/flight/colon_flight.h"
 
 namespace stereonav {
 

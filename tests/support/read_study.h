@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "colon/study.h"
+#include "colon/study/study.h"
 #include "engine/base/error.h"
 
 namespace stereonav::test {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "terrain/heightfield.h"
-#include "terrain/terrain_scene.h"
+#include "terrain/ground/heightfield.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav::test {
 

@@ -1,6 +1,6 @@
 // The generated terrain: the same bits always, mountains in range, and a cache that mends itself;
 // the erosion behind it against the closed form of a steady river.
-#include "terrain/built_in_terrain.h"
+#include "terrain/built_in/built_in_terrain.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
-#include "terrain/erosion.h"
+#include "terrain/built_in/erosion.h"
 
 namespace stereonav {
 namespace {

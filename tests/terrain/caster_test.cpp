@@ -10,9 +10,9 @@
 
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"
-#include "terrain/plain_caster.h"
-#include "terrain/terrain_loader.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/plain_caster.h"
+#include "terrain/cast/terrain_renderer.h"
+#include "terrain/scene/terrain_loader.h"
 #include "tests/support/own_cache.h"
 #include "tests/support/test_grounds.h"
 

@@ -6,7 +6,7 @@
 
 #include "gdal_reading.h"
 #include "raster_files.h"
-#include "terrain/terrain_loader.h"
+#include "terrain/scene/terrain_loader.h"
 
 namespace stereonav::test {
 namespace {

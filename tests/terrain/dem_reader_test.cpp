@@ -1,5 +1,5 @@
 // Elevation models: what is read, where it lands in metres, and one clear line for what can not be.
-#include "terrain/dem_reader.h"
+#include "terrain/read/dem_reader.h"
 
 #include <cmath>
 #include <limits>

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "raster_files.h"
-#include "terrain/dem_reader.h"
+#include "terrain/read/dem_reader.h"
 
 namespace stereonav {
 namespace {

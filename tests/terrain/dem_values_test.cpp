@@ -6,7 +6,7 @@
 
 #include "gdal_reading.h"
 #include "raster_files.h"
-#include "terrain/dem_reader.h"
+#include "terrain/read/dem_reader.h"
 
 namespace stereonav::test {
 namespace {

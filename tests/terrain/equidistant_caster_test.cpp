@@ -1,13 +1,13 @@
 // The paper's stepping against the exact hit: late by at most a step on ground without thin features, and
 // blind to what is thinner.
-#include "terrain/equidistant_caster.h"
+#include "terrain/cast/equidistant_caster.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "terrain/plain_caster.h"
+#include "terrain/cast/plain_caster.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/stereo/right_eye.h"
-#include "terrain/fog_row.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/fog_row.h"
+#include "terrain/cast/terrain_renderer.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav::fog_between_eyes_test {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "terrain/dem_reader.h"
+#include "terrain/read/dem_reader.h"
 
 namespace stereonav::test {
 

@@ -1,5 +1,5 @@
 // The ground's colour: where images land, what the light does, what is refused.
-#include "terrain/ground_color.h"
+#include "terrain/scene/ground_color.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

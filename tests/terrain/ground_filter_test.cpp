@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/terrain_renderer.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav {

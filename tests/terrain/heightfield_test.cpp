@@ -1,5 +1,5 @@
 // The surface that everything casts and shades: bilinear, with its bounds, normals and holes.
-#include "terrain/heightfield.h"
+#include "terrain/ground/heightfield.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,10 +10,10 @@
 
 #include "engine/camera/gltf_file.h"
 #include "engine/stereo/right_eye.h"
-#include "terrain/landmark.h"
-#include "terrain/specular.h"
-#include "terrain/terrain_illumination.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/specular.h"
+#include "terrain/cast/terrain_renderer.h"
+#include "terrain/scene/landmark.h"
+#include "terrain/scene/terrain_illumination.h"
 #include "tests/camera/temporary_folder.h"
 #include "tests/support/test_grounds.h"
 

@@ -1,6 +1,6 @@
 // Landmarks: meshes made here, cast, and compared with slabs and spheres in closed form; light, colour
 // and placement from their definitions; files that are no meshes.
-#include "terrain/landmark.h"
+#include "terrain/scene/landmark.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

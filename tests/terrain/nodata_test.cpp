@@ -1,5 +1,5 @@
 // Holes in the heights, filled: planes exactly, borders kept, ranges kept.
-#include "terrain/nodata.h"
+#include "terrain/ground/nodata.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Scene files: every key arrives in its units, and everything wrong is one clear line with its place.
-#include "terrain/scene_file.h"
+#include "terrain/read/scene_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

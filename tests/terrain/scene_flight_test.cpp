@@ -1,5 +1,5 @@
 // The computed viewpoint and flight over grounds whose height is a formula.
-#include "terrain/scene_flight.h"
+#include "terrain/scene/scene_flight.h"
 
 #include <gtest/gtest.h>
 

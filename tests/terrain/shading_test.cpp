@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/camera/stereo_rig.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/terrain_renderer.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav {

@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "raster_files.h"
-#include "terrain/sky_source.h"
+#include "terrain/light/sky_source.h"
 
 namespace stereonav {
 namespace {

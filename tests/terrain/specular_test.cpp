@@ -1,5 +1,5 @@
 // The highlight: its table against the power function, packed normals, and where there is none.
-#include "terrain/specular.h"
+#include "terrain/cast/specular.h"
 
 #include <gtest/gtest.h>
 

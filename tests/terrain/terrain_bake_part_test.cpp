@@ -1,5 +1,5 @@
 // A terrain's bake that is stopped goes on where it was, to the same bytes.
-#include "terrain/terrain_bake_part.h"
+#include "terrain/light/terrain_bake_part.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <fstream>
 
 #include "engine/base/error.h"
-#include "terrain/ground_rays.h"
-#include "terrain/terrain_horizon.h"
-#include "terrain/terrain_light.h"
+#include "terrain/ground/ground_rays.h"
+#include "terrain/light/terrain_horizon.h"
+#include "terrain/light/terrain_light.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav {

@@ -5,7 +5,7 @@
 
 #include "engine/base/parallel.h"
 #include "raster_files.h"
-#include "terrain/terrain_light.h"
+#include "terrain/light/terrain_light.h"
 #include "tests/support/own_cache.h"
 #include "tests/support/test_grounds.h"
 

@@ -9,10 +9,10 @@
 #include "engine/base/parallel.h"
 #include "engine/stereo/frame_plan.h"
 #include "engine/stereo/right_eye.h"
-#include "terrain/terrain_illumination.h"
-#include "terrain/terrain_path_light.h"
-#include "terrain/terrain_relight.h"
-#include "terrain/terrain_renderer.h"
+#include "terrain/cast/terrain_renderer.h"
+#include "terrain/light/terrain_path_light.h"
+#include "terrain/light/terrain_relight.h"
+#include "terrain/scene/terrain_illumination.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav {

@@ -1,6 +1,6 @@
 // Light baked over heightfields against closed forms: planes, slopes, steps and valleys that are so long
 // that they count as infinite.
-#include "terrain/terrain_light.h"
+#include "terrain/light/terrain_light.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <numbers>
 
 #include "engine/base/parallel.h"
-#include "engine/light/spherical_harmonics.h"
+#include "engine/light/skies/spherical_harmonics.h"
 #include "engine/math/constants.h"
-#include "terrain/terrain_horizon.h"
+#include "terrain/light/terrain_horizon.h"
 
 namespace stereonav {
 namespace {

@@ -1,12 +1,12 @@
 // A scene put together: what the loader chooses where the scene is silent, and what it takes over.
-#include "terrain/terrain_loader.h"
+#include "terrain/scene/terrain_loader.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "raster_files.h"
-#include "terrain/landmark.h"
-#include "terrain/nodata.h"
+#include "terrain/ground/nodata.h"
+#include "terrain/scene/landmark.h"
 #include "tests/support/own_cache.h"
 
 namespace stereonav {

@@ -1,5 +1,5 @@
 // The simplified ground: the error bound by brute force, no cracks, no holes covered, and the file.
-#include "terrain/terrain_mesh.h"
+#include "terrain/mesh/terrain_mesh.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 #include "engine/base/file.h"
 #include "engine/camera/gltf_file.h"
 #include "engine/image/image_file.h"
-#include "terrain/mesh_triangulation.h"
-#include "terrain/terrain_loader.h"
+#include "terrain/mesh/mesh_triangulation.h"
+#include "terrain/scene/terrain_loader.h"
 #include "tests/camera/temporary_folder.h"
 #include "tests/support/own_cache.h"
 #include "tests/support/test_grounds.h"

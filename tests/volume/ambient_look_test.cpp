@@ -8,7 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/camera/stereo_rig.h"
-#include "engine/math/simd_target.h"
+#include "engine/simd/simd_target.h"
 #include "engine/volume/plain_volume_caster.h"
 #include "engine/volume/volume_renderer.h"
 #include "tests/volume/test_volumes.h"

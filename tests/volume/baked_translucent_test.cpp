@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/camera/stereo_rig.h"
-#include "engine/math/simd_target.h"
+#include "engine/simd/simd_target.h"
 #include "engine/volume/baked_data.h"
 #include "engine/volume/plain_volume_caster.h"
 #include "engine/volume/volume_renderer.h"

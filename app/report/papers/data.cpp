@@ -8,7 +8,7 @@
 
 #include "app/report/light.h"
 #include "app/report/subjects.h"
-#include "colon/study.h"
+#include "colon/study/study.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/light/light_setup.h"
+#include "engine/light/skies/light_setup.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav {

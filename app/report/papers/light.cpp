@@ -12,8 +12,8 @@
 #include "app/report/papers/run.h"
 #include "app/report/papers/view.h"
 #include "engine/base/parallel.h"
-#include "engine/light/isovalue_field.h"
-#include "engine/light/spherical_harmonics.h"
+#include "engine/light/paths/isovalue_field.h"
+#include "engine/light/skies/spherical_harmonics.h"
 
 namespace stereonav {
 namespace {

@@ -13,9 +13,9 @@
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"
-#include "engine/medium/built_in_media.h"
-#include "engine/medium/medium_scene.h"
-#include "engine/medium/medium_sweep.h"
+#include "engine/medium/model/built_in_media.h"
+#include "engine/medium/sweep/medium_scene.h"
+#include "engine/medium/sweep/medium_sweep.h"
 
 namespace stereonav {
 namespace {

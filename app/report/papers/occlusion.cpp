@@ -10,10 +10,10 @@
 #include "app/report/papers/data.h"
 #include "app/report/papers/run.h"
 #include "app/report/subjects.h"
-#include "colon/isosurface_scene.h"
+#include "colon/scene/isosurface_scene.h"
 #include "engine/base/parallel.h"
 #include "engine/image/image_file.h"
-#include "engine/light/occlusion_rays.h"
+#include "engine/light/occlusion/occlusion_rays.h"
 #include "engine/volume/volume_renderer.h"
 
 namespace stereonav {

@@ -10,10 +10,10 @@
 #include "app/report/papers/run.h"
 #include "app/report/papers/trial.h"
 #include "app/report/subjects.h"
-#include "engine/light/bake_rate.h"
-#include "engine/light/occlusion.h"
-#include "engine/medium/built_in_media.h"
-#include "engine/medium/medium_sweep.h"
+#include "engine/light/bake/bake_rate.h"
+#include "engine/light/occlusion/occlusion.h"
+#include "engine/medium/model/built_in_media.h"
+#include "engine/medium/sweep/medium_sweep.h"
 #include "engine/volume/surface_cells.h"
 
 namespace stereonav {

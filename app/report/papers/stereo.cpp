@@ -10,7 +10,7 @@
 #include "app/report/papers/data.h"
 #include "app/report/papers/run.h"
 #include "app/report/papers/trial.h"
-#include "engine/math/simd_target.h"
+#include "engine/simd/simd_target.h"
 
 namespace stereonav {
 namespace {

@@ -4,10 +4,10 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "colon/isosurface_scene.h"
-#include "engine/light/bake_texels.h"
-#include "engine/light/seen_bricks.h"
-#include "engine/light/transfer_volume.h"
+#include "colon/scene/isosurface_scene.h"
+#include "engine/light/transfer/bake_texels.h"
+#include "engine/light/transfer/seen_bricks.h"
+#include "engine/light/transfer/transfer_volume.h"
 #include "engine/volume/volume_renderer.h"
 
 namespace stereonav {

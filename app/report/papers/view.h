@@ -6,7 +6,7 @@
 
 #include "app/report/papers/data.h"
 #include "app/report/run.h"
-#include "engine/light/bake_rate.h"
+#include "engine/light/bake/bake_rate.h"
 
 namespace stereonav {
 

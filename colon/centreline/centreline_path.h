@@ -1,0 +1,18 @@
+// The rough centreline of one piece of lumen: its two farthest ends, and the cheapest way between them
+// where a step costs more the nearer it is to the wall. Refined afterwards by centreline_refine.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "colon/segmentation/segmentation.h"
+#include "engine/volume/distance_transform.h"
+
+namespace stereonav {
+
+// Voxels, each a neighbour of the one before it (engine/volume/voxel_path.h), one or more; which end comes
+// first is not said. Throws Error when the piece has no voxel.
+std::vector<glm::ivec3> roughCentreline(const LumenField& lumen, int segment, const DistanceVolume& distance,
+                                        const std::function<void()>& poll);
+
+}  // namespace stereonav

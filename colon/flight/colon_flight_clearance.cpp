@@ -1,0 +1,104 @@
+// What a flight really keeps from the wall. The distance to it changes by at most a metre a metre of way, so
+// two looks bound it on all of the way between them; where the bound does not tell enough there is another
+// look half way.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "colon/flight/colon_flight.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kFirstLook = 0.002,
+                 kFartherLook = 4;   // metres; and how much further where no wall is so near
+constexpr double kTightness = 1e-5;  // metres
+constexpr int kMostHalvings = 20;    // of the way between two samples
+
+double freeAt(const FreeDistance& free, const glm::dvec3& point, double upTo) {
+    const double distance = free(point, upTo);
+    return distance > 0 ? std::min(distance, upTo) : 0.0;  // NaN is no room
+}
+
+// One of the points that fly: the head, or an eye aside of it.
+struct Flier {
+    const RecordedPath& path;
+    const FreeDistance& free;
+    double aside;  // metres to the head's right
+    double upTo;
+
+    struct Look {
+        double time, distance;
+        Pose pose;
+    };
+    Look lookAt(double time) const {
+        const Pose pose = path.at(time);
+        const glm::dvec3 right = pose.orientation * glm::dvec3(1, 0, 0);
+        return {time, freeAt(free, pose.position + aside * right, upTo), pose};
+    }
+    // At least as far as the point moves from one to the other.
+    double way(const Look& a, const Look& b) const {
+        const glm::dquat turn = glm::conjugate(a.pose.orientation) * b.pose.orientation;
+        const double sine = glm::length(glm::dvec3(turn.x, turn.y, turn.z));
+        return glm::distance(a.pose.position, b.pose.position) +
+               std::abs(aside) * 2 * std::asin(std::min(sine, 1.0));
+    }
+
+    // Never above what is kept between the two, and below it by no more than kTightness or the whole flight's
+    // least, which is brought down by each look.
+    double leastBetween(const Look& a, const Look& b, double& leastSeen, int halvings) const {
+        leastSeen = std::min({leastSeen, a.distance, b.distance});
+        const double bound = std::max(0.0, (a.distance + b.distance - way(a, b)) / 2);
+        if (bound >= leastSeen - kTightness || halvings == kMostHalvings) return bound;
+        const Look middle = lookAt((a.time + b.time) / 2);
+        return std::min(leastBetween(a, middle, leastSeen, halvings + 1),
+                        leastBetween(middle, b, leastSeen, halvings + 1));
+    }
+
+    double leastOfAll() const {
+        const std::vector<PathSample>& samples = path.samples();
+        std::vector<Look> looks;
+        double seen = upTo;
+        for (const PathSample& sample : samples) {
+            looks.push_back(lookAt(sample.time));
+            seen = std::min(seen, looks.back().distance);
+        }
+        double least = seen;
+        for (std::size_t n = 1; n < looks.size(); ++n)
+            if (looks[n].time - looks[n - 1].time > 1.5 * kFlightCut)  // no frame shows what lies in a cut
+                least = std::min(least, leastBetween(looks[n - 1], looks[n], seen, 0));
+        return least;
+    }
+};
+
+double leastOf(const RecordedPath& path, const FreeDistance& free, double aside) {
+    double upTo = kFirstLook;
+    for (;; upTo = std::min(kFartherLook * upTo, ColonFlight::kFarthestClearance)) {
+        const double least = Flier{path, free, aside, upTo}.leastOfAll();
+        if (least < upTo - 2 * kTightness || upTo >= ColonFlight::kFarthestClearance) return least;
+    }
+}
+
+}  // namespace
+
+double clearanceAt(const FreeDistance& freeDistance, const Pose& head, double separation) {
+    const glm::dvec3 right = head.orientation * glm::dvec3(1, 0, 0);
+    double nearest = ColonFlight::kFarthestClearance;
+    for (const double aside : {-separation / 2, 0.0, separation / 2})
+        nearest = std::min(nearest, freeAt(freeDistance, head.position + aside * right, nearest));
+    return nearest;
+}
+
+FlightClearance clearanceOf(const RecordedPath& path, const FreeDistance& freeDistance, double separation) {
+    FlightClearance clearance;
+    clearance.head = leastOf(path, freeDistance, 0);
+    clearance.eyes = clearance.head;
+    if (separation > 0)
+        clearance.eyes = std::min(leastOf(path, freeDistance, -separation / 2),
+                                  leastOf(path, freeDistance, separation / 2));
+    return clearance;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,77 @@
+// Where a head with two eyes may be in a lumen: the room left before an eye would be nearer to the wall than
+// the clearance. Moves are cut so that nothing in between is passed through. Used by the guided and free
+// flight.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <unordered_map>
+#include <vector>
+
+#include "colon/flight/colon_flight.h"
+
+namespace stereonav {
+
+// A place of the centreline where the lumen does not leave the clearance that was asked for.
+struct NarrowPlace {
+    glm::dvec3 position{0.0};  // world, metres
+    double reach = 0;          // metres along the line that this place speaks for, to each side
+    double allowed = 0;        // metres: the clearance that is kept here instead
+};
+
+class LumenRoom {
+public:
+    // half: metres from the head to each eye. Narrow places have an allowed clearance in (0, clearance).
+    LumenRoom(FreeDistance freeDistance, double clearance, double half,
+              const std::vector<NarrowPlace>& narrow);
+
+    // The clearance kept at a world point: what was asked for, less around narrow places, from where it
+    // grows again by kAllowedSlope metres a metre.
+    static constexpr double kAllowedSlope = 0.5;
+    double allowed(const glm::dvec3& head) const;
+
+    // Metres left before an eye or the head itself is nearer to the wall than allowed, for a head whose
+    // right side is `right` (unit); at most upTo; negative: too near. Falls by at most kSlope metres a metre.
+    static constexpr double kSlope = 1 + kAllowedSlope;
+    double room(const glm::dvec3& head, const glm::dvec3& right, double upTo) const;
+    // The direction in which the room grows, or 0 where there is no clear one (between two walls).
+    glm::dvec3 away(const glm::dvec3& head, const glm::dvec3& right) const;
+
+    // The head moved by `by`, or as far as room is left, sliding along the wall. The new place has room;
+    // so does every point on the way, to within kCrawl of the clearance. `head` must have room.
+    static constexpr double kCrawl = 1.0 / 32;
+    glm::dvec3 moved(const glm::dvec3& head, const glm::dvec3& right, const glm::dvec3& by) const;
+    // Whether a head finds room everywhere on the straight way.
+    bool wayIsFree(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& right) const;
+
+    // Distance of the nearer eye (or the head) to the wall, at most upTo.
+    double free(const glm::dvec3& head, const glm::dvec3& right, double upTo) const;
+    double freeAt(const glm::dvec3& point, double upTo) const;
+    double clearance() const { return mClearance; }
+    double half() const { return mHalf; }
+
+private:
+    struct Answer {
+        glm::dvec3 head{0.0}, right{0.0};
+        double upTo = -1, room = 0;
+    };
+    struct Direction {
+        bool known = false;
+        glm::dvec3 head{0.0}, right{0.0}, direction{0.0};
+    };
+    double lookedUp(const glm::dvec3& head, const glm::dvec3& right, double upTo) const;
+    std::uint64_t cellOf(const glm::dvec3& p, const glm::ivec3& offset) const;
+
+    FreeDistance mFree;
+    double mClearance, mHalf;
+    // The last answers and the last ball found free of wall: they save looking again and change no result
+    // beyond the tolerance of the distances. Hence one thread.
+    mutable Answer mLast;
+    mutable Direction mLastAway;
+    mutable glm::dvec3 mKnownPoint{0.0};
+    mutable double mKnownFree = 0;
+    double mCell = 1;                                                    // metres
+    std::unordered_map<std::uint64_t, std::vector<NarrowPlace>> mCells;  // those that matter in a cell
+};
+
+}  // namespace stereonav

@@ -1,0 +1,36 @@
+// What was found in a study, kept in the cache folder: opening it again takes a fraction of a second.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "colon/scene/colon_scene.h"
+
+namespace stereonav {
+
+// The lumen with its field, whose values are kept near the lumen alone (0 elsewhere), and the line through
+// it.
+struct FoundColon {
+    std::string format;
+    VolumeFrame studyFrame;  // of the whole study; the lumen's is a part of it
+    LumenField lumen;
+    Centreline centreline;
+    std::vector<Polyp> polyps;
+    std::vector<std::string> notes;
+};
+
+// Values of the field are kept at least this far from the lumen, voxels along each axis.
+constexpr int kKeptMargin = 8;
+
+// Of everything that finding depends on: the study (its content's key) and the settings.
+std::uint64_t colonCacheKey(std::uint64_t study, const ColonOptions& options);
+
+// Nothing where there is none, or it is damaged or not of this key: `damaged` tells which.
+std::optional<FoundColon> readColonCache(std::uint64_t key, bool& damaged);
+
+// The cache only saves time: where it can not be written this does nothing and gives false.
+bool writeColonCache(std::uint64_t key, const FoundColon& found);
+
+}  // namespace stereonav

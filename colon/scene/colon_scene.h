@@ -1,0 +1,71 @@
+// A volume ready to fly in: the lumen of a colon with its centreline, or any CT volume as an isosurface
+// seen from outside.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "colon/built_in/built_in_colon.h"
+#include "colon/centreline/centreline.h"
+#include "colon/segmentation/segmentation.h"
+#include "colon/study/study.h"
+#include "engine/camera/recorded_path.h"
+#include "engine/camera/stereo_rig.h"
+#include "engine/volume/distance_transform.h"
+#include "engine/volume/volume_scene.h"
+#include "engine/volume/volume_up.h"
+
+namespace stereonav {
+
+struct ColonOptions {
+    std::filesystem::path study;  // empty: the built-in colon
+    BuiltInColonSetting builtIn;
+    StudyOptions reading;
+    SegmentationSetting segmentation;
+    CentrelineSetting centreline;
+    bool isosurface = false;         // show any volume from outside, without looking for a colon
+    std::optional<double> isovalue;  // of that surface; not given: chosen from the values
+    std::filesystem::path transfer;  // a transfer function, by file or name: translucent
+    std::optional<double> opacity;   // translucent wall of this opacity a millimetre, in (0, 1]
+    double clearance = 0;            // metres; 0: chosen
+    std::optional<UpAxis> up;        // of a volume seen from outside; not given: z
+    bool cache = true;
+};
+
+struct ColonScene {
+    std::string name, format;
+    VolumeFrame
+        studyFrame;  // of the study as it was read; the volume's may be a part of it, or have a border
+    std::vector<std::string> notes;
+    VolumeScene volume;
+    // Of a colon; empty for a volume seen from outside.
+    LumenField lumen;         // its `field` is moved into volume.field
+    DistanceVolume distance;  // to the lumen's outside
+    Centreline centreline;
+    std::vector<Polyp> polyps;
+
+    Pose startPose;
+    RecordedPath path;  // along the centreline, or around the volume
+    Lens lens;
+    StereoSetting stereo;
+    double clearance = 0.002;  // metres kept from the wall
+    double extent = 0.3;       // metres: what speeds are chosen from
+
+    bool isColon() const { return !centreline.points.empty(); }
+    // Distance free of wall around a world point, metres; never above the true one. At most upTo.
+    double freeDistanceAt(const glm::dvec3& world, double upTo) const;
+};
+
+// Reads or makes the study, finds the lumen or takes it from the cache, and builds what casting needs.
+// Throws Error, Cancelled.
+ColonScene loadColon(const ColonOptions& options, Progress& progress);
+
+// The same study with the isovalue (of a volume seen from outside; none: the present one), the transfer
+// function and the opacity of the options; the rest is the scene's own, in the same memory where it is large.
+// Places and paths stay where they are. Throws Error, Cancelled.
+ColonScene changedScene(const ColonScene& scene, const ColonOptions& options, Progress& progress);
+
+}  // namespace stereonav

@@ -1,0 +1,219 @@
+// Volumes seen from outside.
+#include "colon/scene/isosurface_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "colon/scene/transfer_presets.h"
+#include "engine/base/error.h"
+#include "engine/base/memory.h"
+#include "engine/math/constants.h"
+
+namespace stereonav {
+namespace {
+constexpr double kAirSeen = -500, kBone = 300, kSkin = -300;  // HU
+constexpr double kBoneShare = 0.002;  // of the voxels: less is a contrast agent or a calcification
+constexpr double kOrbitSeconds = 15;
+constexpr int kOrbitSamples = 180;
+
+double valueOf(const GreyVolume& grey, double stored) {
+    return stored * grey.scale + grey.offset;
+}
+float storedIsovalue(const GreyVolume& grey, double value) {
+    return static_cast<float>((value - grey.offset) / grey.scale);
+}
+
+struct Histogram {
+    std::array<std::uint64_t, 65536> counts{};
+    int lowest = 0, highest = 0;  // stored numbers that occur
+};
+Histogram histogramOf(const GreyVolume& grey) {
+    Histogram histogram;
+    for (std::size_t n = 0; n < grey.frame.count(); ++n) ++histogram.counts[grey.values[n] + 32768];
+    const auto some = [](std::uint64_t count) { return count > 0; };
+    const auto& counts = histogram.counts;
+    histogram.lowest = static_cast<int>(std::ranges::find_if(counts, some) - counts.begin()) - 32768;
+    histogram.highest =
+        32767 - static_cast<int>(std::find_if(counts.rbegin(), counts.rend(), some) - counts.rbegin());
+    return histogram;
+}
+
+// The threshold with the largest variance between the classes on its two sides.
+double otsu(const Histogram& histogram) {
+    double count = 0, sum = 0;
+    for (int v = histogram.lowest; v <= histogram.highest; ++v) {
+        const double n = static_cast<double>(histogram.counts[v + 32768]);
+        count += n;
+        sum += n * v;
+    }
+    double below = 0, sumBelow = 0, best = -1, threshold = histogram.lowest;
+    for (int v = histogram.lowest; v < histogram.highest; ++v) {
+        const double n = static_cast<double>(histogram.counts[v + 32768]);
+        below += n;
+        sumBelow += n * v;
+        if (below <= 0 || below >= count) continue;
+        const double apart = sumBelow / below - (sum - sumBelow) / (count - below);
+        const double variance = below * (count - below) * apart * apart;
+        if (variance > best) {
+            best = variance;
+            threshold = v + 0.5;
+        }
+    }
+    return threshold;
+}
+
+// One layer of the smallest value around, so that surfaces are closed where they leave the study.
+GreyVolume padded(const GreyVolume& grey) {
+    VolumeFrame frame = grey.frame;
+    frame.origin = grey.frame.worldFromVoxel(glm::dvec3(-1));
+    frame.size += 2;
+    GreyVolume out(frame);
+    out.scale = grey.scale;
+    out.offset = grey.offset;
+    const auto smallest = *std::min_element(grey.values.data(), grey.values.data() + grey.frame.count());
+    std::fill_n(out.values.data(), frame.count(), smallest);
+    for (int k = 0; k < grey.frame.size.z; ++k)
+        for (int j = 0; j < grey.frame.size.y; ++j)
+            std::copy_n(&grey.values[grey.frame.index(0, j, k)], grey.frame.size.x, &out.at(1, j + 1, k + 1));
+    return out;
+}
+
+struct Ball {
+    glm::dvec3 middle{0.0};  // world
+    double radius = 0;
+};
+// Around the box of the voxels that reach the isovalue.
+Ball ballAround(const GreyVolume& field, float isovalue) {
+    glm::ivec3 low = field.frame.size, high(-1);
+    for (int k = 0; k < field.frame.size.z; ++k)
+        for (int j = 0; j < field.frame.size.y; ++j)
+            for (int i = 0; i < field.frame.size.x; ++i)
+                if (static_cast<float>(field.at(i, j, k)) >= isovalue) {
+                    low = glm::min(low, glm::ivec3(i, j, k));
+                    high = glm::max(high, glm::ivec3(i, j, k));
+                }
+    const glm::dvec3 a = field.frame.worldFromVoxel(glm::dvec3(low)),
+                     b = field.frame.worldFromVoxel(glm::dvec3(high));
+    return {0.5 * (a + b), std::max(0.5 * glm::length(b - a), 1e-6)};
+}
+
+Pose orbitPose(const Ball& ball, double distance, double turn) {
+    const double pitch = -0.2;  // from a little above
+    Pose pose = poseFromAngles(ball.middle, turn, pitch, 0);
+    pose.position -= distance * pose.forward();
+    return pose;
+}
+
+void placeViewer(ColonScene& scene) {
+    const Ball ball = ballAround(scene.volume.field, scene.volume.cells.isovalue);
+    scene.lens.verticalFov = 40 * kPi / 180;
+    const double distance = 1.1 * ball.radius / std::sin(0.5 * scene.lens.verticalFov);
+    scene.lens.nearDepth = 0.005 * ball.radius;
+    scene.stereo.zeroParallax = distance;
+    scene.stereo.separation = distance / 30;
+    scene.startPose = orbitPose(ball, distance, 0);
+    std::vector<PathSample> samples;
+    for (int n = 0; n <= kOrbitSamples; ++n)
+        samples.push_back(
+            {n * kOrbitSeconds / kOrbitSamples, orbitPose(ball, distance, 2 * kPi * n / kOrbitSamples)});
+    scene.path = RecordedPath(std::move(samples), "the flight around the volume");
+    scene.extent = 2 * ball.radius;
+}
+
+// Of --transfer or, around the isovalue, of --opacity; empty: opaque.
+TransferFunction transferOf(const ColonOptions& options, double isovalue, const glm::vec3& color) {
+    if (!options.transfer.empty()) return findTransferFunction(options.transfer);
+    if (!options.opacity) return {};
+    return TransferFunction({{isovalue - 1, color, 0.0}, {isovalue + 1, color, *options.opacity}}, 0.001,
+                            "--opacity");
+}
+
+SurfaceCells cellsAt(const GreyVolume& field, double isovalue, const TransferFunction& transfer,
+                     Progress& progress) {
+    if (!std::isfinite(isovalue))
+        throw Error("--isovalue", "", fmt::format("expected a number, got {}", isovalue),
+                    "300 shows bone in CT");
+    SurfaceSetting setting;
+    setting.isovalue = setting.lowest = setting.highest = storedIsovalue(field, isovalue);
+    if (!transfer.empty()) {
+        const TransferFunction::Range range = transfer.visibleRange();
+        setting.lowest = std::max(storedIsovalue(field, range.lowest), -32768.0f);
+        setting.highest = std::min(storedIsovalue(field, range.highest), 32767.0f);
+        if (setting.lowest > setting.highest) std::swap(setting.lowest, setting.highest);
+    }
+    SurfaceCells cells = findSurfaceCells(field, setting, progress);
+    if (!cells.records.empty()) return cells;
+    const auto [low, high] =
+        std::minmax_element(field.values.data(), field.values.data() + field.frame.count());
+    throw Error("--isovalue", "", fmt::format("expected a value inside the volume's, got {:g}", isovalue),
+                fmt::format("values go from {:g} to {:g}", valueOf(field, *low), valueOf(field, *high)));
+}
+}  // namespace
+
+bool looksLikeHounsfield(const GreyVolume& grey) {
+    const std::size_t step = std::max<std::size_t>(1, grey.frame.count() / 1'000'003);
+    for (std::size_t n = 0; n < grey.frame.count(); n += step)
+        if (valueOf(grey, grey.values[n]) <= kAirSeen) return true;
+    return false;
+}
+
+IsovalueChoice chooseIsovalue(const GreyVolume& grey) {
+    const auto most = *std::max_element(grey.values.data(), grey.values.data() + grey.frame.count());
+    if (!looksLikeHounsfield(grey) || valueOf(grey, most) <= kSkin) {  // of air alone there is no skin
+        const double value = valueOf(grey, otsu(histogramOf(grey)));
+        return {value, "between the two kinds of values that differ most"};
+    }
+    std::size_t bone = 0;
+    for (std::size_t n = 0; n < grey.frame.count(); ++n) bone += valueOf(grey, grey.values[n]) >= kBone;
+    if (static_cast<double>(bone) >= kBoneShare * static_cast<double>(grey.frame.count()))
+        return {kBone, "bone"};
+    return {kSkin, "skin"};
+}
+
+ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress) {
+    ColonScene scene;
+    double isovalue = 0;
+    if (options.isovalue) {
+        isovalue = *options.isovalue;
+    } else {
+        const IsovalueChoice choice = chooseIsovalue(grey);
+        isovalue = choice.isovalue;
+        scene.notes.push_back(fmt::format("isovalue {:g} chosen: {}", choice.isovalue, choice.why));
+    }
+    VolumeLook& look = scene.volume.look;
+    look.falloff = 0;
+    look.surface = {0.62f, 0.57f, 0.48f};
+    look.ambient = 0.12f;
+    look.diffuse = 0.88f;
+    look.background = {0.012f, 0.014f, 0.018f};
+    look.transfer = transferOf(options, isovalue, look.surface);
+    checkMemory("the surface of a volume", kSurfaceWorking * static_cast<double>(grey.frame.count()),
+                "crop the volume or make it coarser");
+    scene.volume.field = padded(grey);
+    grey = {};
+    scene.volume.cells = cellsAt(scene.volume.field, isovalue, look.transfer, progress);
+    placeViewer(scene);
+    scene.clearance = options.clearance > 0 ? options.clearance : 0.01 * scene.extent;
+    return scene;
+}
+
+void setSurface(ColonScene& scene, const std::optional<double>& isovalue, const ColonOptions& options,
+                Progress& progress) {
+    const GreyVolume& field = scene.volume.field;
+    VolumeLook& look = scene.volume.look;
+    const float now = scene.volume.cells.isovalue;
+    const double value = isovalue.value_or(valueOf(field, now));
+    TransferFunction transfer = transferOf(options, value, look.surface);
+    if ((!isovalue || storedIsovalue(field, value) == now) && transfer == look.transfer) return;
+    scene.volume.cells = cellsAt(field, value, transfer, progress);
+    look.transfer = std::move(transfer);
+}
+
+}  // namespace stereonav

@@ -1,0 +1,39 @@
+// Any volume as a surface seen from outside: which values it lies between, from where it is seen, and a
+// flight around it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "colon/scene/colon_scene.h"
+
+namespace stereonav {
+
+struct IsovalueChoice {
+    double isovalue = 0;  // of the volume's values (HU for CT)
+    std::string why;      // one clause
+};
+
+// CT in Hounsfield units has values near those of air; other volumes begin at 0 or so.
+bool looksLikeHounsfield(const GreyVolume& grey);
+
+// CT: bone where there is some, else skin. Others: between the two kinds of values that differ most (Otsu
+// 1979).
+IsovalueChoice chooseIsovalue(const GreyVolume& grey);
+
+// Bytes a voxel that isosurfaceScene() takes at once beside the values: the volume with a border, flags of
+// cells, distances and their squares. What rays need of the cells that hold surface comes after that, and is
+// checked when they are counted.
+constexpr double kSurfaceWorking = 9.5;
+
+// Throws Error when nothing or all of the volume reaches the isovalue, and where memory does not suffice;
+// Cancelled.
+ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress);
+
+// Another isovalue (of the volume's values; none: the present one), and the transfer function of the options,
+// for a scene made by isosurfaceScene, which no one may be rendering meanwhile. Where that is what it shows
+// nothing is done. Throws as isosurfaceScene, and leaves the scene as it was.
+void setSurface(ColonScene& scene, const std::optional<double>& isovalue, const ColonOptions& options,
+                Progress& progress);
+
+}  // namespace stereonav

@@ -1,0 +1,180 @@
+// Opens a study, whatever its format: reader, then grey values or a mask; and its key for the cache.
+#include "colon/study/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <set>
+
+#include "colon/study/study_header.h"
+#include "colon/study/study_mapped.h"
+#include "colon/study/study_text.h"
+#include "engine/base/hash.h"
+#include "engine/base/parallel.h"
+
+namespace stereonav {
+namespace {
+namespace fs = std::filesystem;
+
+// Counts up when the reader gives other voxels or frames for the same bytes.
+constexpr std::int64_t kReaderVersion = 3;
+constexpr std::size_t kHashBlock = 4 << 20;
+
+bool isVolumeName(const fs::path& path) {
+    const std::string name = loweredText(path.filename().string());
+    for (const char* end : {".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd"})
+        if (name.ends_with(end)) return true;
+    return isNiftiPair(path);  // .hdr and .img are names of other things as well
+}
+
+// DICOM slices are called anything: with .dcm or .ima, without an extension, or by a UID, whose last part
+// looks like one.
+bool isSliceName(const fs::path& path) {
+    const std::string extension = loweredText(path.extension().string());
+    if (path.filename().string().front() == '.') return false;
+    return extension.empty() || extension == ".dcm" || extension == ".ima" || extension == ".dicom" ||
+           extension.find_first_not_of(".0123456789") == std::string::npos;
+}
+
+// A slice by its name, or by what it begins with.
+bool isDicomFile(const fs::path& path) {
+    const std::string extension = loweredText(path.extension().string());
+    std::error_code code;
+    if (!fs::is_regular_file(path, code)) return false;
+    if (extension == ".dcm" || extension == ".ima" || extension == ".dicom") return true;
+    char head[132];
+    std::ifstream in(path, std::ios::binary);
+    return in.read(head, sizeof head) && std::memcmp(head + 128, "DICM", 4) == 0;
+}
+
+// In blocks on all threads; the value depends on the bytes alone.
+std::uint64_t hashOfFile(const fs::path& file) {
+    const MappedFile mapped(file);
+    std::vector<std::uint64_t> blocks((mapped.size() + kHashBlock - 1) / kHashBlock);
+    parallelFor(static_cast<int>(blocks.size()), [&](int n) {
+        const std::size_t start = kHashBlock * n;
+        blocks[n] = Hash().add(mapped.data() + start, std::min(kHashBlock, mapped.size() - start)).value();
+    });
+    Hash hash;
+    hash.add(static_cast<std::int64_t>(mapped.size()));
+    hash.add(blocks.data(), blocks.size() * sizeof(std::uint64_t));
+    return hash.value();
+}
+
+std::uint64_t keyOfFiles(const std::vector<fs::path>& files, const StudyOptions& options) {
+    std::vector<std::uint64_t> hashes(files.size());
+    parallelFor(static_cast<int>(files.size()), [&](int n) { hashes[n] = hashOfFile(files[n]); });
+    Hash hash;
+    hash.add(kReaderVersion).add(hashes.data(), hashes.size() * sizeof(std::uint64_t));
+    hash.add(static_cast<std::int64_t>(options.resample));
+    hash.add(static_cast<std::int64_t>(options.label.has_value()));
+    return hash.add(static_cast<std::int64_t>(options.label.value_or(0))).value();
+}
+
+// The header itself and the files that it names, in their order.
+std::vector<fs::path> filesOfVolume(const fs::path& file) {
+    const VolumeHeader header = readVolumeHeader(file);
+    std::vector<fs::path> files = header.headers;
+    for (const fs::path& data : header.place.files)
+        if (std::find(files.begin(), files.end(), data) == files.end()) files.push_back(data);
+    return files;
+}
+
+std::vector<fs::path> filesOfFolder(const fs::path& folder, const StudyOptions& options) {
+    DicomSeries series = chooseSeries(folder, options.series);
+    placeSlices(folder, series.slices, options.resample, series.strangers);
+    std::vector<fs::path> files;
+    std::set<fs::path> known;  // frames share a file
+    for (const DicomSlice& slice : series.slices)
+        if (known.insert(slice.file).second) files.push_back(slice.file);
+    return files;
+}
+
+// The name of a detached header beside a file of samples, "" where there is none.
+std::string ownerOf(const fs::path& path) {
+    constexpr int kMostHeaders = 32;
+    int headers = 0;
+    std::error_code code;
+    if (!fs::is_regular_file(path, code)) return "";
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    for (const auto& entry : fs::directory_iterator(folder, code)) {
+        const std::string extension = loweredText(entry.path().extension().string());
+        if (extension != ".nhdr" && extension != ".mhd") continue;
+        if (++headers > kMostHeaders) return "";
+        try {
+            for (const fs::path& data : readVolumeHeader(entry.path()).place.files)
+                if (data.filename() == path.filename() && fs::equivalent(data, path, code))
+                    return entry.path().filename().string();
+        } catch (const Error&) {
+            continue;  // it says nothing of this file
+        }
+    }
+    return "";
+}
+
+// True for a folder and a file of slices; throws Error for what is neither that nor a volume file.
+bool isDicom(const fs::path& path) {
+    std::error_code code;
+    if (!fs::exists(path, code)) throw Error(path.string(), "", "does not exist", "check the name");
+    if (fs::is_directory(path, code)) return true;
+    if (isVolumeName(path)) return false;
+    if (isDicomFile(path)) return true;
+    const std::string owner = ownerOf(path);
+    if (!owner.empty())
+        throw Error(path.string(), "", "holds samples only, " + owner + " is their header", "give that file");
+    throw Error(path.string(), "", "expected a volume",
+                "give a .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd file, or a folder of DICOM slices");
+}
+
+// The same; also throws Error for a series where there are none to choose from.
+bool isDicom(const fs::path& path, const StudyOptions& options) {
+    const bool dicom = isDicom(path);
+    if (!dicom && !options.series.empty())
+        throw Error(
+            "--series", "",
+            "expected with a folder of DICOM slices, \"" + path.filename().string() + "\" holds one volume",
+            "leave it out");
+    return dicom;
+}
+
+}  // namespace
+
+std::vector<SeriesInfo> listSeries(const fs::path& folder) {
+    if (!isDicom(folder))
+        throw Error(folder.string(), "", "expected a folder of DICOM slices", "only these hold series");
+    std::vector<SeriesInfo> list;
+    for (const DicomSeries& series : scanFolder(folder)) list.push_back(series.info);
+    return list;
+}
+
+bool looksLikeStudy(const fs::path& path) {
+    std::error_code code;
+    if (!fs::is_directory(path, code))
+        return isVolumeName(path) || isDicomFile(path) || !ownerOf(path).empty();
+    for (const auto& entry : fs::directory_iterator(path, code))
+        if (entry.is_regular_file(code) && isSliceName(entry.path())) return true;
+    return false;
+}
+
+std::uint64_t studyKey(const fs::path& path, const StudyOptions& options) {
+    return keyOfFiles(isDicom(path, options) ? filesOfFolder(path, options) : filesOfVolume(path), options);
+}
+
+Study readStudy(const fs::path& path, const StudyOptions& options, Progress& progress) {
+    const bool dicom = isDicom(path, options);
+    Study study;
+    VolumeFile file = dicom ? readDicom(path, options, progress) : readVolumeFile(path, options, progress);
+    progress.report(0.8, "looking at the values");
+    study.format = file.format;
+    study.description = file.description;
+    study.notes = std::move(file.notes);
+    takeValues(file.raw, path.string(), options, study);
+    progress.report(0.95, "computing the key");
+    study.key = studyKey(path, options);
+    progress.report(1, "read " + path.filename().string());
+    return study;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,73 @@
+// Sizes of studies against the memory that can be had, before any is taken.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "colon/study/study_parts.h"
+#include "engine/base/memory.h"
+
+namespace stereonav {
+namespace {
+
+std::string bytesText(double bytes) {
+    const char* units[] = {"bytes", "KB", "MB", "GB", "TB", "PB", "EB"};
+    int unit = 0;
+    for (; bytes >= 1000 && unit < 6; ++unit) bytes /= 1000;
+    return fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
+}  // namespace
+
+int bytesOf(SampleType type) {
+    switch (type) {
+        case SampleType::UInt8:
+        case SampleType::Int8:
+            return 1;
+        case SampleType::UInt16:
+        case SampleType::Int16:
+            return 2;
+        case SampleType::UInt32:
+        case SampleType::Int32:
+        case SampleType::Float32:
+            return 4;
+        default:
+            return 8;
+    }
+}
+
+std::string sizeText(const std::vector<std::uint64_t>& size) {
+    return fmt::format("{}", fmt::join(size, " x "));
+}
+
+double bytesHeld(int sampleBytes, const StudyOptions& options) {
+    constexpr double kValue = sizeof(std::int16_t);
+    return kValue + std::max<double>(sampleBytes, options.working);
+}
+
+void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, double bytesPerVoxel) {
+    // In floating point, so that no product overflows.
+    double voxels = 1;
+    for (const std::uint64_t n : size) voxels *= static_cast<double>(n);
+    for (const std::uint64_t n : size)
+        if (n < 2)
+            throw Error(file, "",
+                        fmt::format("expected a volume with 2 or more voxels along each axis, found {}",
+                                    sizeText(size)),
+                        "a single slice has no depth: give the whole series");
+    const double there = availableMemory(), needed = voxels * bytesPerVoxel;
+    bool tooLong = false;
+    for (const std::uint64_t n : size) tooLong |= n > std::numeric_limits<int>::max();
+    if (!tooLong && needed <= there) return;
+    const double share = std::cbrt(std::min(1.0, there / needed));
+    std::vector<std::uint64_t> fits;
+    for (const std::uint64_t n : size)
+        fits.push_back(static_cast<std::uint64_t>(std::max(1.0, share * static_cast<double>(n))));
+    throw Error(file, "",
+                fmt::format("{} voxels need {} of memory, and {} can be had", sizeText(size),
+                            bytesText(needed), bytesText(there)),
+                fmt::format("crop the volume or make it coarser: {} would fit", sizeText(fits)));
+}
+
+}  // namespace stereonav

@@ -1,0 +1,58 @@
+// A bake's sums in a file, so that the next run goes on from there and scenes open with their light. What the
+// file holds is written out in docs/formats.md, byte for byte.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "engine/light/bake/bake_sums.h"
+#include "engine/light/skies/light_setup.h"
+
+namespace stereonav {
+
+// Of everything that the texels' light depends on; bakes with the same key may go on from each other.
+struct BakeInputs {
+    std::uint64_t content = 0;  // of the volume: contentHash(), or what stands for it
+    LightSetup light;           // of irradiance; of transfer the albedo and bounces alone count
+    TexelSampling sampling;
+    VolumeFrame texels;
+    TexelChoice choice;  // the region counts as a part of `content`
+    BakeShape shape;
+};
+std::uint64_t bakeKey(const BakeInputs& inputs);
+
+// Of all values and the frame.
+std::uint64_t contentHash(const GreyVolume& volume);
+// Of the values at texels of bricks alone (whose grid is the volume's): for volumes that are known near a
+// wall only. The region is counted in whole.
+std::uint64_t contentHashNear(const GreyVolume& volume, const MaskVolume& region,
+                              std::span<const TexelBrick> bricks);
+
+// In the cache folder.
+std::filesystem::path bakeCacheFile(std::uint64_t key);
+
+struct BakeIdentity {
+    std::uint64_t key = 0;      // bakeKey()
+    std::uint64_t content = 0;  // BakeInputs::content: whether light that someone names is of this volume
+};
+
+struct BakeFile {
+    BakeIdentity identity;
+    BakeSums sums;
+};
+
+// The file's sums. Nothing when there is no such file, and when it is of no use: then `problem` says why, in
+// a clause ("is cut off: ..."), else it is empty. Never throws for what is in the file; sizes are checked
+// before memory is taken. key: that it must have; none: any.
+std::optional<BakeFile> readBakeFile(const std::filesystem::path& file, std::optional<std::uint64_t> key,
+                                     std::string& problem);
+
+// Whether the file is there and begins as no bake does, so that it should not be written over.
+bool isForeignFile(const std::filesystem::path& file);
+
+// Written beside its place and renamed. Throws Error.
+void writeBakeFile(const std::filesystem::path& file, const BakeIdentity& identity, const BakeSums& sums);
+
+}  // namespace stereonav

@@ -1,0 +1,99 @@
+// What a bake has added up so far, brick by brick: enough to go on from, to tell its error, and to make the
+// volumes that are looked up. Between texels that were chosen (bake_texels.h) and the bake's file.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/light/paths/texel_light.h"
+#include "engine/light/transfer/bake_texels.h"
+#include "engine/light/transfer/transfer_volume.h"
+#include "engine/volume/illumination_volume.h"
+
+namespace stereonav {
+
+enum class BakeKind : std::uint32_t {
+    Irradiance = 0,  // of a light setup
+    Transfer = 1,    // of distant light, in harmonics
+    Openness = 2,    // irradiance under a sky of 1 without bounces: 0..1
+};
+std::string_view nameOf(BakeKind kind);
+
+struct BakeShape {
+    BakeKind kind = BakeKind::Irradiance;
+    int order = 5, channels = 1;  // of transfer
+    int numbersPerTexel() const { return kind == BakeKind::Transfer ? order * order * channels : 0; }
+    std::size_t bytesPerTexel() const {
+        return kind == BakeKind::Transfer ? numbersPerTexel() * sizeof(float) + 1 : sizeof(TexelSum);
+    }
+};
+
+// Of a brick's texels added up; the relative error is the root of variance / square.
+struct BrickEstimate {
+    double variance = 0;  // of the means; infinite where there are too few samples to tell
+    double square = 0;    // of the means
+};
+
+class BakeSums {
+public:
+    BakeSums() = default;
+    // bricks: by number, none without texels. Throws Error where it needs more than half of the memory.
+    BakeSums(const VolumeFrame& texels, std::vector<TexelBrick> bricks, const BakeShape& shape);
+
+    const VolumeFrame& frame() const { return mFrame; }
+    const TexelLayout& layout() const { return mLayout; }
+    const BakeShape& shape() const { return mShape; }
+    std::span<const TexelBrick> bricks() const { return mBricks; }
+    std::size_t texels() const { return mFirst.empty() ? 0 : mFirst.back(); }
+    std::size_t texelsOf(std::size_t brick) const { return mFirst[brick + 1] - mFirst[brick]; }
+
+    // Of a brick, in the order of texelsIn(): irradiance and openness.
+    std::span<TexelSum> light(std::size_t brick);
+    std::span<const TexelSum> light(std::size_t brick) const;
+    // Transfer: sums of samples, numbersPerTexel() a texel, and whether texels lie on a surface.
+    std::span<float> transfer(std::size_t brick);
+    std::span<const float> transfer(std::size_t brick) const;
+    std::span<std::uint8_t> alive(std::size_t brick);
+    std::span<const std::uint8_t> alive(std::size_t brick) const;
+
+    // Samples that each texel of a brick has had, and what they tell of its error.
+    std::vector<std::uint32_t> samples;
+    std::vector<BrickEstimate> estimates;
+    std::uint32_t fewestSamples() const;
+    // The estimated relative RMSE over all texels; infinite while it can not be told; 0 for no light at all.
+    double error() const;
+
+    // The brick's part of what is looked up: means by `unit` with weight 1 where there is a surface, else
+    // nothing.
+    void writeLight(std::size_t brick, IlluminationVolume& to, float unit = 1) const;
+
+private:
+    VolumeFrame mFrame;
+    TexelLayout mLayout;
+    BakeShape mShape;
+    std::vector<TexelBrick> mBricks;
+    std::vector<std::size_t> mFirst;  // texel of each brick, and one behind the last
+    LazyArray<TexelSum> mLight;
+    LazyArray<float> mTransfer;
+    LazyArray<std::uint8_t> mAlive;
+};
+
+// Irradiance and openness, as shares of `unit`.
+IlluminationVolume illuminationOf(const BakeSums& sums, float unit = 1);
+// A unit by which half floats hold the light: 1 where they hold it as it is, else a power of two near its
+// mean.
+float lightUnitOf(const BakeSums& sums);
+// Transfer, without the texels that lie on no surface.
+TransferVolume transferOf(const BakeSums& sums);
+
+// Of a brick's texels: variances and squares of luminance.
+BrickEstimate estimateOf(std::span<const TexelSum> texels);
+// From sums over `countBefore` samples and sums over all `count`: the two parts are independent estimates.
+BrickEstimate estimateOf(std::span<const float> before, std::uint32_t countBefore, std::span<const float> all,
+                         std::uint32_t count);
+
+}  // namespace stereonav

@@ -1,0 +1,105 @@
+// See the header.
+#include "engine/light/paths/isovalue_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/volume/plain_volume_caster.h"
+#include "engine/volume/surface_cells.h"
+
+namespace stereonav {
+namespace {
+
+// Largest difference of values within the 4x4x4 voxels whose gradient is taken.
+double rangeAround(const GreyVolume& volume, const glm::dvec3& voxel) {
+    const glm::ivec3 last = volume.frame.size - 1;
+    const glm::ivec3 corner(glm::floor(glm::clamp(voxel, glm::dvec3(0.0), glm::dvec3(last))));
+    const glm::ivec3 low = glm::max(corner - 1, glm::ivec3(0)), high = glm::min(corner + 2, last);
+    std::int16_t least = 32767, most = -32768;
+    for (int k = low.z; k <= high.z; ++k)
+        for (int j = low.y; j <= high.y; ++j)
+            for (int i = low.x; i <= high.x; ++i) {
+                least = std::min(least, volume.at(i, j, k));
+                most = std::max(most, volume.at(i, j, k));
+            }
+    return double(most) - double(least);
+}
+
+constexpr double kVanishing = 1e-6;  // rounding of the sum of 64 weighted voxels stays far below
+
+}  // namespace
+
+glm::dvec3 surfaceNormal(const GreyVolume& volume, const glm::dvec3& voxel) {
+    const double range = rangeAround(volume, voxel);
+    if (range == 0) return glm::dvec3(0.0);
+    const glm::dvec3 gradient = smoothGradient(volume, voxel);
+    const glm::dvec3 perVoxel = glm::transpose(volume.frame.axes) * gradient * volume.frame.spacing;
+    if (!(glm::length(perVoxel) > kVanishing * range)) return glm::dvec3(0.0);
+    return -glm::normalize(gradient);
+}
+
+namespace {
+
+// In voxels from `voxel` along `way` (of length 1), or none within kNearSurface.
+std::optional<double> crossingAlong(const GreyVolume& volume, const glm::dvec3& voxel, const glm::dvec3& way,
+                                    double value) {
+    constexpr int kPieces = 14, kHalvings = 12;
+    const glm::dvec3 last(volume.frame.size - 1);
+    const auto above = [&](double far) {
+        return plainValue(volume, glm::clamp(voxel + far * way, glm::dvec3(0.0), last)) >= value;
+    };
+    const bool first = above(0);
+    for (int n = 1; n <= kPieces; ++n) {
+        double near = kNearSurface * (n - 1) / kPieces, far = kNearSurface * n / kPieces;
+        if (above(far) == first) continue;
+        for (int halving = 0; halving < kHalvings; ++halving) {
+            const double middle = 0.5 * (near + far);
+            (above(middle) == first ? near : far) = middle;
+        }
+        return 0.5 * (near + far);
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<glm::dvec3> nearestOfValue(const GreyVolume& volume, const glm::dvec3& voxel, double value,
+                                         const glm::dvec3& normal) {
+    const glm::dvec3 along = volume.frame.voxelDirection(normal);
+    if (!(glm::length(along) > 0)) return std::nullopt;
+    const glm::dvec3 towards = glm::normalize(along) * (plainValue(volume, voxel) >= value ? 1.0 : -1.0);
+    const glm::dvec3 last(volume.frame.size - 1);
+    const auto placeAt = [&](const glm::dvec3& way, double far) {
+        return glm::clamp(voxel + far * way, glm::dvec3(0.0), last);
+    };
+    if (const auto far = crossingAlong(volume, voxel, towards, value)) return placeAt(towards, *far);
+    std::optional<glm::dvec3> place;
+    double nearest = 2 * kNearSurface;
+    for (int n = 0; n < 27; ++n) {
+        if (n == 13) continue;
+        const glm::dvec3 way = glm::normalize(glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
+        const auto far = crossingAlong(volume, voxel, way, value);
+        if (!far || *far >= nearest) continue;
+        nearest = *far;
+        place = placeAt(way, *far);
+    }
+    return place;
+}
+
+glm::dvec3 liftedStart(const GreyVolume& volume, double isovalue, const glm::dvec3& voxel,
+                       const glm::dvec3& normal) {
+    const glm::dvec3 last(volume.frame.size - 1);
+    const glm::dvec3 way = volume.frame.voxelDirection(normal);
+    const double length = glm::length(way);
+    glm::dvec3 start = glm::clamp(voxel, glm::dvec3(0.0), last);
+    if (!(length > 0)) return start;
+    for (const double lift : kLifts) {
+        start = glm::clamp(voxel + way * (lift / length), glm::dvec3(0.0), last);
+        if (plainValue(volume, start) < isovalue) break;
+    }
+    return start;
+}
+
+}  // namespace stereonav

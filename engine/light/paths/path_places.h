@@ -1,0 +1,143 @@
+// Places on isosurfaces: smoothed normals (Y3) and lifted starts, as isovalue_surface.h has them one at a
+// time. Included by kernels only.
+#pragma once
+
+#include "engine/light/paths/path_trace.h"
+
+namespace stereonav::STEREONAV_ISA {
+
+struct Place {
+    I3 cell;
+    V3 local;
+};
+
+// Weights of four voxels along an axis and of their slopes: the cubic B-spline.
+struct Spline {
+    F value[4], slope[4];
+    STEREONAV_INLINE explicit Spline(F f) {
+        const F g = F(1.0f) - f, f2 = f * f, g2 = g * g, sixth(1.0f / 6);
+        value[0] = g2 * g * sixth;
+        value[1] = mulAdd(f2, mulAdd(f, F(0.5f), F(-1.0f)), F(2.0f / 3));
+        value[2] = mulAdd(g2, mulAdd(g, F(0.5f), F(-1.0f)), F(2.0f / 3));
+        value[3] = f2 * f * sixth;
+        slope[0] = F(-0.5f) * g2;
+        slope[1] = f * mulAdd(F(1.5f), f, F(-2.0f));
+        slope[2] = g * mulAdd(F(-1.5f), g, F(2.0f));
+        slope[3] = F(0.5f) * f2;
+    }
+};
+
+// The slope is nothing but rounding where it is less than this share of the values it was taken from.
+constexpr float kRounding = 1e-5f;
+
+class NormalFinder {
+public:
+    STEREONAV_INLINE NormalFinder(const PathVolume& volume, const Place& at, F isovalue, M m)
+        : mVolume(volume), mIsovalue(isovalue), mLanes(m), mX(at.local.x), mY(at.local.y), mZ(at.local.z) {
+        const I zero(0), last(volume.size[0] - 2);
+        mFirst = at.cell.x == zero;
+        mLast = at.cell.x == last;
+        mLeft = max(at.cell.x - I(1), zero);
+        mRight = min(at.cell.x + I(1), last);
+        mCellY = at.cell.y;
+        mCellZ = at.cell.z;
+    }
+
+    // Unit, along the axes, towards smaller values; 0 where the gradient vanishes.
+    STEREONAV_INLINE V3 find() const {
+        F gx(0.0f), gy(0.0f), gz(0.0f), mean(0.0f);
+        for (int c = 0; c < 4; ++c) {
+            F slope(0.0f), value(0.0f), across(0.0f);
+            const I slice = clamped(mCellZ, c, mVolume.size[2]) * I(mVolume.size[1]);
+            for (int b = 0; b < 4; ++b) {
+                const Row row = rowAt((slice + clamped(mCellY, b, mVolume.size[1])) * I(mVolume.size[0]));
+                slope = mulAdd(row.slope, mY.value[b], slope);
+                value = mulAdd(row.value, mY.value[b], value);
+                across = mulAdd(row.value, mY.slope[b], across);
+            }
+            gx = mulAdd(slope, mZ.value[c], gx);
+            gy = mulAdd(across, mZ.value[c], gy);
+            gz = mulAdd(value, mZ.slope[c], gz);
+            mean = mulAdd(value, mZ.value[c], mean);
+        }
+        return unitOf(gx, gy, gz, mean);
+    }
+
+private:
+    struct Row {
+        F value, slope;
+    };
+    STEREONAV_INLINE static I clamped(I cell, int n, int size) {
+        return clamp(cell + I(n - 1), I(0), I(size - 1));
+    }
+    STEREONAV_INLINE Row rowAt(I row) const {
+        const I a = gatherHalves(mVolume.values, row + mLeft, mLanes);
+        const I b = gatherHalves(mVolume.values, row + mRight, mLanes);
+        const auto low = [](I two) { return toFloat(shiftRight<16>(shiftLeft<16>(two))); };
+        const auto high = [](I two) { return toFloat(shiftRight<16>(two)); };
+        const F v0 = low(a) - mIsovalue, v3 = high(b) - mIsovalue;
+        const F v1 = select(mFirst, v0, high(a) - mIsovalue), v2 = select(mLast, v3, low(b) - mIsovalue);
+        const auto sum = [&](const F* w) {
+            return mulAdd(v0, w[0], mulAdd(v1, w[1], mulAdd(v2, w[2], v3 * w[3])));
+        };
+        return {sum(mX.value), sum(mX.slope)};
+    }
+    STEREONAV_INLINE V3 unitOf(F gx, F gy, F gz, F mean) const {
+        const F scale = max(max(abs(gx), abs(gy)), abs(gz));
+        const M flat = scale <= max(abs(mean) * F(kRounding), F(1e-12f));
+        const V3 down{F(0.0f) - gx * F(mVolume.step[0]), F(0.0f) - gy * F(mVolume.step[1]),
+                      F(0.0f) - gz * F(mVolume.step[2])};
+        const F inverse = select(flat, F(0.0f), F(1.0f) / sqrt(max(dot(down, down), F(1e-30f))));
+        return {down.x * inverse, down.y * inverse, down.z * inverse};
+    }
+
+    const PathVolume& mVolume;
+    F mIsovalue;
+    M mLanes, mFirst, mLast;
+    I mLeft, mRight, mCellY, mCellZ;
+    Spline mX, mY, mZ;
+};
+
+STEREONAV_INLINE F trilinear(const Corners& c, const V3& p) {
+    const F near = lerp(lerp(c.v[0], c.v[1], p.x), lerp(c.v[2], c.v[3], p.x), p.y);
+    const F far = lerp(lerp(c.v[4], c.v[5], p.x), lerp(c.v[6], c.v[7], p.x), p.y);
+    return lerp(near, far, p.z);
+}
+
+// Moves a place along one axis, kept within the volume.
+STEREONAV_INLINE void moveAlong(I& cell, F& local, F by, int size) {
+    const F to = local + by;
+    const I whole = floorToInt(to), moved = cell + whole;
+    const M below = moved < I(0), above = I(size - 2) < moved;
+    cell = clamp(moved, I(0), I(size - 2));
+    local = select(below, F(0.0f), select(above, F(1.0f), to - toFloat(whole)));
+}
+
+constexpr float kLiftsTried[3] = {0.25f, 0.5f, 1.0f};  // kLifts of isovalue_surface.h
+
+STEREONAV_INLINE Place lifted(const PathVolume& volume, const Place& from, const V3& normal, F isovalue,
+                              M m) {
+    const V3 way{normal.x * F(volume.step[0]), normal.y * F(volume.step[1]), normal.z * F(volume.step[2])};
+    const F perVoxel = F(1.0f) / sqrt(max(dot(way, way), F(1e-30f)));
+    Place result = from;
+    M searching = m;
+    for (const float lift : kLiftsTried) {
+        const F by = perVoxel * F(lift);
+        Place to = from;
+        moveAlong(to.cell.x, to.local.x, way.x * by, volume.size[0]);
+        moveAlong(to.cell.y, to.local.y, way.y * by, volume.size[1]);
+        moveAlong(to.cell.z, to.local.z, way.z * by, volume.size[2]);
+        result.cell = {select(searching, to.cell.x, result.cell.x),
+                       select(searching, to.cell.y, result.cell.y),
+                       select(searching, to.cell.z, result.cell.z)};
+        result.local = {select(searching, to.local.x, result.local.x),
+                        select(searching, to.local.y, result.local.y),
+                        select(searching, to.local.z, result.local.z)};
+        const F value = trilinear(cornersIn(volume, to.cell, isovalue, searching), to.local);
+        searching = andNot(searching, value < F(0.0f));
+        if (!any(searching)) break;
+    }
+    return result;
+}
+
+}  // namespace stereonav::STEREONAV_ISA

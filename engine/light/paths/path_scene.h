@@ -1,0 +1,41 @@
+// A volume and its light as the kernels of paths read them. Owns the tables that the plain structs point to.
+#pragma once
+
+#include <vector>
+
+#include "engine/light/paths/path_kernel_types.h"
+#include "engine/light/paths/texel_light.h"
+#include "engine/light/skies/light_setup.h"
+#include "engine/simd/simd_target.h"
+#include "engine/volume/volume.h"
+
+namespace stereonav {
+
+const PathKernels& pathKernels(SimdTarget target);
+
+PathVolume pathVolume(const GreyVolume& volume);
+
+// The unit of lengths in the kernels: metres.
+double pathUnit(const VolumeFrame& frame);
+
+// A place in voxel space within the volume's box, as a cell and what remains.
+void splitPlace(const VolumeFrame& frame, const glm::dvec3& voxel, std::int32_t* cell, float* local);
+
+class PathLightTables {
+public:
+    PathLightTables(const VolumeFrame& frame, const LightSetup& setup, const TexelSampling& sampling);
+    PathLightTables(const PathLightTables&) = delete;
+    PathLightTables& operator=(const PathLightTables&) = delete;
+
+    const PathLights& lights() const { return mLights; }
+
+private:
+    void tabulate(const LightProbe& probe);
+    void addPoints(const VolumeFrame& frame, const std::vector<PointLight>& points);
+
+    PathLights mLights;
+    std::vector<float> mPixels, mRows, mColumns, mEdges;
+    std::vector<PathPoint> mPoints;
+};
+
+}  // namespace stereonav

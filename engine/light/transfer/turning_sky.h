@@ -1,0 +1,62 @@
+// The sky over a volume's baked transfer, turned while one flies (Wyman et al. 2006, section 4.3; Y7): its
+// harmonics are rotated and dotted with the texels that are in view before the next frame, with the others
+// after it, a part a frame.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "engine/camera/eye_view.h"
+#include "engine/image/eye_image.h"
+#include "engine/light/transfer/transfer_volume.h"
+
+namespace stereonav {
+
+// Radians: the sky is tilted about the axis to the east, so that what lies north rises, and then turned about
+// the vertical, anticlockwise seen from above, as --turn does.
+struct SkyTurn {
+    double turn = 0, tilt = 0;
+    bool operator==(const SkyTurn&) const = default;
+};
+
+// Harmonics of a sky, order^2 of them, so turned. Throws Error where there are not that many.
+std::vector<glm::vec3> turnedSky(const std::vector<glm::vec3>& straight, const SkyTurn& turn);
+
+// Used by one thread, that which makes frames.
+class TurningSky {
+public:
+    // straight: the sky's harmonics before it is turned; light: lit by it at `turn`, all of it, of the
+    // transfer's frame; beyond: of light (lightBeyond), brought up to date once all of that is; null: none.
+    TurningSky(TransferVolume transfer, std::vector<glm::vec3> straight,
+               std::shared_ptr<IlluminationVolume> light, const SkyTurn& turn,
+               std::shared_ptr<IlluminationVolume> beyond = nullptr);
+
+    const SkyTurn& turn() const { return mTurn; }
+    // Before a frame: lights what the last one saw. Cheap where the sky stands there already.
+    void turnTo(const SkyTurn& turn);
+    // After it: lights what it saw for the first time, and some of the rest.
+    void seen(const EyeView& view, const EyeImage& image);
+    // Counts frames after which texels have changed: the last one is to be drawn again.
+    std::uint64_t changes() const { return mChanges; }
+    std::size_t bytesHeld() const { return mTransfer.bytesHeld() + 4 * (mLitAt.size() + mSeen.size()); }
+
+private:
+    // Of the transfer's bricks those that the sky has turned over since; adds them to `stale`.
+    void addStale(const std::vector<std::uint32_t>& bricks, std::vector<std::uint32_t>& stale);
+    void addRest(std::vector<std::uint32_t>& stale);
+
+    TransferVolume mTransfer;
+    std::vector<glm::vec3> mStraight, mNow;
+    std::shared_ptr<IlluminationVolume> mLight, mBeyond;
+    SkyTurn mTurn;
+    std::uint32_t mTurns = 0;
+    std::uint32_t mBeyondLitAt = 0;     // the turn that mBeyond is of
+    std::vector<std::uint32_t> mLitAt;  // by brick: the turn that it is lit by
+    std::vector<std::uint32_t> mSeen;   // of the transfer's bricks: by the last frame
+    std::size_t mNext = 0;              // bricks before this one are lit
+    std::uint64_t mChanges = 0;
+};
+
+}  // namespace stereonav

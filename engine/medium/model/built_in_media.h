@@ -1,0 +1,18 @@
+// Media that the program makes itself, the same on every machine.
+#pragma once
+
+#include <memory>
+
+#include "engine/medium/model/medium.h"
+
+namespace stereonav {
+
+// 64^3 values 0..1000: blended ellipsoids, 2 km wide (Kniss et al. 2003, fig. 10); the noise makes the
+// detail.
+std::shared_ptr<GreyVolume> makeCloudField();
+Perturbation cloudPerturbation();
+
+// A block of wax with a wick's hollow, 96^3, 80 mm (fig. 9): values 0..1000.
+std::shared_ptr<GreyVolume> makeWaxField();
+
+}  // namespace stereonav

@@ -1,0 +1,42 @@
+// A height field as a thin volume (Kniss et al. 2003, section 3.4; row K7): opaque between two distances from
+// its height, tapered at both faces, from mip levels that suit the footprint of a sample.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "engine/image/color_texture.h"
+#include "engine/image/plane.h"
+#include "engine/medium/model/medium_table.h"
+
+namespace stereonav {
+
+struct HeightLayer {
+    // Level 0: heights in metres (world z), samples spacing apart, sample (0, 0) at `origin`, columns to +x,
+    // rows to +y (north). Level n: means of 2^n x 2^n samples. See makeMipLevels.
+    std::vector<Plane<float>> levels;
+    double originX = 0, originY = 0, spacing = 1;  // metres
+    double below = 1, above = 0;  // metres: the layer reaches from height - below to height + above
+    double taper = 0;             // metres at both faces over which extinction falls to 0 linearly
+    MediumTable table;            // over the height in metres
+    // Null: none. Else the table's colours are multiplied by this one's at the place, whose grid coordinates
+    // count from the origin, colorSpacing metres each.
+    std::shared_ptr<const ColorTexture> color;
+    glm::dvec2 colorSpacing{1.0};
+
+    double lowest = 0, highest = 0;  // of what is not empty, world z
+
+    // Height at a place by the level of that footprint (metres; 0: the finest), linear within and between
+    // levels; beyond the edge there is none: NaN.
+    double heightAt(double x, double y, double footprint) const;
+    // By the level of the texture whose texels are as large as the footprint; 1 without one.
+    glm::vec3 colorAt(double x, double y, double footprint) const;
+    double colorTexel() const;  // metres across a texel: the mean of both sides; needs a texture
+    OpticalProperties at(const glm::dvec3& world, double footprint) const;
+};
+// Fills levels 1, 2, .. of level 0 and lowest, highest.
+void makeMipLevels(HeightLayer& layer);
+
+}  // namespace stereonav

@@ -1,0 +1,16 @@
+// What is wrong with one entry of a transfer function: shared by its constructors, which name the entry, and
+// by its text file's reader, which names the line.
+#pragma once
+
+#include <string>
+
+#include "engine/medium/model/medium_transfer.h"
+
+namespace stereonav {
+
+// "expected ..., got ..."; "" when nothing is wrong. previous: null for the first point.
+std::string problemOf(const MediumPoint& point, const MediumPoint* previous);
+std::string problemOf(const MediumRegion& region);
+std::string problemOfReference(double metres);
+
+}  // namespace stereonav

@@ -1,0 +1,99 @@
+// From a value, and how steeply it changes, to optical properties (Kniss et al. 2003, section 3.3; row K5).
+// One dimension: points over the value, linear between. Two: regions over value and gradient magnitude, added
+// up by extinction.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/medium/model/optical_properties.h"
+
+namespace stereonav {
+
+// As people write it: opacity and transport colour of a layer of the file's reference length.
+struct MediumMaterial {
+    glm::vec3 color{1.0f};  // linear RGB 0..1
+    double opacity = 0;     // 0..1; 1 counts as kDensest
+    glm::vec3 transport{
+        0.5f};             // linear RGB 0..1: the colour scattered light has after that layer, 1 - alpha_i
+    double surface = 0;    // 0..1
+    glm::vec3 glow{0.0f};  // linear RGB, >= 0
+};
+struct MediumPoint {
+    double value = 0;
+    MediumMaterial material;
+};
+// Weight 1 inside, falling linearly to 0 over the outer parts: a trapezoid in each of both.
+struct MediumRegion {
+    double value[4] = {};  // A < B <= C < D: the weight is 0, 1, 1, 0 there
+    // The same of the gradient magnitude, value units a metre; A = B = 0: from 0 on; the last may be
+    // infinite.
+    double gradient[4] = {};
+    MediumMaterial material;
+};
+
+class MediumTransfer {
+public:
+    static constexpr double kDensest = 1.0 - 1e-6;
+
+    MediumTransfer() = default;
+    // Throws Error (named `source`, with the place) unless all is finite, ordered and in range and
+    // referenceLength > 0 (metres).
+    MediumTransfer(std::vector<MediumPoint> points, double referenceLength, const std::string& source);
+    MediumTransfer(std::vector<MediumRegion> regions, double referenceLength, const std::string& source);
+
+    bool empty() const { return mPoints.empty() && mRegions.empty(); }
+    bool usesGradient() const { return !mRegions.empty() || hasSurfaceRamp(); }
+    double referenceLength() const { return mReferenceLength; }
+    const std::vector<MediumPoint>& points() const { return mPoints; }
+    const std::vector<MediumRegion>& regions() const { return mRegions; }
+
+    // Every surface weight is multiplied by a share that rises from 0 at gradient magnitude `low` to 1 at
+    // `high` (value units a metre): smooth insides keep their volume light. Throws Error unless 0 <= low <
+    // high.
+    void setSurfaceRamp(double low, double high, const std::string& source);
+    bool hasSurfaceRamp() const { return mSurfaceHigh > 0; }
+    double surfaceLow() const { return mSurfaceLow; }
+    double surfaceHigh() const { return mSurfaceHigh; }
+
+    // Extinctions are added (and linear between points) as opacities' logarithms; colours mixed by
+    // extinction. Where the opacity is 0 nothing is left of the rest either: all 0.
+    OpticalProperties at(double value, double gradient) const;
+    // Values outside are transparent for every gradient; lowest > highest where all is; ends may be infinite.
+    struct Range {
+        double lowest, highest;
+    };
+    Range visibleRange() const;
+    Range changingRange() const;     // of values; outside nothing changes any more
+    double largestGradient() const;  // beyond it nothing changes any more; 0 in one dimension
+
+private:
+    std::vector<MediumPoint> mPoints;
+    std::vector<MediumRegion> mRegions;
+    double mReferenceLength = 0.001;
+    double mSurfaceLow = 0, mSurfaceHigh = 0;  // both 0: no ramp
+};
+
+// The transport colour that diffusion gives a material of this colour and opacity (docs/formats.md), for
+// files that name none.
+glm::vec3 diffuseTransport(const glm::vec3& color, double opacity);
+
+// The text format is in docs/formats.md. Throws Error with file and line.
+MediumTransfer parseMediumTransfer(std::string_view text, const std::string& source);
+MediumTransfer readMediumTransfer(const std::filesystem::path& file);
+void writeMediumTransfer(const std::filesystem::path& file, const MediumTransfer& transfer);
+
+// The files of data/medium, which are part of the program.
+struct MediumPreset {
+    std::string_view name;
+    std::string_view text;
+};
+std::span<const MediumPreset> mediumPresets();
+std::string mediumPresetNames();  // "a, b, c"
+// From a file, else by the name of a preset. Throws Error that lists the names.
+MediumTransfer findMediumTransfer(const std::filesystem::path& fileOrName);
+
+}  // namespace stereonav

@@ -1,0 +1,20 @@
+// How far the perturbation may move and change what is read within a box of the world, at one moment: the
+// noise's texels there bound it, closer than its greatest amplitude.
+#pragma once
+
+#include <vector>
+
+#include "engine/medium/model/medium.h"
+
+namespace stereonav {
+
+struct NoiseBounds {
+    glm::dvec3 low{0.0}, high{0.0};          // of the displacement, metres, world axes
+    double leastFactor = 1, mostFactor = 1;  // on extinction
+};
+
+// noise: null without a perturbation.
+NoiseBounds boundNoise(const Perturbation& perturbation, const NoiseVolume* noise, const WorldBox& box,
+                       double time);
+
+}  // namespace stereonav

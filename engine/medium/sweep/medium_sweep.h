@@ -1,0 +1,50 @@
+// Sweeps a medium slice by slice, with SIMD and all threads: light and eyes in lock step (Kniss et al. 2003),
+// both eyes from one light. Keeps its buffers between frames. What it makes does not depend on the thread
+// count.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "engine/medium/model/medium_picture.h"
+#include "engine/medium/sweep/sweep_geometry.h"
+#include "engine/simd/simd_target.h"
+
+namespace stereonav {
+
+struct SweepTimings {
+    double light_ms = 0, eye_ms = 0;
+    // Looked at: those of tiles and slabs that were not left out as empty, as passed or as dark.
+    long long lightTexels = 0, eyeSamples = 0;
+};
+
+class MediumSweep {
+public:
+    // medium must outlive the sweep. Builds what skips empty space.
+    explicit MediumSweep(const Medium& medium, SimdTarget target = SimdTarget::Auto);
+    ~MediumSweep();
+
+    // pictures: one for each eye, resized. startDepths: empty, or one plane an eye: a view depth before which
+    // nothing is expected (0: unknown; infinite: nothing at all), as a depth splat gives it (W12); what lies
+    // more than a slab before it is left out.
+    SweepTimings render(const MediumLook& look, const SweepSetting& setting, std::span<const EyeView> eyes,
+                        const glm::dvec3& head, double time, std::span<MediumPicture> pictures,
+                        std::span<const Plane<float>> startDepths = {});
+
+    // The same with slices that were made elsewhere.
+    SweepTimings render(const MediumLook& look, const SweepSetting& setting, const SweepGeometry& geometry,
+                        double time, std::span<MediumPicture> pictures,
+                        std::span<const Plane<float>> startDepths = {});
+
+    // For comparisons: all of the light passes, also what no eye reads any more.
+    void passAllLight(bool all);
+
+    SimdTarget target() const;
+    std::size_t heldBytes() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> mState;
+};
+
+}  // namespace stereonav

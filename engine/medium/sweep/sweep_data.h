@@ -1,0 +1,50 @@
+// A medium and how it is looked at, in the form that the kernels read. Keeps what does not change from frame
+// to frame.
+#pragma once
+
+#include <vector>
+
+#include "engine/medium/model/medium.h"
+#include "engine/medium/model/medium_look.h"
+#include "engine/medium/sweep/sweep_geometry.h"
+#include "engine/medium/sweep/sweep_kernel_types.h"
+
+namespace stereonav {
+
+class SweepData {
+public:
+    // Throws Error where a grid has more voxels than 32-bit numbers count.
+    explicit SweepData(const Medium& medium);
+
+    // All but the light's buffers.
+    SweepScene sceneFor(const MediumLook& look, const SweepSetting& setting, const SweepGeometry& geometry,
+                        double time);
+    std::size_t heldBytes() const;
+
+private:
+    struct Table {
+        std::vector<float> members[12];
+        std::vector<std::uint32_t> surfacePairs, sharePairs;
+        SweepTable data;
+    };
+    static void takeTable(const MediumTable& table, double scale, double offset, Table& to);
+    static void takePairs(Table& table);
+    void takeLayer(const HeightLayer& layer);
+    void setGrid(SweepGrid& grid, const glm::dvec3& anchor) const;
+    void setLayers(const glm::dvec3& anchor);
+    void setNoise(SweepNoise& noise, const glm::dvec3& anchor, double time) const;
+    void setLook(SweepLook& to, const MediumLook& look, const glm::dvec3& anchor);
+
+    const Medium& mMedium;
+    double mBase = 0;  // world z that heights are relative to
+    Table mGridTable;
+    bool mNarrow = false;  // differences of values fit 16 bits
+    std::vector<Table> mLayerTables;
+    std::vector<std::vector<float>> mHeights;
+    std::vector<SweepLayer> mLayers;
+    std::vector<float> mPhase[3];
+};
+
+SweepEye sweepEye(const RayFan& fan, const SweepGeometry& geometry);
+
+}  // namespace stereonav

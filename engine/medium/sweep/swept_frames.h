@@ -1,0 +1,91 @@
+// Frames of media, by sweeps on the processor or by what is set in its place.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/frame/frame_maker.h"
+#include "engine/medium/sweep/medium_scene.h"
+#include "engine/medium/sweep/medium_sweep.h"
+#include "engine/stereo/right_eye.h"
+
+namespace stereonav {
+
+// What a sweep is asked for; pictures: one for each eye.
+struct SweepTask {
+    const Medium& medium;
+    const MediumLook& look;
+    const SweepSetting& setting;
+    std::span<const EyeView> eyes;
+    const glm::dvec3& head;
+    double time;
+    std::span<MediumPicture> pictures;
+};
+// Sweeps elsewhere, or calls cpu(), which does it here; true: what the pictures hold was made elsewhere.
+using SweepChooser = std::function<bool(const SweepTask& task, const std::function<void()>& cpu)>;
+
+// Methods of SweptFrames.
+constexpr std::string_view kSweepMethod =
+    "sweep";  // both eyes in one, from one light; the right reads what the left saw
+constexpr std::string_view kOwnSamplesMethod =
+    "own-samples";  // the same, but that each eye takes samples of its own
+constexpr std::string_view kTwoSweepsMethod =
+    "two-sweeps";  // one for each eye: what the others are measured against
+// The left eye's depths splatted to the right, whose rays start there (W12). FrameTimings::warped: the splat,
+// the sweep after it, and the rays of which no start was known.
+constexpr std::string_view kDepthSplatMethod = "depthsplat";
+constexpr std::array<std::string_view, 4> kSweepMethods{kSweepMethod, kOwnSamplesMethod, kTwoSweepsMethod,
+                                                        kDepthSplatMethod};
+
+class SweptFrames final : public FrameMaker {
+public:
+    // scene must outlive this; its look is read at each frame.
+    explicit SweptFrames(const MediumScene& scene, SimdTarget simd = SimdTarget::Auto);
+
+    std::span<const std::string_view> methods() const override { return kSweepMethods; }
+    std::string_view defaultMethod() const override { return kSweepMethod; }
+    std::string_view whatMethodsMake() const override { return "both eyes"; }
+    void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) override;
+    void makeOne(const EyeView& view, double time, EyePair& frame) override;
+    // What sweeps read and write, and their pictures before they are packed.
+    std::vector<HeldBytes> held() const override;
+
+    // Asked at each sweep from now on, but for those of the depth splat, whose rays start in depths.
+    void setSweep(SweepChooser chooser) { mChooser = std::move(chooser); }
+    bool sweptElsewhere() const { return mElsewhere; }  // the last one
+
+    SimdTarget target() const { return mSweep.target(); }
+
+private:
+    class RightRays;
+    glm::vec3 behind(const EyeView& view, int x, int y) const;
+    void pack(const MediumPicture& picture, const EyeView& view, EyeImage& image) const;
+    void sweepEyes(std::span<const EyeView> eyes, double time, std::span<const Plane<float>> starts,
+                   bool shares = true);
+    void sweepOne(const EyeView& view, double time, std::span<const Plane<float>> starts, EyeImage& image);
+
+    // Of the medium that the look's model shows.
+    bool showsSurface() const;
+    MediumSweep& sweep();
+    const Medium& medium() const;  // once sweep() was called
+
+    struct Surface {
+        Medium medium;
+        MediumSweep sweep;
+        Surface(Medium made, SimdTarget simd) : medium(std::move(made)), sweep(medium, simd) {}
+    };
+
+    const MediumScene& mScene;
+    MediumSweep mSweep;
+    std::unique_ptr<Surface> mSurface;  // made when it is first shown
+    RightEye mSplat;
+    std::vector<MediumPicture> mPictures;
+    bool mHere = false, mElsewhere = false;  // the chooser is not asked; it swept elsewhere
+    SweepChooser mChooser;                   // last: it ends before the media that it was asked for
+};
+
+}  // namespace stereonav

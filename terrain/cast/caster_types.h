@@ -1,0 +1,118 @@
+// What the casting kernels read: plain structs and pointers only, since kernels are compiled for wider
+// instruction sets and must not share inline code with the rest (see cmake/rooms.cmake).
+#pragma once
+
+#include <cstdint>
+
+#include "engine/image/texture_data.h"
+#include "engine/simd/kernel_sets.h"
+
+namespace stereonav {
+
+// Grid coordinates as in heightfield.h; heights in metres.
+struct GroundData {
+    const float* heights = nullptr;
+    int width = 0, height = 0;  // samples
+    const float* maxima = nullptr;
+    std::int32_t maximaOffset[16] = {}, maximaPitch[16] = {};
+    int levels = 0;
+    float minHeight = 0, maxHeight = 0;
+    float maxSlope = 0;  // metres a metre; infinite with open holes
+    double spacingX = 1, spacingY = 1;
+    // The plain cell walk in double precision (plain_caster.h), for lanes that float can not decide.
+    // cell: i, j; position: u, v. Returns the parameter, infinite for a miss.
+    double (*exactHit)(const void* context, const double* origin, const double* direction, double tMin,
+                       int* cell, double* position) = nullptr;
+    const void* context = nullptr;
+};
+
+struct SkyData {
+    const std::uint32_t* texels = nullptr;
+    int size = 0, stride = 0;
+};
+
+struct FogData {
+    float perMetre = 0;    // extinction; 0: no fog
+    float linear[3] = {};  // its colour
+};
+
+struct CasterScene {
+    GroundData ground;
+    TextureData texture;
+    SkyData sky;
+    FogData fog;
+};
+
+// A view turned so that `step` leads from steeper to higher rays (rows from bottom to top in an upright
+// picture) and `lane` runs across. Direction of pixel (lane a, step q), in grid units and metres for a
+// unit of view depth: base + a * perLane + q * perStep.
+struct CasterView {
+    double originX = 0, originY = 0, originZ = 0;           // the eye: grid, grid, metres
+    double base[3] = {}, perLane[3] = {}, perStep[3] = {};  // x, y in grid units, z in metres
+    int lanes = 0, steps = 0;                               // pixels across and along
+    // Pixel (x, y) = first + a * laneStep + q * stepStep, both axes swapped in rolled views.
+    int firstX = 0, firstY = 0, laneX = 1, laneY = 0, stepX = 0, stepY = -1;
+    // Towards lower rays at (a, q): (lowA - a * lowW, lowQ - q * lowW); see terrain_view.cpp.
+    double lowA = 0, lowQ = -1, lowW = 0;
+    bool verticalColumns = false;  // each lane's rays lie in one vertical plane: the paper's rule is exact
+    bool coherent = false;         // a lower ray's free length may be used for a higher one at all
+    float nearDepth = 0;
+    float pixelWidth = 0, pixelHeight = 0;  // at unit view depth
+};
+
+// The pixels of a tile: lanes from ceil(left) to ceil(right), each line a + slope * step, and steps
+// firstStep to endStep - 1.
+struct CasterBand {
+    double left = 0, leftSlope = 0, right = 0, rightSlope = 0;
+    int firstStep = 0, endStep = 0;
+    // Lanes whose depths the picture may hold already (0: it does not), beside the band; empty where the
+    // picture is made anew.
+    int knownFrom = 0, knownTo = 0;
+};
+
+// How far in front of a known surface a ray beside or above it starts: the depth of a warped pixel is that
+// of its nearer neighbour in the left picture, good to about a pixel's worth of ground.
+constexpr float kInFront = 0.98f;
+
+// First lane of a band's edge at a step, kept inside the picture.
+__attribute__((always_inline)) inline int bandEdge(double at, double slope, int step, int lanes) {
+    const double a = at + slope * step;
+    if (!(a > 0)) return 0;
+    if (a >= lanes) return lanes;
+    const int whole = static_cast<int>(a);
+    return whole < a ? whole + 1 : whole;
+}
+
+// Where a kernel writes; strides in elements.
+struct CasterTarget {
+    std::uint32_t* color = nullptr;
+    float* depth = nullptr;
+    std::int64_t colorStride = 0, depthStride = 0;
+};
+
+struct CasterPixel {
+    std::uint16_t x, y;
+};
+
+// Scattered pixels with the view depth each ray may start at (0: unknown).
+struct CasterBatch {
+    const CasterPixel* pixels = nullptr;
+    const float* start = nullptr;
+    int count = 0;
+};
+
+// One instruction set's kernels.
+struct CasterKernels {
+    const char* name;
+    int lanes;
+    // scratch: at least 8 * (view.lanes + 128) floats.
+    void (*castBand)(const CasterScene&, const CasterView&, const CasterBand&, const CasterTarget&,
+                     float* scratch);
+    void (*castPixels)(const CasterScene&, const CasterView&, const CasterBatch&, const CasterTarget&);
+    // Colours row y of a view whose lanes are columns from depths that another caster found.
+    void (*shadeRow)(const CasterScene&, const CasterView&, int y, const CasterTarget&);
+};
+
+STEREONAV_EACH_SET(extern const CasterKernels kCasterKernels;)
+
+}  // namespace stereonav

@@ -1,0 +1,17 @@
+// The ray casting of Wan et al. 2004, section 2.1, kept to compare with: the ray is sampled at equal
+// distances until a sample lies below the ground. It can step over what is thinner than a step, and its
+// depth is late by up to one.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "terrain/ground/heightfield.h"
+
+namespace stereonav {
+
+// First parameter tMin + k * step at which origin + t * direction (world) lies on or below the ground,
+// infinite when the ray leaves the ground's extent first. step: in units of t, > 0.
+double castEquidistant(const Heightfield& ground, const glm::dvec3& origin, const glm::dvec3& direction,
+                       double tMin, double step);
+
+}  // namespace stereonav

@@ -1,0 +1,100 @@
+// Colour of a packet: the ground's texture filtered by the ray's footprint, fog, or the sky. Included by
+// kernels only.
+#pragma once
+
+#include "engine/image/kernel_texture.h"
+#include "engine/simd/simd.h"
+#include "terrain/cast/caster_types.h"
+#include "terrain/cast/kernel_cast.h"
+
+namespace stereonav::STEREONAV_ISA {
+
+// Base-2 logarithm within 0.01, for positive normal numbers.
+STEREONAV_INLINE F approxLog2(F x) {
+    const I bitsOfX = asInt(x);
+    const F exponent = toFloat(shiftRight<23>(bitsOfX) - I(127));
+    const F mantissa = asFloat((bitsOfX & I(0x7FFFFF)) | I(0x3F800000));
+    return exponent + mulAdd(mulAdd(F(-0.33333f), mantissa, F(2.0f)), mantissa, F(-1.66667f));
+}
+
+// The footprint of a pixel on the ground is t * pixelWidth across, and along the ray longer by as much
+// as the ray is flat to the ground. The level fits the geometric mean of the two sides: a compromise
+// between shimmer and blur (docs/decisions).
+STEREONAV_INLINE F mipLevel(const TextureData& texture, const CasterView& view, F length, F t, F approach) {
+    const F side = t * F(texture.texelsPerMetre);
+    const F area = side * side * F(view.pixelWidth * view.pixelHeight) * length *
+                   approxReciprocal(max(abs(approach), F(1e-6f)));
+    const F level = F(0.5f) * approxLog2(clamp(area, F(1e-6f), F(1e18f)));
+    return clamp(level, F(0.0f), F(static_cast<float>(texture.levels - 1)));
+}
+
+// directions in metres, any length.
+STEREONAV_INLINE ColorHalves skyColor(const SkyData& sky, F x, F y, F z, M m) {
+    const F scale = approxReciprocal(max(abs(x) + abs(y) + abs(z), F(1e-30f)));
+    const F px = x * scale, py = y * scale;
+    const M below = z < F(0.0f);
+    const F foldedX = select(px < F(0.0f), abs(py) - F(1.0f), F(1.0f) - abs(py));
+    const F foldedY = select(py < F(0.0f), abs(px) - F(1.0f), F(1.0f) - abs(px));
+    const float half = 0.5f * static_cast<float>(sky.size);
+    const F tx = mulAdd(select(below, foldedX, px), F(half), F(half - 0.5f));
+    const F ty = mulAdd(select(below, foldedY, py), F(half), F(half - 0.5f));
+    const I last(sky.size - 2);
+    const I i = clamp(floorToInt(tx), I(0), last), j = clamp(floorToInt(ty), I(0), last);
+    const F fx = clamp(tx - toFloat(i), F(0.0f), F(1.0f)), fy = clamp(ty - toFloat(j), F(0.0f), F(1.0f));
+    return bilinearColor(sky.texels, j * I(sky.stride) + i, I(sky.stride), fx, fy, m);
+}
+
+// e^-x for x >= 0, relative error below 1e-5: a power of two, and the square of a series to the fifth
+// power for half of the rest (at most ln 2 / 2, so what is left out is below 2.5e-6).
+STEREONAV_INLINE F expMinus(F x) {
+    const F y = min(x, F(80.0f)) * F(1.44269504f);
+    const I whole = truncateToInt(y);
+    const F h = (y - toFloat(whole)) * F(-0.34657359f);
+    F half = mulAdd(h, F(1.0f / 120), F(1.0f / 24));
+    half = mulAdd(h, half, F(1.0f / 6));
+    half = mulAdd(h, half, F(0.5f));
+    half = mulAdd(h, mulAdd(h, half, F(1.0f)), F(1.0f));
+    return half * half * asFloat(shiftLeft<23>(I(127) - whole));
+}
+
+// One channel (14-bit square root of linear light) seen through fog of the given linear colour.
+STEREONAV_INLINE I fogChannel(I root, float fog, F through) {
+    constexpr float kFull = 1023.0f * 16;
+    const F value = toFloat(root) * F(1 / kFull);
+    const F linear = lerp(F(fog), value * value, through);
+    return truncateToInt(mulAdd(sqrt(clamp(linear, F(0.0f), F(1.0f))), F(kFull), F(0.5f)));
+}
+
+// Fog mixes in linear light, unlike texels, which hardly differ from their neighbours.
+STEREONAV_INLINE ColorHalves fogged(const FogData& fog, ColorHalves c, F through) {
+    const I low(0xFFFF);
+    const I red = fogChannel(c.redBlue & low, fog.linear[0], through);
+    const I green = fogChannel(c.green & low, fog.linear[1], through);
+    const I blue = fogChannel(shiftRight<16>(c.redBlue) & low, fog.linear[2], through);
+    return {red | shiftLeft<16>(blue), green};
+}
+
+STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view, const Rays& rays,
+                               const Hits& hits, M lanes) {
+    const F x = rays.x * F(static_cast<float>(scene.ground.spacingX));
+    const F y = rays.y * F(static_cast<float>(scene.ground.spacingY));
+    const M ground = lanes & (hits.t < infinity());
+    const M sky = andNot(lanes, ground);
+    ColorHalves color{I(0), I(0)};
+    if (any(ground)) {
+        const F square = mulAdd(x, x, mulAdd(y, y, rays.z * rays.z));
+        const F length = square * approxRsqrt(square);
+        const F t = select(ground, hits.t, F(1.0f));
+        const F level = mipLevel(scene.texture, view, length, t, hits.approach);
+        color =
+            textureColor(scene.texture, toFloat(hits.i) + hits.u, toFloat(hits.j) + hits.v, level, ground);
+        if (scene.fog.perMetre > 0) {
+            color = fogged(scene.fog, color, expMinus(t * length * F(scene.fog.perMetre)));
+        }
+    }
+    I packed = closeColor(color);
+    if (any(sky)) packed = select(sky, closeColor(skyColor(scene.sky, x, y, rays.z, sky)), packed);
+    return packed;
+}
+
+}  // namespace stereonav::STEREONAV_ISA

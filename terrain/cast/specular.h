@@ -1,0 +1,38 @@
+// The view-dependent highlight of a terrain (wet ground, ice, water): Blinn-Phong towards the sun. With the
+// fog it is the only part of a pixel that the other eye sees differently, so it is evaluated again there (Wan
+// et al. 2004, section 4), with their table in place of the power function.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/image/packed_color.h"
+#include "engine/image/packed_normal.h"
+#include "terrain/read/scene_file.h"
+
+namespace stereonav {
+
+class Specular {
+public:
+    // sunlight: what the sun's light has of its strength, by colour; with a set sun there is no highlight.
+    explicit Specular(const TerrainLook& look, const glm::vec3& sunlight = glm::vec3(1.0f));
+    bool active() const { return mStrength > 0; }       // whether the look has highlights at all
+    const glm::dvec3& toSun() const { return mToSun; }  // unit
+    // What ground with that unit normal sends to an eye in the direction toEye (unit, from the point),
+    // linear, where nothing hides the sun; 0 where it is turned from the sun.
+    glm::vec3 highlight(const glm::dvec3& normal, const glm::dvec3& toEye) const;
+    // cosine^shininess by linear interpolation in a table; cosine in [0, 1]. The absolute error is below
+    // shininess^2 / (8 * kEntries^2) of full strength.
+    float power(float cosine) const;
+
+    static constexpr int kEntries = 4096;
+
+private:
+    float mStrength;
+    glm::vec3 mColor{0.0f};  // of a full highlight
+    glm::dvec3 mToSun;
+    std::vector<float> mPower;  // empty where there is no highlight
+};
+
+}  // namespace stereonav

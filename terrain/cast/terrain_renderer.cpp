@@ -1,0 +1,347 @@
+// Chooses the kernels, hands them bands and batches, and adds what only some scenes have: landmarks and
+// view-dependent highlights.
+#include "terrain/cast/terrain_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "terrain/cast/caster_types.h"
+#include "terrain/cast/fog_row.h"
+#include "terrain/cast/hole_rays.h"
+#include "terrain/cast/plain_caster.h"
+#include "terrain/cast/specular.h"
+#include "terrain/cast/terrain_view.h"
+#include "terrain/ground/height_pyramid.h"
+#include "terrain/light/fog.h"
+#include "terrain/scene/landmark.h"
+#include "terrain/scene/terrain_illumination.h"
+
+namespace stereonav {
+namespace {
+
+constexpr float kUnseen = 1e-7f;  // a tenth of the first step of a packed channel, linear
+
+const CasterKernels& kernelsFor(SimdTarget target) {
+    return kernelsOf(target, plain::kCasterKernels, avx2::kCasterKernels, avx512::kCasterKernels);
+}
+
+double exactHit(const void* context, const double* origin, const double* direction, double tMin, int* cell,
+                double* position) {
+    const auto& ground = *static_cast<const Heightfield*>(context);
+    const glm::dvec2 spacing = ground.spacing();
+    const glm::dvec3 world(ground.worldFromGrid({origin[0], origin[1]}), origin[2]);
+    const GroundHit hit =
+        castPlain(ground, world, {direction[0] * spacing.x, direction[1] * spacing.y, direction[2]}, tMin);
+    cell[0] = hit.i, cell[1] = hit.j;
+    position[0] = hit.u, position[1] = hit.v;
+    return hit.t;
+}
+
+GroundData groundData(const Heightfield& ground, const HeightPyramid& pyramid) {
+    GroundData g;
+    g.heights = ground.data();
+    g.width = ground.width();
+    g.height = ground.height();
+    g.maxima = pyramid.data();
+    std::copy(pyramid.offsets().begin(), pyramid.offsets().end(), g.maximaOffset);
+    std::copy(pyramid.pitches().begin(), pyramid.pitches().end(), g.maximaPitch);
+    g.levels = pyramid.levelCount();
+    g.minHeight = ground.minHeight();
+    g.maxHeight = ground.maxHeight();
+    g.maxSlope = static_cast<float>(ground.maxSlope() * (1 + 1e-6));
+    g.spacingX = ground.spacing().x;
+    g.spacingY = ground.spacing().y;
+    g.exactHit = exactHit;
+    g.context = &ground;
+    return g;
+}
+
+TextureData textureData(const ColorTexture& color, const glm::dvec2& spacing, const GroundFilter& filter) {
+    TextureData t = color.forKernels(glm::dvec2(0.0), glm::dvec2(1.0));  // places are grid coordinates
+    if (!filter.mipLevels) t.levels = 1;
+    const glm::dvec2 texel = color.gridPerTexel() * spacing;
+    t.texelsPerMetre =
+        static_cast<float>(std::exp2(std::clamp(filter.levelBias, -8.0, 8.0)) / std::sqrt(texel.x * texel.y));
+    return t;
+}
+
+CasterTarget targetOf(EyeImage& image) {
+    return {image.color.row(0), image.viewDepth.row(0), image.color.stride(), image.viewDepth.stride()};
+}
+
+std::vector<PixelIndex> pixelsOf(const CasterView& view, const CasterBand& band) {
+    std::vector<PixelIndex> pixels;
+    for (int q = band.firstStep; q < band.endStep; ++q) {
+        const int end = bandEdge(band.right, band.rightSlope, q, view.lanes);
+        for (int a = bandEdge(band.left, band.leftSlope, q, view.lanes); a < end; ++a)
+            pixels.push_back({static_cast<std::uint16_t>(view.firstX + a * view.laneX + q * view.stepX),
+                              static_cast<std::uint16_t>(view.firstY + a * view.laneY + q * view.stepY)});
+    }
+    return pixels;
+}
+
+// The highlights of a scene under the light that it has now.
+Specular specularOf(const TerrainScene& terrain) {
+    if (!terrain.illumination) return Specular(terrain.look);
+    return Specular(terrain.look, terrain.illumination->highlightLight());
+}
+
+}  // namespace
+
+struct TerrainRenderer::State {
+    HeightPyramid pyramid;
+    CasterScene scene, clear;  // clear: without its fog
+    const CasterKernels* kernels;
+    FogRowFunction changeFog;
+    Specular specular;
+    Fog fog;
+    SimdTarget target;
+
+    State(const TerrainScene& terrain, SimdTarget wanted, const GroundFilter& filter)
+        : pyramid(terrain.ground),
+          specular(specularOf(terrain)),
+          fog(terrain.look),
+          target(availableTarget(wanted)) {
+        kernels = &kernelsFor(target);
+        changeFog = kernelsOf<FogRowFunction>(target, plain::changeFog, avx2::changeFog, avx512::changeFog);
+        scene.ground = groundData(terrain.ground, pyramid);
+        scene.texture = textureData(terrain.color, terrain.ground.spacing(), filter);
+        scene.sky = {terrain.sky.map().row(0), terrain.sky.map().width(), terrain.sky.map().stride()};
+        clear = scene;
+        const glm::vec3& color = terrain.look.fogColor;
+        if (terrain.look.fogDistance > 0)
+            scene.fog = {static_cast<float>(1 / terrain.look.fogDistance), {color.x, color.y, color.z}};
+    }
+};
+
+TerrainRenderer::TerrainRenderer(const TerrainScene& scene, SimdTarget target, const GroundFilter& filter)
+    : mScene(scene), mState(std::make_unique<State>(scene, target, filter)) {}
+TerrainRenderer::~TerrainRenderer() = default;
+
+std::size_t TerrainRenderer::byteCount() const {
+    return mState->pyramid.byteCount();
+}
+
+int TerrainRenderer::tileCount(const EyeView& view) const {
+    return bandCount(makeCasterView(view, mScene.ground));
+}
+
+void TerrainRenderer::renderTile(const EyeView& view, int tile, EyeImage& image) const {
+    const CasterView caster = makeCasterView(view, mScene.ground);
+    const CasterBand band = bandOf(caster, tile);
+    thread_local std::vector<float> scratch;
+    scratch.resize(8 * (static_cast<std::size_t>(caster.lanes) + 128));
+    const CasterScene& scene = keepsBase(image) ? mState->clear : mState->scene;
+    mState->kernels->castBand(scene, caster, band, targetOf(image), scratch.data());
+    if (mScene.landmarks || viewDependent()) finish(view, pixelsOf(caster, band), image);
+}
+
+void TerrainRenderer::finish(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const {
+    std::vector<bool> onLandmark(pixels.size(), false);
+    if (mScene.landmarks) castLandmarks(view, pixels, image, onLandmark);
+    if (!keepsBase(image)) return;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        const PixelIndex p = pixels[k];
+        const float depth = image.viewDepth.at(p.x, p.y);
+        image.baseColor.at(p.x, p.y) = image.color.at(p.x, p.y);
+        const glm::dvec3 point = view.pointAt(p.x + 0.5, p.y + 0.5, std::isfinite(depth) ? depth : 0.0);
+        // Landmarks are matt: a normal turned from the sun has no highlight.
+        const glm::dvec3 normal =
+            onLandmark[k] ? -mState->specular.toSun() : mScene.ground.normalAt(glm::dvec2(point));
+        image.normal.at(p.x, p.y) = packNormal(normal);
+        shadeAgain(view, p.y, p.x, p.x + 1, image);
+    }
+}
+
+void TerrainRenderer::castLandmarks(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image,
+                                    std::vector<bool>& hit) const {
+    constexpr int kChunk = 256;
+    glm::dvec3 direction[kChunk];
+    float depth[kChunk];
+    PackedColor color[kChunk];
+    for (std::size_t first = 0; first < pixels.size(); first += kChunk) {
+        const int count = static_cast<int>(std::min<std::size_t>(kChunk, pixels.size() - first));
+        for (int k = 0; k < count; ++k) {
+            const PixelIndex p = pixels[first + k];
+            direction[k] = view.rayDirection(p.x + 0.5, p.y + 0.5);
+            depth[k] = image.viewDepth.at(p.x, p.y);
+            color[k] = image.color.at(p.x, p.y);
+        }
+        mScene.landmarks->cast(view, count, direction, depth, color, !keepsBase(image));
+        for (int k = 0; k < count; ++k) {
+            const PixelIndex p = pixels[first + k];
+            hit[first + k] = depth[k] < image.viewDepth.at(p.x, p.y);
+            image.viewDepth.at(p.x, p.y) = depth[k];
+            image.color.at(p.x, p.y) = color[k];
+        }
+    }
+}
+
+void TerrainRenderer::shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const {
+    for (int x = x0; x < x1; ++x) {
+        const double depth = image.viewDepth.at(x, y);
+        const PackedColor base = image.baseColor.at(x, y);
+        image.color.at(x, y) = base;
+        if (!std::isfinite(depth)) continue;
+        const glm::dvec3 ray = view.rayDirection(x + 0.5, y + 0.5);
+        const double length = glm::length(ray);
+        glm::vec3 highlight = mState->specular.highlight(unpackNormal(image.normal.at(x, y)), -ray / length);
+        if (glm::all(glm::lessThan(highlight, glm::vec3(kUnseen)))) {
+            if (!mState->fog.any()) continue;
+            highlight = glm::vec3(0.0f);
+        } else {
+            highlight *= sunShownAt(view.eye + depth * ray);
+        }
+        image.color.at(x, y) = packColor(mState->fog.seen(unpackColor(base) + highlight, depth * length));
+    }
+}
+
+float TerrainRenderer::sunShownAt(const glm::dvec3& place) const {
+    if (!mScene.illumination) return 1;
+    return mScene.illumination->sunShownAt(mScene.ground.gridFromWorld(glm::dvec2(place)));
+}
+
+void TerrainRenderer::shadeRows(const EyeView& view, int y0, int y1, EyeImage& image) const {
+    const CasterView caster = makeCasterView(view, mScene.ground);
+    for (int y = y0; y < y1; ++y) mState->kernels->shadeRow(mState->scene, caster, y, targetOf(image));
+}
+
+ViewDependence TerrainRenderer::viewDependence() const {
+    return mState->specular.active() ? ViewDependence::Highlight : ViewDependence::None;
+}
+// Of a way that is shorter by a separation of that share of the fog's distance 0.2 % more light arrives: at
+// most one step of a packed channel, where the fog is black and what is seen white.
+bool TerrainRenderer::airDiffers(double separation) const {
+    constexpr double kUnseenShare = 1.0 / 500;
+    return static_cast<double>(mState->scene.fog.perMetre) * separation > kUnseenShare;
+}
+
+void TerrainRenderer::changeAir(const EyeView& from, const EyeView& view, int y, EyeImage& image) const {
+    const FogData& fog = mState->scene.fog;
+    FogRow row;
+    row.color = image.color.row(y);
+    row.depth = image.viewDepth.row(y);
+    row.width = image.width();
+    row.firstX = static_cast<float>(view.xMin + 0.5 * view.pixelWidth());
+    row.perX = static_cast<float>(view.pixelWidth());
+    row.y = static_cast<float>(view.yMax - (y + 0.5) * view.pixelHeight());
+    const glm::dvec3 offset = view.eye - from.eye;
+    row.offset[0] = static_cast<float>(glm::dot(offset, view.right));
+    row.offset[1] = static_cast<float>(glm::dot(offset, view.up));
+    row.offset[2] = static_cast<float>(glm::dot(offset, view.forward));
+    row.perMetre = fog.perMetre;
+    std::copy_n(fog.linear, 3, row.linear);
+    mState->changeFog(row);
+}
+void TerrainRenderer::sunMoved() {
+    mState->specular = specularOf(mScene);
+}
+SimdTarget TerrainRenderer::target() const {
+    return mState->target;
+}
+
+void TerrainRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
+                                   EyeImage& image) const {
+    const CasterView caster = makeCasterView(view, mScene.ground);
+    thread_local HoleSort holes;
+    holes.sort(caster, bounds, pixels);
+    const CasterTarget target = targetOf(image);
+    const CasterScene& scene = keepsBase(image) ? mState->clear : mState->scene;
+    thread_local std::vector<float> scratch;
+    scratch.resize(8 * (static_cast<std::size_t>(caster.lanes) + 128));
+    for (const CasterBand& band : holes.dense()) {
+        mState->kernels->castBand(scene, caster, band, target, scratch.data());
+        if (mScene.landmarks || viewDependent()) finish(view, pixelsOf(caster, band), image);
+    }
+    // Long enough to keep all lanes busy, short enough for later pixels to start from earlier ones.
+    constexpr std::size_t kChunk = 128;
+    CasterPixel chunk[kChunk];
+    float start[kChunk];
+    const std::span<const PixelIndex> sparse = holes.sparse();
+    for (std::size_t first = 0; first < sparse.size(); first += kChunk) {
+        const int count = static_cast<int>(std::min(kChunk, sparse.size() - first));
+        for (int k = 0; k < count; ++k) {
+            const PixelIndex p = sparse[first + k];
+            chunk[k] = {p.x, p.y};
+            start[k] = startInFront(caster, mState->scene.ground, bounds, image, p);
+        }
+        mState->kernels->castPixels(scene, caster, {chunk, start, count}, target);
+    }
+    if (mScene.landmarks || viewDependent()) finish(view, sparse, image);
+}
+
+namespace {
+
+struct Box {
+    glm::dvec3 low, high;
+};
+
+// Of the rectangle's corners at unit view depth, from the eye.
+Box cornerBox(const EyeView& view, PixelRect rect) {
+    Box box{glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
+    for (const double x : {double(rect.x0), double(rect.x1)})
+        for (const double y : {double(rect.y0), double(rect.y1)}) {
+            const glm::dvec3 direction = view.rayDirection(x, y);
+            box.low = glm::min(box.low, direction);
+            box.high = glm::max(box.high, direction);
+        }
+    return box;
+}
+
+// Bounds of the part of a frustum between two depths.
+Box frustumBox(const glm::dvec3& eye, const Box& corners, double from, double to) {
+    return {eye + glm::min(from * corners.low, to * corners.low),
+            eye + glm::max(from * corners.high, to * corners.high)};
+}
+
+// Whether any ground below the box's footprint reaches up to its lower side.
+bool reachesGround(const Heightfield& ground, const HeightPyramid& pyramid, const Box& box) {
+    if (box.low.z > ground.maxHeight()) return false;
+    const glm::dvec2 low = ground.gridFromWorld(glm::dvec2(box.low)),
+                     high = ground.gridFromWorld(glm::dvec2(box.high));
+    const int lastI = ground.width() - 2, lastJ = ground.height() - 2;
+    if (high.x < 0 || high.y < 0 || low.x > lastI + 1 || low.y > lastJ + 1) return false;
+    const auto cell = [](double g, int last) {
+        return std::min(static_cast<int>(std::clamp(g, 0.0, 1e9)), last);
+    };
+    const int i0 = cell(low.x, lastI), i1 = cell(high.x, lastI), j0 = cell(low.y, lastJ),
+              j1 = cell(high.y, lastJ);
+    int level = 0;
+    while (level + 1 < pyramid.levelCount() &&
+           std::max((i1 >> level) - (i0 >> level), (j1 >> level) - (j0 >> level)) > 3)
+        ++level;
+    for (int j = j0 >> level; j <= j1 >> level; ++j)
+        for (int i = i0 >> level; i <= i1 >> level; ++i)
+            if (pyramid.at(level, i, j) >= box.low.z) return true;
+    return false;
+}
+
+}  // namespace
+
+bool TerrainRenderer::mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
+                                       double parallaxScale) const {
+    if (rect.x1 >= column) return true;
+    const double end = parallaxScale / (column - rect.x1);
+    const Box corners = cornerBox(view, rect);
+    double from = view.nearDepth;
+    while (from < end) {
+        const double to = std::min(end, from * 2);
+        const Box box = frustumBox(view.eye, corners, from, to);
+        if (reachesGround(mScene.ground, mState->pyramid, box)) return true;
+        if (mScene.landmarks) {
+            const glm::dvec3 low = mScene.landmarks->boundsMin(), high = mScene.landmarks->boundsMax();
+            if (glm::all(glm::lessThanEqual(low, box.high)) && glm::all(glm::lessThanEqual(box.low, high)))
+                return true;
+        }
+        from = to;
+    }
+    return false;
+}
+
+}  // namespace stereonav

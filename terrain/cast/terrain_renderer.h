@@ -1,0 +1,67 @@
+// Casts rays at a terrain for any view: the engine's door into a terrain scene.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/render/eye_renderer.h"
+#include "engine/simd/simd_target.h"
+#include "terrain/scene/terrain_scene.h"
+
+namespace stereonav {
+
+// How the ground's colour is read, for comparing; as it is by default.
+struct GroundFilter {
+    bool mipLevels = true;  // else the finest alone
+    double levelBias = 0;   // levels coarser (above 0) or finer than the ray's footprint asks for, -8 to 8
+};
+
+// Hits are those of the plain cell walk (plain_caster.h), whatever the height of the ground, for eyes up to
+// 4,000 spacings away from it; from 400,000 spacings away a ray in a thousand passes by a tip or an edge.
+class TerrainRenderer final : public EyeRenderer {
+public:
+    // scene must outlive the renderer.
+    explicit TerrainRenderer(const TerrainScene& scene, SimdTarget target = SimdTarget::Auto,
+                             const GroundFilter& filter = {});
+    ~TerrainRenderer() override;
+
+    int tileCount(const EyeView& view) const override;
+    void renderTile(const EyeView& view, int tile, EyeImage& image) const override;
+    void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
+                      EyeImage& image) const override;
+    bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
+                          double parallaxScale) const override;
+    ViewDependence viewDependence() const override;
+    void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override;
+
+    bool airDiffers(double separation) const override;
+    void changeAir(const EyeView& from, const EyeView& view, int y, EyeImage& image) const override;
+
+    // Colours rows y0 .. y1 - 1 of an upright view from the depths in image.viewDepth, which another caster
+    // found: the same shading for comparing casters.
+    void shadeRows(const EyeView& view, int y0, int y1, EyeImage& image) const;
+
+    // The scene's look has changed (moveSun()): highlights follow. Not while a picture is cast.
+    void sunMoved();
+
+    SimdTarget target() const;  // what Auto became
+    const TerrainScene& scene() const { return mScene; }
+    std::size_t byteCount() const;  // beside the scene: the pyramid of heights
+
+private:
+    struct State;
+    // Whether a picture keeps what shading again needs. Its base colours are without the fog then, which each
+    // eye sees through its own distances.
+    bool keepsBase(const EyeImage& image) const { return viewDependent() && !image.normal.empty(); }
+    // What the kernels leave out: landmarks, normals, highlights and the fog before them.
+    void finish(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const;
+    void castLandmarks(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image,
+                       std::vector<bool>& hit) const;
+    // The share of the sun's disc that is seen at a place on the ground; 1 without baked light.
+    float sunShownAt(const glm::dvec3& place) const;
+
+    const TerrainScene& mScene;
+    std::unique_ptr<State> mState;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,54 @@
+// The ground as a mesh for Embree: two triangles a cell, split from its south-east to its north-west corner
+// (as Embree's own grids are). Cells that touch a hole are left out. For baking light; pictures are cast
+// against the bilinear surface.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "terrain/ground/heightfield.h"
+
+namespace stereonav {
+
+// Sixteen rays in the ray mesh's space: world, less centreHeight() in z.
+struct RayPacket {
+    static constexpr int kSize = 16;
+    alignas(64) float originX[kSize], originY[kSize], originZ[kSize];
+    alignas(64) float directionX[kSize], directionY[kSize], directionZ[kSize];
+    alignas(64) float nearest[kSize];   // rays start here
+    alignas(64) float distance[kSize];  // of the hit, written by intersect(); infinite for a miss
+};
+
+class GroundRays {
+public:
+    // ground must outlive this. Throws Error where there are more samples than the mesh can index.
+    explicit GroundRays(const Heightfield& ground);
+    ~GroundRays();
+
+    // `active`: bit k for ray k. Returns the bits of those that meet the ground. From any thread.
+    std::uint32_t occluded(const RayPacket& rays, std::uint32_t active) const;
+    void intersect(RayPacket& rays, std::uint32_t active) const;
+
+    double centreHeight() const { return mCentreHeight; }
+    // How far starts are lifted off the ground: what rounding could hide, and a little of a cell.
+    double lift() const { return mLift; }
+    const Heightfield& ground() const { return mGround; }
+
+    // Height of the mesh at a world position (clamped to the ground): not quite that of the bilinear surface.
+    double heightAt(const glm::dvec2& world) const;
+
+    // Rise over run of the mesh beside sample (i, j) towards a horizontal unit direction (metres): what
+    // hides the sky before any other cell does. Minus infinity where the cell is open or outside.
+    double slopeBeside(int i, int j, const glm::dvec2& direction) const;
+
+private:
+    // grid: direction in grid units, within the cell to the sample's west or east, south or north.
+    double slopeInCell(int i, int j, const glm::dvec2& grid, bool west, bool south) const;
+
+    struct State;
+    const Heightfield& mGround;
+    double mCentreHeight, mLift;
+    std::unique_ptr<State> mState;
+};
+
+}  // namespace stereonav

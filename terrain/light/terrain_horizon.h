@@ -1,0 +1,26 @@
+// The horizon of each baked sample: by azimuth, the elevation above which it sees the sky. Exact on the
+// mesh of ground_rays.h up to the byte's step.
+#pragma once
+
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "terrain/ground/ground_rays.h"
+#include "terrain/light/terrain_light.h"
+
+namespace stereonav {
+
+// Unit, metres; plane `a` of `azimuths`.
+glm::dvec2 azimuthDirection(double a, int azimuths);
+
+// Unit normal of a height sample, as shading has it; upright where the sample is unknown.
+glm::dvec3 sampleNormal(const Heightfield& ground, int i, int j);
+
+// One row of baked samples: horizon[a * planeSize + i]. Samples in holes get 0.
+// each: called before every few samples, as a row may take seconds; may throw.
+void bakeHorizonRow(
+    const GroundRays& rays, const LightGrid& grid, int row, int azimuths, std::uint8_t* horizon,
+    std::size_t planeSize, const std::function<void()>& each = [] {});
+
+}  // namespace stereonav

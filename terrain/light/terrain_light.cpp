@@ -1,0 +1,358 @@
+// The bake: horizons and direct transfer row by row, then one pass a bounce in which every sample gathers
+// what the last pass left on the ground that it sees. A bounce is thus one ray long, however many there are,
+// and noise does not grow with them; what path tracing would find at a ray's end by further rays is looked
+// up between the baked samples there.
+#include "terrain/light/terrain_light.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+#include "engine/base/memory.h"
+#include "engine/base/parallel.h"
+#include "engine/base/stop.h"
+#include "engine/light/skies/spherical_harmonics.h"
+#include "terrain/light/terrain_bake_part.h"
+#include "terrain/light/terrain_transfer.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kBakeVersion = 1;  // of what is baked: a change gives other keys
+constexpr int kBand = 16;        // rows between two looks at the progress
+constexpr int kLargestStride = 1000;
+constexpr int kLookAt = 64;                     // samples of a row between two looks at the wish to stop
+constexpr std::uint64_t kKeepBytes = 32 << 20;  // done and not kept yet: what a stop has to write at most
+
+void checkRange(const char* name, double value, double low, double high, int step = 1) {
+    const bool whole = step <= 1 || std::fmod(value, step) == 0;
+    if (value >= low && value <= high && whole) return;
+    throw Error("", "",
+                fmt::format("{}: expected {:g} to {:g}{}, got {:g}", name, low, high,
+                            step > 1 ? fmt::format(" in steps of {}", step) : "", value),
+                "leave it out for the default");
+}
+
+void checkSettings(const TerrainLightSettings& s) {
+    checkRange("order", s.order, 1, kMaxHarmonicsOrder);
+    checkRange("bounces", s.bounces, 0, 4);
+    checkRange("rays", s.rays, RayPacket::kSize, 65536, RayPacket::kSize);
+    checkRange("azimuths", s.azimuths, 8, 64, 4);
+    checkRange("stride", s.stride, 1, 1 << 20);
+    checkRange("albedo", s.albedo, 0, 1);
+}
+
+// Bytes held at once: three transfer fields or the two results, horizons, openness, Embree's vertices.
+double memoryOf(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {
+    const double each = s.kind == TerrainLightKind::Openness
+                            ? 1.0
+                            : 1.0 + s.azimuths + 4 * sizeof(std::int16_t) * lightHarmonics(s.order);
+    return each * static_cast<double>(grid.count()) + 40.0 * ground.width() * ground.height();
+}
+
+void checkMemoryOf(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {
+    const double needed = memoryOf(ground, grid, s), there = availableMemory();
+    if (needed <= there) return;
+    const auto fits = [&](int stride) { return memoryOf(ground, LightGrid(ground, stride), s) <= there; };
+    int stride = grid.stride;
+    while (stride < kLargestStride && !fits(stride)) ++stride;
+    throw Error("", "",
+                fmt::format("light for {}x{} samples needs {} of memory, and {} can be had", grid.width,
+                            grid.height, memoryText(needed), memoryText(there)),
+                fits(stride)
+                    ? fmt::format("--resolution {:.3f} would fit", std::floor(1000.0 / stride) / 1000)
+                    : "no resolution would fit: bake a part of this ground");
+}
+
+template <typename T>
+std::span<std::byte> bytesOf(std::vector<T>& values, std::size_t first, std::size_t count) {
+    return std::as_writable_bytes(std::span(values).subspan(first, count));
+}
+
+std::int16_t quantized(float value) {
+    return static_cast<std::int16_t>(std::lround(std::clamp(value, -32767.0f, 32767.0f)));
+}
+
+Hash hashOf(const Heightfield& ground) {
+    Hash hash;
+    hash.add("terrain light").add(std::int64_t{kBakeVersion});
+    hash.add(std::int64_t{ground.width()}).add(std::int64_t{ground.height()});
+    hash.add(ground.spacing().x).add(ground.spacing().y);
+    hash.add(ground.data(), sizeof(float) * static_cast<std::size_t>(ground.width()) * ground.height());
+    return hash;
+}
+
+class Bake {
+public:
+    Bake(const Heightfield& ground, const TerrainLightSettings& settings, Progress& progress, bool keeps)
+        : mGround(ground),
+          mSettings(settings),
+          mProgress(progress),
+          mGrid(ground, settings.stride),
+          mKeeps(keeps) {
+        checkSettings(settings);
+        checkMemoryOf(ground, mGrid, settings);
+    }
+
+    TerrainLight run() {
+        try {
+            TerrainLight light = bake();
+            std::error_code code;
+            if (mKeeps) std::filesystem::remove(terrainBakePart(light.key), code);
+            return light;
+        } catch (const Cancelled&) {
+            const FinishingWork keepsWhatIsDone;
+            keepDone();
+            throw;
+        }
+    }
+
+private:
+    TerrainLight bake() {
+        mProgress.report(0, "building the ground for rays");
+        const GroundRays rays(mGround);
+        mLight.settings = mSettings;
+        mLight.grid = mGrid;
+        mLight.key = terrainLightKey(mGround, mSettings);
+        goOn();
+        if (mDone.phase == 0) {
+            bakeDirect(rays, isTransfer() ? mSettings.bounces == 0 ? 0.9 : 0.5 : 1.0);
+            nextPhase();
+        }
+        if (!isTransfer()) {
+            mProgress.report(1, "baked");
+            return std::move(mLight);
+        }
+        while (mDone.phase <= mSettings.bounces) {
+            bakeBounce(rays, mDone.phase - 1);
+            nextPhase();
+        }
+        mNext = {};
+        intoPlanes();
+        mProgress.report(1, "baked");
+        return std::move(mLight);
+    }
+
+    bool isTransfer() const { return mSettings.kind == TerrainLightKind::Transfer; }
+    int phases() const { return isTransfer() ? mSettings.bounces + 1 : 1; }
+
+    // All rows of the present phase are done.
+    void nextPhase() {
+        keepDone();
+        if (mDone.phase == 0)
+            mTotal = mDirect;
+        else
+            std::swap(mTotal, mNext);
+        ++mDone.phase;
+        mDone.rows = mKept.rows = 0;
+        mKept.phase = mDone.phase;
+        if (mDone.phase < phases()) mNext.resize(mTotal.size());
+    }
+
+    void allocate() {
+        mLight.openness.assign(mGrid.count(), 0);
+        if (!isTransfer()) return;
+        mLight.horizon.assign(mGrid.count() * mSettings.azimuths, 0);
+        mDirect.assign(mGrid.count() * mCount, 0);
+    }
+
+    BakeBlocks blocksOf(const BakeBand& band) {
+        const std::size_t row = static_cast<std::size_t>(mGrid.width);
+        const std::size_t first = row * static_cast<std::size_t>(band.first),
+                          samples = row * static_cast<std::size_t>(band.rows);
+        if (band.phase > 0) return {bytesOf(mNext, first * mCount, samples * mCount)};
+        BakeBlocks blocks{bytesOf(mLight.openness, first, samples)};
+        if (!isTransfer()) return blocks;
+        for (int a = 0; a < mSettings.azimuths; ++a)
+            blocks.push_back(bytesOf(mLight.horizon, a * mGrid.count() + first, samples));
+        blocks.push_back(bytesOf(mDirect, first * mCount, samples * mCount));
+        return blocks;
+    }
+
+    // From where an earlier run of the same bake was stopped.
+    void goOn() {
+        allocate();
+        if (!mKeeps) return;
+        const BakeKept kept = readBakePart(mLight.key, mGrid.height, phases(), [&](const BakeBand& band) {
+            if (band.phase > mDone.phase) {
+                mDone.rows = mKept.rows = mGrid.height;
+                nextPhase();
+            }
+            return blocksOf(band);
+        });
+        // A damaged band may have begun a phase: that one is begun all the same.
+        if (kept.reached.phase == mDone.phase) mDone.rows = kept.reached.rows;
+        mKept = mDone;
+        mKeptBytes = kept.bytes;
+    }
+
+    BakeBand notKept() const { return {mDone.phase, mKept.rows, mDone.rows - mKept.rows}; }
+
+    // Rows that are done and not kept yet.
+    void keepDone() {
+        const BakeBand band = notKept();
+        if (!mKeeps || mKeepingFailed || band.rows == 0) return;
+        mKeptBytes = keepBakeBand(mLight.key, mKeptBytes, band, blocksOf(band));
+        mKeepingFailed = mKeptBytes == 0;
+        mKept.rows = mDone.rows;
+    }
+
+    // Runs work(row) for all rows of the phase that are not done; the job's share from `from` to `to`.
+    template <typename Work>
+    void eachRow(double from, double to, const char* what, const Work& work) {
+        while (mDone.rows < mGrid.height) {
+            mProgress.report(from + (to - from) * mDone.rows / mGrid.height, what);
+            const int band = std::min(kBand, mGrid.height - mDone.rows);
+            parallelFor(band, [&](int k) { work(mDone.rows + k); });
+            mDone.rows += band;
+            if (bytesPerRow() * static_cast<std::uint64_t>(notKept().rows) >= kKeepBytes) keepDone();
+        }
+    }
+
+    // A row of a large ground takes seconds.
+    void lookAtWish() const {
+        if (mProgress.cancelled()) throw Cancelled();
+    }
+
+    std::uint64_t bytesPerRow() const {
+        const std::size_t of = sizeof(std::int16_t) * static_cast<std::size_t>(mCount);
+        const std::size_t each = !isTransfer() ? 1 : mDone.phase > 0 ? of : 1 + mSettings.azimuths + of;
+        return static_cast<std::uint64_t>(mGrid.width) * each;
+    }
+
+    bool known(int i, int j) const { return std::isfinite(mGround.sample(mGrid.column(i), mGrid.row(j))); }
+    std::size_t sampleAt(int i, int j) const { return static_cast<std::size_t>(j) * mGrid.width + i; }
+    void bakeDirect(const GroundRays& rays, double to) {
+        const SkyTransfer sky(mSettings.order, mSettings.azimuths);
+        const auto wish = [this] { lookAtWish(); };
+        eachRow(0, to, "casting rays for the horizon", [&](int j) {
+            // Openness needs the horizons of this row alone.
+            const std::size_t width = static_cast<std::size_t>(mGrid.width);
+            std::vector<std::uint8_t> own(isTransfer() ? 0 : width * mSettings.azimuths);
+            std::uint8_t* const horizon = own.empty() ? &mLight.horizon[sampleAt(0, j)] : own.data();
+            const std::size_t plane = own.empty() ? mGrid.count() : width;
+            bakeHorizonRow(rays, mGrid, j, mSettings.azimuths, horizon, plane, wish);
+            SkyWedges wedges(mSettings.azimuths);
+            float direct[kMaxHarmonics];
+            for (int i = 0; i < mGrid.width; ++i) {
+                if (i % kLookAt == 0) lookAtWish();
+                if (!known(i, j)) continue;
+                wedges.set(sampleNormal(mGround, mGrid.column(i), mGrid.row(j)), horizon + i, plane);
+                mLight.openness[sampleAt(i, j)] =
+                    static_cast<std::uint8_t>(std::lround(255 * wedges.openness()));
+                if (!isTransfer()) continue;
+                sky.direct(wedges, direct);
+                for (int k = 0; k < mCount; ++k)
+                    mDirect[sampleAt(i, j) * mCount + k] = quantized(direct[k] / mUnit[k]);
+            }
+        });
+    }
+
+    void bakeBounce(const GroundRays& rays, int bounce) {
+        const double from = 0.5 + 0.45 * bounce / mSettings.bounces, to = from + 0.45 / mSettings.bounces;
+        eachRow(from, to, "casting rays for bounced light", [&](int j) {
+            SkyWedges wedges(mSettings.azimuths);
+            float bounced[kMaxHarmonics];
+            const GatherSetting setting{mSettings.rays, mSettings.albedo, mSettings.seed, mCount};
+            for (int i = 0; i < mGrid.width; ++i) {
+                if (i % kLookAt == 0) lookAtWish();
+                if (!known(i, j)) continue;
+                wedges.set(sampleNormal(mGround, mGrid.column(i), mGrid.row(j)),
+                           &mLight.horizon[sampleAt(i, j)], mGrid.count());
+                gatherBounce(rays, mGrid, i, j, wedges, mTotal, setting, bounced);
+                const std::size_t at = sampleAt(i, j) * mCount;
+                for (int k = 0; k < mCount; ++k)
+                    mNext[at + k] = quantized(static_cast<float>(mDirect[at + k]) + bounced[k]);
+            }
+        });
+    }
+
+    void intoPlanes() {
+        mProgress.report(0.95, "packing");
+        mLight.full.resize(mTotal.size());
+        mLight.bounced.resize(mTotal.size());
+        parallelFor(mGrid.height, [&](int j) {
+            for (int i = 0; i < mGrid.width; ++i)
+                for (int k = 0; k < mCount; ++k) {
+                    const std::size_t from = sampleAt(i, j) * mCount + k,
+                                      to = k * mGrid.count() + sampleAt(i, j);
+                    mLight.full[to] = mTotal[from];
+                    mLight.bounced[to] = static_cast<std::int16_t>(
+                        std::clamp(int{mTotal[from]} - int{mDirect[from]}, -32767, 32767));
+                }
+        });
+    }
+
+    static std::vector<float> units() {
+        std::vector<float> all;
+        for (int k = 0; k < kMaxHarmonics; ++k) all.push_back(static_cast<float>(transferUnit(k)));
+        return all;
+    }
+
+    const Heightfield& mGround;
+    const TerrainLightSettings mSettings;
+    Progress& mProgress;
+    const LightGrid mGrid;
+    const int mCount = lightHarmonics(mSettings.order);
+    const std::vector<float> mUnit = units();
+    TerrainLight mLight;
+    TransferField mDirect, mTotal, mNext;
+    const bool mKeeps;
+    bool mKeepingFailed = false;
+    BakeReached mDone, mKept;
+    std::uint64_t mKeptBytes = 0;  // of the part's file, that hold mKept
+};
+
+}  // namespace
+
+LightGrid::LightGrid(const Heightfield& ground, int step)
+    : groundWidth(ground.width()), groundHeight(ground.height()), stride(std::max(1, step)) {
+    const auto count = [&](int samples) { return (samples - 2) / stride + 2; };
+    width = count(groundWidth);
+    height = count(groundHeight);
+}
+
+LightGrid::Place LightGrid::place(double grid, int samples, int count) const {
+    const double g = std::clamp(grid, 0.0, samples - 1.0);
+    const int index = std::min(static_cast<int>(g / stride), count - 2);
+    const int from = at(index, samples), to = at(index + 1, samples);
+    return {index, static_cast<float>(std::clamp((g - from) / (to - from), 0.0, 1.0))};
+}
+
+int lightHarmonic(int n) {
+    int l = 0;
+    while (lightHarmonics(l + 1) <= n) ++l;
+    return l * l + 2 * (n - lightHarmonics(l));  // m = -l, -l + 2, ..., l
+}
+
+double transferUnit(int n) {
+    int l = 0;
+    while (lightHarmonics(l + 1) <= n) ++l;
+    return std::sqrt((2 * l + 1) / (4 * std::numbers::pi)) / 32767;
+}
+
+std::filesystem::path terrainLightCache(const Heightfield& ground) {
+    return cacheFolder() / fmt::format("terrain_light_{:016x}.light", hashOf(ground).value());
+}
+
+std::uint64_t terrainLightKey(const Heightfield& ground, const TerrainLightSettings& s) {
+    Hash hash = hashOf(ground);
+    for (const std::int64_t value : {static_cast<std::int64_t>(s.kind), std::int64_t{s.order},
+                                     std::int64_t{s.bounces}, std::int64_t{s.rays}, std::int64_t{s.azimuths},
+                                     std::int64_t{s.stride}, static_cast<std::int64_t>(s.seed)})
+        hash.add(value);
+    return hash.add(s.albedo).value();
+}
+
+TerrainLight bakeTerrainLight(const Heightfield& ground, const TerrainLightSettings& settings,
+                              Progress& progress, bool keeps) {
+    return Bake(ground, settings, progress, keeps).run();
+}
+
+}  // namespace stereonav

@@ -1,0 +1,30 @@
+// Light on the ground by plain path tracing, one place at a time: the truth that baked light is measured
+// against. Knows neither horizons nor harmonics; the sun is a disc that is sampled, the sky a function.
+#pragma once
+
+#include <functional>
+
+#include "terrain/ground/ground_rays.h"
+#include "terrain/light/sun_and_sky.h"
+
+namespace stereonav {
+
+struct PathLight {
+    glm::dvec3 mean{0.0};  // irradiance / pi
+    double variance = 0;   // of the mean's luminance, estimated
+};
+
+struct PathLightSetting {
+    double albedo = 0.3;
+    int bounces = 2;
+    int paths = 1024;  // a multiple of 16
+    std::uint64_t seed = 1;
+};
+
+// place: world, on the ground. sky: radiance for unit directions above the horizontal. Normals are smoothed
+// as in shading, at the place and wherever a path meets the ground.
+PathLight tracePathLight(const GroundRays& rays, const glm::dvec2& place, const SunAndSky& light,
+                         const std::function<glm::vec3(const glm::dvec3&)>& sky,
+                         const PathLightSetting& setting);
+
+}  // namespace stereonav

@@ -1,0 +1,123 @@
+// The terrain mesh as a glTF file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/error.h"
+#include "engine/camera/gltf_file.h"
+#include "engine/image/image_file.h"
+#include "terrain/mesh/terrain_mesh.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kMaxTextureSide = 16384;           // what graphics cards take
+constexpr int kMaxLosslessTexels = 4096 * 1024;  // above, JPEG
+
+// The finest level that is not larger than a graphics card takes.
+int levelFor(const ColorTexture& color) {
+    int k = 0;
+    while (std::max(color.level(k).width(), color.level(k).height()) > kMaxTextureSide) ++k;
+    return k;
+}
+
+// Row 0 northernmost, as files have it.
+Plane<PackedColor> pictureOf(const ColorTexture& color, int k) {
+    const auto& level = color.level(k);
+    Plane<PackedColor> picture(level.width(), level.height());
+    for (int y = 0; y < level.height(); ++y)
+        std::copy_n(level.row(level.height() - 1 - y), level.width(), picture.row(y));
+    return picture;
+}
+
+void addMaterial(tinygltf::Model& model, const ColorTexture& color, int level) {
+    const Plane<PackedColor> picture = pictureOf(color, level);
+    const bool lossless = static_cast<long long>(picture.width()) * picture.height() <= kMaxLosslessTexels;
+    tinygltf::Image image;
+    image.name = "ground";
+    image.mimeType = lossless ? "image/png" : "image/jpeg";
+    image.bufferView = addBytes(model, encodeColorImage(picture, lossless ? ".png" : ".jpg"));
+    model.images.push_back(image);
+    tinygltf::Sampler sampler;
+    sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+    sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+    sampler.wrapS = sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    model.samplers.push_back(sampler);
+    tinygltf::Texture texture;
+    texture.source = texture.sampler = 0;
+    model.textures.push_back(texture);
+    tinygltf::Material material;
+    material.name = "ground";
+    material.pbrMetallicRoughness.baseColorTexture.index = 0;
+    material.pbrMetallicRoughness.metallicFactor = 0;
+    material.pbrMetallicRoughness.roughnessFactor = 1;
+    material.extensions["KHR_materials_unlit"] = tinygltf::Value(tinygltf::Value::Object());
+    model.extensionsUsed.push_back("KHR_materials_unlit");
+    model.materials.push_back(material);
+}
+
+tinygltf::Primitive primitiveOf(tinygltf::Model& model, const Heightfield& ground, const ColorTexture& color,
+                                int level, const TerrainMesh& mesh) {
+    std::vector<float> positions, normals, uvs;
+    const double coarser = 1 << level;
+    const glm::dvec2 size(color.level(level).width() * coarser, color.level(level).height() * coarser);
+    for (const glm::ivec2& v : mesh.vertices) {
+        const glm::dvec2 grid(v), world = ground.worldFromGrid(grid);
+        const glm::dvec3 p = gltfFromWorld({world, ground.sample(v.x, v.y)});
+        const glm::dvec2 slope = ground.gradientAtSample(v.x, v.y);
+        const glm::dvec3 n = gltfFromWorld(glm::normalize(glm::dvec3(-slope, 1.0)));
+        const glm::dvec2 texel = (grid - color.gridOrigin()) / color.gridPerTexel() / size;
+        for (int k = 0; k < 3; ++k) positions.push_back(static_cast<float>(p[k]));
+        for (int k = 0; k < 3; ++k) normals.push_back(static_cast<float>(n[k]));
+        uvs.push_back(static_cast<float>(texel.x));
+        uvs.push_back(static_cast<float>(1 - texel.y));
+    }
+    std::vector<std::uint32_t> indices;
+    for (const auto& triangle : mesh.triangles)
+        indices.insert(indices.end(), triangle.begin(), triangle.end());
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = 0;
+    primitive.attributes["POSITION"] = addFloats(model, positions, 3, true, TINYGLTF_TARGET_ARRAY_BUFFER);
+    primitive.attributes["NORMAL"] = addFloats(model, normals, 3, false, TINYGLTF_TARGET_ARRAY_BUFFER);
+    primitive.attributes["TEXCOORD_0"] = addFloats(model, uvs, 2, false, TINYGLTF_TARGET_ARRAY_BUFFER);
+    primitive.indices = addIndices(model, indices);
+    return primitive;
+}
+
+}  // namespace
+
+bool isMeshFileName(const std::filesystem::path& file) {
+    return hasGltfExtension(file);
+}
+
+void writeTerrainMesh(const std::filesystem::path& file, const Heightfield& ground, const ColorTexture& color,
+                      const TerrainMesh& mesh) {
+    if (!isMeshFileName(file))
+        throw Error(file.string(), "",
+                    fmt::format("expected a mesh named .glb or .gltf, got \"{}\"", file.extension().string()),
+                    "give the file one of these extensions");
+    if (mesh.triangles.empty()) throw Error(file.string(), "", "there is no ground to write", "");
+    tinygltf::Model model;
+    model.asset.version = "2.0";
+    model.asset.generator = "stereonav";
+    const int level = levelFor(color);
+    tinygltf::Mesh shape;
+    shape.name = "terrain";
+    shape.primitives.push_back(primitiveOf(model, ground, color, level, mesh));
+    model.meshes.push_back(shape);
+    addMaterial(model, color, level);
+    tinygltf::Node node;
+    node.name = "terrain";
+    node.mesh = 0;
+    model.nodes.push_back(node);
+    tinygltf::Scene scene;
+    scene.nodes = {0};
+    model.scenes.push_back(scene);
+    model.defaultScene = 0;
+    writeGltf(file, model);
+}
+
+}  // namespace stereonav

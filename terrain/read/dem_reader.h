@@ -1,0 +1,51 @@
+// Elevation models from files, through GDAL: GeoTIFF, SRTM .hgt, USGS DEM, ESRI ASCII, DTED, 16-bit
+// PNG, and the RGB-coded elevation tiles of the Geospatial Information Authority of Japan. Checked,
+// in metres both ways, south row first; missing samples are left for nodata.h.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/base/progress.h"
+#include "terrain/raster/georeference.h"
+
+namespace stereonav {
+
+struct DemGrid {
+    int width = 0, height = 0;     // samples, each >= 2
+    glm::dvec2 spacing{1.0};       // metres
+    std::vector<float> heights;    // metres times the vertical scale; row 0 southernmost; NaN: missing
+    std::string driver;            // "GeoTIFF", ...
+    std::string crs;               // name of the source's reference system, "" when it has none
+    std::string projection;        // how it was brought to metres
+    glm::dvec2 sourceOffset{0.0};  // reference x, y of the grid's middle
+    long long sourceMissing = 0;   // missing samples of the file itself, before any resampling
+    long long outside = 0;         // samples of the grid that lie beyond the file's own: missing too
+
+    // What the file left to be found out, in words; "" where there is nothing to say.
+    std::string band;          // which of several bands
+    std::string heightUnit;    // where heights were not plain metres
+    std::string missingValue;  // what marks missing samples
+
+    bool georeferenced = false;  // whether the file says where it lies
+    Georeference source;         // of the file's samples
+    Georeference grid;           // of these samples, north up; the same as source unless resampled
+};
+
+// A sample is missing where it is the file's nodata value, or without one what is customary (-32768 of 16
+// bits, -9999 far below all else), masked, NaN, infinite, or beyond 1e7 m. Of several bands the one that
+// speaks of heights counts. Heights are in the band's unit, else in that of the vertical reference system,
+// else metres. Degrees, feet, turned rasters, control points and projections whose scale is off by more than
+// 1 % (web Mercator) are brought to metres; over a pole the file's projection stays. Without a georeference a
+// sample is a metre wide, except for a GSI tile: spacing from a path that ends in zoom/x/y.png, else that of
+// zoom 14 at 36 degrees north. Throws Error named by the file; Cancelled.
+// after: the bytes that the caller will hold at once for so many samples, these heights among them; where
+// they, or what reading takes, do not fit into the memory that can be had, nothing is read.
+using BytesForSamples = std::function<double(double samples)>;
+DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
+                const BytesForSamples& after = {});
+
+}  // namespace stereonav

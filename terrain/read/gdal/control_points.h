@@ -1,0 +1,46 @@
+// Rasters that are placed by ground control points instead of a transform: what GDAL's polynomials make of
+// them.
+#pragma once
+
+#include <gdal_priv.h>
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <memory>
+
+#include "terrain/raster/georeference.h"
+
+namespace stereonav {
+
+// Places the raster by its control points, which it must have. Points that lie on a straight grid to a
+// twentieth of a sample, and three to five points, give a transform; six or more a polynomial of the second
+// order both ways (Georeference::points) where it does not fold over itself. Both are least squares: errors
+// of single points even out, and a polynomial of low order stays tame beyond the outermost, where a thin
+// plate follows each point and its error. They are what GDAL's own warper takes where it is not told
+// otherwise. Throws Error for fewer than three points, for points on one line or without a reference system.
+void placeByControlPoints(GDALDataset& dataset, const std::filesystem::path& file, Georeference& place);
+
+// Between a raster's pixels and its reference coordinates, by its transform or its control points. To one
+// thread.
+class PixelPlacement {
+    struct Destroy {
+        void operator()(void* transformer) const;
+    };
+
+public:
+    using Transformer = std::unique_ptr<void, Destroy>;
+
+    // raster must outlive it. Throws Error named by no file where the points give no polynomial.
+    explicit PixelPlacement(const Georeference& raster);
+    glm::dvec2 fromPixel(const glm::dvec2& pixel) const;
+    // Where control points place the raster this is a fit of its own, not quite the other's inverse.
+    glm::dvec2 toPixel(const glm::dvec2& reference) const;
+
+private:
+    glm::dvec2 through(const glm::dvec2& place, bool back) const;
+
+    const Georeference& mRaster;
+    Transformer mTransformer;  // nullptr: the transform counts
+};
+
+}  // namespace stereonav

@@ -1,0 +1,161 @@
+// GDAL's drivers, messages and handles; see the header.
+#include "terrain/read/gdal/gdal_session.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <fmt/format.h>
+#include <gdal_frmts.h>
+#include <ogr_spatialref.h>
+
+#include <mutex>
+#include <string_view>
+
+#include "engine/base/error.h"
+#include "terrain/read/gdal/control_points.h"
+#include "terrain/read/gdal/vrt_check.h"
+
+namespace stereonav {
+namespace {
+
+constexpr long long kMaxSide = 65536;
+constexpr long long kMaxSamples = 1ll << 28;  // 1 GiB of heights; as much again for the pyramid and colour
+
+// Only formats that hold their data themselves: none that fetches another file or address is there even for
+// what a virtual raster names.
+void registerDriversOnce() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        // Else a twentieth of the machine's memory, some of which the heap keeps after a file is closed.
+        if (!CPLGetConfigOption("GDAL_CACHEMAX", nullptr)) GDALSetCacheMax64(kGdalBlocks);
+        for (void (*const add)() : {GDALRegister_GTiff,
+                                    GDALRegister_SRTMHGT,
+                                    GDALRegister_USGSDEM,
+                                    GDALRegister_AAIGrid,
+                                    GDALRegister_GRASSASCIIGrid,
+                                    GDALRegister_DTED,
+                                    GDALRegister_EHdr,
+                                    GDALRegister_HFA,
+                                    GDALRegister_ENVI,
+                                    GDALRegister_SAGA,
+                                    GDALRegister_GSAG,
+                                    GDALRegister_GSBG,
+                                    GDALRegister_GS7BG,
+                                    GDALRegister_BT,
+
+                                    GDALRegister_WEBP,
+                                    GDALRegister_GIF,
+                                    GDALRegister_JP2OpenJPEG,
+                                    GDALRegister_PNG,
+                                    GDALRegister_JPEG,
+                                    GDALRegister_BMP,
+                                    GDALRegister_VRT})
+            add();
+    });
+}
+
+void checkFile(const std::filesystem::path& file, const std::string& advice) {
+    if (namesNetwork(file))
+        throw Error(file.string(), "", "expected a file on this machine, found an address",
+                    "fetch it first and name the copy");
+    std::error_code code;
+    const auto status = std::filesystem::status(file, code);
+    if (!std::filesystem::exists(status))
+        throw Error(file.string(), "", "there is no such file", "check the name and the folder");
+    if (std::filesystem::is_directory(status))
+        throw Error(file.string(), "", "expected a file, found a folder", "name the file itself");
+    if (!std::filesystem::is_regular_file(status))
+        throw Error(file.string(), "", "expected a file, found a pipe or a device",
+                    "copy what it gives into a file");
+    const auto size = std::filesystem::file_size(file, code);
+    if (!code && size == 0) throw Error(file.string(), "", "the file is empty", advice);
+}
+
+}  // namespace
+
+GdalMessages::GdalMessages() {
+    CPLPushErrorHandlerEx(&GdalMessages::keep, this);
+    registerDriversOnce();
+    // Else the rest of a picture that is cut off is filled with gray.
+    CPLSetThreadLocalConfigOption("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");
+    // Else the vertical reference system of GeoTIFF 1.0 is left out.
+    CPLSetThreadLocalConfigOption("GTIFF_REPORT_COMPD_CS", "YES");
+    CPLSetThreadLocalConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
+}
+
+GdalMessages::~GdalMessages() {
+    CPLPopErrorHandler();
+}
+
+void GdalMessages::keep(CPLErr level, CPLErrorNum, const char* text) {
+    auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
+    constexpr std::size_t kLongest = 400;
+    if (level >= CE_Failure && self->mFirstError.empty())
+        self->mFirstError = std::string(text).substr(0, kLongest);
+}
+
+std::string GdalMessages::reason(const std::filesystem::path& file) const {
+    std::string text = mFirstError;
+    const std::string name = file.string();
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name)) {
+        std::size_t length = name.size();
+        while (at + length < text.size() &&
+               std::string_view(":, ").find(text[at + length]) != std::string_view::npos)
+            ++length;
+        text.erase(at, length);
+    }
+    return text.empty() ? text : " (" + text + ")";
+}
+
+GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& messages,
+                       const std::string& expected, const std::string& advice) {
+    checkFile(file, advice);
+    checkVirtualRaster(file);
+    GdalDataset dataset(GDALDataset::Open(
+        file.string().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, rasterDrivers()));
+    if (dataset && dataset->GetRasterCount() > 0) return dataset;
+    std::string reason = messages.reason(file);
+    if (reason.find("not recognized") != std::string::npos) reason.clear();
+    throw Error(file.string(), "", "expected " + expected + ", found something else" + reason, advice);
+}
+
+Georeference georeferenceOf(GDALDataset& dataset, const std::filesystem::path& file, bool& known) {
+    Georeference place;
+    place.width = dataset.GetRasterXSize();
+    place.height = dataset.GetRasterYSize();
+    std::array<double, 6> transform{};
+    known = dataset.GetGeoTransform(transform.data()) == CE_None;
+    if (known) {
+        place.transform = transform;
+        if (const OGRSpatialReference* system = dataset.GetSpatialRef()) place.wkt = planWkt(*system);
+    } else if (dataset.GetGCPCount() > 0) {
+        placeByControlPoints(dataset, file, place);
+        known = true;
+    }
+    return place;
+}
+
+std::string wktOf(const OGRSpatialReference& system) {
+    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+    char* text = nullptr;
+    system.exportToWkt(&text, options);
+    const std::string wkt = text ? text : "";
+    CPLFree(text);
+    return wkt;
+}
+
+std::string planWkt(const OGRSpatialReference& system) {
+    OGRSpatialReference plan(system);
+    plan.StripVertical();
+    return wktOf(plan);
+}
+
+void checkRasterSize(const std::filesystem::path& file, long long width, long long height) {
+    if (width >= 1 && height >= 1 && width <= kMaxSide && height <= kMaxSide && width * height <= kMaxSamples)
+        return;
+    throw Error(file.string(), "size",
+                fmt::format("expected at most {0} samples a side and {1} in all, got {2} x {3}", kMaxSide,
+                            kMaxSamples, width, height),
+                "cut out a part or thin it out, for example with gdal_translate -outsize");
+}
+
+}  // namespace stereonav

@@ -1,0 +1,60 @@
+// The door to GDAL: its drivers registered once, its messages caught instead of printed, its handles
+// closed. Used by the readers of elevation models and ground images; no header outside names GDAL.
+#pragma once
+
+#include <gdal_priv.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "terrain/raster/georeference.h"
+
+namespace stereonav {
+
+// Bytes of blocks of files that GDAL keeps, unless the user says otherwise (GDAL_CACHEMAX). Files are read in
+// runs of rows: a row of blocks is enough.
+constexpr int kGdalBlocks = 64 << 20;
+
+// While it lives, GDAL's messages of this thread are kept here and nothing is printed.
+class GdalMessages {
+public:
+    GdalMessages();
+    ~GdalMessages();
+    GdalMessages(const GdalMessages&) = delete;
+    GdalMessages& operator=(const GdalMessages&) = delete;
+
+    bool hasError() const { return !mFirstError.empty(); }
+    // " (what went wrong)", without the file's own name; "" when there was no error.
+    std::string reason(const std::filesystem::path& file) const;
+    void clear() { mFirstError.clear(); }
+
+private:
+    static void CPL_STDCALL keep(CPLErr level, CPLErrorNum number, const char* text);
+    std::string mFirstError;
+};
+
+struct CloseDataset {
+    void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using GdalDataset = std::unique_ptr<GDALDataset, CloseDataset>;
+
+// A raster this program can read, checked to be a file with content. `expected` completes the
+// sentence "expected ..." and `advice` says what to give instead. Throws Error.
+GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& messages,
+                       const std::string& expected, const std::string& advice);
+
+// Where the raster lies, by its transform or its control points; `known` is set to whether the file says so
+// (else a unit a pixel, no system). The system is that of the plan, without heights. Throws Error for control
+// points that place nothing.
+Georeference georeferenceOf(GDALDataset& dataset, const std::filesystem::path& file, bool& known);
+
+// WKT 2, on one line; "" for none.
+std::string wktOf(const OGRSpatialReference& system);
+// The same without the system of heights that a compound one has.
+std::string planWkt(const OGRSpatialReference& system);
+
+// Throws Error unless both sides lie in [1, 65536] and the product is at most 2^28.
+void checkRasterSize(const std::filesystem::path& file, long long width, long long height);
+
+}  // namespace stereonav

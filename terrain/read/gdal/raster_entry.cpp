@@ -1,0 +1,14 @@
+// What the module stereonav_gdal shows the program.
+#include "engine/base/module.h"
+#include "terrain/read/raster_file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr RasterFunctions kFunctions = {readDem, openRasterPicture, mapPixels, overlap};
+
+}  // namespace
+
+const ModuleEntry stereonavModule = moduleEntry(kFunctions);
+
+}  // namespace stereonav

@@ -1,0 +1,31 @@
+// Rasters in their reference systems, through GDAL's OSR: their units, their true size, a grid in metres.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+
+#include "terrain/raster/georeference.h"
+
+namespace stereonav {
+
+// Metres in one unit of the reference system: 1 where it has none; 0 for degrees.
+double metresPerUnit(const Georeference& raster);
+
+// True length over length in the reference system's own metres at a place, along columns and rows: 1 where a
+// map unit is a metre on the ground. (1, 1) where that can not be said.
+glm::dvec2 groundScale(const Georeference& raster, const glm::dvec2& pixel);
+
+// Whether its reference system is tied to the Earth, or another body: geographic or projected.
+bool onEarth(const Georeference& raster);
+
+// Whether a projected raster lies over the north or the south pole.
+bool holdsPole(const Georeference& raster);
+
+// The raster's samples on a grid in metres, north up: in a transverse Mercator projection whose origin is the
+// raster's middle; with ownSystem, or without a reference system, in the raster's own units, turned level.
+// Steps are those of the source at its middle. The grid is the rectangle inside the raster where
+// that keeps nine tenths of the area around it, else the rectangle around it. Throws Error named by
+// `file`.
+Georeference metricGrid(const Georeference& raster, bool ownSystem, const std::filesystem::path& file);
+
+}  // namespace stereonav

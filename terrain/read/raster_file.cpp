@@ -1,0 +1,36 @@
+// Everything that needs GDAL, handed on to its module.
+#include "terrain/read/raster_file.h"
+
+#include "engine/base/module.h"
+
+namespace stereonav {
+namespace {
+
+const RasterFunctions& gdal() {
+    static const auto& functions =
+        moduleFunctions<RasterFunctions>("gdal", "to read elevation models and pictures of the ground");
+    return functions;
+}
+
+}  // namespace
+
+DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
+                const BytesForSamples& after) {
+    return gdal().readDem(file, verticalScale, progress, after);
+}
+
+std::unique_ptr<RasterPicture> openRasterPicture(const std::filesystem::path& file,
+                                                 const std::string& expected, const std::string& advice) {
+    return gdal().openRasterPicture(file, expected, advice);
+}
+
+PixelMap mapPixels(const Georeference& target, const Georeference& source,
+                   const std::filesystem::path& file) {
+    return gdal().mapPixels(target, source, file);
+}
+
+bool overlap(const Georeference& a, const Georeference& b, const std::filesystem::path& file) {
+    return gdal().overlap(a, b, file);
+}
+
+}  // namespace stereonav

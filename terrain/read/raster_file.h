@@ -1,0 +1,44 @@
+// What terrain asks of GDAL, beside readDem(): pictures in files, and where rasters lie to each other. The
+// functions are those of the module stereonav_gdal (terrain/gdal), which is loaded by the first that is
+// called.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "terrain/raster/georeference.h"
+#include "terrain/raster/ground_picture.h"
+#include "terrain/read/dem_reader.h"
+
+namespace stereonav {
+
+// A picture's file, open. To one thread.
+class RasterPicture {
+public:
+    virtual ~RasterPicture() = default;
+    // Where it lies; `known` is set to whether the file says so (else a unit a pixel, no system).
+    virtual Georeference georeference(bool& known) = 0;
+    // The window, averaged down by the factor `shrink` (>= 1) each way. Throws Error.
+    virtual GroundPicture read(const PixelWindow& window, const glm::dvec2& shrink) = 0;
+};
+
+// `expected` completes the sentence "expected ..." and `advice` says what to give instead. Throws Error.
+std::unique_ptr<RasterPicture> openRasterPicture(const std::filesystem::path& file,
+                                                 const std::string& expected, const std::string& advice);
+
+// Throws Error named by `file` when there is no way between the two reference systems.
+PixelMap mapPixels(const Georeference& target, const Georeference& source, const std::filesystem::path& file);
+
+// Whether the two rasters share ground. Throws Error as mapPixels does.
+bool overlap(const Georeference& a, const Georeference& b, const std::filesystem::path& file);
+
+// The module's table.
+struct RasterFunctions {
+    decltype(&stereonav::readDem) readDem;
+    decltype(&stereonav::openRasterPicture) openRasterPicture;
+    decltype(&stereonav::mapPixels) mapPixels;
+    decltype(&stereonav::overlap) overlap;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,344 @@
+// TOML through toml11. Its own messages span several lines; here each becomes one.
+#include "terrain/read/toml_document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <sstream>
+#include <toml.hpp>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr std::size_t kLargestFile = 1 << 20;  // bytes
+constexpr int kDeepestNesting = 32;            // brackets: the parser recurses
+constexpr std::size_t kLongestLine = 4096;     // bytes: so are the parts of a dotted key
+
+// Levenshtein distance.
+int editDistance(const std::string& a, const std::string& b) {
+    std::vector<int> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        int diagonal = row[0];
+        row[0] = static_cast<int>(i);
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const int replaced = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+        }
+    }
+    return row.back();
+}
+
+int lineOf(const toml::value& value) {
+    return static_cast<int>(value.location().line());
+}
+
+// A value as an error message shows it.
+std::string shown(const toml::value& value) {
+    if (value.is_string()) {
+        const std::string text = value.as_string().str;
+        return text.size() > 40 ? "\"" + text.substr(0, 40) + "...\"" : "\"" + text + "\"";
+    }
+    if (value.is_integer()) return std::to_string(value.as_integer());
+    if (value.is_floating()) return fmt::format("{:g}", value.as_floating());
+    if (value.is_boolean()) return value.as_boolean() ? "true" : "false";
+    if (value.is_array()) return fmt::format("a list of {}", value.as_array().size());
+    return value.is_table() ? "a table" : "a date or time";
+}
+
+std::string described(const NumberRange& range, const std::string& what) {
+    const bool low = std::isfinite(range.low), high = std::isfinite(range.high);
+    std::string text = what;
+    if (low && high && !range.openLow && !range.openHigh) {
+        text += fmt::format(" from {} to {}", shortNumber(range.low), shortNumber(range.high));
+    } else {
+        if (low) text += (range.openLow ? " above " : " of at least ") + shortNumber(range.low);
+        if (low && high) text += " and";
+        if (high) text += (range.openHigh ? " below " : " of at most ") + shortNumber(range.high);
+    }
+    return *range.unit ? text + " " + range.unit : text;
+}
+
+bool isNumberIn(const toml::value& value, const NumberRange& range, double& number) {
+    if (value.is_integer())
+        number = static_cast<double>(value.as_integer());
+    else if (value.is_floating())
+        number = value.as_floating();
+    else
+        return false;
+    return range.holds(number);
+}
+
+// The parser recurses into brackets; hostile files are refused before it sees them.
+void checkShape(const std::string& content, const std::string& file) {
+    if (content.size() > kLargestFile)
+        throw Error(file, "", fmt::format("expected a scene of at most 1 MiB, got {} bytes", content.size()),
+                    "name a scene file");
+    int line = 1, depth = 0;
+    std::size_t length = 0;
+    for (const char c : content) {
+        length = c == '\n' ? 0 : length + 1;
+        line += c == '\n';
+        depth += c == '[' || c == '{';
+        depth -= (c == ']' || c == '}') && depth > 0;
+        if (depth > kDeepestNesting || length > kLongestLine)
+            throw Error(file, std::to_string(line),
+                        depth > kDeepestNesting ? "brackets are nested too deeply" : "the line is too long",
+                        "name a scene file");
+    }
+}
+
+// toml11 writes "[error] toml::where: what", the line, and a remark below it; kept are what and remark.
+std::string condensed(const std::string& message) {
+    std::string what = message.substr(0, message.find('\n'));
+    for (const std::string prefix : {"[error] ", "toml::"})
+        if (what.rfind(prefix, 0) == 0) what.erase(0, prefix.size());
+    if (const auto colon = what.find(": "); colon != std::string::npos && what.find(' ') > colon)
+        what.erase(0, colon + 2);
+    std::string remark;
+    if (const auto mark = message.find("^---"); mark != std::string::npos)
+        remark = message.substr(mark + 4, message.find('\n', mark) - mark - 4);
+    remark.erase(0, std::min(remark.find_first_not_of(' '), remark.size()));
+    while (!what.empty() && what.back() == '.') what.pop_back();
+    return remark.empty() || remark == "here" ? what : what + ": " + remark;
+}
+
+toml::value parsed(const std::filesystem::path& file) {
+    const std::string content = readTextFile(file);
+    checkShape(content, file.string());
+    const std::string advice = "correct the line; TOML has [section] lines and key = value, text in quotes";
+    try {
+        std::istringstream in(content);
+        return toml::parse(in, file.string());
+    } catch (const toml::exception& error) {
+        throw Error(file.string(), std::to_string(error.location().line()), condensed(error.what()), advice);
+    } catch (const std::exception& error) {
+        throw Error(file.string(), "", "is not TOML: " + condensed(error.what()), advice);
+    }
+}
+
+struct Problem {
+    int line;
+    std::string key, problem, advice;
+};
+
+struct UnknownKey {
+    int line;
+    std::string text;
+};
+
+}  // namespace
+
+struct TomlDocument::State {
+    std::string file;
+    toml::value root;
+    std::map<std::string, std::set<std::string>> known;  // asked for, by section
+    std::set<std::string> misshapen;                     // not the section or list of sections asked for
+    std::vector<Problem> problems;
+
+    static const toml::value* find(const toml::value& table, const std::string& key) {
+        const auto& entries = table.as_table();
+        const auto it = entries.find(key);
+        return it == entries.end() ? nullptr : &it->second;
+    }
+
+    // What is wrong with a key that nobody asked for, and what may have been meant.
+    std::string unknownText(const std::string& key, const std::string& sectionName) const {
+        const std::string where = sectionName.empty() ? "" : fmt::format(" in [{}]", sectionName);
+        for (const auto& [other, keys] : known)
+            if (other != sectionName && keys.count(key) > 0)
+                return fmt::format("\"{}\"{} (belongs in [{}])", key, where, other);
+        const auto& candidates = sectionName.empty() ? sectionNames() : known.at(sectionName);
+        const auto nearest = std::min_element(candidates.begin(), candidates.end(),
+                                              [&](const std::string& a, const std::string& b) {
+                                                  return editDistance(key, a) < editDistance(key, b);
+                                              });
+        return fmt::format("\"{}\"{} (nearest: \"{}\")", key, where, *nearest);
+    }
+
+    std::set<std::string> sectionNames() const {
+        std::set<std::string> names;
+        for (const auto& entry : known) names.insert(entry.first);
+        return names;
+    }
+
+    void collectUnknown(const toml::value& table, const std::string& name,
+                        std::vector<UnknownKey>& found) const {
+        if (!table.is_table()) return;
+        for (const auto& [key, value] : table.as_table())
+            if (known.at(name).count(key) == 0) found.push_back({lineOf(value), unknownText(key, name)});
+    }
+
+    std::vector<UnknownKey> unknownKeys() const {
+        std::vector<UnknownKey> found;
+        for (const auto& [key, value] : root.as_table()) {
+            if (misshapen.count(key) > 0)
+                continue;
+            else if (known.count(key) == 0)
+                found.push_back({lineOf(value), unknownText(key, "")});
+            else if (value.is_array())
+                for (const auto& table : value.as_array()) collectUnknown(table, key, found);
+            else
+                collectUnknown(value, key, found);
+        }
+        std::sort(found.begin(), found.end(), [](const UnknownKey& a, const UnknownKey& b) {
+            return std::tie(a.line, a.text) < std::tie(b.line, b.text);
+        });
+        return found;
+    }
+};
+
+TomlDocument::TomlDocument(const std::filesystem::path& file) : mState(std::make_unique<State>()) {
+    mState->file = file.string();
+    mState->root = parsed(file);
+}
+
+TomlDocument::~TomlDocument() = default;
+
+TomlSection TomlDocument::section(const std::string& name) {
+    mState->known[name];
+    const toml::value* table = State::find(mState->root, name);
+    if (table && !table->is_table()) {
+        mState->misshapen.insert(name);
+        mState->problems.push_back({lineOf(*table), name,
+                                    fmt::format("expected a section [{}], got {}", name, shown(*table)),
+                                    fmt::format("write [{}] on a line of its own, its keys below", name)});
+        table = nullptr;
+    }
+    return TomlSection(*mState, name, table);
+}
+
+std::vector<TomlSection> TomlDocument::sections(const std::string& name) {
+    mState->known[name];
+    std::vector<TomlSection> result;
+    const toml::value* list = State::find(mState->root, name);
+    if (!list) return result;
+    const bool tables = list->is_array() && std::all_of(list->as_array().begin(), list->as_array().end(),
+                                                        [](const toml::value& v) { return v.is_table(); });
+    if (!tables) {
+        mState->misshapen.insert(name);
+        mState->problems.push_back({lineOf(*list), name,
+                                    fmt::format("expected sections [[{}]], got {}", name, shown(*list)),
+                                    fmt::format("write [[{}]] for each, its keys below", name)});
+        return result;
+    }
+    for (const toml::value& table : list->as_array()) result.push_back(TomlSection(*mState, name, &table));
+    return result;
+}
+
+void TomlDocument::finish() const {
+    const auto unknown = mState->unknownKeys();
+    if (!unknown.empty()) {
+        std::string text = unknown.size() == 1 ? "unknown key " : "unknown keys ";
+        for (std::size_t k = 0; k < unknown.size(); ++k)
+            text += (k ? fmt::format(", line {}: ", unknown[k].line) : "") + unknown[k].text;
+        throw Error(mState->file, std::to_string(unknown.front().line), text, "correct or remove them");
+    }
+    if (mState->problems.empty()) return;
+    const Problem& first =
+        *std::min_element(mState->problems.begin(), mState->problems.end(),
+                          [](const Problem& a, const Problem& b) { return a.line < b.line; });
+    const std::string key = first.key.empty() ? "" : "\"" + first.key + "\": ";
+    throw Error(mState->file, first.line > 0 ? std::to_string(first.line) : "", key + first.problem,
+                first.advice);
+}
+
+// The one place that turns the opaque table back: a key's value, or null.
+struct TomlSection::Place {
+    static const toml::value* find(TomlSection& section, const std::string& key) {
+        section.mDocument->known[section.mName].insert(key);
+        if (!section.mTable) return nullptr;
+        return TomlDocument::State::find(*static_cast<const toml::value*>(section.mTable), key);
+    }
+    static void wrong(TomlSection& section, const std::string& key, const std::string& expected,
+                      const toml::value& got) {
+        section.note(key, fmt::format("expected {}, got {}", expected, shown(got)), "correct the value");
+    }
+};
+
+bool TomlSection::has(const std::string& key) const {
+    return mTable && TomlDocument::State::find(*static_cast<const toml::value*>(mTable), key);
+}
+
+void TomlSection::note(const std::string& key, const std::string& problem, const std::string& advice) {
+    int line = 0;
+    if (mTable) {
+        const auto& table = *static_cast<const toml::value*>(mTable);
+        const toml::value* value = TomlDocument::State::find(table, key);
+        line = lineOf(value ? *value : table);
+    }
+    mDocument->problems.push_back({line, key, problem, advice});
+}
+
+void TomlSection::read(const std::string& key, bool& value) {
+    const toml::value* found = Place::find(*this, key);
+    if (!found) return;
+    if (found->is_boolean())
+        value = found->as_boolean();
+    else
+        Place::wrong(*this, key, "true or false", *found);
+}
+
+void TomlSection::read(const std::string& key, std::string& value) {
+    const toml::value* found = Place::find(*this, key);
+    if (!found) return;
+    if (found->is_string() && !found->as_string().str.empty())
+        value = found->as_string().str;
+    else
+        Place::wrong(*this, key, "text in quotes", *found);
+}
+
+void TomlSection::read(const std::string& key, double& value, const NumberRange& range) {
+    const toml::value* found = Place::find(*this, key);
+    if (!found) return;
+    if (double number = 0; isNumberIn(*found, range, number))
+        value = number;
+    else
+        Place::wrong(*this, key, described(range, "a number"), *found);
+}
+
+void TomlSection::read(const std::string& key, std::span<double> values, const NumberRange& range) {
+    const toml::value* found = Place::find(*this, key);
+    if (!found) return;
+    const std::string expected = described(range, fmt::format("a list of {} numbers", values.size()));
+    if (!found->is_array() || found->as_array().size() != values.size()) {
+        Place::wrong(*this, key, expected, *found);
+        return;
+    }
+    std::vector<double> numbers(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const toml::value& entry = found->as_array()[k];
+        if (!isNumberIn(entry, range, numbers[k])) {
+            Place::wrong(*this, key, expected, entry);
+            return;
+        }
+    }
+    std::copy(numbers.begin(), numbers.end(), values.begin());
+}
+
+void TomlSection::read(const std::string& key, std::int64_t& value, std::int64_t low, std::int64_t high) {
+    const toml::value* found = Place::find(*this, key);
+    if (!found) return;
+    if (found->is_integer() && found->as_integer() >= low && found->as_integer() <= high)
+        value = found->as_integer();
+    else
+        Place::wrong(*this, key, fmt::format("a whole number from {} to {}", low, high), *found);
+}
+
+void TomlSection::readDegrees(const std::string& key, double& value, const NumberRange& rangeDegrees) {
+    double degrees = value * 180 / std::numbers::pi;
+    const double before = degrees;
+    read(key, degrees, rangeDegrees);
+    if (degrees != before) value = degrees * std::numbers::pi / 180;
+}
+
+}  // namespace stereonav

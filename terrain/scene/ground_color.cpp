@@ -1,0 +1,258 @@
+// Tint, light, and images laid over the ground.
+#include "terrain/scene/ground_color.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/memory.h"
+#include "engine/base/parallel.h"
+#include "terrain/light/sun_and_sky.h"
+#include "terrain/read/raster_file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kMostTexels = 1 << 26;  // 256 MiB, a third more with the mip levels
+constexpr int kMostSide = 32768;
+constexpr double kPictureBytes = 4 + 1 + 4 * 2;    // a pixel of a picture, and its bands while it is read
+constexpr double kTextureBytes = 4 + 4 * 4.0 / 3;  // a texel: the picture, and with its mip levels
+constexpr double kLitDensity = 2.0;                // texels a sample where light is baked in
+constexpr const char* kAdvice = "give a JPEG, PNG or TIFF picture of the ground";
+
+// Valleys green, then grass, scree and rock, snow on top; t: height as a share of the ground's range.
+glm::vec3 heightTint(float t) {
+    static constexpr std::array<glm::vec3, 6> kRamp{{{0.045f, 0.095f, 0.030f},
+                                                     {0.100f, 0.145f, 0.045f},
+                                                     {0.210f, 0.180f, 0.080f},
+                                                     {0.190f, 0.140f, 0.090f},
+                                                     {0.260f, 0.240f, 0.220f},
+                                                     {0.740f, 0.760f, 0.800f}}};
+    const float x = std::clamp(t, 0.0f, 1.0f) * (kRamp.size() - 1);
+    const int k = std::min(static_cast<int>(x), static_cast<int>(kRamp.size()) - 2);
+    return glm::mix(kRamp[k], kRamp[k + 1], x - static_cast<float>(k));
+}
+
+// The height at a grid position; beside a hole that of the known samples around, NaN inside one.
+double knownHeightAt(const Heightfield& ground, const glm::dvec2& grid) {
+    const double height = ground.heightAt(ground.worldFromGrid(grid));
+    if (std::isfinite(height)) return height;
+    const int i = std::clamp(static_cast<int>(grid.x), 0, ground.width() - 2);
+    const int j = std::clamp(static_cast<int>(grid.y), 0, ground.height() - 2);
+    double sum = 0;
+    int known = 0;
+    for (int k = 0; k < 4; ++k)
+        if (const float h = ground.sample(i + k % 2, j + k / 2); std::isfinite(h)) {
+            sum += h;
+            ++known;
+        }
+    return known ? sum / known : std::numeric_limits<double>::quiet_NaN();
+}
+
+class Tint {
+public:
+    Tint(const Heightfield& ground, const TerrainLook& look) : mGround(ground), mLight(look) {
+        const double range = double(ground.maxHeight()) - ground.minHeight();
+        mPerMetre = range > 0 ? 1 / range : 0.0;
+    }
+
+    // Linear colour of the ground at a grid position, lit.
+    glm::vec3 at(const glm::dvec2& grid) const {
+        const glm::dvec3 normal = mGround.normalAt(mGround.worldFromGrid(grid));
+        const double height = knownHeightAt(mGround, grid);
+        const double share = std::isfinite(height) ? (height - mGround.minHeight()) * mPerMetre : 0.0;
+        constexpr float kRockFrom = 0.82f, kRockFull = 0.57f;  // cosines of 35 and 55 degrees
+        const float steep = 1 - glm::smoothstep(kRockFull, kRockFrom, static_cast<float>(normal.z));
+        const glm::vec3 rock(0.160f, 0.148f, 0.135f);
+        return mLight.at(normal) * glm::mix(heightTint(static_cast<float>(share)), rock, 0.7f * steep);
+    }
+
+private:
+    const Heightfield& mGround;
+    GroundLight mLight;
+    double mPerMetre = 0;
+};
+
+// The texture over the extent of the samples' own squares: half a sample beyond the outer ones.
+// colorAt: linear colour from column and row (0 northernmost) and the grid position of a texel's centre.
+using ColorAt = std::function<glm::vec3(int column, int row, const glm::dvec2& grid)>;
+ColorTexture bake(const Heightfield& ground, int width, int height, const ColorAt& colorAt,
+                  Progress& progress) {
+    const glm::dvec2 origin(-0.5);
+    const glm::dvec2 perTexel = glm::dvec2(ground.width(), ground.height()) / glm::dvec2(width, height);
+    Plane<PackedColor> texels(width, height);
+    constexpr int kBand = 64;
+    for (int first = 0; first < height; first += kBand) {
+        progress.report(double(first) / height, "colouring the ground");
+        parallelFor(std::min(kBand, height - first), [&](int k) {
+            const int row = first + k;
+            for (int i = 0; i < width; ++i) {
+                const glm::dvec2 grid = origin + glm::dvec2(i + 0.5, height - row - 0.5) * perTexel;
+                texels.at(i, row) = packColor(colorAt(i, row, grid));
+            }
+        });
+    }
+    return ColorTexture(texels, origin, perTexel);
+}
+
+struct TextureSize {
+    int width, height;
+};
+
+// `density` texels a sample, less where that were too many.
+TextureSize textureSize(const Heightfield& ground, glm::dvec2 density) {
+    const double texels = ground.width() * density.x * ground.height() * density.y;
+    if (texels > kMostTexels) density *= std::sqrt(kMostTexels / texels);
+    const auto side = [](double n) { return static_cast<int>(std::clamp(n + 0.5, 1.0, double(kMostSide))); };
+    return {side(ground.width() * density.x), side(ground.height() * density.y)};
+}
+
+// Where the image lies: by its own georeference, or over the elevation file's extent.
+struct ImagePlace {
+    Georeference place;
+    bool own = false;
+};
+
+ImagePlace placeOf(RasterPicture& picture, const DemGrid& dem) {
+    ImagePlace image;
+    bool known = false;
+    image.place = picture.georeference(known);
+    image.own = known && dem.georeferenced;
+    if (image.place.wkt.empty()) image.place.wkt = dem.source.wkt;
+    if (image.own) return image;
+    const double columns = dem.source.width / double(image.place.width);
+    const double rows = dem.source.height / double(image.place.height);
+    const auto& t = dem.source.transform;
+    image.place.wkt = dem.source.wkt;
+    image.place.transform = {t[0], t[1] * columns, t[2] * rows, t[3], t[4] * columns, t[5] * rows};
+    image.place.points = dem.source.points;
+    for (ControlPoint& point : image.place.points) point.pixel /= glm::dvec2(columns, rows);
+    return image;
+}
+
+// Image pixels for each of the texture's, at its middle.
+glm::dvec2 pixelsPerTexel(const PixelMap& map, const Georeference& texture) {
+    const int i = texture.width / 2, j = texture.height / 2;
+    const int a = std::max(0, i - 1), b = std::max(0, j - 1);
+    glm::dvec2 density(1.0);
+    if (i > a) density.x = glm::length(map.at(i, j) - map.at(a, j)) / (i - a);
+    if (j > b) density.y = glm::length(map.at(i, j) - map.at(i, b)) / (j - b);
+    return density;
+}
+
+// 0, step, 2 * step, ... and the last.
+std::vector<int> spread(int count, int step) {
+    std::vector<int> places;
+    for (int k = 0; k < count - 1; k += step) places.push_back(k);
+    places.push_back(count - 1);
+    return places;
+}
+
+// The pixels that the texture may touch, with some around.
+PixelWindow touchedWindow(const PixelMap& map, const Georeference& texture, const Georeference& image) {
+    glm::dvec2 low(1e18), high(-1e18);
+    for (const int j : spread(texture.height, PixelMap::kStep))
+        for (const int i : spread(texture.width, PixelMap::kStep)) {
+            const glm::dvec2 p = map.at(i, j);
+            if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    const auto side = [](double v, int most) { return static_cast<int>(std::clamp(v, 0.0, double(most))); };
+    return {side(std::floor(low.x) - 2, image.width), side(std::floor(low.y) - 2, image.height),
+            side(std::ceil(high.x) + 2, image.width), side(std::ceil(high.y) + 2, image.height)};
+}
+
+[[noreturn]] void throwNoOverlap(const std::filesystem::path& file) {
+    throw Error(file.string(), "", "the picture does not overlap the elevation model",
+                "give one of the same place, or remove its georeference to lay it over the whole");
+}
+
+std::string describe(const std::filesystem::path& file, const ImagePlace& image, bool lit) {
+    return fmt::format("image {} {}x{}, {}{}", file.filename().string(), image.place.width,
+                       image.place.height,
+                       !image.own                     ? "over the same extent"
+                       : image.place.placedBy.empty() ? "by its georeference"
+                                                      : "by its " + image.place.placedBy,
+                       lit ? ", lit" : "");
+}
+
+}  // namespace
+
+GroundLight::GroundLight(const TerrainLook& look) {
+    const double across = std::cos(look.sunElevation), up = std::sin(look.sunElevation);
+    const double level = look.ambient + (1 - look.ambient) * std::max(0.0, up);
+    if (level <= 0) return;  // a sun below the horizon and no ambient light: night
+    mAmbient = look.ambient / level;
+    mDirect = sunUp(up) * (1 - look.ambient) / level *
+              glm::dvec3(across * std::sin(look.sunAzimuth), across * std::cos(look.sunAzimuth), up);
+}
+
+float GroundLight::at(const glm::dvec3& unitNormal) const {
+    return static_cast<float>(mAmbient + std::max(0.0, glm::dot(unitNormal, mDirect)));
+}
+
+double bytesOfTint(double samples) {
+    return kTextureBytes * std::min(kMostTexels, kLitDensity * kLitDensity * samples);
+}
+
+GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Progress& progress) {
+    const Tint tint(ground, look);
+    const TextureSize size = textureSize(ground, glm::dvec2(kLitDensity));
+    const auto color = [&](int, int, const glm::dvec2& grid) { return tint.at(grid); };
+    return {bake(ground, size.width, size.height, color, progress), "tint by height, lit", look.ambient < 1};
+}
+
+GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& dem, const Heightfield& ground,
+                            const TerrainLook& look, Progress& progress) {
+    const auto opened = openRasterPicture(file, "a picture", kAdvice);
+    const ImagePlace image = placeOf(*opened, dem);
+    if (!overlap(dem.grid, image.place, file)) throwNoOverlap(file);
+    const glm::dvec2 density = pixelsPerTexel(mapPixels(dem.grid, image.place, file), dem.grid);
+    if (!std::isfinite(density.x + density.y)) throwNoOverlap(file);
+    const TextureSize size =
+        textureSize(ground, look.shadeImage ? glm::max(density, glm::dvec2(kLitDensity)) : density);
+    Georeference texture = dem.grid;
+    texture.width = size.width;
+    texture.height = size.height;
+    const auto& t = dem.grid.transform;
+    texture.transform = {t[0], t[1] * dem.grid.width / size.width,  0, t[3],
+                         0,    t[5] * dem.grid.height / size.height};
+    const PixelMap map = mapPixels(texture, image.place, file);
+    const PixelWindow window = touchedWindow(map, texture, image.place);
+    if (window.xMin >= window.xMax || window.yMin >= window.yMax) throwNoOverlap(file);
+    progress.report(0, "reading " + file.filename().string());
+    const glm::dvec2 shrink = glm::max(glm::dvec2(1.0), pixelsPerTexel(map, texture));
+    const auto pixels = [](int low, int high, double by) { return std::max(1.0, (high - low) / by); };
+    checkMemory(file.string(),
+                kTextureBytes * size.width * size.height + kPictureBytes *
+                                                               pixels(window.xMin, window.xMax, shrink.x) *
+                                                               pixels(window.yMin, window.yMax, shrink.y),
+                "give a smaller picture of the ground");
+    const GroundPicture picture = opened->read(window, shrink);
+    const Tint tint(ground, look);
+    const GroundLight light(look);
+    std::atomic<bool> lit{look.shadeImage};
+    const auto color = [&](int column, int row, const glm::dvec2& grid) {
+        const GroundPicture::Sample sample = picture.at(map.at(column, row));
+        glm::vec3 seen = sample.color;
+        if (look.shadeImage && sample.cover > 0)
+            seen *= light.at(ground.normalAt(ground.worldFromGrid(grid)));
+        if (sample.cover >= 1) return seen;
+        lit = true;
+        return glm::mix(tint.at(grid), seen, sample.cover);
+    };
+    ColorTexture laid = bake(ground, size.width, size.height, color, progress);
+    return {std::move(laid), describe(file, image, look.shadeImage), lit && look.ambient < 1};
+}
+
+}  // namespace stereonav

@@ -1,0 +1,49 @@
+// The ground's colour texture: an image laid over the elevation model, or a tint by height. The light
+// of the sun does not depend on the eye, so it is baked in here and filtered with the colour.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "engine/base/progress.h"
+#include "engine/image/color_texture.h"
+#include "terrain/ground/heightfield.h"
+#include "terrain/read/dem_reader.h"
+#include "terrain/read/scene_file.h"
+
+namespace stereonav {
+
+struct GroundColor {
+    ColorTexture texture;
+    std::string source;     // for `info`: "image winter.jpg 457x499 over the same extent", ...
+    bool holdsSun = false;  // some of it is lit by the look's sun
+};
+
+// Light on ground as a factor on its colour: 1 on level ground, less on slopes turned away, down to
+// the ambient share where the sun does not reach (Lambert), everywhere once it has set.
+class GroundLight {
+public:
+    explicit GroundLight(const TerrainLook& look);
+    float at(const glm::dvec3& unitNormal) const;
+
+private:
+    glm::dvec3 mDirect{0.0};  // towards the sun, scaled with its strength
+    double mAmbient = 0;
+};
+
+// Bytes that tintedGround() holds at once for ground of so many samples.
+double bytesOfTint(double samples);
+
+// Colour by relative height, rock on steep slopes, lit; two texels a sample each way.
+GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Progress& progress);
+
+// An image with a georeference (its own, or a world file's beside it, then in the elevation model's
+// system) is laid where it belongs; one without covers the extent of the elevation file, whatever
+// its aspect. Masked and uncovered places get the tint. 8 or 16 bits, gray, colour or palette, taken
+// as sRGB; texels as fine as the image's pixels, 2^26 of them at most. dem: without its heights.
+// Throws Error named by the image, among others where it does not overlap.
+GroundColor groundFromImage(const std::filesystem::path& image, const DemGrid& dem, const Heightfield& ground,
+                            const TerrainLook& look, Progress& progress);
+
+}  // namespace stereonav

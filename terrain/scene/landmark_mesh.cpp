@@ -1,0 +1,208 @@
+// Triangles, materials and base colour textures out of a glTF file.
+#include "terrain/scene/landmark_mesh.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+
+#include "engine/base/error.h"
+#include "engine/camera/gltf_file.h"
+#include "engine/image/image_file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr const char* kMeshAdvice = "export the mesh again";
+constexpr std::size_t kMaxVertices = 1u << 30;
+
+class MeshReader {
+public:
+    explicit MeshReader(const GltfFile& file) : mFile(file) {}
+
+    LandmarkMesh read() {
+        readMaterials();
+        for (const auto& chain : nodeChains(mFile)) readNode(chain);
+        if (mMesh.triangles.empty())
+            throw Error(mFile.name, "scene", "expected a mesh with triangles, found none",
+                        "export the landmark's mesh with it");
+        return std::move(mMesh);
+    }
+
+private:
+    void readMaterials();
+    int readTexture(int texture, LandmarkMaterial& material);
+    void readNode(const std::vector<int>& chain);
+    void readPrimitive(const tinygltf::Primitive& primitive, const glm::dmat4& sceneFromNode,
+                       const std::string& place);
+    void readVertices(const tinygltf::Primitive& primitive, const glm::dmat4& sceneFromNode,
+                      const std::string& place);
+    void readTriangles(const tinygltf::Primitive& primitive, std::size_t base, const std::string& place);
+    std::vector<double> attribute(const tinygltf::Primitive& primitive, const std::string& name,
+                                  int components, std::size_t count, const std::string& place) const;
+
+    const GltfFile& mFile;
+    LandmarkMesh mMesh;
+    std::vector<int> mTexCoordSet;  // of each material's base colour texture
+};
+
+void MeshReader::readMaterials() {
+    for (const auto& source : mFile.model.materials) {
+        LandmarkMaterial material;
+        const auto& factor = source.pbrMetallicRoughness.baseColorFactor;
+        if (factor.size() >= 3) material.baseColor = glm::vec3(factor[0], factor[1], factor[2]);
+        const auto& texture = source.pbrMetallicRoughness.baseColorTexture;
+        mTexCoordSet.push_back(std::max(texture.texCoord, 0));
+        if (texture.index >= 0) material.texture = readTexture(texture.index, material);
+        mMesh.materials.push_back(material);
+    }
+    mMesh.materials.emplace_back();  // of primitives without one
+    mTexCoordSet.push_back(0);
+}
+
+int MeshReader::readTexture(int index, LandmarkMaterial& material) {
+    const auto& model = mFile.model;
+    const std::string place = fmt::format("texture {}", index);
+    if (static_cast<std::size_t>(index) >= model.textures.size())
+        throw Error(mFile.name, place, fmt::format("expected one of {}", model.textures.size()), kMeshAdvice);
+    const tinygltf::Texture& texture = model.textures[index];
+    if (texture.source < 0 || static_cast<std::size_t>(texture.source) >= model.images.size())
+        throw Error(mFile.name, place, "expected a PNG or JPEG image, found none", kMeshAdvice);
+    if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) < model.samplers.size()) {
+        const tinygltf::Sampler& sampler = model.samplers[texture.sampler];
+        material.repeatX = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+        material.repeatY = sampler.wrapT != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    }
+    const tinygltf::Image& image = model.images[texture.source];
+    const std::span<const unsigned char> bytes = image.bufferView >= 0
+                                                     ? bufferViewBytes(mFile, image.bufferView, place)
+                                                     : std::span(mFile.imageBytes[texture.source]);
+    mMesh.textures.emplace_back(decodeColorImage(bytes, mFile.name, fmt::format("image {}", texture.source)),
+                                glm::dvec2(0), glm::dvec2(1));
+    return static_cast<int>(mMesh.textures.size()) - 1;
+}
+
+void MeshReader::readNode(const std::vector<int>& chain) {
+    const auto& model = mFile.model;
+    const int mesh = model.nodes[chain.back()].mesh;
+    if (mesh < 0) return;
+    if (static_cast<std::size_t>(mesh) >= model.meshes.size())
+        throw Error(mFile.name, fmt::format("node {}", chain.back()),
+                    fmt::format("refers to mesh {}, the file has {}", mesh, model.meshes.size()),
+                    kMeshAdvice);
+    glm::dmat4 sceneFromNode(1.0);
+    for (const int node : chain) sceneFromNode *= placementOf(model.nodes[node]).parentFromNode();
+    for (std::size_t p = 0; p < model.meshes[mesh].primitives.size(); ++p)
+        readPrimitive(model.meshes[mesh].primitives[p], sceneFromNode,
+                      fmt::format("mesh {}, primitive {}", mesh, p));
+}
+
+void MeshReader::readPrimitive(const tinygltf::Primitive& primitive, const glm::dmat4& sceneFromNode,
+                               const std::string& place) {
+    const bool triangles = primitive.mode == TINYGLTF_MODE_TRIANGLES ||
+                           primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+                           primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+    if (!triangles) return;  // points and lines have no surface
+    const std::size_t base = mMesh.vertices.size();
+    readVertices(primitive, sceneFromNode, place);
+    readTriangles(primitive, base, place);
+}
+
+std::vector<double> MeshReader::attribute(const tinygltf::Primitive& primitive, const std::string& name,
+                                          int components, std::size_t count, const std::string& place) const {
+    const auto found = primitive.attributes.find(name);
+    if (found == primitive.attributes.end()) return {};
+    std::vector<double> values = accessorValues(mFile, found->second, components, place + ", " + name);
+    if (values.size() != count * components)
+        throw Error(
+            mFile.name, place + ", " + name,
+            fmt::format("expected {} elements as POSITION has, got {}", count, values.size() / components),
+            kMeshAdvice);
+    return values;
+}
+
+void MeshReader::readVertices(const tinygltf::Primitive& primitive, const glm::dmat4& sceneFromNode,
+                              const std::string& place) {
+    const auto found = primitive.attributes.find("POSITION");
+    if (found == primitive.attributes.end())
+        throw Error(mFile.name, place, "expected the attribute POSITION, found none", kMeshAdvice);
+    const std::vector<double> position = accessorValues(mFile, found->second, 3, place + ", POSITION");
+    const std::size_t count = position.size() / 3;
+    if (count + mMesh.vertices.size() > kMaxVertices)
+        throw Error(mFile.name, place, fmt::format("has more than {} vertices", kMaxVertices), "simplify it");
+    const auto color = primitive.attributes.find("COLOR_0");
+    const int channels = color == primitive.attributes.end()
+                             ? 3
+                             : accessorComponents(mFile, color->second, place + ", COLOR_0");
+    const int material = primitive.material;
+    const bool known = material >= 0 && static_cast<std::size_t>(material) < mTexCoordSet.size();
+    const std::string uvName = fmt::format("TEXCOORD_{}", known ? mTexCoordSet[material] : 0);
+    const auto normals = attribute(primitive, "NORMAL", 3, count, place);
+    const auto colors = attribute(primitive, "COLOR_0", std::max(channels, 3), count, place);
+    const auto uvs = attribute(primitive, uvName, 2, count, place);
+    const glm::dmat3 turn(sceneFromNode);
+    const double volume = glm::determinant(turn);
+    // Cofactors turn normals as the inverse transpose does, and exist for flattened nodes too.
+    const glm::dmat3 turnNormal(glm::cross(turn[1], turn[2]), glm::cross(turn[2], turn[0]),
+                                glm::cross(turn[0], turn[1]));
+    for (std::size_t k = 0; k < count; ++k) {
+        LandmarkMesh::Vertex v{{}, glm::vec3(0), glm::vec3(1), glm::vec2(0)};
+        const glm::dvec4 p(position[3 * k], position[3 * k + 1], position[3 * k + 2], 1);
+        v.position = worldFromGltf(glm::dvec3(sceneFromNode * p));
+        if (!normals.empty()) {
+            const glm::dvec3 n = turnNormal *
+                                 glm::dvec3(normals[3 * k], normals[3 * k + 1], normals[3 * k + 2]) *
+                                 (volume < 0 ? -1. : 1.);
+            const double length = glm::length(n);
+            if (length > 0) v.normal = glm::vec3(worldFromGltf(n / length));
+        }
+        if (!colors.empty())
+            v.color = glm::vec3(colors[channels * k], colors[channels * k + 1], colors[channels * k + 2]);
+        if (!uvs.empty()) v.uv = glm::vec2(uvs[2 * k], uvs[2 * k + 1]);
+        mMesh.vertices.push_back(v);
+    }
+}
+
+void MeshReader::readTriangles(const tinygltf::Primitive& primitive, std::size_t base,
+                               const std::string& place) {
+    const std::size_t count = mMesh.vertices.size() - base;
+    std::vector<std::uint32_t> order;
+    if (primitive.indices >= 0) {
+        for (const double value : accessorValues(mFile, primitive.indices, 1, place + ", indices")) {
+            if (!(value >= 0 && value < static_cast<double>(count)))
+                throw Error(mFile.name, place + ", indices",
+                            fmt::format("expected vertices 0 to {}, got {}",
+                                        static_cast<long long>(count) - 1, value),
+                            kMeshAdvice);
+            order.push_back(static_cast<std::uint32_t>(base + static_cast<std::size_t>(value)));
+        }
+    } else {
+        for (std::size_t k = 0; k < count; ++k) order.push_back(static_cast<std::uint32_t>(base + k));
+    }
+    const int last = static_cast<int>(mMesh.materials.size()) - 1;
+    if (primitive.material >= last)
+        throw Error(mFile.name, place,
+                    fmt::format("refers to material {}, the file has {}", primitive.material, last),
+                    kMeshAdvice);
+    const int material = primitive.material >= 0 ? primitive.material : last;
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && order.size() % 3 != 0)
+        throw Error(mFile.name, place,
+                    fmt::format("expected three indices a triangle, got {} indices", order.size()),
+                    kMeshAdvice);
+    const bool fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+    const std::size_t step = primitive.mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
+    for (std::size_t k = 0; k + 2 < order.size(); k += step)
+        mMesh.triangles.push_back({{order[fan ? 0 : k], order[k + 1], order[k + 2]}, material});
+}
+
+}  // namespace
+
+LandmarkMesh readLandmarkMesh(const std::filesystem::path& path) {
+    const GltfFile file = readGltf(path);
+    return MeshReader(file).read();
+}
+
+}  // namespace stereonav

@@ -1,0 +1,47 @@
+// A terrain under baked light: what its scene keeps beside the lit texture so that the sun can move.
+#pragma once
+
+#include "terrain/light/terrain_relight.h"
+
+namespace stereonav {
+
+struct TerrainScene;
+
+class TerrainIllumination {
+public:
+    // How much of the light's variation is laid over a photo, which holds the light of its own day: half, so
+    // that the sun's place is seen without doubling every shadow.
+    static constexpr float kPhotoShare = 0.5f;
+
+    // albedo: colours without light; share: as TerrainRelight::Display.
+    TerrainIllumination(const Heightfield& ground, const ColorTexture& albedo, const SkyMap& sky,
+                        TerrainLight light, float share, SimdTarget target = SimdTarget::Auto);
+
+    // Writes the colours under the look's sun into `lit`, which is of albedo's size.
+    void apply(const TerrainLook& look, ColorTexture& lit);
+
+    // Of the last apply(): what the sun's highlights have of their strength, by colour, as the ground's own
+    // light is shown: 1 with the sun 45 degrees high. It does not know of shadows.
+    const glm::vec3& highlightLight() const { return mHighlightLight; }
+    // The share of the sun's disc that is seen from the ground at a grid coordinate, 0..1. Of a look with
+    // highlights; 1 where no horizons were baked.
+    float sunShownAt(const glm::dvec2& grid) const { return mRelight.sunShownAt(mBrightness, grid); }
+
+    const TerrainLight& light() const { return mRelight.light(); }
+    const GroundBrightness& brightness() const { return mBrightness; }  // of the last apply()
+    std::size_t byteCount() const;
+
+private:
+    ColorTexture mAlbedo;
+    SkyRadiance mSky;
+    TerrainRelight mRelight;
+    GroundBrightness mBrightness;
+    glm::vec3 mHighlightLight{1.0f};
+    float mShare;
+};
+
+// Turns the sun (radians, clockwise from north; above the horizon) of a scene under baked light: its ground
+// and landmarks; renderers are told by TerrainRenderer::sunMoved(). No one may read the scene meanwhile.
+void moveSun(TerrainScene& scene, double azimuth, double elevation);
+
+}  // namespace stereonav

@@ -1,0 +1,221 @@
+// Everything a terrain needs, in the order it depends on each other: ground, colour, sky, meshes,
+// where to stand, how to fly, how far apart the eyes.
+#include "terrain/scene/terrain_loader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <string_view>
+
+#include "engine/base/error.h"
+#include "terrain/built_in/built_in_terrain.h"
+#include "terrain/ground/nodata.h"
+#include "terrain/light/sky_source.h"
+#include "terrain/read/dem_reader.h"
+#include "terrain/read/height_limits.h"
+#include "terrain/scene/ground_color.h"
+#include "terrain/scene/landmark.h"
+#include "terrain/scene/scene_flight.h"
+#include "terrain/scene/terrain_illumination.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kClearancePerSpacing = 0.25;  // of the wider spacing
+constexpr double kNearPerSpacing = 0.05;       // of the finer spacing: well inside the clearance
+constexpr double kDefaultPitch = -0.2;         // radians; a start without its own looks a little down
+constexpr double kSeparationShare = 1.0 / 30;  // of the zero-parallax distance (Wan et al. 2004)
+constexpr double kFallbackShare = 0.25;        // of the shorter side, where the view meets no ground
+
+struct LoadedGround {
+    DemGrid place;  // without heights
+    std::optional<Plane<PackedColor>> ownColor;
+};
+
+// Whether the ground's colours are to be without light.
+bool litLater(const SceneFile& file) {
+    return file.colorsAlone || !file.light.empty();
+}
+
+LoadedGround loadBuiltIn(const SceneFile& file, TerrainScene& scene, Progress& progress) {
+    const TerrainLook usual;
+    const bool usualSun =
+        file.look.sunAzimuth == usual.sunAzimuth && file.look.sunElevation == usual.sunElevation;
+    BuiltInTerrain built =
+        usualSun && !litLater(file)
+            ? builtInTerrain(file.seed, file.builtInSize, progress)
+            : generateBuiltInTerrain(file.seed, file.builtInSize, progress,
+                                     litLater(file) ? std::nullopt : std::optional(file.look));
+    const auto [low, high] = std::minmax_element(built.heights.begin(), built.heights.end());
+    checkScaledHeights("the built-in terrain", *low, *high, file.verticalScale);
+    if (file.verticalScale != 1.0)
+        for (float& h : built.heights) h = static_cast<float>(h * file.verticalScale);
+    scene.ground = Heightfield(built.size, built.size, glm::dvec2(built.spacing), std::move(built.heights),
+                               "the built-in terrain");
+    scene.report.driver = "built-in";
+    scene.report.projection = fmt::format("none: generated in metres, seed {}", file.seed);
+    LoadedGround loaded;
+    Georeference& place = loaded.place.source;
+    place.width = place.height = built.size;
+    place.transform = {0, built.spacing, 0, 0, 0, -built.spacing};
+    loaded.place.grid = place;
+    if (file.verticalScale == 1.0) loaded.ownColor = std::move(built.color);
+    return loaded;
+}
+
+// Heights, the maxima over blocks of them, and colours; a picture's are checked when its size is known.
+double bytesOfGround(double samples, bool tinted) {
+    constexpr double kHeights = 4, kMaxima = 4 * 4.0 / 3;
+    return (kHeights + kMaxima) * samples + (tinted ? bytesOfTint(samples) : 0);
+}
+
+LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progress) {
+    const bool tinted = file.image.empty();
+    DemGrid dem = readDem(file.dem, file.verticalScale, progress,
+                          [tinted](double samples) { return bytesOfGround(samples, tinted); });
+    TerrainReport& report = scene.report;
+    report.driver = dem.driver;
+    report.sourceCrs = dem.crs;
+    report.projection = dem.projection;
+    report.sourceOffset = dem.sourceOffset;
+    report.placedBy = dem.source.placedBy;
+    report.band = dem.band;
+    report.heightUnit = dem.heightUnit;
+    report.missingValue = dem.missingValue;
+    report.sourceSamples = static_cast<long long>(dem.source.width) * dem.source.height;
+    report.missingSamples = dem.sourceMissing;
+    report.outsideSamples = dem.outside;
+    if (file.openHoles)
+        report.openSamples = countMissing(dem.heights);
+    else
+        report.filledSamples = fillMissing(dem.heights, dem.width, dem.height, dem.spacing, progress);
+    scene.ground = Heightfield(dem.width, dem.height, dem.spacing, std::move(dem.heights), file.dem.string());
+    return {std::move(dem), std::nullopt};
+}
+
+void loadColor(const SceneFile& file, LoadedGround& loaded, TerrainScene& scene, Progress& progress) {
+    GroundColor color;
+    TerrainLook look = file.look;
+    if (litLater(file)) look.ambient = 1;
+    if (!file.image.empty()) {
+        color = groundFromImage(file.image, loaded.place, scene.ground, look, progress);
+    } else if (loaded.ownColor) {
+        const Plane<PackedColor>& texels = *loaded.ownColor;
+        const glm::dvec2 cells(scene.ground.width() - 1, scene.ground.height() - 1);
+        color = {ColorTexture(texels, glm::dvec2(0.0), cells / glm::dvec2(texels.width(), texels.height())),
+                 "generated, lit", true};
+    } else {
+        color = tintedGround(scene.ground, look, progress);
+    }
+    scene.color = std::move(color.texture);
+    scene.report.colorSource = std::move(color.source);
+    scene.report.colorHoldsSun = color.holdsSun && !litLater(file);
+    constexpr std::string_view kLit = ", lit";
+    if (litLater(file) && scene.report.colorSource.ends_with(kLit))
+        scene.report.colorSource.resize(scene.report.colorSource.size() - kLit.size());
+}
+
+void loadLight(const SceneFile& file, TerrainScene& scene, Progress& progress) {
+    progress.report(0.9, "reading baked light");
+    const std::filesystem::path place = file.light == "auto" ? terrainLightCache(scene.ground) : file.light;
+    if (file.light == "auto" && !std::filesystem::exists(place))
+        throw Error(file.file.string(), "light", "none was baked for this ground yet",
+                    "bake it with stereonav bake, with the same --vertical-scale and --open-holes");
+    TerrainLight light = loadTerrainLight(place, &scene.ground);
+    const bool photo = !file.image.empty() && !file.look.shadeImage;
+    const bool transfer = light.settings.kind == TerrainLightKind::Transfer;
+    scene.report.lightSource = fmt::format("{} {}x{}, {}", place.filename().string(), light.grid.width,
+                                           light.grid.height, transfer ? "transfer" : "openness");
+    scene.illumination =
+        std::make_unique<TerrainIllumination>(scene.ground, scene.color, scene.sky, std::move(light),
+                                              photo ? TerrainIllumination::kPhotoShare : 1.0f);
+    scene.illumination->apply(scene.look, scene.color);
+}
+
+// The highest ground within a cell of a place, for standing above it where the place is a hole.
+double groundHeight(const Heightfield& ground, const glm::dvec2& world) {
+    const double height = ground.heightAt(world);
+    return std::isfinite(height) ? height : ground.maxHeight();
+}
+
+Pose startPoseOf(const SceneFile& file, const TerrainScene& scene) {
+    if (!file.startPosition) return defaultStartPose(scene.ground, scene.clearance, kDefaultPitch);
+    glm::dvec3 position = *file.startPosition;
+    if (file.startAboveGround) position.z += groundHeight(scene.ground, glm::dvec2(position));
+    return poseFromAngles(position, file.startHeading, file.startPitch, file.startRoll);
+}
+
+// Distance along the view axis to the ground; nullopt where it meets none within the ground's extent.
+std::optional<double> distanceToGround(const Heightfield& ground, const Pose& pose) {
+    const glm::dvec3 d = pose.forward();
+    const auto above = [&](double t) {
+        const glm::dvec3 p = pose.position + t * d;
+        return ground.contains(glm::dvec2(p)) ? p.z - ground.heightAt(glm::dvec2(p)) : std::nan("");
+    };
+    const glm::dvec2 extent = glm::dvec2(ground.width() - 1, ground.height() - 1) * ground.spacing();
+    const double reach = 2 * glm::length(extent) + std::abs(pose.position.z) + std::abs(ground.maxHeight()) +
+                         std::abs(ground.minHeight());
+    constexpr int kMostSteps = 200'000;
+    const double step = std::max(0.5 * std::min(ground.spacing().x, ground.spacing().y), reach / kMostSteps);
+    double previous = above(0);
+    for (double t = step; t < reach; t += step) {
+        const double here = above(t);
+        if (here <= 0 && previous > 0) {
+            double low = t - step, high = t;
+            for (int k = 0; k < 40; ++k) (above(0.5 * (low + high)) > 0 ? low : high) = 0.5 * (low + high);
+            return high;
+        }
+        previous = here;
+    }
+    return std::nullopt;
+}
+
+StereoSetting stereoOf(const SceneFile& file, const TerrainScene& scene) {
+    const Heightfield& ground = scene.ground;
+    const glm::dvec2 extent = glm::dvec2(ground.width() - 1, ground.height() - 1) * ground.spacing();
+    StereoSetting stereo;
+    const double seen = file.zeroParallax ? *file.zeroParallax
+                                          : distanceToGround(ground, scene.startPose)
+                                                .value_or(kFallbackShare * std::min(extent.x, extent.y));
+    stereo.zeroParallax = std::max(seen, 2 * scene.lens.nearDepth);
+    if (file.zeroParallax) stereo.zeroParallax = seen;
+    stereo.separation = file.separation.value_or(stereo.zeroParallax * kSeparationShare);
+    return stereo;
+}
+
+RecordedPath pathOf(const SceneFile& file, const TerrainScene& scene) {
+    return file.path.empty() ? defaultFlight(scene.ground, scene.clearance) : readPath(file.path);
+}
+
+}  // namespace
+
+TerrainScene loadTerrain(const SceneFile& file, Progress& progress) {
+    if (!(file.verticalScale > 0 && std::isfinite(file.verticalScale)))
+        throw Error(file.file.string(), "vertical scale",
+                    fmt::format("expected a number above 0, got {:g}", file.verticalScale), "");
+    TerrainScene scene;
+    LoadedGround loaded = file.builtIn ? loadBuiltIn(file, scene, progress) : loadDem(file, scene, progress);
+    scene.look = file.look;
+    loadColor(file, loaded, scene, progress);
+    SkySource sky = readSky(file.sky);
+    scene.sky = std::move(sky.map);
+    scene.report.skySource = std::move(sky.source);
+    if (!file.light.empty()) loadLight(file, scene, progress);
+    if (!file.landmarks.empty())
+        scene.landmarks = std::make_unique<LandmarkSet>(file.landmarks, scene.ground, file.look);
+    const glm::dvec2 spacing = scene.ground.spacing();
+    scene.clearance =
+        file.clearance > 0 ? file.clearance : kClearancePerSpacing * std::max(spacing.x, spacing.y);
+    scene.lens.verticalFov = file.verticalFov;
+    scene.lens.nearDepth = std::min(kNearPerSpacing * std::min(spacing.x, spacing.y), 0.25 * scene.clearance);
+    scene.startPose = startPoseOf(file, scene);
+    scene.path = pathOf(file, scene);
+    scene.stereo = stereoOf(file, scene);
+    progress.report(1, "loaded");
+    return scene;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,13 @@
+// From a scene description to a terrain that can be cast.
+#pragma once
+
+#include "engine/base/progress.h"
+#include "terrain/read/scene_file.h"
+#include "terrain/scene/terrain_scene.h"
+
+namespace stereonav {
+
+// Reads, checks, projects, fills, colours. Throws Error with file and place; Cancelled.
+TerrainScene loadTerrain(const SceneFile& scene, Progress& progress);
+
+}  // namespace stereonav

@@ -1,0 +1,64 @@
+// A loaded terrain: all that its ray caster needs, immutable but for the place of the sun under
+// baked light.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/camera/recorded_path.h"
+#include "engine/camera/stereo_rig.h"
+#include "engine/image/color_texture.h"
+#include "terrain/ground/heightfield.h"
+#include "terrain/light/sky_map.h"
+#include "terrain/read/scene_file.h"
+
+namespace stereonav {
+
+class LandmarkSet;          // terrain/scene/landmark.h: meshes cast with Embree
+class TerrainIllumination;  // terrain/scene/terrain_illumination.h: baked light
+
+// What the reader did, for `info`.
+struct TerrainReport {
+    std::string driver;      // "GeoTIFF", "built-in", ...
+    std::string sourceCrs;   // name of the source's reference system, "" when it has none
+    std::string projection;  // how it was brought to metres: "as it is", "local ..."
+    // What was found out of the file, in words; "" where there is nothing to say.
+    std::string placedBy;          // control points
+    std::string band;              // which of several
+    std::string heightUnit;        // where heights were not plain metres
+    std::string missingValue;      // what marks missing samples
+    long long sourceSamples = 0;   // in the file; 0: there is none
+    long long missingSamples = 0;  // of them, missing
+    long long outsideSamples = 0;  // of the ground's, beyond the file's own
+    long long filledSamples = 0;   // of the ground's, filled: missing ones as resampled, and those beyond
+    long long openSamples = 0;     // of the ground's, left open
+    glm::dvec2 sourceOffset{0.0};  // source x, y of the world's origin (metres in the local projection)
+    std::string colorSource;       // "image winter.jpg 457x499", "hypsometric tint", ...
+    bool colorHoldsSun = false;    // some of the colours hold the light of the look's sun
+    std::string skySource;
+    std::string lightSource;  // of baked light, "" without
+};
+
+struct TerrainScene {
+    TerrainScene();
+    ~TerrainScene();
+    TerrainScene(TerrainScene&&) noexcept;
+    TerrainScene& operator=(TerrainScene&&) noexcept;
+
+    Heightfield ground;
+    ColorTexture color;
+    SkyMap sky;
+    TerrainLook look;                        // fog, specular, sun
+    std::unique_ptr<LandmarkSet> landmarks;  // null when there are none
+    // Null without baked light. What is lit by it is `color`, which changes when the sun moves.
+    std::unique_ptr<TerrainIllumination> illumination;
+    Pose startPose;
+    RecordedPath path;  // the scene's own flight
+    StereoSetting stereo;
+    Lens lens;               // width and height are the caller's to set
+    double clearance = 2.0;  // metres kept above the ground
+    TerrainReport report;
+};
+
+}  // namespace stereonav
