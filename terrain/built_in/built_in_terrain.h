@@ -13,7 +13,6 @@
 
 namespace stereonav {
 
-constexpr int kBuiltInSizeMin = 17, kBuiltInSizeMax = 2049;
 constexpr int kBuiltInTexels = 3;  // a sample, each way
 
 struct BuiltInTerrain {

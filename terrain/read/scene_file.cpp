@@ -8,7 +8,6 @@
 #include "engine/base/error.h"
 #include "engine/camera/view_ranges.h"
 #include "engine/image/packed_color.h"
-#include "terrain/built_in/built_in_terrain.h"
 #include "terrain/read/scene_ranges.h"
 #include "terrain/read/toml_document.h"
 

@@ -12,6 +12,8 @@
 
 namespace stereonav {
 
+constexpr int kBuiltInSizeMin = 17, kBuiltInSizeMax = 2049;  // samples a side of the generated terrain
+
 struct TerrainLook {
     double sunAzimuth = 5.5;     // radians clockwise from north; the default shines from the north-west
     double sunElevation = 0.79;  // radians above the horizon
