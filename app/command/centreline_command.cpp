@@ -36,7 +36,7 @@ void checkCentrelineOptions(const CentrelineOptions& options) {
 int runCentreline(const CentrelineOptions& options) {
     checkCentrelineOptions(options);
     ProgressBar bar;
-    const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress());
+    const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress(), kNoPicture);
     checkNotRead({{"--out", options.out}});
     const auto* const colon = scene->offered<const ColonScene>();
     if (!colon || !colon->isColon())

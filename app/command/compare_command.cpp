@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void checkOptions(const CompareOptions& options) {
-    checkSize(options.size, kCompareBytesPerPixel);
+    checkSize(options.size, options.scene, kCompareBytes);
     for (const NamedPlace& place :
          {NamedPlace{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}})
         checkNoInput(place, inputsOf(options.scene));
@@ -165,7 +165,8 @@ int runCompare(const CompareOptions& options) {
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
     ProgressBar bar;
-    const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress());
+    const std::unique_ptr<Scene> loaded =
+        loadScene(options.scene, options.size, bar.progress(), kCompareBytes);
     Scene& scene = *loaded;
     checkNotRead({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});
     if (options.relativeSeparation > 0.0)

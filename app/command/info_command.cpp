@@ -142,7 +142,7 @@ std::string infoLine(const char* name, const std::string& value) {
 int runInfo(const InfoOptions& options) {
     if (!options.series.empty()) return listSeriesOf(options);
     ProgressBar bar;
-    const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress());
+    const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress(), kInfoBytes);
     const Scene& scene = *loaded;
     const auto* const terrain = scene.offered<const TerrainScene>();
     const auto* const volume = scene.offered<const ColonScene>();

@@ -34,7 +34,7 @@ void checkMeshOptions(const MeshOptions& options) {
 int runMesh(const MeshOptions& options) {
     checkMeshOptions(options);
     ProgressBar bar;
-    const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress());
+    const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress(), kNoPicture);
     checkNotRead({{"--out", options.out}});
     const TerrainScene& terrain = *scene->offered<const TerrainScene>();
     const Heightfield& ground = terrain.ground;

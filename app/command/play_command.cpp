@@ -23,13 +23,18 @@ double fpsOf(const PlayOptions& options) {
     return options.fps.value_or(25);
 }
 
+const PixelBytes& bytesOf(const PlayOptions& options) {
+    if (options.video.empty()) return kRenderBytes;
+    return isLosslessVideo(options.video) ? kLosslessVideoBytes : kVideoBytes;
+}
+
 void checkOptions(const PlayOptions& options) {
     if (options.out.empty() && options.video.empty() && !options.hash)
         throw Error("play", "", "expected a place for the frames", "give --out DIR, --video FILE or --hash");
     if (!options.out.empty()) checkOutputFolder("--out", options.out);
     if (!options.video.empty()) checkVideoFile("--video", options.video);
     checkNoInput({"--video", options.video}, inputsOf(options.scene));
-    checkSize(options.size, options.video.empty() ? kRenderBytesPerPixel : kVideoBytesPerPixel);
+    checkSize(options.size, options.scene, bytesOf(options));
 }
 
 std::vector<TimedPose> posesOf(const PlayOptions& options, const RecordedPath& path) {
@@ -88,7 +93,8 @@ int runPlay(const PlayOptions& options) {
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
     ProgressBar bar;
-    const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress());
+    const std::unique_ptr<Scene> loaded =
+        loadScene(options.scene, options.size, bar.progress(), bytesOf(options));
     const Scene& scene = *loaded;
     checkNotRead({{"--video", options.video}});
     const std::vector<TimedPose> poses = posesOf(options, flightOf(scene, path, options.path));

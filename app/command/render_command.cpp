@@ -36,7 +36,7 @@ int runRender(const RenderOptions& options) {
     checkOutputPicture("--out", options.out);
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     std::FILE* const messages = messagesBeside({{"--out", options.out}});
-    checkSize(options.size);
+    checkSize(options.size, options.scene);
     const OutputMode mode = modeFromText(options.mode);
     const std::string method = methodUnderLight(options.scene, options.method);
     checkMethod(options.scene, method);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "engine/base/loop_watch.h"
@@ -30,7 +31,7 @@ ProgressBar::ProgressBar(bool shown)
       mTerminal(isatty(STDERR_FILENO) != 0),
       mProgress([this](double fraction, const std::string& what) { show(fraction, what); }) {
     mNext_ms = mTerminal ? 0.0 : kLineInterval_ms;
-    if (mShown) watchLoops([this] { showAgain(); });
+    if (mShown) watchLoops([this](double share) { showAgain(share); });
 }
 
 ProgressBar::~ProgressBar() {
@@ -42,14 +43,17 @@ void ProgressBar::show(double fraction, const std::string& what) {
     if (!mShown) return;
     const std::lock_guard lock(mMutex);
     const double now = mSinceStart.elapsed_ms();
-    if (what != mWhat || fraction != mFraction) mReported_ms = now;
+    if (what != mWhat || fraction != mFraction) mReported_ms = mLoopStart_ms = now;
     mFraction = fraction;
     if (what != mWhat) mWhat = what;
     if (now >= mNext_ms) draw(now);
 }
 
-void ProgressBar::showAgain() {
+// By the first thread alone.
+void ProgressBar::showAgain(double share) {
     const double now = mSinceStart.elapsed_ms();
+    if (share < mLoopShare) mLoopStart_ms = now;
+    mLoopShare = share;
     if (now < mNext_ms) return;
     const std::unique_lock lock(mMutex, std::try_to_lock);
     if (lock) draw(now);
@@ -57,11 +61,13 @@ void ProgressBar::showAgain() {
 
 // Under the mutex.
 void ProgressBar::draw(double now_ms) {
-    constexpr double kLong_ms = 2000;  // of one report, from which on its time is told
+    constexpr double kLong_ms = 2000;  // of one report, or one loop, from which on its time or share is told
     mNext_ms = now_ms + (mTerminal ? kRedraw_ms : kLineInterval_ms);
     const double since_ms = now_ms - mReported_ms;
-    const std::string what =
-        since_ms < kLong_ms ? mWhat : fmt::format("{}, {:.0f} s", mWhat, since_ms / 1000);
+    std::string what = mWhat;
+    if (since_ms >= kLong_ms) what += fmt::format(", {:.0f} s", since_ms / 1000);
+    if (since_ms >= kLong_ms && now_ms - mLoopStart_ms >= kLong_ms)
+        what += fmt::format(", {:.0f} % of this step", std::floor(100 * mLoopShare));
     if (mTerminal)
         std::fprintf(stderr, "\r\033[K%s", progressLine(mFraction, what, 30).c_str());
     else

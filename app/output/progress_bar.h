@@ -1,5 +1,6 @@
 // A progress bar on stderr: redrawn in place on a terminal; elsewhere one line every ten seconds, so
-// that logs stay short and short jobs say nothing. Between reports it says how long the present work takes.
+// that logs stay short and short jobs say nothing. Between reports it says how long the present work takes,
+// and of a long loop how much of it is done.
 #pragma once
 
 #include <atomic>
@@ -25,13 +26,14 @@ public:
 
 private:
     void show(double fraction, const std::string& what);
-    void showAgain();  // while a loop runs that reports nothing
+    void showAgain(double share);  // while a loop runs that reports nothing
     void draw(double now_ms);
 
     std::mutex mMutex;  // reports come from any thread
     Stopwatch mSinceStart;
     std::atomic<double> mNext_ms;
-    double mFraction = 0, mReported_ms = 0;  // the last report
+    double mFraction = 0, mReported_ms = 0;    // the last report
+    double mLoopShare = 0, mLoopStart_ms = 0;  // of the loop looked at last
     std::string mWhat;
     bool mShown, mTerminal, mDrawn = false;
     Progress mProgress;

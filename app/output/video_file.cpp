@@ -30,6 +30,10 @@ std::unique_ptr<VideoSink> openVideoSink(const fs::path& file, const char* codec
     return functions.open(file, codec, framesPerSecond, width, height);
 }
 
+bool isLosslessVideo(const fs::path& file) {
+    return file.extension() == ".mkv";
+}
+
 struct VideoFile::State {
     State(const fs::path& file, int wide, int high) : place(file), pending(file), width(wide), height(high) {}
     fs::path place;

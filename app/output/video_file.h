@@ -24,6 +24,9 @@ private:
     std::unique_ptr<State> mState;
 };
 
+// Whether its frames are coded without loss, which takes more memory.
+bool isLosslessVideo(const std::filesystem::path& file);
+
 // Throws Error naming `option` unless the extension is one of the above and the place can be written.
 void checkVideoFile(const std::string& option, const std::filesystem::path& file);
 

@@ -54,19 +54,25 @@ void refuseArchive(const std::string& name) {
 
 }  // namespace
 
-void checkSize(const SizeOption& size, int bytesPerPixel) {
+void checkSize(const SizeOption& size, const SceneOptions& options, const PixelBytes& each) {
     constexpr int kLargest = 32768;
+    constexpr double kSweepLight = 24e6;  // bytes, of the size that is used where none is given
     const std::string got = fmt::format("{}x{}", size.width, size.height);
     if (size.width < 1 || size.height < 1 || size.width > kLargest || size.height > kLargest)
         throw Error("--size", "", "expected 1 to 32768 pixels a side, got " + got, "try 1280x720");
-    const double bytes = static_cast<double>(bytesPerPixel) * size.width * size.height;
-    const double there = availableMemory(), share = std::sqrt(std::min(1.0, there / bytes));
+    const bool swept = showsMedium(options);
+    const double picture = (swept ? each.swept : each.cast) * size.width * size.height;
+    const double beside = each.beside + (swept && picture > 0 ? kSweepLight : 0);
+    const double bytes = picture + beside, there = availableMemoryFor(bytes);
+    const double share = std::sqrt(std::clamp((there - beside) / picture, 0.0, 1.0));
     if (bytes > there)
         throw Error("--size", "",
                     fmt::format("{} needs {} of memory, and {} can be had", got, memoryText(bytes),
                                 memoryText(there)),
-                    fmt::format("{}x{} would fit", std::max(1, static_cast<int>(share * size.width)),
-                                std::max(1, static_cast<int>(share * size.height))));
+                    share > 0
+                        ? fmt::format("{}x{} would fit", std::max(1, static_cast<int>(share * size.width)),
+                                      std::max(1, static_cast<int>(share * size.height)))
+                        : "free memory");
 }
 
 SceneKind kindOf(const std::string& name) {
@@ -115,8 +121,9 @@ void checkSceneOptions(const SceneOptions& options) {
     checkMediumOptions(options);
 }
 
-std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress) {
-    checkSize(size);
+std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress,
+                                 const PixelBytes& each) {
+    checkSize(size, options, each);
     checkSceneOptions(options);
     const SimdTarget simd = simdFromText(options.simd);
     std::unique_ptr<Scene> scene = showsMedium(options) ? loadMediumScene(options, simd, progress)
@@ -126,6 +133,7 @@ std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& 
     scene->name = options.scene.empty() ? "terrain" : options.scene;
     scene->lens.width = size.width;
     scene->lens.height = size.height;
+    checkSize(size, options, each);
     return scene;
 }
 

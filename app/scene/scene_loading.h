@@ -28,21 +28,30 @@ std::vector<NamedPlace> inputsOf(const SceneOptions& options);
 
 // Checks what can be checked before the scene is read, and sets the thread count. Throws Error.
 void checkSceneOptions(const SceneOptions& options);
-// The same and the size, and reads the scene. Throws Error, Cancelled.
-std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress);
+
+// Bytes that a command holds for each pixel of one eye beside the scene, measured at 1500x1500 and rounded
+// up: both eyes and the composed picture while it is encoded (as WebP, which takes most) or refined; a video
+// encoder's frames, FFV1's apart, and its libraries; every method with its truths and the SSIM's intermediate
+// pictures; eyes that are measured and not composed.
+struct PixelBytes {
+    double cast = 0, swept = 0;  // of scenes whose rays are cast; of media
+    double beside = 0;           // bytes, of pictures of any size
+};
+constexpr PixelBytes kRenderBytes{88, 176}, kVideoBytes{80, 176, 24e6}, kLosslessVideoBytes{400, 480, 24e6},
+    kCompareBytes{320, 608}, kInfoBytes{48, 128}, kNoPicture{};
+
+// Checks options and size, sets the thread count, reads the scene. each: of the pictures that will be made;
+// once the scene is there they are checked again, beside it. Throws Error, Cancelled.
+std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress,
+                                 const PixelBytes& each = kRenderBytes);
 
 // The recorded path read from `file`, or the scene's own. Throws Error where there is none, and where a
 // recorded one leaves the lumen of a colon.
 const RecordedPath& flightOf(const Scene& scene, const std::optional<RecordedPath>& path,
                              const std::string& file);
 
-// Bytes that a command holds for each pixel of one eye, measured at 2000x2000 and rounded up: both
-// eyes and the composed picture; a video encoder's frames (FFV1); every method with its truths and
-// the SSIM's intermediate pictures.
-constexpr int kRenderBytesPerPixel = 96, kVideoBytesPerPixel = 384, kCompareBytesPerPixel = 320;
-
 // 1 to 32768 pixels a side, and no more than the memory that can be had. Throws Error.
-void checkSize(const SizeOption& size, int bytesPerPixel = kRenderBytesPerPixel);
+void checkSize(const SizeOption& size, const SceneOptions& options, const PixelBytes& each = kRenderBytes);
 
 // "x,y,z,heading,pitch,roll" in metres and degrees; the last ones may be left out (0). Throws Error.
 Pose poseFromText(const std::string& text);

@@ -331,7 +331,7 @@ private:
 }  // namespace
 
 int runView(const ViewOptions& options) {
-    checkSize(options.size);
+    checkSize(options.size, options.scene);
     checkMethod(options.scene, options.method);
     if (!options.shots.empty()) checkOutputFolder("--shots", options.shots);
     ViewOptions shown = options;

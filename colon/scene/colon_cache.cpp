@@ -14,6 +14,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/base/memory.h"
 
 namespace stereonav {
 namespace {
@@ -213,6 +214,10 @@ FoundColon unpacked(std::span<const char> bytes) {
     LumenField& lumen = found.lumen;
     const auto frame = in.get<VolumeFrame>();
     checkFrame(frame);
+    // The field and the lumen, then distances and their squares.
+    constexpr double kBytes = 2 + 1 + 2 + 4;
+    checkMemory(fmt::format("a colon of {} x {} x {} voxels", frame.size.x, frame.size.y, frame.size.z),
+                kBytes * static_cast<double>(frame.count()), "make the study coarser");
     lumen.field = GreyVolume(frame);
     lumen.field.scale = in.get<double>();
     lumen.field.offset = in.get<double>();

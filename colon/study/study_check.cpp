@@ -56,7 +56,7 @@ void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, 
                         fmt::format("expected a volume with 2 or more voxels along each axis, found {}",
                                     sizeText(size)),
                         "a single slice has no depth: give the whole series");
-    const double there = availableMemory(), needed = voxels * bytesPerVoxel;
+    const double needed = voxels * bytesPerVoxel, there = availableMemoryFor(needed);
     bool tooLong = false;
     for (const std::uint64_t n : size) tooLong |= n > std::numeric_limits<int>::max();
     if (!tooLong && needed <= there) return;

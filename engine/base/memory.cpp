@@ -62,6 +62,11 @@ double leftOfGroups(const fs::path& system) {
     return left;
 }
 
+// Bytes of this process that no file backs.
+double taken() {
+    return 1024 * valueIn("/proc/self/status", "RssAnon:", 0);
+}
+
 // Of the user's own limit.
 double leftOfWish() {
     const char* text = std::getenv("STEREONAV_MEMORY");
@@ -70,7 +75,7 @@ double leftOfWish() {
     const double most = std::strtod(text, &end);
     if (end == text || *end != '\0' || !(most >= 0))
         throw Error("STEREONAV_MEMORY", "", fmt::format("expected bytes, got \"{}\"", text), "2e9 are 2 GB");
-    return std::max(0.0, most - 1024 * valueIn("/proc/self/status", "RssAnon:", 0));
+    return std::max(0.0, most - taken());
 }
 
 }  // namespace
@@ -80,13 +85,19 @@ double availableMemory(const fs::path& root) {
     return std::min({1024 * kilobytes, leftOfGroups(root), leftOfWish()});
 }
 
+double availableMemoryFor(double bytes) {
+    if (const char* file = std::getenv("STEREONAV_MEMORY_ASKED"))
+        std::ofstream(file, std::ios::app) << fmt::format("{:.0f} {:.0f}\n", taken(), bytes);
+    return availableMemory();
+}
+
 std::string memoryText(double bytes) {
     return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
 void checkMemory(const std::string& what, double bytes, const std::string& advice) {
     if (!(bytes > kAlwaysFits)) return;
-    const double there = availableMemory();
+    const double there = availableMemoryFor(bytes);
     if (bytes <= there) return;
     throw Error(what, "",
                 fmt::format("needs {} of memory, and {} can be had", memoryText(bytes), memoryText(there)),

@@ -12,6 +12,11 @@ namespace stereonav {
 // root: where proc and sys are; another one for tests.
 double availableMemory(const std::filesystem::path& root = "/");
 
+// The same, where `bytes` are about to be taken. The file that the environment variable
+// STEREONAV_MEMORY_ASKED names gets a line for each such question: the bytes that the process has taken, and
+// those asked for.
+double availableMemoryFor(double bytes);
+
 // Throws Error where `bytes` are more than there are: what needs how much, and what there is.
 // what: a file, an option, or ""; advice: what would need less.
 void checkMemory(const std::string& what, double bytes, const std::string& advice);

@@ -26,7 +26,10 @@ struct Arena {
     std::unique_ptr<tbb::global_control> limit;
     std::shared_ptr<tbb::task_arena> tasks;
     void* const stop = stopOfThisProgram();
-    std::function<void()> look;  // loop_watch.h
+    LoopLook look;                          // loop_watch.h
+    bool counts = false;                    // whether a loop of the first thread is counted
+    int pieces = 1;                         // of it
+    alignas(64) std::atomic<int> done = 0;  // apart from what all threads read
 
     static Arena& own() {
         static Arena arena;
@@ -87,18 +90,37 @@ void shareLoops(void* program) {
     shareStop(arena->stop);
 }
 
-void watchLoops(std::function<void()> look) {
+void watchLoops(LoopLook look) {
     Arena::instance().look = std::move(look);
+}
+
+LoopSteps::LoopSteps(int count) : mOutermost(isFirstThread() && !Arena::instance().counts) {
+    if (!mOutermost) return;
+    Arena& arena = Arena::instance();
+    arena.counts = true;
+    arena.done = 0;
+    arena.pieces = std::max(1, count);
+}
+
+LoopSteps::~LoopSteps() {
+    if (mOutermost) Arena::instance().counts = false;
+}
+
+void LoopSteps::next() {
+    if (mOutermost) ++Arena::instance().done;
 }
 
 void parallelFor(int count, const std::function<void(int)>& work, Schedule schedule) {
     if (count <= 0) return;
     const bool mayStop = isFirstThread();
-    const auto& look = Arena::instance().look;
-    const auto body = [&work, &look, mayStop](int i) {
+    Arena& shared = Arena::instance();
+    LoopSteps steps(shared.look ? count : 0);
+    const auto body = [&work, &shared, &steps, mayStop](int i) {
         if (mayStop) throwIfStopped();
-        if (look && isFirstThread()) look();
+        if (shared.look && isFirstThread())
+            shared.look(std::min(1.0, static_cast<double>(shared.done) / shared.pieces));
         work(i);
+        if (shared.look) steps.next();
     };
     const auto arena = Arena::instance().get();
     const int threads = arena->max_concurrency();

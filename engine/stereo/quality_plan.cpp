@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "engine/base/error.h"
+#include "engine/base/loop_watch.h"
 #include "engine/base/stopwatch.h"
 
 namespace stereonav {
@@ -176,6 +177,7 @@ MeasuredWarps measureWarps(const EyeRenderer& renderer, std::span<const StereoVi
     std::vector<Trial> trials(warps.size());
     EyeImage left, right, full;
     RightEye eye;
+    LoopSteps steps(static_cast<int>(views.size() * warps.size()));
     for (const StereoViews& view : views) {
         left.resize(view.left.width, view.left.height, renderer.viewDependence());
         double left_ms = 1e300;
@@ -186,7 +188,8 @@ MeasuredWarps measureWarps(const EyeRenderer& renderer, std::span<const StereoVi
         }
         measured.left_ms += left_ms / static_cast<double>(views.size());
         addFrame(renderer, view, left, full, repeats, eye, full, measured.warps.back(), trials.back());
-        for (std::size_t n = 0; n + 1 < warps.size(); ++n)
+        steps.next();
+        for (std::size_t n = 0; n + 1 < warps.size(); ++n, steps.next())
             addFrame(renderer, view, left, full, repeats, eye, right, measured.warps[n], trials[n]);
     }
     finish(trials.back(), 0, measured.warps.back());

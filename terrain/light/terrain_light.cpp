@@ -48,16 +48,17 @@ void checkSettings(const TerrainLightSettings& s) {
     checkRange("albedo", s.albedo, 0, 1);
 }
 
-// Bytes held at once: three transfer fields or the two results, horizons, openness, Embree's vertices.
+// Bytes held at once: three transfer fields or the two results, horizons, openness, Embree's vertices, and
+// what rays take beside them.
 double memoryOf(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {
     const double each = s.kind == TerrainLightKind::Openness
                             ? 1.0
                             : 1.0 + s.azimuths + 4 * sizeof(std::int16_t) * lightHarmonics(s.order);
-    return each * static_cast<double>(grid.count()) + 40.0 * ground.width() * ground.height();
+    return each * static_cast<double>(grid.count()) + 40.0 * ground.width() * ground.height() + 8e6;
 }
 
 void checkMemoryOf(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {
-    const double needed = memoryOf(ground, grid, s), there = availableMemory();
+    const double needed = memoryOf(ground, grid, s), there = availableMemoryFor(needed);
     if (needed <= there) return;
     const auto fits = [&](int stride) { return memoryOf(ground, LightGrid(ground, stride), s) <= there; };
     int stride = grid.stride;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/camera/gltf_file.h"
 #include "engine/image/image_file.h"
 #include "terrain/mesh/terrain_mesh.h"
@@ -87,6 +88,16 @@ tinygltf::Primitive primitiveOf(tinygltf::Model& model, const Heightfield& groun
     return primitive;
 }
 
+// What is put together at once: the numbers, the model's buffer, which has grown, and the file twice; of the
+// picture its rows, filtered and compressed ones. As text (.gltf) three bytes take four letters.
+void checkFileMemory(const std::filesystem::path& file, double texels, const TerrainMesh& mesh) {
+    constexpr double kVertex = 8 * sizeof(float), kTriangle = 3 * sizeof(std::uint32_t), kTexel = 12;
+    const double numbers = kVertex * static_cast<double>(mesh.vertices.size()) +
+                           kTriangle * static_cast<double>(mesh.triangles.size());
+    checkMemory(file.string(), (file.extension() == ".gltf" ? 7 : 5) * numbers + kTexel * texels,
+                "give a larger --error");
+}
+
 }  // namespace
 
 bool isMeshFileName(const std::filesystem::path& file) {
@@ -100,10 +111,11 @@ void writeTerrainMesh(const std::filesystem::path& file, const Heightfield& grou
                     fmt::format("expected a mesh named .glb or .gltf, got \"{}\"", file.extension().string()),
                     "give the file one of these extensions");
     if (mesh.triangles.empty()) throw Error(file.string(), "", "there is no ground to write", "");
+    const int level = levelFor(color);
+    checkFileMemory(file, 1.0 * color.level(level).width() * color.level(level).height(), mesh);
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = "stereonav";
-    const int level = levelFor(color);
     tinygltf::Mesh shape;
     shape.name = "terrain";
     shape.primitives.push_back(primitiveOf(model, ground, color, level, mesh));

@@ -1,5 +1,9 @@
 // What a command will hold is held against what can be had before it is taken: one line with what would fit.
 // STEREONAV_MEMORY says how much that is.
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
 #include "tests/app/volume_input.h"
 
 namespace stereonav::test {
@@ -78,6 +82,71 @@ TEST_F(Memory, OfAMeshIsCheckedWhileItGrows) {
                                     [](int i, int j) { return (i * 7919 + j * 104729 + i * j * 31) % 997; });
     allow("1.1e8");
     expectRefused({"mesh", ground, "--error", "0", "--out", "a.glb"}, {"a mesh of", "larger --error"});
+}
+
+TEST_F(Memory, OfPicturesIsCheckedBesideTheScene) {
+    const std::string ground = grid("large.asc", 1500, 1500, 30.0, [](int i, int j) { return (i * j) % 7; });
+    const auto render = [&](const char* size) {
+        return run({"render", ground, "--size", size, "--out", "out.png"});
+    };
+    allow("1.2e8");  // the ground takes 105 MB while it is read, then 60 MB
+    const Outcome small = render("32x24");
+    EXPECT_EQ(small.status, 0) << small.err;
+    const Outcome both = render("1000x1000");  // 88 MB
+    EXPECT_EQ(both.status, 1);
+    EXPECT_NE(both.err.find("--size: 1000x1000 needs 88 MB"), std::string::npos) << both.err;
+    allow("2e8");
+    EXPECT_EQ(render("1000x1000").status, 0);
+}
+
+TEST_F(Memory, OfPicturesIsNotAskedForWhereNoneAreMade) {
+    const std::string ground = hills();
+    allow("6e7");  // less than 1280x720 pixels take
+    expectRefused({"render", ground, "--out", "a.png"}, {"--size", "1280x720"});
+    const Outcome mesh = run({"mesh", ground, "--out", "a.glb"});
+    EXPECT_EQ(mesh.status, 0) << mesh.err;
+    const Outcome bake = run({"bake", ground, "--what", "openness", "--out", "a.light"});
+    EXPECT_EQ(bake.status, 0) << bake.err;
+}
+
+TEST_F(Memory, OfAMeshsFileIsChecked) {
+    const std::string ground = grid("flat.asc", 1500, 1500, 30.0, [](int i, int) { return i; });
+    allow("1.2e8");  // two triangles; the picture of the ground is larger
+    expectRefused({"mesh", ground, "--out", "a.glb"}, {"a.glb", "needs", "of memory"});
+}
+
+TEST_F(Memory, OfAMediumsLightIsChecked) {
+    allow("4e8");
+    expectRefused({"render", "wax", "--size", "32x24", "--light-size", "4096", "--out", "a.png"},
+                  {"light in a medium", "4096 x ", "--light-size"});
+}
+
+TEST_F(Memory, OfAKeptColonIsChecked) {
+    const std::string mask = nrrd("mask.nrrd", {200, 200, 200, 1, "uchar", ""}, [](int i, int j, int k) {
+        return i > 2 && j > 2 && k > 2 && i < 197 && j < 197 && k < 197 ? 1 : 0;
+    });
+    const std::vector<std::string> render{"render", mask, "--size", "32x24", "--out", "out.png"};
+    const Outcome first = run(render);
+    ASSERT_EQ(first.status, 0) << first.err;
+    std::filesystem::remove(place() / "out.png");
+    allow("5e7");
+    expectRefused(render, {"a colon of 200 x 200 x 200 voxels", "of memory"});
+}
+
+// What the program asks for is what it takes: the most it had asked for, with what it held then.
+TEST_F(Memory, AskedForIsNoted) {
+    const std::string ground = hills(), asked = (mFolder / "asked").string();
+    setenv("STEREONAV_MEMORY_ASKED", asked.c_str(), 1);
+    const Outcome outcome = run({"render", ground, "--size", "500x400", "--out", "a.png"});
+    unsetenv("STEREONAV_MEMORY_ASKED");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    std::ifstream lines(asked);
+    double taken = 0, bytes = 0, most = 0;
+    while (lines >> taken >> bytes) {
+        EXPECT_GT(taken, 1e5);
+        most = std::max(most, bytes);
+    }
+    EXPECT_GE(most, 80.0 * 500 * 400);
 }
 
 TEST_F(Memory, ThatIsNoNumberIsRefused) {

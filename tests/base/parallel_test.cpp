@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <map>
 #include <mutex>
@@ -11,6 +12,8 @@
 #include <thread>
 #include <tuple>
 #include <vector>
+
+#include "engine/base/loop_watch.h"
 
 namespace stereonav {
 namespace {
@@ -132,6 +135,69 @@ TEST(ParallelSchedule, CountBelowOneIsOneThread) {
     setThreadCount(-4);
     EXPECT_EQ(threadCount(), 1);
     setThreadCount(before);
+}
+
+// The looks of a program's first thread at its loops.
+class LoopWatch : public testing::Test {
+protected:
+    void SetUp() override {
+        mBefore = threadCount();
+        watchLoops([this](double share) { mShares.push_back(share); });
+    }
+    void TearDown() override {
+        watchLoops({});
+        setThreadCount(mBefore);
+    }
+    std::vector<double> mShares;
+    int mBefore = 1;
+};
+
+TEST_F(LoopWatch, SeesTheShareThatIsDone) {
+    setThreadCount(1);
+    parallelFor(4, [](int) {});
+    EXPECT_EQ(mShares, (std::vector<double>{0, 0.25, 0.5, 0.75}));
+    for (const int threads : {2, 3, 8}) {
+        setThreadCount(threads);
+        mShares.clear();
+        parallelFor(1000, [](int) {});
+        EXPECT_TRUE(std::is_sorted(mShares.begin(), mShares.end())) << threads;
+        for (const double share : mShares) ASSERT_TRUE(share >= 0 && share < 1) << share;
+    }
+}
+
+TEST_F(LoopWatch, SeesTheOutermostLoopAlone) {
+    setThreadCount(1);
+    parallelFor(2, [](int) { parallelFor(2, [](int) {}); });
+    EXPECT_EQ(mShares, (std::vector<double>{0, 0, 0, 0.5, 0.5, 0.5}));
+}
+
+TEST_F(LoopWatch, SeesTheStepsOfAPlainLoop) {
+    setThreadCount(1);
+    for (int again = 0; again < 2; ++again) {
+        mShares.clear();
+        LoopSteps steps(4);
+        for (int n = 0; n < 4; ++n, steps.next()) parallelFor(1, [](int) {});
+        EXPECT_EQ(mShares, (std::vector<double>{0, 0.25, 0.5, 0.75}));
+    }
+    mShares.clear();
+    EXPECT_THROW(parallelFor(2,
+                             [](int i) {
+                                 if (i) throw std::runtime_error("1");
+                             }),
+                 std::runtime_error);
+    parallelFor(2, [](int) {});
+    EXPECT_EQ(mShares, (std::vector<double>{0, 0.5, 0, 0.5})) << "a loop that ended early is over";
+}
+
+TEST_F(LoopWatch, SeesNothingOfOtherThreads) {
+    setThreadCount(1);
+    parallelFor(2, [](int) {
+        std::thread([] {
+            LoopSteps(5).next();
+            parallelFor(3, [](int) {});
+        }).join();
+    });
+    EXPECT_EQ(mShares, (std::vector<double>{0, 0.5}));
 }
 
 }  // namespace

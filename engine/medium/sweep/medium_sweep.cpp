@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/base/error.h"
+#include "engine/base/loop_watch.h"
 #include "engine/base/stopwatch.h"
 #include "engine/medium/sweep/sweep_data.h"
 #include "engine/medium/sweep/sweep_eyes.h"
@@ -95,7 +96,8 @@ SweepTimings MediumSweep::render(const MediumLook& look, const SweepSetting& set
     int most = SweepChunk::kMost;
     if (usesLight) most = s.light.start(scene, geometry, &s.space);
     if (usesLight) s.reach.start(geometry, &s.space, most, EyeTile::kSide, LightTile::kSide);
-    for (int first = 0; first < geometry.slabs(); first += most) {
+    LoopSteps steps((geometry.slabs() + most - 1) / most);
+    for (int first = 0; first < geometry.slabs(); first += most, steps.next()) {
         const int count = std::min(most, geometry.slabs() - first);
         SweepChunk chunk;
         chunk.reference = 0.5 * (geometry.faces[first] + geometry.faces[first + count]);

@@ -1,6 +1,8 @@
 // See the header. Which tiles concern a slab is found first, by their boxes among the cells.
 #include "engine/medium/sweep/sweep_light.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -8,6 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/base/memory.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -120,16 +123,30 @@ void SweepLightBuffers::setRing(const SweepLight& light) {
     mRingSet = !mStart.empty();
 }
 
+// Of the planes, what is kept for the eyes, its columns and the strips.
+void SweepLightBuffers::checkMemoryFor(const SweepLight& light, bool leans, bool columns, int slabs) {
+    const double texels = static_cast<double>(strideOf(light.width)) * (light.height + 4);
+    const double kept =
+        8 * texels * std::clamp(std::floor(kMostPacked / (8 * texels)), 1.0, 1.0 * SweepChunk::kMost);
+    const double needed = texels * sizeof(float) * ((leans ? 10 : 7) + 1) + kept * (columns ? 1.5 : 1) +
+                          std::min(1.0 * slabs * tiles(), 1.0 * kMostStrips);
+    if (needed <= mAskedFor) return;
+    checkMemory(fmt::format("light in a medium, {} x {} texels", light.width, light.height), needed,
+                "give a smaller --light-size");
+    mAskedFor = needed;
+}
+
 int SweepLightBuffers::start(SweepScene& scene, const SweepGeometry& geometry, const SweepSpace* space) {
     mAcross = (scene.light.width + kLightSide - 1) / kLightSide;
     mDown = (scene.light.height + kLightSide - 1) / kLightSide;
+    const bool scattered = scene.look.model == static_cast<int>(MediumModel::Indirect);
+    mLeans = scattered && scene.light.leaning > 0 && scene.light.blur > 0;
+    checkMemoryFor(scene.light, mLeans, scene.gridAlone, geometry.slabs());
     setPlanes(scene.light);
     setPacked(scene.light);
     mTouched.assign(tiles(), 0);
-    const bool scattered = scene.look.model == static_cast<int>(MediumModel::Indirect);
     mStart = scattered ? scatteredAtStart(geometry) : std::vector<float>{};
     if (!mStart.empty()) setStart(scene.light);
-    mLeans = scattered && scene.light.leaning > 0 && scene.light.blur > 0;
     mDeep.assign(tiles(), 0);
     if (mLeans)
         mDepths.assign(

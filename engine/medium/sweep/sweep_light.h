@@ -27,6 +27,7 @@ public:
     std::size_t heldBytes() const;
 
 private:
+    void checkMemoryFor(const SweepLight& light, bool leans, bool columns, int slabs);
     void setPlanes(SweepLight& light);
     void setPacked(SweepLight& light);
     void setStart(const SweepLight& light);
@@ -45,6 +46,7 @@ private:
     int tiles() const { return mAcross * mDown; }
 
     int mAcross = 0, mDown = 0;
+    double mAskedFor = 0;             // bytes that were there
     std::vector<float> mPlanes;       // direct, then twice three of scattered light
     std::vector<float> mDepths;       // three planes as those: tau_i, where slabs lean
     std::vector<std::uint8_t> mDeep;  // tiles: may have some of it that is not 0

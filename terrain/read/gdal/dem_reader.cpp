@@ -217,7 +217,7 @@ void checkMemoryFor(const std::filesystem::path& file, const Georeference& sourc
         const double width = share * source.width, height = share * source.height;
         return bytesFor(width, height, perSample * width * height, after);
     };
-    const double there = availableMemory();
+    const double there = availableMemoryFor(needed(1));
     if (needed(1) <= there) return;
     double low = 0, high = 1;  // shares of each side
     for (int k = 0; k < 20; ++k) (needed(0.5 * (low + high)) <= there ? low : high) = 0.5 * (low + high);
