@@ -27,7 +27,10 @@ stereonav_part(terrain OPTION STEREONAV_TERRAIN LINK terrain
   SOURCES scene/terrain_loading.cpp scene/shown_terrain.cpp scene/medium_terrain.cpp
     command/bake_terrain.cpp command/info_terrain.cpp command/mesh_command.cpp)
 if(NOT STEREONAV_TERRAIN)
-  target_sources(program PRIVATE ${CMAKE_SOURCE_DIR}/terrain/light/sky_map.cpp)  # the sky over media, too
+  # the sky over media, too; the options in scene files
+  target_sources(program PRIVATE ${CMAKE_SOURCE_DIR}/terrain/light/sky_map.cpp ${CMAKE_SOURCE_DIR}/terrain/read/toml_document.cpp)
+  find_package(toml11 CONFIG REQUIRED)
+  target_link_libraries(program PRIVATE toml11::toml11)
 endif()
 stereonav_part(colon OPTION STEREONAV_COLON LINK colon
   SOURCES scene/colon_loading.cpp scene/volume_*.cpp scene/shown_volume.cpp scene/seen_volume_light.cpp scene/light_loading.cpp scene/lazy_light.cpp

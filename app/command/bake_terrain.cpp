@@ -24,46 +24,17 @@
 namespace stereonav {
 namespace {
 
-TerrainLightKind kindFromText(const std::string& what) {
-    return what == "openness" ? TerrainLightKind::Openness : TerrainLightKind::Transfer;
-}
-
-int strideFromResolution(double resolution) {
-    const double stride = 1 / resolution;
-    if (!(resolution > 0) || !(stride >= 1 - 1e-9) || !(stride <= 1000))
-        throw Error("--resolution", "",
-                    fmt::format("expected 0.001 to 1 for a terrain, got {:g}", resolution),
-                    "1 bakes every height sample, 0.5 every second one each way");
-    return static_cast<int>(std::lround(stride));
-}
-
-double albedoFromText(const std::string& text) {
-    char* end = nullptr;
-    const double albedo = std::strtod(text.c_str(), &end);
-    if (end == text.c_str() || *end != '\0' || !(albedo >= 0 && albedo <= 1))
-        throw Error("--albedo", "", "expected one number from 0 to 1 for a terrain, got \"" + text + "\"",
-                    "rock and grass send back 0.2 to 0.3 of the light");
-    return albedo;
-}
-
-int wholeIn(const char* option, int value, int low, int high) {
-    if (value < low || value > high)
-        throw Error(option, "", fmt::format("expected {} to {} for a terrain, got {}", low, high, value),
-                    "leave it out for the default");
-    return value;
-}
-
 TerrainLightSettings settingsOf(const BakeOptions& options) {
     TerrainLightSettings settings;
-    settings.kind = kindFromText(options.what);
-    if (options.resolution) settings.stride = strideFromResolution(*options.resolution);
+    settings.kind =
+        options.what == BakeKind::Openness ? TerrainLightKind::Openness : TerrainLightKind::Transfer;
+    if (options.resolution) settings.stride = static_cast<int>(std::lround(1 / *options.resolution));
     // Rays go in packets.
     constexpr int kPacket = RayPacket::kSize;
-    if (options.samples)
-        settings.rays = (wholeIn("--samples", *options.samples, 1, 65536) + kPacket - 1) / kPacket * kPacket;
-    if (options.order) settings.order = wholeIn("--order", *options.order, 1, 6);
-    if (options.bounces) settings.bounces = wholeIn("--bounces", *options.bounces, 0, 4);
-    if (!options.albedo.empty()) settings.albedo = albedoFromText(options.albedo);
+    if (options.samples) settings.rays = (*options.samples + kPacket - 1) / kPacket * kPacket;
+    if (options.order) settings.order = *options.order;
+    if (options.bounces) settings.bounces = *options.bounces;
+    if (options.albedo) settings.albedo = options.albedo->x;
     return settings;
 }
 
@@ -103,7 +74,7 @@ int bakeTerrain(const BakeOptions& options) {
     if (!options.out.empty()) checkOutputToReadAgain("--out", options.out);
     ProgressBar bar;
     SceneOptions unlit = options.scene;
-    unlit.light.clear();
+    unlit.light = {};
     checkSceneOptions(unlit);
     const TerrainScene terrain = terrainOf(unlit, bar.progress());
     const Heightfield& ground = terrain.ground;

@@ -95,7 +95,6 @@ int bakeVolume(const BakeOptions& options) {
     ProgressBar bar(peers.first());
     Progress& progress = bar.progress();
     SceneOptions shown = options.scene;
-    shown.sky.clear();  // here a colour
     const int share = peers.threads();
     if (shown.threads == 0) shown.threads = share;
     checkSceneOptions(shown);

@@ -3,32 +3,41 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/options/given_options.h"
+#include "app/options/option_types.h"
+#include "engine/camera/pose.h"
+#include "engine/image/stereo_compose.h"
+#include "engine/light/bake/bake_sums.h"
+#include "engine/light/occlusion/occlusion.h"
+#include "engine/medium/model/medium_look.h"
+#include "engine/simd/simd_target.h"
+#include "engine/volume/volume_up.h"
 
 namespace stereonav {
 
 // Of CT studies; what is not given is chosen from the study.
 struct VolumeOptions {
-    std::string series;              // of a folder with several: its number or UID
-    std::optional<int> label;        // of a mask with several
-    std::vector<std::string> seeds;  // "x,y,z", LPS millimetres
-    bool resample = false;           // mend uneven or tilted slices
-    bool isosurface = false;         // seen from outside, without looking for a colon
+    std::string series;             // of a folder with several: its number or UID
+    std::optional<int> label;       // of a mask with several
+    std::vector<glm::dvec3> seeds;  // LPS, metres
+    bool resample = false;          // mend uneven or tilted slices
+    bool isosurface = false;        // seen from outside, without looking for a colon
     std::optional<double> isovalue;
-    std::string transfer;                                // a transfer function's file or name; "": none
-    std::optional<double> opacity;                       // of a translucent wall a millimetre, in (0, 1]
-    bool backwards = false;                              // from the caecum
-    std::optional<std::string> up;                       // the file's axis that is to point up; none: z
-    std::string shading;                                 // a lighting model by name; "": a lamp at the head
+    std::string transfer;           // a transfer function's file or name; "": none
+    std::optional<double> opacity;  // of a translucent wall a millimetre, in (0, 1]
+    bool backwards = false;         // from the caecum
+    std::optional<UpAxis> up;       // the file's axis that is to point up; none: z
+    Shading shading = Shading::Lamp;
     std::optional<double> exposure;                      // factor on baked light; none: by its mean
     std::optional<double> ambient_mm;                    // radius of ambient occlusion; none: without
-    std::string ambientMethod;                           // that estimates it; "": gaussian
+    OcclusionEstimate ambientMethod;                     // that estimates it
     std::optional<double> ambientStrength, ambientLamp;  // k of it, and the lamp's share beside it
-    std::string modulate;                                // opacity: variance or gradient; "": none
+    Modulation modulate = Modulation::None;              // of opacity
     std::optional<double> modulateRadius_mm;             // none: ambient_mm's, or ten voxels
     std::optional<double> modulateSigma;                 // none: chosen
     double turn_deg = 0;                                 // of the sky about the vertical, with baked transfer
@@ -38,23 +47,25 @@ struct VolumeOptions {
     bool skyMoved() const { return turn_deg != 0 || tilt_deg != 0; }
 };
 
-// Of a scene shown as a medium that light goes through; texts are checked where they are read.
+// Of a scene shown as a medium that light goes through.
 struct MediumOptions {
-    std::string medium;      // a preset or file; "": none, or a built-in medium's own
-    std::string model;       // emission, surface, direct, indirect; "": indirect
-    std::string phase;       // a phase function; "": none
-    std::string lightFrom;   // "azimuth,elevation" in degrees: where parallel light comes from
-    std::string lamp;        // "head"; "": as the scene has it
-    std::string lightColor;  // linear, one number or "red,green,blue"
-    std::string noise;       // a file, cloud, fur or none; "": as the scene has it
-    std::string mist;        // "top,optical depth": metres, over a terrain
+    std::string medium;                // a preset or file, or "ground"; "": none, or a built-in medium's own
+    std::optional<MediumModel> model;  // none: indirect
+    std::string phase;                 // a phase function; "": none
+    std::optional<LightPlace> lightFrom;  // where parallel light comes from
+    std::optional<LampChoice> lamp;       // none: as the scene has it
+    std::optional<glm::vec3> lightColor;  // linear
+    std::string noise;                    // a file, cloud, fur or none; "": as the scene has it
+    std::optional<Mist> mist;             // over a terrain
     std::optional<int> slices, lightSize;
     std::optional<double> cone_deg;      // that scattered light spreads in
     std::optional<double> shadingWidth;  // voxels between the places where surfaces are shaded
 
+    // The ground of a terrain in its own colours.
+    bool ground() const { return medium == "ground"; }
     bool any() const {
-        return slices || lightSize || cone_deg || shadingWidth ||
-               !(medium + model + phase + lightFrom + lamp + lightColor + noise + mist).empty();
+        return model || lightFrom || lamp || lightColor || mist || slices || lightSize || cone_deg ||
+               shadingWidth || !(medium + phase + noise).empty();
     }
 };
 
@@ -65,15 +76,13 @@ struct QualityOptions {
     std::optional<double> target_ms;      // of a frame, both eyes: what fits is cast
 };
 
-// The light of a picture whose every pixel is path traced; texts are those of `bake`.
+// The light of a picture whose every pixel is path traced; each as of a bake.
 struct TracedOptions {
-    std::optional<int> samples;       // of each pixel
-    std::optional<int> bounces;       // as bake
-    std::string albedo;               // one number or R,G,B
-    std::vector<std::string> lights;  // as bake's --light
-    std::optional<double> reach_mm;   // as bake
-
-    bool any() const { return samples || bounces || !albedo.empty() || !lights.empty() || reach_mm; }
+    std::optional<int> samples;  // of each pixel
+    std::optional<int> bounces;
+    std::optional<glm::dvec3> albedo;
+    std::vector<LampsAsked> lights;
+    std::optional<double> reach_mm;
 };
 
 struct SceneOptions {
@@ -81,23 +90,21 @@ struct SceneOptions {
     std::string scene;
     double verticalScale = 0;  // 0: as the scene says
     bool openHoles = false;
-    std::string image, sky;   // "": as the scene says
-    bool shadeImage = false;  // the picture is lit by the sun too
-    // Baked light: a file; of a terrain also "auto", for the cache's; of a volume in a window also "lazy",
-    // worked out while one flies, and in a picture "traced", at every pixel; "": none.
-    std::string light;
-    std::string sun;  // "azimuth,elevation" in degrees; "": as the scene says
+    std::string image, sky;             // pictures; "": as the scene says
+    std::optional<glm::vec3> skyColor;  // of traced light, in the place of a picture
+    bool shadeImage = false;            // the picture is lit by the sun too
+    LightChoice light;
+    std::optional<LightPlace> sun;  // of a terrain; none: as the scene says
     std::optional<double> separation_m, zeroParallax_m;
-    double fov_deg = 0;         // vertical; 0: as the scene says
-    int threads = 0;            // 0: all
-    std::string simd = "auto";  // auto, plain, avx2, avx512
+    double fov_deg = 0;  // vertical; 0: as the scene says
+    int threads = 0;     // 0: all
+    SimdTarget simd = SimdTarget::Auto;
     VolumeOptions volume;
     QualityOptions quality;
     MediumOptions medium;
     std::optional<TracedOptions> traced;  // none: of commands that trace no pictures
     GivenOptions given;                   // which of these and of the command's own were given
     bool skyTurns = false;  // set by a window: keep what turning the sky over baked transfer takes
-    bool inWindow = false;  // set by a window, whose keys change what is shown
 };
 
 struct SizeOption {
@@ -116,10 +123,10 @@ int runInfo(const InfoOptions& options);
 struct RenderOptions {
     SceneOptions scene;
     SizeOption size;
-    std::string pose;             // "x,y,z,heading,pitch,roll" metres and degrees; "": the start pose
+    std::optional<Pose> pose;     // none: the start pose
     std::string method = "auto";  // a right-eye method; auto: the default one, whatever was measured
-    std::string mode = "sbsl";    // output mode, FFmpeg's short names
-    std::string out;              // image file
+    OutputMode mode = OutputMode::SideBySide;
+    std::string out;  // image file
 };
 int runRender(const RenderOptions& options);
 
@@ -128,12 +135,12 @@ struct PlayOptions {
     SizeOption size;
     std::string path;             // "": the scene's own
     std::string method = "auto";  // as in RenderOptions: files do not depend on measured times
-    std::string mode;             // "": sbsl
-    std::string out;              // folder for frame_00000.png ...; "" with --video or --hash
-    std::string video;            // .mp4, .avi or .mkv
-    std::optional<double> fps;    // none: 25
-    int frames = 0;               // 0: the whole path at fps; else this many, evenly
-    bool hash = false;            // print one content hash of all frames
+    OutputMode mode = OutputMode::SideBySide;
+    std::string out;            // folder for frame_00000.png ...; "" with --video or --hash
+    std::string video;          // .mp4, .avi or .mkv
+    std::optional<double> fps;  // none: 25
+    int frames = 0;             // 0: the whole path at fps; else this many, evenly
+    bool hash = false;          // print one content hash of all frames
 };
 int runPlay(const PlayOptions& options);
 
@@ -153,7 +160,7 @@ struct ReportOptions {
     std::string out = "report";       // folder
     bool quick = false;               // within a minute, with fewer frames and repeats
     std::vector<std::string> scenes;  // beside the built-in ones
-    std::optional<std::string> up;    // as VolumeOptions, of those that are studies
+    std::optional<UpAxis> up;         // as VolumeOptions, of those that are studies
     std::string compare;              // an earlier run's report.json; "": none
     std::string stability;            // rows that the stability tests wrote; "": those of this build, if any
     int threads = 0;                  // 0: all
@@ -170,10 +177,10 @@ struct ViewOptions {
     SceneOptions scene;
     SizeOption size;
     std::string method = "auto";  // auto: the frame plan's choice
-    std::string mode = "sbsl";
-    std::string path;            // Z plays this one at first
-    std::string shots;           // folder for screenshots and recorded flights; "": the present one
-    std::string sweep = "auto";  // of a medium: auto, cpu, gpu
+    OutputMode mode = OutputMode::SideBySide;
+    std::string path;   // Z plays this one at first
+    std::string shots;  // folder for screenshots and recorded flights; "": the present one
+    SweepChoice sweep = SweepChoice::Auto;  // of a medium
 };
 int runView(const ViewOptions& options);
 
@@ -195,18 +202,19 @@ struct LightWords {
     const char *light = "--light", *probe = "--probe";
 };
 
-// What is not given is chosen from the scene. A terrain's scene.sky is a picture; a volume's is a colour.
+// What is not given is chosen from the scene.
 struct BakeOptions {
     SceneOptions scene;
-    std::string what;            // irradiance, transfer, openness; "": volumes irradiance, terrains transfer
-    std::optional<int> samples;  // at most one of these three
+    std::optional<BakeKind> what;  // none: of volumes irradiance, of terrains transfer
+    std::optional<int> samples;    // at most one of these three
     std::optional<double> error, minutes;
     std::optional<double> resolution;  // texels a voxel, or baked samples a height sample, along each axis
     std::string probe;                 // a picture all around
-    std::vector<std::string> lights;   // "x,y,z[,intensity]" metres, or "centreline[,spacing]" in a colon
+    std::optional<glm::vec3> sky;      // light from everywhere
+    std::vector<LampsAsked> lights;
     std::optional<int> bounces, order;
-    std::string albedo;              // one number or R,G,B
-    std::string isovalues;           // "LOW,HIGH" of the volume's values
+    std::optional<glm::dvec3> albedo;
+    std::optional<ValueRange> isovalues;
     std::optional<double> reach_mm;  // how far rays look for distant light; none: a colon's mean radius
     bool full = false;               // every texel, for any isovalue
     LightWords words;

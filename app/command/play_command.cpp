@@ -87,7 +87,6 @@ double medianOf(std::vector<double> values) {
 
 int runPlay(const PlayOptions& options) {
     checkOptions(options);
-    const OutputMode mode = modeFromText(options.mode.empty() ? "sbsl" : options.mode);
     checkMethod(options.scene, options.method);
     // the path first: a bad one should not cost the reading of a large scene
     std::optional<RecordedPath> path;
@@ -98,7 +97,7 @@ int runPlay(const PlayOptions& options) {
     const Scene& scene = *loaded;
     checkNotRead({{"--video", options.video}});
     const std::vector<TimedPose> poses = posesOf(options, flightOf(scene, path, options.path));
-    FrameSink sink(options, mode);
+    FrameSink sink(options, options.mode);
     StereoFrame frame(scene, options.method);
     frame.refine(options.scene, bar.progress());
     Hash hash;

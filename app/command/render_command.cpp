@@ -37,11 +37,8 @@ int runRender(const RenderOptions& options) {
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     std::FILE* const messages = messagesBeside({{"--out", options.out}});
     checkSize(options.size, options.scene);
-    const OutputMode mode = modeFromText(options.mode);
     const std::string method = methodUnderLight(options.scene, options.method);
     checkMethod(options.scene, method);
-    std::optional<Pose> pose;
-    if (!options.pose.empty()) pose = poseFromText(options.pose);
     ProgressBar bar;
     const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress());
     const Scene& scene = *loaded;
@@ -49,7 +46,7 @@ int runRender(const RenderOptions& options) {
     StereoFrame frame(scene, method);
     frame.refine(options.scene, bar.progress());
     bar.progress().report(0.9, "casting");
-    const Pose head = pose ? *pose : scene.startPose;
+    const Pose head = options.pose.value_or(scene.startPose);
     frame.render(head);
     if (SeenLight* const lit = scene.offered<SeenLight>(); lit && lit->beginsDark()) {
         bar.progress().report(0.95, "lighting what is seen");
@@ -63,7 +60,7 @@ int runRender(const RenderOptions& options) {
     }
     PictureLight* const traced = scene.offered<PictureLight>();
     if (traced) traced->light(frame.views(), frame.left(), frame.right(), bar.progress());
-    const Plane<PackedColor> picture = frame.compose(mode);
+    const Plane<PackedColor> picture = frame.compose(options.mode);
     writeColorImage(options.out, picture);
     bar.clear();
     if (!frame.timings().warped) {

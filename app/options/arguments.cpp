@@ -2,110 +2,21 @@
 // table.
 #include "app/options/arguments.h"
 
+#include <algorithm>
 #include <CLI/CLI.hpp>
-#include <functional>
+#include <cstdio>
 #include <utility>
 
 #include "app/command/commands.h"
 #include "app/options/built_without.h"
+#include "app/options/completion.h"
+#include "app/options/option_page.h"
 #include "app/options/option_table.h"
-#include "app/options/refusals.h"
+#include "app/options/parsed_options.h"
 #include "engine/base/error.h"
 
 namespace stereonav {
 namespace {
-
-// What the subcommands fill, and which of them runs.
-struct Parsed {
-    InfoOptions info;
-    RenderOptions render;
-    PlayOptions play;
-    CompareOptions compare;
-    ReportOptions report;
-    MeshOptions mesh;
-    CentrelineOptions centreline;
-    BakeOptions bake;
-    ViewOptions view;
-    GivenOptions given;
-    OptionTargets to;
-    std::function<int()> run = runDefault;
-};
-
-// Makes the command's structure the one that its options go to.
-void choose(CommandSet which, Parsed& parsed) {
-    OptionTargets& to = parsed.to;
-    const auto shows = [&](auto& options) {
-        to.scene = &options.scene;
-        to.size = &options.size;
-    };
-    to = {};
-    parsed.given = {};
-    parsed.given.command = which;
-    switch (which) {
-        case command::kInfo:
-            shows(parsed.info);
-            to.info = &parsed.info;
-            parsed.run = [&parsed] { return runInfo(parsed.info); };
-            break;
-        case command::kRender:
-            shows(parsed.render);
-            parsed.render.scene.traced.emplace();
-            to.render = &parsed.render;
-            to.method = &parsed.render.method, to.mode = &parsed.render.mode, to.out = &parsed.render.out;
-            parsed.run = [&parsed] { return runRender(parsed.render); };
-            break;
-        case command::kPlay:
-            shows(parsed.play);
-            to.play = &parsed.play;
-            to.method = &parsed.play.method, to.mode = &parsed.play.mode, to.out = &parsed.play.out;
-            to.path = &parsed.play.path;
-            parsed.run = [&parsed] { return runPlay(parsed.play); };
-            break;
-        case command::kCompare:
-            shows(parsed.compare);
-            to.compare = &parsed.compare;
-            to.path = &parsed.compare.path;
-            parsed.run = [&parsed] { return runCompare(parsed.compare); };
-            break;
-        case command::kReport:
-            to.report = &parsed.report;
-            parsed.run = [&parsed] { return runReport(parsed.report); };
-            break;
-        case command::kMesh:
-            to.scene = &parsed.mesh.scene, to.mesh = &parsed.mesh, to.out = &parsed.mesh.out;
-            parsed.run = [&parsed] { return runMesh(parsed.mesh); };
-            break;
-        case command::kCentreline:
-            to.scene = &parsed.centreline.scene, to.out = &parsed.centreline.out;
-            parsed.run = [&parsed] { return runCentreline(parsed.centreline); };
-            break;
-        case command::kBake:
-            to.scene = &parsed.bake.scene, to.bake = &parsed.bake;
-            parsed.run = [&parsed] { return runBake(parsed.bake); };
-            break;
-        default:
-            shows(parsed.view);
-            to.view = &parsed.view;
-            to.method = &parsed.view.method, to.mode = &parsed.view.mode, to.path = &parsed.view.path;
-            parsed.run = [&parsed] { return runView(parsed.view); };
-    }
-}
-
-void take(const Option& option, const std::string& text, Parsed& parsed) {
-    OptionValue value = readValue(option.name(), option.value, option.advice, text);
-    option.take(parsed.to, value);
-    parsed.given.add(option.key, std::move(value), option.name());
-}
-
-// What help says behind the option's words.
-std::string helpOf(const Option& option) {
-    const ValueKind kind = option.value.kind;
-    if (!option.value.takesNumbers()) return option.help;
-    const std::string expected = kind == ValueKind::Size       ? "each " + rangeText(option.value.range)
-                                 : kind == ValueKind::Fraction ? rangeText(option.value.range)
-                                                               : option.value.expected();
-    return option.help + " (" + expected + ")";
-}
 
 const char* nameOfValue(const Option& option) {
     if (!option.value.takesNumbers()) return "TEXT";
@@ -113,22 +24,27 @@ const char* nameOfValue(const Option& option) {
     return kind == ValueKind::Numbers || kind == ValueKind::Size ? kNumbersValue : kNumberValue;
 }
 
-void addOption(CLI::App& subcommand, const Option& option, CommandSet which, Parsed& parsed) {
+void addOption(CLI::App& subcommand, const Option& option, CommandSet which, ParsedOptions& parsed) {
     // Options are read after the subcommand is known.
     const auto chosen = [&parsed, which] {
-        if (parsed.given.command != which) choose(which, parsed);
+        if (parsed.given.command != which) chooseCommand(which, parsed);
     };
     CLI::Option* added = nullptr;
     if (option.value.kind == ValueKind::Flag) {
         added = subcommand.add_flag_callback(
-            option.name(), [&option, &parsed, chosen] { chosen(), take(option, "", parsed); }, option.help);
+            option.name(),
+            [&option, &parsed, chosen] { chosen(), takeOption(option, "", option.name(), parsed); },
+            option.help);
     } else {
         const auto takeAll = [&option, &parsed, chosen](const CLI::results_t& texts) {
             chosen();
-            for (const std::string& text : texts) take(option, text, parsed);
+            for (const std::string& text : texts)
+                option.key == std::string_view(kSetKey) ? takeSetOption(text, parsed)
+                                                        : takeOption(option, text, option.name(), parsed);
             return true;
         };
-        added = subcommand.add_option(option.name(), takeAll, helpOf(option))->type_name(nameOfValue(option));
+        added =
+            subcommand.add_option(option.name(), takeAll, helpLine(option))->type_name(nameOfValue(option));
         // the word behind it is the scene's, not another value
         if (option.repeated)
             added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
@@ -137,12 +53,12 @@ void addOption(CLI::App& subcommand, const Option& option, CommandSet which, Par
     if (*option.group) added->group(option.group);
 }
 
-void addCommand(CLI::App& app, const CommandFacts& facts, Parsed& parsed) {
+void addCommand(CLI::App& app, const CommandFacts& facts, ParsedOptions& parsed) {
     CLI::App& subcommand = *app.add_subcommand(facts.name, facts.help);
     for (const Option& option : optionTable())
         if (option.commands & facts.command) addOption(subcommand, option, facts.command, parsed);
     subcommand.callback([&parsed, which = facts.command] {
-        if (parsed.given.command != which) choose(which, parsed);
+        if (parsed.given.command != which) chooseCommand(which, parsed);
     });
 }
 
@@ -177,16 +93,26 @@ Error refusalOf(const CLI::App& app, const CLI::ParseError& error) {
     return {"", "", said, help};
 }
 
-void addCommands(CLI::App& app, Parsed& parsed) {
-    for (const CommandFacts& facts : commandFacts()) addCommand(app, facts, parsed);
+int print(const std::string& text) {
+    std::fputs(text.c_str(), stdout);
+    return 0;
 }
 
-// Lets what was given go with its options, and refuses what does not apply.
-void finish(Parsed& parsed) {
-    if (parsed.to.report) refuseWhatDoesNotApply(parsed.given, 0, "");
-    if (!parsed.to.scene) return;
-    parsed.to.scene->given = parsed.given;
-    refuseWhatDoesNotApply(*parsed.to.scene);
+// Commands that tell of the others.
+void addPages(CLI::App& app, ParsedOptions& parsed) {
+    app.add_subcommand("options", "print docs/options.md: every option of every command")
+        ->callback([&parsed] { parsed.run = [] { return print(optionPage()); }; });
+    CLI::App& completion =
+        *app.add_subcommand("completion", "print a script: source <(stereonav completion bash)");
+    completion.add_subcommand("bash", "of bash")->callback([&parsed] {
+        parsed.run = [] { return print(bashCompletion()); };
+    });
+    completion.require_subcommand(1);
+}
+
+void addCommands(CLI::App& app, ParsedOptions& parsed) {
+    for (const CommandFacts& facts : commandFacts()) addCommand(app, facts, parsed);
+    addPages(app, parsed);
 }
 
 void parse(CLI::App& app, std::vector<std::string> words) {
@@ -207,7 +133,7 @@ int runCommandLine(int argc, char** argv) {
     app.require_subcommand(0, 1);
     app.footer(
         "Without a command: flies the built-in terrain, or, where there is no display, plays it to out/.");
-    Parsed parsed;
+    ParsedOptions parsed;
     addCommands(app, parsed);
     try {
         app.parse(argc, argv);
@@ -215,16 +141,23 @@ int runCommandLine(int argc, char** argv) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
         throw refusalOf(app, error);
     }
-    finish(parsed);
+    finishOptions(parsed);
     return parsed.run();
 }
 
 void checkCommandLine(const std::vector<std::string>& arguments) {
     CLI::App app;
-    Parsed parsed;
+    ParsedOptions parsed;
     addCommands(app, parsed);
     parse(app, arguments);
-    finish(parsed);
+}
+
+void checkWholeCommandLine(const std::vector<std::string>& arguments) {
+    CLI::App app;
+    ParsedOptions parsed;
+    addCommands(app, parsed);
+    parse(app, arguments);
+    finishOptions(parsed);
 }
 
 std::vector<OptionFacts> optionsOfCommands() {
@@ -238,12 +171,12 @@ std::vector<OptionFacts> optionsOfCommands() {
 
 RenderOptions renderOptionsFrom(const std::vector<std::string>& arguments) {
     CLI::App app;
-    Parsed parsed;
+    ParsedOptions parsed;
     addCommands(app, parsed);
     std::vector<std::string> words{"render"};
     words.insert(words.end(), arguments.begin(), arguments.end());
     parse(app, std::move(words));
-    finish(parsed);
+    finishOptions(parsed);
     return parsed.render;
 }
 

@@ -15,8 +15,10 @@ constexpr const char* kNumbersValue = "NUMBERS";
 // Parses and runs one command; returns the exit status. Throws what the command throws.
 int runCommandLine(int argc, char** argv);
 
-// Reads a command line and checks it, as far as that goes without running it. Throws Error.
+// Reads a command line, each option by itself. Throws Error.
 void checkCommandLine(const std::vector<std::string>& arguments);
+// Also what its scene file says, and whether all that is given goes together. Throws Error.
+void checkWholeCommandLine(const std::vector<std::string>& arguments);
 
 // Every option of every command that takes a value.
 struct OptionFacts {

@@ -23,14 +23,45 @@ constexpr std::array<CommandFacts, 9> kCommands{{
     {command::kView, "view", "fly through the scene in a window", scene_type::kAll},
 }};
 
+// Any option by its key, in the words of a scene file.
+std::vector<Option> setOption() {
+    using namespace command;
+    return {
+        {.key = kSetKey,
+         .value = textValue(),
+         .help =
+             "KEY=VALUE: another option by the key that it has in a scene file; may be given several times",
+         .commands = kShowing | kMesh | kCentreline | kBake,
+         .repeated = true,
+         .take = [](OptionTargets&, const OptionValue&) {}}};
+}
+
+struct Part {
+    std::vector<Option> (*options)();
+    bool inFile;  // whether scene files may say them
+};
+constexpr std::array<Part, 14> kParts{{{sourceOptions, true},
+                                       {studyOptions, true},
+                                       {lookOptions, true},
+                                       {volumeLookOptions, true},
+                                       {qualityOptions, true},
+                                       {mediumOptions, true},
+                                       {tracedOptions, true},
+                                       {viewOptions, true},
+                                       {pictureOptions, false},
+                                       {meshAndLineOptions, false},
+                                       {compareOptions, false},
+                                       {reportOptions, false},
+                                       {bakeOptions, false},
+                                       {setOption, false}}};
+
 std::vector<Option> makeTable() {
     std::vector<Option> all;
-    for (const auto& part :
-         {sourceOptions, studyOptions, lookOptions, volumeLookOptions, qualityOptions, mediumOptions,
-          tracedOptions, outputOptions, compareOptions, reportOptions, bakeOptions}) {
-        std::vector<Option> some = part();
-        std::move(some.begin(), some.end(), std::back_inserter(all));
-    }
+    for (const Part& part : kParts)
+        for (Option& option : part.options()) {
+            option.inFile = part.inFile && !option.positional() && option.inFile;
+            all.push_back(std::move(option));
+        }
     return all;
 }
 
@@ -48,6 +79,14 @@ const CommandFacts& factsOf(CommandSet command) {
 const std::vector<Option>& optionTable() {
     static const std::vector<Option> table = makeTable();
     return table;
+}
+
+std::string helpLine(const Option& option) {
+    std::string line = option.help;
+    if (const std::string expected = option.value.expected(); !expected.empty())
+        line += " (" + expected + ")";
+    if (*option.fallback) line += std::string("; left out: ") + option.fallback;
+    return line;
 }
 
 const Option* findOption(CommandSet command, std::string_view key) {

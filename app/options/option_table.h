@@ -34,7 +34,8 @@ const CommandFacts& factsOf(CommandSet command);
 struct OptionTargets {
     SceneOptions* scene = nullptr;
     SizeOption* size = nullptr;
-    std::string *method = nullptr, *mode = nullptr, *path = nullptr, *out = nullptr;
+    std::string *method = nullptr, *path = nullptr, *out = nullptr;
+    OutputMode* mode = nullptr;
     InfoOptions* info = nullptr;
     RenderOptions* render = nullptr;
     PlayOptions* play = nullptr;
@@ -80,17 +81,22 @@ struct Option {
     std::vector<Exclusion> excludes{};
     std::vector<OptionRule> rules{};  // the first that is broken is told
     bool required = false, repeated = false;
+    bool inFile = true;  // whether a scene file may say it
     void (*take)(OptionTargets& to, const OptionValue& value) = nullptr;
 
-    bool positional() const { return key[0] != '-' && key == std::string_view("SCENE"); }
+    bool positional() const { return key == std::string_view("SCENE"); }
     // "--fov"
     std::string name() const { return positional() ? key : std::string("--") + key; }
 };
 
 // All, in the order in which help lists them. Some keys stand for different things with different commands.
 const std::vector<Option>& optionTable();
+// What help says of it: what it is, what it takes, and what holds where it is left out.
+std::string helpLine(const Option& option);
 // Null where the command has none of this key.
 const Option* findOption(CommandSet command, std::string_view key);
+
+constexpr const char* kSetKey = "set";  // gives any other option: --set fov=45
 
 // The parts of the table.
 std::vector<Option> sourceOptions();
@@ -100,7 +106,9 @@ std::vector<Option> volumeLookOptions();
 std::vector<Option> qualityOptions();
 std::vector<Option> mediumOptions();
 std::vector<Option> tracedOptions();
-std::vector<Option> outputOptions();
+std::vector<Option> viewOptions();
+std::vector<Option> pictureOptions();
+std::vector<Option> meshAndLineOptions();
 std::vector<Option> compareOptions();
 std::vector<Option> reportOptions();
 std::vector<Option> bakeOptions();

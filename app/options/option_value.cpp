@@ -116,6 +116,12 @@ ValueType fileOrWordValue(std::vector<std::string> words) {
     return type;
 }
 
+ValueType ValueType::checked(std::optional<ValueProblem> (*by)(const std::string& text)) const {
+    ValueType type = *this;
+    type.check = by;
+    return type;
+}
+
 bool ValueType::takesNumbers() const {
     return kind == ValueKind::Number || kind == ValueKind::Whole || kind == ValueKind::Numbers ||
            kind == ValueKind::Size || kind == ValueKind::Fraction;
@@ -180,6 +186,8 @@ OptionValue readValue(const std::string& option, const ValueType& type, const st
         case ValueKind::FileOrWord:
             break;
     }
+    const auto problem = type.check ? type.check(text) : std::nullopt;
+    if (problem) throw Error(option, "", problem->problem, problem->advice);
     return value;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,20 @@ enum class ValueKind {
     FileOrWord  // a file, or one of a list
 };
 
+struct ValueProblem {
+    std::string problem, advice;
+};
+
 struct ValueType {
     ValueKind kind = ValueKind::Text;
     NumberRange range;
     const NumberList* list = nullptr;
     std::vector<std::string> words;
+    // What is wrong with a value that is of its kind; null: nothing.
+    std::optional<ValueProblem> (*check)(const std::string& text) = nullptr;
 
+    // The same with this check.
+    ValueType checked(std::optional<ValueProblem> (*by)(const std::string& text)) const;
     bool takesNumbers() const;
     bool isFile() const { return kind == ValueKind::File || kind == ValueKind::FileOrWord; }
     // "1 to 170 degrees"; "" where anything may be written.

@@ -21,11 +21,12 @@ struct Refusal {
     Reason reason;
 };
 
-// "{model}" becomes what was given as --model.
-std::string filledIn(std::string text, const GivenOptions& given) {
+// "{model}" becomes what was given as --model, "{SCENE}" the scene.
+std::string filledIn(std::string text, const GivenOptions& given, const std::string& scene) {
     for (std::size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open)) {
         const std::size_t close = text.find('}', open);
-        const std::string value = given.text(text.substr(open + 1, close - open - 1));
+        const std::string key = text.substr(open + 1, close - open - 1);
+        const std::string value = key == "SCENE" ? scene : given.text(key);
         text.replace(open, close - open + 1, value);
         open += value.size();
     }
@@ -61,7 +62,8 @@ std::optional<Reason> reasonAgainst(const Option& option, const Asked& asked, co
             return Reason{fmt::format("does not go with --{}", other.key), other.advice};
     for (const OptionRule& rule : option.rules)
         if (rule.broken(asked))
-            return Reason{filledIn(rule.problem, asked.given), filledIn(rule.advice, asked.given)};
+            return Reason{filledIn(rule.problem, asked.given, scene),
+                          filledIn(rule.advice, asked.given, scene)};
     return std::nullopt;
 }
 

@@ -1,6 +1,9 @@
 // Options of `bake`. The light that is baked has other words than the light that scenes are shown in.
+#include <fmt/format.h>
+
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "engine/light/skies/spherical_harmonics.h"
 
@@ -41,6 +44,41 @@ OptionRule unlessOpenGround() {
             "leave it out, or bake --what transfer"};
 }
 
+// Of terrains fewer numbers do.
+OptionRule unlessFewOnGround(bool (*broken)(const Asked&), const char* range, const char* key) {
+    return {broken, fmt::format("expected {} for a terrain, got {{{}}}", range, key),
+            "leave it out for the default"};
+}
+bool beyondOnGround(const Asked& asked, const char* key, const NumberRange& range) {
+    return asked.shows(kTerrains) && !range.holds(asked.given.number(key));
+}
+
+std::vector<OptionRule> resolutionRules() {
+    return {{[](const Asked& asked) { return beyondOnGround(asked, "resolution", within(0.001, 1)); },
+             "expected 0.001 to 1 for a terrain, got {resolution}",
+             "1 bakes every height sample, 0.5 every second one each way"},
+            {[](const Asked& asked) {
+                 return asked.shows(kVolumes) && !within(0.125, 8).holds(asked.given.number("resolution"));
+             },
+             "expected 0.125 to 8 texels a voxel, got {resolution}", "use 0.5, 1 or 2"}};
+}
+
+OptionRule unlessOneAlbedo() {
+    return {[](const Asked& asked) {
+                const std::vector<double>& albedo = asked.given.find("albedo")->values.back().numbers;
+                return asked.shows(kTerrains) && albedo.size() > 1;
+            },
+            "expected one number from 0 to 1 for a terrain, got \"{albedo}\"",
+            "rock and grass send back 0.2 to 0.3 of the light"};
+}
+
+std::optional<ValueProblem> problemOfRange(const std::string& text) {
+    const std::vector<double> numbers = numbersFromText(text);
+    if (numbers.size() != 2 || numbers[0] <= numbers[1]) return std::nullopt;
+    return ValueProblem{"expected LOW,HIGH with LOW at most HIGH, got " + shownText(text),
+                        isovaluesNumbers().advice};
+}
+
 constexpr const char* kGoals = "choose one of --samples, --error and --minutes";
 constexpr const char* kOneGoal = "does not go with another way to end the bake";
 constexpr const char* kRanges = "choose one of --isovalue, --isovalues and --full";
@@ -56,7 +94,8 @@ std::vector<Option> bakedLights() {
          .elsewhere = chosenWhenShown(),
          .rules = bakedLightRules(),
          .repeated = true,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.bake->lights.push_back(value.text); }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.bake->lights.push_back(lampsOf(value)); }},
         {.key = "probe",
          .value = fileValue(),
          .help = "light from all around: a light probe (.hdr) or a picture",
@@ -72,21 +111,25 @@ std::vector<Option> bakedLights() {
          .scenes = kVolumes,
          .elsewhere = chosenWhenShown(),
          .rules = bakedLightRules(),
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->sky = value.text; }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.bake->sky = glm::vec3(colorOf(value)); }},
         {.key = "bounces",
          .value = wholeValue(kBouncesRange),
          .help = kBouncesHelp,
          .advice = kBouncesAdvice,
          .commands = kBake,
-         .rules = {unlessBounced(), unlessOpenGround()},
+         .rules = {unlessBounced(), unlessOpenGround(),
+                   unlessFewOnGround(
+                       [](const Asked& asked) { return beyondOnGround(asked, "bounces", within(0, 4)); },
+                       "0 to 4", "bounces")},
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.bake->bounces = static_cast<int>(value.whole); }},
         {.key = "albedo",
          .value = numbersValue(albedoNumbers()),
          .help = kAlbedoHelp,
          .commands = kBake,
-         .rules = {unlessBounced(), unlessOpenGround()},
-         .take = [](OptionTargets& to, const OptionValue& value) { to.bake->albedo = value.text; }},
+         .rules = {unlessBounced(), unlessOpenGround(), unlessOneAlbedo()},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.bake->albedo = colorOf(value); }},
         {.key = "order",
          .value = wholeValue(within(1, kMaxHarmonicsOrder)),
          .help = "of transfer's harmonics",
@@ -94,7 +137,10 @@ std::vector<Option> bakedLights() {
          .commands = kBake,
          .rules = {unlessOpenGround(),
                    {[](const Asked& asked) { return asked.shows(kVolumes) && !isTransfer(asked); },
-                    "expected with --what transfer", kLeaveItOut}},
+                    "expected with --what transfer", kLeaveItOut},
+                   unlessFewOnGround(
+                       [](const Asked& asked) { return beyondOnGround(asked, "order", within(1, 6)); },
+                       "1 to 6", "order")},
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.bake->order = static_cast<int>(value.whole); }},
     };
@@ -104,11 +150,14 @@ std::vector<Option> bakeGoals() {
     return {
         {.key = "samples",
          .value = wholeValue(kSamplesRange),
-         .help = "of each texel, 256 when nothing is said; of a terrain 32, each bounce",
+         .help = "of each texel; of a terrain each bounce",
          .advice = kSamplesAdvice,
          .fallback = "256; of a terrain 32",
          .commands = kBake,
-         .rules = {unlessOpenGround()},
+         .rules = {unlessOpenGround(),
+                   unlessFewOnGround(
+                       [](const Asked& asked) { return beyondOnGround(asked, "samples", within(1, 65536)); },
+                       "1 to 65536", "samples")},
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.bake->samples = static_cast<int>(value.whole); }},
         {.key = "error",
@@ -141,19 +190,22 @@ std::vector<Option> bakedPlaces() {
          .advice = "use 0.5, 1 or 2",
          .fallback = "1",
          .commands = kBake,
+         .rules = resolutionRules(),
          .take = [](OptionTargets& to, const OptionValue& value) { to.bake->resolution = value.number(); }},
         {.key = "isovalues",
-         .value = numbersValue(isovaluesNumbers()),
+         .value = numbersValue(isovaluesNumbers()).checked(problemOfRange),
          .help = "all surfaces between, to choose from later",
          .commands = kBake,
          .scenes = kVolumes,
          .elsewhere = chosenWhenShown(),
          .rules = {{[](const Asked& asked) { return asked.has("isovalue"); }, kOneRange, kRanges}},
-         .take = [](OptionTargets& to, const OptionValue& value) { to.bake->isovalues = value.text; }},
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.bake->isovalues = ValueRange{value.numbers[0], value.numbers[1]};
+             }},
         {.key = "reach",
          .value = numberValue(kReachRange),
-         .help = "that rays look for light from outside: what meets nothing within them is open; "
-                 "left out: no limit, in a colon its mean radius for openness",
+         .help = "that rays look for light from outside: what meets nothing within is open",
          .advice = kReachAdvice,
          .fallback = "no limit; in a colon its mean radius for openness",
          .commands = kBake,
@@ -170,7 +222,7 @@ std::vector<Option> bakedPlaces() {
          .take = [](OptionTargets& to, const OptionValue&) { to.bake->full = true; }},
         {.key = "out",
          .value = fileValue(),
-         .help = "the bake's file; left out: in the cache",
+         .help = "the bake's file",
          .fallback = "in the cache",
          .commands = kBake,
          .take = [](OptionTargets& to, const OptionValue& value) { to.bake->out = value.text; }},
@@ -192,7 +244,9 @@ std::vector<Option> bakeOptions() {
                               },
                               "expected transfer or openness for a terrain, got \"irradiance\"",
                               "transfer has shadows and bounced light, openness the sky's light alone"}},
-                   .take = [](OptionTargets& to, const OptionValue& value) { to.bake->what = value.text; }});
+                   .take = [](OptionTargets& to, const OptionValue& value) {
+                       to.bake->what = choiceOf<BakeKind>(value);
+                   }});
     for (const auto& part : {bakeGoals(), bakedPlaces()}) all.insert(all.end(), part.begin(), part.end());
     return all;
 }

@@ -1,5 +1,6 @@
 // Options of `compare` and of `report`.
 #include "app/options/option_table.h"
+#include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 
 namespace stereonav {
@@ -24,7 +25,7 @@ std::vector<Option> reportSubjects() {
          .advice = kUpAdvice,
          .fallback = "z",
          .commands = kReport,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.report->up = value.text; }},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.report->up = upAxisOf(value); }},
         {.key = "compare",
          .value = fileValue(),
          .help = "an earlier run's report.json: shows what moved, exit status 1 where something got worse",
@@ -58,14 +59,14 @@ std::vector<Option> reportRun() {
                     const OptionValue& value) { to.report->seed = static_cast<std::uint64_t>(value.whole); }},
         {.key = "minutes",
          .value = numberValue(above(0, 1440, "minutes")),
-         .help = "for all of it: about 9 when left out, 1 with --quick",
+         .help = "for all of it",
          .advice = "a fraction is fine",
          .fallback = "about 9; 1 with --quick",
          .commands = kReport,
          .take = [](OptionTargets& to, const OptionValue& value) { to.report->minutes = value.number(); }},
         {.key = "parts",
          .value = wordsValue(),
-         .help = "some of it, as in right-eye,light; left out: all",
+         .help = "some of it, as in right-eye,light",
          .fallback = "all",
          .commands = kReport,
          .repeated = true,
@@ -94,7 +95,7 @@ std::vector<Option> compareOptions() {
     return {
         {.key = "frames",
          .value = wholeValue(within(1, 100'000, "frames")),
-         .help = "evenly over the path, 24 when left out",
+         .help = "evenly over the path",
          .advice = "24 is the default",
          .fallback = "24",
          .commands = kCompare,
@@ -102,7 +103,7 @@ std::vector<Option> compareOptions() {
                     const OptionValue& value) { to.compare->frames = static_cast<int>(value.whole); }},
         {.key = "methods",
          .value = wordsValue(),
-         .help = "some of them, as in full,paper,linear; left out: all",
+         .help = "some of them, as in full,paper,linear",
          .fallback = "all",
          .commands = kCompare,
          .repeated = true,
@@ -140,7 +141,7 @@ std::vector<Option> compareOptions() {
          .take = [](OptionTargets& to, const OptionValue& value) { to.compare->plot = value.text; }},
         {.key = "repeats",
          .value = wholeValue(within(1, 1000, "runs")),
-         .help = "timed ones of a frame, the fastest counts; 3 when left out",
+         .help = "timed ones of a frame, the fastest counts",
          .advice = "3 is the default",
          .fallback = "3",
          .commands = kCompare,
@@ -153,7 +154,7 @@ std::vector<Option> reportOptions() {
     std::vector<Option> all{
         {.key = "out",
          .value = fileValue(),
-         .help = "folder for index.html, report.json, report.csv; report when left out",
+         .help = "folder for index.html, report.json, report.csv",
          .fallback = "report",
          .commands = kReport,
          .take = [](OptionTargets& to, const OptionValue& value) { to.report->out = value.text; }},

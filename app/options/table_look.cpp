@@ -1,7 +1,9 @@
 // Options: how a scene looks, its light and its eyes.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
+#include "engine/base/error.h"
 #include "engine/camera/view_ranges.h"
 
 namespace stereonav {
@@ -26,6 +28,25 @@ bool isGround(const Asked& asked) {
     return asked.is("medium", "ground");
 }
 
+// A picture; of traced light also a colour.
+void takeSky(OptionTargets& to, const OptionValue& value) {
+    if (numbersFromText(value.text).empty())
+        to.scene->sky = value.text;
+    else
+        to.scene->skyColor =
+            glm::vec3(colorOf(readValue("--sky", numbersValue(skyNumbers()), "", value.text)));
+}
+std::optional<ValueProblem> problemOfSky(const std::string& text) {
+    if (numbersFromText(text).empty()) return std::nullopt;
+    try {
+        readValue("", numbersValue(skyNumbers()), "", text);
+        return std::nullopt;
+    } catch (const Error&) {
+        return ValueProblem{"expected " + listText(skyNumbers()) + " or a picture, got " + shownText(text),
+                            skyNumbers().advice};
+    }
+}
+
 constexpr const char* kGroundAdvice = "leave it out, or choose --medium ground";
 
 std::vector<OptionRule> lightRules() {
@@ -43,6 +64,10 @@ std::vector<OptionRule> lightRules() {
          },
          "traced expects an opaque surface under a sky that stands still",
          "leave out --turn, --tilt, --transfer, --opacity and --shading"},
+        {[](const Asked& asked) { return isLazy(asked) && asked.shows(kTerrains); },
+         "{light} expects the surface of a CT study or of the built-in colon", kLeaveItOut},
+        {[](const Asked& asked) { return asked.is("light", "auto") && !asked.shows(kTerrains); },
+         "auto is the bake of a terrain, which lies in the cache", "name the bake's file"},
         {[](const Asked& asked) { return isLazy(asked) && asked.shows(kMedia); },
          "{light} expects an opaque surface, this is a medium", "bake the light and name its file"},
         {[](const Asked& asked) { return isLazy(asked) && !asked.runs(kView | kRender); },
@@ -89,33 +114,36 @@ std::vector<Option> lookOptions() {
                     "a medium's own light falls on the picture's colours as they are", kLeaveItOut}},
          .take = [](OptionTargets& to, const OptionValue&) { to.scene->shadeImage = true; }},
         {.key = "sky",
-         .value = fileValue(),
-         .help = "an equirectangular picture or a light probe (.hdr)",
+         .value = fileOrWordValue({}).checked(problemOfSky),
+         .help = "a panorama or a light probe (.hdr); with --light traced also a colour",
          .commands = kShowing,
          .scenes = kTerrains | kVolumes,
-         .rules = {{[](const Asked& asked) { return asked.shows(kVolumes) && !asked.has("light"); },
+         .rules = {{[](const Asked& asked) {
+                        return !isTraced(asked) && !numbersFromText(asked.given.text("sky")).empty();
+                    },
+                    "a colour is expected with --light traced", "name a picture"},
+                   {[](const Asked& asked) { return asked.shows(kVolumes) && !asked.has("light"); },
                     "expected with light that was baked for a CT study",
                     "name it with --light, or leave it out"}},
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->sky = value.text; }},
+         .take = [](OptionTargets& to, const OptionValue& value) { takeSky(to, value); }},
         {.key = "light",
          .value = fileOrWordValue({"auto", "lazy", "lazy-transfer", "traced"}),
-         .help =
-             "baked light: a file; of a terrain also auto, the bake in the cache; of a volume, in view and "
-             "render, also lazy, computed where one looks, or lazy-transfer, for a sky that turns; in "
-             "render also traced, paths from every pixel",
+         .help = "baked light: its file; auto: a terrain's in the cache; lazy, lazy-transfer: a volume's, "
+                 "where one "
+                 "looks; traced: paths from every pixel",
          .commands = kShowing,
          .rules = lightRules(),
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->light = value.text; }},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->light = lightChoiceOf(value); }},
         {.key = "sun",
          .value = numbersValue(sunNumbers()),
-         .help = "a terrain's, clockwise from north",
+         .help = "where a terrain's sun stands, clockwise from north",
          .commands = kShowing | kMesh,
          .scenes = kTerrains,
          .rules = sunRules(),
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->sun = value.text; }},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->sun = lightPlaceOf(value); }},
         {.key = "separation",
          .value = numberValue(kSeparationRange),
-         .help = "of the eyes: 0.001 is a millimetre, and usual in a colon",
+         .help = "of the eyes; 0.001, a millimetre, is usual in a colon",
          .advice = "1/30 of the zero-parallax distance is comfortable",
          .commands = kShowing,
          .excludes = {{"relative-separation"}},

@@ -1,6 +1,7 @@
 // Options: a scene shown as a medium that light goes through; and the light of traced pictures.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "engine/medium/model/medium_transfer.h"
 
@@ -22,8 +23,9 @@ std::vector<Option> mediumItself() {
     return {
         {.key = "medium",
          .value = fileOrWordValue({"ground"}),
-         .help = "show the scene as a medium that light goes through: a file, or one of " +
-                 mediumPresetNames() + "; ground: a terrain in its own colours",
+         .help = "show the scene as a medium that light goes through: a file, ground (a terrain in its own "
+                 "colours), " +
+                 mediumPresetNames(),
          .group = kMediumGroup,
          .commands = kShowing,
          .rules = {{[](const Asked& asked) {
@@ -33,13 +35,14 @@ std::vector<Option> mediumItself() {
          .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.medium = value.text; }},
         {.key = "model",
          .value = wordValue({"emission", "surface", "direct", "indirect"}),
-         .help = "emission, surface, direct, or indirect, which is the default",
+         .help = "how light goes through the medium",
          .advice = "the models are emission, surface, direct, indirect",
          .group = kMediumGroup,
          .fallback = "indirect",
          .commands = kShowing,
          .scenes = kMedia,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.model = value.text; }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->medium.model = choiceOf<MediumModel>(value); }},
         {.key = "phase",
          .value = fileOrWordValue({}),
          .help = "how the medium scatters: none, \"hg G\", a preset or a file",
@@ -64,7 +67,10 @@ std::vector<Option> mediumItself() {
          .group = kMediumGroup,
          .commands = kShowing,
          .scenes = kTerrainMedium,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.mist = value.text; }},
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.scene->medium.mist = Mist{value.numbers[0], value.numbers[1]};
+             }},
     };
 }
 
@@ -77,7 +83,7 @@ std::vector<Option> mediumLight() {
          .commands = kShowing,
          .scenes = kMedia,
          .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->medium.lightFrom = value.text; }},
+                    const OptionValue& value) { to.scene->medium.lightFrom = lightPlaceOf(value); }},
         {.key = "lamp",
          .value = numbersValue(lampNumbers()),
          .help = "a lamp instead; head: midway between the eyes",
@@ -85,17 +91,20 @@ std::vector<Option> mediumLight() {
          .commands = kShowing,
          .scenes = kMedia,
          .excludes = {{"light-from"}},
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.lamp = value.text; }},
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.scene->medium.lamp = value.word == kHeadLamp ? LampChoice{} : LampChoice{placeOf(value)};
+             }},
         {.key = "light-color",
          .value = numbersValue(colorNumbers()),
-         .help = "linear",
+         .help = "of that light, linear",
          .group = kMediumGroup,
          .commands = kShowing,
          .scenes = kMedia,
          .rules = {unlessModel(
              [](const Asked& asked) { return ownModel(asked) && asked.is("model", "emission"); })},
          .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->medium.lightColor = value.text; }},
+                    const OptionValue& value) { to.scene->medium.lightColor = glm::vec3(colorOf(value)); }},
     };
 }
 
@@ -168,7 +177,7 @@ std::vector<Option> tracedOptions() {
     return {
         {.key = "samples",
          .value = wholeValue(kSamplesRange),
-         .help = "paths from each pixel, 64 when left out",
+         .help = "paths from each pixel",
          .advice = kSamplesAdvice,
          .group = kTracedGroup,
          .fallback = "64",
@@ -191,7 +200,8 @@ std::vector<Option> tracedOptions() {
          .group = kTracedGroup,
          .commands = kRender,
          .rules = {unlessTraced()},
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->traced->albedo = value.text; }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->traced->albedo = colorOf(value); }},
         {.key = "point-light",
          .value = numbersValue(pointLightNumbers()),
          .help = kPointLightHelp,
@@ -200,7 +210,7 @@ std::vector<Option> tracedOptions() {
          .rules = {unlessTraced()},
          .repeated = true,
          .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->traced->lights.push_back(value.text); }},
+                    const OptionValue& value) { to.scene->traced->lights.push_back(lampsOf(value)); }},
         {.key = "reach",
          .value = numberValue(kReachRange),
          .help = "that rays look for light from outside",

@@ -1,6 +1,7 @@
 // Options: how big, in which way, from where, and into what.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 
 namespace stereonav {
@@ -16,7 +17,7 @@ void takeMethod(OptionTargets& to, const OptionValue& value) {
     *to.method = value.text;
 }
 void takeMode(OptionTargets& to, const OptionValue& value) {
-    *to.mode = value.text;
+    *to.mode = outputModeFromName(value.text).value_or(OutputMode::SideBySide);
 }
 void takePath(OptionTargets& to, const OptionValue& value) {
     *to.path = value.text;
@@ -25,43 +26,53 @@ void takeOut(OptionTargets& to, const OptionValue& value) {
     *to.out = value.text;
 }
 
+std::optional<ValueProblem> problemOfMode(const std::string& text) {
+    if (outputModeFromName(text)) return std::nullopt;
+    return ValueProblem{"there is no output mode \"" + text + "\"", "the modes are " + outputModeNames()};
+}
+
+}  // namespace
+
 std::vector<Option> viewOptions() {
     return {
         {.key = "size",
          .value = sizeValue(),
-         .help = "WIDTHxHEIGHT of one eye, 1280x720 when left out",
+         .help = "of one eye",
          .advice = "try 1280x720",
          .fallback = "1280x720",
          .commands = kInfo | kRender | kPlay | kView,
          .take = takeSize},
         {.key = "size",
          .value = sizeValue(),
-         .help = "WIDTHxHEIGHT of one eye, 500x400 when left out",
+         .help = "of one eye",
          .advice = "try 1280x720",
          .fallback = "500x400",
          .commands = kCompare,
          .take = takeSize},
         {.key = "pose",
          .value = numbersValue(poseNumbers()),
-         .help = "where the head is; left out: the start pose",
+         .help = "where the head is",
          .fallback = "the start pose",
          .commands = kRender,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.render->pose = value.text; }},
+         .inFile = false,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.render->pose = poseOf(value); }},
         {.key = "path",
          .value = fileValue(),
-         .help = "a recorded path (.gltf, .glb, .path); left out: the scene's own",
+         .help = "a recorded path (.gltf, .glb, .path)",
          .fallback = "the scene's own",
          .commands = kPlay | kCompare,
+         .inFile = false,
          .take = takePath},
         {.key = "path",
          .value = fileValue(),
          .help = "a recorded path (.gltf, .glb, .path) for Z to play",
          .commands = kView,
+         .inFile = false,
          .take = takePath},
         {.key = "method",
          .value = textValue(),
-         .help = "how the right eye is made, auto: the best",
-         .fallback = "auto",
+         .help = "how the right eye is made, or both eyes of a medium",
+         .fallback = "auto, the best",
          .commands = kRender | kPlay,
          .rules = {{[](const Asked& asked) {
                         return asked.is("light", "traced") && asked.shows(kSurfaces) &&
@@ -71,13 +82,13 @@ std::vector<Option> viewOptions() {
          .take = takeMethod},
         {.key = "method",
          .value = textValue(),
-         .help = "how the right eye is made, auto: what measures best here",
-         .fallback = "auto",
+         .help = "how the right eye is made, or both eyes of a medium",
+         .fallback = "auto, what measures best here",
          .commands = kView,
          .take = takeMethod},
         {.key = "mode",
-         .value = textValue(),
-         .help = "how two eyes become one picture: ml, mr, sbsl, sbsr, tbl, irl, arcd, ... ",
+         .value = textValue().checked(problemOfMode),
+         .help = "how two eyes become one picture: ml, mr, sbsl, sbsr, tbl, irl, arcd, ...",
          .fallback = "sbsl",
          .commands = kRender | kPlay | kView,
          .rules = {{[](const Asked& asked) {
@@ -87,18 +98,20 @@ std::vector<Option> viewOptions() {
          .take = takeMode},
         {.key = "sweep",
          .value = wordValue({"auto", "cpu", "gpu"}),
-         .help = "where a medium is swept: cpu, gpu (OpenGL 4.5), or auto, what is faster here",
+         .help = "where a medium is swept; gpu: OpenGL 4.5",
          .advice = "auto takes what is faster here",
-         .fallback = "auto",
+         .fallback = "auto, what is faster here",
          .commands = kView,
          .rules = {{[](const Asked& asked) { return !asked.is("sweep", "auto") && !asked.shows(kMedia); },
                     "expected with a medium", "leave it out, or show one with --medium"}},
-         .take = [](OptionTargets& to, const OptionValue& value) { to.view->sweep = value.text; }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.view->sweep = choiceOf<SweepChoice>(value); }},
         {.key = "shots",
          .value = fileValue(),
          .help = "folder for saved pictures and recorded flights",
          .fallback = "the present one",
          .commands = kView,
+         .inFile = false,
          .take = [](OptionTargets& to, const OptionValue& value) { to.view->shots = value.text; }},
     };
 }
@@ -131,7 +144,7 @@ std::vector<Option> pictureOptions() {
                     const OptionValue& value) { to.play->frames = static_cast<int>(value.whole); }},
         {.key = "fps",
          .value = numberValue(within(0.001, 1000, "frames a second")),
-         .help = "25 when left out",
+         .help = "of a video, or of pictures",
          .advice = "25 is common",
          .fallback = "25",
          .commands = kPlay,
@@ -169,7 +182,7 @@ std::vector<Option> meshAndLineOptions() {
          .take = takeOut},
         {.key = "error",
          .value = numberValue(within(0, 1e9, "metres")),
-         .help = "largest vertical error, half a sample spacing when left out",
+         .help = "largest vertical error",
          .advice = "leave it out for half a sample spacing",
          .fallback = "half a sample spacing",
          .commands = kMesh,
@@ -181,15 +194,6 @@ std::vector<Option> meshAndLineOptions() {
          .required = true,
          .take = takeOut},
     };
-}
-
-}  // namespace
-
-std::vector<Option> outputOptions() {
-    std::vector<Option> all = viewOptions();
-    for (const auto& part : {pictureOptions(), meshAndLineOptions()})
-        all.insert(all.end(), part.begin(), part.end());
-    return all;
 }
 
 }  // namespace stereonav

@@ -39,9 +39,7 @@ std::vector<Option> qualityOptions() {
     return {
         {.key = "quality",
          .value = numberValue(within(0, 1)),
-         .help =
-             "the share of the warp's expected squared error that is taken away by casting those pixels as "
-             "well; 1 casts all",
+         .help = "share of the warp's expected squared error that is taken away; 1 casts every pixel",
          .advice = "0 casts the holes alone, 1 every pixel",
          .group = kQualityGroup,
          .commands = kDialled,
@@ -52,7 +50,7 @@ std::vector<Option> qualityOptions() {
                     const OptionValue& value) { to.scene->quality.quality = value.number(); }},
         {.key = "target-psnr",
          .value = numberValue(within(1, kMostPsnr_db, "dB")),
-         .help = "against a full cast that 95 of 100 frames shall reach: as many pixels as that takes",
+         .help = "that 95 of 100 frames shall reach against a full cast",
          .advice = "40 is good, 50 hard to see",
          .group = kQualityGroup,
          .commands = kDialled,
@@ -63,8 +61,7 @@ std::vector<Option> qualityOptions() {
                     const OptionValue& value) { to.scene->quality.targetPsnr_db = value.number(); }},
         {.key = "target-ms",
          .value = numberValue(within(1e-3, 1e6, "ms")),
-         .help = "time for a frame, both eyes: no more pixels are cast than fit; where none do, pictures are "
-                 "made smaller",
+         .help = "time for a frame, both eyes: fewer pixels are cast, or pictures made smaller, to keep it",
          .advice = "33 is 30 frames a second",
          .group = kQualityGroup,
          .commands = kDialled,

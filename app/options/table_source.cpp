@@ -1,6 +1,7 @@
 // Options: which scene, and how it is read.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "terrain/read/scene_ranges.h"
 
@@ -12,23 +13,21 @@ std::vector<Option> sourceOptions() {
     return {
         {.key = "SCENE",
          .value = textValue(),
-         .help =
-             "a scene (.toml), an elevation model, a CT study (.nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd, a "
-             "folder of DICOM slices), or colon, cloud or wax, which are built in; left out: the built-in "
-             "terrain",
+         .help = "a scene (.toml), an elevation model, a CT study (a folder of DICOM slices, .nrrd, .nhdr, "
+                 ".nii, .nii.gz, "
+                 ".mha, .mhd), colon, cloud or wax",
          .fallback = "the built-in terrain",
          .commands = kShowing | kBake,
          .take = [](OptionTargets& to, const OptionValue& value) { to.scene->scene = value.text; }},
         {.key = "SCENE",
          .value = textValue(),
-         .help = "a scene (.toml) or an elevation model; left out: the built-in terrain",
+         .help = "a scene (.toml) or an elevation model",
          .fallback = "the built-in terrain",
          .commands = kMesh,
          .take = [](OptionTargets& to, const OptionValue& value) { to.scene->scene = value.text; }},
         {.key = "SCENE",
          .value = textValue(),
-         .help = "a CT study (.nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd, a folder of DICOM slices), or colon, "
-                 "which is built in",
+         .help = "a CT study (a folder of DICOM slices, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd) or colon",
          .commands = kCentreline,
          .take = [](OptionTargets& to, const OptionValue& value) { to.scene->scene = value.text; }},
         {.key = "vertical-scale",
@@ -56,11 +55,12 @@ std::vector<Option> sourceOptions() {
                     const OptionValue& value) { to.scene->threads = static_cast<int>(value.whole); }},
         {.key = "simd",
          .value = wordValue({"auto", "plain", "avx2", "avx512"}),
-         .help = "instruction set: auto, plain, avx2, avx512",
+         .help = "instruction set",
          .advice = "auto takes the widest that this processor has",
          .fallback = "auto",
          .commands = kShowing,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->simd = value.text; }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->simd = choiceOf<SimdTarget>(value); }},
     };
 }
 

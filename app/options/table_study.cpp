@@ -1,6 +1,7 @@
 // Options: which study, where the colon is in it, and which surface is shown instead.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 
 namespace stereonav {
@@ -36,15 +37,15 @@ std::vector<Option> studyOptions() {
                     const OptionValue& value) { to.scene->volume.label = static_cast<int>(value.whole); }},
         {.key = "seed",
          .value = numbersValue(seedNumbers()),
-         .help = "a place inside the colon, to the patient's left, back and head, as radiology tools show it "
-                 "(RAS ones: turn the first two signs); may be given several times",
+         .help = "a place inside the colon: left, back, head (of RAS turn the first two signs); several are "
+                 "taken",
          .group = kStudyGroup,
          .commands = kReading,
          .scenes = kVolumes,
          .rules = {unlessColonIsLookedFor()},
          .repeated = true,
          .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.seeds.push_back(value.text); }},
+                    const OptionValue& value) { to.scene->volume.seeds.push_back(placeOf(value) / 1000.0); }},
         {.key = "resample",
          .value = flagValue(),
          .help = "mend missing, uneven or tilted slices",
@@ -93,7 +94,7 @@ std::vector<Option> studyOptions() {
          .fallback = "z",
          .commands = kShowing | kBake,
          .scenes = kVolumes,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.up = value.text; }},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.up = upAxisOf(value); }},
     };
 }
 

@@ -1,8 +1,8 @@
 // Options: how a volume looks. Transfer function, shading, ambient light, modulated opacity, baked light.
+#include "app/options/occlusion_words.h"
 #include "app/options/option_table.h"
+#include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
-#include "app/scene/volume_ambient.h"
-#include "app/scene/volume_light.h"
 #include "colon/scene/transfer_presets.h"
 #include "engine/camera/view_ranges.h"
 #include "engine/light/occlusion/occlusion_modulation.h"
@@ -68,8 +68,7 @@ std::vector<Option> ambientOptions() {
         {.key = "ambient",
          .value = numberValue(kLookRange),
          .help =
-             "ambient light, k times openness times colour in place of the lamp's (Ruiz et al. 2010): how "
-             "far openness looks around; not with --light",
+             "ambient light by openness (Ruiz et al. 2010) in place of the lamp's: how far it looks around",
          .advice = "try ten voxels' worth",
          .group = kStudyGroup,
          .commands = kShowing,
@@ -79,9 +78,9 @@ std::vector<Option> ambientOptions() {
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.ambient_mm = value.number(); }},
         {.key = "ambient-method",
-         .value = textValue(),
-         .help = "how openness is estimated, gaussian when left out: " + occlusionMethodNames() +
-                 "; B: an exponent in place of the fitted one; S: standard deviations, 3 when left out",
+         .value = textValue().checked(problemOfOcclusionText),
+         .help = "how openness is estimated: " + occlusionMethodNames() +
+                 "; B: an exponent; S: standard deviations",
          .group = kStudyGroup,
          .fallback = "gaussian",
          .commands = kShowing,
@@ -90,11 +89,14 @@ std::vector<Option> ambientOptions() {
                         return !asked.has("ambient") && !asked.is("modulate", "gradient");
                     },
                     "expected with --ambient or --modulate gradient", kLeaveItOut}},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.ambientMethod = value.text; }},
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.scene->volume.ambientMethod =
+                     occlusionEstimateFromText(value.text).value_or(OcclusionEstimate());
+             }},
         {.key = "ambient-strength",
          .value = numberValue(above(0, 100)),
-         .help = "k of ambient light, 1 when left out",
+         .help = "k of ambient light: factor on openness times colour",
          .advice = "1 is usual, 2 shows a flat wall in its own colour",
          .group = kStudyGroup,
          .fallback = "1",
@@ -120,9 +122,9 @@ std::vector<Option> ambientOptions() {
 std::vector<Option> modulationOptions() {
     return {
         {.key = "modulate",
-         .value = wordValue({"variance", "gradient", "none"}),
-         .help = "opacity of translucent volumes by the variance of the values around, or by the gradient of "
-                 "their openness (Ruiz et al. 2010): variance, gradient or none",
+         .value = wordValue(modulationNames()),
+         .help = "opacity by the variance of the values around, or by the gradient of openness (Ruiz et al. "
+                 "2010)",
          .advice = "it is one of variance, gradient, none",
          .group = kStudyGroup,
          .fallback = "none",
@@ -130,10 +132,11 @@ std::vector<Option> modulationOptions() {
          .scenes = kSurfaces,
          .rules = {{[](const Asked& asked) { return isModulated(asked) && !isSeenThrough(asked); },
                     "expected with a translucent volume", "add --transfer or --opacity, or leave it out"}},
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.modulate = value.text; }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.modulate = choiceOf<Modulation>(value); }},
         {.key = "modulate-radius",
          .value = numberValue(kLookRange),
-         .help = "how far that looks around; left out: as --ambient, or 10 voxels",
+         .help = "how far that looks around",
          .advice = "try ten voxels' worth",
          .group = kStudyGroup,
          .fallback = "as --ambient, or 10 voxels",
@@ -144,9 +147,8 @@ std::vector<Option> modulationOptions() {
                     const OptionValue& value) { to.scene->volume.modulateRadius_mm = value.number(); }},
         {.key = "modulate-sigma",
          .value = numberValue(above(0, 1e6)),
-         .help =
-             "from where on opacity stays whole: a standard deviation in the volume's values, or for "
-             "gradient a change of openness a voxel; left out: such that a tenth of what differs stays whole",
+         .help = "from where on opacity stays whole: a deviation of values, or for gradient a change of "
+                 "openness a voxel",
          .advice = "for gradient 0.05 is usual on surfaces",
          .group = kStudyGroup,
          .fallback = "a tenth of what differs stays whole",
@@ -168,7 +170,7 @@ std::vector<Option> bakedLookOptions() {
     return {
         {.key = "exposure",
          .value = numberValue(within(1e-30, 1e6)),
-         .help = "factor on baked light; left out: by its mean",
+         .help = "factor on baked light",
          .advice = "1 shows a white sky of 1 as white",
          .group = kStudyGroup,
          .fallback = "by its mean",
@@ -208,7 +210,7 @@ std::vector<Option> volumeLookOptions() {
     std::vector<Option> all{
         {.key = "transfer",
          .value = fileOrWordValue({}),
-         .help = "colours and opacities by value: translucent; a file, or one of " + transferPresetNames(),
+         .help = "colours and opacities by value: translucent; a file, " + transferPresetNames(),
          .group = kStudyGroup,
          .commands = kShowing,
          .scenes = kSurfaces,
@@ -224,16 +226,17 @@ std::vector<Option> volumeLookOptions() {
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.opacity = value.number(); }},
         {.key = "shading",
-         .value =
-             wordValue({"lamp", "lambert", "lambert-shadows", "phong", "phong-shadows", "varying", "fog"}),
-         .help = "to compare: lamp, lambert, lambert-shadows, phong, phong-shadows, varying, fog",
+         .value = wordValue(shadingNames()),
+         .help = "how a surface is lit, to compare",
          .advice = "lamp is the default",
          .group = kStudyGroup,
          .fallback = "lamp",
          .commands = kShowing,
          .scenes = kSurfaces,
          .rules = shadingRules(),
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.shading = value.text; }}};
+         .take = [](OptionTargets& to, const OptionValue& value) {
+             to.scene->volume.shading = choiceOf<Shading>(value);
+         }}};
     for (const auto& part : {ambientOptions(), modulationOptions(), bakedLookOptions()})
         all.insert(all.end(), part.begin(), part.end());
     return all;

@@ -6,8 +6,7 @@
 namespace stereonav {
 
 constexpr const char* kUpHelp =
-    "x, -x, y, -y, z or -z: the axis of a study's file that is to point up, by quarter turns; not where a "
-    "colon is looked for";
+    "the axis of a study's file that is to point up; not where a colon is looked for";
 constexpr const char* kUpAdvice = "-z stands a volume on its head";
 
 // Of traced light and of bakes.
@@ -20,11 +19,10 @@ constexpr NumberRange kReachRange = above(0, 1e12, "mm");
 constexpr const char* kReachAdvice = "leave it out for no limit";
 constexpr const char* kAlbedoHelp = "of the surface: one number, or red,green,blue";
 constexpr const char* kPointLightHelp =
-    "a place and its intensity; or centreline and the lights' distance, in a colon; may be given several "
-    "times";
+    "a lamp, or lamps along a colon's centreline; may be given several times";
 
 constexpr NumberRange kThreadsRange = within(0, 256);
-constexpr const char* kThreadsHelp = "threads to use, 0 for all processors";
+constexpr const char* kThreadsHelp = "threads to use; 0: all processors";
 constexpr const char* kThreadsAdvice = "leave it out to use all processors";
 
 // Headings of help.

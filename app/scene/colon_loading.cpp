@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "app/options/option_numbers.h"
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
 #include "engine/base/error.h"
@@ -10,28 +9,17 @@
 namespace stereonav {
 namespace {
 
-glm::dvec3 seedFromText(const std::string& text) {
-    const std::vector<double> n = numbersIn("--seed", seedNumbers(), text).numbers;
-    return glm::dvec3(n[0], n[1], n[2]) / 1000.0;
-}
-
-std::optional<UpAxis> upFromText(const std::optional<std::string>& text) {
-    if (!text) return std::nullopt;
-    if (const std::optional<UpAxis> up = upAxisFromText(*text)) return up;
-    throw Error("--up", "", "expected x, -x, y, -y, z or -z, got \"" + *text + "\"",
-                "-z stands a volume on its head");
-}
-
-bool castsShadows(const std::string& shading) {
-    return shading.ends_with("-shadows");
+bool castsShadows(Shading shading) {
+    return shading == Shading::LambertShadows || shading == Shading::PhongShadows;
 }
 
 // A lamp outside lights nothing of a closed wall that casts shadows.
 void checkShading(const VolumeOptions& volume, const ColonScene& scene) {
     if (scene.isColon() && castsShadows(volume.shading))
-        throw Error("--shading", "",
-                    volume.shading + " expects a volume seen from outside, this one is a colon",
-                    "add --isosurface, or use lambert or phong");
+        throw Error(
+            "--shading", "",
+            std::string(nameOf(volume.shading)) + " expects a volume seen from outside, this one is a colon",
+            "add --isosurface, or use lambert or phong");
 }
 
 }  // namespace
@@ -43,19 +31,18 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
     colon.reading.series = volume.series;
     colon.reading.label = volume.label;
     colon.reading.resample = volume.resample;
-    for (const std::string& seed : volume.seeds) colon.segmentation.seeds.push_back(seedFromText(seed));
+    colon.segmentation.seeds = volume.seeds;
     colon.centreline.reversed = volume.backwards;
     colon.isosurface = volume.isosurface;
     colon.isovalue = volume.isovalue;
     colon.transfer = volume.transfer;
     colon.opacity = volume.opacity;
     colon.cache = volume.cache;
-    colon.up = upFromText(volume.up);
+    colon.up = volume.up;
     return colon;
 }
 
 LitVolume litVolumeOf(const SceneOptions& options, Progress& progress) {
-    checkAmbientLight(options.volume);
     LitVolume made;
     made.world = std::make_unique<VolumeWorld>(loadColon(colonOptionsOf(options), progress), options);
     ColonScene& colon = made.world->colon();
@@ -66,9 +53,9 @@ LitVolume litVolumeOf(const SceneOptions& options, Progress& progress) {
     light.modulateSigma = applyModulation(options.volume, nullptr, std::nullopt, colon, progress);
     if (light.modulateSigma)
         colon.notes.push_back(fmt::format("opacity modulated by {}, whole from {:.4g} on",
-                                          options.volume.modulate, *light.modulateSigma));
-    if (isLazyLight(options.light)) light.lazy = std::make_shared<LazyLight>(options, colon, progress);
-    if (options.light == kTracedLight) light.traced = std::make_shared<TracedLight>(options, colon);
+                                          nameOf(options.volume.modulate), *light.modulateSigma));
+    if (options.light.lazy()) light.lazy = std::make_shared<LazyLight>(options, colon, progress);
+    if (options.light.traced()) light.traced = std::make_shared<TracedLight>(options, colon);
     if (options.volume.isovalue && colon.isColon())
         throw Error("--isovalue", "", "expected with a volume seen from outside, this one is a colon",
                     "add --isosurface, or leave it out");

@@ -26,16 +26,16 @@ LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& p
     bake.scene = options;
     bake.probe = options.sky;
     bake.scene.sky.clear();
-    bake.scene.light.clear();
+    bake.scene.light = {};
     bake.bounces = 1;
-    const bool transfer = options.light == kLazyTransfer;
+    const bool transfer = options.light.kind == LightChoice::Kind::LazyTransfer;
     if (transfer && scene.isColon())
         throw Error("--light", "", "lazy-transfer is 0 everywhere inside a colon, which is closed",
                     "use lazy, which lights it along its centreline");
     if (scene.isColon() && !options.sky.empty())
         throw Error("--sky", "", "nothing of it is seen inside a colon, which is closed",
                     "leave it out: lazy lights a colon along its centreline");
-    if (transfer) bake.what = nameOf(BakeKind::Transfer);
+    if (transfer) bake.what = BakeKind::Transfer;
     const VolumeBakePlan plan = planVolumeBake(scene, bake, progress);
     mLight = std::make_shared<IlluminationVolume>(plan.inputs.texels);
     mChoice = plan.inputs.choice;

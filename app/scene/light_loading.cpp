@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "app/options/option_numbers.h"
+#include "app/options/number_text.h"
 #include "app/output/output_place.h"
 #include "engine/base/error.h"
 #include "engine/light/skies/spherical_harmonics.h"
@@ -22,46 +22,6 @@ void require(bool holds, const char* option, const std::string& problem, const s
     if (!holds) throw Error(option, "", problem, advice);
 }
 
-// One number for all three, or three.
-glm::vec3 colorFromText(const char* option, const std::string& text, const NumberList& list) {
-    const std::vector<double> numbers = numbersIn(option, list, text).numbers;
-    return numbers.size() == 1 ? glm::vec3(static_cast<float>(numbers[0]))
-                               : glm::vec3(numbers[0], numbers[1], numbers[2]);
-}
-
-glm::dvec2 isovaluesFromText(const std::string& text) {
-    const std::vector<double> numbers = numbersIn("--isovalues", isovaluesNumbers(), text).numbers;
-    require(numbers[0] <= numbers[1], "--isovalues",
-            "expected LOW,HIGH with LOW at most HIGH, got " + shownText(text), isovaluesNumbers().advice);
-    return {numbers[0], numbers[1]};
-}
-
-bool isCentreline(const std::string& light) {
-    return light.starts_with(kCentrelineLights);
-}
-
-double centrelineSpacing(const std::string& light, const char* option) {
-    const std::vector<double> n = numbersIn(option, pointLightNumbers(), light).numbers;
-    return n.empty() ? kLightSpacing : n[0];
-}
-
-// Position and intensity; without one, 0.
-PointLight lightFromText(const std::string& text, const char* option) {
-    const std::vector<double> n = numbersIn(option, pointLightNumbers(), text).numbers;
-    PointLight light;
-    light.position = {n[0], n[1], n[2]};
-    light.intensity = glm::vec3(n.size() == 4 ? static_cast<float>(n[3]) : 0.0f);
-    return light;
-}
-
-void checkNumbers(const BakeOptions& o) {
-    const NumberRange fineness = within(0.125, 8, "texels a voxel");
-    require(!o.resolution || fineness.holds(*o.resolution), "--resolution",
-            "expected " + rangeText(fineness) + ", got " + shortNumber(o.resolution.value_or(0)),
-            "use 0.5, 1 or 2");
-    if (!o.isovalues.empty()) isovaluesFromText(o.isovalues);
-}
-
 TexelChoice choiceOf(const ColonScene& scene, const BakeOptions& options) {
     TexelChoice choice;
     const GreyVolume& field = scene.volume.field;
@@ -72,10 +32,11 @@ TexelChoice choiceOf(const ColonScene& scene, const BakeOptions& options) {
                 "expected with a volume seen from outside, this one is a colon with one wall",
                 "add --isosurface, or leave it out");
     };
-    onlySurfaces(!options.isovalues.empty(), "--isovalues");
+    onlySurfaces(options.isovalues.has_value(), "--isovalues");
     onlySurfaces(options.full, "--full");
-    if (!options.isovalues.empty()) {
-        const glm::dvec2 range = (isovaluesFromText(options.isovalues) - field.offset) / field.scale;
+    if (options.isovalues) {
+        const glm::dvec2 range =
+            (glm::dvec2(options.isovalues->low, options.isovalues->high) - field.offset) / field.scale;
         choice.lowest = static_cast<float>(std::min(range.x, range.y));
         choice.highest = static_cast<float>(std::max(range.x, range.y));
     }
@@ -119,22 +80,21 @@ glm::dvec3 centreOf(const VolumeFrame& frame) {
     return frame.worldFromVoxel(0.5 * (glm::dvec3(frame.size) - 1.0));
 }
 
-void addLight(const ColonScene& scene, const std::string& text, const char* option, LightSetup& setup) {
-    if (isCentreline(text)) return addCentreline(scene, centrelineSpacing(text, option), option, setup);
-    PointLight light = lightFromText(text, option);
-    if (light.intensity.x == 0) {
-        // So that a surface in the middle of the volume that faces it is as bright as under a sky of 1.
-        const glm::dvec3 away = light.position - centreOf(scene.volume.field.frame);
-        const double least = std::max(glm::dot(away, away), light.radius * light.radius);
-        light.intensity = glm::vec3(static_cast<float>(std::numbers::pi * least));
-    }
+void addLamps(const ColonScene& scene, const LampsAsked& asked, const char* option, LightSetup& setup) {
+    if (asked.centreline) return addCentreline(scene, asked.spacing.value_or(kLightSpacing), option, setup);
+    PointLight light;
+    light.position = asked.position;
+    // So that a surface in the middle of the volume that faces it is as bright as under a sky of 1.
+    const glm::dvec3 away = light.position - centreOf(scene.volume.field.frame);
+    const double least = std::max(glm::dot(away, away), light.radius * light.radius);
+    light.intensity = glm::vec3(static_cast<float>(asked.intensity.value_or(std::numbers::pi * least)));
     setup.lights.push_back(light);
 }
 
 LightSetup setupOf(const ColonScene& scene, const BakeOptions& options, BakeKind kind,
                    std::vector<std::string>& notes) {
     LightSetup setup;
-    if (!options.albedo.empty()) setup.albedo = colorFromText("--albedo", options.albedo, albedoNumbers());
+    if (options.albedo) setup.albedo = glm::vec3(*options.albedo);
     if (options.bounces) setup.bounces = *options.bounces;
     setup.reach = options.reach_mm.value_or(0) * 1e-3;
     if (kind == BakeKind::Openness) {
@@ -150,9 +110,9 @@ LightSetup setupOf(const ColonScene& scene, const BakeOptions& options, BakeKind
     }
     if (kind == BakeKind::Transfer) return setup;
     if (!options.probe.empty()) setup.probe = std::make_shared<LightProbe>(readLightProbe(options.probe));
-    if (!options.scene.sky.empty()) setup.sky = colorFromText("--sky", options.scene.sky, skyNumbers());
-    for (const std::string& light : options.lights) addLight(scene, light, options.words.light, setup);
-    if (setup.probe || !options.scene.sky.empty() || !setup.lights.empty()) return setup;
+    if (options.sky) setup.sky = *options.sky;
+    for (const LampsAsked& lamps : options.lights) addLamps(scene, lamps, options.words.light, setup);
+    if (setup.probe || options.sky || !setup.lights.empty()) return setup;
     if (scene.isColon()) {
         addCentreline(scene, kLightSpacing, options.words.light, setup);
         notes.push_back(fmt::format("lit by {} lights along the centreline, {:g} mm apart",
@@ -172,23 +132,14 @@ void refuseOutsideLight(const ColonScene& scene, const BakeOptions& options, Bak
                     kind == BakeKind::Irradiance ? "add " : "bake irradiance with ", options.words.light);
     require(kind != BakeKind::Transfer, "--what",
             fmt::format("{} is 0 everywhere inside a colon, which is closed", nameOf(kind)), advice);
-    require(kind == BakeKind::Openness || !options.lights.empty() ||
-                (options.probe.empty() && options.scene.sky.empty()),
+    require(kind == BakeKind::Openness || !options.lights.empty() || (options.probe.empty() && !options.sky),
             options.probe.empty() ? "--sky" : options.words.probe,
             "nothing of it is seen inside a colon, which is closed", advice);
 }
 
 }  // namespace
 
-BakeKind bakeKindFromText(const std::string& what) {
-    for (const BakeKind kind : {BakeKind::Irradiance, BakeKind::Transfer, BakeKind::Openness})
-        if (what == nameOf(kind)) return kind;
-    if (what.empty()) return BakeKind::Irradiance;
-    throw Error("--what", "", "there is no bake of \"" + what + "\"", "use irradiance, transfer or openness");
-}
-
 void checkBakeOptions(const BakeOptions& options) {
-    checkNumbers(options);
     if (options.out.empty()) return;
     checkOutputToReadAgain("--out", options.out);
     require(!isForeignFile(options.out), "--out", "\"" + options.out + "\" is there and is no bake",
@@ -214,7 +165,7 @@ VolumeBakePlan planVolumeBake(const ColonScene& scene, const BakeOptions& option
     const GreyVolume& field = scene.volume.field;
     VolumeBakePlan plan;
     BakeInputs& in = plan.inputs;
-    in.shape.kind = bakeKindFromText(options.what);
+    in.shape.kind = options.what.value_or(BakeKind::Irradiance);
     refuseOutsideLight(scene, options, in.shape.kind);
     in.light = setupOf(scene, options, in.shape.kind, plan.notes);
     in.shape.order = options.order.value_or(in.shape.order);
@@ -227,7 +178,7 @@ VolumeBakePlan planVolumeBake(const ColonScene& scene, const BakeOptions& option
         in.sampling.highest = static_cast<double>(in.choice.highest);
     }
     plan.bricks = wantedBricks(field, in.texels, in.choice, progress);
-    require(!plan.bricks.empty(), options.isovalues.empty() ? "SCENE" : "--isovalues",
+    require(!plan.bricks.empty(), options.isovalues ? "--isovalues" : "SCENE",
             "no surface is there to be lit", "choose values inside the volume's");
     in.content = contentOf(scene, progress);
     return plan;

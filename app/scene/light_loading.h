@@ -13,7 +13,6 @@ namespace stereonav {
 
 // Checks everything that can be checked without the volume: kind, limits, numbers, files. Throws Error.
 void checkBakeOptions(const BakeOptions& options);
-BakeKind bakeKindFromText(const std::string& what);
 
 struct VolumeBakePlan {
     BakeInputs inputs;

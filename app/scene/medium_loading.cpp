@@ -154,7 +154,7 @@ void makeFromTerrain(const SceneOptions& options, Progress& progress, ShownMediu
     shown.makeSurface = [&shown] { return allSurface(shown.medium); };
     shown.sky = [&terrain](const glm::dvec3& direction) { return skyAt(terrain.sky, direction); };
     shown.turnLight(terrain.look.sunAzimuth, terrain.look.sunElevation);
-    if (options.medium.medium != kGroundMedium) shown.look.light.radiance = glm::vec3(kSnowRadiance);
+    if (!options.medium.ground()) shown.look.light.radiance = glm::vec3(kSnowRadiance);
     if (terrain.landmarks) shown.notes.push_back("landmarks are not shown with a medium");
 }
 

@@ -10,9 +10,6 @@
 
 namespace stereonav {
 
-// As --medium of a terrain: the ground in its own colours.
-constexpr const char* kGroundMedium = "ground";
-
 // Whether the options ask for a sweep through a medium instead of rays.
 bool showsMedium(const SceneOptions& options);
 
@@ -21,12 +18,5 @@ void checkMediumOptions(const SceneOptions& options);
 
 // Model, phase function, light and fineness; what is not given stays. Throws Error.
 void applyMediumOptions(const MediumOptions& options, MediumScene& scene);
-
-// --mist: a layer from below up to a height, and what it takes away of light that falls through it.
-struct Mist {
-    double top = 0;           // metres, world z
-    double opticalDepth = 0;  // straight down, > 0
-};
-std::optional<Mist> mistFromText(const std::string& text);
 
 }  // namespace stereonav

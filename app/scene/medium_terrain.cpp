@@ -67,7 +67,7 @@ HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& option
     const double slice = glm::length(extent) / sweep.slices;
     const double step = std::max(slice, glm::length(extent) / sweep.lightSize);
     layer.taper = std::min(std::max(kTaper * layer.spacing, step), 0.5 * layer.below);
-    const bool ownColors = options.medium == kGroundMedium;
+    const bool ownColors = options.ground();
     const MediumTransfer transfer = ownColors
                                         ? groundTransfer(ground, std::max(layer.spacing, kSoftSlices * slice))
                                         : findMediumTransfer(options.medium);
@@ -120,8 +120,7 @@ HeightLayer mistLayer(const TerrainScene& terrain, const Mist& mist) {
 Medium terrainMedium(const TerrainScene& terrain, const MediumOptions& options, const SweepSetting& sweep) {
     std::vector<HeightLayer> layers;
     layers.push_back(groundLayer(terrain, options, sweep));
-    if (const std::optional<Mist> mist = mistFromText(options.mist))
-        layers.push_back(mistLayer(terrain, *mist));
+    if (options.mist) layers.push_back(mistLayer(terrain, *options.mist));
     const glm::dvec2 extent =
         terrain.ground.spacing() * glm::dvec2(terrain.ground.width() - 1, terrain.ground.height() - 1);
     const double side = std::max(extent.x, extent.y);

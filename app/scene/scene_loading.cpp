@@ -9,7 +9,6 @@
 #include <numbers>
 #include <utility>
 
-#include "app/options/option_numbers.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/medium_loading.h"
 #include "app/scene/medium_options.h"
@@ -104,7 +103,7 @@ std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
     std::vector<NamedPlace> inputs{{"SCENE", options.scene},
                                    {"--image", options.image},
                                    {"--sky", options.sky},
-                                   {"--light", options.light},
+                                   {"--light", options.light.file},
                                    {"--transfer", options.volume.transfer},
                                    {"--medium", m.medium},
                                    {"--phase", m.phase},
@@ -116,7 +115,6 @@ std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
 
 void checkSceneOptions(const SceneOptions& options) {
     for (const NamedPlace& input : inputsOf(options)) checkSource(input);
-    simdFromText(options.simd);
     if (options.threads > 0) setThreadCount(options.threads);
     checkMediumOptions(options);
 }
@@ -125,7 +123,7 @@ std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& 
                                  const PixelBytes& each) {
     checkSize(size, options, each);
     checkSceneOptions(options);
-    const SimdTarget simd = simdFromText(options.simd);
+    const SimdTarget simd = options.simd;
     std::unique_ptr<Scene> scene = showsMedium(options) ? loadMediumScene(options, simd, progress)
                                    : kindOf(options.scene) == SceneKind::Terrain
                                        ? loadTerrainScene(options, simd, progress)
@@ -144,13 +142,6 @@ const RecordedPath& flightOf(const Scene& scene, const std::optional<RecordedPat
     if (scene.path.samples().empty())
         throw Error(scene.name, "", "has no flight of its own", "give a recorded one with --path");
     return scene.path;
-}
-
-Pose poseFromText(const std::string& text) {
-    std::vector<double> values = numbersIn("--pose", poseNumbers(), text).numbers;
-    values.resize(6);  // angles of 0 where none are said
-    return poseFromAngles({values[0], values[1], values[2]}, values[3] * kRadians, values[4] * kRadians,
-                          values[5] * kRadians);
 }
 
 std::optional<RightEyeMethod> methodFromText(const std::string& name, const char* option) {
@@ -173,19 +164,6 @@ std::string_view sweepMethodFromText(const std::string& name, const char* option
 std::string_view methodNamed(const std::string& name, const Scene& scene) {
     if (name == "auto") return scene.frames().defaultMethod();
     return scene.offered<RayCast>() ? nameOf(*methodFromText(name)) : sweepMethodFromText(name);
-}
-
-OutputMode modeFromText(const std::string& name) {
-    if (const auto mode = outputModeFromName(name)) return *mode;
-    throw Error("--mode", "", "there is no output mode \"" + name + "\"",
-                "the modes are " + outputModeNames());
-}
-
-SimdTarget simdFromText(const std::string& name) {
-    for (const NamedSimdTarget& known : kSimdTargets)
-        if (known.name == name) return known.target;
-    throw Error("--simd", "", "there is no instruction set \"" + name + "\"",
-                "use auto, plain, avx2 or avx512");
 }
 
 void adjustViews(const SceneOptions& options, Scene& scene) {

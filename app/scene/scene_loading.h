@@ -53,9 +53,6 @@ const RecordedPath& flightOf(const Scene& scene, const std::optional<RecordedPat
 // 1 to 32768 pixels a side, and no more than the memory that can be had. Throws Error.
 void checkSize(const SizeOption& size, const SceneOptions& options, const PixelBytes& each = kRenderBytes);
 
-// "x,y,z,heading,pitch,roll" in metres and degrees; the last ones may be left out (0). Throws Error.
-Pose poseFromText(const std::string& text);
-
 // A way of making the right eye by name, none for "auto": the scene's default, since what is written to files
 // must not depend on what was measured. Throws Error with the known names.
 std::optional<RightEyeMethod> methodFromText(const std::string& name, const char* option = "--method");
@@ -63,10 +60,8 @@ std::optional<RightEyeMethod> methodFromText(const std::string& name, const char
 std::string_view sweepMethodFromText(const std::string& name, const char* option = "--method");
 // The same of either kind, by what the scene offers; its default for "auto".
 std::string_view methodNamed(const std::string& name, const Scene& scene);
-OutputMode modeFromText(const std::string& name);
 // Separation, zero parallax and field of view that were asked for.
 void adjustViews(const SceneOptions& options, Scene& scene);
-SimdTarget simdFromText(const std::string& name);
 
 // The frame plan of a loaded scene: measured at the start pose and along its flight. Nothing where there is
 // nothing to weigh.

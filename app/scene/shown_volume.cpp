@@ -36,8 +36,10 @@ void setAmbientOptions(const AmbientChoice& to, bool translucent, const VolumeOp
     volume.ambientLamp.reset();
     volume.modulateRadius_mm.reset();
     volume.modulateSigma.reset();
-    volume.ambientMethod = to.lit || (modulated && to.modulate == "gradient") ? to.method : "";
-    volume.modulate = modulated ? to.modulate : "";
+    const bool estimates = to.lit || (modulated && to.modulate == "gradient");
+    volume.ambientMethod =
+        occlusionEstimateFromText(estimates ? to.method : "").value_or(OcclusionEstimate());
+    volume.modulate = modulated ? modulationFromName(to.modulate) : Modulation::None;
     if (to.lit) {
         volume.ambient_mm = 1000 * to.radius;
         volume.ambientStrength = first.ambientStrength;
@@ -67,8 +69,9 @@ void noteWhatIsShown(const VolumeOptions& volume, GivenOptions& given) {
     number("modulate-radius", volume.modulateRadius_mm);
     number("modulate-sigma", volume.modulateSigma);
     note("transfer", !volume.transfer.empty(), volume.transfer, 0);
-    note("ambient-method", !volume.ambientMethod.empty(), volume.ambientMethod, 0);
-    note("modulate", !volume.modulate.empty(), volume.modulate, 0);
+    const bool estimates = volume.ambient_mm || volume.modulate == Modulation::Gradient;
+    note("ambient-method", estimates, textOf(volume.ambientMethod), 0);
+    note("modulate", volume.modulate != Modulation::None, nameOf(volume.modulate), 0);
 }
 
 VolumeCasting castingFor(SimdTarget target) {
@@ -132,7 +135,7 @@ void ShownVolume::setChoices() {
     };
     if (colon.isColon()) return;
     const GreyVolume& field = colon.volume.field;
-    const ValueRange range = rangeOf(field);
+    const ValueSpan range = rangeOf(field);
     mChoices.isovalue = colon.volume.cells.isovalue * field.scale + field.offset;
     mChoices.isovalueStep = (range.highest - range.lowest) / kIsovalueSteps;
     mChoices.largestSigma = std::max(0.5 * (range.highest - range.lowest), 1e-9);
@@ -148,14 +151,14 @@ void ShownVolume::setAmbient() {
     to.largestRadius = std::min(largestOcclusionRadius(frame), std::max({extent.x, extent.y, extent.z}));
     AmbientChoice ambient;
     ambient.lit = volume.ambient_mm.has_value();
-    ambient.method = textOf(occlusionEstimateFromText(volume.ambientMethod));
+    ambient.method = textOf(volume.ambientMethod);
     ambient.modulateRadius = std::min(modulationRadius(volume, frame), to.largestRadius);
     ambient.radius = ambient.lit ? *volume.ambient_mm / 1000 : ambient.modulateRadius;
-    ambient.modulate = modulates(volume) ? volume.modulate : "";
+    ambient.modulate = modulates(volume) ? nameOf(volume.modulate) : "";
     ambient.sigma = volume.modulateSigma.value_or(0);
     to.ambient = ambient;
     to.chosenSigma = mLighting.modulateSigma.value_or(0);
-    if (!mMade.light.empty()) return;
+    if (mMade.light.given()) return;
     for (const OcclusionMethod method : {OcclusionMethod::Gaussian, OcclusionMethod::Reconstructed,
                                          OcclusionMethod::DrawnIn, OcclusionMethod::Chebyshev})
         to.ambientMethods.push_back(textOf(method));
@@ -189,8 +192,8 @@ std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progres
 
 std::string ShownVolume::whyLightStays() const {
     if (mLight && mLight->turns()) return "";
-    if (mMade.light.empty()) return "a lamp lights this volume: --light gives a sky that turns";
-    if (mMade.light == kLazyLight)
+    if (!mMade.light.given()) return "a lamp lights this volume: --light gives a sky that turns";
+    if (mMade.light.kind == LightChoice::Kind::Lazy)
         return "the sky is part of this light: --light lazy-transfer has one that turns";
     return "the sky is baked into this light: bake --what transfer for one that turns";
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/options/option_numbers.h"
 #include "app/scene/medium_options.h"
 #include "app/scene/shown_terrain.h"
 #include "engine/base/error.h"
@@ -15,12 +14,6 @@
 
 namespace stereonav {
 namespace {
-
-void setSun(const std::string& text, TerrainLook& look) {
-    const std::vector<double> n = numbersIn("--sun", sunNumbers(), text).numbers;
-    look.sunAzimuth = std::remainder(n[0], 360.0) * kRadians;
-    look.sunElevation = n[1] * kRadians;
-}
 
 // Options that this terrain would not show.
 void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
@@ -40,8 +33,10 @@ SceneFile describeTerrain(const SceneOptions& options) {
     if (!options.image.empty()) scene.image = options.image;
     if (options.shadeImage) scene.look.shadeImage = true;
     if (!options.sky.empty()) scene.sky = options.sky;
-    if (!options.light.empty()) scene.light = options.light;
-    if (!options.sun.empty()) setSun(options.sun, scene.look);
+    if (options.light.kind == LightChoice::Kind::Auto) scene.light = "auto";
+    if (options.light.kind == LightChoice::Kind::File) scene.light = options.light.file;
+    if (options.sun) scene.look.sunAzimuth = options.sun->azimuth;
+    if (options.sun) scene.look.sunElevation = options.sun->elevation;
     if (options.separation_m) scene.separation = options.separation_m;
     if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;
     if (options.fov_deg > 0.0) scene.verticalFov = options.fov_deg * kRadians;
@@ -52,7 +47,7 @@ SceneFile describeTerrain(const SceneOptions& options) {
 
 // What can only be told once the colours are there.
 void refuseSunWithoutEffect(const SceneOptions& options, const TerrainScene& terrain) {
-    if (options.sun.empty() || showsMedium(options) || terrain.illumination || terrain.landmarks) return;
+    if (!options.sun || showsMedium(options) || terrain.illumination || terrain.landmarks) return;
     if (terrain.report.colorHoldsSun || terrain.look.specular > 0) return;
     throw Error("--sun", "", "turns nothing: the ground's picture holds the light of its own day",
                 "add --shade-image, or leave it out; in pictures also --light auto, once bake has baked this "

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/options/number_text.h"
 #include "app/scene/light_loading.h"
 #include "app/scene/medium_options.h"
 #include "app/scene/volume_light.h"
@@ -23,13 +22,12 @@ BakeOptions asBake(const SceneOptions& options) {
     const TracedOptions traced = options.traced.value_or(TracedOptions{});
     BakeOptions bake;
     bake.scene = options;
-    bake.scene.light.clear();
+    bake.scene.light = {};
     bake.scene.volume.cache = true;  // of bakes; nothing is kept of a picture
     bake.words = {"--point-light", "--sky"};
-    if (numbersFromText(options.sky).empty()) {
-        bake.probe = options.sky;
-        bake.scene.sky.clear();
-    }
+    bake.probe = options.sky;
+    bake.scene.sky.clear();
+    bake.sky = options.skyColor;
     bake.samples = traced.samples;
     bake.bounces = traced.bounces;
     bake.albedo = traced.albedo;
@@ -46,7 +44,7 @@ std::string tracedErrorText(double error) {
 }  // namespace
 
 std::string methodUnderLight(const SceneOptions& options, const std::string& method) {
-    if (options.light != kTracedLight || showsMedium(options)) return method;  // media are refused later
+    if (!options.light.traced() || showsMedium(options)) return method;  // media are refused later
     return "full";
 }
 

@@ -8,7 +8,6 @@
 #include <memory>
 #include <tuple>
 
-#include "app/options/number_text.h"
 #include "engine/base/error.h"
 #include "engine/light/occlusion/occlusion.h"
 
@@ -16,20 +15,6 @@ namespace stereonav {
 namespace {
 
 constexpr double kUsualStrength = 1;  // nothing is brighter than its colour
-
-struct Method {
-    OcclusionMethod method;
-    const char* name;
-    double OcclusionEstimate::*number;  // that may follow the name; null: none
-    const char* numberName;
-    double least, most;
-};
-constexpr std::array<Method, 4> kMethods{
-    {{OcclusionMethod::Gaussian, "gaussian", nullptr, "", 0, 0},
-     {OcclusionMethod::Reconstructed, "t-beta", &OcclusionEstimate::beta, "B", kLeastBeta, kMostBeta},
-     {OcclusionMethod::DrawnIn, "drawn-in", &OcclusionEstimate::deviations, "S", kLeastDeviations,
-      kMostDeviations},
-     {OcclusionMethod::Chebyshev, "chebyshev", nullptr, "", 0, 0}}};
 
 glm::ivec3 voxelsOf(const VolumeFrame& frame, const char* option, double radius) {
     const double largest = largestOcclusionRadius(frame);
@@ -52,9 +37,8 @@ void refuseColon(const char* option, const ColonScene& scene) {
 ModulationSetting modulationSetting(const VolumeOptions& options, const VolumeFrame& frame,
                                     const char* radiusOption) {
     ModulationSetting setting;
-    setting.by = options.modulate == "variance" ? ModulatedBy::Variance : ModulatedBy::Gradient;
-    if (setting.by == ModulatedBy::Gradient)
-        setting.openness = occlusionEstimateFromText(options.ambientMethod);
+    setting.by = options.modulate == Modulation::Variance ? ModulatedBy::Variance : ModulatedBy::Gradient;
+    if (setting.by == ModulatedBy::Gradient) setting.openness = options.ambientMethod;
     setting.sigma = options.modulateSigma;
     setting.radius = voxelsOf(frame, radiusOption, modulationRadius(options, frame));
     return setting;
@@ -67,49 +51,8 @@ auto shownBy(const VolumeOptions& o) {
 
 }  // namespace
 
-OcclusionEstimate occlusionEstimateFromText(const std::string& text) {
-    if (text.empty()) return {};
-    const std::size_t space = text.find(' ');
-    const std::string name = text.substr(0, space);
-    for (const Method& m : kMethods) {
-        if (name != m.name) continue;
-        OcclusionEstimate estimate(m.method);
-        if (space == std::string::npos) return estimate;
-        const std::vector<double> numbers = numbersFromText(text.substr(space + 1));
-        if (!m.number)
-            throw Error("--ambient-method", "", fmt::format("{} has no number, got \"{}\"", name, text),
-                        "give the name alone");
-        if (numbers.size() != 1 || !(numbers[0] >= m.least && numbers[0] <= m.most))
-            throw Error("--ambient-method", "",
-                        fmt::format("expected {} and one number from {:g} to {:g}, got \"{}\"", name, m.least,
-                                    m.most, text),
-                        fmt::format("as in \"{} 2\"", name));
-        estimate.*m.number = numbers[0];
-        return estimate;
-    }
-    throw Error("--ambient-method", "", "there is no method \"" + text + "\"",
-                "the methods are " + occlusionMethodNames());
-}
-
-std::string textOf(const OcclusionEstimate& estimate) {
-    const OcclusionEstimate usual(estimate.method);
-    for (const Method& m : kMethods)
-        if (m.method == estimate.method)
-            return m.number && estimate != usual ? fmt::format("{} {:g}", m.name, estimate.*m.number)
-                                                 : m.name;
-    return "";
-}
-
-std::string occlusionMethodNames() {
-    std::string names;
-    for (const Method& m : kMethods)
-        names += fmt::format("{}{}{}", names.empty() ? "" : ", ", m.name,
-                             m.number ? fmt::format(" [{}]", m.numberName) : "");
-    return names;
-}
-
 bool modulates(const VolumeOptions& options) {
-    return !options.modulate.empty() && options.modulate != "none";
+    return options.modulate != Modulation::None;
 }
 
 double modulationRadius(const VolumeOptions& options, const VolumeFrame& frame) {
@@ -117,10 +60,6 @@ double modulationRadius(const VolumeOptions& options, const VolumeFrame& frame) 
     const double usual = 10 * std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z});
     if (options.modulateRadius_mm) return *options.modulateRadius_mm / 1000;
     return options.ambient_mm ? *options.ambient_mm / 1000 : usual;
-}
-
-void checkAmbientLight(const VolumeOptions& options) {
-    occlusionEstimateFromText(options.ambientMethod);
 }
 
 void applyAmbient(const VolumeOptions& options, const VolumeOptions* made, ColonScene& scene,
@@ -133,12 +72,12 @@ void applyAmbient(const VolumeOptions& options, const VolumeOptions* made, Colon
     refuseColon("--ambient", scene);
     look.strength = static_cast<float>(options.ambientStrength.value_or(kUsualStrength));
     look.lampShare = static_cast<float>(options.ambientLamp.value_or(0));
-    const OcclusionEstimate estimate = occlusionEstimateFromText(options.ambientMethod);
+    const OcclusionEstimate estimate = options.ambientMethod;
     const GreyVolume& field = scene.volume.field;
     const glm::ivec3 radius = voxelsOf(field.frame, "--ambient", *options.ambient_mm / 1000);
     const bool same = made && look.openness &&
                       occlusionRadius(field.frame, *made->ambient_mm / 1000) == radius &&
-                      occlusionEstimateFromText(made->ambientMethod) == estimate;
+                      made->ambientMethod == estimate;
     if (same) return;
     look.openness =
         std::make_shared<const OpennessVolume>(estimateOpenness(field, estimate, radius, progress));

@@ -6,27 +6,17 @@
 #include <string>
 
 #include "app/command/commands.h"
+#include "app/options/occlusion_words.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/light/occlusion/occlusion_modulation.h"
 
 namespace stereonav {
 
-// What --ambient-method names: "gaussian", "t-beta", "t-beta B", "drawn-in", "drawn-in S", "chebyshev"; "" is
-// gaussian. Throws Error.
-OcclusionEstimate occlusionEstimateFromText(const std::string& text);
-// As it is given: without numbers that are usual.
-std::string textOf(const OcclusionEstimate& estimate);
-// For help: with what may follow them.
-std::string occlusionMethodNames();
-
 // Whether opacity is modulated.
 bool modulates(const VolumeOptions& options);
 // Metres that the modulation looks around: as given, or --ambient's, or ten voxels.
 double modulationRadius(const VolumeOptions& options, const VolumeFrame& frame);
-
-// What can be checked without the volume. Throws Error.
-void checkAmbientLight(const VolumeOptions& options);
 
 // Into the scene's look, and that is all that it changes. Opacity modulation looks at the look's transfer
 // function. What the look has already is made again only where the options differ from `made`, those that it

@@ -6,9 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -42,11 +40,11 @@ double meanLight(const IlluminationVolume& light) {
 }
 
 std::shared_ptr<TurningSky> applyBaked(const SceneOptions& options, ColonScene& scene, Progress& progress) {
-    BakedLight baked = loadBakedLight(options.light, scene, progress);
+    BakedLight baked = loadBakedLight(options.light.file, scene, progress);
     BakedLook& look = scene.volume.look.baked;
     const bool transfer = baked.kind == BakeKind::Transfer;
     if (!transfer && (!options.sky.empty() || options.volume.skyMoved()))
-        throw Error(options.light, "",
+        throw Error(options.light.file, "",
                     "expected baked transfer, to be lit by a sky, got light that stands still",
                     "bake with --what transfer, or leave out --sky, --turn and --tilt");
     auto light = std::make_shared<IlluminationVolume>(transfer ? IlluminationVolume(baked.transfer.frame())
@@ -86,40 +84,16 @@ void putLampAside(ColonScene& scene) {
     look.falloff = 0;
 }
 
-struct Shading {
-    const char* name;
-    std::function<void(ColonScene&)> apply;
-};
-
-const std::array<Shading, 7>& shadings() {
-    static const std::array<Shading, 7> all{{
-        {"lamp", [](ColonScene&) {}},
-        {"lambert", [](ColonScene& s) { putLampAside(s), s.volume.look.specular = 0; }},
-        {"lambert-shadows",
-         [](ColonScene& s) { putLampAside(s), s.volume.look.specular = 0, s.volume.look.shadows = true; }},
-        {"phong", [](ColonScene& s) { putLampAside(s); }},
-        {"phong-shadows", [](ColonScene& s) { putLampAside(s), s.volume.look.shadows = true; }},
-        {"varying",
-         [](ColonScene& s) {
-             putLampAside(s);
-             s.volume.look.specular = 0, s.volume.look.ambient = 0.3f, s.volume.look.varyingAmbient = 0.8f;
-         }},
-        {"fog",
-         [](ColonScene& s) {
-             putLampAside(s);
-             const VolumeFrame& frame = s.volume.cells.frame;
-             s.volume.look.specular = 0;
-             s.volume.look.fog = static_cast<float>(glm::length(glm::dvec3(frame.size - 1) * frame.spacing));
-         }},
-    }};
-    return all;
-}
-
-const Shading& shadingOf(const std::string& name) {
-    for (const Shading& shading : shadings())
-        if (name == shading.name) return shading;
-    throw Error("--shading", "", fmt::format("\"{}\" is not known", name),
-                "expected one of " + shadingNames());
+void applyShading(Shading shading, ColonScene& scene) {
+    if (shading == Shading::Lamp) return;
+    putLampAside(scene);
+    VolumeLook& look = scene.volume.look;
+    if (shading != Shading::Phong && shading != Shading::PhongShadows) look.specular = 0;
+    look.shadows = shading == Shading::LambertShadows || shading == Shading::PhongShadows;
+    if (shading == Shading::Varying) look.ambient = 0.3f, look.varyingAmbient = 0.8f;
+    if (shading != Shading::Fog) return;
+    const VolumeFrame& frame = scene.volume.cells.frame;
+    look.fog = static_cast<float>(glm::length(glm::dvec3(frame.size - 1) * frame.spacing));
 }
 
 }  // namespace
@@ -132,13 +106,6 @@ SkyTurn skyTurnOf(const SceneOptions& options) {
     return {options.volume.turn_deg * kRadians, options.volume.tilt_deg * kRadians};
 }
 
-std::string shadingNames() {
-    std::string names;
-    for (const Shading& shading : shadings())
-        names += (names.empty() ? "" : ", ") + std::string(shading.name);
-    return names;
-}
-
 float exposureOf(const VolumeOptions& options, double meanLight) {
     const double chosen = meanLight > 0 ? static_cast<double>(kMeanShown) / meanLight : 1.0;
     return static_cast<float>(options.exposure.value_or(chosen));
@@ -146,11 +113,9 @@ float exposureOf(const VolumeOptions& options, double meanLight) {
 
 std::shared_ptr<TurningSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene,
                                              Progress& progress) {
-    const VolumeOptions& volume = options.volume;
-    if (!volume.shading.empty()) shadingOf(volume.shading).apply(scene);
-    const bool file = !options.light.empty() && !isLazyLight(options.light) && options.light != kTracedLight;
+    applyShading(options.volume.shading, scene);
     std::shared_ptr<TurningSky> sky;
-    if (file) sky = applyBaked(options, scene, progress);
+    if (options.light.kind == LightChoice::Kind::File) sky = applyBaked(options, scene, progress);
     return sky;
 }
 

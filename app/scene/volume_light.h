@@ -23,20 +23,8 @@ std::vector<glm::vec3> skyHarmonics(const SceneOptions& options, int order);
 // --turn.
 SkyTurn skyTurnOf(const SceneOptions& options);
 
-// As --light: light that is worked out while one looks: irradiance, or transfer under a sky that turns.
-constexpr const char *kLazyLight = "lazy", *kLazyTransfer = "lazy-transfer";
-inline bool isLazyLight(const std::string& light) {
-    return light == kLazyLight || light == kLazyTransfer;
-}
-
-// As --light: paths traced from every pixel.
-constexpr const char* kTracedLight = "traced";
-
 // Factor on light whose mean over what is known (of white) is this: --exposure, else such that the mean is
 // shown well; 1 where there is no light.
 float exposureOf(const VolumeOptions& options, double meanLight);
-
-// Names for --shading, separated by commas.
-std::string shadingNames();
 
 }  // namespace stereonav

@@ -126,7 +126,7 @@ std::shared_ptr<const SliceStudy> VolumeWorld::readSlices(Progress& progress) co
         slices->grey = study.isMask ? greyOf(study.mask) : std::move(study.grey);
     }
     if (mOptions.up) turnUp(slices->grey.frame, *mOptions.up);
-    const ValueRange range = rangeOf(slices->grey);
+    const ValueSpan range = rangeOf(slices->grey);
     const bool ct = range.lowest <= kAirSeen;
     slices->windowWidth = ct ? kCtWidth : std::max(range.highest - range.lowest, 1e-9);
     slices->windowLevel = ct ? kCtLevel : 0.5 * (range.highest + range.lowest);

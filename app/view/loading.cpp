@@ -52,8 +52,7 @@ OpenScene changedScene(const OpenScene& now, const SurfaceChange& change, const 
 void applyChange(const SceneChange& change, const SceneOptions& first, SceneOptions& options) {
     applyChange(change.surface, first, options);
     if (!change.seeds) return;
-    options.volume.seeds.clear();
-    for (const glm::dvec3& seed : *change.seeds) options.volume.seeds.push_back(seedText(seed));
+    options.volume.seeds = *change.seeds;
 }
 
 void SliceReading::start(std::shared_ptr<const OpenScene> scene, std::function<void()> wake) {

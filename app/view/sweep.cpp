@@ -79,14 +79,6 @@ private:
 
 }  // namespace
 
-SweepChoice sweepFromText(const std::string& text) {
-    if (text == "auto") return SweepChoice::Auto;
-    if (text == "cpu") return SweepChoice::Cpu;
-    if (text == "gpu") return SweepChoice::Gpu;
-    throw Error("--sweep", "", "expected auto, cpu or gpu, got \"" + text + "\"",
-                "auto takes what is faster here");
-}
-
 bool drawsInSoftware(std::string_view renderer) {
     std::string name(renderer);
     std::transform(name.begin(), name.end(), name.begin(),

@@ -8,19 +8,12 @@
 #include <string>
 #include <string_view>
 
+#include "app/options/option_types.h"
 #include "engine/medium/sweep/swept_frames.h"
 
 namespace stereonav {
 
 class HiddenContext;
-
-enum class SweepChoice {
-    Auto,  // what makes a scene's first frame faster; under a software renderer the processor, unasked
-    Cpu,
-    Gpu
-};
-// Throws Error with the known names.
-SweepChoice sweepFromText(const std::string& text);
 
 // Whether this GL_RENDERER draws on the processor, by its name.
 bool drawsInSoftware(std::string_view renderer);

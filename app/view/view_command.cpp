@@ -59,12 +59,11 @@ class Viewer {
 public:
     explicit Viewer(const ViewOptions& options)
         : mOptions(options),
-          mMode(modeFromText(options.mode)),
+          mMode(options.mode),
           mFlight(options.path.empty() ? std::nullopt : std::optional(readPath(options.path))),
           mWindow(titleOf(options), composedSize(mMode, options.size.width, options.size.height).first,
                   composedSize(mMode, options.size.width, options.size.height).second),
-          mSweep(showsMedium(options.scene) ? std::make_unique<ViewSweep>(sweepFromText(options.sweep))
-                                            : nullptr),
+          mSweep(showsMedium(options.scene) ? std::make_unique<ViewSweep>(options.sweep) : nullptr),
           mOverlay(mWindow),
           mScreenshots(options.shots),
           mWorker([options, sweep = mSweep.get()](
@@ -335,7 +334,6 @@ int runView(const ViewOptions& options) {
     checkMethod(options.scene, options.method);
     if (!options.shots.empty()) checkOutputFolder("--shots", options.shots);
     ViewOptions shown = options;
-    shown.scene.inWindow = true;
     shown.scene.skyTurns = !showsMedium(options.scene);  // a medium's keys turn its own light
     Viewer(shown).run();
     return 0;

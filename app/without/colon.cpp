@@ -70,14 +70,6 @@ std::string transferPresetNames() {
     return "none";
 }
 
-std::string occlusionMethodNames() {
-    return "none";
-}
-
-std::string shadingNames() {
-    return "none";
-}
-
 std::string methodUnderLight(const SceneOptions&, const std::string& method) {
     return method;
 }

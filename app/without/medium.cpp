@@ -30,12 +30,6 @@ void checkMediumOptions(const SceneOptions& options) {
     if (showsMedium(options)) without();
 }
 
-// Of the viewer: no medium gets as far as to a sweep.
-SweepChoice sweepFromText(const std::string& text) {
-    if (text == "auto") return SweepChoice::Auto;
-    without();
-}
-
 ViewSweep::ViewSweep(SweepChoice choice) : mChoice(choice) {
     without();
 }

@@ -5,7 +5,7 @@
 
 namespace stereonav {
 
-ValueRange rangeOf(const GreyVolume& grey, std::size_t mostSamples) {
+ValueSpan rangeOf(const GreyVolume& grey, std::size_t mostSamples) {
     const std::size_t count = grey.frame.count(), step = std::max<std::size_t>(1, count / mostSamples);
     std::int16_t lowest = 0, highest = 0;
     for (std::size_t n = 0; n < count; n += step) {

@@ -7,11 +7,11 @@
 
 namespace stereonav {
 
-struct ValueRange {
+struct ValueSpan {
     double lowest = 0, highest = 0;
 };
 
 // Of every voxel, or of some spread evenly where there are more than so many; 0 to 0 of none.
-ValueRange rangeOf(const GreyVolume& grey, std::size_t mostSamples = 4'000'000);
+ValueSpan rangeOf(const GreyVolume& grey, std::size_t mostSamples = 4'000'000);
 
 }  // namespace stereonav

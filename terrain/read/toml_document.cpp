@@ -178,9 +178,11 @@ struct TomlDocument::State {
             if (known.at(name).count(key) == 0) found.push_back({lineOf(value), unknownText(key, name)});
     }
 
-    std::vector<UnknownKey> unknownKeys() const {
+    // only: of this section; "": of all.
+    std::vector<UnknownKey> unknownKeys(const std::string& only) const {
         std::vector<UnknownKey> found;
         for (const auto& [key, value] : root.as_table()) {
+            if (!only.empty() && key != only) continue;
             if (misshapen.count(key) > 0)
                 continue;
             else if (known.count(key) == 0)
@@ -195,6 +197,8 @@ struct TomlDocument::State {
         });
         return found;
     }
+
+    void finish(const std::string& only) const;
 };
 
 TomlDocument::TomlDocument(const std::filesystem::path& file) : mState(std::make_unique<State>()) {
@@ -217,6 +221,18 @@ TomlSection TomlDocument::section(const std::string& name) {
     return TomlSection(*mState, name, table);
 }
 
+std::string TomlDocument::rootText(const std::string& key) {
+    mState->known[key];
+    const toml::value* value = State::find(mState->root, key);
+    if (!value) return "";
+    if (value->is_string()) return value->as_string().str;
+    mState->misshapen.insert(key);
+    mState->problems.push_back({lineOf(*value), key,
+                                fmt::format("expected text in quotes, got {}", shown(*value)),
+                                "correct the value"});
+    return "";
+}
+
 std::vector<TomlSection> TomlDocument::sections(const std::string& name) {
     mState->known[name];
     std::vector<TomlSection> result;
@@ -236,20 +252,26 @@ std::vector<TomlSection> TomlDocument::sections(const std::string& name) {
 }
 
 void TomlDocument::finish() const {
-    const auto unknown = mState->unknownKeys();
+    mState->finish("");
+}
+
+void TomlDocument::finishSection(const std::string& name) const {
+    mState->finish(name);
+}
+
+void TomlDocument::State::finish(const std::string& only) const {
+    const auto unknown = unknownKeys(only);
     if (!unknown.empty()) {
         std::string text = unknown.size() == 1 ? "unknown key " : "unknown keys ";
         for (std::size_t k = 0; k < unknown.size(); ++k)
             text += (k ? fmt::format(", line {}: ", unknown[k].line) : "") + unknown[k].text;
-        throw Error(mState->file, std::to_string(unknown.front().line), text, "correct or remove them");
+        throw Error(file, std::to_string(unknown.front().line), text, "correct or remove them");
     }
-    if (mState->problems.empty()) return;
-    const Problem& first =
-        *std::min_element(mState->problems.begin(), mState->problems.end(),
-                          [](const Problem& a, const Problem& b) { return a.line < b.line; });
+    if (problems.empty()) return;
+    const Problem& first = *std::min_element(
+        problems.begin(), problems.end(), [](const Problem& a, const Problem& b) { return a.line < b.line; });
     const std::string key = first.key.empty() ? "" : "\"" + first.key + "\": ";
-    throw Error(mState->file, first.line > 0 ? std::to_string(first.line) : "", key + first.problem,
-                first.advice);
+    throw Error(file, first.line > 0 ? std::to_string(first.line) : "", key + first.problem, first.advice);
 }
 
 // The one place that turns the opaque table back: a key's value, or null.
@@ -277,6 +299,71 @@ void TomlSection::note(const std::string& key, const std::string& problem, const
         line = lineOf(value ? *value : table);
     }
     mDocument->problems.push_back({line, key, problem, advice});
+}
+
+namespace {
+
+// As an option of the command line has it; "" for what none takes.
+std::string optionText(const toml::value& value) {
+    if (value.is_string()) return value.as_string().str;
+    if (value.is_boolean()) return value.as_boolean() ? "true" : "false";
+    if (value.is_integer()) return std::to_string(value.as_integer());
+    if (value.is_floating()) return fmt::format("{}", value.as_floating());
+    return "";
+}
+
+bool isNumber(const toml::value& value) {
+    return value.is_integer() || value.is_floating();
+}
+
+std::string joined(const toml::value& numbers) {
+    std::string text;
+    for (const toml::value& number : numbers.as_array())
+        text += (text.empty() ? "" : ",") + optionText(number);
+    return text;
+}
+
+// Of a list: texts, or lists of numbers; nothing where it holds anything else.
+std::vector<std::string> textsOf(const toml::value& list) {
+    const auto& all = list.as_array();
+    if (!all.empty() && std::all_of(all.begin(), all.end(), isNumber)) return {joined(list)};
+    std::vector<std::string> texts;
+    for (const toml::value& one : all) {
+        const bool numbers = one.is_array() && !one.as_array().empty() &&
+                             std::all_of(one.as_array().begin(), one.as_array().end(), isNumber);
+        if (!one.is_string() && !numbers) return {};
+        texts.push_back(numbers ? joined(one) : optionText(one));
+    }
+    return texts;
+}
+
+}  // namespace
+
+std::vector<std::string> TomlSection::texts(const std::string& key) {
+    const toml::value* found = Place::find(*this, key);
+    if (!found) return {};
+    if (found->is_string() || found->is_boolean() || isNumber(*found)) return {optionText(*found)};
+    std::vector<std::string> all = found->is_array() ? textsOf(*found) : std::vector<std::string>{};
+    if (all.empty()) Place::wrong(*this, key, "a number, text, true or false, or a list", *found);
+    return all;
+}
+
+bool TomlSection::isFlag(const std::string& key) const {
+    if (!mTable) return false;
+    const toml::value* value = TomlDocument::State::find(*static_cast<const toml::value*>(mTable), key);
+    return value && value->is_boolean();
+}
+
+int TomlSection::line(const std::string& key) const {
+    if (!mTable) return 0;
+    const toml::value* value = TomlDocument::State::find(*static_cast<const toml::value*>(mTable), key);
+    return value ? lineOf(*value) : 0;
+}
+
+void TomlSection::leave() {
+    if (!mTable) return;
+    for (const auto& [key, value] : static_cast<const toml::value*>(mTable)->as_table())
+        mDocument->known[mName].insert(key);
 }
 
 void TomlSection::read(const std::string& key, bool& value) {

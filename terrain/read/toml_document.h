@@ -25,12 +25,16 @@ public:
 
     // The table [name]; an empty one when the file has none.
     TomlSection section(const std::string& name);
+    // A text before the first section; "" where there is none.
+    std::string rootText(const std::string& key);
     // The tables [[name]], in the order of the file.
     std::vector<TomlSection> sections(const std::string& name);
 
     // Throws one Error: for all keys that were never asked for, each with its line and the nearest
     // known one; else for the first wrong value.
     void finish() const;
+    // The same for one section alone.
+    void finishSection(const std::string& name) const;
 
 private:
     friend class TomlSection;
@@ -50,6 +54,16 @@ public:
     void read(const std::string& key, std::int64_t& value, std::int64_t low, std::int64_t high);
     // Degrees in the file, radians in `value`.
     void readDegrees(const std::string& key, double& value, const NumberRange& rangeDegrees);
+
+    // A value as an option of the command line has it: a list of numbers is one text, with commas between
+    // them; a list of anything else one text for each. Empty where the key is absent.
+    std::vector<std::string> texts(const std::string& key);
+    // Whether the value is true or false.
+    bool isFlag(const std::string& key) const;
+    // 0 where the key is absent.
+    int line(const std::string& key) const;
+    // Its keys are known to somebody else.
+    void leave();
 
     // Notes a problem at the key (or, without it, at the section's line).
     void note(const std::string& key, const std::string& problem, const std::string& advice);

@@ -20,7 +20,7 @@ const std::set<std::string> kWords{
     "--medium", "--model", "--phase",    "--noise",           "--method",    "--mode",
     "--out",    "--path",  "--video",    "--methods",         "--json",      "--csv",
     "--images", "--plot",  "--scene",    "--compare",         "--stability", "--parts",
-    "--data",   "--probe", "--what",     "--sweep",           "--shots"};
+    "--data",   "--probe", "--what",     "--sweep",           "--shots",     "--set"};
 // Lists for which "1,5" is right.
 const std::set<std::string> kPairs{"--sun", "--light-from", "--mist", "--isovalues"};
 

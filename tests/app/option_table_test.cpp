@@ -22,7 +22,7 @@ Words operator+(Words a, const Words& b) {
 
 std::string lineAgainst(const Words& arguments) {
     try {
-        checkCommandLine(arguments);
+        checkWholeCommandLine(arguments);
     } catch (const Error& error) {
         return error.what();
     }
@@ -106,7 +106,7 @@ TEST_F(OptionTable, RefusesWhatAnotherTypeOfSceneHasInOneLine) {
             for (const Option& option : optionTable()) {
                 const std::string key = option.key;
                 if (!(option.commands & command.command) || option.positional() || option.required) continue;
-                if (key == "medium") continue;  // says itself what type the scene is of
+                if (key == "medium" || key == kSetKey) continue;  // says itself what type the scene is of
                 SCOPED_TRACE(command.name + (" " + scene.front()) + " " + scene.back() + " " + option.name());
                 const std::string said = lineAgainst(line + given(option));
                 if (!(option.scenes & type)) {
@@ -139,6 +139,45 @@ TEST_F(OptionTable, TellsAllThatDoesNotApplyTogether) {
                    ". --mist: expected with a medium"});
 }
 
+// Words stand in the order of what they name.
+TEST_F(OptionTable, TurnsWordsIntoWhatTheyName) {
+    const auto asked = [](Words words) {
+        return renderOptionsFrom(std::move(words) + Words{"--out", "a.png"});
+    };
+    for (const NamedSimdTarget& set : kSimdTargets)
+        EXPECT_EQ(asked({"terrain", "--simd", std::string(set.name)}).scene.simd, set.target);
+    for (const MediumModel model :
+         {MediumModel::Emission, MediumModel::Surface, MediumModel::Direct, MediumModel::Indirect})
+        EXPECT_EQ(asked({"cloud", "--model", std::string(nameOf(model))}).scene.medium.model, model);
+    for (const char* up : {"x", "-x", "y", "-y", "z", "-z"})
+        EXPECT_EQ(nameOf(*asked({"colon", "--isosurface", "--up", up}).scene.volume.up), up);
+    EXPECT_EQ(asked({"colon", "--shading", "phong"}).scene.volume.shading, Shading::Phong);
+    EXPECT_EQ(asked({"colon", "--opacity", "0.5", "--modulate", "gradient"}).scene.volume.modulate,
+              Modulation::Gradient);
+    EXPECT_EQ(asked({"terrain", "--mode", "abl"}).mode, OutputMode::TopBottom);
+    const ValueType& kinds = findOption(command::kBake, "what")->value;
+    for (const BakeKind kind : {BakeKind::Irradiance, BakeKind::Transfer, BakeKind::Openness})
+        EXPECT_EQ(kinds.words[static_cast<std::size_t>(kind)], nameOf(kind));
+    EXPECT_EQ(findOption(command::kView, "sweep")->value.words, (Words{"auto", "cpu", "gpu"}));
+    for (const char* text : {"", "GPU", "fast"})
+        EXPECT_EQ(lineAgainst({"view", "cloud", "--sweep", text}),
+                  "--sweep: expected auto, cpu or gpu, got \"" + std::string(text) +
+                      "\"; auto takes what is faster here");
+}
+
+// Words of --light that are of some scenes or commands alone.
+TEST_F(OptionTable, RefusesLightOfOtherScenes) {
+    for (const char* light : {"lazy", "lazy-transfer", "traced"})
+        expectRefused({"render", "terrain", "--light", light, "--out", "a.png"},
+                      {std::string("--light: ") + light + " expects the surface of a CT study"});
+    expectRefused({"render", "colon", "--light", "auto", "--out", "a.png"},
+                  {"--light: auto is the bake of a terrain", "name the bake's file"});
+    expectRefused({"play", "colon", "--light", "lazy", "--hash"}, {"--light: lazy is expected with view or"});
+    expectRefused({"view", "colon", "--light", "traced"}, {"--light: traced is expected with render"});
+    for (const char* light : {"auto", "lazy", "traced", "some.bake"})
+        expectRefused({"render", "cloud", "--light", light, "--out", "a.png"}, {"stereonav: --light: "});
+}
+
 TEST_F(OptionTable, IsWhatHelpLists) {
     for (const CommandFacts& command : commandFacts()) {
         const std::string help = run({command.name, "--help"}).out;
@@ -161,9 +200,10 @@ TEST_F(OptionTable, HasForACommandWhatItReads) {
         return keys;
     };
     EXPECT_EQ(keysOf("mesh"), (std::set<std::string>{"SCENE", "vertical-scale", "open-holes", "threads",
-                                                     "image", "shade-image", "sun", "out", "error"}));
-    EXPECT_EQ(keysOf("centreline"), (std::set<std::string>{"SCENE", "threads", "series", "label", "seed",
-                                                           "resample", "backwards", "no-cache", "out"}));
+                                                     "image", "shade-image", "sun", "out", "error", "set"}));
+    EXPECT_EQ(keysOf("centreline"),
+              (std::set<std::string>{"SCENE", "threads", "series", "label", "seed", "resample", "backwards",
+                                     "no-cache", "out", "set"}));
     EXPECT_FALSE(keysOf("bake").contains("simd"));
     EXPECT_FALSE(keysOf("bake").contains("fov"));
 }

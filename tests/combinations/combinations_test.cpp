@@ -116,7 +116,7 @@ public:
     // As the widest set drew it.
     Plane<PackedColor> composed() const {
         return composeStereo(mDrawn.left.color, mDrawn.right.color,
-                             {modeFromText(mOptions.mode), false, false});
+                             {mOptions.mode, false, false});
     }
     const Eyes& eyes() const { return mDrawn; }
 

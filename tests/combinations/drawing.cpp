@@ -11,10 +11,9 @@ namespace stereonav::test {
 namespace {
 
 RenderOptions withSet(RenderOptions options, SimdTarget set) {
-    options.scene.simd = std::string(nameOf(set));
+    options.scene.simd = set;
     options.method = methodUnderLight(options.scene, options.method);
     checkSize(options.size);
-    modeFromText(options.mode);
     checkMethod(options.scene, options.method);
     return options;
 }

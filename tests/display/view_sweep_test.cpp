@@ -19,21 +19,6 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(ViewSweepOption, NamesAChoiceOrIsRefusedInOneLine) {
-    EXPECT_EQ(sweepFromText("auto"), SweepChoice::Auto);
-    EXPECT_EQ(sweepFromText("cpu"), SweepChoice::Cpu);
-    EXPECT_EQ(sweepFromText("gpu"), SweepChoice::Gpu);
-    for (const char* text : {"", "GPU", "fast"}) {
-        try {
-            sweepFromText(text);
-            ADD_FAILURE() << text;
-        } catch (const Error& error) {
-            EXPECT_THAT(error.what(),
-                        HasSubstr("--sweep: expected auto, cpu or gpu, got \"" + std::string(text) + "\""));
-        }
-    }
-}
-
 TEST(ViewSweepOption, SoftwareIsKnownByItsName) {
     for (const char* name : {"llvmpipe (LLVM 15.0.6, 256 bits)", "softpipe", "Software Rasterizer",
                              "Google SwiftShader", "Mesa DRI swrast"})

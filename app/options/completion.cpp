@@ -1,0 +1,82 @@
+#include "app/options/completion.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+#include "app/options/option_table.h"
+
+namespace stereonav {
+namespace {
+
+std::vector<std::string> namesOfCommands() {
+    std::vector<std::string> names;
+    for (const CommandFacts& facts : commandFacts()) names.emplace_back(facts.name);
+    return names;
+}
+
+std::string optionsOf(CommandSet command) {
+    std::string names = "--help";
+    for (const Option& option : optionTable())
+        if ((option.commands & command) && !option.positional()) names += " " + option.name();
+    return names;
+}
+
+// The words behind an option; "" where there are none to choose from.
+std::string wordsBehind(const Option& option) {
+    if (option.key == std::string_view("set")) return "";
+    return fmt::format("{}", fmt::join(option.value.words, " "));
+}
+
+// A case of the script: what is offered behind this option.
+std::string caseOf(const CommandFacts& facts, const Option& option) {
+    const std::string words = wordsBehind(option);
+    const std::string offered = option.value.isFile() ? fmt::format("files=1 words=\"{}\"", words)
+                                                      : fmt::format("words=\"{}\"", words);
+    return fmt::format("        \"{} {}\") behind=1 {} ;;\n", facts.name, option.name(), offered);
+}
+
+}  // namespace
+
+std::string bashCompletion() {
+    const std::string commands = fmt::format("{}", fmt::join(namesOfCommands(), " "));
+    std::string options, behind;
+    for (const CommandFacts& facts : commandFacts()) {
+        options += fmt::format("        {}) words=\"{}\" ;;\n", facts.name, optionsOf(facts.command));
+        for (const Option& option : optionTable())
+            if ((option.commands & facts.command) && !option.positional() &&
+                option.value.kind != ValueKind::Flag)
+                behind += caseOf(facts, option);
+    }
+    return fmt::format(R"(# Completes the words of stereonav in bash: source <(stereonav completion bash)
+_stereonav() {{
+    local current="${{COMP_WORDS[COMP_CWORD]}}" previous="${{COMP_WORDS[COMP_CWORD-1]}}"
+    local command="" word="" words="" files="" behind=""
+    COMPREPLY=()
+    for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
+        case " {0} " in *" $word "*) command="$word"; break ;; esac
+    done
+    if [[ -z $command ]]; then
+        COMPREPLY=($(compgen -W "{0} options completion --help --version" -- "$current"))
+        return
+    fi
+    case "$command $previous" in
+{2}    esac
+    if [[ -z $behind ]]; then
+        files=1
+        if [[ $current == -* ]]; then
+            files=""
+            case "$command" in
+{1}            esac
+        fi
+    fi
+    COMPREPLY=($(compgen -W "$words" -- "$current"))
+    [[ -z $files ]] || COMPREPLY+=($(compgen -f -- "$current"))
+}}
+complete -o filenames -F _stereonav stereonav
+)",
+                       commands, options, behind);
+}
+
+}  // namespace stereonav

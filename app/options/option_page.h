@@ -1,0 +1,11 @@
+// The table of options as a page: docs/options.md.
+#pragma once
+
+#include <string>
+
+namespace stereonav {
+
+// As Markdown, lines of at most 120 characters.
+std::string optionPage();
+
+}  // namespace stereonav

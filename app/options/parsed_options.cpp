@@ -1,0 +1,159 @@
+#include "app/options/parsed_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "app/options/refusals.h"
+#include "app/options/scene_file_options.h"
+#include "app/options/usual_words.h"
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+// "true" or "false" of a flag that stands in a file or behind --set.
+bool isTrue(const std::string& text, const std::string& place) {
+    if (text == "true" || text == "false") return text == "true";
+    throw Error(place, "", "expected true or false, got " + shownText(text), "correct the value");
+}
+
+void takeAny(const Option& option, const std::string& text, const std::string& place, ParsedOptions& parsed) {
+    if (option.value.kind != ValueKind::Flag || isTrue(text, place)) takeOption(option, text, place, parsed);
+}
+
+// Files are relative to the scene file's folder; words are none.
+std::string besideFile(const Option& option, const std::string& text, const std::filesystem::path& toml) {
+    const std::vector<std::string>& words = option.value.words;
+    if (!option.value.isFile() || std::find(words.begin(), words.end(), text) != words.end()) return text;
+    const std::filesystem::path beside = toml.parent_path() / text;
+    std::error_code code;
+    return option.value.kind == ValueKind::File || std::filesystem::exists(beside, code) ? beside.string()
+                                                                                         : text;
+}
+
+// What the command line says, or rules out, the file does not.
+bool isRuledOut(const Option& option, const GivenOptions& given) {
+    if (given.has(option.key)) return true;
+    const auto excludes = [&](const Option& one, const std::string& other) {
+        return std::any_of(one.excludes.begin(), one.excludes.end(),
+                           [&](const Exclusion& exclusion) { return other == exclusion.key; });
+    };
+    return std::any_of(optionTable().begin(), optionTable().end(), [&](const Option& other) {
+        return (other.commands & given.command) && given.has(other.key) &&
+               (excludes(option, other.key) || excludes(other, option.key));
+    });
+}
+
+// The options of a scene file, and the scene that it names.
+void takeSceneFile(ParsedOptions& parsed) {
+    const std::filesystem::path toml = parsed.to.scene->scene;
+    std::error_code code;
+    if (toml.extension() != ".toml" || !std::filesystem::is_regular_file(toml, code)) return;
+    const SceneFileOptions read = readSceneFileOptions(toml);
+    if (!read.scene.empty()) parsed.to.scene->scene = read.scene;
+    const GivenOptions onCommandLine = parsed.given;
+    for (const SceneFileOption& said : read.options) {
+        const Option* option = findOption(parsed.given.command, said.key);
+        // of other commands, or another thing with this one
+        if (!option || !option->inFile || isRuledOut(*option, onCommandLine)) continue;
+        const std::string place = fmt::format("{}:{}: {}", toml.string(), said.line, said.key);
+        if (said.texts.size() > 1 && !option->repeated)
+            throw Error(place, "", "expected one value, got several", "leave the others out");
+        for (const std::string& text : said.texts)
+            takeAny(*option, besideFile(*option, text, toml), place, parsed);
+    }
+}
+
+}  // namespace
+
+void chooseCommand(CommandSet which, ParsedOptions& parsed) {
+    OptionTargets& to = parsed.to;
+    const auto shows = [&](auto& options) {
+        to.scene = &options.scene;
+        to.size = &options.size;
+    };
+    to = {};
+    parsed.given = {};
+    parsed.given.command = which;
+    switch (which) {
+        case command::kInfo:
+            shows(parsed.info);
+            to.info = &parsed.info;
+            parsed.run = [&parsed] { return runInfo(parsed.info); };
+            break;
+        case command::kRender:
+            shows(parsed.render);
+            parsed.render.scene.traced.emplace();
+            to.render = &parsed.render;
+            to.method = &parsed.render.method, to.mode = &parsed.render.mode, to.out = &parsed.render.out;
+            parsed.run = [&parsed] { return runRender(parsed.render); };
+            break;
+        case command::kPlay:
+            shows(parsed.play);
+            to.play = &parsed.play;
+            to.method = &parsed.play.method, to.mode = &parsed.play.mode, to.out = &parsed.play.out;
+            to.path = &parsed.play.path;
+            parsed.run = [&parsed] { return runPlay(parsed.play); };
+            break;
+        case command::kCompare:
+            shows(parsed.compare);
+            to.compare = &parsed.compare;
+            to.path = &parsed.compare.path;
+            parsed.run = [&parsed] { return runCompare(parsed.compare); };
+            break;
+        case command::kReport:
+            to.report = &parsed.report;
+            parsed.run = [&parsed] { return runReport(parsed.report); };
+            break;
+        case command::kMesh:
+            to.scene = &parsed.mesh.scene, to.mesh = &parsed.mesh, to.out = &parsed.mesh.out;
+            parsed.run = [&parsed] { return runMesh(parsed.mesh); };
+            break;
+        case command::kCentreline:
+            to.scene = &parsed.centreline.scene, to.out = &parsed.centreline.out;
+            parsed.run = [&parsed] { return runCentreline(parsed.centreline); };
+            break;
+        case command::kBake:
+            to.scene = &parsed.bake.scene, to.bake = &parsed.bake;
+            parsed.run = [&parsed] { return runBake(parsed.bake); };
+            break;
+        default:
+            shows(parsed.view);
+            to.view = &parsed.view;
+            to.method = &parsed.view.method, to.mode = &parsed.view.mode, to.path = &parsed.view.path;
+            parsed.run = [&parsed] { return runView(parsed.view); };
+    }
+}
+
+void takeOption(const Option& option, const std::string& text, const std::string& place,
+                ParsedOptions& parsed) {
+    OptionValue value = readValue(place, option.value, option.advice, text);
+    option.take(parsed.to, value);
+    parsed.given.add(option.key, std::move(value), place);
+}
+
+void takeSetOption(const std::string& text, ParsedOptions& parsed) {
+    const std::size_t equals = std::min(text.find('='), text.size());
+    const std::string key = text.substr(0, equals);
+    const Option* option = findOption(parsed.given.command, key);
+    if (equals == text.size() || !option || option->positional() || key == kSetKey)
+        throw Error("--set", "", "expected KEY=VALUE with an option's key, got " + shownText(text),
+                    std::string("as in --set fov=45; see stereonav ") + factsOf(parsed.given.command).name +
+                        " --help");
+    if (parsed.given.has(key) && !option->repeated)
+        throw Error("--set " + key, "", "is given more than once", kLeaveOneOut);
+    takeAny(*option, text.substr(equals + 1), "--set " + key, parsed);
+}
+
+void finishOptions(ParsedOptions& parsed) {
+    if (parsed.to.report) refuseWhatDoesNotApply(parsed.given, 0, "");
+    if (!parsed.to.scene) return;
+    takeSceneFile(parsed);
+    parsed.to.scene->given = parsed.given;
+    refuseWhatDoesNotApply(*parsed.to.scene);
+}
+
+}  // namespace stereonav

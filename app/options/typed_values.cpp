@@ -1,0 +1,54 @@
+#include "app/options/typed_values.h"
+
+#include <cmath>
+#include <vector>
+
+#include "app/options/option_numbers.h"
+#include "engine/math/constants.h"
+
+namespace stereonav {
+
+glm::dvec3 colorOf(const OptionValue& value) {
+    return value.numbers.size() == 1 ? glm::dvec3(value.number()) : placeOf(value);
+}
+
+glm::dvec3 placeOf(const OptionValue& value) {
+    return {value.numbers[0], value.numbers[1], value.numbers[2]};
+}
+
+LightPlace lightPlaceOf(const OptionValue& value) {
+    return {std::remainder(value.numbers[0], 360.0) * kRadians, value.numbers[1] * kRadians};
+}
+
+Pose poseOf(const OptionValue& value) {
+    std::vector<double> n = value.numbers;
+    n.resize(6);  // angles of 0 where none are said
+    return poseFromAngles({n[0], n[1], n[2]}, n[3] * kRadians, n[4] * kRadians, n[5] * kRadians);
+}
+
+LampsAsked lampsOf(const OptionValue& value) {
+    LampsAsked lamps;
+    lamps.centreline = value.word == kCentrelineLights;
+    if (lamps.centreline) {
+        if (!value.numbers.empty()) lamps.spacing = value.number();
+        return lamps;
+    }
+    lamps.position = placeOf(value);
+    if (value.numbers.size() == 4) lamps.intensity = value.numbers[3];
+    return lamps;
+}
+
+LightChoice lightChoiceOf(const OptionValue& value) {
+    using Kind = LightChoice::Kind;
+    if (value.text == "auto") return {Kind::Auto, ""};
+    if (value.text == "lazy") return {Kind::Lazy, ""};
+    if (value.text == "lazy-transfer") return {Kind::LazyTransfer, ""};
+    if (value.text == "traced") return {Kind::Traced, ""};
+    return {Kind::File, value.text};
+}
+
+UpAxis upAxisOf(const OptionValue& value) {
+    return upAxisFromText(value.text).value_or(UpAxis{});
+}
+
+}  // namespace stereonav

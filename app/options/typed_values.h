@@ -1,0 +1,28 @@
+// From values that were read and checked to what they stand for.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "app/options/option_types.h"
+#include "app/options/option_value.h"
+#include "engine/camera/pose.h"
+#include "engine/volume/volume_up.h"
+
+namespace stereonav {
+
+// Of a Word: the enumerator in its place.
+template <typename Enum>
+Enum choiceOf(const OptionValue& value) {
+    return static_cast<Enum>(value.choice);
+}
+
+// One number for all three, or three.
+glm::dvec3 colorOf(const OptionValue& value);
+glm::dvec3 placeOf(const OptionValue& value);
+LightPlace lightPlaceOf(const OptionValue& value);
+Pose poseOf(const OptionValue& value);
+LampsAsked lampsOf(const OptionValue& value);
+LightChoice lightChoiceOf(const OptionValue& value);
+UpAxis upAxisOf(const OptionValue& value);
+
+}  // namespace stereonav
