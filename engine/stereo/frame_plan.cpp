@@ -33,7 +33,7 @@ struct Bench {
         const RightEyeTimings timings = eye.render(renderer, views, left, setting, right);
         sample.warp_ms = timings.warp_ms;
         sample.fill_ms = timings.fill_ms;
-        const bool all = setting.method == RightEyeMethod::DepthSplat;  // every ray is cast, with a jump
+        const bool all = castsFromDepths(setting.method);  // every ray is cast, with a jump
         sample.holes = all ? static_cast<long long>(right.width()) * right.height() : timings.holePixels;
         return sample;
     }
@@ -63,10 +63,9 @@ FrameCosts costsOf(const std::vector<Sample>& samples, double pixels) {
 }
 
 std::string reasonFor(const FramePlan& plan, RightEyeMethod warp) {
-    const std::string again =
-        warp == RightEyeMethod::DepthSplat
-            ? "every pixel cast from where it may meet something"
-            : fmt::format("{:.1f} % of the pixels cast again", 100.0 * plan.costs.holeShare);
+    const std::string again = castsFromDepths(warp) ? "every pixel cast from where it may meet something"
+                                                    : fmt::format("{:.1f} % of the pixels cast again",
+                                                                  100.0 * plan.costs.holeShare);
     const std::string warped = fmt::format("{} takes {:.2f} ms ({})", nameOf(warp), plan.warpRight_ms, again);
     const std::string cast = fmt::format("casting every pixel takes {:.2f} ms", plan.castRight_ms);
     return plan.warps() ? warped + ", " + cast : cast + ", " + warped;

@@ -14,13 +14,11 @@
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/stereo/border_occluders.h"
-#include "engine/stereo/depth_splat.h"
 #include "engine/stereo/error_prediction.h"
 #include "engine/stereo/hole_fill.h"
 #include "engine/stereo/packed_resample.h"
-#include "engine/stereo/paint_row.h"
 #include "engine/stereo/row_kernels.h"
-#include "engine/stereo/splat_row.h"
+#include "engine/stereo/warp_method.h"
 #include "engine/stereo/work_queue.h"
 
 namespace stereonav {
@@ -28,111 +26,15 @@ namespace {
 
 constexpr int kRowsOfWarpTask = 8;  // rows of a warp task: some ten microseconds
 
-struct Scratch {
-    std::vector<float> column, inverse, accumulators;
-    std::vector<std::int32_t> source;
-
-    void resize(int width, bool splats) {
-        const std::size_t size = static_cast<std::size_t>(width) + kRowPadding;
-        column.resize(size);
-        inverse.resize(size);
-        source.resize(size);
-        if (splats) accumulators.resize(static_cast<std::size_t>(splatScratchSize(width)));
-    }
-};
-
-bool isInverse(RightEyeMethod method) {
-    return method == RightEyeMethod::Linear || method == RightEyeMethod::Cubic ||
-           method == RightEyeMethod::NoFill || method == RightEyeMethod::Selective;
-}
-
-struct WarpJob {
-    const StereoViews& views;
-    const EyeImage& left;
-    const WarpSetting& setting;
-    EyeImage& right;
-    Plane<std::uint8_t>& mask;
-    ViewDependence dependence;
-    bool airDiffers;  // colours have the left eye's air before them
-
-    int width() const { return left.width(); }
-    float shift() const { return static_cast<float>(views.shiftAtInfinity); }
-    float scale() const { return static_cast<float>(views.parallaxScale); }
-    // What moves from eye to eye: colours, or the normals from which colours follow.
-    bool movesNormals() const { return dependence == ViewDependence::Normal; }
-    const Plane<std::uint32_t>& from() const { return movesNormals() ? left.normal : left.color; }
-    Plane<std::uint32_t>& to() const { return movesNormals() ? right.normal : right.color; }
-};
-
-ResampleRow resampleRowOf(const WarpJob& job, Scratch& scratch, int y) {
-    ResampleRow row{};
-    row.leftColor = job.from().row(y);
-    row.leftDepth = job.left.viewDepth.row(y);
-    row.color = job.to().row(y);
-    row.depth = job.right.viewDepth.row(y);
-    row.holes = job.mask.row(y);
-    row.width = job.width();
-    row.stride = job.left.color.stride();
-    row.shift = job.shift();
-    row.scale = job.scale();
-    row.minStretch = job.setting.minStretch;
-    row.maxStretch = job.setting.maxStretch;
-    row.cubic = job.setting.method == RightEyeMethod::Cubic;
-    // Four taps must not cross a silhouette. Two can not, but a near thing's last pixel before a gap is
-    // cut anywhere within it: cast, it gains more than it costs (compare on real terrain: 0.2 to 3.8 dB for
-    // 0.4 to 0.6 % more rays).
-    row.reach = row.cubic ? 2 : 1;
-    row.column = scratch.column.data();
-    row.inverse = scratch.inverse.data();
-    row.source = scratch.source.data();
-    row.surface = job.movesNormals();
-    if (job.setting.method == RightEyeMethod::Selective && !job.left.depthSpread.empty()) {
-        row.leftSpread = job.left.depthSpread.row(y);
-        row.mostSpread = job.setting.mostSpread;
-    }
-    return row;
-}
-
-// Depths alone are wanted; the colours come along and are cast anew.
-ResampleRow depthRowOf(const WarpJob& job, Scratch& scratch, int y) {
-    ResampleRow row = resampleRowOf(job, scratch, y);
-    row.minStretch = 0.0f;  // what is drawn together is known the better
-    row.reach = 0;
-    row.surface = false;
-    return row;
-}
-
-SplatRow splatRowOf(const WarpJob& job, Scratch& scratch, int y) {
-    return {job.from().row(y),
-            job.left.viewDepth.row(y),
-            job.to().row(y),
-            job.right.viewDepth.row(y),
-            job.mask.row(y),
-            job.width(),
-            job.shift(),
-            job.scale(),
-            job.setting.weightThreshold,
-            scratch.accumulators.data(),
-            scratch.source.data()};
-}
-
-PaintRow paintRowOf(const WarpJob& job, Scratch& scratch, int y) {
-    return {job.from().row(y),    job.left.viewDepth.row(y),
-            job.to().row(y),      job.right.viewDepth.row(y),
-            job.mask.row(y),      job.width(),
-            job.shift(),          job.scale(),
-            scratch.source.data()};
-}
-
 // What a highlight needs: base colour between the two linked pixels (or of the nearest one), and the
 // normal of the nearer end.
-void warpHighlight(const WarpJob& job, const Scratch& scratch, int y) {
+void warpHighlight(const WarpJob& job, const WarpScratch& scratch, int y) {
     const PackedColor* leftBase = job.left.baseColor.row(y);
     const std::uint32_t* leftNormal = job.left.normal.row(y);
     PackedColor* base = job.right.baseColor.row(y);
     std::uint32_t* normal = job.right.normal.row(y);
     const std::uint8_t* holes = job.mask.row(y);
-    const bool between = isInverse(job.setting.method);
+    const bool between = job.method.between;
     for (int p = 0; p < job.width(); ++p) {
         const int s = scratch.source[p];
         if (holes[p] || s < 0) {
@@ -150,7 +52,7 @@ void warpHighlight(const WarpJob& job, const Scratch& scratch, int y) {
 
 // The forward warps know the nearest of the splats, which is what rays may start from; shading needs the
 // depth of the pixel itself.
-void useOwnDepths(const WarpJob& job, const Scratch& scratch, int y) {
+void useOwnDepths(const WarpJob& job, const WarpScratch& scratch, int y) {
     const float* leftDepth = job.left.viewDepth.row(y);
     float* depth = job.right.viewDepth.row(y);
     const std::uint8_t* holes = job.mask.row(y);
@@ -173,13 +75,6 @@ void shadeHighlightAgain(const EyeRenderer& renderer, const WarpJob& job, int y)
         renderer.shadeAgain(job.views.right, y, x, end, job.right);
         x = end;
     }
-}
-
-void splatDepths(const WarpJob& job, ResampleFunction resample, Scratch& scratch, int y) {
-    const ResampleRow row = depthRowOf(job, scratch, y);
-    resample(row);
-    shortenDepths(
-        {row.depth, row.holes, row.width, job.setting.depthMargin, job.setting.depthRangeMargin, row.column});
 }
 
 // Holes that stay holes; what shades whole rows leaves anything there.
@@ -214,8 +109,8 @@ void startHoles(const WarpJob& job, int y) {
 
 // Does it with the pixels' own depths; afterwards the row holds those that rays may start from again.
 template <typename Shade>
-void withOwnDepths(const WarpJob& job, Scratch& scratch, int y, const Shade& shade) {
-    if (isInverse(job.setting.method)) return shade();
+void withOwnDepths(const WarpJob& job, WarpScratch& scratch, int y, const Shade& shade) {
+    if (job.method.between) return shade();
     float* depth = job.right.viewDepth.row(y);
     std::copy_n(depth, job.width(), scratch.column.begin());
     useOwnDepths(job, scratch, y);
@@ -223,35 +118,24 @@ void withOwnDepths(const WarpJob& job, Scratch& scratch, int y, const Shade& sha
     std::copy_n(scratch.column.begin(), job.width(), depth);
 }
 
-void shadeAgain(const EyeRenderer& renderer, const WarpJob& job, Scratch& scratch, int y) {
+void shadeAgain(const EyeRenderer& renderer, const WarpJob& job, WarpScratch& scratch, int y) {
     if (job.dependence == ViewDependence::Highlight) {
         warpHighlight(job, scratch, y);
         withOwnDepths(job, scratch, y, [&] { shadeHighlightAgain(renderer, job, y); });
     } else if (job.dependence == ViewDependence::Normal) {
-        if (!isInverse(job.setting.method)) useOwnDepths(job, scratch, y);
+        if (!job.method.between) useOwnDepths(job, scratch, y);
         renderer.shadeAgain(job.views.right, y, 0, job.width(), job.right);
-        if (leavesHoles(job.setting.method)) blackenHoles(job, y);
+        if (job.method.after == AfterWarp::Leave) blackenHoles(job, y);
     }
 }
 
-void warpRow(const EyeRenderer& renderer, const WarpJob& job, ResampleFunction resample, Scratch& scratch,
+void warpRow(const EyeRenderer& renderer, const WarpJob& job, ResampleFunction resample, WarpScratch& scratch,
              int y) {
-    switch (job.setting.method) {
-        case RightEyeMethod::DepthSplat:
-            return splatDepths(job, resample, scratch, y);
-        case RightEyeMethod::Paper:
-            splatRow(splatRowOf(job, scratch, y));
-            break;
-        case RightEyeMethod::McMillan:
-            paintRow(paintRowOf(job, scratch, y));
-            break;
-        default:
-            resample(resampleRowOf(job, scratch, y));
-            break;
-    }
+    job.method.warpRow(job, resample, scratch, y);
+    if (job.method.after == AfterWarp::CastFromDepths) return;  // colours are cast anew
     shadeAgain(renderer, job, scratch, y);
     if (job.airDiffers) renderer.changeAir(job.views.left, job.views.right, y, job.right);
-    if (isInverse(job.setting.method) && !leavesHoles(job.setting.method) && renderer.startsAtKnownDepth())
+    if (job.method.between && job.method.after != AfterWarp::Leave && renderer.startsAtKnownDepth())
         startHoles(job, y);
 }
 
@@ -284,21 +168,17 @@ void fillMask(Plane<std::uint8_t>& mask, int value) {
 
 }  // namespace
 
-bool leavesHoles(RightEyeMethod method) {
-    return method == RightEyeMethod::McMillan || method == RightEyeMethod::NoFill;
-}
-
 struct RightEye::State {
     Plane<std::uint8_t> mask;
-    Plane<std::uint8_t> contrast;  // only where warped pixels are refined
-    std::vector<Scratch> scratch;  // one for each worker
+    Plane<std::uint8_t> contrast;      // only where warped pixels are refined
+    std::vector<WarpScratch> scratch;  // one for each worker
     HoleFill holeFill;
     ResampleFunction resample = resampler();
 
     void resize(int width, int height, bool splats) {
         mask.resize(width, height);
         scratch.resize(static_cast<std::size_t>(threadCount()));
-        for (Scratch& s : scratch) s.resize(width, splats);
+        for (WarpScratch& s : scratch) s.resize(width, splats);
     }
 
     void warp(const EyeRenderer& renderer, const WarpJob& job);
@@ -317,8 +197,7 @@ void RightEye::State::warp(const EyeRenderer& renderer, const WarpJob& job) {
         for (int y = task * kRowsOfWarpTask; y < end; ++y)
             warpRow(renderer, job, resample, scratch[worker], y);
     });
-    if (job.setting.method != RightEyeMethod::McMillan)
-        markBorderOccluders(renderer, job.views, mask, job.right);
+    if (job.method.marksBorder) markBorderOccluders(renderer, job.views, mask, job.right);
 }
 
 // Without parallax the right eye is the left one.
@@ -377,20 +256,21 @@ RightEye& RightEye::operator=(RightEye&&) noexcept = default;
 RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews& views, const EyeImage& left,
                                  const WarpSetting& setting, EyeImage& right) {
     checkSizes(views, left);
+    const WarpMethod& method = warpMethodOf(setting.method);
     const int width = left.width(), height = left.height();
     const ViewDependence dependence = dependenceOf(renderer, left);
     // Of several depths nothing is asked of the right eye.
     right.resize(width, height, dependence == ViewDependence::Depths ? ViewDependence::None : dependence);
-    mState->resize(width, height, setting.method == RightEyeMethod::Paper);
+    mState->resize(width, height, method.splats);
     const bool again = dependence == ViewDependence::Highlight || dependence == ViewDependence::Normal;
     const bool airDiffers = !again && renderer.airDiffers(glm::distance(views.left.eye, views.right.eye));
-    const WarpJob job{views, left, setting, right, mState->mask, dependence, airDiffers};
+    const WarpJob job{views, left, setting, method, right, mState->mask, dependence, airDiffers};
 
     RightEyeTimings timings;
     Stopwatch watch;
-    const bool refines = setting.refinement.calibration && isInverse(setting.method);
+    const bool refines = setting.refinement.calibration && method.between;
     const bool all = refines && setting.refinement.quality >= 1 && setting.refinement.mostPixels >= 1;
-    if (setting.method == RightEyeMethod::Full || all) {
+    if (!method.warpRow || all) {
         timings.boundPsnr_db = setting.refinement.calibration ? kMostPsnr_db : 0;
         fillMask(mState->mask, 255);
         watch.lap_ms();
@@ -404,44 +284,17 @@ RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews&
         mState->warp(renderer, job);
     else
         mState->copy(job);
-    if (refines && parallax && !leavesHoles(setting.method)) mState->refine(job, timings);
+    if (refines && parallax && method.after != AfterWarp::Leave) mState->refine(job, timings);
     timings.warp_ms = watch.lap_ms();
-    if (!parallax || leavesHoles(setting.method)) return timings;
-    timings.holePixels = setting.method == RightEyeMethod::DepthSplat ? mState->castFromDepths(renderer, job)
-                                                                      : mState->fill(renderer, job);
+    if (!parallax || method.after == AfterWarp::Leave) return timings;
+    timings.holePixels = method.after == AfterWarp::CastFromDepths ? mState->castFromDepths(renderer, job)
+                                                                   : mState->fill(renderer, job);
     timings.fill_ms = watch.lap_ms();
     return timings;
 }
 
 const Plane<std::uint8_t>& RightEye::holeMask() const {
     return mState->mask;
-}
-
-RightEyeMethod defaultMethodFor(const EyeRenderer& renderer) {
-    return renderer.translucent() ? RightEyeMethod::Selective : kDefaultRightEyeMethod;
-}
-
-std::vector<RightEyeMethod> methodsFor(const EyeRenderer& renderer) {
-    if (renderer.translucent())
-        return {RightEyeMethod::Full, RightEyeMethod::Linear, RightEyeMethod::Selective,
-                RightEyeMethod::DepthSplat};
-    std::vector<RightEyeMethod> methods;
-    for (const NamedMethod& named : kRightEyeMethods)
-        if (named.method != RightEyeMethod::DepthSplat && named.method != RightEyeMethod::Selective)
-            methods.push_back(named.method);
-    return methods;
-}
-
-std::optional<RightEyeMethod> rightEyeMethodFromName(std::string_view name) {
-    for (const NamedMethod& named : kRightEyeMethods)
-        if (named.name == name) return named.method;
-    return std::nullopt;
-}
-
-std::string_view nameOf(RightEyeMethod method) {
-    for (const NamedMethod& named : kRightEyeMethods)
-        if (named.method == method) return named.name;
-    return "";
 }
 
 }  // namespace stereonav

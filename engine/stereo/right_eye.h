@@ -1,52 +1,15 @@
 // The right eye from the left one: warp, then cast rays into the holes. One method per way of
-// reconstructing; `Full` casts every pixel and is what the others are measured against.
+// reconstructing (right_eye_method.h); `Full` casts every pixel and is what the others are measured against.
 #pragma once
 
-#include <array>
 #include <memory>
-#include <optional>
-#include <string_view>
-#include <vector>
 
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/render/eye_renderer.h"
+#include "engine/stereo/right_eye_method.h"
 
 namespace stereonav {
-
-enum class RightEyeMethod {
-    Full,        // no warp: every pixel cast
-    Paper,       // W5 to W9: splats of eight subpixels, weight threshold, holes cast
-    Linear,      // inverse resampling between neighbouring survivors, two taps
-    Cubic,       // the same, four taps (Catmull-Rom)
-    McMillan,    // W14: back-to-front forward warp without holes filled or clipping fixed
-    NoFill,      // the default's warp, holes left black: what filling is worth
-    Selective,   // as Linear, but pixels whose depths shift apart are cast: for translucent scenes
-    DepthSplat,  // W12: depths splatted, every ray cast from there with one jump; for translucent scenes
-};
-constexpr RightEyeMethod kDefaultRightEyeMethod = RightEyeMethod::Linear;
-
-struct NamedMethod {
-    std::string_view name;
-    RightEyeMethod method;
-};
-constexpr std::array<NamedMethod, 8> kRightEyeMethods{{{"full", RightEyeMethod::Full},
-                                                       {"paper", RightEyeMethod::Paper},
-                                                       {"linear", RightEyeMethod::Linear},
-                                                       {"cubic", RightEyeMethod::Cubic},
-                                                       {"mcmillan", RightEyeMethod::McMillan},
-                                                       {"nofill", RightEyeMethod::NoFill},
-                                                       {"selective", RightEyeMethod::Selective},
-                                                       {"depthsplat", RightEyeMethod::DepthSplat}}};
-
-// Selective for translucent scenes, else kDefaultRightEyeMethod.
-RightEyeMethod defaultMethodFor(const EyeRenderer& renderer);
-// The methods that are worth comparing, in the order of their names above: full, linear, selective and
-// depthsplat for a translucent scene, all but the last two for others. The others work too; depthsplat on an
-// opaque scene casts every pixel, with a jump, and selective is linear there. A warp of a translucent scene
-// moves each pixel as if all its colour came from where its ray first met something: near the truth for dense
-// walls, wrong where layers are seen through each other, which is where selective casts.
-std::vector<RightEyeMethod> methodsFor(const EyeRenderer& renderer);
 
 struct ErrorCalibration;
 
@@ -114,11 +77,5 @@ private:
     struct State;
     std::unique_ptr<State> mState;
 };
-
-// Whether pixels that the warp does not reach are left as they are: nothing is cast.
-bool leavesHoles(RightEyeMethod method);
-// nullopt for an unknown name.
-std::optional<RightEyeMethod> rightEyeMethodFromName(std::string_view name);
-std::string_view nameOf(RightEyeMethod method);
 
 }  // namespace stereonav

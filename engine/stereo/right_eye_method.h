@@ -1,0 +1,61 @@
+// The ways to a right eye, by name. What each of them does, and what follows from it, stands in a file of its
+// own (method_<name>.cpp, warp_method.h); a new one is such a file and a line here.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "engine/render/eye_renderer.h"
+
+namespace stereonav {
+
+// In the order in which they are listed and compared.
+#define STEREONAV_RIGHT_EYE_METHODS(METHOD) \
+    METHOD(Full, "full")                    \
+    METHOD(Paper, "paper")                  \
+    METHOD(Linear, "linear")                \
+    METHOD(Cubic, "cubic")                  \
+    METHOD(McMillan, "mcmillan")            \
+    METHOD(NoFill, "nofill")                \
+    METHOD(Selective, "selective")          \
+    METHOD(DepthSplat, "depthsplat")
+
+enum class RightEyeMethod {
+#define STEREONAV_METHOD(id, name) id,
+    STEREONAV_RIGHT_EYE_METHODS(STEREONAV_METHOD)
+#undef STEREONAV_METHOD
+};
+constexpr RightEyeMethod kDefaultRightEyeMethod = RightEyeMethod::Linear;
+
+struct NamedMethod {
+    std::string_view name;
+    RightEyeMethod method;
+};
+constexpr auto kRightEyeMethods = std::to_array<NamedMethod>({
+#define STEREONAV_METHOD(id, name) {name, RightEyeMethod::id},
+    STEREONAV_RIGHT_EYE_METHODS(STEREONAV_METHOD)
+#undef STEREONAV_METHOD
+});
+
+// Selective for translucent scenes, else kDefaultRightEyeMethod.
+RightEyeMethod defaultMethodFor(const EyeRenderer& renderer);
+// The methods that are worth comparing, in the order of their names above: full, linear, selective and
+// depthsplat for a translucent scene, all but the last two for others. The others work too; depthsplat on an
+// opaque scene casts every pixel, with a jump, and selective is linear there. A warp of a translucent scene
+// moves each pixel as if all its colour came from where its ray first met something: near the truth for dense
+// walls, wrong where layers are seen through each other, which is where selective casts.
+std::vector<RightEyeMethod> methodsFor(const EyeRenderer& renderer);
+
+// Whether pixels that the warp does not reach are left as they are: nothing is cast.
+bool leavesHoles(RightEyeMethod method);
+// Whether every pixel is cast, from a depth that the left eye tells.
+bool castsFromDepths(RightEyeMethod method);
+// Whether warped pixels may be cast as well, for a wish of quality (Refinement).
+bool hasQualityDial(RightEyeMethod method);
+// nullopt for an unknown name.
+std::optional<RightEyeMethod> rightEyeMethodFromName(std::string_view name);
+std::string_view nameOf(RightEyeMethod method);
+
+}  // namespace stereonav

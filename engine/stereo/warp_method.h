@@ -1,0 +1,79 @@
+// What one way to the right eye is: how it warps a row, and what follows from that. Shared among
+// right_eye.cpp and the method_*.cpp.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/camera/stereo_rig.h"
+#include "engine/image/eye_image.h"
+#include "engine/stereo/right_eye.h"
+#include "engine/stereo/warp_row.h"
+
+namespace stereonav {
+
+// Of one worker, for a row.
+struct WarpScratch {
+    std::vector<float> column, inverse, accumulators;
+    std::vector<std::int32_t> source;
+
+    void resize(int width, bool splats);
+};
+
+struct WarpMethod;
+
+// One frame.
+struct WarpJob {
+    const StereoViews& views;
+    const EyeImage& left;
+    const WarpSetting& setting;
+    const WarpMethod& method;
+    EyeImage& right;
+    Plane<std::uint8_t>& mask;  // 255 where a pixel is to be cast
+    ViewDependence dependence;
+    bool airDiffers;  // colours have the left eye's air before them
+
+    int width() const { return left.width(); }
+    float shift() const { return static_cast<float>(views.shiftAtInfinity); }
+    float scale() const { return static_cast<float>(views.parallaxScale); }
+    // What moves from eye to eye: colours, or the normals from which colours follow.
+    bool movesNormals() const { return dependence == ViewDependence::Normal; }
+    const Plane<std::uint32_t>& from() const { return movesNormals() ? left.normal : left.color; }
+    Plane<std::uint32_t>& to() const { return movesNormals() ? right.normal : right.color; }
+};
+
+// Warps row y: writes job.to(), job.right.viewDepth and job.mask, every pixel of the row.
+using WarpRowFunction = void (*)(const WarpJob& job, ResampleFunction resample, WarpScratch& scratch, int y);
+
+// What becomes of the pixels that the warp marked.
+enum class AfterWarp {
+    Cast,            // they are cast
+    Leave,           // they are left black
+    CastFromDepths,  // every pixel is cast, those not marked from the depth that was written
+};
+
+struct WarpMethod {
+    WarpRowFunction warpRow = nullptr;  // none: every pixel is cast, without a warp
+    AfterWarp after = AfterWarp::Cast;
+    // A warped pixel lies between the left pixels source and source + 1, as ResampleRow says; else it is that
+    // of `source`, and its depth the nearest of what was drawn there.
+    bool between = false;
+    bool splats = false;       // wants scratch for splats
+    bool marksBorder = true;   // what only the right eye may see at its right border is cast (region V)
+    bool opaque = true;        // worth comparing for scenes of surfaces
+    bool translucent = false;  // worth comparing for translucent scenes
+};
+
+// kMethodFull, kMethodPaper, ...: each defined in its method_<name>.cpp.
+#define STEREONAV_METHOD(id, name) extern const WarpMethod kMethod##id;
+STEREONAV_RIGHT_EYE_METHODS(STEREONAV_METHOD)
+#undef STEREONAV_METHOD
+
+const WarpMethod& warpMethodOf(RightEyeMethod method);
+
+// The row of an inverse warp with two taps.
+ResampleRow resampleRowOf(const WarpJob& job, WarpScratch& scratch, int y);
+// Warps it.
+void warpRowLinear(const WarpJob& job, ResampleFunction resample, WarpScratch& scratch, int y);
+
+}  // namespace stereonav
