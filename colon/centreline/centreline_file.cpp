@@ -1,12 +1,13 @@
 // Centrelines as files: plain text here, poly data in centreline_vtk.cpp and centreline_vtp.cpp.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 
 #include "colon/centreline/centreline_formats.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/text/number.h"
+#include "engine/text/words.h"
 
 namespace stereonav {
 namespace {
@@ -29,7 +30,7 @@ Centreline fromText(const std::string& text, const std::string& file) {
         std::string_view row(text.data() + at, end - at);
         at = end + 1;
         ++number;
-        NumberText words(file, row.substr(0, row.find('#')), number);
+        NumberText words(file, withoutComment(row), number);
         if (words.atEnd()) continue;
         for (int n = 0; n < 3; ++n) poly.coordinates.push_back(words.number("x y z radius segment"));
         poly.radii.push_back(words.number("x y z radius segment"));
@@ -63,8 +64,7 @@ std::string extensionOf(const std::filesystem::path& file) {
 }  // namespace
 
 bool NumberText::atEnd() {
-    while (mAt < mText.size() && std::string_view(" \t\r\n\v\f").find(mText[mAt]) != std::string_view::npos)
-        ++mAt;
+    while (mAt < mText.size() && kBlanks.find(mText[mAt]) != std::string_view::npos) ++mAt;
     return mAt == mText.size();
 }
 
@@ -72,18 +72,17 @@ std::string_view NumberText::word() {
     const bool none = atEnd();
     mWord = mAt;
     if (none) return {};
-    mAt = std::min(mText.find_first_of(" \t\r\n\v\f", mAt), mText.size());
+    mAt = std::min(mText.find_first_of(kBlanks, mAt), mText.size());
     return mText.substr(mWord, mAt - mWord);
 }
 
 double NumberText::number(const std::string& what) {
     const std::string_view next = word();
     if (next.empty()) fail("expected a number (" + what + "), found the end");
-    double value = 0;
-    const auto [stop, code] = std::from_chars(next.data(), next.data() + next.size(), value);
-    if (code != std::errc() || stop != next.data() + next.size() || !std::isfinite(value))
+    const std::optional<double> value = numberOf(next);
+    if (!value || !std::isfinite(*value))
         fail(fmt::format("expected a number ({}), got \"{}\"", what, next.substr(0, 40)));
-    return value;
+    return *value;
 }
 
 std::size_t NumberText::count(const std::string& what) {

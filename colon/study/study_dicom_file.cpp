@@ -8,8 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
+
+#include "engine/text/number.h"
 
 namespace stereonav {
 namespace {
@@ -79,14 +80,12 @@ std::string DicomItem::text(std::uint32_t tag) const {
 std::vector<double> DicomItem::numbers(std::uint32_t tag, std::size_t count) const {
     std::vector<double> numbers;
     const std::string all = text(tag);
-    const char* at = all.c_str();
+    std::string_view rest = all;
     while (numbers.size() < count) {
-        char* end = nullptr;
-        const double number = std::strtod(at, &end);
-        if (end == at || !std::isfinite(number)) break;
-        numbers.push_back(number);
-        while (*end == ' ' || *end == '\\') ++end;
-        at = end;
+        const std::optional<double> number = takeNumber(rest, Plus::Allowed);
+        if (!number || !std::isfinite(*number)) break;
+        numbers.push_back(*number);
+        rest.remove_prefix(std::min(rest.find_first_not_of(" \\"), rest.size()));
     }
     return numbers;
 }

@@ -9,6 +9,8 @@
 
 #include "colon/study/study_header.h"
 #include "colon/study/study_text.h"
+#include "engine/text/number.h"
+#include "engine/text/words.h"
 
 namespace stereonav {
 namespace {
@@ -111,7 +113,7 @@ SampleType metaType(const MetaText& meta) {
         meta.refuse(0, fmt::format("expected an ElementType of 8 to 64 bits, as MET_SHORT, found {}",
                                    shortText(name)));
     const std::string channels = meta.value("elementnumberofchannels");
-    if (!channels.empty() && numberFrom(channels).value_or(0) != 1)
+    if (!channels.empty() && numberOf(channels, Plus::Allowed).value_or(0) != 1)
         throw Error(meta.file.string(), "", "expected one number a voxel, found " + shortText(channels),
                     "save one component of it alone");
     return at->second;
@@ -120,7 +122,7 @@ SampleType metaType(const MetaText& meta) {
 // "LOCAL", "LIST [dimensions]", "pattern [first [last [step]]]", or a name that may hold blanks.
 void takeMetaFiles(const MetaText& meta, const VolumeHeader& header, SamplePlace& place) {
     const std::string value = meta.value("elementdatafile");
-    const auto words = wordsOf(value);
+    const auto words = ownWordsOf(value);
     if (words.empty())
         throw Error(meta.file.string(), "", "names no data file", "the header is damaged: get it again");
     if (loweredText(words[0]) == "local") {
@@ -135,7 +137,7 @@ void takeMetaFiles(const MetaText& meta, const VolumeHeader& header, SamplePlace
     std::int64_t numbers[] = {1, static_cast<std::int64_t>(header.size[2]), 1};
     bool pattern = words[0].find('%') != std::string::npos && words.size() <= 4;
     for (std::size_t n = 1; pattern && n < words.size(); ++n) {
-        const auto number = wholeFrom(words[n]);
+        const auto number = wholeOf<std::int64_t>(words[n], Plus::Allowed);
         pattern = number.has_value();
         if (pattern) numbers[n - 1] = *number;
     }
@@ -155,7 +157,7 @@ void takeMetaPlace(const MetaText& meta, VolumeHeader& header) {
     place.turned = big != (std::endian::native == std::endian::big);
     const std::string skip = meta.value("headersize");
     if (skip.empty()) return;
-    const auto bytes = wholeFrom(skip);
+    const auto bytes = wholeOf<std::int64_t>(skip, Plus::Allowed);
     if (!bytes || *bytes < -1 || *bytes > 1'000'000'000'000)
         meta.refuse(0, "expected a HeaderSize of bytes, or -1, found " + shortText(skip));
     place.atEnd = *bytes < 0 && place.encoding == SampleEncoding::Raw;

@@ -10,6 +10,8 @@
 
 #include "colon/study/study_header.h"
 #include "colon/study/study_text.h"
+#include "engine/text/number.h"
+#include "engine/text/words.h"
 
 namespace stereonav {
 namespace {
@@ -142,11 +144,11 @@ NrrdVectors vectorsOf(const NrrdText& nrrd, const std::string& name) {
                                  ? text.substr(at + 1, close - at - 1)
                                  : std::string("?");
         std::replace(inside.begin(), inside.end(), ',', ' ');
-        const auto words = wordsOf(inside);
+        const auto words = ownWordsOf(inside);
         glm::dvec3 v(0.0);
         bool good = words.size() == 3;
         for (int c = 0; good && c < 3; ++c) {
-            const auto number = numberFrom(words[c]);
+            const auto number = numberOf(words[c], Plus::Allowed);
             good = number && std::isfinite(*number);
             if (good) v[c] = *number;
         }
@@ -163,15 +165,15 @@ NrrdVectors vectorsOf(const NrrdText& nrrd, const std::string& name) {
 // One number a word; not a number where a word is none ("nan", "none").
 std::vector<double> axisNumbers(const NrrdText& nrrd, const std::string& name, std::size_t axes) {
     std::vector<double> numbers(axes, std::nan(""));
-    const auto words = wordsOf(nrrd.value(name));
+    const auto words = ownWordsOf(nrrd.value(name));
     for (std::size_t n = 0; n < std::min(axes, words.size()); ++n)
-        numbers[n] = numberFrom(words[n]).value_or(std::nan(""));
+        numbers[n] = numberOf(words[n], Plus::Allowed).value_or(std::nan(""));
     return numbers;
 }
 
 // "\"mm\" \"mm\" \"\"": in quotation marks, or words where there are none.
 std::vector<std::string> quotedWords(const std::string& text) {
-    if (text.find('"') == std::string::npos) return wordsOf(text);
+    if (text.find('"') == std::string::npos) return ownWordsOf(text);
     std::vector<std::string> words;
     for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos;) {
         const std::size_t end = text.find('"', at + 1);
@@ -183,14 +185,14 @@ std::vector<std::string> quotedWords(const std::string& text) {
 }
 
 std::vector<std::uint64_t> sizesOf(const NrrdText& nrrd) {
-    const auto dimension = wholeFrom(nrrd.value("dimension"));
+    const auto dimension = wholeOf<std::int64_t>(nrrd.value("dimension"), Plus::Allowed);
     if (!dimension || *dimension < 1 || *dimension > static_cast<std::int64_t>(kMostAxes))
         nrrd.refuse("dimension", fmt::format("expected a dimension of 1 to {}, found \"{}\"", kMostAxes,
                                              shortText(nrrd.value("dimension"))));
-    const auto words = wordsOf(nrrd.value("sizes"));
+    const auto words = ownWordsOf(nrrd.value("sizes"));
     std::vector<std::uint64_t> sizes;
     for (const std::string& word : words) {
-        const auto size = wholeFrom(word);
+        const auto size = wholeOf<std::int64_t>(word, Plus::Allowed);
         if (!size || *size < 1)
             nrrd.refuse("sizes", fmt::format("expected whole sizes above 0, found {}", shortText(word)));
         sizes.push_back(static_cast<std::uint64_t>(*size));
@@ -290,7 +292,7 @@ void takeSpaced(const NrrdText& nrrd, const std::vector<std::size_t>& axes, Volu
     const auto spacings = axisNumbers(nrrd, "spacings", count), least = axisNumbers(nrrd, "axismins", count),
                most = axisNumbers(nrrd, "axismaxs", count);
     auto centers =
-        wordsOf(loweredText(nrrd.value(nrrd.fields.contains("centers") ? "centers" : "centerings")));
+        ownWordsOf(loweredText(nrrd.value(nrrd.fields.contains("centers") ? "centers" : "centerings")));
     centers.resize(count);
     bool known = true;
     header.steps = glm::dmat3(0.0);
@@ -314,7 +316,7 @@ void takeSpaced(const NrrdText& nrrd, const std::vector<std::size_t>& axes, Volu
 
 std::int64_t skipOf(const NrrdText& nrrd, const std::string& name, std::int64_t least) {
     if (!nrrd.fields.contains(name)) return 0;
-    const auto skip = wholeFrom(nrrd.value(name));
+    const auto skip = wholeOf<std::int64_t>(nrrd.value(name), Plus::Allowed);
     if (!skip || *skip < least || *skip > 1'000'000'000'000)
         nrrd.refuse(name, fmt::format("expected a count of {} to skip, found {}",
                                       name == "lineskip" ? "lines" : "bytes", shortText(nrrd.value(name))));
@@ -335,10 +337,12 @@ SampleEncoding encodingOf(const NrrdText& nrrd) {
 // "LIST", "pattern first last step [dimensions]", or a name that may hold blanks.
 std::vector<fs::path> nrrdFiles(const NrrdText& nrrd) {
     const std::string& value = nrrd.value("datafile");
-    const auto words = wordsOf(value);
+    const auto words = ownWordsOf(value);
     if (words[0] == "LIST") return listedFiles(nrrd.file, nrrd.text, nrrd.end);
     if (words.size() >= 4 && words[0].find('%') != std::string::npos) {
-        const auto first = wholeFrom(words[1]), last = wholeFrom(words[2]), step = wholeFrom(words[3]);
+        const auto first = wholeOf<std::int64_t>(words[1], Plus::Allowed),
+                   last = wholeOf<std::int64_t>(words[2], Plus::Allowed),
+                   step = wholeOf<std::int64_t>(words[3], Plus::Allowed);
         if (first && last && step) return numberedFiles(nrrd.file, words[0], *first, *last, *step);
     }
     return {besideHeader(nrrd.file, value)};

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -12,6 +10,7 @@
 #include "colon/study/study_header.h"
 #include "colon/study/study_stream.h"
 #include "engine/base/parallel.h"
+#include "engine/text/number.h"
 
 namespace stereonav {
 namespace {
@@ -114,13 +113,13 @@ bool parts(int c) {
 template <typename T>
 bool numberInto(const std::string& word, T& number) {
     if constexpr (std::is_floating_point_v<T>) {
-        char* end = nullptr;
-        number = static_cast<T>(std::strtod(word.c_str(), &end));
-        return *end == '\0';
+        std::string_view rest = word;
+        number = static_cast<T>(takeNumber(rest, Plus::Allowed).value_or(0));
+        return rest.empty();
     } else {
-        const char *first = word.data() + (word[0] == '+' ? 1 : 0), *last = word.data() + word.size();
-        const auto [end, code] = std::from_chars(first, last, number);
-        return code == std::errc() && end == last;
+        const std::optional<T> whole = wholeOf<T>(word, Plus::Allowed);
+        number = whole.value_or(0);
+        return whole.has_value();
     }
 }
 

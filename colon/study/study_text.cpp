@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "engine/text/number.h"
+#include "engine/text/words.h"
 
 namespace stereonav {
 namespace {
@@ -41,17 +41,6 @@ std::string shortText(const std::string& text) {
     return text.size() > kLongestFound ? found + fmt::format("... ({} characters)", text.size()) : found;
 }
 
-std::vector<std::string> wordsOf(const std::string& text) {
-    std::vector<std::string> words;
-    std::size_t at = 0;
-    while ((at = text.find_first_not_of(" \t\r", at)) != std::string::npos) {
-        const std::size_t end = std::min(text.find_first_of(" \t\r", at), text.size());
-        words.push_back(text.substr(at, end - at));
-        at = end;
-    }
-    return words;
-}
-
 std::string beginningOf(const fs::path& file, std::size_t bytes) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw Error(file.string(), "", "can not be opened", "check the name and its permissions");
@@ -70,31 +59,14 @@ bool nextLine(const std::string& text, std::size_t& at, std::string& line) {
     return true;
 }
 
-std::optional<double> numberFrom(const std::string& text) {
-    if (text.empty() || std::isspace(static_cast<unsigned char>(text[0]))) return {};
-    char* end = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    const bool digits = text.find_first_of("0123456789") != std::string::npos;
-    if (*end != '\0' || (digits && std::isinf(number))) return {};
-    return number;
-}
-
-std::optional<std::int64_t> wholeFrom(const std::string& text) {
-    std::int64_t number = 0;
-    const char *first = text.data(), *last = first + text.size();
-    if (text.starts_with('+')) ++first;
-    const auto [end, code] = std::from_chars(first, last, number);
-    if (code != std::errc() || end != last || text.empty()) return {};
-    return number;
-}
-
 std::vector<double> numbersIn(const std::string& text) {
     std::vector<double> numbers;
-    const char* at = text.c_str();
-    for (char* end = nullptr;; at = end) {
-        const double number = std::strtod(at, &end);
-        if (end == at) return numbers;
-        numbers.push_back(number);
+    std::string_view rest = text;
+    while (true) {
+        rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+        const std::optional<double> number = takeNumber(rest, Plus::Allowed);
+        if (!number) return numbers;
+        numbers.push_back(*number);
     }
 }
 

@@ -1,4 +1,4 @@
-// Text of volume headers: lines, words, numbers and the names of data files. Shared among colon/study*.cpp.
+// Text of volume headers: lines, words, numbers and the names of data files. Shared among colon/study/*.cpp.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,12 @@ std::string trimmedText(const std::string& text);
 std::string loweredText(std::string text);
 // For messages: printable, and no longer than a line.
 std::string shortText(const std::string& text);
-std::vector<std::string> wordsOf(const std::string& text);
 
 // The first bytes of a file, at most so many. Throws Error.
 std::string beginningOf(const std::filesystem::path& file, std::size_t bytes);
 // One line of text from `at` on, which moves behind it; false at the end.
 bool nextLine(const std::string& text, std::size_t& at, std::string& line);
 
-// The whole of the text as a number (also nan, inf), none where it is something else or beyond all doubles.
-std::optional<double> numberFrom(const std::string& text);
-std::optional<std::int64_t> wholeFrom(const std::string& text);
 // As many numbers as the text begins with.
 std::vector<double> numbersIn(const std::string& text);
 

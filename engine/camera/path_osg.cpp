@@ -2,29 +2,17 @@
 // so poses are taken as they are; a quaternion is x y z w.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <string_view>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/camera/path_formats.h"
 #include "engine/camera/path_sample.h"
+#include "engine/text/number.h"
+#include "engine/text/words.h"
 
 namespace stereonav {
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r\v\f";
-
-std::vector<std::string_view> words(std::string_view line) {
-    std::vector<std::string_view> result;
-    while (true) {
-        const auto begin = line.find_first_not_of(kBlanks);
-        if (begin == line.npos) return result;
-        const auto end = std::min(line.find_first_of(kBlanks, begin), line.size());
-        result.push_back(line.substr(begin, end - begin));
-        line.remove_prefix(end);
-    }
-}
 
 // Lines of the block that .osg files put around the samples, and comments.
 bool isFraming(std::string_view first) {
@@ -39,14 +27,12 @@ bool isFraming(std::string_view first) {
 std::vector<double> numbers(const std::vector<std::string_view>& line, std::string_view& bad) {
     std::vector<double> values;
     for (std::string_view word : line) {
-        const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
-        double value = 0;
-        const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        if (code != std::errc{} || end != digits.data() + digits.size()) {
+        const std::optional<double> value = numberOf(word, Plus::Allowed);
+        if (!value) {
             bad = word;
             return values;
         }
-        values.push_back(value);
+        values.push_back(*value);
     }
     return values;
 }
@@ -72,7 +58,7 @@ RecordedPath readOsgPath(const std::filesystem::path& file) {
     std::string_view rest = text;
     for (int lineNumber = 1; !rest.empty(); ++lineNumber) {
         const auto end = std::min(rest.find('\n'), rest.size());
-        const auto line = words(rest.substr(0, end));
+        const auto line = wordsOf(rest.substr(0, end));
         rest.remove_prefix(std::min(end + 1, rest.size()));
         if (line.empty() || isFraming(line.front())) continue;
         const std::string place = fmt::format("{}", lineNumber);

@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/text/number.h"
 
 namespace stereonav {
 namespace {
@@ -61,24 +61,16 @@ private:
                             "convert it to RGBE");
     }
 
-    static int number(std::string_view& text) {
-        int value = 0;
-        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (code != std::errc()) return 0;
-        text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-        return value;
-    }
-
     LinearImage readSize() {
         const std::string_view text = line();
         std::string_view rest = text;
         LinearImage image;
         if (rest.starts_with("-Y ")) {
             rest.remove_prefix(3);
-            image.height = number(rest);
+            image.height = takeWhole<int>(rest).value_or(0);
             if (rest.starts_with(" +X ")) {
                 rest.remove_prefix(4);
-                image.width = number(rest);
+                image.width = takeWhole<int>(rest).value_or(0);
             }
         }
         if (image.width < 1 || image.height < 1 || image.width > kMaxSide || image.height > kMaxSide ||

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/nice_step.h"
+
 namespace stereonav {
 namespace {
 
@@ -14,13 +16,6 @@ constexpr double kLeastDecades = 0.25;  // of a logarithmic scale
 constexpr std::size_t kMostTicks = 7;
 
 // 1, 2 or 5 times a power of ten that cuts `range` into at most six parts.
-double niceStep(double range) {
-    const double raw = range / 6, power = std::pow(10.0, std::floor(std::log10(raw)));
-    for (const double factor : {1.0, 2.0, 5.0})
-        if (raw <= factor * power) return factor * power;
-    return 10 * power;
-}
-
 std::string tickText(double value) {
     const double size = std::abs(value);
     if (size >= 1e4 && size < 1e6) return fmt::format("{:.4g}k", value / 1000);

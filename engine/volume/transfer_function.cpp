@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -14,6 +13,8 @@
 #include "engine/base/file.h"
 #include "engine/image/packed_color.h"
 #include "engine/math/constants.h"
+#include "engine/text/number.h"
+#include "engine/text/words.h"
 
 namespace stereonav {
 namespace {
@@ -50,18 +51,6 @@ void checkPoint(const std::vector<TransferPoint>& points, std::size_t n, const s
     if (!problem.empty()) throw Error(source, place, problem, kPointAdvice);
 }
 
-std::vector<std::string_view> wordsOf(std::string_view line) {
-    line = line.substr(0, line.find('#'));
-    std::vector<std::string_view> words;
-    constexpr std::string_view kBlank = " \t\r\v\f";
-    for (std::size_t at = line.find_first_not_of(kBlank); at != std::string_view::npos;) {
-        const std::size_t end = std::min(line.find_first_of(kBlank, at), line.size());
-        words.push_back(line.substr(at, end - at));
-        at = line.find_first_not_of(kBlank, end);
-    }
-    return words;
-}
-
 // Reads the lines of one file, each checked where it stands.
 class Parser {
 public:
@@ -69,7 +58,7 @@ public:
 
     void line(std::string_view text) {
         ++mLine;
-        const auto words = wordsOf(text);
+        const auto words = wordsOf(withoutComment(text));
         if (words.empty()) return;
         if (words[0] == "reference_mm") {
             readLength(words);
@@ -88,12 +77,11 @@ private:
     std::string place() const { return std::to_string(mLine); }
 
     double number(std::string_view word) const {
-        double value = 0;
-        const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (code != std::errc() || end != word.data() + word.size())
+        const std::optional<double> value = numberOf(word);
+        if (!value)
             throw Error(mSource, place(), fmt::format("expected a number, got \"{}\"", word.substr(0, 40)),
                         kPointAdvice);
-        return value;
+        return *value;
     }
 
     void readLength(const std::vector<std::string_view>& words) {

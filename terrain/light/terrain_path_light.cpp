@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "engine/math/luminance.h"
+
 namespace stereonav {
 namespace {
 
@@ -124,15 +126,14 @@ PathLight tracePathLight(const GroundRays& rays, const glm::dvec2& place, const 
     Paths paths(rays, light, sky, setting, random);
     PathLight result;
     double square = 0;
-    const glm::dvec3 toLuminance(0.2126, 0.7152, 0.0722);
     for (int first = 0; first < setting.paths; first += kSize) {
         paths.trace(place);
         for (int k = 0; k < kSize; ++k) {
             result.mean += paths.sum(k) / double(setting.paths);
-            square += std::pow(glm::dot(paths.sum(k), toLuminance), 2) / setting.paths;
+            square += std::pow(luminance(paths.sum(k)), 2) / setting.paths;
         }
     }
-    const double mean = glm::dot(result.mean, toLuminance);
+    const double mean = luminance(result.mean);
     result.variance = std::max(0.0, square - mean * mean) / std::max(1, setting.paths - 1);
     return result;
 }

@@ -3,16 +3,12 @@
 #pragma once
 
 #include "engine/light/paths/path_trace.h"
+#include "engine/math/constants.h"
+#include "engine/math/square_root.h"
 
 namespace stereonav::STEREONAV_ISA {
 
 constexpr int kMostBands = 6;  // kMaxHarmonicsOrder
-
-constexpr double rootOf(double x) {
-    double root = x > 1 ? x : 1;
-    for (int n = 0; n < 64; ++n) root = 0.5 * (root + x / root);
-    return root;
-}
 
 // N_l^m of eq. 12, with the square root of 2 for m > 0.
 struct Normalisations {
@@ -22,8 +18,8 @@ struct Normalisations {
             for (int m = 0; m <= l; ++m) {
                 double ratio = 1;  // (l + m)! / (l - m)!
                 for (int k = l - m + 1; k <= l + m; ++k) ratio *= k;
-                of[l][m] = static_cast<float>(
-                    rootOf((m > 0 ? 2 : 1) * (2 * l + 1) / (4 * 3.14159265358979323846 * ratio)));
+                of[l][m] =
+                    static_cast<float>(constantRoot((m > 0 ? 2 : 1) * (2 * l + 1) / (4 * kPi * ratio)));
             }
     }
 };

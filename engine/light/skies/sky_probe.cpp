@@ -16,6 +16,7 @@
 
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
+#include "engine/math/luminance.h"
 
 namespace stereonav {
 namespace {
@@ -23,7 +24,6 @@ namespace {
 constexpr double kSunRadius = 0.5 * 0.533 * kPi / 180;  // at the mean distance
 constexpr double kSunAboveTheAir_klx = 128;             // across the rays
 const glm::dvec3 kWavelengths_um(0.61, 0.55, 0.465);
-const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
 
 void require(bool fits, const char* name, const std::string& expected) {
     if (!fits) throw Error("", std::string("sky, ") + name, "expected " + expected, "give another value");
@@ -172,7 +172,7 @@ void addSun(Panorama& panorama, const glm::dvec3& sun, const glm::dvec3& light) 
 
 LightProbe finished(Panorama panorama, double groundAlbedo, const std::string& name) {
     const glm::dvec3 white = panorama.irradiance() / kPi;  // what a white surface sends out
-    const double scale = 1 / glm::dot(white, kLuminance);
+    const double scale = 1 / luminance(white);
     const glm::dvec3 ground = groundAlbedo * white;
     std::vector<glm::vec3> pixels;
     pixels.reserve(panorama.pixels.size());

@@ -5,14 +5,11 @@
 
 #include <array>
 
+#include "engine/math/constants.h"
+#include "engine/math/square_root.h"
+
 namespace stereonav {
 namespace {
-
-constexpr double rootOf(double x) {
-    double root = x > 1 ? x : 1;
-    for (int i = 0; i < 64; ++i) root = 0.5 * (root + x / root);
-    return root;
-}
 
 // N_l^m of eq. 12, with the square root of 2 for m > 0; l (l + 1) / 2 + m.
 constexpr auto kNormalisation = [] {
@@ -21,8 +18,7 @@ constexpr auto kNormalisation = [] {
         for (int m = 0; m <= l; ++m) {
             double ratio = 1;  // (l + m)! / (l - m)!
             for (int k = l - m + 1; k <= l + m; ++k) ratio *= k;
-            const double pi = 3.14159265358979323846;
-            values[l * (l + 1) / 2 + m] = rootOf((m > 0 ? 2 : 1) * (2 * l + 1) / (4 * pi * ratio));
+            values[l * (l + 1) / 2 + m] = constantRoot((m > 0 ? 2 : 1) * (2 * l + 1) / (4 * kPi * ratio));
         }
     return values;
 }();

@@ -12,7 +12,8 @@
 #include "engine/math/constants.h"
 #include "engine/medium/model/medium_check.h"
 #include "engine/medium/model/medium_transfer.h"
-#include "engine/medium/model/text_words.h"
+#include "engine/text/number.h"
+#include "engine/text/words.h"
 
 namespace stereonav {
 namespace {
@@ -44,7 +45,7 @@ struct Reading {
 class Line {
 public:
     Line(std::string_view text, std::string source, int number, const char* form)
-        : mWords(wordsOf(text)), mSource(std::move(source)), mNumber(number), mForm(form) {}
+        : mWords(wordsOf(withoutComment(text))), mSource(std::move(source)), mNumber(number), mForm(form) {}
 
     bool done() const { return mNext == mWords.size(); }
     std::string_view peek() const { return done() ? std::string_view() : mWords[mNext]; }

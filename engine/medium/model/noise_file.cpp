@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <vector>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/text/number.h"
+#include "engine/text/words.h"
 
 namespace stereonav {
 namespace {
@@ -51,7 +52,8 @@ public:
 
     void line(std::string_view text) {
         ++mLine;
-        take(text.substr(0, text.find('#')));
+        mWords = wordsOf(withoutComment(text));
+        mAt = 0;
         if (mWords.empty()) return;
         if (mWords[0] == "seed") {
             mAt = 1;
@@ -74,17 +76,6 @@ public:
     }
 
 private:
-    void take(std::string_view text) {
-        constexpr std::string_view kBlank = " \t\r\v\f";
-        mWords.clear();
-        mAt = 0;
-        for (std::size_t at = text.find_first_not_of(kBlank); at != std::string_view::npos;) {
-            const std::size_t end = std::min(text.find_first_of(kBlank, at), text.size());
-            mWords.push_back(text.substr(at, end - at));
-            at = text.find_first_not_of(kBlank, end);
-        }
-    }
-
     void property(NoiseScale& scale) {
         const std::string_view word = mWords[mAt++];
         if (word == "size") {
@@ -109,12 +100,10 @@ private:
 
     double number() {
         const std::string_view word = mAt < mWords.size() ? mWords[mAt++] : "";
-        double value = 0;
-        const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (word.empty() || code != std::errc() || end != word.data() + word.size() ||
-            !(std::abs(value) <= 1e9))
+        const std::optional<double> value = numberOf(word);
+        if (!value || !(std::abs(*value) <= 1e9))
             fail(fmt::format("expected a number, got \"{}\"", word.substr(0, 40)));
-        return value;
+        return *value;
     }
     glm::dvec3 three() {
         glm::dvec3 values;

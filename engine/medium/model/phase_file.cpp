@@ -7,7 +7,8 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/medium/model/phase_function.h"
-#include "engine/medium/model/text_words.h"
+#include "engine/text/number.h"
+#include "engine/text/words.h"
 
 namespace stereonav {
 namespace {
@@ -17,7 +18,7 @@ PhaseFunction parsePhaseFunction(std::string_view text, const std::string& sourc
     int number = 0;
     forEachLine(text, [&](std::string_view line) {
         ++number;
-        const auto words = wordsOf(line);
+        const auto words = wordsOf(withoutComment(line));
         if (words.empty()) return;
         const auto fail = [&](const std::string& problem) {
             throw Error(source, std::to_string(number), problem,

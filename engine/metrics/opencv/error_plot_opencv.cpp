@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/image/opencv/byte_image.h"
+#include "engine/math/nice_step.h"
 #include "engine/metrics/error_plot.h"
 
 namespace stereonav {
@@ -38,13 +39,6 @@ void uprightText(cv::Mat& canvas, const std::string& words, cv::Point at, double
 }
 
 // 1, 2 or 5 times a power of ten: the step that makes at most about seven ticks.
-double niceStep(double range) {
-    const double raw = range / 6.0, power = std::pow(10.0, std::floor(std::log10(raw)));
-    for (const double factor : {1.0, 2.0, 5.0})
-        if (raw <= factor * power) return factor * power;
-    return 10.0 * power;
-}
-
 // The box of an axis-parallel line, with room for its width.
 cv::Rect around(const cv::Point& a, const cv::Point& b) {
     const cv::Point low(std::min(a.x, b.x) - 3, std::min(a.y, b.y) - 3);

@@ -6,13 +6,13 @@
 #include <ogr_spatialref.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
+#include "engine/text/number.h"
 #include "terrain/read/gdal/dem_resample.h"
 #include "terrain/read/gdal/dem_samples.h"
 #include "terrain/read/gdal/reference_system.h"
@@ -25,19 +25,12 @@ constexpr const char* kExpected = "an elevation model";
 constexpr const char* kAdvice = "give a GeoTIFF, .hgt, USGS DEM, ESRI ASCII or 16-bit PNG file";
 constexpr double kScaleTolerance = 0.01;  // a projection stretched by more is not metres on the ground
 
-std::optional<int> wholeNumber(const std::string& text) {
-    int value = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc() || end != text.data() + text.size() || value < 0) return std::nullopt;
-    return value;
-}
-
 // Metres a pixel of a web map tile whose path ends in zoom/x/y.ext; the second is its latitude.
 std::optional<double> tileSpacing(const std::filesystem::path& file) {
-    const auto y = wholeNumber(file.stem().string());
-    const auto x = wholeNumber(file.parent_path().filename().string());
-    const auto zoom = wholeNumber(file.parent_path().parent_path().filename().string());
-    if (!x || !y || !zoom || *zoom > 24) return std::nullopt;
+    const auto y = wholeOf<int>(file.stem().string());
+    const auto x = wholeOf<int>(file.parent_path().filename().string());
+    const auto zoom = wholeOf<int>(file.parent_path().parent_path().filename().string());
+    if (!x || !y || !zoom || *x < 0 || *y < 0 || *zoom < 0 || *zoom > 24) return std::nullopt;
     const double tiles = std::ldexp(1.0, *zoom);
     if (*x >= tiles || *y >= tiles) return std::nullopt;
     const double latitude = std::atan(std::sinh(std::numbers::pi * (1 - 2 * (*y + 0.5) / tiles)));

@@ -1,0 +1,13 @@
+// The square root where a constant is made: std::sqrt is none.
+#pragma once
+
+namespace stereonav {
+
+// x: 0 and more, up to 1e30.
+constexpr double constantRoot(double x) {
+    double root = x > 1 ? x : 1;
+    for (int n = 0; n < 64; ++n) root = 0.5 * (root + x / root);
+    return root;
+}
+
+}  // namespace stereonav
