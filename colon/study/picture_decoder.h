@@ -1,4 +1,4 @@
-// Compressed pictures of DICOM files, unpacked by the helper program stereonav_gdcm (GDCM; colon/gdcm).
+// Compressed pictures of DICOM files, unpacked by the helper program stereonav_gdcm (GDCM; colon/study/gdcm).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // A DICOM file taken apart: every element's length is held against the file's before any of it counts
-// (PS3.5 7, PS3.10 7). Shared among colon/study*.cpp only.
+// (PS3.5 7, PS3.10 7). Shared among colon/study/*.cpp only.
 #pragma once
 
 #include <cstdint>

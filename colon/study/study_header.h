@@ -1,5 +1,5 @@
 // What the header of a volume file says, found out and checked before memory is taken. Shared among
-// colon/study*.cpp only. Formats: teem.sourceforge.net/nrrd/format.html, itk.org MetaIO, nifti.nimh.nih.gov.
+// colon/study/*.cpp only. Formats: teem.sourceforge.net/nrrd/format.html, itk.org MetaIO, nifti.nimh.nih.gov.
 #pragma once
 
 #include <cstdint>

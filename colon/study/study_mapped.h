@@ -1,4 +1,4 @@
-// A file's bytes as memory, for as long as it lives. Shared among colon/study*.cpp only.
+// A file's bytes as memory, for as long as it lives. Shared among colon/study/*.cpp only.
 #pragma once
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// The steps of reading a study, shared among colon/study*.cpp only: facts from the header, checked before
+// The steps of reading a study, shared among colon/study/*.cpp only: facts from the header, checked before
 // memory is taken; samples as the file stores them; grey values or a mask from those.
 #pragma once
 

@@ -1,5 +1,5 @@
 // The bytes of a data file, decoded: as they are, inflated (gzip, zlib) or out of bzip2. Shared among
-// colon/study*.cpp only.
+// colon/study/*.cpp only.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Rasters and their pixels; what needs to know reference systems is in terrain/gdal.
+// Rasters and their pixels; what needs to know reference systems is in terrain/read/gdal.
 #include "terrain/raster/georeference.h"
 
 #include <cmath>

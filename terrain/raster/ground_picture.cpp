@@ -1,4 +1,4 @@
-// Lookups in a picture of the ground; terrain/gdal reads it.
+// Lookups in a picture of the ground; terrain/read/gdal reads it.
 #include "terrain/raster/ground_picture.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // What terrain asks of GDAL, beside readDem(): pictures in files, and where rasters lie to each other. The
-// functions are those of the module stereonav_gdal (terrain/gdal), which is loaded by the first that is
+// functions are those of the module stereonav_gdal (terrain/read/gdal), which is loaded by the first that is
 // called.
 #pragma once
 
