@@ -72,9 +72,3 @@ list(JOIN without ", " without)
 set_source_files_properties(app/options/built_without.cpp PROPERTIES COMPILE_DEFINITIONS
   "STEREONAV_VERSION=\"${PROJECT_VERSION}\";STEREONAV_WITHOUT=\"${without}\"")
 include(cmake/version.cmake)
-install(TARGETS stereonav RUNTIME DESTINATION bin)
-install(DIRECTORY ${CMAKE_BINARY_DIR}/lib/stereonav DESTINATION lib FILES_MATCHING PATTERN "stereonav_*.so"
-  PATTERN "stereonav_test*" EXCLUDE)
-if(TARGET stereonav_gdcm)
-  install(TARGETS stereonav_gdcm RUNTIME DESTINATION lib/stereonav)
-endif()

@@ -16,6 +16,11 @@ namespace {
 
 constexpr const char* kEntry = "stereonavModule";
 
+fs::path& chosenFolder() {  // empty: none
+    static fs::path folder;
+    return folder;
+}
+
 Error cannotLoad(const fs::path& file, const std::string& purpose, const std::string& reason) {
     return Error(file.string(), "", "can not be loaded (" + reason + "); it is needed " + purpose,
                  "install the library that is missing, or build the program again");
@@ -55,7 +60,12 @@ const void* moduleTable(const std::string& name, const std::string& purpose, std
     return module.functions;
 }
 
+void setModuleFolder(const fs::path& folder) {
+    chosenFolder() = folder;
+}
+
 fs::path moduleFolder() {
+    if (!chosenFolder().empty()) return chosenFolder();
     std::error_code code;
     const fs::path program = fs::read_symlink("/proc/self/exe", code);
     return program.parent_path().parent_path() / "lib" / "stereonav";

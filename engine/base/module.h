@@ -44,6 +44,8 @@ const Functions& moduleFunctions(const std::string& name, const std::string& pur
 
 // Where modules are: ../lib/stereonav from the program's own folder, so that it can be moved as a whole.
 std::filesystem::path moduleFolder();
+// For programs that lie elsewhere: before the first call of a module's function, while no other thread runs.
+void setModuleFolder(const std::filesystem::path& folder);
 
 // The files of all shared libraries that this process has loaded, itself left out.
 std::vector<std::string> loadedLibraries();
