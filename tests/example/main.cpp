@@ -21,7 +21,11 @@ public:
                       EyeImage& image) const override {
         for (const PixelIndex p : pixels) cast(view, p.x, p.y, image);
     }
-    bool mayHitBeyondEdge(const EyeView&, PixelRect, double, double) const override { return true; }
+    // Nothing of the scene is nearer than 2 m.
+    bool mayHitBeyondEdge(const EyeView&, PixelRect rect, double column,
+                          double parallaxScale) const override {
+        return column <= rect.x1 || parallaxScale / (column - rect.x1) > 2;
+    }
 
 private:
     // The ray's parameter is the view depth.
