@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "app/scene/shown_terrain.h"
 #include "engine/nav/navigator.h"
 
 namespace stereonav {
@@ -64,29 +63,11 @@ private:
 
 ShownMedium::~ShownMedium() = default;
 
-const TerrainScene& ShownMedium::hold(TerrainScene terrain) {
-    mTerrain = std::make_unique<TerrainScene>(std::move(terrain));
-    setViews(*mTerrain, *this);
-    offer<const TerrainScene>(*mTerrain);
-    return *mTerrain;
-}
-
-VolumeWorld& ShownMedium::hold(LitVolume volume) {
-    mVolume = std::move(volume);
-    VolumeWorld& world = *mVolume.world;
-    offer<const ColonScene>(world.colon());
-    offer<RoomAround>(world);
-    offer<SliceSource>(world);
-    if (world.colon().isColon()) offer<LineThrough>(world);
-    if (!mVolume.light.lazy && !mVolume.light.sky) return world;
-    mVolumeLight = std::make_unique<SeenVolumeLight>(mVolume.light.lazy, mVolume.light.sky);
-    offer<SeenLight>(*mVolumeLight);
-    return world;
-}
-
 void ShownMedium::flyFreely() {
     const glm::dvec3 size = mMedium->medium.bounds().high - mMedium->medium.bounds().low;
-    mFreeExtent = std::max({size.x, size.y, size.z});
+    mMakeFlight = [this, extent = std::max({size.x, size.y, size.z})] {
+        return freeFlight(startPose, extent);
+    };
 }
 
 void ShownMedium::begin(SimdTarget target) {
@@ -99,28 +80,12 @@ void ShownMedium::begin(SimdTarget target) {
     mPlace = std::make_unique<Place>(*mFrames);
     offer<SweepPlace>(*mPlace);
     if (mMedium->animated()) offer(mAnimation);
-    if (mVolume.world && mVolume.world->eyesFollow()) {
-        VolumeCasting casting;
-        casting.target = target;
-        mWall = std::make_unique<VolumeRenderer>(mVolume.world->colon().volume, casting);
-        mVolume.world->setWall(mWall.get());
-    }
     if (mMedium->look.light.kind == MediumLight::Kind::Parallel) {
         mSun = std::make_unique<Sun>(*mMedium);
         offer<TurningLight>(*mSun);
-    } else if (mVolumeLight && mVolumeLight->turns()) {
-        offer<TurningLight>(*mVolumeLight);
+    } else if (mOtherLight) {
+        offer(*mOtherLight);
     }
-}
-
-std::unique_ptr<Flight> ShownMedium::makeFlight() const {
-    if (mFreeExtent) return freeFlight(startPose, *mFreeExtent);
-    if (mTerrain) return flightOver(*mTerrain);
-    return mVolume.world->makeFlight();
-}
-
-void ShownMedium::check(const RecordedPath& flight, const std::string& file) const {
-    if (mVolume.world) mVolume.world->check(flight, file);
 }
 
 std::string ShownMedium::whyLightStays() const {

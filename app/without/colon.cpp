@@ -7,6 +7,7 @@
 #include "app/command/info_text.h"
 #include "app/options/built_without.h"
 #include "app/scene/colon_loading.h"
+#include "app/scene/medium_of.h"
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
 #include "colon/scene/transfer_presets.h"
@@ -29,7 +30,7 @@ std::unique_ptr<Scene> loadColonScene(const SceneOptions&, SimdTarget, Progress&
     without();
 }
 
-LitVolume litVolumeOf(const SceneOptions&, Progress&) {
+void makeFromVolume(const SceneOptions&, SimdTarget, Progress&, ShownMedium&) {
     without();
 }
 

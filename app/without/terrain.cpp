@@ -4,7 +4,7 @@
 #include "app/command/bake_terrain.h"
 #include "app/command/info_text.h"
 #include "app/options/built_without.h"
-#include "app/scene/medium_terrain.h"
+#include "app/scene/medium_of.h"
 #include "app/scene/terrain_loading.h"
 
 namespace stereonav {
@@ -40,11 +40,7 @@ std::string terrainText(const Scene&) {
     without();
 }
 
-Medium terrainMedium(const TerrainScene&, const MediumOptions&, const SweepSetting&) {
-    without();
-}
-
-glm::vec3 skyAt(const SkyMap&, const glm::dvec3&) {
+void makeFromTerrain(const SceneOptions&, Progress&, ShownMedium&) {
     without();
 }
 

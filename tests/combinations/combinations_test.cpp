@@ -115,8 +115,7 @@ public:
     const std::string& findings() const { return mFindings; }
     // As the widest set drew it.
     Plane<PackedColor> composed() const {
-        return composeStereo(mDrawn.left.color, mDrawn.right.color,
-                             {mOptions.mode, false, false});
+        return composeStereo(mDrawn.left.color, mDrawn.right.color, {mOptions.mode, false, false});
     }
     const Eyes& eyes() const { return mDrawn; }
 

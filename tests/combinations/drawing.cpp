@@ -13,7 +13,7 @@ namespace {
 RenderOptions withSet(RenderOptions options, SimdTarget set) {
     options.scene.simd = set;
     options.method = methodUnderLight(options.scene, options.method);
-    checkSize(options.size);
+    checkSize(options.size, options.scene);
     checkMethod(options.scene, options.method);
     return options;
 }

@@ -1,0 +1,25 @@
+// From options to a medium, by what it is made of: each is left out of a program that is built without that.
+#pragma once
+
+#include <memory>
+
+#include "app/command/commands.h"
+#include "app/scene/shown_medium.h"
+#include "engine/base/progress.h"
+#include "engine/math/constants.h"
+#include "engine/simd/simd_target.h"
+#include "engine/volume/volume.h"
+
+namespace stereonav {
+
+// Where light comes from when nothing is said, seen by one who looks north: from the left, behind and above.
+constexpr double kLightAzimuth = 235 * kRadians, kLightElevation = 40 * kRadians;
+
+// The field under the transfer function that `shown` names, and its surface.
+void putField(std::shared_ptr<const GreyVolume> field, Perturbation noise, MediumScene& shown);
+
+// Views, flight and medium into `scene`, which has not begun. Throw Error, Cancelled.
+void makeFromTerrain(const SceneOptions& options, Progress& progress, ShownMedium& scene);
+void makeFromVolume(const SceneOptions& options, SimdTarget simd, Progress& progress, ShownMedium& scene);
+
+}  // namespace stereonav

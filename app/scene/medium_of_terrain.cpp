@@ -1,0 +1,37 @@
+// Terrain as a medium: its ground as a layer, in its own colours or under a transfer function.
+#include "app/scene/medium_of.h"
+#include "app/scene/medium_options.h"
+#include "app/scene/medium_terrain.h"
+#include "app/scene/shown_terrain.h"
+#include "app/scene/terrain_loading.h"
+#include "terrain/light/sky_map.h"
+
+namespace stereonav {
+namespace {
+
+constexpr float kSnowRadiance =
+    0.65f;  // of parallel light on terrain, but for its own colours, which are dark
+// Ridges and valleys show grain where the light's texels are more than a hundred metres wide.
+constexpr int kTerrainSlices = 1200, kTerrainLight = 512;
+
+}  // namespace
+
+void makeFromTerrain(const SceneOptions& options, Progress& progress, ShownMedium& scene) {
+    const TerrainScene& terrain = scene.hold(std::make_unique<TerrainScene>(terrainOf(options, progress)));
+    setViews(terrain, scene);
+    scene.alsoOffer<const TerrainScene>(terrain);
+    scene.flyAs([&terrain] { return flightOver(terrain); });
+    MediumScene& shown = scene.medium();
+    shown.transfer = options.medium.medium;
+    if (!options.medium.noise.empty()) shown.noise = options.medium.noise;
+    shown.sweep.slices = options.medium.slices.value_or(kTerrainSlices);
+    shown.sweep.lightSize = options.medium.lightSize.value_or(kTerrainLight);
+    shown.medium = terrainMedium(terrain, options.medium, shown.sweep);
+    shown.makeSurface = [&shown] { return allSurface(shown.medium); };
+    shown.sky = [&terrain](const glm::dvec3& direction) { return skyAt(terrain.sky, direction); };
+    shown.turnLight(terrain.look.sunAzimuth, terrain.look.sunElevation);
+    if (!options.medium.ground()) shown.look.light.radiance = glm::vec3(kSnowRadiance);
+    if (terrain.landmarks) shown.notes.push_back("landmarks are not shown with a medium");
+}
+
+}  // namespace stereonav

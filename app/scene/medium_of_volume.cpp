@@ -1,0 +1,93 @@
+// A study as a medium: a colon's from inside, lit by a lamp at the head, or any volume from outside.
+#include <algorithm>
+
+#include "app/scene/colon_loading.h"
+#include "app/scene/medium_of.h"
+#include "app/scene/medium_options.h"
+#include "app/scene/seen_volume_light.h"
+#include "colon/built_in/built_in_colon.h"
+#include "colon/study/study.h"
+#include "engine/medium/model/noise_file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kLampCone = 2.2;  // radians: wider than what is seen
+// Of parallel light and of a lamp, so that white media are just below white on the screen.
+constexpr float kVolumeRadiance = 0.85f, kLampRadiance = 0.7f;
+// A colon's wall shows grain far away with 250 slices, none in the pictures looked at with 400.
+constexpr int kColonSlices = 500;
+
+// A colon's field has neither fluid nor what is far from the wall: the study is read again. Null for a mask,
+// which has no grey values.
+std::shared_ptr<const GreyVolume> studyOf(const SceneOptions& options, Progress& progress) {
+    const ColonOptions colon = colonOptionsOf(options);
+    if (colon.study.empty()) return std::make_shared<GreyVolume>(builtInColon(colon.builtIn, progress).grey);
+    Study study = readStudy(colon.study, colon.reading, progress);
+    return study.isMask ? nullptr : std::make_shared<GreyVolume>(std::move(study.grey));
+}
+
+void lightAtHead(const ColonScene& colon, MediumScene& shown) {
+    MediumLight& light = shown.look.light;
+    light.kind = MediumLight::Kind::Lamp;
+    light.atHead = true;
+    light.coneAngle = kLampCone;
+    light.radiance = glm::vec3(kLampRadiance);
+    light.falloff = colon.volume.look.falloff;
+}
+
+void offerWorld(VolumeWorld& world, SimdTarget simd, ShownMedium& scene) {
+    scene.alsoOffer<const ColonScene>(world.colon());
+    scene.alsoOffer<RoomAround>(world);
+    scene.alsoOffer<SliceSource>(world);
+    if (world.colon().isColon()) scene.alsoOffer<LineThrough>(world);
+    scene.flyAs([&world] { return world.makeFlight(); });
+    scene.checkBy([&world](const RecordedPath& path, const std::string& file) { world.check(path, file); });
+    if (!world.eyesFollow()) return;
+    VolumeCasting casting;
+    casting.target = simd;
+    world.setWall(&scene.hold(std::make_unique<VolumeRenderer>(world.colon().volume, casting)));
+}
+
+void offerLight(const VolumeLighting& light, ShownMedium& scene) {
+    if (!light.lazy && !light.sky) return;
+    auto& seen = scene.hold(std::make_unique<SeenVolumeLight>(light.lazy, light.sky));
+    scene.alsoOffer<SeenLight>(seen);
+    if (seen.turns()) scene.turnInstead(seen);
+}
+
+}  // namespace
+
+void makeFromVolume(const SceneOptions& options, SimdTarget simd, Progress& progress, ShownMedium& scene) {
+    LitVolume lit = litVolumeOf(options, progress);
+    VolumeWorld& world = scene.hold(std::move(lit.world));
+    world.setViews(options, scene);
+    offerWorld(world, simd, scene);
+    offerLight(lit.light, scene);
+    const ColonScene& colon = world.colon();
+    MediumScene& shown = scene.medium();
+    std::shared_ptr<const GreyVolume> field;
+    if (colon.isColon()) field = studyOf(options, progress);
+    // what the scene holds already, which lives as long
+    if (!field) field = std::shared_ptr<const GreyVolume>(std::shared_ptr<void>(), &colon.volume.field);
+    const glm::dvec3 size = glm::dvec3(field->frame.size) * field->frame.spacing;
+    shown.transfer = options.medium.medium;
+    Perturbation noise;
+    if (!options.medium.noise.empty()) {
+        shown.noise = options.medium.noise;
+        noise = findNoise(shown.noise, std::max({size.x, size.y, size.z}));
+    }
+    putField(field, std::move(noise), shown);
+    shown.look.background = colon.volume.look.background;
+    shown.look.baked = colon.volume.look.baked;
+    if (colon.isColon()) {
+        shown.sweep.slices = kColonSlices;
+        lightAtHead(colon, shown);
+    } else {
+        shown.turnLight(kLightAzimuth, kLightElevation);
+        shown.look.light.radiance = glm::vec3(kVolumeRadiance);
+        scene.flyFreely();
+    }
+}
+
+}  // namespace stereonav
