@@ -24,7 +24,7 @@ function(stereonav_part name)
 endfunction()
 
 stereonav_part(terrain OPTION STEREONAV_TERRAIN LINK terrain
-  SOURCES scene/terrain_loading.cpp scene/shown_terrain.cpp scene/medium_terrain.cpp scene/medium_of_terrain.cpp
+  SOURCES scene/terrain_loading.cpp scene/shown_terrain.cpp scene/medium_terrain.cpp scene/medium_of_terrain.cpp scene/terrain_type.cpp
     command/bake_terrain.cpp command/info_terrain.cpp command/mesh_command.cpp)
 if(NOT STEREONAV_TERRAIN)
   # the sky over media, too; the options in scene files
@@ -34,7 +34,7 @@ if(NOT STEREONAV_TERRAIN)
 endif()
 stereonav_part(colon OPTION STEREONAV_COLON LINK colon
   SOURCES scene/colon_loading.cpp scene/volume_*.cpp scene/shown_volume.cpp scene/seen_volume_light.cpp
-    scene/medium_of_volume.cpp scene/light_loading.cpp scene/lazy_light.cpp
+    scene/medium_of_volume.cpp scene/volume_type.cpp scene/light_loading.cpp scene/lazy_light.cpp
     scene/traced_light.cpp command/bake_volume.cpp command/bake_peers_*.cpp command/info_colon.cpp
     command/info_series.cpp command/centreline_command.cpp)
 stereonav_part(medium OPTION STEREONAV_MEDIUM LINK engine_medium

@@ -1,21 +1,14 @@
-// `stereonav bake`: light worked out before it is looked at. Each kind of scene has its own.
-#include "app/command/bake_terrain.h"
-#include "app/command/bake_volume.h"
-#include "app/scene/scene_loading.h"
+// `stereonav bake`: light worked out before it is looked at. Each type of scene has its own.
+#include "app/scene/scene_type.h"
 #include "engine/base/error.h"
 
 namespace stereonav {
 
 int runBake(const BakeOptions& options) {
-    switch (kindOf(options.scene.scene)) {
-        case SceneKind::Volume:
-            return bakeVolume(options);
-        case SceneKind::Terrain:
-            return bakeTerrain(options);
-        case SceneKind::Medium:
-            break;
-    }
-    throw Error(options.scene.scene, "", "expected a terrain or a CT study, found a medium",
+    const SceneType& type = sceneTypeNamed(options.scene.scene);
+    if (type.bake) return type.bake(options);
+    throw Error(options.scene.scene, "",
+                "expected a terrain or a CT study, found a " + std::string(type.noun),
                 "its light is worked out in each frame");
 }
 

@@ -7,6 +7,7 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
+#include "app/scene/scene_type.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -20,11 +21,11 @@ void checkCentrelineOptions(const CentrelineOptions& options) {
                     "name it centreline.vtp");
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     checkOutputFile("--out", options.out);
-    const SceneKind kind = kindOf(options.scene.scene);
-    if (kind != SceneKind::Volume)
+    const SceneType& type = sceneTypeNamed(options.scene.scene);
+    if (!type.hasLine)
         throw Error(options.scene.scene.empty() ? "SCENE" : options.scene.scene, "",
                     fmt::format("expected a CT study, found {}",
-                                kind == SceneKind::Medium          ? "a medium"
+                                !type.hasGround                    ? "a medium"
                                 : options.scene.scene.empty()      ? "nothing, which is the built-in terrain"
                                 : options.scene.scene == "terrain" ? "the built-in terrain"
                                                                    : "a terrain or another kind of file"),

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/output/output_place.h"
-#include "app/scene/scene_loading.h"
+#include "app/scene/scene_type.h"
 #include "colon/study/study.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
@@ -47,7 +47,7 @@ std::string textOf(const SeriesLook& look, std::size_t number, const std::string
 
 int listSeriesOf(const InfoOptions& options) {
     checkOutputFolder("--series-pictures", options.series);
-    kindOf(options.scene.scene);  // throws where there is nothing of this name
+    sceneTypeNamed(options.scene.scene);  // throws where there is nothing of this name
     if (options.scene.threads > 0) setThreadCount(options.scene.threads);
     const std::vector<SeriesLook> looks = lookAtSeries(options.scene.scene);
     makeOutputFolder(options.series);

@@ -8,6 +8,7 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
+#include "app/scene/scene_type.h"
 #include "engine/base/error.h"
 #include "terrain/mesh/terrain_mesh.h"
 #include "terrain/scene/terrain_scene.h"
@@ -21,12 +22,10 @@ void checkMeshOptions(const MeshOptions& options) {
                     "name it terrain.glb");
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     checkOutputFile("--out", options.out);
-    const SceneKind kind = kindOf(options.scene.scene);
-    if (kind != SceneKind::Terrain)
-        throw Error(
-            options.scene.scene, "",
-            fmt::format("expected a terrain, found a {}", kind == SceneKind::Medium ? "medium" : "volume"),
-            "render, play and view show it; mesh writes the ground of terrains");
+    const SceneType& type = sceneTypeNamed(options.scene.scene);
+    if (!type.hasGround)
+        throw Error(options.scene.scene, "", fmt::format("expected a terrain, found a {}", type.noun),
+                    "render, play and view show it; mesh writes the ground of terrains");
 }
 
 }  // namespace

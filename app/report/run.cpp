@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/report/faults.h"
+#include "app/scene/scene_type.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -87,6 +88,12 @@ std::string ReportRun::settingOf(int width, int height) const {
     return fmt::format("{}x{}, {} thread{}", width, height, threads, threads == 1 ? "" : "s");
 }
 
+bool isStudy(const std::string& name) {
+    SceneOptions options;
+    options.scene = name;
+    return (sceneTypeNamed(name).optionsFor(options) & scene_type::kStudies) != 0;
+}
+
 void loadReportScenes(ReportRun& run, bool surfaces, bool media) {
     std::vector<std::string> names{"terrain", "colon"};
     if (!run.quick()) names.emplace_back("cloud");
@@ -97,7 +104,7 @@ void loadReportScenes(ReportRun& run, bool surfaces, bool media) {
     for (const std::string& name : names) {
         options.scene = name;
         options.volume.up = isStudy(name) ? run.options().up : std::nullopt;
-        const bool medium = kindOf(name) == SceneKind::Medium;
+        const bool medium = *sceneTypeOf(options) == scene_type::kBuiltInMedium;
         if (medium && media) loadOne(run, name, name, options);
         if (!medium && surfaces) loadWithGlass(run, idOf(name, run.scenes()), options);
     }

@@ -88,6 +88,9 @@ private:
 // the cloud, in a full run, and those that were named. A scene that is named twice, or built in, comes once.
 void loadReportScenes(ReportRun& run, bool surfaces, bool media);
 
+// From files: not the built-in colon. Throws Error for a name of nothing.
+bool isStudy(const std::string& name);
+
 // The parts, in the order of the page.
 void reportRightEye(ReportRun& run, double seconds);
 void reportCasting(ReportRun& run, double seconds);

@@ -49,7 +49,7 @@ void seeFromOutside(const WorldBox& box, Scene& scene) {
     scene.path = RecordedPath(std::move(samples), "the flight around the medium");
 }
 
-void makeBuiltIn(const SceneOptions& options, ShownMedium& scene) {
+void makeBuiltIn(const SceneOptions& options, SimdTarget, Progress&, ShownMedium& scene) {
     const bool cloud = options.scene == "cloud";
     MediumScene& shown = scene.medium();
     const std::shared_ptr<GreyVolume> field = cloud ? makeCloudField() : makeWaxField();
@@ -85,15 +85,18 @@ void putField(std::shared_ptr<const GreyVolume> field, Perturbation noise, Mediu
     };
 }
 
-std::unique_ptr<Scene> loadMediumScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    const SceneKind kind = kindOf(options.scene);
+const SceneType& builtInMediumType() {
+    static const SceneType type{.noun = "medium",
+                                .builtIn = {"cloud", "wax"},
+                                .optionsFor = [](const SceneOptions&) { return scene_type::kBuiltInMedium; },
+                                .makeMedium = makeBuiltIn};
+    return type;
+}
+
+std::unique_ptr<Scene> loadMediumScene(const SceneType& type, const SceneOptions& options, SimdTarget simd,
+                                       Progress& progress) {
     auto scene = std::make_unique<ShownMedium>();
-    if (kind == SceneKind::Medium)
-        makeBuiltIn(options, *scene);
-    else if (kind == SceneKind::Terrain)
-        makeFromTerrain(options, progress, *scene);
-    else
-        makeFromVolume(options, simd, progress, *scene);
+    type.makeMedium(options, simd, progress, *scene);
     applyMediumOptions(options.medium, scene->medium());
     scene->begin(simd);
     return scene;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "app/scene/scene_loading.h"
+#include "app/scene/scene_type.h"
 
 namespace stereonav {
 
-// What the options name, as showsMedium() knows it. Throws Error, Cancelled.
-std::unique_ptr<Scene> loadMediumScene(const SceneOptions& options, SimdTarget simd, Progress& progress);
+// A scene of this type as the medium that the options name. Throws Error, Cancelled.
+std::unique_ptr<Scene> loadMediumScene(const SceneType& type, const SceneOptions& options, SimdTarget simd,
+                                       Progress& progress);
 
 }  // namespace stereonav

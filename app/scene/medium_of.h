@@ -19,7 +19,7 @@ constexpr double kLightAzimuth = 235 * kRadians, kLightElevation = 40 * kRadians
 void putField(std::shared_ptr<const GreyVolume> field, Perturbation noise, MediumScene& shown);
 
 // Views, flight and medium into `scene`, which has not begun. Throw Error, Cancelled.
-void makeFromTerrain(const SceneOptions& options, Progress& progress, ShownMedium& scene);
+void makeFromTerrain(const SceneOptions& options, SimdTarget, Progress& progress, ShownMedium& scene);
 void makeFromVolume(const SceneOptions& options, SimdTarget simd, Progress& progress, ShownMedium& scene);
 
 }  // namespace stereonav

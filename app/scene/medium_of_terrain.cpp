@@ -16,7 +16,7 @@ constexpr int kTerrainSlices = 1200, kTerrainLight = 512;
 
 }  // namespace
 
-void makeFromTerrain(const SceneOptions& options, Progress& progress, ShownMedium& scene) {
+void makeFromTerrain(const SceneOptions& options, SimdTarget, Progress& progress, ShownMedium& scene) {
     const TerrainScene& terrain = scene.hold(std::make_unique<TerrainScene>(terrainOf(options, progress)));
     setViews(terrain, scene);
     scene.alsoOffer<const TerrainScene>(terrain);

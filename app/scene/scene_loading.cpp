@@ -9,10 +9,9 @@
 #include <numbers>
 #include <utility>
 
-#include "app/scene/colon_loading.h"
 #include "app/scene/medium_loading.h"
 #include "app/scene/medium_options.h"
-#include "app/scene/terrain_loading.h"
+#include "app/scene/scene_type.h"
 #include "app/scene/volume_light.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -34,21 +33,6 @@ void checkSource(const NamedPlace& input) {
     } catch (const Error& error) {
         throw Error(input.option, "", error.what(), "");
     }
-}
-
-// Studies are sent zipped; what is in an archive is not looked for.
-void refuseArchive(const std::string& name) {
-    std::error_code code;
-    if (!std::filesystem::is_regular_file(name, code)) return;
-    char head[6] = {};
-    std::ifstream(name, std::ios::binary).read(head, sizeof head);
-    const std::string_view begins(head, sizeof head);
-    const std::pair<std::string_view, const char*> kinds[] = {
-        {{"PK\3\4", 4}, "zip"}, {{"7z\xbc\xaf\x27\x1c", 6}, "7z"}, {{"Rar!\x1a\7", 6}, "rar"}};
-    for (const auto& [start, kind] : kinds)
-        if (begins.starts_with(start))
-            throw Error(name, "", fmt::format("expected a scene or a study, found an archive ({})", kind),
-                        "unpack it, and name the file or folder that was in it");
 }
 
 }  // namespace
@@ -74,30 +58,6 @@ void checkSize(const SizeOption& size, const SceneOptions& options, const PixelB
                         : "free memory");
 }
 
-SceneKind kindOf(const std::string& name) {
-    constexpr const char* kAdvice =
-        "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png), a CT study (a folder of "
-        "DICOM slices, .dcm, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), colon, cloud, wax, or nothing for the "
-        "built-in "
-        "terrain";
-    if (name.empty() || name == "terrain") return SceneKind::Terrain;
-    if (name == "colon") return SceneKind::Volume;
-    if (name == "cloud" || name == "wax") return SceneKind::Medium;
-    std::error_code code;
-    if (!std::filesystem::exists(name, code)) throw Error(name, "", "no such file", kAdvice);
-    if (!std::filesystem::is_directory(name, code)) checkFileToRead(name);
-    refuseArchive(name);
-    if (looksLikeStudy(name)) return SceneKind::Volume;
-    if (std::filesystem::is_directory(name, code))
-        throw Error(name, "", "expected a file or a folder of DICOM slices, found a folder without any",
-                    kAdvice);
-    return SceneKind::Terrain;
-}
-
-bool isStudy(const std::string& name) {
-    return kindOf(name) == SceneKind::Volume && name != "colon";
-}
-
 std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
     const MediumOptions& m = options.medium;
     std::vector<NamedPlace> inputs{{"SCENE", options.scene},
@@ -108,8 +68,9 @@ std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
                                    {"--medium", m.medium},
                                    {"--phase", m.phase},
                                    {"--noise", m.noise}};
-    if (options.scene.ends_with(".toml"))
-        for (NamedPlace& file : filesOfTerrain(options.scene)) inputs.push_back(std::move(file));
+    for (const SceneType* type : sceneTypes())
+        if (type->filesOf)
+            for (NamedPlace& file : type->filesOf(options)) inputs.push_back(std::move(file));
     return inputs;
 }
 
@@ -124,10 +85,9 @@ std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& 
     checkSize(size, options, each);
     checkSceneOptions(options);
     const SimdTarget simd = options.simd;
-    std::unique_ptr<Scene> scene = showsMedium(options) ? loadMediumScene(options, simd, progress)
-                                   : kindOf(options.scene) == SceneKind::Terrain
-                                       ? loadTerrainScene(options, simd, progress)
-                                       : loadColonScene(options, simd, progress);
+    const SceneType& type = sceneTypeNamed(options.scene);
+    std::unique_ptr<Scene> scene = showsMedium(options) ? loadMediumScene(type, options, simd, progress)
+                                                        : type.load(options, simd, progress);
     scene->name = options.scene.empty() ? "terrain" : options.scene;
     scene->lens.width = size.width;
     scene->lens.height = size.height;

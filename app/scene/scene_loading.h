@@ -17,12 +17,6 @@
 
 namespace stereonav {
 
-enum class SceneKind { Terrain, Volume, Medium };  // Medium: a built-in one
-// What a scene's name stands for. Throws Error for a name of nothing, with what can be named.
-SceneKind kindOf(const std::string& name);
-// From files: not the built-in colon.
-bool isStudy(const std::string& name);
-
 // What the options name to be read; words that are no files are among them.
 std::vector<NamedPlace> inputsOf(const SceneOptions& options);
 

@@ -2,12 +2,11 @@
 // says so.
 #include <nlohmann/json.hpp>
 
-#include "app/command/bake_volume.h"
 #include "app/command/info_series.h"
 #include "app/command/info_text.h"
 #include "app/options/built_without.h"
 #include "app/scene/colon_loading.h"
-#include "app/scene/medium_of.h"
+#include "app/scene/scene_type.h"
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
 #include "colon/scene/transfer_presets.h"
@@ -26,23 +25,24 @@ int listSeriesOf(const InfoOptions&) {
     without();
 }
 
-std::unique_ptr<Scene> loadColonScene(const SceneOptions&, SimdTarget, Progress&) {
-    without();
-}
-
-void makeFromVolume(const SceneOptions&, SimdTarget, Progress&, ShownMedium&) {
-    without();
+// Names are all that is left of studies: what they stand for is refused when it is opened.
+const SceneType& volumeType() {
+    static const SceneType type{
+        .noun = "volume",
+        .builtIn = {"colon"},
+        .owns = [](const std::string& file) { return looksLikeStudy(file); },
+        .optionsFor =
+            [](const SceneOptions& options) {
+                return options.medium.medium.empty() ? scene_type::kColon : scene_type::kColonMedium;
+            },
+        .load = [](const SceneOptions&, SimdTarget, Progress&) -> std::unique_ptr<Scene> { without(); },
+        .makeMedium = [](const SceneOptions&, SimdTarget, Progress&, ShownMedium&) { without(); },
+        .bake = [](const BakeOptions&) -> int { without(); },
+        .hasLine = true};
+    return type;
 }
 
 void applyChange(const SurfaceChange&, const SceneOptions&, SceneOptions&) {
-    without();
-}
-
-ColonOptions colonOptionsOf(const SceneOptions&) {
-    without();
-}
-
-int bakeVolume(const BakeOptions&) {
     without();
 }
 
@@ -58,7 +58,6 @@ std::string colonText(const Scene&) {
     without();
 }
 
-// Names are all that is left of studies: what they stand for is refused when it is opened.
 bool looksLikeStudy(const std::filesystem::path& path) {
     const std::string name = path.filename().string();
     for (const char* end : {".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd"})

@@ -5,6 +5,7 @@
 #include "app/command/info_text.h"
 #include "app/options/built_without.h"
 #include "app/scene/medium_loading.h"
+#include "app/scene/medium_of.h"
 #include "app/scene/medium_options.h"
 #include "app/view/sweep.h"
 #include "engine/medium/model/medium_transfer.h"
@@ -18,12 +19,27 @@ namespace {
 
 }  // namespace
 
-std::unique_ptr<Scene> loadMediumScene(const SceneOptions&, SimdTarget, Progress&) {
+std::unique_ptr<Scene> loadMediumScene(const SceneType&, const SceneOptions&, SimdTarget, Progress&) {
     without();
 }
 
+void makeFromTerrain(const SceneOptions&, SimdTarget, Progress&, ShownMedium&) {
+    without();
+}
+
+void makeFromVolume(const SceneOptions&, SimdTarget, Progress&, ShownMedium&) {
+    without();
+}
+
+const SceneType& builtInMediumType() {
+    static const SceneType type{.noun = "medium",
+                                .builtIn = {"cloud", "wax"},
+                                .optionsFor = [](const SceneOptions&) { return scene_type::kBuiltInMedium; }};
+    return type;
+}
+
 bool showsMedium(const SceneOptions& options) {
-    return options.medium.any() || kindOf(options.scene) == SceneKind::Medium;
+    return options.scene == "cloud" || options.scene == "wax" || options.medium.any();
 }
 
 void checkMediumOptions(const SceneOptions& options) {

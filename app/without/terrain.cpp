@@ -1,11 +1,10 @@
 // Stands in for terrain where the program is built without it: everything that needs it says so.
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/command/bake_terrain.h"
 #include "app/command/info_text.h"
 #include "app/options/built_without.h"
-#include "app/scene/medium_of.h"
-#include "app/scene/terrain_loading.h"
+#include "app/scene/scene_type.h"
 
 namespace stereonav {
 namespace {
@@ -16,16 +15,20 @@ namespace {
 
 }  // namespace
 
-std::unique_ptr<Scene> loadTerrainScene(const SceneOptions&, SimdTarget, Progress&) {
-    without();
-}
-
-std::vector<NamedPlace> filesOfTerrain(const std::string&) {
-    without();
-}
-
-int bakeTerrain(const BakeOptions&) {
-    without();
+const SceneType& terrainType() {
+    static const SceneType type{
+        .noun = "terrain",
+        .builtIn = {"", "terrain"},
+        .owns = [](const std::string& file) { return !std::filesystem::is_directory(file); },
+        .optionsFor =
+            [](const SceneOptions& options) {
+                return options.medium.medium.empty() ? scene_type::kTerrain : scene_type::kTerrainMedium;
+            },
+        .load = [](const SceneOptions&, SimdTarget, Progress&) -> std::unique_ptr<Scene> { without(); },
+        .makeMedium = [](const SceneOptions&, SimdTarget, Progress&, ShownMedium&) { without(); },
+        .bake = [](const BakeOptions&) -> int { without(); },
+        .hasGround = true};
+    return type;
 }
 
 int runMesh(const MeshOptions&) {
@@ -37,10 +40,6 @@ nlohmann::ordered_json terrainJson(const Scene&) {
 }
 
 std::string terrainText(const Scene&) {
-    without();
-}
-
-void makeFromTerrain(const SceneOptions&, Progress&, ShownMedium&) {
     without();
 }
 

@@ -1,0 +1,57 @@
+#include "app/scene/scene_type.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+
+namespace stereonav {
+namespace {
+
+// Studies are sent zipped; what is in an archive is not looked for.
+void refuseArchive(const std::string& name) {
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(name, code)) return;
+    char head[6] = {};
+    std::ifstream(name, std::ios::binary).read(head, sizeof head);
+    const std::string_view begins(head, sizeof head);
+    const std::pair<std::string_view, const char*> kinds[] = {
+        {{"PK\3\4", 4}, "zip"}, {{"7z\xbc\xaf\x27\x1c", 6}, "7z"}, {{"Rar!\x1a\7", 6}, "rar"}};
+    for (const auto& [start, kind] : kinds)
+        if (begins.starts_with(start))
+            throw Error(name, "", fmt::format("expected a scene or a study, found an archive ({})", kind),
+                        "unpack it, and name the file or folder that was in it");
+}
+
+}  // namespace
+
+// Elevation models have no mark of their own: any file that is nothing else may be one.
+std::span<const SceneType* const> sceneTypes() {
+    static const std::array<const SceneType*, 3> types{&builtInMediumType(), &volumeType(), &terrainType()};
+    return types;
+}
+
+const SceneType& sceneTypeNamed(const std::string& name) {
+    constexpr const char* kAdvice =
+        "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png), a CT study (a folder of "
+        "DICOM slices, .dcm, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), colon, cloud, wax, or nothing for the "
+        "built-in "
+        "terrain";
+    for (const SceneType* type : sceneTypes())
+        if (std::find(type->builtIn.begin(), type->builtIn.end(), name) != type->builtIn.end()) return *type;
+    std::error_code code;
+    if (!std::filesystem::exists(name, code)) throw Error(name, "", "no such file", kAdvice);
+    if (!std::filesystem::is_directory(name, code)) checkFileToRead(name);
+    refuseArchive(name);
+    for (const SceneType* type : sceneTypes())
+        if (type->owns && type->owns(name)) return *type;
+    throw Error(name, "", "expected a file or a folder of DICOM slices, found a folder without any", kAdvice);
+}
+
+}  // namespace stereonav

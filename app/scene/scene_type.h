@@ -1,0 +1,50 @@
+// The types of scenes that there are: what is theirs, and what the program makes of it. A new type is a
+// SceneType in a file of its own and a line in scene_type.cpp. A type that is built without (app/without) is
+// there too, and says so.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/command/commands.h"
+#include "app/options/scene_types.h"
+#include "app/output/output_place.h"
+#include "engine/base/progress.h"
+#include "engine/scene/scene.h"
+#include "engine/simd/simd_target.h"
+
+namespace stereonav {
+
+class ShownMedium;  // app/scene/shown_medium.h
+
+struct SceneType {
+    std::string_view noun;                       // as messages call one
+    std::vector<std::string_view> builtIn = {};  // names that are no files
+    // Whether a file or folder, which is there, is its own; asked in the order of sceneTypes().
+    bool (*owns)(const std::string& file) = nullptr;  // null: none is
+    SceneSet (*optionsFor)(const SceneOptions& options) = nullptr;
+    // Files that a file of this type names. Null: none.
+    std::vector<NamedPlace> (*filesOf)(const SceneOptions& options) = nullptr;
+    // Whose rays are cast. Null: it is shown as a medium only. Throws Error, Cancelled.
+    std::unique_ptr<Scene> (*load)(const SceneOptions& options, SimdTarget simd,
+                                   Progress& progress) = nullptr;
+    // Views, flight and medium into `scene`, which has not begun. Throws Error, Cancelled.
+    void (*makeMedium)(const SceneOptions& options, SimdTarget simd, Progress& progress,
+                       ShownMedium& scene) = nullptr;
+    int (*bake)(const BakeOptions& options) = nullptr;  // null: its light is worked out in each frame
+    bool hasGround = false, hasLine = false;            // for meshes of it; for the way through it
+};
+
+const SceneType& terrainType();
+const SceneType& volumeType();
+const SceneType& builtInMediumType();
+
+std::span<const SceneType* const> sceneTypes();
+
+// That which a name stands for. Throws Error for a name of nothing, with what can be named.
+const SceneType& sceneTypeNamed(const std::string& name);
+
+}  // namespace stereonav

@@ -1,0 +1,40 @@
+// Terrain: elevation models, scenes that name one, and the built-in one.
+#include <filesystem>
+
+#include "app/command/bake_terrain.h"
+#include "app/scene/medium_of.h"
+#include "app/scene/scene_type.h"
+#include "app/scene/terrain_loading.h"
+
+namespace stereonav {
+namespace {
+
+bool isAnyFile(const std::string& file) {
+    std::error_code code;
+    return !std::filesystem::is_directory(file, code);
+}
+
+SceneSet terrainOptions(const SceneOptions& options) {
+    return options.medium.medium.empty() ? scene_type::kTerrain : scene_type::kTerrainMedium;
+}
+
+std::vector<NamedPlace> filesOfScene(const SceneOptions& options) {
+    return options.scene.ends_with(".toml") ? filesOfTerrain(options.scene) : std::vector<NamedPlace>{};
+}
+
+}  // namespace
+
+const SceneType& terrainType() {
+    static const SceneType type{.noun = "terrain",
+                                .builtIn = {"", "terrain"},
+                                .owns = isAnyFile,
+                                .optionsFor = terrainOptions,
+                                .filesOf = filesOfScene,
+                                .load = loadTerrainScene,
+                                .makeMedium = makeFromTerrain,
+                                .bake = bakeTerrain,
+                                .hasGround = true};
+    return type;
+}
+
+}  // namespace stereonav

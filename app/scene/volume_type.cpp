@@ -1,0 +1,37 @@
+// CT studies, and the built-in colon.
+#include "app/command/bake_volume.h"
+#include "app/scene/colon_loading.h"
+#include "app/scene/medium_of.h"
+#include "app/scene/scene_type.h"
+#include "colon/study/study.h"
+
+namespace stereonav {
+namespace {
+
+constexpr const char* kBuiltIn = "colon";
+
+bool isStudyFile(const std::string& file) {
+    return looksLikeStudy(file);
+}
+
+SceneSet volumeOptions(const SceneOptions& options) {
+    const bool medium = !options.medium.medium.empty();
+    if (options.scene == kBuiltIn) return medium ? scene_type::kColonMedium : scene_type::kColon;
+    return medium ? scene_type::kStudyMedium : scene_type::kStudy;
+}
+
+}  // namespace
+
+const SceneType& volumeType() {
+    static const SceneType type{.noun = "volume",
+                                .builtIn = {kBuiltIn},
+                                .owns = isStudyFile,
+                                .optionsFor = volumeOptions,
+                                .load = loadColonScene,
+                                .makeMedium = makeFromVolume,
+                                .bake = bakeVolume,
+                                .hasLine = true};
+    return type;
+}
+
+}  // namespace stereonav
