@@ -115,6 +115,18 @@ ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const Scen
     offerLight();
 }
 
+FrameMaker& ShownVolume::frames() const {
+    return mFrames;
+}
+
+std::unique_ptr<Flight> ShownVolume::makeFlight() const {
+    return mWorld->makeFlight();
+}
+
+void ShownVolume::check(const RecordedPath& flight, const std::string& file) const {
+    mWorld->check(flight, file);
+}
+
 void ShownVolume::offerLight() {
     if (!mLighting.lazy && !mLighting.sky) return;
     mLight = std::make_unique<SeenVolumeLight>(mLighting.lazy, mLighting.sky);

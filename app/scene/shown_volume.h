@@ -34,11 +34,9 @@ public:
     // first.
     ShownVolume(LitVolume volume, const SceneOptions& first, const SceneOptions& made, SimdTarget target);
 
-    FrameMaker& frames() const override { return mFrames; }
-    std::unique_ptr<Flight> makeFlight() const override { return mWorld->makeFlight(); }
-    void check(const RecordedPath& flight, const std::string& file) const override {
-        mWorld->check(flight, file);
-    }
+    FrameMaker& frames() const override;
+    std::unique_ptr<Flight> makeFlight() const override;
+    void check(const RecordedPath& flight, const std::string& file) const override;
     std::string whyLightStays() const override;
 
 private:
