@@ -6,7 +6,6 @@
 #include "app/command/quality.h"
 #include "app/scene/shown_volume.h"
 #include "app/view/sweep.h"
-#include "engine/medium/sweep/swept_frames.h"
 #include "engine/scene/slices.h"
 
 namespace stereonav {
@@ -36,7 +35,7 @@ OpenScene openScene(const ViewOptions& options, bool measure, ViewSweep* sweep, 
     std::shared_ptr<Scene> scene = loadScene(options.scene, options.size, progress);
     // A recorded flight is looked at once, with the scene that it was given for.
     if (measure && !options.path.empty()) scene->check(readPath(options.path), options.path);
-    if (auto* const swept = scene->offered<SweptFrames>(); swept && sweep) sweep->use(*swept);
+    if (sweep) sweep->use(*scene);
     return opened(std::move(scene), options, measure, progress);
 }
 

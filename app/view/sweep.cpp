@@ -13,6 +13,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/display/hidden_context.h"
 #include "engine/display/medium_gpu.h"
+#include "engine/scene/scene.h"
 
 namespace stereonav {
 namespace {
@@ -120,9 +121,10 @@ std::string ViewSweep::takeNotice() {
     return std::exchange(mNotice, "");
 }
 
-void ViewSweep::use(SweptFrames& frames) {
-    if (mContext)
-        frames.setSweep(
+void ViewSweep::use(const Scene& scene) {
+    auto* const frames = scene.offered<SweptFrames>();
+    if (mContext && frames)
+        frames->setSweep(
             gpuSweep(mContext.get(), mChoice, [this](const std::string& notice) { tell(notice); }));
 }
 

@@ -14,6 +14,7 @@
 namespace stereonav {
 
 class HiddenContext;
+class Scene;
 
 // Whether this GL_RENDERER draws on the processor, by its name.
 bool drawsInSoftware(std::string_view renderer);
@@ -29,8 +30,8 @@ public:
     explicit ViewSweep(SweepChoice choice);
     ~ViewSweep();  // after all scenes that use it
 
-    // The scene's frames, which it offers, are swept here from now on. Any thread.
-    void use(SweptFrames& frames);
+    // SweptFrames that the scene offers are swept here from now on. Any thread.
+    void use(const Scene& scene);
     // Why the graphics card does not sweep although it was asked to, "" otherwise; told once. Any thread.
     std::string takeNotice();
 

@@ -52,7 +52,7 @@ ViewSweep::ViewSweep(SweepChoice choice) : mChoice(choice) {
 
 ViewSweep::~ViewSweep() = default;
 
-void ViewSweep::use(SweptFrames&) {
+void ViewSweep::use(const Scene&) {
     without();
 }
 
