@@ -1,21 +1,18 @@
-// A CT study as `info` describes it.
+// A CT study as `info` and the report describe it.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/command/info_text.h"
+#include "app/command/scene_facts.h"
 #include "colon/flight/colon_flight.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/pages.h"
 
 namespace stereonav {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double kMm = 1000, kMl = 1e6;  // of a metre, of a cubic metre
 
@@ -58,11 +55,11 @@ std::string shapeName(PolypShape shape) {
     return "flat";
 }
 
-std::vector<double> mmOf(const glm::dvec3& metres) {
+FactNumbers mmOf(const glm::dvec3& metres) {
     return {kMm * metres.x, kMm * metres.y, kMm * metres.z};
 }
 
-std::vector<int> sizeOf(const VolumeFrame& frame) {
+FactIntegers sizeOf(const VolumeFrame& frame) {
     return {frame.size.x, frame.size.y, frame.size.z};
 }
 
@@ -85,8 +82,7 @@ FlightClearance clearanceIn(const Scene& scene) {
 }
 
 // Rounded down: what is kept is no less.
-std::string clearanceText(const Scene& scene) {
-    const FlightClearance kept = clearanceIn(scene);
+std::string clearanceText(const FlightClearance& kept) {
     const auto mm = [](double metres) { return std::floor(kMm * metres * 100) / 100; };
     if (kept.head >= ColonFlight::kFarthestClearance)
         return fmt::format("{:g} mm or more from the wall", mm(ColonFlight::kFarthestClearance));
@@ -97,84 +93,103 @@ double isovalueOf(const ColonScene& colon) {
     return colon.volume.cells.isovalue * colon.volume.field.scale + colon.volume.field.offset;
 }
 
-}  // namespace
-
-Json colonJson(const Scene& scene) {
-    const ColonScene& colon = *scene.offered<const ColonScene>();
-    const GreyVolume& field = colon.volume.field;
-    const GreyRange range = wholeRange(field);
-    Json json;
-    json["kind"] = colon.isColon() ? "colon" : "isosurface";
-    json["format"] = colon.format;
-    // The study's own; what follows is of the grid that is shown: a part around the lumen, or one with a
-    // border.
-    json["study"] = {{"size", sizeOf(colon.studyFrame)},
-                     {"spacing_mm", mmOf(colon.studyFrame.spacing)},
-                     {"origin_mm", mmOf(colon.studyFrame.origin)}};
-    json["size"] = sizeOf(field.frame);
-    json["spacing_mm"] = mmOf(field.frame.spacing);
-    json["origin_mm"] = mmOf(field.frame.origin);
-    json["range"] = {range.lowest, range.highest};
-    json["isovalue"] = isovalueOf(colon);
-    json["translucent"] = !colon.volume.look.transfer.empty();
-    json["segments"] = Json::array();
-    for (const LumenSegment& segment : colon.lumen.segments)
-        json["segments"].push_back({{"voxels", segment.voxels}, {"volume_ml", kMl * segment.volume}});
-    json["volume_ml"] = millilitres(colon.lumen);
-    json["centreline_mm"] = colon.isColon() ? kMm * colon.centreline.length() : 0.0;
-    json["polyps"] = Json::array();
-    for (const Polyp& polyp : colon.polyps)
-        json["polyps"].push_back({{"shape", shapeName(polyp.shape)},
-                                  {"diameter_mm", kMm * polyp.diameter},
-                                  {"position_mm", mmOf(polyp.position)},
-                                  {"along_mm", kMm * polyp.along}});
-    json["records"] = colon.volume.cells.records.size();
-    json["bytes"] = bytesOf(heldBy(colon));
-    json["held"] = heldJson(heldBy(colon));
-    json["flight_s"] = colon.path.samples().size() < 2 ? 0.0 : colon.path.duration();
-    const FlightClearance kept = clearanceIn(scene);
-    json["clearance_mm"] = kMm * kept.head;
-    json["eye_clearance_mm"] = kMm * kept.eyes;
-    json["notes"] = colon.notes;
-    return json;
+std::vector<Facts> segmentFacts(const ColonScene& colon) {
+    std::vector<Facts> segments;
+    for (const LumenSegment& segment : colon.lumen.segments) {
+        const double volume = kMl * segment.volume;
+        Facts facts{factForJson("voxels", countOf(segment.voxels)), factForJson("volume_ml", volume, "ml")};
+        if (colon.isColon())
+            facts.push_back(factForText("", fmt::format("{:.1f} ml, {} voxels", volume, segment.voxels)));
+        segments.push_back(std::move(facts));
+    }
+    return segments;
 }
 
-std::string colonText(const Scene& scene) {
-    const ColonScene& colon = *scene.offered<const ColonScene>();
-    const GreyVolume& field = colon.volume.field;
-    const VolumeFrame& frame = field.frame;
-    const GreyRange range = wholeRange(field);
-    std::string text;
-    const auto line = [&](const char* name, const std::string& value) { text += infoLine(name, value); };
-    line("read by", colon.format);
-    line("shown as", colon.isColon() ? "a colon, from inside" : "a surface, from outside");
-    line("voxels", sizeText(colon.studyFrame));
-    if (colon.isColon() && frame.size != colon.studyFrame.size)
-        line("", sizeText(frame) + " of them around the lumen are kept");
-    line("spacing", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", kMm * frame.spacing.x, kMm * frame.spacing.y,
-                                kMm * frame.spacing.z));
-    line("values",
-         // Those of a colon are around its lumen alone, without fluid; a mask's are smoothed.
-         fmt::format("{:.6g} .. {:.6g}{}, surface at {:.6g}", range.lowest, range.highest,
-                     colon.isColon() ? " of what is kept" : "", isovalueOf(colon)));
-    line("wall", colon.volume.look.transfer.empty() ? "opaque" : "translucent");
-    if (colon.isColon()) {
-        line("segments", std::to_string(colon.lumen.segments.size()));
-        for (const LumenSegment& segment : colon.lumen.segments)
-            line("", fmt::format("{:.1f} ml, {} voxels", kMl * segment.volume, segment.voxels));
-        line("volume", fmt::format("{:.1f} ml", millilitres(colon.lumen)));
-        line("centreline", fmt::format("{:.0f} mm", kMm * colon.centreline.length()));
+std::vector<Facts> polypFacts(const ColonScene& colon) {
+    std::vector<Facts> polyps;
+    for (const Polyp& polyp : colon.polyps) {
+        const std::string shape = shapeName(polyp.shape);
+        const FactNumbers position = mmOf(polyp.position);
+        const double diameter = kMm * polyp.diameter, along = kMm * polyp.along;
+        polyps.push_back(
+            {factForJson("shape", shape), factForJson("diameter_mm", diameter, "mm"),
+             factForJson("position_mm", position, "mm"), factForJson("along_mm", along, "mm"),
+             factForText(polyps.empty() ? "polyps" : "",
+                         fmt::format("{:.1f} mm {} at {:.0f} mm ({:.1f}, {:.1f}, {:.1f} mm)", diameter, shape,
+                                     along, position[0], position[1], position[2]))});
     }
-    for (const Polyp& polyp : colon.polyps)
-        line(&polyp == colon.polyps.data() ? "polyps" : "",
-             fmt::format("{:.1f} mm {} at {:.0f} mm ({:.1f}, {:.1f}, {:.1f} mm)", kMm * polyp.diameter,
-                         shapeName(polyp.shape), kMm * polyp.along, kMm * polyp.position.x,
-                         kMm * polyp.position.y, kMm * polyp.position.z));
-    if (colon.path.samples().size() > 1)
-        line("flight", fmt::format("{:.4g} s, {}", colon.path.duration(), clearanceText(scene)));
-    line("memory", heldText(heldBy(colon)));
-    for (const std::string& note : colon.notes) line("note", note);
-    return text;
+    return polyps;
+}
+
+}  // namespace
+
+Facts factsOfVolume(const Scene& scene) {
+    const ColonScene& colon = *scene.offered<const ColonScene>();
+    const VolumeFrame& study = colon.studyFrame;
+    const VolumeFrame& frame = colon.volume.field.frame;
+    const GreyRange range = wholeRange(colon.volume.field);
+    const bool inside = colon.isColon(), opaque = colon.volume.look.transfer.empty();
+    Facts facts;
+    const auto both = [&](const char* key, FactValue value, const char* label, std::string text = "",
+                          const char* unit = "") {
+        facts.push_back(factForAll(key, std::move(value), label, std::move(text), unit));
+    };
+    const auto json = [&](const char* key, FactValue value, const char* unit = "") {
+        facts.push_back(factForJson(key, std::move(value), unit));
+    };
+    const auto text = [&](const char* label, std::string words) {
+        facts.push_back(factForText(label, std::move(words)));
+    };
+    json("kind", inside ? "colon" : "isosurface");
+    both("format", colon.format, "read by");
+    text("shown as", inside ? "a colon, from inside" : "a surface, from outside");
+    // The study's own; what follows is of the grid that is shown: a part around the lumen, or one with a
+    // border.
+    json("study", Facts{factForAll("size", sizeOf(study), "voxels"),
+                        factForJson("spacing_mm", mmOf(study.spacing), "mm"),
+                        factForJson("origin_mm", mmOf(study.origin), "mm")});
+    if (inside && frame.size != study.size)
+        both("size", sizeOf(frame), "", sizeText(frame) + " of them around the lumen are kept");
+    else
+        json("size", sizeOf(frame));
+    const FactNumbers spacing = mmOf(frame.spacing);
+    both("spacing_mm", spacing, "spacing",
+         fmt::format("{:.4g} x {:.4g} x {:.4g} mm", spacing[0], spacing[1], spacing[2]), "mm");
+    json("origin_mm", mmOf(frame.origin), "mm");
+    json("range", FactNumbers{range.lowest, range.highest});
+    const double isovalue = isovalueOf(colon);
+    json("isovalue", isovalue);
+    // Those of a colon are around its lumen alone, without fluid; a mask's are smoothed.
+    text("values", fmt::format("{:.6g} .. {:.6g}{}, surface at {:.6g}", range.lowest, range.highest,
+                               inside ? " of what is kept" : "", isovalue));
+    both("translucent", !opaque, "wall", opaque ? "opaque" : "translucent");
+    // Only a colon's lumen is told of.
+    const auto ofColon = [&](const char* key, FactValue value, const char* label, std::string words,
+                             const char* unit) {
+        if (inside)
+            both(key, std::move(value), label, std::move(words), unit);
+        else
+            json(key, std::move(value), unit);
+    };
+    ofColon("segments", segmentFacts(colon), "segments", "", "");
+    const double volume = millilitres(colon.lumen);
+    ofColon("volume_ml", volume, "volume", fmt::format("{:.1f} ml", volume), "ml");
+    const double length = inside ? kMm * colon.centreline.length() : 0.0;
+    ofColon("centreline_mm", length, "centreline", fmt::format("{:.0f} mm", length), "mm");
+    json("polyps", polypFacts(colon));
+    json("records", countOf(colon.volume.cells.records.size()));
+    const std::string memory = addHeld(facts, heldBy(colon));
+    const bool flies = colon.path.samples().size() > 1;
+    const double flight = flies ? colon.path.duration() : 0.0;
+    json("flight_s", flight, "s");
+    const FlightClearance kept = clearanceIn(scene);
+    json("clearance_mm", kMm * kept.head, "mm");
+    json("eye_clearance_mm", kMm * kept.eyes, "mm");
+    if (flies) text("flight", fmt::format("{:.4g} s, {}", flight, clearanceText(kept)));
+    text("memory", memory);
+    json("notes", colon.notes);
+    for (const std::string& note : colon.notes) text("note", note);
+    return facts;
 }
 
 }  // namespace stereonav

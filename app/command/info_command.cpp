@@ -4,17 +4,15 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/command/facts_json.h"
 #include "app/command/info_series.h"
-#include "app/command/info_text.h"
 #include "app/command/process_facts.h"
+#include "app/command/scene_facts.h"
 #include "app/output/length_text.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/lazy_light.h"
 #include "app/scene/scene_loading.h"
-#include "colon/scene/colon_scene.h"
 #include "engine/base/parallel.h"
-#include "engine/medium/sweep/medium_scene.h"
-#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 namespace {
@@ -53,7 +51,7 @@ Json planJson(const Scene& scene, const FramePlan& plan) {
 
 std::string planText(const Scene& scene, const FramePlan& plan) {
     std::string text;
-    const auto line = [&](const char* name, const std::string& value) { text += infoLine(name, value); };
+    const auto line = [&](const char* name, const std::string& value) { text += factLine(name, value); };
     line("size", fmt::format("{} x {} pixels an eye", plan.width, plan.height));
     line("eyes", lengthText(scene.stereo.separation) + " apart, zero parallax at " +
                      lengthText(scene.stereo.zeroParallax));
@@ -80,12 +78,12 @@ Json sweepJson(const Scene& scene) {
 }
 
 std::string sweepText(const Scene& scene) {
-    return infoLine("size", fmt::format("{} x {} pixels an eye", scene.lens.width, scene.lens.height)) +
-           infoLine("eyes", lengthText(scene.stereo.separation) + " apart, zero parallax at " +
+    return factLine("size", fmt::format("{} x {} pixels an eye", scene.lens.width, scene.lens.height)) +
+           factLine("eyes", lengthText(scene.stereo.separation) + " apart, zero parallax at " +
                                 lengthText(scene.stereo.zeroParallax)) +
-           infoLine("threads", std::to_string(threadCount())) +
-           infoLine("simd", std::string(nameOf(scene.simd))) +
-           infoLine("both eyes", "sweep: slice by slice, from one light");
+           factLine("threads", std::to_string(threadCount())) +
+           factLine("simd", std::string(nameOf(scene.simd))) +
+           factLine("both eyes", "sweep: slice by slice, from one light");
 }
 
 Json processJson(const ProcessFacts& process) {
@@ -101,72 +99,41 @@ Json processJson(const ProcessFacts& process) {
 }
 
 std::string processText(const ProcessFacts& process) {
-    return infoLine("start-up",
+    return factLine("start-up",
                     fmt::format("{:.1f} ms of processor time before main, scene ready after {:.0f} ms",
                                 process.beforeMain_ms, process.ready_ms)) +
-           infoLine("threads", fmt::format("{} running", process.threads)) +
-           infoLine("libraries", fmt::format("{} loaded", process.libraries.size())) +
-           infoLine("modules",
+           factLine("threads", fmt::format("{} running", process.threads)) +
+           factLine("libraries", fmt::format("{} loaded", process.libraries.size())) +
+           factLine("modules",
                     process.modules.empty() ? "none" : fmt::format("{}", fmt::join(process.modules, ", "))) +
-           infoLine("memory", fmt::format("{:.1f} MB of heap with the scene, {:.1f} MB in all at most",
+           factLine("memory", fmt::format("{:.1f} MB of heap with the scene, {:.1f} MB in all at most",
                                           static_cast<double>(process.heapBytes) / 1e6,
                                           static_cast<double>(process.peakBytes) / 1e6));
 }
 
 }  // namespace
 
-std::size_t bytesOf(const std::vector<Held>& held) {
-    std::size_t sum = 0;
-    for (const Held& part : held) sum += part.bytes;
-    return sum;
-}
-
-Json heldJson(const std::vector<Held>& held) {
-    Json json = Json::object();
-    for (const Held& part : held) json[part.what] = part.bytes;
-    return json;
-}
-
-std::string heldText(const std::vector<Held>& held) {
-    std::string parts;
-    for (const Held& part : held)
-        parts += fmt::format("{}{} {:.1f}", parts.empty() ? "" : ", ", part.what,
-                             static_cast<double>(part.bytes) / 1e6);
-    return fmt::format("{:.1f} MB: {}", static_cast<double>(bytesOf(held)) / 1e6, parts);
-}
-
-std::string infoLine(const char* name, const std::string& value) {
-    return fmt::format("  {:<12}{}\n", name, value);
-}
-
 int runInfo(const InfoOptions& options) {
     if (!options.series.empty()) return listSeriesOf(options);
     ProgressBar bar;
     const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress(), kInfoBytes);
     const Scene& scene = *loaded;
-    const auto* const terrain = scene.offered<const TerrainScene>();
-    const auto* const volume = scene.offered<const ColonScene>();
-    const auto* const medium = scene.offered<MediumScene>();
     ProcessFacts process;
     takeWhenReady(process);
     bar.progress().report(0.95, "measuring");
     const std::optional<FramePlan> plan = planScene(scene);
     takeAtEnd(process);
     bar.clear();
+    const Facts facts = describe(scene);
     if (options.json) {
         Json json{{"scene", scene.name}};
-        if (terrain) json["terrain"] = terrainJson(scene);
-        if (volume) json["volume"] = colonJson(scene);
-        if (medium) json["medium"] = mediumJson(scene);
+        json.update(jsonOf(facts));
         json["plan"] = plan ? planJson(scene, *plan) : sweepJson(scene);
         json["process"] = processJson(process);
         std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
         return 0;
     }
-    std::string text = scene.name + "\n";
-    if (terrain) text += terrainText(scene);
-    if (volume) text += colonText(scene);
-    if (medium) text += mediumText(scene);
+    std::string text = scene.name + "\n" + linesOf(facts);
     text += "frame plan\n" + (plan ? planText(scene, *plan) : sweepText(scene));
     text += "process\n" + processText(process);
     std::fputs(text.c_str(), stdout);

@@ -2,11 +2,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <vector>
 
-#include "app/command/info_text.h"
+#include "app/command/scene_facts.h"
 #include "app/output/length_text.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/pages.h"
@@ -14,8 +13,6 @@
 
 namespace stereonav {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string lightText(const MediumLight& light) {
     constexpr double kDegrees = 180 / std::numbers::pi;
@@ -52,55 +49,54 @@ std::vector<Held> heldBy(const Scene& loaded) {
 
 }  // namespace
 
-Json mediumJson(const Scene& loaded) {
+Facts factsOfMedium(const Scene& loaded) {
     const MediumScene& scene = *loaded.offered<MediumScene>();
     const WorldBox& box = scene.medium.bounds();
     const glm::dvec3 size = box.empty() ? glm::dvec3(0.0) : box.high - box.low;
-    Json json;
-    json["transfer"] = scene.transfer;
-    json["model"] = std::string(nameOf(scene.look.model));
-    json["phase"] = scene.phase;
-    json["light"] = lightText(scene.look.light);
-    json["noise"] = scene.noise;
-    json["animated"] = scene.animated();
-    json["layers"] = scene.medium.layers().size();
-    json["extent_m"] = {size.x, size.y, size.z};
-    json["largest_extinction_per_m"] = scene.medium.largestExtinction();
-    json["baked_light"] = scene.look.baked.light != nullptr;
-    json["slices"] = scene.sweep.slices;
-    json["light_size"] = scene.sweep.lightSize;
-    json["cone_deg"] = scene.sweep.coneAngle * 180 / std::numbers::pi;
-    json["shading_width_voxels"] = scene.sweep.shadingWidth;
-    const std::vector<Held> held = heldBy(loaded);
-    json["bytes"] = bytesOf(held);
-    json["held"] = heldJson(held);
-    json["notes"] = scene.notes;
-    return json;
-}
-
-std::string mediumText(const Scene& loaded) {
-    const MediumScene& scene = *loaded.offered<MediumScene>();
-    const WorldBox& box = scene.medium.bounds();
-    std::string text = "medium\n";
-    const auto line = [&](const char* name, const std::string& value) { text += infoLine(name, value); };
-    line("transfer", scene.transfer);
-    line("model", fmt::format("{}, phase function {}", nameOf(scene.look.model), scene.phase));
-    line("light", lightText(scene.look.light) + (scene.look.baked.light ? ", and baked light" : ""));
-    line("noise", scene.noise + (scene.animated() ? ", moving" : ""));
-    if (!scene.medium.layers().empty()) line("layers", std::to_string(scene.medium.layers().size()));
-    if (box.empty()) {
-        line("extent", "nothing is visible");
-    } else {
-        const glm::dvec3 size = box.high - box.low;
-        line("extent",
-             fmt::format("{} x {} x {}", lengthText(size.x), lengthText(size.y), lengthText(size.z)));
-    }
-    line("sweep", fmt::format("{} slices, light of {} x {} texels, cone of {:.0f} degrees",
-                              scene.sweep.slices, scene.sweep.lightSize, scene.sweep.lightSize,
-                              scene.sweep.coneAngle * 180 / std::numbers::pi));
-    line("memory", heldText(heldBy(loaded)));
-    for (const std::string& note : scene.notes) line("note", note);
-    return text;
+    Facts facts;
+    const auto both = [&](const char* key, FactValue value, const char* label, std::string text = "",
+                          const char* unit = "") {
+        facts.push_back(factForAll(key, std::move(value), label, std::move(text), unit));
+    };
+    const auto json = [&](const char* key, FactValue value, const char* unit = "") {
+        facts.push_back(factForJson(key, std::move(value), unit));
+    };
+    const auto text = [&](const char* label, std::string words) {
+        facts.push_back(factForText(label, std::move(words)));
+    };
+    const bool baked = scene.look.baked.light != nullptr, animated = scene.animated();
+    const std::string model(nameOf(scene.look.model)), light = lightText(scene.look.light);
+    both("transfer", scene.transfer, "transfer");
+    both("model", model, "model", fmt::format("{}, phase function {}", model, scene.phase));
+    json("phase", scene.phase);
+    both("light", light, "light", light + (baked ? ", and baked light" : ""));
+    both("noise", scene.noise, "noise", scene.noise + (animated ? ", moving" : ""));
+    json("animated", animated);
+    const std::int64_t layers = countOf(scene.medium.layers().size());
+    if (layers > 0)
+        both("layers", layers, "layers");
+    else
+        json("layers", layers);
+    both("extent_m", FactNumbers{size.x, size.y, size.z}, "extent",
+         box.empty()
+             ? "nothing is visible"
+             : fmt::format("{} x {} x {}", lengthText(size.x), lengthText(size.y), lengthText(size.z)),
+         "m");
+    json("largest_extinction_per_m", scene.medium.largestExtinction(), "1/m");
+    json("baked_light", baked);
+    const SweepSetting& sweep = scene.sweep;
+    const double cone = sweep.coneAngle * 180 / std::numbers::pi;
+    json("slices", sweep.slices);
+    json("light_size", sweep.lightSize);
+    json("cone_deg", cone, "degrees");
+    text("sweep", fmt::format("{} slices, light of {} x {} texels, cone of {:.0f} degrees", sweep.slices,
+                              sweep.lightSize, sweep.lightSize, cone));
+    json("shading_width_voxels", sweep.shadingWidth, "voxels");
+    const std::string memory = addHeld(facts, heldBy(loaded));
+    text("memory", memory);
+    json("notes", scene.notes);
+    for (const std::string& note : scene.notes) text("note", note);
+    return facts;
 }
 
 }  // namespace stereonav

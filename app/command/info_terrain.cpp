@@ -1,10 +1,9 @@
-// A terrain as `info` describes it.
+// A terrain as `info` and the report describe it.
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "app/command/info_text.h"
+#include "app/command/scene_facts.h"
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/scene/landmark.h"
 #include "terrain/scene/terrain_illumination.h"
@@ -12,8 +11,6 @@
 
 namespace stereonav {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::vector<Held> heldByTerrain(const Scene& scene) {
     const TerrainScene& terrain = *scene.offered<const TerrainScene>();
@@ -52,71 +49,67 @@ std::string missingText(const TerrainReport& report) {
 
 }  // namespace
 
-nlohmann::ordered_json terrainJson(const Scene& scene) {
+Facts factsOfTerrain(const Scene& scene) {
     const TerrainScene& terrain = *scene.offered<const TerrainScene>();
     const TerrainReport& report = terrain.report;
     const Heightfield& ground = terrain.ground;
-    Json json;
-    json["driver"] = report.driver;
-    json["size"] = {ground.width(), ground.height()};
-    json["spacing_m"] = {ground.spacing().x, ground.spacing().y};
-    json["extent_m"] = {ground.spacing().x * (ground.width() - 1),
-                        ground.spacing().y * (ground.height() - 1)};
-    json["height_range_m"] = {ground.minHeight(), ground.maxHeight()};
-    json["crs"] = report.sourceCrs;
-    json["projection"] = report.projection;
-    json["source_offset"] = {report.sourceOffset.x, report.sourceOffset.y};
-    json["placed_by"] = report.placedBy;
-    json["band"] = report.band;
-    json["height_unit"] = report.heightUnit;
-    json["missing_value"] = report.missingValue;
-    json["file_samples"] = report.sourceSamples;
-    json["missing_samples"] = report.missingSamples;
-    json["outside_samples"] = report.outsideSamples;
-    json["filled_samples"] = report.filledSamples;
-    json["open_samples"] = report.openSamples;
-    json["open_holes"] = ground.hasHoles();
-    json["color"] = report.colorSource;
-    json["color_size"] = {terrain.color.levelCount() > 0 ? terrain.color.level(0).width() : 0,
-                          terrain.color.levelCount() > 0 ? terrain.color.level(0).height() : 0};
-    json["sky"] = report.skySource;
-    json["baked_light"] = report.lightSource;
-    json["landmark_triangles"] = terrain.landmarks ? terrain.landmarks->triangleCount() : 0;
-    json["bytes"] = bytesOf(heldByTerrain(scene));
-    json["held"] = heldJson(heldByTerrain(scene));
-    json["flight_s"] = terrain.path.duration();
-    json["clearance_m"] = terrain.clearance;
-    return json;
-}
-
-std::string terrainText(const Scene& scene) {
-    const TerrainScene& terrain = *scene.offered<const TerrainScene>();
-    const TerrainReport& report = terrain.report;
-    const Heightfield& ground = terrain.ground;
-    std::string text;
-    const auto line = [&](const char* name, const std::string& value) { text += infoLine(name, value); };
-    line("read by", report.driver);
-    line("samples", fmt::format("{} x {}", ground.width(), ground.height()));
-    line("spacing", fmt::format("{:.6g} x {:.6g} m", ground.spacing().x, ground.spacing().y));
-    line("extent", fmt::format("{:.6g} x {:.6g} m", ground.spacing().x * (ground.width() - 1),
-                               ground.spacing().y * (ground.height() - 1)));
-    line("heights",
-         fmt::format("{} .. {} m", heightText(ground.minHeight()), heightText(ground.maxHeight())));
-    line("crs", orNone(report.sourceCrs));
-    line("projection", orNone(report.projection));
-    if (!report.placedBy.empty()) line("placed by", report.placedBy);
-    if (!report.band.empty()) line("band", report.band);
-    if (!report.heightUnit.empty()) line("height unit", report.heightUnit);
-    line("missing", missingText(report));
-    line("colour", orNone(report.colorSource));
-    line("sky", orNone(report.skySource));
-    line("baked light", orNone(report.lightSource));
-    line("landmarks",
-         terrain.landmarks ? fmt::format("{} triangles", terrain.landmarks->triangleCount()) : "none");
-    line("flight", fmt::format("{:.4g} s, at least {:.4g} m above the ground", terrain.path.duration(),
-                               terrain.clearance));
-    line("memory", heldText(heldByTerrain(scene)));
-    return text;
+    const glm::dvec2 spacing = ground.spacing();
+    const glm::dvec2 extent(spacing.x * (ground.width() - 1), spacing.y * (ground.height() - 1));
+    const auto inMetres = [](const glm::dvec2& size) {
+        return fmt::format("{:.6g} x {:.6g} m", size.x, size.y);
+    };
+    Facts facts;
+    const auto both = [&](const char* key, FactValue value, const char* label, std::string text = "",
+                          const char* unit = "") {
+        facts.push_back(factForAll(key, std::move(value), label, std::move(text), unit));
+    };
+    const auto json = [&](const char* key, FactValue value, const char* unit = "") {
+        facts.push_back(factForJson(key, std::move(value), unit));
+    };
+    // People are not told of what a file did not need.
+    const auto wherePresent = [&](const char* key, const std::string& value, const char* label) {
+        if (value.empty())
+            json(key, value);
+        else
+            both(key, value, label);
+    };
+    both("driver", report.driver, "read by");
+    both("size", FactIntegers{ground.width(), ground.height()}, "samples");
+    both("spacing_m", FactNumbers{spacing.x, spacing.y}, "spacing", inMetres(spacing), "m");
+    both("extent_m", FactNumbers{extent.x, extent.y}, "extent", inMetres(extent), "m");
+    both("height_range_m", FactNumbers{ground.minHeight(), ground.maxHeight()}, "heights",
+         fmt::format("{} .. {} m", heightText(ground.minHeight()), heightText(ground.maxHeight())), "m");
+    both("crs", report.sourceCrs, "crs", orNone(report.sourceCrs));
+    both("projection", report.projection, "projection", orNone(report.projection));
+    json("source_offset", FactNumbers{report.sourceOffset.x, report.sourceOffset.y});
+    wherePresent("placed_by", report.placedBy, "placed by");
+    wherePresent("band", report.band, "band");
+    wherePresent("height_unit", report.heightUnit, "height unit");
+    json("missing_value", report.missingValue);
+    json("file_samples", std::int64_t{report.sourceSamples});
+    json("missing_samples", std::int64_t{report.missingSamples});
+    json("outside_samples", std::int64_t{report.outsideSamples});
+    json("filled_samples", std::int64_t{report.filledSamples});
+    json("open_samples", std::int64_t{report.openSamples});
+    facts.push_back(factForText("missing", missingText(report)));
+    json("open_holes", ground.hasHoles());
+    both("color", report.colorSource, "colour", orNone(report.colorSource));
+    const bool colored = terrain.color.levelCount() > 0;
+    json("color_size", FactIntegers{colored ? terrain.color.level(0).width() : 0,
+                                    colored ? terrain.color.level(0).height() : 0});
+    both("sky", report.skySource, "sky", orNone(report.skySource));
+    both("baked_light", report.lightSource, "baked light", orNone(report.lightSource));
+    const std::int64_t triangles = terrain.landmarks ? countOf(terrain.landmarks->triangleCount()) : 0;
+    both("landmark_triangles", triangles, "landmarks",
+         terrain.landmarks ? fmt::format("{} triangles", triangles) : "none");
+    const std::string memory = addHeld(facts, heldByTerrain(scene));
+    const double flight = terrain.path.duration();
+    json("flight_s", flight, "s");
+    json("clearance_m", terrain.clearance, "m");
+    facts.push_back(factForText(
+        "flight", fmt::format("{:.4g} s, at least {:.4g} m above the ground", flight, terrain.clearance)));
+    facts.push_back(factForText("memory", memory));
+    return facts;
 }
 
 }  // namespace stereonav

@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <sstream>
 
-#include "app/command/info_text.h"
+#include "app/command/scene_facts.h"
 #include "app/report/run.h"
 #include "app/report/stability.h"
 #include "engine/base/file.h"
@@ -30,20 +29,6 @@ int librariesInMemory() {
     return count;
 }
 
-// The lines of `info`, "  name        value", as cells; a line without a name goes on with the one before.
-std::vector<std::vector<std::string>> rowsOfInfo(const std::string& text) {
-    constexpr std::size_t kNameEnd = 14;
-    std::vector<std::vector<std::string>> rows;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        if (line.size() < kNameEnd) continue;
-        std::string name = line.substr(2, kNameEnd - 2);
-        name.erase(name.find_last_not_of(' ') + 1);
-        rows.push_back({name, line.substr(kNameEnd)});
-    }
-    return rows;
-}
-
 std::string planesText(const FramePlan& plan) {
     std::string planes = "colour, depth";
     if (plan.dependence == ViewDependence::Highlight) planes += ", base colour";
@@ -56,8 +41,9 @@ ReportTable sceneTable(ReportRun& run, const ReportScene& scene) {
     run.tell("frame plan, " + scene.title);
     const FramePlan plan = planScene(scene.loaded()).value();
     ReportTable table{scene.title, "", {"", "what was read and what a frame holds"}, {}};
-    table.rows =
-        rowsOfInfo(terrainOf(scene.loaded()) ? terrainText(scene.loaded()) : colonText(scene.loaded()));
+    const Facts facts =
+        terrainOf(scene.loaded()) ? factsOfTerrain(scene.loaded()) : factsOfVolume(scene.loaded());
+    for (auto& [label, text] : rowsOf(facts)) table.rows.push_back({label, text});
     table.rows.push_back({"loading", fmt::format("{:.0f} ms", scene.load_ms)});
     table.rows.push_back({"planes", planesText(plan)});
     table.rows.push_back({"frame", fmt::format("{:.1f} MB at {}x{}", static_cast<double>(plan.bytes) / 1e6,

@@ -1,9 +1,8 @@
 // Stands in for CT studies and the colon where the program is built without them: everything that needs it
 // says so.
-#include <nlohmann/json.hpp>
 
 #include "app/command/info_series.h"
-#include "app/command/info_text.h"
+#include "app/command/scene_facts.h"
 #include "app/options/built_without.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/scene_type.h"
@@ -50,11 +49,7 @@ int runCentreline(const CentrelineOptions&) {
     without();
 }
 
-nlohmann::ordered_json colonJson(const Scene&) {
-    without();
-}
-
-std::string colonText(const Scene&) {
+Facts factsOfVolume(const Scene&) {
     without();
 }
 

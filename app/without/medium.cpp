@@ -1,8 +1,6 @@
 // Stands in for volume light where the program is built without it: everything that needs it says so.
 
-#include <nlohmann/json.hpp>
-
-#include "app/command/info_text.h"
+#include "app/command/scene_facts.h"
 #include "app/options/built_without.h"
 #include "app/scene/medium_loading.h"
 #include "app/scene/medium_of.h"
@@ -60,11 +58,7 @@ std::string ViewSweep::takeNotice() {
     return "";
 }
 
-nlohmann::ordered_json mediumJson(const Scene&) {
-    without();
-}
-
-std::string mediumText(const Scene&) {
+Facts factsOfMedium(const Scene&) {
     without();
 }
 

@@ -1,8 +1,7 @@
 // Stands in for terrain where the program is built without it: everything that needs it says so.
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
-#include "app/command/info_text.h"
+#include "app/command/scene_facts.h"
 #include "app/options/built_without.h"
 #include "app/scene/scene_type.h"
 
@@ -35,11 +34,7 @@ int runMesh(const MeshOptions&) {
     without();
 }
 
-nlohmann::ordered_json terrainJson(const Scene&) {
-    without();
-}
-
-std::string terrainText(const Scene&) {
+Facts factsOfTerrain(const Scene&) {
     without();
 }
 

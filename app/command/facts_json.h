@@ -1,0 +1,12 @@
+// Facts as JSON: an object of their keys, in their order. What has no key is left out.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "engine/scene/facts.h"
+
+namespace stereonav {
+
+nlohmann::ordered_json jsonOf(const Facts& facts);
+
+}  // namespace stereonav

@@ -1,0 +1,34 @@
+#include "app/command/scene_facts.h"
+
+#include <fmt/format.h>
+
+#include "colon/scene/colon_scene.h"
+#include "engine/medium/sweep/medium_scene.h"
+#include "terrain/scene/terrain_scene.h"
+
+namespace stereonav {
+
+Facts describe(const Scene& scene) {
+    Facts facts;
+    if (scene.offered<const TerrainScene>()) facts.push_back(factForJson("terrain", factsOfTerrain(scene)));
+    if (scene.offered<const ColonScene>()) facts.push_back(factForJson("volume", factsOfVolume(scene)));
+    if (scene.offered<MediumScene>()) facts.push_back(factForAll("medium", factsOfMedium(scene), "medium"));
+    return facts;
+}
+
+std::string addHeld(Facts& facts, const std::vector<Held>& held) {
+    std::size_t sum = 0;
+    Facts parts;
+    std::string text;
+    const auto megabytes = [](std::size_t bytes) { return static_cast<double>(bytes) / 1e6; };
+    for (const Held& part : held) {
+        sum += part.bytes;
+        parts.push_back(factForJson(part.what, countOf(part.bytes), "bytes"));
+        text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", part.what, megabytes(part.bytes));
+    }
+    facts.push_back(factForJson("bytes", countOf(sum), "bytes"));
+    facts.push_back(factForJson("held", std::move(parts)));
+    return fmt::format("{:.1f} MB: {}", megabytes(sum), text);
+}
+
+}  // namespace stereonav

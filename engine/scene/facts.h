@@ -1,0 +1,48 @@
+// What there is to say of a scene: figures with their names and units, as a tree. Text for people, the rows
+// of a report and JSON (app/command/facts_json.h) are prints of the same facts.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace stereonav {
+
+struct Fact;
+using Facts = std::vector<Fact>;
+
+using FactIntegers = std::vector<std::int64_t>;
+using FactNumbers = std::vector<double>;
+using FactWords = std::vector<std::string>;
+using FactValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, FactIntegers,
+                               FactNumbers, FactWords, Facts, std::vector<Facts>>;
+
+struct Fact {
+    std::string key;  // of the value in JSON; "": not in JSON
+    FactValue value;
+    std::string unit;  // of the value, "mm"; "": it has none, or the text says it
+    // What people read it under, "": it goes on with what is before. None: not in the text.
+    std::optional<std::string> label;
+    std::string text;  // "": the value and its unit, as they are
+};
+
+// For JSON alone.
+Fact factForJson(std::string key, FactValue value, std::string unit = "");
+// For people alone: words on more than one value, or on a value that has a key elsewhere.
+Fact factForText(std::string label, std::string text);
+// For both; text as in Fact.
+Fact factForAll(std::string key, FactValue value, std::string label, std::string text = "",
+                std::string unit = "");
+
+// Lines "  label       text\n". A group (Facts) with a label has it as a heading, on a line of its own; the
+// facts of groups and of lists of groups follow, whether the group has a label or not.
+std::string linesOf(const Facts& facts);
+// One such line.
+std::string factLine(const std::string& label, const std::string& text);
+// The same without headings: label, text.
+std::vector<std::pair<std::string, std::string>> rowsOf(const Facts& facts);
+
+}  // namespace stereonav
