@@ -20,7 +20,7 @@
 #include "terrain/light/terrain_light.h"
 #include "terrain/read/dem_reader.h"
 #include "terrain/read/scene_file.h"
-#include "terrain/scene/landmark_mesh.h"
+#include "engine/mesh/mesh_file.h"
 
 namespace stereonav::fuzz {
 namespace {
@@ -70,7 +70,7 @@ constexpr Reader kReaders[] = {
     {"scene", "scene.toml", [](const fs::path& file) { readSceneFile(file); }},
     {"path-text", "flight.path", [](const fs::path& file) { readPath(file); }},
     {"path-gltf", "flight.gltf", [](const fs::path& file) { readPath(file); }},
-    {"landmark", "landmark.glb", [](const fs::path& file) { readLandmarkMesh(file); }},
+    {"landmark", "landmark.glb", [](const fs::path& file) { readMesh(file); }},
     {"probe", "probe.hdr", [](const fs::path& file) { readRadianceImage(file); }},
     {"picture", "picture.png", [](const fs::path& file) { readColorImage(file); }},
     {"transfer", "transfer.txt", [](const fs::path& file) { readTransferFunction(file); }},

@@ -1,5 +1,5 @@
 // Triangles, materials and base colour textures out of a glTF file.
-#include "terrain/scene/landmark_mesh.h"
+#include "engine/mesh/mesh_file.h"
 
 #include <fmt/format.h>
 
@@ -23,18 +23,18 @@ class MeshReader {
 public:
     explicit MeshReader(const GltfFile& file) : mFile(file) {}
 
-    LandmarkMesh read() {
+    TriangleMesh read() {
         readMaterials();
         for (const auto& chain : nodeChains(mFile)) readNode(chain);
         if (mMesh.triangles.empty())
             throw Error(mFile.name, "scene", "expected a mesh with triangles, found none",
-                        "export the landmark's mesh with it");
+                        "export a mesh with it");
         return std::move(mMesh);
     }
 
 private:
     void readMaterials();
-    int readTexture(int texture, LandmarkMaterial& material);
+    int readTexture(int texture, MeshMaterial& material);
     void readNode(const std::vector<int>& chain);
     void readPrimitive(const tinygltf::Primitive& primitive, const glm::dmat4& sceneFromNode,
                        const std::string& place);
@@ -45,13 +45,13 @@ private:
                                   int components, std::size_t count, const std::string& place) const;
 
     const GltfFile& mFile;
-    LandmarkMesh mMesh;
+    TriangleMesh mMesh;
     std::vector<int> mTexCoordSet;  // of each material's base colour texture
 };
 
 void MeshReader::readMaterials() {
     for (const auto& source : mFile.model.materials) {
-        LandmarkMaterial material;
+        MeshMaterial material;
         const auto& factor = source.pbrMetallicRoughness.baseColorFactor;
         if (factor.size() >= 3) material.baseColor = glm::vec3(factor[0], factor[1], factor[2]);
         const auto& texture = source.pbrMetallicRoughness.baseColorTexture;
@@ -63,7 +63,7 @@ void MeshReader::readMaterials() {
     mTexCoordSet.push_back(0);
 }
 
-int MeshReader::readTexture(int index, LandmarkMaterial& material) {
+int MeshReader::readTexture(int index, MeshMaterial& material) {
     const auto& model = mFile.model;
     const std::string place = fmt::format("texture {}", index);
     if (static_cast<std::size_t>(index) >= model.textures.size())
@@ -149,7 +149,7 @@ void MeshReader::readVertices(const tinygltf::Primitive& primitive, const glm::d
     const glm::dmat3 turnNormal(glm::cross(turn[1], turn[2]), glm::cross(turn[2], turn[0]),
                                 glm::cross(turn[0], turn[1]));
     for (std::size_t k = 0; k < count; ++k) {
-        LandmarkMesh::Vertex v{{}, glm::vec3(0), glm::vec3(1), glm::vec2(0)};
+        TriangleMesh::Vertex v{{}, glm::vec3(0), glm::vec3(1), glm::vec2(0)};
         const glm::dvec4 p(position[3 * k], position[3 * k + 1], position[3 * k + 2], 1);
         v.position = worldFromGltf(glm::dvec3(sceneFromNode * p));
         if (!normals.empty()) {
@@ -200,7 +200,7 @@ void MeshReader::readTriangles(const tinygltf::Primitive& primitive, std::size_t
 
 }  // namespace
 
-LandmarkMesh readLandmarkMesh(const std::filesystem::path& path) {
+TriangleMesh readMesh(const std::filesystem::path& path) {
     const GltfFile file = readGltf(path);
     return MeshReader(file).read();
 }

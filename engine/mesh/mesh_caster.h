@@ -1,0 +1,64 @@
+// Rays against a mesh, with Embree 3. Embree says which triangle is hit first; depth and barycentric
+// coordinates are computed again in double precision, so that they do not depend on which rays share a
+// packet.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+
+#include "engine/camera/eye_view.h"
+#include "engine/mesh/mesh_shader.h"
+#include "engine/mesh/triangle_mesh.h"
+#include "engine/render/eye_renderer.h"
+
+namespace stereonav {
+
+class MeshCaster {
+public:
+    // Builds the tree. Positions are kept about the middle of the mesh and rounded to floats, as Embree has
+    // them. Throws Error naming `name`.
+    MeshCaster(TriangleMesh mesh, const std::string& name);
+    ~MeshCaster();
+
+    const TriangleMesh& mesh() const;  // about its middle
+    glm::dvec3 low() const;            // world, of the box around everything
+    glm::dvec3 high() const;
+
+    static constexpr int kMostRays = 16;
+    int packet() const;  // rays that are cast at once on this processor, 4 to kMostRays
+
+private:
+    friend class MeshRays;
+    struct State;
+    std::unique_ptr<State> mState;
+};
+
+// Rays from one eye. Both must outlive this. Safe from several threads.
+class MeshRays {
+public:
+    MeshRays(const MeshCaster& caster, const EyeView& view);
+
+    // The first hit of each of `count` rays (0 to packet()), nearer than farDepth[k] and no nearer than the
+    // view's near depth; hits[k].triangle is MeshHit::kNone where there is none. False where there is none
+    // at all: hits are not written then. direction: unit length along the view axis (rayDirection()). A
+    // negative farDepth[k] marks a ray to leave alone.
+    bool cast(const glm::dvec3* direction, const float* farDepth, int count, MeshHit* hits) const;
+
+    // False only if no ray through the pixels of `rect` meets the box around the mesh nearer than `depth`.
+    bool mayMeetBefore(double depth, PixelRect rect) const;
+
+private:
+    bool touches(const glm::dvec3* direction, int count) const;
+
+    const MeshCaster& mCaster;
+    const EyeView& mView;
+    glm::dvec3 mOrigin;  // the eye, about the mesh's middle
+    // The part of the window (at view depth 1) that the box covers, and how near it comes: other rays need
+    // not be cast.
+    glm::dvec2 mLeast, mMost;
+    double mNearest = 0;
+};
+
+}  // namespace stereonav
