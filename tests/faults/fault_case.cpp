@@ -178,8 +178,8 @@ void FaultTest::expectNothingLost(const FaultCase& one, const Ended& whole, cons
     }
 }
 
-std::array<FaultTally, kFaultKinds.size()> FaultTest::tryFaults(const FaultCase& one,
-                                                                std::uint64_t most) const {
+std::array<FaultTally, kFaultKinds.size()> FaultTest::tryFaults(const FaultCase& one, std::uint64_t most,
+                                                                const std::string& only) const {
     std::array<FaultTally, kFaultKinds.size()> tallies;
     SCOPED_TRACE(one.name);
     const Ended whole = runWith(one, "", 0);
@@ -187,6 +187,7 @@ std::array<FaultTally, kFaultKinds.size()> FaultTest::tryFaults(const FaultCase&
     for (std::size_t k = 0; k < kFaultKinds.size(); ++k) {
         FaultTally& tally = tallies[k];
         tally.calls = whole.calls[k];
+        if (!only.empty() && only != kFaultKinds[k]) continue;
         const std::uint64_t count = std::min(tally.calls, most);
         std::set<std::uint64_t> places;  // the last ones first: there an end is lost
         for (std::uint64_t n = 0; n < count; ++n) places.insert(tally.calls - n * tally.calls / count);

@@ -38,7 +38,9 @@ protected:
     std::vector<FaultCase> cases() const;
 
     // most: faults that are tried of each kind, spread over the calls; asserts for each.
-    std::array<FaultTally, kFaultKinds.size()> tryFaults(const FaultCase& one, std::uint64_t most) const;
+    // only: of this kind alone; "": of all.
+    std::array<FaultTally, kFaultKinds.size()> tryFaults(const FaultCase& one, std::uint64_t most,
+                                                         const std::string& only = "") const;
 
 private:
     using Files = std::map<std::string, std::string>;  // content by name below the place

@@ -62,6 +62,15 @@ TEST_F(Faults, OfFactsAndReports) {
     tryAll("report", kSample);
 }
 
+// Frames whose rows OpenCV's writer would copy into memory that it does not check for: a crash, where the
+// rows of other sizes were copied only now and then, by the address that they happened to have.
+TEST_F(Faults, OfMemoryUnderFramesWithOddRows) {
+    const FaultCase video{"play odd rows",
+                          {"play", hills(), "--size", "330x240", "--frames", "2", "--video", "a.mp4"},
+                          "a.mp4"};
+    EXPECT_GT(tryFaults(video, 40, "memory")[kFaultKinds.size() - 1].refused, 5);
+}
+
 // The layer itself: a run without a fault makes calls of each kind, and one that fails is seen.
 TEST_F(Faults, AreSeen) {
     const FaultCase picture = cases().front();
