@@ -3,7 +3,7 @@ stereonav_module(video app/opencv LINK engine_byte_image opencv_imgproc opencv_v
 # All but main(): tests of the program's own functions link it too, so that nothing is compiled twice.
 add_library(program STATIC)
 add_dependencies(program stereonav_video)
-target_link_libraries(program PUBLIC engine_light engine_metrics engine_scene
+target_link_libraries(program PUBLIC engine_light engine_mesh engine_metrics engine_scene
   CLI11::CLI11 nlohmann_json::nlohmann_json)
 
 set(left_out "")   # sources of app/ that need what is left out

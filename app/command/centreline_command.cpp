@@ -23,13 +23,14 @@ void checkCentrelineOptions(const CentrelineOptions& options) {
     checkOutputFile("--out", options.out);
     const SceneType& type = sceneTypeNamed(options.scene.scene);
     if (!type.hasLine)
-        throw Error(options.scene.scene.empty() ? "SCENE" : options.scene.scene, "",
-                    fmt::format("expected a CT study, found {}",
-                                !type.hasGround                    ? "a medium"
-                                : options.scene.scene.empty()      ? "nothing, which is the built-in terrain"
-                                : options.scene.scene == "terrain" ? "the built-in terrain"
-                                                                   : "a terrain or another kind of file"),
-                    "name a study, or colon for the built-in one");
+        throw Error(
+            options.scene.scene.empty() ? "SCENE" : options.scene.scene, "",
+            fmt::format("expected a CT study, found {}",
+                        !type.hasGround               ? "a " + std::string(type.noun)
+                        : options.scene.scene.empty() ? std::string("nothing, which is the built-in terrain")
+                        : options.scene.scene == "terrain" ? "the built-in terrain"
+                                                           : "a terrain or another kind of file"),
+            "name a study, or colon for the built-in one");
 }
 
 }  // namespace

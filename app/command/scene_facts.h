@@ -11,9 +11,10 @@
 
 namespace stereonav {
 
-// All that the scene offers: a group each, "terrain", "volume" and "medium".
+// All that the scene offers: a group each, "terrain", "volume", "mesh" and "medium".
 Facts describe(const Scene& scene);
 
+Facts factsOfMesh(const Scene& scene);     // of one that offers const MeshRenderer
 Facts factsOfTerrain(const Scene& scene);  // of one that offers const TerrainScene
 Facts factsOfVolume(const Scene& scene);   // of one that offers const ColonScene
 // Of one that offers MediumScene: makes a frame at the start pose, for what the sweep then holds.

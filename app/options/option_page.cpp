@@ -46,6 +46,8 @@ std::string scenesText(SceneSet scenes) {
     constexpr Named kNames[]{{kAll, "all"},
                              {kTerrains | kVolumes, "terrains, volumes"},
                              {kCast, "all but media"},
+                             {kNoMesh, "all but meshes"},
+                             {kTerrains | kMeshFile, "terrains, meshes"},
                              {kMedia, "media"},
                              {kTerrains, "terrains"},
                              {kVolumes, "volumes"},

@@ -37,10 +37,11 @@ std::string filledIn(std::string text, const GivenOptions& given, const std::str
 Reason reasonOfType(const Option& option, SceneSet type, const std::string& scene) {
     using namespace scene_type;
     const bool medium = type & kMedia;
+    if (type == kMeshFile) return {"has no effect on a mesh", kLeaveItOut};
     if (!option.elsewhere.problem.empty()) return {option.elsewhere.problem, option.elsewhere.advice};
     if (!medium && !(option.scenes & ~kMedia))
         return {"expected with a medium", "add --medium, or show cloud or wax"};
-    if (!(option.scenes & ~kTerrains))
+    if (!(option.scenes & ~(kTerrains | kMeshFile)))
         return {medium && !(option.scenes & ~kMedia) ? "expected with a terrain"
                 : type == kBuiltInMedium ? fmt::format("expected with a terrain, {} is a medium", scene)
                                          : "expected with a terrain, the scene is a CT study",

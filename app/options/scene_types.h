@@ -15,13 +15,15 @@ constexpr SceneSet kTerrain = 1, kTerrainMedium = 2;      // cast; shown as a me
 constexpr SceneSet kStudy = 4, kColon = 8;                // a study's files; the built-in colon
 constexpr SceneSet kStudyMedium = 16, kColonMedium = 32;  // ... as a medium
 constexpr SceneSet kBuiltInMedium = 64;                   // cloud, wax
+constexpr SceneSet kMeshFile = 128;                       // a glTF mesh
 constexpr SceneSet kTerrains = kTerrain | kTerrainMedium;
 constexpr SceneSet kSurfaces = kStudy | kColon;  // of volumes, not as a medium
 constexpr SceneSet kStudies = kStudy | kStudyMedium;
 constexpr SceneSet kVolumes = kSurfaces | kStudyMedium | kColonMedium;
 constexpr SceneSet kMedia = kTerrainMedium | kStudyMedium | kColonMedium | kBuiltInMedium;
-constexpr SceneSet kCast = kTerrain | kSurfaces;  // by rays
-constexpr SceneSet kAll = kTerrains | kVolumes | kBuiltInMedium;
+constexpr SceneSet kCast = kTerrain | kSurfaces | kMeshFile;  // by rays
+constexpr SceneSet kNoMesh = kTerrains | kVolumes | kBuiltInMedium;
+constexpr SceneSet kAll = kNoMesh | kMeshFile;
 }  // namespace scene_type
 
 // One bit; none where the name stands for no scene, which is said when it is loaded.

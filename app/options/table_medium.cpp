@@ -28,6 +28,7 @@ std::vector<Option> mediumItself() {
                  mediumPresetNames(),
          .group = kMediumGroup,
          .commands = kShowing,
+         .scenes = kNoMesh,
          .rules = {{[](const Asked& asked) {
                         return asked.is("medium", "ground") && !asked.shows(kTerrains);
                     },

@@ -14,8 +14,7 @@ std::vector<Option> sourceOptions() {
         {.key = "SCENE",
          .value = textValue(),
          .help = "a scene (.toml), an elevation model, a CT study (a folder of DICOM slices, .nrrd, .nhdr, "
-                 ".nii, .nii.gz, "
-                 ".mha, .mhd), colon, cloud or wax",
+                 ".nii, .nii.gz, .mha, .mhd), a mesh (.glb, .gltf), colon, cloud or wax",
          .fallback = "the built-in terrain",
          .commands = kShowing | kBake,
          .take = [](OptionTargets& to, const OptionValue& value) { to.scene->scene = value.text; }},

@@ -8,6 +8,7 @@
 
 #include "app/scene/medium_of.h"
 #include "app/scene/medium_options.h"
+#include "app/scene/outside_view.h"
 #include "app/scene/shown_medium.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
@@ -18,36 +19,10 @@
 namespace stereonav {
 namespace {
 
-constexpr double kFov = 40 * kRadians;
-constexpr double kOrbitSeconds = 15;
-constexpr int kOrbitSamples = 180;
 // Where wax is lit from when nothing is said: from the left and from beyond it, so that it shines through.
 constexpr double kWaxAzimuth = 300 * kRadians, kWaxElevation = 30 * kRadians;
 // Of parallel light, so that white media are just below white on the screen.
 constexpr float kCloudRadiance = 0.6f, kWaxRadiance = 0.75f;
-constexpr double kFraming = 0.85;  // of the distance at which a ball around the bounds fills the picture
-
-// Around the medium, looking at its middle from a little above; at turn 0 northwards.
-Pose orbitPose(const glm::dvec3& middle, double distance, double turn) {
-    Pose pose = poseFromAngles(middle, turn, -0.15, 0);
-    pose.position -= distance * pose.forward();
-    return pose;
-}
-
-void seeFromOutside(const WorldBox& box, Scene& scene) {
-    const double radius = std::max(0.5 * glm::length(box.high - box.low), 1e-6);
-    const double distance = kFraming * radius / std::sin(0.5 * kFov);
-    scene.lens.verticalFov = kFov;
-    scene.lens.nearDepth = 0.005 * radius;
-    scene.stereo.zeroParallax = distance;
-    scene.stereo.separation = distance / 30;
-    scene.startPose = orbitPose(box.center(), distance, 0);
-    std::vector<PathSample> samples;
-    for (int n = 0; n <= kOrbitSamples; ++n)
-        samples.push_back({n * kOrbitSeconds / kOrbitSamples,
-                           orbitPose(box.center(), distance, 2 * kPi * n / kOrbitSamples)});
-    scene.path = RecordedPath(std::move(samples), "the flight around the medium");
-}
 
 void makeBuiltIn(const SceneOptions& options, SimdTarget, Progress&, ShownMedium& scene) {
     const bool cloud = options.scene == "cloud";
@@ -70,7 +45,8 @@ void makeBuiltIn(const SceneOptions& options, SimdTarget, Progress&, ShownMedium
         shown.turnLight(kWaxAzimuth, kWaxElevation);
     }
     // Without the noise, whose displacements may reach anywhere.
-    seeFromOutside(Medium(field, findMediumTransfer(shown.transfer)).bounds(), scene);
+    const WorldBox box = Medium(field, findMediumTransfer(shown.transfer)).bounds();
+    seeFromOutside(box.low, box.high, "the flight around the medium", scene);
     adjustViews(options, scene);
     scene.flyFreely();
 }

@@ -33,16 +33,16 @@ void refuseArchive(const std::string& name) {
 
 // Elevation models have no mark of their own: any file that is nothing else may be one.
 std::span<const SceneType* const> sceneTypes() {
-    static const std::array<const SceneType*, 3> types{&builtInMediumType(), &volumeType(), &terrainType()};
+    static const std::array<const SceneType*, 4> types{&builtInMediumType(), &volumeType(), &meshType(),
+                                                       &terrainType()};
     return types;
 }
 
 const SceneType& sceneTypeNamed(const std::string& name) {
     constexpr const char* kAdvice =
         "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png), a CT study (a folder of "
-        "DICOM slices, .dcm, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), colon, cloud, wax, or nothing for the "
-        "built-in "
-        "terrain";
+        "DICOM slices, .dcm, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), a mesh (.glb, .gltf), colon, cloud, "
+        "wax, or nothing for the built-in terrain";
     for (const SceneType* type : sceneTypes())
         if (std::find(type->builtIn.begin(), type->builtIn.end(), name) != type->builtIn.end()) return *type;
     std::error_code code;

@@ -38,6 +38,7 @@ struct SceneType {
     bool hasGround = false, hasLine = false;            // for meshes of it; for the way through it
 };
 
+const SceneType& meshType();
 const SceneType& terrainType();
 const SceneType& volumeType();
 const SceneType& builtInMediumType();

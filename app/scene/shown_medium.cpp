@@ -4,24 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include "engine/nav/navigator.h"
+#include "app/scene/outside_view.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kMediumCrossingSeconds = 10;  // at normal speed
 constexpr std::array<MediumModel, 4> kModels{MediumModel::Emission, MediumModel::Surface, MediumModel::Direct,
                                              MediumModel::Indirect};  // in the order of the enumeration
-
-std::unique_ptr<Flight> freeFlight(const Pose& home, double extent) {
-    FlightSetting setting;
-    setting.clearance = 1e-6 * extent;
-    setting.followHeight = 1e-3 * extent;
-    setting.speed = extent / kMediumCrossingSeconds;
-    setting.groundStep = 0.1 * extent;
-    const auto noGround = [](const glm::dvec2&) { return std::nan(""); };
-    return std::make_unique<Navigator>(noGround, home, setting);
-}
 
 }  // namespace
 

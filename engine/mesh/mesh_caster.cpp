@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -68,6 +69,7 @@ int nativePacket(RTCDevice device) {
 struct MeshCaster::State {
     TriangleMesh mesh;
     glm::dvec3 centre{0.0}, low{0.0}, high{0.0};  // world
+    std::atomic<std::ptrdiff_t> treeBytes = 0;    // told by the device, also while it ends
     Device device;
     Tree tree;
     int packet = 4;
@@ -99,6 +101,13 @@ void MeshCaster::State::build(const std::string& name) {
     device.reset(rtcNewDevice(nullptr));
     if (!device) failed();
     packet = nativePacket(device.get());
+    rtcSetDeviceMemoryMonitorFunction(
+        device.get(),
+        [](void* state, ssize_t bytes, bool) {
+            static_cast<State*>(state)->treeBytes += bytes;
+            return true;
+        },
+        this);
     tree.reset(rtcNewScene(device.get()));
     rtcSetSceneFlags(tree.get(), RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -159,6 +168,8 @@ MeshCaster::MeshCaster(TriangleMesh mesh, const std::string& name)
     : mState(std::make_unique<State>(std::move(mesh))) {
     mState->build(name);
 }
+MeshCaster::MeshCaster(MeshCaster&&) noexcept = default;
+MeshCaster& MeshCaster::operator=(MeshCaster&&) noexcept = default;
 MeshCaster::~MeshCaster() = default;
 
 const TriangleMesh& MeshCaster::mesh() const {
@@ -169,6 +180,9 @@ glm::dvec3 MeshCaster::low() const {
 }
 glm::dvec3 MeshCaster::high() const {
     return mState->high;
+}
+std::size_t MeshCaster::treeBytes() const {
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(mState->treeBytes, 0));
 }
 int MeshCaster::packet() const {
     return mState->packet;

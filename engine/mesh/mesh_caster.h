@@ -20,11 +20,15 @@ public:
     // Builds the tree. Positions are kept about the middle of the mesh and rounded to floats, as Embree has
     // them. Throws Error naming `name`.
     MeshCaster(TriangleMesh mesh, const std::string& name);
+    MeshCaster(MeshCaster&&) noexcept;
+    MeshCaster& operator=(MeshCaster&&) noexcept;
     ~MeshCaster();
 
     const TriangleMesh& mesh() const;  // about its middle
     glm::dvec3 low() const;            // world, of the box around everything
     glm::dvec3 high() const;
+
+    std::size_t treeBytes() const;  // of Embree, its copy of the triangles too
 
     static constexpr int kMostRays = 16;
     int packet() const;  // rays that are cast at once on this processor, 4 to kMostRays

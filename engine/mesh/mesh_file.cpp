@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -10,6 +11,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/camera/gltf_file.h"
 #include "engine/image/image_file.h"
 
@@ -25,7 +27,9 @@ public:
 
     TriangleMesh read() {
         readMaterials();
-        for (const auto& chain : nodeChains(mFile)) readNode(chain);
+        const std::vector<std::vector<int>> chains = nodeChains(mFile);
+        checkMemoryFor(chains);
+        for (const auto& chain : chains) readNode(chain);
         if (mMesh.triangles.empty())
             throw Error(mFile.name, "scene", "expected a mesh with triangles, found none",
                         "export a mesh with it");
@@ -33,6 +37,7 @@ public:
     }
 
 private:
+    void checkMemoryFor(const std::vector<std::vector<int>>& chains) const;
     void readMaterials();
     int readTexture(int texture, MeshMaterial& material);
     void readNode(const std::vector<int>& chain);
@@ -48,6 +53,35 @@ private:
     TriangleMesh mMesh;
     std::vector<int> mTexCoordSet;  // of each material's base colour texture
 };
+
+// A mesh that several nodes show is there several times. What a file names without having it is refused when
+// it is read.
+void MeshReader::checkMemoryFor(const std::vector<std::vector<int>>& chains) const {
+    constexpr double kTreeBytes = 110;  // of Embree, a triangle, while it is built: measured 60 to 104
+    const auto& model = mFile.model;
+    const auto countAt = [&](int accessor) {
+        const bool there = accessor >= 0 && static_cast<std::size_t>(accessor) < model.accessors.size();
+        return there ? static_cast<double>(model.accessors[accessor].count) : 0.0;
+    };
+    double bytes = 0, most = 0;
+    for (const auto& chain : chains) {
+        const int mesh = model.nodes[chain.back()].mesh;
+        if (mesh < 0 || static_cast<std::size_t>(mesh) >= model.meshes.size()) continue;
+        for (const tinygltf::Primitive& primitive : model.meshes[mesh].primitives) {
+            const auto position = primitive.attributes.find("POSITION");
+            const double vertices = position == primitive.attributes.end() ? 0 : countAt(position->second);
+            const double corners = primitive.indices >= 0 ? countAt(primitive.indices) : vertices;
+            const double triangles = primitive.mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners;
+            // Kept, and copied for Embree; vectors grow by doubling.
+            bytes += vertices * (2 * sizeof(TriangleMesh::Vertex) + 12) +
+                     triangles * (2 * sizeof(TriangleMesh::Triangle) + 12 + kTreeBytes);
+            constexpr double kNumbers = 3 + 3 + 4 + 2;  // of position, normal, colour, place in the texture
+            most = std::max(most, vertices * kNumbers * sizeof(double) +
+                                      corners * (sizeof(double) + sizeof(std::uint32_t)));
+        }
+    }
+    checkMemory(mFile.name, bytes + most, "simplify the mesh");
+}
 
 void MeshReader::readMaterials() {
     for (const auto& source : mFile.model.materials) {

@@ -1,0 +1,38 @@
+// Meshes: glTF files.
+#include "app/scene/scene_loading.h"
+#include "app/scene/scene_type.h"
+#include "app/scene/shown_mesh.h"
+#include "engine/camera/gltf_file.h"
+#include "engine/math/constants.h"
+#include "engine/mesh/mesh_file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr SunPlace kSun{315 * kRadians, 45 * kRadians};  // from the upper left of who looks north
+
+bool isMesh(const std::string& file) {
+    return hasGltfExtension(file);
+}
+
+std::unique_ptr<Scene> loadMesh(const SceneOptions& options, SimdTarget simd, Progress& progress) {
+    progress.report(0, "reading the mesh");
+    TriangleMesh mesh = readMesh(options.scene);
+    const SunPlace sun = options.sun ? SunPlace{options.sun->azimuth, options.sun->elevation} : kSun;
+    progress.report(0.8, "sorting its triangles");
+    auto scene = std::make_unique<ShownMesh>(MeshCaster(std::move(mesh), options.scene), sun, simd);
+    adjustViews(options, *scene);
+    return scene;
+}
+
+}  // namespace
+
+const SceneType& meshType() {
+    static const SceneType type{.noun = "mesh",
+                                .owns = isMesh,
+                                .optionsFor = [](const SceneOptions&) { return scene_type::kMeshFile; },
+                                .load = loadMesh};
+    return type;
+}
+
+}  // namespace stereonav

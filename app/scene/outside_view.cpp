@@ -1,0 +1,55 @@
+#include "app/scene/outside_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "engine/math/constants.h"
+#include "engine/nav/navigator.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kFov = 40 * kRadians;
+constexpr double kOrbitSeconds = 15;
+constexpr int kOrbitSamples = 180;
+constexpr double kFraming = 0.85;  // of the distance at which a ball around the bounds fills the picture
+constexpr double kExtentSeconds = 10;  // at normal speed
+
+// Around the middle, looking at it from a little above; at turn 0 northwards.
+Pose orbitPose(const glm::dvec3& middle, double distance, double turn) {
+    Pose pose = poseFromAngles(middle, turn, -0.15, 0);
+    pose.position -= distance * pose.forward();
+    return pose;
+}
+
+}  // namespace
+
+void seeFromOutside(const glm::dvec3& low, const glm::dvec3& high, const std::string& flight, Scene& scene) {
+    const glm::dvec3 middle = 0.5 * (low + high);
+    const double radius = std::max(0.5 * glm::length(high - low), 1e-6);
+    const double distance = kFraming * radius / std::sin(0.5 * kFov);
+    scene.lens.verticalFov = kFov;
+    scene.lens.nearDepth = 0.005 * radius;
+    scene.stereo.zeroParallax = distance;
+    scene.stereo.separation = distance / 30;
+    scene.startPose = orbitPose(middle, distance, 0);
+    std::vector<PathSample> samples;
+    for (int n = 0; n <= kOrbitSamples; ++n)
+        samples.push_back(
+            {n * kOrbitSeconds / kOrbitSamples, orbitPose(middle, distance, 2 * kPi * n / kOrbitSamples)});
+    scene.path = RecordedPath(std::move(samples), flight);
+}
+
+std::unique_ptr<Flight> freeFlight(const Pose& home, double extent) {
+    FlightSetting setting;
+    setting.clearance = 1e-6 * extent;
+    setting.followHeight = 1e-3 * extent;
+    setting.speed = extent / kExtentSeconds;
+    setting.groundStep = 0.1 * extent;
+    const auto noGround = [](const glm::dvec2&) { return std::nan(""); };
+    return std::make_unique<Navigator>(noGround, home, setting);
+}
+
+}  // namespace stereonav

@@ -1,0 +1,44 @@
+#include "app/scene/shown_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/scene/outside_view.h"
+
+namespace stereonav {
+namespace {
+
+constexpr float kAmbient = 0.35f;  // so that sides in shadow keep their shape
+
+// Clockwise from north (+y), above the horizontal; also from below, for what hangs free.
+glm::dvec3 directionTo(const SunPlace& place) {
+    const double level = std::cos(place.elevation);
+    return {level * std::sin(place.azimuth), level * std::cos(place.azimuth), std::sin(place.elevation)};
+}
+
+}  // namespace
+
+void ShownMesh::Sun::turnTo(const SunPlace& place) {
+    mPlace = place;
+    mRenderer.setLight({directionTo(place), kAmbient});
+}
+
+ShownMesh::ShownMesh(MeshCaster caster, const SunPlace& sun, SimdTarget target)
+    : mRenderer(std::move(caster)),
+      mRays{&mRenderer, methodsFor(mRenderer)},
+      mFrames(mRenderer),
+      mSun(mRenderer) {
+    simd = availableTarget(target);
+    mSun.turnTo(sun);
+    seeFromOutside(mRenderer.caster().low(), mRenderer.caster().high(), "the flight around the mesh", *this);
+    offer(mRays);
+    offer<const MeshRenderer>(mRenderer);
+    offer<TurningLight>(mSun);
+}
+
+std::unique_ptr<Flight> ShownMesh::makeFlight() const {
+    const glm::dvec3 size = mRenderer.caster().high() - mRenderer.caster().low();
+    return freeFlight(startPose, std::max({size.x, size.y, size.z, 1e-6}));
+}
+
+}  // namespace stereonav

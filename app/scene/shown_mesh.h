@@ -1,0 +1,38 @@
+// A glTF mesh, its triangles cast with Embree, as a scene to fly around.
+#pragma once
+
+#include "engine/frame/cast_frames.h"
+#include "engine/mesh/mesh_renderer.h"
+#include "engine/scene/capabilities.h"
+#include "engine/scene/scene.h"
+
+namespace stereonav {
+
+// Offers RayCast, const MeshRenderer and a TurningLight.
+class ShownMesh final : public Scene {
+public:
+    // sun: where light comes from.
+    ShownMesh(MeshCaster caster, const SunPlace& sun, SimdTarget target);
+
+    FrameMaker& frames() const override { return mFrames; }
+    std::unique_ptr<Flight> makeFlight() const override;
+
+private:
+    class Sun final : public TurningLight {
+    public:
+        explicit Sun(MeshRenderer& renderer) : mRenderer(renderer) {}
+        SunPlace place() const override { return mPlace; }
+        void turnTo(const SunPlace& place) override;
+
+    private:
+        MeshRenderer& mRenderer;
+        SunPlace mPlace;
+    };
+
+    MeshRenderer mRenderer;
+    RayCast mRays;
+    mutable CastFrames mFrames;
+    Sun mSun;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,107 @@
+// A glTF mesh as a scene, through the real program.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "engine/camera/gltf_file.h"
+#include "engine/mesh/triangle_mesh.h"
+#include "tests/app/program.h"
+
+namespace stereonav::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class MeshScene : public ProgramTest {
+protected:
+    // The hills as triangles, with their colour as a texture.
+    std::string mesh(const std::string& name = "hills.glb") const {
+        const std::string file = (mFolder / name).string();
+        EXPECT_EQ(run({"mesh", hills(), "--out", file, "--error", "0"}).status, 0);
+        return file;
+    }
+    std::string picture(const std::string& scene, std::vector<std::string> options) const {
+        std::vector<std::string> arguments{"render", scene, "--size", "64x48", "--out", "a.png"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Outcome done = run(arguments);
+        EXPECT_EQ(done.status, 0) << done.err;
+        return contentOf(place() / "a.png");
+    }
+};
+
+TEST_F(MeshScene, InfoSaysWhatIsThere) {
+    const std::string file = mesh();
+    const Outcome text = run({"info", file});
+    EXPECT_NE(text.out.find("triangles   "), std::string::npos) << text.out << text.err;
+    const Json facts = Json::parse(run({"info", file, "--json"}).out).at("mesh");
+    const GltfFile gltf = readGltf(file);
+    const auto& primitive = gltf.model.meshes.at(0).primitives.at(0);
+    const std::size_t corners = accessorValues(gltf, primitive.indices, 1, "").size();
+    EXPECT_EQ(facts.at("triangles"), corners / 3);
+    EXPECT_EQ(facts.at("vertices"),
+              accessorValues(gltf, primitive.attributes.at("POSITION"), 3, "").size() / 3);
+    EXPECT_EQ(facts.at("textures"), 1);
+    EXPECT_NEAR(facts.at("size").at(0), 31 * 30.0, 1e-3);
+    EXPECT_NEAR(facts.at("size").at(1), 23 * 30.0, 1e-3);
+    EXPECT_NEAR(facts.at("size").at(2), 49, 1e-3);
+    EXPECT_GT(facts.at("bytes"), corners / 3 * sizeof(TriangleMesh::Triangle));
+}
+
+TEST_F(MeshScene, BothKindsOfFileGiveOnePicture) {
+    EXPECT_EQ(picture(mesh("a.glb"), {}), picture(mesh("b.gltf"), {}));
+}
+
+TEST_F(MeshScene, IsDrawnFlownAndComparedInEveryMethod) {
+    const std::string file = mesh();
+    for (const char* method : {"full", "paper", "linear", "cubic", "mcmillan", "nofill"}) {
+        const Outcome done = run({"render", file, "--size", "33x25", "--method", method, "--out", "a.png"});
+        EXPECT_EQ(done.status, 0) << done.err;
+    }
+    const auto hashWith = [&](const char* threads) {
+        const Outcome flown =
+            run({"play", file, "--size", "33x25", "--frames", "3", "--hash", "--threads", threads});
+        EXPECT_EQ(flown.status, 0) << flown.err;
+        return flown.out.substr(flown.out.find("hash"));
+    };
+    EXPECT_EQ(hashWith("1"), hashWith("3"));
+    const Outcome compared = run({"compare", file, "--size", "64x48", "--frames", "2", "--repeats", "1",
+                                  "--methods", "full,linear", "--json", "a.json"});
+    EXPECT_EQ(compared.status, 0) << compared.err;
+    EXPECT_TRUE(std::filesystem::exists(place() / "a.json"));
+}
+
+TEST_F(MeshScene, TheSunTurns) {
+    const std::string file = mesh();
+    EXPECT_EQ(picture(file, {}), picture(file, {"--sun", "315,45"}));
+    EXPECT_NE(picture(file, {}), picture(file, {"--sun", "135,20"}));
+}
+
+TEST_F(MeshScene, WhatItHasNotIsRefusedInOneLine) {
+    const std::string file = mesh();
+    expectRefused({"render", file, "--light", "auto", "--vertical-scale", "2", "--out", "a.png"},
+                  {"--light", "--vertical-scale", "mesh"});
+    expectRefused({"render", file, "--medium", "smoke", "--out", "a.png"}, {"--medium", "mesh"});
+    expectRefused({"bake", file, "--out", "a.light"}, {"hills.glb", "mesh"});
+    expectRefused({"mesh", file, "--out", "a.glb"}, {"hills.glb", "mesh"});
+    expectRefused({"centreline", file, "--out", "a.vtp"}, {"hills.glb", "mesh"});
+}
+
+TEST_F(MeshScene, ADamagedFileIsRefused) {
+    const std::string whole = contentOf(mesh());
+    expectRefused({"render", input("short.glb", whole.substr(0, whole.size() / 2)), "--out", "a.png"},
+                  {"short.glb", "cut off"});
+    expectRefused({"info", input("none.gltf", R"({"asset":{"version":"2.0"}})")},
+                  {"none.gltf", "triangles", "found none"});
+}
+
+TEST_F(MeshScene, MemoryIsAskedForBeforeItIsTaken) {
+    const std::string file = mesh();
+    setenv("STEREONAV_MEMORY", "200000", 1);
+    const Outcome refused = run({"render", file, "--size", "16x12", "--out", "a.png"});
+    unsetenv("STEREONAV_MEMORY");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_EQ(linesIn(refused.err), 1) << refused.err;
+    EXPECT_NE(refused.err.find("memory"), std::string::npos) << refused.err;
+}
+
+}  // namespace
+}  // namespace stereonav::test
