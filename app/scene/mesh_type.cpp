@@ -9,7 +9,7 @@
 namespace stereonav {
 namespace {
 
-constexpr SunPlace kSun{315 * kRadians, 45 * kRadians};  // from the upper left of who looks north
+constexpr SunPlace kSun{225 * kRadians, 45 * kRadians};  // over the left shoulder of who looks north
 
 bool isMesh(const std::string& file) {
     return hasGltfExtension(file);

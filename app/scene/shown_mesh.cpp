@@ -8,7 +8,9 @@
 namespace stereonav {
 namespace {
 
-constexpr float kAmbient = 0.35f;  // so that sides in shadow keep their shape
+constexpr double kSeparationShare = 45;  // of the distance: depths span about the half of it
+constexpr float kAmbient = 0.1f;
+constexpr double kWrap = 1;  // half of all views look at sides that the sun does not reach
 
 // Clockwise from north (+y), above the horizontal; also from below, for what hangs free.
 glm::dvec3 directionTo(const SunPlace& place) {
@@ -20,7 +22,7 @@ glm::dvec3 directionTo(const SunPlace& place) {
 
 void ShownMesh::Sun::turnTo(const SunPlace& place) {
     mPlace = place;
-    mRenderer.setLight({directionTo(place), kAmbient});
+    mRenderer.setLight({directionTo(place), kAmbient, kWrap});
 }
 
 ShownMesh::ShownMesh(MeshCaster caster, const SunPlace& sun, SimdTarget target)
@@ -31,6 +33,7 @@ ShownMesh::ShownMesh(MeshCaster caster, const SunPlace& sun, SimdTarget target)
     simd = availableTarget(target);
     mSun.turnTo(sun);
     seeFromOutside(mRenderer.caster().low(), mRenderer.caster().high(), "the flight around the mesh", *this);
+    stereo.separation = stereo.zeroParallax / kSeparationShare;
     offer(mRays);
     offer<const MeshRenderer>(mRenderer);
     offer<TurningLight>(mSun);

@@ -28,7 +28,7 @@ public:
     TriangleMesh read() {
         readMaterials();
         const std::vector<std::vector<int>> chains = nodeChains(mFile);
-        checkMemoryFor(chains);
+        makeRoom(chains);
         for (const auto& chain : chains) readNode(chain);
         if (mMesh.triangles.empty())
             throw Error(mFile.name, "scene", "expected a mesh with triangles, found none",
@@ -37,7 +37,7 @@ public:
     }
 
 private:
-    void checkMemoryFor(const std::vector<std::vector<int>>& chains) const;
+    void makeRoom(const std::vector<std::vector<int>>& chains);
     void readMaterials();
     int readTexture(int texture, MeshMaterial& material);
     void readNode(const std::vector<int>& chain);
@@ -56,31 +56,36 @@ private:
 
 // A mesh that several nodes show is there several times. What a file names without having it is refused when
 // it is read.
-void MeshReader::checkMemoryFor(const std::vector<std::vector<int>>& chains) const {
-    constexpr double kTreeBytes = 110;  // of Embree, a triangle, while it is built: measured 60 to 104
+void MeshReader::makeRoom(const std::vector<std::vector<int>>& chains) {
+    // Of Embree, a triangle, while its tree is built, beside its copy of the mesh: measured 110 to 131.
+    constexpr double kTreeBytes = 140;
     const auto& model = mFile.model;
     const auto countAt = [&](int accessor) {
         const bool there = accessor >= 0 && static_cast<std::size_t>(accessor) < model.accessors.size();
-        return there ? static_cast<double>(model.accessors[accessor].count) : 0.0;
+        return there ? model.accessors[accessor].count : 0;
     };
-    double bytes = 0, most = 0;
+    double vertices = 0, triangles = 0, most = 0;
     for (const auto& chain : chains) {
         const int mesh = model.nodes[chain.back()].mesh;
         if (mesh < 0 || static_cast<std::size_t>(mesh) >= model.meshes.size()) continue;
         for (const tinygltf::Primitive& primitive : model.meshes[mesh].primitives) {
             const auto position = primitive.attributes.find("POSITION");
-            const double vertices = position == primitive.attributes.end() ? 0 : countAt(position->second);
-            const double corners = primitive.indices >= 0 ? countAt(primitive.indices) : vertices;
-            const double triangles = primitive.mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners;
-            // Kept, and copied for Embree; vectors grow by doubling.
-            bytes += vertices * (2 * sizeof(TriangleMesh::Vertex) + 12) +
-                     triangles * (2 * sizeof(TriangleMesh::Triangle) + 12 + kTreeBytes);
+            const std::size_t own = position == primitive.attributes.end() ? 0 : countAt(position->second);
+            const std::size_t corners = primitive.indices >= 0 ? countAt(primitive.indices) : own;
+            vertices += static_cast<double>(own);
+            triangles += static_cast<double>(corners) / (primitive.mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1);
             constexpr double kNumbers = 3 + 3 + 4 + 2;  // of position, normal, colour, place in the texture
-            most = std::max(most, vertices * kNumbers * sizeof(double) +
-                                      corners * (sizeof(double) + sizeof(std::uint32_t)));
+            most =
+                std::max(most, static_cast<double>(own) * kNumbers * sizeof(double) +
+                                   static_cast<double>(corners) * (sizeof(double) + sizeof(std::uint32_t)));
         }
     }
-    checkMemory(mFile.name, bytes + most, "simplify the mesh");
+    checkMemory(mFile.name,
+                most + vertices * (sizeof(TriangleMesh::Vertex) + 12) +
+                    triangles * (sizeof(TriangleMesh::Triangle) + 12 + kTreeBytes),
+                "simplify the mesh");
+    mMesh.vertices.reserve(static_cast<std::size_t>(vertices));
+    mMesh.triangles.reserve(static_cast<std::size_t>(triangles));
 }
 
 void MeshReader::readMaterials() {

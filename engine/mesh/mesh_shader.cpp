@@ -81,8 +81,8 @@ glm::vec3 colorOf(const TriangleMesh& mesh, const MeshHit& hit, const glm::dvec3
     // turn away at a silhouette.
     const bool behind = glm::dot(hit.faceNormal, direction) > 0;
     if ((glm::dot(normal, hit.faceNormal) > 0) == behind) normal = -normal;
-    const double strength =
-        light.ambient + (1 - light.ambient) * std::max(0.0, glm::dot(normal, light.toSun));
+    const double cosine = (glm::dot(normal, light.toSun) + light.wrap) / (1 + light.wrap);
+    const double strength = light.ambient + (1 - light.ambient) * std::max(0.0, cosine);
     return color * static_cast<float>(strength);
 }
 

@@ -71,7 +71,7 @@ TEST_F(MeshScene, IsDrawnFlownAndComparedInEveryMethod) {
 
 TEST_F(MeshScene, TheSunTurns) {
     const std::string file = mesh();
-    EXPECT_EQ(picture(file, {}), picture(file, {"--sun", "315,45"}));
+    EXPECT_EQ(picture(file, {}), picture(file, {"--sun", "225,45"}));
     EXPECT_NE(picture(file, {}), picture(file, {"--sun", "135,20"}));
 }
 

@@ -16,6 +16,7 @@ struct Distances {
 Distances distancesOf(const Row& row) {
     const std::string& scene = levelOf(row, Factor::Scene);
     if (isTerrain(row)) return {"25", "150"};
+    if (isMesh(row)) return {"9", "150"};
     if (isColon(row)) return {"0.004", "0.03"};
     if (scene == "cloud") return {"120", "1500"};
     if (scene == "wax") return {"0.03", "0.3"};
@@ -142,6 +143,7 @@ std::string Inputs::scene(const Row& row) {
     const std::string& name = levelOf(row, Factor::Scene);
     if (name == "scene.toml" || name == "built.toml") return sceneFile(row);
     if (isTerrain(row)) return terrain(name);
+    if (isMesh(row)) return tower();
     return isBuiltInMedium(row) ? name : study(name);
 }
 
@@ -226,7 +228,7 @@ void Inputs::addLight(const Row& row, Arguments& line) {
     if (given(row, Factor::Light)) {
         const std::string& level = levelOf(row, Factor::Light);
         const bool word = level == "lazy" || level == "lazy-transfer" || level == "traced" ||
-                          isBuiltInMedium(row) || (level == "auto" && !isTerrain(row));
+                          isBuiltInMedium(row) || isMesh(row) || (level == "auto" && !isTerrain(row));
         add(line, {"--light", word ? level : bake(row)});
         if (level == "traced") add(line, {"--samples", "8", "--bounces", "1"});
     }

@@ -9,12 +9,13 @@ namespace {
 using Names = std::vector<std::string>;
 
 const Names kScenes{"hills.asc", "relief.tif", "scene.toml", "built.toml", "balls.nrrd", "body.nii.gz",
-                    "mask.mha",  "dicom",      "tube.nrrd",  "cloud",      "wax"};
+                    "mask.mha",  "dicom",      "tube.nrrd",  "cloud",      "wax",        "mesh.glb"};
 const Names kToml{"scene.toml", "built.toml"};
 const Names kTerrains{"hills.asc", "relief.tif", "scene.toml", "built.toml"};
 const Names kOutside{"balls.nrrd", "body.nii.gz", "mask.mha", "dicom"};
 const Names kColons{"tube.nrrd"};
 const Names kBuiltInMedia{"cloud", "wax"};
+const Names kMeshes{"mesh.glb"};
 const Names kPairMethods{"sweep", "own-samples", "two-sweeps", "depthsplat"};
 
 Names operator+(Names a, const Names& b) {
@@ -72,13 +73,14 @@ void addKinds(std::vector<Rule>& all) {
                    {{is(Factor::Scene, kTerrains), isGiven(Factor::Photo), isGiven(Factor::Sun),
                      isLeftOut(Factor::Medium), isLeftOut(Factor::Light), isLeftOut(Factor::Landmark),
                      isLeftOut(Factor::Highlight)}}});
-    const NamedOption ofTerrains[]{{Factor::Photo, "--image"},
-                                   {Factor::Holes, "--open-holes"},
-                                   {Factor::Heights, "--vertical-scale"},
-                                   {Factor::Sun, "--sun"}};
+    const NamedOption ofTerrains[]{
+        {Factor::Photo, "--image"}, {Factor::Holes, "--open-holes"}, {Factor::Heights, "--vertical-scale"}};
     for (const auto& [factor, option] : ofTerrains)
         all.push_back(
             {"volumes have none of it", option, {{isNot(Factor::Scene, kTerrains), isGiven(factor)}}});
+    all.push_back({"volumes and media have none",
+                   "--sun",
+                   {{isNot(Factor::Scene, kTerrains + kMeshes), isGiven(Factor::Sun)}}});
     for (const Factor factor : {Factor::Fog, Factor::Highlight, Factor::Landmark})
         all.push_back({"keys of scene files", "", {{isNot(Factor::Scene, kToml), isGiven(factor)}}});
     for (const auto& [factor, option] : {NamedOption{Factor::Isovalue, "--isovalue"},
@@ -181,8 +183,9 @@ void addMedia(std::vector<Rule>& all) {
     all.push_back({"baked light is of surfaces",
                    "--light",
                    {{isGiven(Factor::Medium), is(Factor::Scene, kTerrains), isGiven(Factor::Light)}}});
-    all.push_back(
-        {"of terrains", "ground", {{isNot(Factor::Scene, kTerrains), is(Factor::Medium, {"ground"})}}});
+    all.push_back({"of terrains",
+                   "ground",
+                   {{isNot(Factor::Scene, kTerrains + kMeshes), is(Factor::Medium, {"ground"})}}});
     all.push_back({"of terrains",
                    "--mist",
                    {{isNot(Factor::Scene, kTerrains), isGiven(Factor::Medium), isGiven(Factor::Mist)}}});
@@ -217,6 +220,27 @@ void addMedia(std::vector<Rule>& all) {
     all.push_back({"hundreds of slices are for tests of their own",
                    "",
                    {{is(Factor::Scene, kBuiltInMedia), isLeftOut(Factor::Fineness)}}});
+}
+
+void addMeshes(std::vector<Rule>& all) {
+    for (const auto& [factor, option] : {NamedOption{Factor::Sky, "--sky"},
+                                         {Factor::Light, "--light"},
+                                         {Factor::Exposure, "--exposure"},
+                                         {Factor::Turn, "--turn"},
+                                         {Factor::Isovalue, "--isovalue"},
+                                         {Factor::Opacity, "--"},
+                                         {Factor::Ambient, "--ambient"},
+                                         {Factor::Shading, "--shading"},
+                                         {Factor::Modulation, "--modulate"},
+                                         {Factor::Up, "--up"},
+                                         {Factor::Medium, "--medium"},
+                                         {Factor::Model, "--model"},
+                                         {Factor::Phase, "--phase"},
+                                         {Factor::Lamp, "--l"},
+                                         {Factor::Noise, "--noise"},
+                                         {Factor::Mist, "--mist"},
+                                         {Factor::Fineness, "--"}})
+        all.push_back({"meshes have none of it", option, {{is(Factor::Scene, kMeshes), isGiven(factor)}}});
 }
 
 // The dial's options, each named as it was given.
@@ -309,6 +333,7 @@ const std::vector<Rule>& rules() {
         addKinds(made);
         addLight(made);
         addMedia(made);
+        addMeshes(made);
         addMethods(made);
         return made;
     }();
@@ -336,6 +361,9 @@ bool sceneIn(const Row& row, const Names& scenes) {
 
 bool isTerrain(const Row& row) {
     return sceneIn(row, kTerrains);
+}
+bool isMesh(const Row& row) {
+    return sceneIn(row, kMeshes);
 }
 bool isColon(const Row& row) {
     return sceneIn(row, kColons);

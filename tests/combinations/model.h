@@ -68,6 +68,7 @@ const std::string& levelOf(const Row& row, Factor factor);
 bool given(const Row& row, Factor factor);
 // Kinds of scenes.
 bool isTerrain(const Row& row);
+bool isMesh(const Row& row);
 bool isColon(const Row& row);
 bool isBuiltInMedium(const Row& row);
 bool showsMedium(const Row& row);

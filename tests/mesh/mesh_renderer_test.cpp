@@ -165,6 +165,10 @@ TEST(MeshRenderer, TheSunLightsWhatFacesIt) {
     EXPECT_EQ(imageOf(renderer, view).color.at(4, 4), packColor(glm::vec3(0.25f)));
     renderer.setLight({{0, 0, 1}, 0.25f});
     EXPECT_EQ(imageOf(renderer, view).color.at(4, 4), packColor(glm::vec3(0.25f)));
+    renderer.setLight({{0, 0, 1}, 0.25f, 1.0});  // wrapped around: half of it at a right angle
+    EXPECT_EQ(imageOf(renderer, view).color.at(4, 4), packColor(glm::vec3(0.25f + 0.75f / 2)));
+    renderer.setLight({{0, 1, 0}, 0.25f, 1.0});
+    EXPECT_EQ(imageOf(renderer, view).color.at(4, 4), packColor(glm::vec3(0.25f)));
 }
 
 // Flat in one direction, in two, in all three: triangles without area are never hit, and harm nothing.
