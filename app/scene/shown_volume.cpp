@@ -98,12 +98,11 @@ ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const Scen
       mWorld(std::move(volume.world)),
       mLighting(std::move(volume.light)),
       mRenderer(mWorld->colon().volume, castingFor(target)),
-      mFrames(mRenderer) {
+      mFrames(mRenderer, RightEyeMethod::Cubic) {
     mWorld->setViews(made, *this);
     mWorld->setWall(&mRenderer);
     simd = mRenderer.target();
-    mRays = {&mRenderer, methodsFor(mRenderer)};
-    std::erase(mRays.compared, RightEyeMethod::Cubic);
+    mRays = {&mRenderer};
     setChoices();
     offer(mRays);
     offer(mChoices);
