@@ -24,6 +24,11 @@ struct FrameWay {
     WarpSetting warp;         // of methods that warp: all but which one it is
 };
 
+// As a setting says, its method too.
+inline FrameWay wayOf(const WarpSetting& setting) {
+    return {nameOf(setting.method), setting};
+}
+
 struct FrameTimings {
     double both_ms = 0;                     // of the whole frame
     double left_ms = 0, right_ms = 0;       // of each eye; 0 where they are made together
