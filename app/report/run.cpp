@@ -7,6 +7,7 @@
 
 #include "app/report/faults.h"
 #include "app/scene/scene_type.h"
+#include "app/scene/volume_inside.h"
 #include "engine/base/parallel.h"
 #include "engine/frame/cast_frames.h"
 
@@ -39,7 +40,7 @@ void loadOne(ReportRun& run, const std::string& id, const std::string& title, co
 void loadWithGlass(ReportRun& run, const std::string& id, SceneOptions options) {
     loadOne(run, id, id, options);
     const Scene& scene = run.scenes().back().loaded();
-    if (!colonOf(scene) || !colonOf(scene)->isColon() || rendererOf(scene).translucent()) return;
+    if (!scene.offered<const ColonInterior>() || rendererOf(scene).translucent()) return;
     options.volume.opacity = kWallOpacity;
     loadOne(run, id + " translucent", id + ", translucent", options);
 }
