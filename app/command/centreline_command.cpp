@@ -8,7 +8,7 @@
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/scene_type.h"
-#include "colon/scene/colon_scene.h"
+#include "app/scene/volume_inside.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
@@ -40,11 +40,11 @@ int runCentreline(const CentrelineOptions& options) {
     ProgressBar bar;
     const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress(), kNoPicture);
     checkNotRead({{"--out", options.out}});
-    const auto* const colon = scene->offered<const ColonScene>();
-    if (!colon || !colon->isColon())
+    const auto* const colon = scene->offered<const ColonInterior>();
+    if (!colon)
         throw Error(options.scene.scene, "", "no colon was found, so there is no centreline",
                     "give --seed x,y,z inside it");
-    const Centreline& line = colon->centreline;
+    const Centreline& line = colon->centreline();
     writeCentreline(options.out, line);
     bar.clear();
     const auto narrower = [](const CentrelinePoint& a, const CentrelinePoint& b) {
@@ -53,7 +53,7 @@ int runCentreline(const CentrelineOptions& options) {
     const auto [least, most] = std::minmax_element(line.points.begin(), line.points.end(), narrower);
     std::fprintf(messagesBeside({{"--out", options.out}}),
                  "%s: %zu points along %.1f mm in %zu segment(s), radius %.1f to %.1f mm\n",
-                 options.out.c_str(), line.points.size(), line.length() * 1e3, colon->lumen.segments.size(),
+                 options.out.c_str(), line.points.size(), line.length() * 1e3, colon->segments(),
                  least->radius * 1e3, most->radius * 1e3);
     return 0;
 }

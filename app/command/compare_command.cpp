@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "app/command/comparison_report.h"
@@ -10,16 +9,13 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
-#include "app/scene/lazy_light.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/parallel.h"
 #include "engine/camera/timed_poses.h"
 #include "engine/image/image_file.h"
-#include "engine/medium/sweep/swept_frames.h"
 #include "engine/metrics/difference_picture.h"
-#include "engine/metrics/pair_comparison.h"
-#include "engine/scene/capabilities.h"
+#include "engine/metrics/method_comparison.h"
 
 namespace stereonav {
 namespace {
@@ -39,52 +35,42 @@ void checkOptions(const CompareOptions& options) {
 }
 
 // Each once, in the order of their first naming; "auto" is the scene's default.
-std::vector<RightEyeMethod> methodsOf(const CompareOptions& options, const RayCast& rays) {
-    std::vector<RightEyeMethod> methods;
-    for (const std::string& name : options.methods) {
-        const RightEyeMethod method = methodFromText(name).value_or(defaultMethodFor(*rays.renderer));
-        if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
-    }
-    return methods.empty() ? rays.compared : methods;
-}
-
-std::vector<std::string_view> sweepMethodsOf(const CompareOptions& options, const FrameMaker& frames) {
+std::vector<std::string_view> methodsOf(const CompareOptions& options, const Scene& scene) {
     std::vector<std::string_view> methods;
     for (const std::string& name : options.methods) {
-        const std::string_view method = sweepMethodFromText(name);
+        const std::string_view method = methodNamed(name, scene);
         if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
     }
-    if (methods.empty()) methods.assign(frames.methods().begin(), frames.methods().end());
-    return methods;
+    return methods.empty() ? scene.frames().compared() : methods;
 }
 
-// The pictures of one frame: each eye and truth, and of each method its right eye, its holes in red
-// and its difference from the full right cast times five.
+struct Shown {
+    const char* name;  // part of the file's
+    const EyeImage &exact, &made;
+};
+
+// The pictures of one frame: each eye by itself, and of each method what it made, its holes in red and its
+// difference from the eye by itself.
 void writePictures(const ComparedFrame& frame, const fs::path& folder) {
-    constexpr int kFactor = 5;  // as in fig. 6e of the paper
-    writeColorImage(folder / "left.png", frame.left.color);
-    writeColorImage(folder / "full_right.png", frame.fullRight.color);
-    writeColorImage(folder / "truth_16_rays.png", frame.truth);
-    for (const MethodPicture& picture : frame.pictures) {
-        const std::string name(nameOf(picture.method));
-        writeColorImage(folder / (name + ".png"), picture.right.color);
-        writeColorImage(folder / (name + "_holes.png"), holesInRed(picture.right.color, picture.holeMask));
-        writeColorImage(folder / (name + "_difference_x5.png"),
-                        differenceTimes(frame.fullRight.color, picture.right.color, kFactor));
+    const bool rightAlone = !frame.truth.empty();
+    const int factor = rightAlone ? 5 : 20;  // as in fig. 6e of Wan et al. 2004; media differ by less
+    if (rightAlone) {
+        writeColorImage(folder / "left.png", frame.left.color);
+        writeColorImage(folder / "full_right.png", frame.right.color);
+        writeColorImage(folder / "truth_16_rays.png", frame.truth);
     }
-}
-
-// Of a medium: both eyes of each method, and their differences from two sweeps times twenty.
-void writePictures(const ComparedPair& pair, const fs::path& folder) {
-    constexpr int kFactor = 20;
-    for (const PairPicture& picture : pair.pictures) {
+    for (const MethodPicture& picture : frame.pictures) {
         const std::string name(picture.method);
-        writeColorImage(folder / (name + "_left.png"), picture.left.color);
-        writeColorImage(folder / (name + "_right.png"), picture.right.color);
-        writeColorImage(folder / (name + "_left_difference_x20.png"),
-                        differenceTimes(pair.left.color, picture.left.color, kFactor));
-        writeColorImage(folder / (name + "_right_difference_x20.png"),
-                        differenceTimes(pair.right.color, picture.right.color, kFactor));
+        std::vector<Shown> eyes{{rightAlone ? "" : "_right", frame.right, picture.right}};
+        if (!rightAlone) eyes.push_back({"_left", frame.left, picture.left});
+        for (const Shown& eye : eyes) {
+            writeColorImage(folder / fmt::format("{}{}.png", name, eye.name), eye.made.color);
+            writeColorImage(folder / fmt::format("{}{}_difference_x{}.png", name, eye.name, factor),
+                            differenceTimes(eye.exact.color, eye.made.color, factor));
+        }
+        if (!picture.holeMask.empty())
+            writeColorImage(folder / (name + "_holes.png"),
+                            holesInRed(picture.right.color, picture.holeMask));
     }
 }
 
@@ -96,40 +82,20 @@ std::vector<StereoSetting> eyesAt(const Scene& scene, const std::vector<TimedPos
     return all;
 }
 
-std::vector<MethodFigures> comparedPairs(const CompareOptions& options, const Scene& scene,
-                                         const std::vector<TimedPose>& poses,
-                                         const std::vector<StereoSetting>& eyes, Progress& progress) {
-    PairComparisonSetting setting;
-    setting.eyes = eyes;
-    setting.truth = kTwoSweepsMethod;
-    setting.methods = sweepMethodsOf(options, scene.frames());
-    setting.repeats = options.repeats;
-    const int shown = static_cast<int>(poses.size()) / 2;
-    const auto listener = [&](const ComparedPair& pair) {
-        if (options.images.empty() || pair.index != shown) return;
-        makeOutputFolder(options.images);
-        writePictures(pair, options.images);
-    };
-    return comparePairs(scene.frames(), poses, scene.lens, scene.stereo, setting, progress, listener);
-}
-
 std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const Scene& scene,
-                                           const std::vector<TimedPose>& frames,
+                                           const std::vector<TimedPose>& poses,
                                            const std::vector<StereoSetting>& eyes, Progress& progress) {
     ComparisonSetting setting;
     setting.eyes = eyes;
     setting.repeats = options.repeats;
-    const RayCast& rays = *scene.offered<RayCast>();
-    setting.methods = methodsOf(options, rays);
-    std::vector<Pose> poses;
-    for (const TimedPose& frame : frames) poses.push_back(frame.pose);
+    setting.methods = methodsOf(options, scene);
     const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
     const auto listener = [&](const ComparedFrame& frame) {
         if (options.images.empty() || frame.index != shown) return;
         makeOutputFolder(options.images);
         writePictures(frame, options.images);
     };
-    return compareMethods(*rays.renderer, poses, scene.lens, scene.stereo, setting, progress, listener);
+    return compareMethods(scene.frames(), poses, scene.lens, scene.stereo, setting, progress, listener);
 }
 
 void writeResults(const CompareOptions& options, const ComparisonReport& report) {
@@ -178,8 +144,7 @@ int runCompare(const CompareOptions& options) {
                                                 : eyesAt(scene, poses);
     ComparisonReport report = describe(options, scene, options.frames);
     for (const StereoSetting& eye : eyes) report.least = std::min(report.least, eye.separation);
-    report.methods = scene.offered<RayCast>() ? comparedMethods(options, scene, poses, eyes, bar.progress())
-                                              : comparedPairs(options, scene, poses, eyes, bar.progress());
+    report.methods = comparedMethods(options, scene, poses, eyes, bar.progress());
     writeResults(options, report);
     bar.clear();
     std::fputs(tableOf(report).c_str(), messages);

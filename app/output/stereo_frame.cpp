@@ -33,7 +33,7 @@ StereoFrame::StereoFrame(const Scene& scene, const std::string& method)
 void StereoFrame::refine(const SceneOptions& options, Progress& progress) {
     const auto plan = qualityOf(options, mScene, mMethod, progress);
     if (!plan) return;
-    mWay = {nameOf(plan->setting.method), plan->setting};
+    mWay = wayOf(plan->setting);
     mWayName = plan->name;
     const Lens& whole = mScene.lens;
     mLens.width = std::max(1, static_cast<int>(std::lround(plan->scale * whole.width)));

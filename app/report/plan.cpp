@@ -8,6 +8,7 @@
 
 #include "app/report/run.h"
 #include "engine/base/parallel.h"
+#include "engine/frame/cast_frames.h"
 #include "engine/volume/volume_renderer.h"
 #include "terrain/cast/terrain_renderer.h"
 
@@ -25,20 +26,18 @@ struct Case {
     double ratio() const { return warp_ms / cast_ms; }
 };
 
-void measure(const EyeRenderer& renderer, const std::vector<StereoViews>& views, int repeats, Case& c) {
-    EyeImage left, right;
-    RightEye eye;
+void measure(FrameMaker& frames, const std::vector<StereoViews>& views, int repeats, Case& c) {
+    RightFromLeft& maker = *frames.rightFromLeft();
+    EyePair one;
+    EyeImage right;
+    const FrameWay warped{nameOf(c.warp), {}}, full{frames.exactMethod(), {}};
     double cast = 0, warp = 0;
     for (const StereoViews& v : views) {
-        left.resize(v.left.width, v.left.height, renderer.viewDependence());
-        renderEye(renderer, v.left, left);
+        frames.makeOne(v.left, 0, one);
         double leastCast = 1e300, leastWarp = 1e300;
         for (int n = 0; n < repeats; ++n) {
-            WarpSetting setting;
-            setting.method = c.warp;
-            leastWarp = std::min(leastWarp, eye.render(renderer, v, left, setting, right).right_ms());
-            setting.method = RightEyeMethod::Full;
-            leastCast = std::min(leastCast, eye.render(renderer, v, left, setting, right).right_ms());
+            leastWarp = std::min(leastWarp, maker.makeRight(v, one.left, warped, right).right_ms());
+            leastCast = std::min(leastCast, maker.makeRight(v, one.left, full, right).right_ms());
         }
         cast += leastCast;
         warp += leastWarp;
@@ -47,7 +46,7 @@ void measure(const EyeRenderer& renderer, const std::vector<StereoViews>& views,
     c.warp_ms = warp / static_cast<double>(views.size());
 }
 
-Case caseOf(ReportRun& run, const Scene& scene, const EyeRenderer& renderer, const std::string& title,
+Case caseOf(ReportRun& run, const Scene& scene, FrameMaker& frames, const std::string& title,
             const SizeOption& size, int part) {
     run.tell("warp or cast, " + title);
     Lens lens = scene.lens;
@@ -59,16 +58,16 @@ Case caseOf(ReportRun& run, const Scene& scene, const EyeRenderer& renderer, con
     const std::vector<Pose> poses =
         scene.path.samples().empty() ? std::vector<Pose>{scene.startPose} : scene.path.frames(run.pick(2, 3));
     for (const Pose& pose : poses) views.push_back(makeStereoViews(pose, lens, stereo));
-    const FramePlan plan = planFrame(renderer, views);
+    const FramePlan plan = frames.measure(views).value();
     Case c{title,
            fmt::format("{}x{}", size.width, size.height),
            fmt::format("1/{}", part),
            plan.costs,
            plan.method,
-           defaultMethodFor(renderer),
+           *rightEyeMethodFromName(frames.defaultMethod()),
            0,
            0};
-    measure(renderer, views, run.pick(2, 4), c);
+    measure(frames, views, run.pick(2, 4), c);
     return c;
 }
 
@@ -164,6 +163,7 @@ void reportPlan(ReportRun& run, double seconds) {
     std::vector<std::string> skipped;
     for (const ReportScene& scene : run.scenes()) {
         const auto plain = plainRenderer(scene.loaded());
+        CastFrames plainFrames(*plain);
         for (const SizeOption& size : sizes)
             for (const int part : parts) {
                 if (late() && !cases.empty() && cases.back().scene.starts_with(scene.title)) {
@@ -171,11 +171,10 @@ void reportPlan(ReportRun& run, double seconds) {
                         fmt::format("{} {}x{} 1/{}", scene.title, size.width, size.height, part));
                     continue;
                 }
-                cases.push_back(
-                    caseOf(run, scene.loaded(), rendererOf(scene.loaded()), scene.title, size, part));
+                cases.push_back(caseOf(run, scene.loaded(), scene.frames(), scene.title, size, part));
                 if (part == 30 && size.width <= 320)
                     cases.push_back(
-                        caseOf(run, scene.loaded(), *plain, scene.title + ", plain code", size, part));
+                        caseOf(run, scene.loaded(), plainFrames, scene.title + ", plain code", size, part));
             }
     }
     ReportSection section{"plan", "Warp or cast", summaryOf(cases), {}};

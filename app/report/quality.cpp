@@ -95,37 +95,26 @@ struct SizeWay {
     double squares = 0, worst = 0;
 };
 
-double makeEyes(const Scene& scene, const Pose& pose, double scale, RightEye& eye, EyeImage (&eyes)[2]) {
+double makeEyes(const ReportScene& from, const Pose& pose, double scale, EyePair& eyes) {
+    const Scene& scene = from.loaded();
     Lens lens = scene.lens;
     lens.width = std::max(1, static_cast<int>(std::lround(scale * lens.width)));
     lens.height = std::max(1, static_cast<int>(std::lround(scale * lens.height)));
     const StereoViews views = makeStereoViews(pose, lens, stereoOf(scene));
-    WarpSetting setting;
-    setting.method = defaultMethodFor(rendererOf(scene));
     const Stopwatch watch;
-    eyes[0].resize(lens.width, lens.height, rendererOf(scene).viewDependence());
-    renderEye(rendererOf(scene), views.left, eyes[0]);
-    eye.render(rendererOf(scene), views, eyes[0], setting, eyes[1]);
+    from.frames().make(views, 0, {}, eyes);
     if (scale < 1)
-        for (EyeImage& image : eyes) image = enlarged(image, scene.lens.width, scene.lens.height);
+        for (EyeImage* const image : {&eyes.left, &eyes.right})
+            *image = enlarged(*image, scene.lens.width, scene.lens.height);
     return watch.elapsed_ms();
 }
 
-void addErrors(const EyeImage (&truth)[2], const EyeImage (&eyes)[2], double count, SizeWay& way) {
-    for (int e = 0; e < 2; ++e) {
-        const double rms = rmsOfPsnr(psnrOf(truth[e].color, eyes[e].color));
+void addErrors(const EyePair& truth, const EyePair& eyes, double count, SizeWay& way) {
+    for (EyeImage EyePair::*const eye : {&EyePair::left, &EyePair::right}) {
+        const double rms = rmsOfPsnr(psnrOf((truth.*eye).color, (eyes.*eye).color));
         way.squares += rms * rms / (2 * count);
         way.worst = std::max(way.worst, rms);
     }
-}
-
-void castInFull(const Scene& scene, const Pose& pose, RightEye& eye, EyeImage (&eyes)[2]) {
-    const StereoViews views = makeStereoViews(pose, scene.lens, stereoOf(scene));
-    eyes[0].resize(views.left.width, views.left.height, rendererOf(scene).viewDependence());
-    renderEye(rendererOf(scene), views.left, eyes[0]);
-    WarpSetting full;
-    full.method = RightEyeMethod::Full;
-    eye.render(rendererOf(scene), views, eyes[0], full, eyes[1]);
 }
 
 WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
@@ -137,14 +126,15 @@ WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
                                   ? std::vector<double>{1, 0.5}
                                   : std::vector<double>{1, std::sqrt(0.5), 0.5, std::sqrt(0.125), 0.25})
         ways.push_back({scale, std::vector<double>(static_cast<std::size_t>(repeats), 0.0)});
-    RightEye eye;
-    EyeImage truth[2], eyes[2];
+    FrameMaker& frames = scene.frames();
+    EyePair truth, eyes;
     for (const Pose& pose : poses) {
         run.tell("resolution, " + scene.title);
-        castInFull(scene.loaded(), pose, eye, truth);
+        frames.make(makeStereoViews(pose, scene.loaded().lens, stereoOf(scene.loaded())), 0,
+                    {frames.exactMethod(), {}}, truth);
         for (std::size_t r = 0; r < static_cast<std::size_t>(repeats); ++r)
             for (SizeWay& way : ways) {
-                way.ms[r] += makeEyes(scene.loaded(), pose, way.scale, eye, eyes) / count;
+                way.ms[r] += makeEyes(scene, pose, way.scale, eyes) / count;
                 if (r == 0) addErrors(truth, eyes, count, way);
             }
     }

@@ -69,23 +69,19 @@ ReportPictures picturesOf(const ReportScene& scene, const StereoSetting& stereo)
     const std::vector<Pose> poses =
         s.path.samples().empty() ? std::vector<Pose>{s.startPose} : s.path.frames(3);
     const StereoViews views = makeStereoViews(poses[poses.size() / 2], s.lens, stereo);
-    EyeImage left, right, full;
-    left.resize(views.left.width, views.left.height, rendererOf(s).viewDependence());
-    renderEye(rendererOf(s), views.left, left);
-    RightEye eye;
-    WarpSetting setting;
-    setting.method = RightEyeMethod::Full;
-    eye.render(rendererOf(s), views, left, setting, full);
-    setting.method = defaultMethodFor(rendererOf(s));
-    eye.render(rendererOf(s), views, left, setting, right);
+    FrameMaker& frames = scene.frames();
+    EyePair full;
+    EyeImage right;
+    frames.make(views, 0, {frames.exactMethod(), {}}, full);
+    scene.rightFromLeft().makeRight(views, full.left, {frames.defaultMethod(), {}}, right);
     ReportPictures pictures{"Pictures, " + scene.title, "From the middle of the flight.", {}};
     const auto add = [&](const char* title, const Plane<PackedColor>& picture) {
         pictures.pictures.push_back({title, encodeColorImage(picture, ".png")});
     };
-    add("left eye", left.color);
+    add("left eye", full.left.color);
     add("right eye, the default way", right.color);
-    add("cast again, in red", holesInRed(right.color, eye.holeMask()));
-    add("difference from the full cast, times five", differenceTimes(full.color, right.color, 5));
+    add("cast again, in red", holesInRed(right.color, scene.rightFromLeft().holes().mask));
+    add("difference from the full cast, times five", differenceTimes(full.right.color, right.color, 5));
     return pictures;
 }
 

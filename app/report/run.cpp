@@ -7,7 +7,9 @@
 
 #include "app/report/faults.h"
 #include "app/scene/scene_type.h"
+#include "app/scene/volume_inside.h"
 #include "engine/base/parallel.h"
+#include "engine/frame/cast_frames.h"
 
 namespace stereonav {
 namespace {
@@ -19,20 +21,26 @@ void loadOne(ReportRun& run, const std::string& id, const std::string& title, co
     run.tell("loading " + title);
     Progress quiet([&](double, const std::string&) { run.tell("loading " + title); });
     const Stopwatch watch;
-    ReportScene scene{id, title,  options, loadScene(options, {kReportWidth, kReportHeight}, quiet),
-                      0,  nullptr};
+    ReportScene scene;
+    scene.id = id;
+    scene.title = title;
+    scene.options = options;
+    scene.scene = loadScene(options, {kReportWidth, kReportHeight}, quiet);
     scene.load_ms = watch.elapsed_ms();
     RayCast* const rays = scene.loaded().offered<RayCast>();
     std::vector<ReportScene>& list = rays ? run.scenes() : run.media();
     if (rays) scene.faulty = withFaults(*rays->renderer);
-    if (scene.faulty) rays->renderer = scene.faulty.get();
+    if (scene.faulty) {
+        rays->renderer = scene.faulty.get();
+        scene.faultyFrames = std::make_unique<CastFrames>(*scene.faulty);
+    }
     list.push_back(std::move(scene));
 }
 
 void loadWithGlass(ReportRun& run, const std::string& id, SceneOptions options) {
     loadOne(run, id, id, options);
     const Scene& scene = run.scenes().back().loaded();
-    if (!colonOf(scene) || !colonOf(scene)->isColon() || rendererOf(scene).translucent()) return;
+    if (!scene.offered<const ColonInterior>() || rendererOf(scene).translucent()) return;
     options.volume.opacity = kWallOpacity;
     loadOne(run, id + " translucent", id + ", translucent", options);
 }

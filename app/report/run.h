@@ -29,9 +29,14 @@ struct ReportScene {
     SceneOptions options;
     std::unique_ptr<Scene> scene;
     double load_ms = 0;
-    std::unique_ptr<EyeRenderer> faulty;  // with deliberate faults (faults.h); null: without
+    std::unique_ptr<EyeRenderer> faulty;       // with deliberate faults (faults.h); null: without
+    std::unique_ptr<FrameMaker> faultyFrames;  // ... that are made with it
 
     const Scene& loaded() const { return *scene; }
+    // What all frames of it are made by.
+    FrameMaker& frames() const { return faultyFrames ? *faultyFrames : scene->frames(); }
+    // ... of which one left eye and many right ones are wanted: of ReportRun::scenes().
+    RightFromLeft& rightFromLeft() const { return *frames().rightFromLeft(); }
 };
 
 // The whole time of a run: full 10 minutes, quick 60 s, less what writing and a slow end may take.

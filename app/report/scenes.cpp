@@ -12,6 +12,7 @@
 #include "app/report/stability.h"
 #include "engine/base/file.h"
 #include "engine/base/parallel.h"
+#include "engine/frame/cast_frames.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/volume/volume_renderer.h"
 
@@ -62,34 +63,35 @@ struct Feature {
 };
 
 // A frame with a feature and without: left and right eye, what it holds, the right eye's error.
-std::vector<std::string> rowOf(ReportRun& run, const ReportScene& scene, const char* name,
-                               const EyeRenderer& renderer) {
+std::vector<std::string> rowOf(ReportRun& run, const ReportScene& scene, const char* name, FrameMaker& frames,
+                               ViewDependence dependence) {
     StereoSetting stereo = scene.loaded().stereo;
     stereo.separation = stereo.zeroParallax / 30;
     const StereoViews views = makeStereoViews(scene.loaded().startPose, scene.loaded().lens, stereo);
-    EyeImage left, right, full;
-    left.resize(views.left.width, views.left.height, renderer.viewDependence());
-    RightEye eye;
+    EyePair made;
+    EyeImage full;
     double left_ms = 1e300, right_ms = 1e300;
-    WarpSetting setting;
-    setting.method = defaultMethodFor(renderer);
     for (int n = 0; n < run.pick(3, 9); ++n) {
         run.tell("features, " + scene.title);
-        const Stopwatch watch;
-        renderEye(renderer, views.left, left);
-        left_ms = std::min(left_ms, watch.elapsed_ms());
-        right_ms = std::min(right_ms, eye.render(renderer, views, left, setting, right).right_ms());
+        frames.make(views, 0, {}, made);
+        left_ms = std::min(left_ms, made.timings.left_ms);
+        right_ms = std::min(right_ms, made.timings.right_ms);
     }
-    setting.method = RightEyeMethod::Full;
-    eye.render(renderer, views, left, setting, full);
-    const double bytes =
-        static_cast<double>(frameBytes(left.width(), left.height(), renderer.viewDependence()));
+    frames.rightFromLeft()->makeRight(views, made.left, {frames.exactMethod(), {}}, full);
+    const double bytes = static_cast<double>(frameBytes(full.width(), full.height(), dependence));
     return {scene.title,
             name,
             fmt::format("{:.2f}", left_ms),
             fmt::format("{:.2f}", right_ms),
-            fmt::format("{:.1f}", psnrOf(full.color, right.color)),
+            fmt::format("{:.1f}", psnrOf(full.color, made.right.color)),
             fmt::format("{:.1f}", bytes / 1e6)};
+}
+
+// The same scene cast another way.
+std::vector<std::string> rowOf(ReportRun& run, const ReportScene& scene, const char* name,
+                               const VolumeRenderer& renderer) {
+    CastFrames frames(renderer);
+    return rowOf(run, scene, name, frames, renderer.viewDependence());
 }
 
 ReportTable featureTable(ReportRun& run) {
@@ -100,7 +102,8 @@ ReportTable featureTable(ReportRun& run) {
         {"scene", "feature", "left ms", "right ms", "right PSNR dB", "planes MB"},
         {}};
     for (const ReportScene& scene : run.scenes()) {
-        table.rows.push_back(rowOf(run, scene, "as it is", rendererOf(scene.loaded())));
+        table.rows.push_back(
+            rowOf(run, scene, "as it is", scene.frames(), rendererOf(scene.loaded()).viewDependence()));
         if (!colonOf(scene.loaded())) continue;
         VolumeCasting casting;
         casting.leaping = false;

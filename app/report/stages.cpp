@@ -34,17 +34,16 @@ std::vector<int> threadCounts(int all) {
 
 class StageTrial {
 public:
-    explicit StageTrial(const Scene& scene) : mScene(scene) {}
+    explicit StageTrial(const ReportScene& scene)
+        : mFrames(scene.frames()), mRightMaker(scene.rightFromLeft()) {}
 
     std::array<double, kStages> once(const StereoViews& views) {
         std::array<double, kStages> ms{};
-        mLeft.resize(views.left.width, views.left.height, rendererOf(mScene).viewDependence());
-        const Stopwatch watch;
-        renderEye(rendererOf(mScene), views.left, mLeft);
-        ms[kLeft] = watch.elapsed_ms();
-        ms[kFull] = right(views, RightEyeMethod::Full).right_ms();
-        const RightEyeTimings own = right(views, defaultMethodFor(rendererOf(mScene))),
-                              paper = right(views, RightEyeMethod::Paper);
+        mFrames.make(views, 0, {mFrames.exactMethod(), {}}, mFull);
+        ms[kLeft] = mFull.timings.left_ms;
+        ms[kFull] = mFull.timings.right_ms;
+        const RightEyeTimings own = right(views, mFrames.defaultMethod()),
+                              paper = right(views, nameOf(RightEyeMethod::Paper));
         ms[kWarp] = own.warp_ms;
         ms[kFill] = own.fill_ms;
         ms[kPaperWarp] = paper.warp_ms;
@@ -53,15 +52,14 @@ public:
     }
 
 private:
-    RightEyeTimings right(const StereoViews& views, RightEyeMethod method) {
-        WarpSetting setting;
-        setting.method = method;
-        return mEye.render(rendererOf(mScene), views, mLeft, setting, mRight);
+    RightEyeTimings right(const StereoViews& views, std::string_view method) {
+        return mRightMaker.makeRight(views, mFull.left, {method, {}}, mRight);
     }
 
-    const Scene& mScene;
-    RightEye mEye;
-    EyeImage mLeft, mRight;
+    FrameMaker& mFrames;
+    RightFromLeft& mRightMaker;
+    EyePair mFull;
+    EyeImage mRight;
 };
 
 using TimesByThreads = std::map<int, StageTimes>;
@@ -76,7 +74,7 @@ TimesByThreads measureStages(ReportRun& run, const ReportScene& scene, const std
     StereoSetting stereo = scene.loaded().stereo;
     stereo.separation = stereo.zeroParallax / 30;
     std::map<int, std::array<std::vector<double>, kStages>> sums;  // by repeat
-    StageTrial trial(scene.loaded());
+    StageTrial trial(scene);
     const Stopwatch watch;
     const int most = run.pick(5, 15);
     for (int repeat = 0; repeat < most; ++repeat) {

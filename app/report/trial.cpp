@@ -38,6 +38,8 @@ RightEyeTrial::RightEyeTrial(const ReportScene& scene, const StereoSetting& ster
                              std::vector<Variant> variants, bool truths)
     : mTruths(truths),
       mScene(scene.loaded()),
+      mMaker(scene.frames()),
+      mRightMaker(scene.rightFromLeft()),
       mStereo(stereo),
       mVariants(std::move(variants)),
       mSums(mVariants.size()),
@@ -83,15 +85,10 @@ void RightEyeTrial::chooseRepeats(double first_ms, std::size_t frames, double se
 
 void RightEyeTrial::frame(ReportRun& run, const StereoViews& views, const std::string& what) {
     mViews = views;
-    mLeft.resize(views.left.width, views.left.height, rendererOf(mScene).viewDependence());
-    renderEye(rendererOf(mScene), views.left, mLeft);
-    WarpSetting full;
-    full.method = RightEyeMethod::Full;
-    mEye.render(rendererOf(mScene), views, mLeft, full, mFull);
+    mMaker.make(views, 0, {mMaker.exactMethod(), {}}, mFull);
     Progress quiet([&](double, const std::string&) { run.tell(what); });
     const Plane<PackedColor> truth =
-        mTruths ? renderSupersampled(rendererOf(mScene), views.right, kTruthFactor, quiet)
-                : Plane<PackedColor>();
+        mTruths ? renderSupersampled(mMaker, views.right, 0, kTruthFactor, quiet) : Plane<PackedColor>();
     for (std::size_t n = 0; n < mVariants.size(); ++n) measureError(n, truth);
     mFastest.assign(mVariants.size(), 1e300);
     const Stopwatch watch;
@@ -104,9 +101,9 @@ void RightEyeTrial::frame(ReportRun& run, const StereoViews& views, const std::s
 
 void RightEyeTrial::measureError(std::size_t n, const Plane<PackedColor>& truth) {
     const RightEyeTimings timings =
-        mEye.render(rendererOf(mScene), mViews, mLeft, mVariants[n].setting, mRight);
+        mRightMaker.makeRight(mViews, mFull.left, wayOf(mVariants[n].setting), mRight);
     Plane<std::uint8_t> nothing(mRight.width(), mRight.height());
-    const ImageDifference difference = differenceOf(mFull.color, mRight.color, nothing);
+    const ImageDifference difference = differenceOf(mFull.right.color, mRight.color, nothing);
     const double rms = rmsOfPsnr(difference.psnr_db),
                  trueRms = mTruths ? rmsOfPsnr(psnrOf(truth, mRight.color)) : 0;
     Sums& sums = mSums[n];
@@ -123,7 +120,7 @@ void RightEyeTrial::measureError(std::size_t n, const Plane<PackedColor>& truth)
 void RightEyeTrial::repeat(int r) {
     for (std::size_t n = 0; n < mVariants.size(); ++n) {
         const RightEyeTimings t =
-            mEye.render(rendererOf(mScene), mViews, mLeft, mVariants[n].setting, mRight);
+            mRightMaker.makeRight(mViews, mFull.left, wayOf(mVariants[n].setting), mRight);
         const auto add = [r](std::vector<double>& sums, double ms) {
             sums.resize(std::max(sums.size(), static_cast<std::size_t>(r) + 1));
             sums[static_cast<std::size_t>(r)] += ms;

@@ -56,12 +56,14 @@ private:
 
     bool mTruths, mBounds = false;
     const Scene& mScene;
+    FrameMaker& mMaker;
+    RightFromLeft& mRightMaker;
     StereoSetting mStereo;
     std::vector<Variant> mVariants;
     std::vector<Sums> mSums;
     StereoViews mViews;
-    RightEye mEye;
-    EyeImage mLeft, mFull, mRight;
+    EyePair mFull;  // each eye cast
+    EyeImage mRight;
     int mRepeats = 0, mFrames = 0;
     double mTimed_ms = 0;
     std::vector<double> mFastest;  // of the frame at hand, by variant

@@ -4,7 +4,6 @@
 
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
-#include "engine/base/error.h"
 
 namespace stereonav {
 namespace {
@@ -14,10 +13,10 @@ bool castsShadows(Shading shading) {
 }
 
 // A lamp outside lights nothing of a closed wall that casts shadows.
-void checkShading(const VolumeOptions& volume, const ColonScene& scene) {
-    if (scene.isColon() && castsShadows(volume.shading))
-        throw Error(
-            "--shading", "",
+void checkShading(const VolumeOptions& volume, const VolumeSide& side) {
+    if (castsShadows(volume.shading))
+        side.expectOutside(
+            "--shading",
             std::string(nameOf(volume.shading)) + " expects a volume seen from outside, this one is a colon",
             "add --isosurface, or use lambert or phong");
 }
@@ -47,7 +46,7 @@ LitVolume litVolumeOf(const SceneOptions& options, Progress& progress) {
     made.world = std::make_unique<VolumeWorld>(loadColon(colonOptionsOf(options), progress), options);
     ColonScene& colon = made.world->colon();
     VolumeLighting& light = made.light;
-    checkShading(options.volume, colon);
+    checkShading(options.volume, made.world->side());
     light.sky = applyVolumeLight(options, colon, progress);
     applyAmbient(options.volume, nullptr, colon, progress);
     light.modulateSigma = applyModulation(options.volume, nullptr, std::nullopt, colon, progress);
@@ -56,9 +55,7 @@ LitVolume litVolumeOf(const SceneOptions& options, Progress& progress) {
                                           nameOf(options.volume.modulate), *light.modulateSigma));
     if (options.light.lazy()) light.lazy = std::make_shared<LazyLight>(options, colon, progress);
     if (options.light.traced()) light.traced = std::make_shared<TracedLight>(options, colon);
-    if (options.volume.isovalue && colon.isColon())
-        throw Error("--isovalue", "", "expected with a volume seen from outside, this one is a colon",
-                    "add --isosurface, or leave it out");
+    if (options.volume.isovalue) made.world->side().expectOutside("--isovalue");
     return made;
 }
 

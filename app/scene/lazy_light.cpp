@@ -8,7 +8,7 @@
 
 #include "app/scene/light_loading.h"
 #include "app/scene/volume_light.h"
-#include "engine/base/error.h"
+#include "app/scene/volume_side.h"
 #include "engine/light/transfer/seen_bricks.h"
 
 namespace stereonav {
@@ -29,12 +29,7 @@ LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& p
     bake.scene.light = {};
     bake.bounces = 1;
     const bool transfer = options.light.kind == LightChoice::Kind::LazyTransfer;
-    if (transfer && scene.isColon())
-        throw Error("--light", "", "lazy-transfer is 0 everywhere inside a colon, which is closed",
-                    "use lazy, which lights it along its centreline");
-    if (scene.isColon() && !options.sky.empty())
-        throw Error("--sky", "", "nothing of it is seen inside a colon, which is closed",
-                    "leave it out: lazy lights a colon along its centreline");
+    sideOf(scene)->checkLazyLight(transfer, !options.sky.empty());
     if (transfer) bake.what = BakeKind::Transfer;
     const VolumeBakePlan plan = planVolumeBake(scene, bake, progress);
     mLight = std::make_shared<IlluminationVolume>(plan.inputs.texels);

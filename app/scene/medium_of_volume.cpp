@@ -5,8 +5,6 @@
 #include "app/scene/medium_of.h"
 #include "app/scene/medium_options.h"
 #include "app/scene/seen_volume_light.h"
-#include "colon/built_in/built_in_colon.h"
-#include "colon/study/study.h"
 #include "engine/medium/model/noise_file.h"
 
 namespace stereonav {
@@ -18,15 +16,6 @@ constexpr float kVolumeRadiance = 0.85f, kLampRadiance = 0.7f;
 // A colon's wall shows grain far away with 250 slices, none in the pictures looked at with 400.
 constexpr int kColonSlices = 500;
 
-// A colon's field has neither fluid nor what is far from the wall: the study is read again. Null for a mask,
-// which has no grey values.
-std::shared_ptr<const GreyVolume> studyOf(const SceneOptions& options, Progress& progress) {
-    const ColonOptions colon = colonOptionsOf(options);
-    if (colon.study.empty()) return std::make_shared<GreyVolume>(builtInColon(colon.builtIn, progress).grey);
-    Study study = readStudy(colon.study, colon.reading, progress);
-    return study.isMask ? nullptr : std::make_shared<GreyVolume>(std::move(study.grey));
-}
-
 void lightAtHead(const ColonScene& colon, MediumScene& shown) {
     MediumLight& light = shown.look.light;
     light.kind = MediumLight::Kind::Lamp;
@@ -37,10 +26,7 @@ void lightAtHead(const ColonScene& colon, MediumScene& shown) {
 }
 
 void offerWorld(VolumeWorld& world, SimdTarget simd, ShownMedium& scene) {
-    scene.alsoOffer<const ColonScene>(world.colon());
-    scene.alsoOffer<RoomAround>(world);
-    scene.alsoOffer<SliceSource>(world);
-    if (world.colon().isColon()) scene.alsoOffer<LineThrough>(world);
+    world.offerAll([&scene](auto& capability) { scene.alsoOffer(capability); });
     scene.flyAs([&world] { return world.makeFlight(); });
     scene.checkBy([&world](const RecordedPath& path, const std::string& file) { world.check(path, file); });
     if (!world.eyesFollow()) return;
@@ -66,10 +52,7 @@ void makeFromVolume(const SceneOptions& options, SimdTarget simd, Progress& prog
     offerLight(lit.light, scene);
     const ColonScene& colon = world.colon();
     MediumScene& shown = scene.medium();
-    std::shared_ptr<const GreyVolume> field;
-    if (colon.isColon()) field = studyOf(options, progress);
-    // what the scene holds already, which lives as long
-    if (!field) field = std::shared_ptr<const GreyVolume>(std::shared_ptr<void>(), &colon.volume.field);
+    const std::shared_ptr<const GreyVolume> field = world.wholeField(progress);
     const glm::dvec3 size = glm::dvec3(field->frame.size) * field->frame.spacing;
     shown.transfer = options.medium.medium;
     Perturbation noise;
@@ -80,13 +63,13 @@ void makeFromVolume(const SceneOptions& options, SimdTarget simd, Progress& prog
     putField(field, std::move(noise), shown);
     shown.look.background = colon.volume.look.background;
     shown.look.baked = colon.volume.look.baked;
-    if (colon.isColon()) {
-        shown.sweep.slices = kColonSlices;
-        lightAtHead(colon, shown);
-    } else {
+    if (world.side().letsLightIn()) {
         shown.turnLight(kLightAzimuth, kLightElevation);
         shown.look.light.radiance = glm::vec3(kVolumeRadiance);
         scene.flyFreely();
+    } else {
+        shown.sweep.slices = kColonSlices;
+        lightAtHead(colon, shown);
     }
 }
 

@@ -58,7 +58,7 @@ ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target)
     : mTerrain(std::move(terrain)), mRenderer(mTerrain, target), mFrames(mRenderer) {
     setViews(mTerrain, *this);
     simd = mRenderer.target();
-    mRays = {&mRenderer, methodsFor(mRenderer)};
+    mRays = {&mRenderer};
     offer(mRays);
     offer<const TerrainScene>(mTerrain);
     offer<const TerrainRenderer>(mRenderer);

@@ -98,19 +98,15 @@ ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const Scen
       mWorld(std::move(volume.world)),
       mLighting(std::move(volume.light)),
       mRenderer(mWorld->colon().volume, castingFor(target)),
-      mFrames(mRenderer) {
+      mFrames(mRenderer, RightEyeMethod::Cubic) {
     mWorld->setViews(made, *this);
     mWorld->setWall(&mRenderer);
     simd = mRenderer.target();
-    mRays = {&mRenderer, methodsFor(mRenderer)};
-    std::erase(mRays.compared, RightEyeMethod::Cubic);
+    mRays = {&mRenderer};
     setChoices();
     offer(mRays);
     offer(mChoices);
-    offer<RoomAround>(*mWorld);
-    offer<SliceSource>(*mWorld);
-    offer<const ColonScene>(mWorld->colon());
-    if (mWorld->colon().isColon()) offer<LineThrough>(*mWorld);
+    mWorld->offerAll([this](auto& capability) { offer(capability); });
     if (mLighting.traced) offer<PictureLight>(*mLighting.traced);
     offerLight();
 }
@@ -135,7 +131,6 @@ void ShownVolume::offerLight() {
 }
 
 void ShownVolume::setChoices() {
-    const ColonScene& colon = mWorld->colon();
     mChoices.translucent = mRenderer.translucent();
     mChoices.transfers = {""};  // that of the options, and those that go by names
     for (const TransferPreset& preset : transferPresets()) {
@@ -145,10 +140,9 @@ void ShownVolume::setChoices() {
     mChoices.changed = [this](const SurfaceChange& change, Progress& progress) {
         return changed(change, progress);
     };
-    if (colon.isColon()) return;
-    const GreyVolume& field = colon.volume.field;
-    const ValueSpan range = rangeOf(field);
-    mChoices.isovalue = colon.volume.cells.isovalue * field.scale + field.offset;
+    mChoices.isovalue = mWorld->side().movableIsovalue();
+    if (!mChoices.isovalue) return;
+    const ValueSpan range = rangeOf(mWorld->colon().volume.field);
     mChoices.isovalueStep = (range.highest - range.lowest) / kIsovalueSteps;
     mChoices.largestSigma = std::max(0.5 * (range.highest - range.lowest), 1e-9);
     setAmbient();

@@ -26,7 +26,7 @@ struct LitVolume {
     VolumeLighting light;
 };
 
-// Offers RayCast, RoomAround, SliceSource, SurfaceChoices, const ColonScene; as they are there, LineThrough,
+// Offers RayCast, SurfaceChoices and what its world has (VolumeWorld::offerAll); as they are there,
 // TurningLight, SeenLight, PictureLight.
 class ShownVolume final : public Scene {
 public:

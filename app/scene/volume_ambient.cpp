@@ -8,6 +8,7 @@
 #include <memory>
 #include <tuple>
 
+#include "app/scene/volume_side.h"
 #include "engine/base/error.h"
 #include "engine/light/occlusion/occlusion.h"
 
@@ -25,12 +26,6 @@ glm::ivec3 voxelsOf(const VolumeFrame& frame, const char* option, double radius)
                                 1000 * largest, kMostOcclusionRadius, 1000 * radius),
                     "choose a smaller one");
     return occlusionRadius(frame, radius);
-}
-
-void refuseColon(const char* option, const ColonScene& scene) {
-    if (scene.isColon())
-        throw Error(option, "", "expected with a volume seen from outside, this one is a colon",
-                    "add --isosurface, or leave it out");
 }
 
 // radiusOption: what gave the radius.
@@ -69,7 +64,7 @@ void applyAmbient(const VolumeOptions& options, const VolumeOptions* made, Colon
         look = {};
         return;
     }
-    refuseColon("--ambient", scene);
+    sideOf(scene)->expectOutside("--ambient");
     look.strength = static_cast<float>(options.ambientStrength.value_or(kUsualStrength));
     look.lampShare = static_cast<float>(options.ambientLamp.value_or(0));
     const OcclusionEstimate estimate = options.ambientMethod;
@@ -91,7 +86,7 @@ std::optional<double> applyModulation(const VolumeOptions& options, const Volume
         to = nullptr;
         return std::nullopt;
     }
-    refuseColon("--modulate", scene);
+    sideOf(scene)->expectOutside("--modulate");
     const GreyVolume& field = scene.volume.field;
     const bool own = options.modulateRadius_mm || !options.ambient_mm;
     const ModulationSetting setting =

@@ -14,8 +14,6 @@
 namespace stereonav {
 namespace {
 
-// Seconds at normal speed to cross a colon's box, or what is seen from outside.
-constexpr double kColonSeconds = 20.0, kOutsideSeconds = 10.0;
 constexpr double kAirSeen = -500;                   // a study with smaller values is taken for CT in HU
 constexpr double kCtWidth = 1500, kCtLevel = -200;  // a window that shows air, fat, tissue and bone
 
@@ -23,12 +21,9 @@ FreeDistance freeDistanceOf(const ColonScene& colon) {
     return [&colon](const glm::dvec3& world, double upTo) { return colon.freeDistanceAt(world, upTo); };
 }
 
-// Limits of the eyes' distance: such as suit the scene; in a lumen no more than its flight is to keep clear
-// of the wall.
-SeparationControl::Setting limitsOf(const ColonScene& colon, double asked) {
+// Limits of the eyes' distance: such as suit the scene. most: by themselves, metres.
+SeparationControl::Setting limitsOf(const StereoSetting& own, double most, double asked) {
     SeparationControl::Setting setting;
-    const StereoSetting& own = colon.stereo;
-    const double most = colon.isColon() ? setting.largest : std::numeric_limits<double>::infinity();
     setting.largest = std::max(std::min(2 * own.separation, most), asked);
     setting.largest = std::max(setting.largest, 1e-6);
     setting.smallest = std::min(setting.smallest, 0.1 * setting.largest);
@@ -48,6 +43,7 @@ GreyVolume greyOf(const MaskVolume& mask) {
 VolumeWorld::VolumeWorld(ColonScene colon, const SceneOptions& options)
     : mColon(std::move(colon)),
       mOptions(colonOptionsOf(options)),
+      mSide(sideOf(mColon)),
       mFollows(!options.separation_m && !options.zeroParallax_m) {}
 
 void VolumeWorld::setViews(const SceneOptions& options, Scene& scene) {
@@ -56,13 +52,13 @@ void VolumeWorld::setViews(const SceneOptions& options, Scene& scene) {
     adjustViews(options, scene);
     scene.startPose = mColon.startPose;
     scene.path = mColon.path;
-    mLimits = limitsOf(mColon, scene.stereo.separation);
+    mLimits = limitsOf(mColon.stereo, mSide->largestSeparation(), scene.stereo.separation);
 }
 
 std::unique_ptr<Flight> VolumeWorld::makeFlight() const {
     ColonFlightSetting setting;
     setting.clearance = mColon.clearance;
-    setting.speed = mColon.extent / (mColon.isColon() ? kColonSeconds : kOutsideSeconds);
+    setting.speed = mColon.extent / mSide->crossingSeconds();
     setting.largestSeparation = mLimits.largest;
     try {
         return std::make_unique<ColonFlight>(freeDistanceOf(mColon), mColon.centreline, mColon.startPose,
@@ -72,18 +68,6 @@ std::unique_ptr<Flight> VolumeWorld::makeFlight() const {
         throw Error("--separation", "",
                     fmt::format("eyes {:g} m apart find no room around the start", mLimits.largest),
                     "give less, or leave it out");
-    }
-}
-
-void VolumeWorld::check(const RecordedPath& path, const std::string& file) const {
-    if (!mColon.isColon()) return;
-    for (std::size_t n = 0; n < path.samples().size(); ++n) {
-        const glm::dvec3& p = path.samples()[n].pose.position;
-        if (!(mColon.freeDistanceAt(p, mColon.clearance) > 0))
-            throw Error(file, fmt::format("pose {}", n + 1),
-                        fmt::format("expected a place inside the colon, got {:.1f}, {:.1f}, {:.1f} mm",
-                                    1000 * p.x, 1000 * p.y, 1000 * p.z),
-                        "play flights that were recorded in this study");
     }
 }
 
@@ -99,22 +83,6 @@ StereoFollower VolumeWorld::makeFollower(const StereoSetting& from) const {
 
 double VolumeWorld::clearanceAt(const Pose& head) const {
     return stereonav::clearanceAt(freeDistanceOf(mColon), head, mLimits.largest);
-}
-
-// The nearest point of the centreline, by metres from its start.
-PlaceOnLine VolumeWorld::placeOnLine(const glm::dvec3& world) const {
-    const std::vector<CentrelinePoint>& points = mColon.centreline.points;
-    PlaceOnLine place;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t n = 0; n < points.size(); ++n) {
-        if (n > 0) place.length += glm::length(points[n].position - points[n - 1].position);
-        const double away = glm::length(points[n].position - world);
-        if (away < nearest) {
-            nearest = away;
-            place.along = place.length;
-        }
-    }
-    return place;
 }
 
 std::shared_ptr<const SliceStudy> VolumeWorld::readSlices(Progress& progress) const {

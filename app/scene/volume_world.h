@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "app/command/commands.h"
+#include "app/scene/volume_inside.h"
 #include "colon/flight/colon_flight.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/nav/flight.h"
@@ -16,9 +18,9 @@
 
 namespace stereonav {
 
-class VolumeWorld final : public RoomAround, public LineThrough, public SliceSource {
+class VolumeWorld final : public RoomAround, public SliceSource {
 public:
-    // options: that it was loaded with. wall: whose rays tell pictures of the room (wallForPictures).
+    // options: that it was loaded with.
     VolumeWorld(ColonScene colon, const SceneOptions& options);
 
     // Lens, eyes, start and flight, with what the options change; before setRoom().
@@ -28,11 +30,27 @@ public:
 
     ColonScene& colon() { return mColon; }
     const ColonScene& colon() const { return mColon; }
+    const VolumeSide& side() const { return *mSide; }
+    // All of the study's values (VolumeSide::wholeField).
+    std::shared_ptr<const GreyVolume> wholeField(Progress& progress) const {
+        return mSide->wholeField(mOptions, progress);
+    }
+    // Calls offer(capability) for each that it has, however its frames are made.
+    template <typename Offer>
+    void offerAll(const Offer& offer) {
+        offer(static_cast<RoomAround&>(*this));
+        offer(static_cast<SliceSource&>(*this));
+        offer(std::as_const(mColon));
+        const ColonInterior* const interior = mSide->interior();
+        if (!interior) return;
+        offer(*interior);
+        offer(static_cast<const LineThrough&>(*interior));
+    }
     std::unique_ptr<Flight> makeFlight() const;
-    // Throws Error naming `file` where a pose lies outside the lumen; any path goes around what is no colon.
-    void check(const RecordedPath& path, const std::string& file) const;
-    // Whether eyes come together where a colon is narrow: the options don't say where they are.
-    bool eyesFollow() const { return mFollows && mColon.isColon(); }
+    // Throws Error naming `file` where a pose lies where no flight can be.
+    void check(const RecordedPath& path, const std::string& file) const { mSide->check(path, file); }
+    // Whether eyes come together where it is narrow: the options don't say where they are.
+    bool eyesFollow() const { return mFollows && mSide->narrows(); }
 
     StereoFollower makeFollower(const StereoSetting& from) const override;
     double clearanceAt(const Pose& head) const override;
@@ -40,16 +58,15 @@ public:
     bool followsAtStart() const override { return mFollows; }
     const EyeRenderer* wallForPictures() const override { return eyesFollow() ? mWall : nullptr; }
 
-    PlaceOnLine placeOnLine(const glm::dvec3& world) const override;
-
     std::shared_ptr<const SliceStudy> readSlices(Progress& progress) const override;
-    const MaskVolume* lumen() const override { return mColon.isColon() ? &mColon.lumen.lumen : nullptr; }
+    const MaskVolume* lumen() const override { return mSide->region(); }
     const std::vector<glm::dvec3>& seeds() const override { return mOptions.segmentation.seeds; }
 
 private:
     ColonScene mColon;
     ColonOptions mOptions;
-    SeparationControl::Setting mLimits;  // of the eyes
+    std::unique_ptr<const VolumeSide> mSide;  // of mColon
+    SeparationControl::Setting mLimits;       // of the eyes
     bool mFollows = false;
     const EyeRenderer* mWall = nullptr;
 };

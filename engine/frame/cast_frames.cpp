@@ -31,17 +31,40 @@ std::string_view CastFrames::defaultMethod() const {
     return nameOf(defaultMethodFor(mRenderer));
 }
 
+std::vector<std::string_view> CastFrames::compared() const {
+    std::vector<std::string_view> names;
+    for (const RightEyeMethod method : methodsFor(mRenderer))
+        if (method != mUncompared) names.push_back(nameOf(method));
+    return names;
+}
+
 void CastFrames::make(const StereoViews& views, double, const FrameWay& way, EyePair& frame) {
-    WarpSetting setting = way.warp;
-    setting.method = methodNamed(way.method.empty() ? defaultMethod() : way.method);
+    const WarpSetting setting = settingOf(way);
     frame.left.resize(views.left.width, views.left.height, mRenderer.viewDependence());
     const Stopwatch watch;
     renderEye(mRenderer, views.left, frame.left);
     frame.timings.left_ms = watch.elapsed_ms();
-    const RightEyeTimings right = mRightEye.render(mRenderer, views, frame.left, setting, frame.right);
+    const RightEyeTimings right = warp(views, frame.left, setting, frame.right);
     frame.timings.right_ms = right.right_ms();
     frame.timings.both_ms = frame.timings.left_ms + frame.timings.right_ms;
     frame.timings.warped = right;
+}
+
+RightEyeTimings CastFrames::makeRight(const StereoViews& views, const EyeImage& left, const FrameWay& way,
+                                      EyeImage& right) {
+    return warp(views, left, settingOf(way), right);
+}
+
+WarpSetting CastFrames::settingOf(const FrameWay& way) const {
+    WarpSetting setting = way.warp;
+    setting.method = methodNamed(way.method.empty() ? defaultMethod() : way.method);
+    return setting;
+}
+
+RightEyeTimings CastFrames::warp(const StereoViews& views, const EyeImage& left, const WarpSetting& setting,
+                                 EyeImage& right) {
+    mLast = setting.method;
+    return mRightEye.render(mRenderer, views, left, setting, right);
 }
 
 void CastFrames::makeOne(const EyeView& view, double, EyePair& frame) {

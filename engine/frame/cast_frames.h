@@ -7,23 +7,37 @@
 
 namespace stereonav {
 
-class CastFrames final : public FrameMaker {
+class CastFrames final : public FrameMaker, public RightFromLeft {
 public:
-    // renderer must outlive this. Default method: defaultMethodFor(renderer).
-    explicit CastFrames(const EyeRenderer& renderer) : mRenderer(renderer) {}
+    // renderer must outlive this. Default method: defaultMethodFor(renderer); compared: those of
+    // methodsFor(renderer), but for `uncompared`.
+    explicit CastFrames(const EyeRenderer& renderer, std::optional<RightEyeMethod> uncompared = {})
+        : mRenderer(renderer), mUncompared(uncompared) {}
 
     std::span<const std::string_view> methods() const override;
     std::string_view defaultMethod() const override;
+    std::string_view exactMethod() const override { return nameOf(RightEyeMethod::Full); }
+    std::vector<std::string_view> compared() const override;
     std::string_view whatMethodsMake() const override { return "right eye"; }
     void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) override;
     void makeOne(const EyeView& view, double time, EyePair& frame) override;
+    RightFromLeft* rightFromLeft() override { return this; }
+    RightEyeTimings makeRight(const StereoViews& views, const EyeImage& left, const FrameWay& way,
+                              EyeImage& right) override;
+    RightHoles holes() const override { return {mRightEye.holeMask(), leavesHoles(mLast)}; }
     std::optional<FramePlan> measure(std::span<const StereoViews> views) override;
     std::optional<QualityPlan> meet(const QualityWish& wish, std::string_view method,
                                     std::span<const StereoViews> views) override;
 
 private:
+    WarpSetting settingOf(const FrameWay& way) const;
+    RightEyeTimings warp(const StereoViews& views, const EyeImage& left, const WarpSetting& setting,
+                         EyeImage& right);
+
     const EyeRenderer& mRenderer;
+    std::optional<RightEyeMethod> mUncompared;
     RightEye mRightEye;
+    RightEyeMethod mLast = kDefaultRightEyeMethod;  // that the right eye was made by
 };
 
 }  // namespace stereonav

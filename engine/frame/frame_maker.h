@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -23,6 +24,11 @@ struct FrameWay {
     WarpSetting warp;         // of methods that warp: all but which one it is
 };
 
+// As a setting says, its method too.
+inline FrameWay wayOf(const WarpSetting& setting) {
+    return {nameOf(setting.method), setting};
+}
+
 struct FrameTimings {
     double both_ms = 0;                     // of the whole frame
     double left_ms = 0, right_ms = 0;       // of each eye; 0 where they are made together
@@ -40,6 +46,25 @@ struct HeldBytes {
     std::size_t bytes;
 };
 
+// Where the last right eye was not taken from the left one.
+struct RightHoles {
+    const Plane<std::uint8_t>& mask;  // 255 there, 0 elsewhere; until the next right eye is made
+    bool open = false;                // they are black, instead of cast
+};
+
+// Methods that take one left eye as it is and differ in the right one alone: that one by itself, so that many
+// ways of making it can be tried on a left eye that is made once.
+class RightFromLeft {
+public:
+    virtual ~RightFromLeft() = default;
+    // left: the left eye of these views as FrameMaker::make gives it. Sizes the image. Throws Error as
+    // make().
+    virtual RightEyeTimings makeRight(const StereoViews& views, const EyeImage& left, const FrameWay& way,
+                                      EyeImage& right) = 0;
+    // Of the last right eye, by makeRight() or FrameMaker::make().
+    virtual RightHoles holes() const = 0;
+};
+
 // Not for two threads at once; the work inside runs on all threads.
 class FrameMaker {
 public:
@@ -48,6 +73,10 @@ public:
     // Names of the ways to two eyes, in a fixed order, all valid for ever.
     virtual std::span<const std::string_view> methods() const = 0;
     virtual std::string_view defaultMethod() const = 0;
+    // Each eye by itself: what the others are measured against.
+    virtual std::string_view exactMethod() const = 0;
+    // Those that a comparison runs when none are named, in the order of methods().
+    virtual std::vector<std::string_view> compared() const { return {methods().begin(), methods().end()}; }
     // What these methods make, as in "right eye": the rest is the same for all.
     virtual std::string_view whatMethodsMake() const = 0;
 
@@ -56,6 +85,8 @@ public:
     virtual void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) = 0;
     // One eye, into frame.left.
     virtual void makeOne(const EyeView& view, double time, EyePair& frame) = 0;
+    // Null where methods make both eyes together, or one each its own way.
+    virtual RightFromLeft* rightFromLeft() { return nullptr; }
 
     // Which method is worth its time on frames like these (all of one size, at least one), by measuring;
     // nothing where there is nothing to weigh.

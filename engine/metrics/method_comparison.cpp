@@ -1,115 +1,163 @@
 #include "engine/metrics/method_comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "engine/base/error.h"
-#include "engine/base/stopwatch.h"
 #include "engine/metrics/supersampled_picture.h"
 #include "engine/metrics/surface_difference.h"
 
 namespace stereonav {
 namespace {
 
-// One method's buffers and the fastest of its runs of the frame at hand.
+// One method's pictures and the fastest of its runs of the frame at hand.
 struct Runner {
-    RightEyeMethod method;
-    RightEye eye;
-    EyeImage right;
-    RightEyeTimings best;
+    std::string_view method;
+    EyePair frame;  // without a left eye where all methods share one
+    FrameTimings best;
+    Plane<std::uint8_t> holeMask;  // empty: nothing is warped
+    bool leavesHoles = false;
 
-    explicit Runner(RightEyeMethod m) : method(m) {}
+    explicit Runner(std::string_view m) : method(m) {}
 
-    void run(const EyeRenderer& renderer, const StereoViews& views, const EyeImage& left, bool first) {
-        WarpSetting setting;
-        setting.method = method;
-        const RightEyeTimings timings = eye.render(renderer, views, left, setting, right);
-        if (first || timings.right_ms() < best.right_ms()) best = timings;
+    void keepTimes(bool first) {
+        const FrameTimings& now = frame.timings;
+        if (first) best = now;
+        best.left_ms = std::min(best.left_ms, now.left_ms);
+        if (now.right_ms < best.right_ms) best.right_ms = now.right_ms, best.warped = now.warped;
+        best.both_ms = std::min(best.both_ms, now.both_ms);
     }
 };
 
+template <typename T>
+Plane<T> oneAboveTheOther(const Plane<T>& top, const Plane<T>& bottom) {
+    Plane<T> both(top.width(), top.height() + bottom.height());
+    const auto copy = [&](const Plane<T>& from, int y0) {
+        for (int y = 0; y < from.height(); ++y)
+            std::memcpy(both.row(y0 + y), from.row(y), sizeof(T) * static_cast<std::size_t>(from.width()));
+    };
+    copy(top, 0);
+    copy(bottom, top.height());
+    return both;
+}
+
 class Comparison {
 public:
-    Comparison(const EyeRenderer& renderer, const ComparisonSetting& setting)
-        : mRenderer(renderer),
+    Comparison(FrameMaker& frames, const ComparisonSetting& setting)
+        : mFrames(frames),
+          mRightFromLeft(frames.rightFromLeft()),
           mSetting(setting),
-          mFull(RightEyeMethod::Full),
-          mDefault(defaultMethodFor(renderer)) {
-        for (const RightEyeMethod method : setting.methods)
-            if (method != RightEyeMethod::Full) mRunners.emplace_back(method);
+          mExact(frames.exactMethod()) {
+        for (const std::string_view method : setting.methods)
+            if (method != mExact.method) mRunners.emplace_back(method);
     }
 
     // The figures in the order of setting.methods.
-    std::vector<MethodFigures> measure(const StereoViews& views, int index, Progress& progress,
+    std::vector<MethodFigures> measure(const StereoViews& views, double time, int index, Progress& progress,
                                        const ComparedFrameListener& listener) {
-        time(views);
-        const Plane<PackedColor> truth =
-            renderSupersampled(mRenderer, views.right, mSetting.truthFactor, progress);
-        const Plane<std::uint8_t> mask =
-            edgeMask(defaultHoles(views), mFull.right.viewDepth, views.parallaxScale, mSetting.edgeRadius);
+        for (int repeat = 0; repeat < mSetting.repeats; ++repeat) {
+            run(mExact, views, time, repeat == 0);
+            for (Runner& runner : mRunners) run(runner, views, time, repeat == 0);
+        }
+        Plane<PackedColor> truth;
+        if (mRightFromLeft)
+            truth = renderSupersampled(mFrames, views.right, time, mSetting.truthFactor, progress);
+        const Plane<std::uint8_t> edges = edgesOf(views, time);
         std::vector<MethodFigures> figures;
-        ComparedFrame frame{index, mLeft, mFull.right, truth, {}};
-        for (const RightEyeMethod method : mSetting.methods) {
-            const Runner& runner = runnerOf(method);
-            figures.push_back(figuresOf(runner, truth, mask));
-            frame.pictures.push_back({method, runner.right, runner.eye.holeMask()});
+        ComparedFrame frame{index, mExact.frame.left, mExact.frame.right, truth, {}};
+        for (const std::string_view method : mSetting.methods) {
+            const Runner& runner = *runnerOf(method);
+            figures.push_back(figuresOf(runner, truth, edges));
+            const EyeImage& left = mRightFromLeft ? mExact.frame.left : runner.frame.left;
+            frame.pictures.push_back({method, left, runner.frame.right, runner.holeMask});
         }
         if (listener) listener(frame);
         return figures;
     }
 
 private:
-    void time(const StereoViews& views) {
-        mLeft.resize(views.left.width, views.left.height, mRenderer.viewDependence());
-        for (int repeat = 0; repeat < mSetting.repeats; ++repeat) {
-            const bool first = repeat == 0;
-            const Stopwatch watch;
-            renderEye(mRenderer, views.left, mLeft);
-            mLeft_ms = first ? watch.elapsed_ms() : std::min(mLeft_ms, watch.elapsed_ms());
-            mFull.run(mRenderer, views, mLeft, first);
-            for (Runner& runner : mRunners) runner.run(mRenderer, views, mLeft, first);
+    void run(Runner& runner, const StereoViews& views, double time, bool first) {
+        EyePair& frame = runner.frame;
+        if (mRightFromLeft && &runner != &mExact) {
+            const RightEyeTimings right =
+                mRightFromLeft->makeRight(views, mExact.frame.left, {runner.method, {}}, frame.right);
+            frame.timings.warped = right;
+            frame.timings.right_ms = right.right_ms();
+        } else {
+            mFrames.make(views, time, {runner.method, {}}, frame);
         }
+        runner.keepTimes(first);
+        if (!mRightFromLeft) return;
+        runner.holeMask = mRightFromLeft->holes().mask;
+        runner.leavesHoles = mRightFromLeft->holes().open;
     }
 
-    const Runner& runnerOf(RightEyeMethod method) const {
+    // Null where it is not among those that are compared.
+    const Runner* runnerOf(std::string_view method) const {
+        if (method == mExact.method) return &mExact;
         for (const Runner& runner : mRunners)
-            if (runner.method == method) return runner;
-        return mFull;
+            if (runner.method == method) return &runner;
+        return nullptr;
     }
 
-    const Plane<std::uint8_t>& defaultHoles(const StereoViews& views) {
-        const Runner& runner = runnerOf(mDefault.method);
-        if (runner.method == mDefault.method) return runner.eye.holeMask();
-        mDefault.run(mRenderer, views, mLeft, true);
-        return mDefault.eye.holeMask();
+    Plane<std::uint8_t> edgesOf(const StereoViews& views, double time) {
+        const EyePair& exact = mExact.frame;
+        if (mRightFromLeft)
+            return edgeMask(defaultHoles(views, time), exact.right.viewDepth, views.parallaxScale,
+                            mSetting.edgeRadius);
+        const Plane<std::uint8_t> none(views.left.width, 2 * views.left.height);
+        return edgeMask(none, oneAboveTheOther(exact.left.viewDepth, exact.right.viewDepth),
+                        views.parallaxScale, mSetting.edgeRadius);
+    }
+
+    const Plane<std::uint8_t>& defaultHoles(const StereoViews& views, double time) {
+        if (const Runner* const runner = runnerOf(mFrames.defaultMethod())) return runner->holeMask;
+        mDefault.method = mFrames.defaultMethod();
+        run(mDefault, views, time, true);
+        return mDefault.holeMask;
+    }
+
+    ImageDifference differenceTo(const EyePair& made, const Plane<std::uint8_t>& edges) const {
+        const EyePair& exact = mExact.frame;
+        if (mRightFromLeft) return differenceOf(exact.right.color, made.right.color, edges);
+        return differenceOf(oneAboveTheOther(exact.left.color, exact.right.color),
+                            oneAboveTheOther(made.left.color, made.right.color), edges);
     }
 
     MethodFigures figuresOf(const Runner& runner, const Plane<PackedColor>& truth,
-                            const Plane<std::uint8_t>& mask) const {
+                            const Plane<std::uint8_t>& edges) const {
+        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+        const EyeImage& right = runner.frame.right;
+        const RightEyeTimings warped = runner.best.warped.value_or(RightEyeTimings{});
         MethodFigures figures;
-        figures.name = nameOf(runner.method);
-        figures.left_ms = mLeft_ms;
-        figures.warp_ms = runner.best.warp_ms;
-        figures.fill_ms = runner.best.fill_ms;
-        figures.right_ms = runner.best.right_ms();
-        figures.full_right_ms = mFull.best.right_ms();
-        figures.hole_percent = 100.0 * static_cast<double>(runner.best.holePixels) /
-                               (static_cast<double>(mLeft.width()) * mLeft.height());
-        figures.difference = differenceOf(mFull.right.color, runner.right.color, mask);
-        figures.true_psnr_db = psnrOf(truth, runner.right.color);
+        figures.name = runner.method;
+        figures.left_ms = mExact.best.left_ms;
+        figures.warp_ms = warped.warp_ms;
+        figures.right_ms =
+            runner.best.right_ms > 0 ? runner.best.right_ms : runner.best.both_ms - figures.left_ms;
+        figures.fill_ms = figures.right_ms - figures.warp_ms;
+        figures.full_right_ms = mExact.best.right_ms;
+        figures.hole_percent = 100.0 * static_cast<double>(warped.holePixels) /
+                               (static_cast<double>(right.width()) * right.height());
+        figures.difference = differenceTo(runner.frame, edges);
+        figures.true_psnr_db = figures.holesOfWarped_percent = figures.surface_psnr_db = kNone;
+        if (!mRightFromLeft) return figures;
+        figures.true_psnr_db = psnrOf(truth, right.color);
         const SurfaceDifference surface =
-            surfaceDifference(mFull.right, runner.right, runner.eye.holeMask(), leavesHoles(runner.method));
+            surfaceDifference(mExact.frame.right, right, runner.holeMask, runner.leavesHoles);
         figures.holesOfWarped_percent = surface.holesOfWarped_percent;
         figures.surface_psnr_db = surface.psnr_db;
         return figures;
     }
 
-    const EyeRenderer& mRenderer;
+    FrameMaker& mFrames;
+    RightFromLeft* const mRightFromLeft;  // null: methods make both eyes
     const ComparisonSetting& mSetting;
-    EyeImage mLeft;
-    double mLeft_ms = 0;
-    Runner mFull, mDefault;
+    Runner mExact, mDefault{""};
     std::vector<Runner> mRunners;
 };
 
@@ -152,26 +200,28 @@ MethodFigures medianOf(const std::vector<MethodFigures>& frames) {
     return result;
 }
 
-std::vector<MethodFigures> compareMethods(const EyeRenderer& renderer, const std::vector<Pose>& poses,
+std::vector<MethodFigures> compareMethods(FrameMaker& frames, const std::vector<TimedPose>& poses,
                                           const Lens& lens, const StereoSetting& stereo,
                                           const ComparisonSetting& setting, Progress& progress,
                                           const ComparedFrameListener& listener) {
     if (poses.empty() || setting.methods.empty())
         throw Error("", "", "expected at least one pose and one method to compare",
                     "name a path and methods");
-    Comparison comparison(renderer, setting);
+    Comparison comparison(frames, setting);
     std::vector<std::vector<MethodFigures>> byMethod(setting.methods.size());
-    const int count = static_cast<int>(poses.size());
-    for (int index = 0; index < count; ++index) {
-        Progress ofFrame(
-            [&](double share, const std::string& what) { progress.report((index + share) / count, what); });
-        const auto figures = comparison.measure(
-            makeStereoViews(poses[index], lens, setting.eyes.empty() ? stereo : setting.eyes[index]), index,
-            ofFrame, listener);
+    const std::size_t count = poses.size();
+    for (std::size_t n = 0; n < count; ++n) {
+        Progress ofFrame([&](double share, const std::string& what) {
+            progress.report((static_cast<double>(n) + share) / static_cast<double>(count), what);
+        });
+        ofFrame.report(0, fmt::format("frame {} of {}", n + 1, count));
+        const StereoViews views =
+            makeStereoViews(poses[n].pose, lens, setting.eyes.empty() ? stereo : setting.eyes[n]);
+        const auto figures = comparison.measure(views, poses[n].time, static_cast<int>(n), ofFrame, listener);
         for (std::size_t k = 0; k < figures.size(); ++k) byMethod[k].push_back(figures[k]);
     }
     std::vector<MethodFigures> result;
-    for (const auto& frames : byMethod) result.push_back(medianOf(frames));
+    for (const auto& ofFrames : byMethod) result.push_back(medianOf(ofFrames));
     return result;
 }
 

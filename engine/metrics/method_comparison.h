@@ -1,38 +1,43 @@
-// Plays poses through several ways of making the right eye and measures each: its time, and its
-// error against the full right cast with one ray a pixel and against one with many.
+// Plays poses through the ways that one FrameMaker has of making two eyes and measures each: its time, and
+// its error against each eye by itself (FrameMaker::exactMethod), one ray a pixel, and against many rays a
+// pixel.
 #pragma once
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/progress.h"
-#include "engine/camera/stereo_rig.h"
+#include "engine/camera/timed_poses.h"
+#include "engine/frame/frame_maker.h"
 #include "engine/metrics/image_difference.h"
-#include "engine/render/eye_renderer.h"
-#include "engine/stereo/right_eye.h"
 
 namespace stereonav {
 
 struct ComparisonSetting {
-    std::vector<RightEyeMethod> methods;
-    int repeats = 3;                  // timed runs of a frame, >= 1; the fastest counts
-    int truthFactor = 4;              // the finer truth has truthFactor^2 rays a pixel
-    int edgeRadius = 2;               // pixels by which the edge mask is grown
-    std::vector<StereoSetting> eyes;  // one a pose; empty: the same at all
+    std::vector<std::string_view> methods;  // of FrameMaker::methods()
+    int repeats = 3;                        // timed runs of a frame, >= 1; the fastest counts
+    int truthFactor = 4;                    // the finer truth has truthFactor^2 rays a pixel
+    int edgeRadius = 2;                     // pixels by which the edge mask is grown
+    std::vector<StereoSetting> eyes;        // one a pose; empty: the same at all
 };
 
-// Times in ms and errors of one method: of one frame, or medians over frames.
+// Of a FrameMaker whose methods differ in the right eye alone (FrameMaker::rightFromLeft) the left one is
+// made once, and errors are those of the right one. Of others they are those of both eyes together; there is
+// no finer truth and nothing is warped: what is only then there is NaN below. Times in ms and errors of one
+// method: of one frame, or medians over frames.
 struct MethodFigures {
     std::string name;
-    double left_ms = 0;  // the left eye, which every method needs
+    double left_ms = 0;  // one eye by itself, which every method needs
+    // What the other costs on top of it: the warp, or splat of depths, and what is cast or swept after it.
     double warp_ms = 0, fill_ms = 0, right_ms = 0;
-    double full_right_ms = 0;    // the right eye cast in full, in the same run
-    double hole_percent = 0;     // pixels cast again, of all
-    ImageDifference difference;  // from the full right cast
-    double true_psnr_db = 0;     // from the truth with many rays a pixel
+    double full_right_ms = 0;    // the right eye by itself, in the same run
+    double hole_percent = 0;     // pixels cast again, or swept without a known start, of all
+    ImageDifference difference;  // from each eye by itself
+    double true_psnr_db = 0;     // from the truth with many rays a pixel; NaN: there is none
     // As Wan et al. 2004 count (surface_difference.h); NaN where no pixel that shows the scene was warped, or
-    // made.
+    // made; or where nothing is warped at all.
     double holesOfWarped_percent = 0;
     double surface_psnr_db = 0;
 };
@@ -40,21 +45,22 @@ struct MethodFigures {
 // What one method made of one frame. The edge mask of every method is that of the default method's
 // holes and the truth's depth edges, so that their edge figures compare.
 struct MethodPicture {
-    RightEyeMethod method;
-    const EyeImage& right;
-    const Plane<std::uint8_t>& holeMask;
+    std::string_view method;
+    const EyeImage &left, &right;         // left: the same for all where they differ in the right one alone
+    const Plane<std::uint8_t>& holeMask;  // empty: nothing is warped
 };
 struct ComparedFrame {
     int index = 0;
-    const EyeImage &left, &fullRight;
-    const Plane<PackedColor>& truth;
+    const EyeImage &left, &right;     // each by itself
+    const Plane<PackedColor>& truth;  // of the right eye by many rays a pixel; empty: there is none
     std::vector<MethodPicture> pictures;
 };
 using ComparedFrameListener = std::function<void(const ComparedFrame&)>;
 
 // Each frame runs left, full, A, B, C, left, full, A, B, C ... so that drift of the machine's speed
-// meets all alike. listener may be empty. Throws Error without poses or methods; Cancelled.
-std::vector<MethodFigures> compareMethods(const EyeRenderer& renderer, const std::vector<Pose>& poses,
+// meets all alike. Medians over the frames, in the order of the methods. listener may be empty. Throws Error
+// without poses or methods, and for a method that is not there; Cancelled.
+std::vector<MethodFigures> compareMethods(FrameMaker& frames, const std::vector<TimedPose>& poses,
                                           const Lens& lens, const StereoSetting& stereo,
                                           const ComparisonSetting& setting, Progress& progress,
                                           const ComparedFrameListener& listener);

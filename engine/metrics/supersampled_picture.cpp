@@ -25,10 +25,10 @@ PackedColor averageBlock(const Plane<PackedColor>& fine, int x0, int y0, int fac
     return packColor(sum / static_cast<float>(factor * factor));
 }
 
-}  // namespace
-
-Plane<PackedColor> renderSupersampled(const EyeRenderer& renderer, const EyeView& view, int factor,
-                                      Progress& progress) {
+// castStrip: casts a view; what it returns is read before the next call.
+template <typename CastStrip>
+Plane<PackedColor> supersampled(const EyeView& view, int factor, Progress& progress,
+                                const CastStrip& castStrip) {
     if (factor < 1 || factor > 16)
         throw Error("", "", "expected 1 to 16 rays a side of a pixel, got " + std::to_string(factor),
                     "use 4 for 16 rays a pixel");
@@ -36,13 +36,10 @@ Plane<PackedColor> renderSupersampled(const EyeRenderer& renderer, const EyeView
     const long long raysPerColumn = static_cast<long long>(view.height) * factor * factor;
     const int stripWidth = static_cast<int>(std::clamp<long long>(kStripRays / raysPerColumn, 1, view.width));
     Plane<PackedColor> result(view.width, view.height);
-    EyeImage fine;
     for (int x0 = 0; x0 < view.width; x0 += stripWidth) {
         progress.report(static_cast<double>(x0) / view.width, "casting the truth");
         const int x1 = std::min(view.width, x0 + stripWidth);
-        const EyeView strip = columnsOf(view, x0, x1).supersampled(factor);
-        fine.resize(strip.width, strip.height, renderer.viewDependence());
-        renderEye(renderer, strip, fine);
+        const EyeImage& fine = castStrip(columnsOf(view, x0, x1).supersampled(factor));
         parallelFor(view.height, [&](int y) {
             for (int x = x0; x < x1; ++x)
                 result.at(x, y) = averageBlock(fine.color, (x - x0) * factor, y * factor, factor);
@@ -50,6 +47,27 @@ Plane<PackedColor> renderSupersampled(const EyeRenderer& renderer, const EyeView
     }
     progress.report(1.0, "casting the truth");
     return result;
+}
+
+}  // namespace
+
+Plane<PackedColor> renderSupersampled(const EyeRenderer& renderer, const EyeView& view, int factor,
+                                      Progress& progress) {
+    EyeImage fine;
+    return supersampled(view, factor, progress, [&](const EyeView& strip) -> const EyeImage& {
+        fine.resize(strip.width, strip.height, renderer.viewDependence());
+        renderEye(renderer, strip, fine);
+        return fine;
+    });
+}
+
+Plane<PackedColor> renderSupersampled(FrameMaker& frames, const EyeView& view, double time, int factor,
+                                      Progress& progress) {
+    EyePair fine;
+    return supersampled(view, factor, progress, [&](const EyeView& strip) -> const EyeImage& {
+        frames.makeOne(strip, time, fine);
+        return fine.left;
+    });
 }
 
 }  // namespace stereonav

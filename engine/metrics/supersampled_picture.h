@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/base/progress.h"
+#include "engine/frame/frame_maker.h"
 #include "engine/render/eye_renderer.h"
 
 namespace stereonav {
@@ -9,6 +10,9 @@ namespace stereonav {
 // factor x factor rays in each pixel, 1 to 16. Cast in strips of columns, so that the memory stays
 // that of a strip: about 64 MB at most. progress is reported from 0 to 1. Throws Error, Cancelled.
 Plane<PackedColor> renderSupersampled(const EyeRenderer& renderer, const EyeView& view, int factor,
+                                      Progress& progress);
+// The same of an eye by itself as a FrameMaker makes it.
+Plane<PackedColor> renderSupersampled(FrameMaker& frames, const EyeView& view, double time, int factor,
                                       Progress& progress);
 
 }  // namespace stereonav

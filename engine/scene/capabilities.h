@@ -14,17 +14,15 @@
 #include "engine/camera/stereo_rig.h"
 #include "engine/image/eye_image.h"
 #include "engine/render/eye_renderer.h"
-#include "engine/stereo/right_eye.h"
 #include "engine/stereo/room_seen.h"
 
 namespace stereonav {
 
 class Scene;
 
-// Its rays are cast: both eyes one by one, the right one by any of the methods.
+// Its rays are cast: for what asks single rays or tiles. Frames are made by its FrameMaker.
 struct RayCast {
     const EyeRenderer* renderer = nullptr;  // never null where it is offered
-    std::vector<RightEyeMethod> compared;   // methods that a comparison runs when none are named
 };
 
 // Of a scene that offers RayCast.

@@ -21,6 +21,7 @@ class Fog : public FrameMaker {
 public:
     std::span<const std::string_view> methods() const override { return kSweepMethods; }
     std::string_view defaultMethod() const override { return kSweepMethod; }
+    std::string_view exactMethod() const override { return kTwoSweepsMethod; }
     std::string_view whatMethodsMake() const override { return "both eyes"; }
     void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) override {
         paint(views.left, time, colorOf(way.method), frame.left);

@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <limits>
+
 #include "engine/base/error.h"
+#include "engine/frame/cast_frames.h"
 #include "tests/support/analytic_scene.h"
 
 namespace stereonav {
@@ -14,11 +19,11 @@ test::AnalyticScene ballBeforeWall() {
     return test::AnalyticScene({test::sphere({0, 8, 0}, 1.0), test::plane({0, 20, 0}, {0, -1, 0})}, 0.7);
 }
 
-std::vector<Pose> twoPoses() {
-    return {poseFromAngles({0, 0, 0}, 0, 0, 0), poseFromAngles({0.5, 0, 0.2}, 0.05, 0, 0)};
+std::vector<TimedPose> twoPoses() {
+    return {{poseFromAngles({0, 0, 0}, 0, 0, 0), 0}, {poseFromAngles({0.5, 0, 0.2}, 0.05, 0, 0), 2}};
 }
 
-ComparisonSetting settingOf(std::vector<RightEyeMethod> methods) {
+ComparisonSetting settingOf(std::vector<std::string_view> methods) {
     ComparisonSetting setting;
     setting.methods = std::move(methods);
     setting.repeats = 1;
@@ -31,10 +36,10 @@ const StereoSetting kStereo{0.4, 10.0};
 
 TEST(MethodComparison, FullIsExactAndOpenHolesCost) {
     const auto scene = ballBeforeWall();
+    CastFrames frames(scene);
     Progress progress;
-    const auto figures = compareMethods(
-        scene, twoPoses(), kLens, kStereo,
-        settingOf({RightEyeMethod::Cubic, RightEyeMethod::Full, RightEyeMethod::NoFill}), progress, {});
+    const auto figures = compareMethods(frames, twoPoses(), kLens, kStereo,
+                                        settingOf({"cubic", "full", "nofill"}), progress, {});
     ASSERT_EQ(figures.size(), 3u);
     EXPECT_EQ(figures[0].name, "cubic");
     EXPECT_EQ(figures[1].name, "full");
@@ -57,18 +62,18 @@ TEST(MethodComparison, FullIsExactAndOpenHolesCost) {
 
 TEST(MethodComparison, ShowsEveryFrameWithEveryMethod) {
     const auto scene = ballBeforeWall();
+    CastFrames frames(scene);
     double last = -1;
     Progress progress([&](double share, const std::string&) {
         EXPECT_GE(share, last);
         last = share;
     });
     std::vector<int> indices;
-    compareMethods(scene, twoPoses(), kLens, kStereo,
-                   settingOf({RightEyeMethod::Linear, RightEyeMethod::McMillan}), progress,
+    compareMethods(frames, twoPoses(), kLens, kStereo, settingOf({"linear", "mcmillan"}), progress,
                    [&](const ComparedFrame& frame) {
                        indices.push_back(frame.index);
                        ASSERT_EQ(frame.pictures.size(), 2u);
-                       EXPECT_EQ(frame.pictures[1].method, RightEyeMethod::McMillan);
+                       EXPECT_EQ(frame.pictures[1].method, "mcmillan");
                        for (const MethodPicture& picture : frame.pictures) {
                            EXPECT_EQ(picture.right.width(), 120);
                            EXPECT_EQ(picture.holeMask.height(), 80);
@@ -81,22 +86,22 @@ TEST(MethodComparison, ShowsEveryFrameWithEveryMethod) {
 
 TEST(MethodComparison, TheEdgeFigureDoesNotDependOnTheSelection) {
     const auto scene = ballBeforeWall();
+    CastFrames frames(scene);
     Progress progress;
     const auto alone =
-        compareMethods(scene, twoPoses(), kLens, kStereo, settingOf({RightEyeMethod::NoFill}), progress, {});
-    const auto among = compareMethods(
-        scene, twoPoses(), kLens, kStereo,
-        settingOf({RightEyeMethod::Cubic, RightEyeMethod::NoFill, RightEyeMethod::Paper}), progress, {});
+        compareMethods(frames, twoPoses(), kLens, kStereo, settingOf({"nofill"}), progress, {});
+    const auto among = compareMethods(frames, twoPoses(), kLens, kStereo,
+                                      settingOf({"cubic", "nofill", "paper"}), progress, {});
     EXPECT_EQ(alone[0].difference.edge_psnr_db, among[1].difference.edge_psnr_db);
     EXPECT_EQ(alone[0].difference.psnr_db, among[1].difference.psnr_db);
 }
 
 TEST(MethodComparison, TranslucentScenesCompareTheirOwnMethods) {
     const test::GlassScene scene({test::sphere({0, 8, 0}, 1.0)}, test::plane({0, 20, 0}, {0, -1, 0}), 0.7);
+    CastFrames frames(scene);
     Progress progress;
     const auto figures =
-        compareMethods(scene, twoPoses(), kLens, kStereo,
-                       settingOf({RightEyeMethod::Full, RightEyeMethod::DepthSplat}), progress, {});
+        compareMethods(frames, twoPoses(), kLens, kStereo, settingOf({"full", "depthsplat"}), progress, {});
     ASSERT_EQ(figures.size(), 2u);
     EXPECT_EQ(figures[1].name, "depthsplat");
     EXPECT_GT(figures[1].difference.psnr_db, 60.0);
@@ -106,12 +111,74 @@ TEST(MethodComparison, TranslucentScenesCompareTheirOwnMethods) {
     EXPECT_GT(figures[1].fill_ms, 0.0);
 }
 
+// Two eyes of one colour each, by methods that make both: "each" is what the others are measured against.
+class PaintedPairs final : public FrameMaker {
+public:
+    std::span<const std::string_view> methods() const override { return kNames; }
+    std::string_view defaultMethod() const override { return "together"; }
+    std::string_view exactMethod() const override { return "each"; }
+    std::string_view whatMethodsMake() const override { return "both eyes"; }
+    void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) override {
+        times.push_back(time);
+        const bool wrong = way.method == "wrong left";
+        paint(views.left, wrong ? glm::vec3(0.5f) : glm::vec3(0.2f), frame.left);
+        paint(views.right, glm::vec3(0.7f), frame.right);
+        frame.timings = {};
+        frame.timings.both_ms = way.method == "each" ? 20 : 12;
+        if (way.method == "each") frame.timings.left_ms = 11, frame.timings.right_ms = 9;
+    }
+    void makeOne(const EyeView&, double, EyePair&) override { ADD_FAILURE() << "there is no finer truth"; }
+
+    std::vector<double> times;
+
+private:
+    static void paint(const EyeView& view, const glm::vec3& color, EyeImage& image) {
+        image.resize(view.width, view.height);
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x) {
+                image.color.at(x, y) = packColor(color);
+                image.viewDepth.at(x, y) = 10;
+            }
+    }
+    static constexpr std::array<std::string_view, 3> kNames{"together", "each", "wrong left"};
+};
+
+TEST(MethodComparison, MethodsThatMakeBothEyesAreMeasuredByBoth) {
+    PaintedPairs frames;
+    Progress progress;
+    int shown = 0;
+    const auto figures =
+        compareMethods(frames, twoPoses(), kLens, kStereo, settingOf(frames.compared()), progress,
+                       [&](const ComparedFrame& frame) {
+                           ++shown;
+                           ASSERT_EQ(frame.pictures.size(), 3u);
+                           EXPECT_TRUE(frame.truth.empty());
+                           EXPECT_TRUE(frame.pictures[2].holeMask.empty());
+                           EXPECT_NE(frame.pictures[2].left.color.at(3, 3), frame.left.color.at(3, 3));
+                       });
+    EXPECT_EQ(shown, 2);
+    EXPECT_EQ(frames.times, (std::vector<double>{0, 0, 0, 2, 2, 2})) << "the path's own clock";
+    ASSERT_EQ(figures.size(), 3u);
+    EXPECT_EQ(figures[0].name, "together");
+    EXPECT_EQ(figures[0].left_ms, 11);
+    EXPECT_EQ(figures[0].right_ms, 1) << "what the other eye costs on top of one by itself";
+    EXPECT_EQ(figures[1].right_ms, 9);
+    EXPECT_EQ(figures[2].full_right_ms, 9);
+    EXPECT_EQ(figures[0].difference.psnr_db, kIdenticalPsnr_db);
+    EXPECT_LT(figures[2].difference.psnr_db, 30) << "the left eye counts";
+    for (const MethodFigures& method : figures) {
+        EXPECT_TRUE(std::isnan(method.true_psnr_db));
+        EXPECT_TRUE(std::isnan(method.surface_psnr_db));
+        EXPECT_EQ(method.hole_percent, 0);
+    }
+}
+
 TEST(MethodComparison, NeedsPosesAndMethods) {
     const auto scene = ballBeforeWall();
+    CastFrames frames(scene);
     Progress progress;
-    EXPECT_THROW(compareMethods(scene, {}, kLens, kStereo, settingOf({RightEyeMethod::Full}), progress, {}),
-                 Error);
-    EXPECT_THROW(compareMethods(scene, twoPoses(), kLens, kStereo, settingOf({}), progress, {}), Error);
+    EXPECT_THROW(compareMethods(frames, {}, kLens, kStereo, settingOf({"full"}), progress, {}), Error);
+    EXPECT_THROW(compareMethods(frames, twoPoses(), kLens, kStereo, settingOf({}), progress, {}), Error);
     EXPECT_THROW(medianOf({}), Error);
 }
 

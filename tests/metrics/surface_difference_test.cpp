@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/frame/cast_frames.h"
 #include "engine/image/packed_color.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/metrics/method_comparison.h"
@@ -123,13 +124,14 @@ TEST(SurfaceDifference, OfAWallIsTheStripThatOnlyTheRightEyeSees) {
     const Lens lens{120, 80, 0.8, 1.0, 0.1};
     const StereoSetting stereo{0.4, 10.0};
     ComparisonSetting setting;
-    setting.methods = {RightEyeMethod::Full, RightEyeMethod::Paper, RightEyeMethod::NoFill};
+    setting.methods = {"full", "paper", "nofill"};
     setting.repeats = 1;
     setting.truthFactor = 1;
     const StereoViews views = makeStereoViews(poseFromAngles({0, 0, 0}, 0, 0, 0), lens, stereo);
+    CastFrames frames(wall);
     Progress progress;
-    const auto figures =
-        compareMethods(wall, {poseFromAngles({0, 0, 0}, 0, 0, 0)}, lens, stereo, setting, progress, {});
+    const auto figures = compareMethods(frames, {{poseFromAngles({0, 0, 0}, 0, 0, 0), 0}}, lens, stereo,
+                                        setting, progress, {});
     const double shift = views.shiftAtInfinity - views.parallaxScale / 20;
     ASSERT_GT(shift, 1);
     EXPECT_TRUE(std::isnan(figures[0].holesOfWarped_percent)) << "a full cast warps nothing";
@@ -149,13 +151,15 @@ TEST(SurfaceDifference, HalfASkyDoesNotChangeThePapersCount) {
         low({test::box({-500, 20, -500}, {500, 21, 0})}, 0.7);
     const Lens lens{120, 80, 0.8, 1.0, 0.1};
     ComparisonSetting setting;
-    setting.methods = {RightEyeMethod::Paper};
+    setting.methods = {"paper"};
     setting.repeats = 1;
     setting.truthFactor = 1;
-    const std::vector<Pose> poses{poseFromAngles({0, 0, 0}, 0, 0, 0)};
+    const std::vector<TimedPose> poses{{poseFromAngles({0, 0, 0}, 0, 0, 0), 0}};
+    CastFrames wallFrames(wall), lowFrames(low);
     Progress progress;
-    const MethodFigures whole = compareMethods(wall, poses, lens, {0.4, 10.0}, setting, progress, {})[0],
-                        half = compareMethods(low, poses, lens, {0.4, 10.0}, setting, progress, {})[0];
+    const MethodFigures whole =
+                            compareMethods(wallFrames, poses, lens, {0.4, 10.0}, setting, progress, {})[0],
+                        half = compareMethods(lowFrames, poses, lens, {0.4, 10.0}, setting, progress, {})[0];
     EXPECT_NEAR(half.holesOfWarped_percent, whole.holesOfWarped_percent, 1e-9);
     EXPECT_GT(half.hole_percent, 50);
     EXPECT_LT(whole.hole_percent, 20);

@@ -107,10 +107,10 @@ void reportPapersScaling(ReportRun& run, double seconds) {
     const std::unique_ptr<Scene> loaded = loadScene(options, size, quiet);
     const Scene& scene = *loaded;
     const StereoViews views = scene.viewsAt(scene.startPose);
-    EyeImage left, right;
-    left.resize(views.left.width, views.left.height, rendererOf(scene).viewDependence());
-    renderEye(rendererOf(scene), views.left, left);
-    RightEye eye;
+    FrameMaker& frames = scene.frames();
+    EyePair one;
+    EyeImage right;
+    frames.makeOne(views.left, 0, one);
     const std::string picture = fmt::format("the generated terrain, {}x{}", size.width, size.height);
 
     const GreyVolume block = blockWithHoles();
@@ -125,10 +125,10 @@ void reportPapersScaling(ReportRun& run, double seconds) {
 
     const std::string theirs = "near linear: 14 times on 16 processors";
     const std::vector<Work> works{
-        {"left image of a terrain", picture, [&] { renderEye(rendererOf(scene), views.left, left); },
-         "Wan et al. 2004", theirs},
+        {"left image of a terrain", picture, [&] { frames.makeOne(views.left, 0, one); }, "Wan et al. 2004",
+         theirs},
         {"right image, the default way", picture,
-         [&] { eye.render(rendererOf(scene), views, left, {}, right); }, "Wan et al. 2004",
+         [&] { frames.rightFromLeft()->makeRight(views, one.left, {}, right); }, "Wan et al. 2004",
          "near linear: 13 times on 16 processors"},
         {"irradiance, 16 samples", "a made block with three holes",
          [&] { irradianceRate(lighter, pieces, 16, 1e9); }, "Wyman et al. 2006",

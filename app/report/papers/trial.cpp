@@ -118,16 +118,14 @@ void StereoTrial::time(ReportRun& run, const std::string& what, const std::vecto
 
 StereoCounts StereoTrial::counts(std::size_t way) {
     StereoCounts all;
-    const WarpSetting& setting = mWays[way].setting;
-    WarpSetting fully;
-    fully.method = RightEyeMethod::Full;
+    FrameMaker& frames = mScene.frames();
+    EyePair full;
     for (const StereoViews& views : mViews) {
-        castLeft(views, Schedule::Dynamic);
-        mEye.render(rendererOf(mScene), views, mLeft, fully, mFull);
-        mEye.render(rendererOf(mScene), views, mLeft, setting, mRight);
-        const bool open = leavesHoles(setting.method);
-        const SurfaceDifference d = surfaceDifference(mFull, mRight, mEye.holeMask(), open);
-        const GapPixels gaps = gapPixels(mFull, mEye.holeMask());
+        frames.make(views, 0, {frames.exactMethod(), {}}, full);
+        frames.rightFromLeft()->makeRight(views, full.left, wayOf(mWays[way].setting), mRight);
+        const auto [mask, open] = frames.rightFromLeft()->holes();
+        const SurfaceDifference d = surfaceDifference(full.right, mRight, mask, open);
+        const GapPixels gaps = gapPixels(full.right, mask);
         all.surfacePixels += d.surfacePixels;
         all.holePixels += d.holePixels;
         all.rightEnd += static_cast<double>(gaps.rightEnd);

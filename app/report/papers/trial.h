@@ -67,7 +67,7 @@ private:
     std::vector<StereoViews> mViews;
     std::map<int, std::vector<StereoTimes>> mTimes;
     RightEye mEye;
-    EyeImage mLeft, mRight, mFull;
+    EyeImage mLeft, mRight;
 };
 
 }  // namespace stereonav

@@ -1,0 +1,117 @@
+// What is made of the side that a volume is seen from: of two that are put together by hand, and of scenes.
+#include "app/scene/volume_side.h"
+
+#include <gmock/gmock.h>
+
+#include "app/scene/colon_loading.h"
+#include "app/scene/light_loading.h"
+#include "app/scene/volume_inside.h"
+#include "engine/base/error.h"
+#include "tests/app/volume_input.h"
+
+namespace stereonav {
+namespace {
+
+using VolumeSideOfScenes = test::VolumeTest;
+
+// A block of voxels of 1 mm; a colon's has a line of 20 mm through it.
+ColonScene block(bool colon) {
+    VolumeFrame frame;
+    frame.size = {8, 8, 32};
+    frame.spacing = glm::dvec3(1e-3);
+    ColonScene volume;
+    volume.volume.field = GreyVolume(frame);
+    volume.volume.cells.isovalue = 50;
+    if (!colon) return volume;
+    volume.lumen.lumen = MaskVolume(frame);
+    for (int n = 0; n <= 20; ++n) {
+        CentrelinePoint point;
+        point.position = {4e-3, 4e-3, (4 + n) * 1e-3};
+        point.radius = 3e-3;
+        volume.centreline.points.push_back(point);
+    }
+    return volume;
+}
+
+std::string saidBy(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(VolumeSide, LightFromOutsideNeverGetsIntoAColon) {
+    const ColonScene colon = block(true), surface = block(false);
+    const auto inside = sideOf(colon), outside = sideOf(surface);
+    BakeOptions sky, reaching, lamps;
+    sky.sky = reaching.sky = lamps.sky = glm::vec3(1);
+    reaching.reach_mm = 5;
+    lamps.lights.resize(1);
+    EXPECT_NE(saidBy([&] { inside->checkLight(sky, BakeKind::Irradiance); }), "");
+    EXPECT_NE(saidBy([&] { inside->checkLight({}, BakeKind::Transfer); }), "");
+    EXPECT_EQ(saidBy([&] { inside->checkLight(reaching, BakeKind::Irradiance); }), "");
+    EXPECT_EQ(saidBy([&] { inside->checkLight(lamps, BakeKind::Irradiance); }), "");
+    EXPECT_EQ(saidBy([&] { outside->checkLight(sky, BakeKind::Transfer); }), "");
+    EXPECT_NE(saidBy([&] { inside->checkLazyLight(true, false); }), "");
+    EXPECT_NE(saidBy([&] { inside->checkLazyLight(false, true); }), "");
+    EXPECT_EQ(saidBy([&] { outside->checkLazyLight(true, true); }), "");
+}
+
+TEST(VolumeSide, WhatIsSaidOfOutsideIsRefusedInside) {
+    const ColonScene colon = block(true), surface = block(false);
+    EXPECT_THAT(saidBy([&] { sideOf(colon)->expectOutside("--ambient"); }),
+                testing::StartsWith("--ambient: expected with a volume seen from outside"));
+    EXPECT_EQ(saidBy([&] { sideOf(surface)->expectOutside("--ambient"); }), "");
+    LightSetup setup;
+    EXPECT_THAT(saidBy([&] { sideOf(surface)->addLine(std::nullopt, "--light", setup); }),
+                testing::StartsWith("--light: expected a colon for lights along the centreline"));
+}
+
+TEST(VolumeSide, AColonAloneHasALineAndARegion) {
+    const ColonScene colon = block(true), surface = block(false);
+    const auto inside = sideOf(colon), outside = sideOf(surface);
+    ASSERT_TRUE(inside->interior());
+    EXPECT_FALSE(outside->interior());
+    EXPECT_EQ(inside->region(), &colon.lumen.lumen);
+    EXPECT_EQ(outside->region(), nullptr);
+    const PlaceOnLine place = inside->interior()->placeOnLine({5e-3, 4e-3, 9e-3});
+    EXPECT_NEAR(place.along, 5e-3, 1e-9);
+    EXPECT_NEAR(place.length, 20e-3, 1e-9);
+    EXPECT_FALSE(inside->movableIsovalue());
+    EXPECT_EQ(outside->movableIsovalue(), 50);
+    std::vector<std::string> notes;
+    EXPECT_NEAR(inside->usualReach(notes), 3e-3, 1e-9);
+    EXPECT_EQ(notes.size(), 1u);
+    EXPECT_EQ(outside->usualReach(notes), 0);
+    EXPECT_EQ(notes.size(), 1u);
+    LightSetup setup;
+    outside->addUsualLight("--light", setup, notes);
+    EXPECT_EQ(setup.sky, glm::vec3(1));
+    EXPECT_TRUE(setup.lights.empty());
+}
+
+TEST_F(VolumeSideOfScenes, IsWhatTheyOffer) {
+    SceneOptions options;
+    options.scene = maskedTube();
+    options.volume.cache = false;
+    Progress progress;
+    const auto colon = loadColonScene(options, SimdTarget::Auto, progress);
+    ASSERT_TRUE(colon->offered<const ColonInterior>());
+    EXPECT_GT(colon->offered<const ColonInterior>()->centreline().length(), 0.02);
+    EXPECT_GE(colon->offered<const ColonInterior>()->segments(), 1u);
+    ASSERT_TRUE(colon->offered<LineThrough>());
+    EXPECT_GT(colon->offered<LineThrough>()->placeOnLine(colon->startPose.position).length, 0.02);
+    EXPECT_TRUE(colon->offered<SliceSource>()->lumen());
+    options.scene = ball();
+    options.volume.isosurface = true;
+    const auto surface = loadColonScene(options, SimdTarget::Auto, progress);
+    EXPECT_FALSE(surface->offered<const ColonInterior>());
+    EXPECT_FALSE(surface->offered<LineThrough>());
+    EXPECT_FALSE(surface->offered<SliceSource>()->lumen());
+    EXPECT_TRUE(surface->offered<RoomAround>());
+}
+
+}  // namespace
+}  // namespace stereonav
