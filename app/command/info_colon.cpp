@@ -3,31 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "app/command/scene_facts.h"
 #include "colon/flight/colon_flight.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/pages.h"
+#include "engine/volume/value_range.h"
 
 namespace stereonav {
 namespace {
 
 constexpr double kMm = 1000, kMl = 1e6;  // of a metre, of a cubic metre
-
-struct GreyRange {
-    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-};
-
-GreyRange wholeRange(const GreyVolume& grey) {
-    GreyRange range;
-    for (std::size_t n = 0; n < grey.frame.count() && !grey.empty(); ++n) {
-        range.lowest = std::min<double>(range.lowest, grey.values[n]);
-        range.highest = std::max<double>(range.highest, grey.values[n]);
-    }
-    return {range.lowest * grey.scale + grey.offset, range.highest * grey.scale + grey.offset};
-}
 
 // Pages in use: volumes are written where there is something.
 std::vector<Held> heldBy(const ColonScene& colon) {
@@ -127,8 +114,9 @@ Facts factsOfVolume(const Scene& scene) {
     const ColonScene& colon = *scene.offered<const ColonScene>();
     const VolumeFrame& study = colon.studyFrame;
     const VolumeFrame& frame = colon.volume.field.frame;
-    const GreyRange range = wholeRange(colon.volume.field);
-    const bool inside = colon.isColon(), opaque = colon.volume.look.transfer.empty();
+    const bool inside = colon.isColon();
+    const ValueSpan range = inside ? colon.valuesFound : wholeRangeOf(colon.volume.field);
+    const bool opaque = colon.volume.look.transfer.empty();
     Facts facts;
     const auto both = [&](const char* key, FactValue value, const char* label, std::string text = "",
                           const char* unit = "") {
@@ -159,9 +147,9 @@ Facts factsOfVolume(const Scene& scene) {
     json("range", FactNumbers{range.lowest, range.highest});
     const double isovalue = isovalueOf(colon);
     json("isovalue", isovalue);
-    // Those of a colon are around its lumen alone, without fluid; a mask's are smoothed.
+    // Those of a colon are of its box, without fluid; a mask's are smoothed.
     text("values", fmt::format("{:.6g} .. {:.6g}{}, surface at {:.6g}", range.lowest, range.highest,
-                               inside ? " of what is kept" : "", isovalue));
+                               inside ? " in the lumen's box" : "", isovalue));
     both("translucent", !opaque, "wall", opaque ? "opaque" : "translucent");
     // Only a colon's lumen is told of.
     const auto ofColon = [&](const char* key, FactValue value, const char* label, std::string words,

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the file's form, or what is found in the same study, changes.
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 constexpr int kBrick = 8;
 
 struct Header {
@@ -189,6 +189,7 @@ std::vector<char> packed(const FoundColon& found) {
     out.put(lumen.isovalue);
     out.text(found.format);
     out.put(found.studyFrame);
+    out.put(found.values);
     out.texts(found.notes);
     out.texts(lumen.notes);
     out.list(lumen.segments);
@@ -224,6 +225,7 @@ FoundColon unpacked(std::span<const char> bytes) {
     lumen.isovalue = in.get<double>();
     found.format = in.text();
     found.studyFrame = in.get<VolumeFrame>();
+    found.values = in.get<ValueSpan>();
     found.notes = in.texts();
     lumen.notes = in.texts();
     lumen.segments = in.list<LumenSegment>();

@@ -16,6 +16,7 @@ struct FoundColon {
     std::string format;
     VolumeFrame studyFrame;  // of the whole study; the lumen's is a part of it
     LumenField lumen;
+    ValueSpan values;  // of the lumen's field as it was found, HU
     Centreline centreline;
     std::vector<Polyp> polyps;
     std::vector<std::string> notes;

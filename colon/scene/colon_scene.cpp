@@ -78,6 +78,7 @@ FoundColon findColon(const Study& study, const ColonOptions& options, Progress& 
     found.notes = study.notes;
     found.lumen = study.isMask ? lumenFromMask(study.mask, options.segmentation, progress)
                                : lumenOfGrey(study, options, found.notes, progress);
+    found.values = wholeRangeOf(found.lumen.field);
     const DistanceVolume distance = distanceToOutside(found.lumen.lumen);
     found.centreline = findCentreline(found.lumen, distance, options.centreline, progress);
     return found;
@@ -165,6 +166,7 @@ ColonScene sceneOf(FoundColon found, const ColonOptions& options, Progress& prog
     scene.studyFrame = found.studyFrame;
     scene.notes = std::move(found.notes);
     scene.lumen = std::move(found.lumen);
+    scene.valuesFound = found.values;
     scene.notes.insert(scene.notes.end(), scene.lumen.notes.begin(), scene.lumen.notes.end());
     scene.volume.field = std::move(scene.lumen.field);
     scene.centreline = std::move(found.centreline);
@@ -229,6 +231,7 @@ ColonScene sharing(const ColonScene& scene) {
     same.format = scene.format;
     same.studyFrame = scene.studyFrame;
     same.notes = scene.notes;
+    same.valuesFound = scene.valuesFound;
     same.volume = {scene.volume.field.share(), scene.volume.cells.share(), scene.volume.look};
     same.lumen = sharing(scene.lumen);
     static_cast<Volume<std::uint16_t>&>(same.distance) = scene.distance.share();

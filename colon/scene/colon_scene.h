@@ -15,6 +15,7 @@
 #include "engine/camera/recorded_path.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/volume/distance_transform.h"
+#include "engine/volume/value_range.h"
 #include "engine/volume/volume_scene.h"
 #include "engine/volume/volume_up.h"
 
@@ -41,6 +42,9 @@ struct ColonScene {
         studyFrame;  // of the study as it was read; the volume's may be a part of it, or have a border
     std::vector<std::string> notes;
     VolumeScene volume;
+    // Of a colon: the smallest and the largest value of its box in the study, tagged fluid made air, when it
+    // was found, HU. The cache keeps no values far from the lumen, but these two.
+    ValueSpan valuesFound;
     // Of a colon; empty for a volume seen from outside.
     LumenField lumen;         // its `field` is moved into volume.field
     DistanceVolume distance;  // to the lumen's outside

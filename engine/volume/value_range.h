@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
 #include "engine/volume/volume.h"
 
@@ -13,5 +14,10 @@ struct ValueSpan {
 
 // Of every voxel, or of some spread evenly where there are more than so many; 0 to 0 of none.
 ValueSpan rangeOf(const GreyVolume& grey, std::size_t mostSamples = 4'000'000);
+
+// Of every voxel.
+inline ValueSpan wholeRangeOf(const GreyVolume& grey) {
+    return rangeOf(grey, std::numeric_limits<std::size_t>::max());
+}
 
 }  // namespace stereonav

@@ -149,6 +149,33 @@ TEST_F(VolumeCommands, TheLumenOfACtIsKeptInTheCache) {
         << "something was written beside the study";
 }
 
+// A colon that bends has a box with places far from its lumen, whose values the cache does not keep: what is
+// said of the study is the same fresh, with the lumen alone kept, and with all of it from the cache.
+TEST_F(VolumeCommands, FactsAreTheSameFromTheCache) {
+    const SmallStudy large{96, 96, 24, 1, "short", ""};
+    const std::string study = nrrd("ct.nrrd", large, [](int i, int j, int k) {
+        const bool along = std::hypot(j - 12, k - 12) < 6 && i > 5 && i < 90;
+        const bool down = std::hypot(i - 84, k - 12) < 6 && j > 11 && j < 90;
+        if (along || down) return -1000;
+        const bool far = j - i > 30;  // of the box, in the corner between both
+        return far && (i + j + k) % 2 ? 1500 : far ? -90 : 40;
+    });
+    const auto facts = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{study};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        Json volume = info(arguments).at("volume");
+        for (const char* key : {"bytes", "held", "notes"}) volume.erase(key);  // what the run itself did
+        return volume;
+    };
+    const Json fresh = facts({"--no-cache"});
+    ASSERT_EQ(fresh.at("kind"), "colon");
+    EXPECT_EQ(fresh.at("range"), Json({-1000.0, 1500.0}));
+    EXPECT_EQ(facts({}), fresh);
+    EXPECT_EQ(facts({}), fresh) << "from the cache";
+    EXPECT_NE(runWell({"info", study, "--size", "48x36"}).out.find("-1000 .. 1500 in the lumen's box"),
+              std::string::npos);
+}
+
 // Every command on a study in a folder that nobody may write to leaves it as it is, cache or no cache.
 TEST_F(VolumeCommands, NothingIsWrittenBesideAnyStudy) {
     fs::create_directory(mFolder / "studies");

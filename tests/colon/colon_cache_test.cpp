@@ -46,6 +46,7 @@ FoundColon tube() {
     found.studyFrame = frame;
     found.studyFrame.size = {140, 137, 150};
     found.notes = {"one", ""};
+    found.values = {-1024, 1266};
     found.lumen.isovalue = -450;
     found.lumen.field = GreyVolume(frame);
     found.lumen.lumen = MaskVolume(frame);
@@ -73,6 +74,8 @@ TEST_F(ColonCacheTest, GivesBackWhatWasKept) {
     EXPECT_EQ(kept->format, found.format);
     EXPECT_EQ(kept->studyFrame.size, found.studyFrame.size);
     EXPECT_EQ(kept->studyFrame.spacing, found.studyFrame.spacing);
+    EXPECT_EQ(kept->values.lowest, -1024);
+    EXPECT_EQ(kept->values.highest, 1266);
     EXPECT_EQ(kept->lumen.segments.size(), 2u);
     EXPECT_EQ(kept->centreline.points[1].segment, 2);
     EXPECT_EQ(kept->polyps.at(0).shape, PolypShape::Flat);
