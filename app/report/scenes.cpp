@@ -38,13 +38,21 @@ std::string planesText(const FramePlan& plan) {
     return planes + ", hole mask";
 }
 
+// Of whatever it is made of.
+Facts ownFacts(const Scene& scene) {
+    Facts all;
+    for (Fact& group : describe(scene))
+        if (auto* const facts = std::get_if<Facts>(&group.value))
+            all.insert(all.end(), std::make_move_iterator(facts->begin()),
+                       std::make_move_iterator(facts->end()));
+    return all;
+}
+
 ReportTable sceneTable(ReportRun& run, const ReportScene& scene) {
     run.tell("frame plan, " + scene.title);
     const FramePlan plan = planScene(scene.loaded()).value();
     ReportTable table{scene.title, "", {"", "what was read and what a frame holds"}, {}};
-    const Facts facts =
-        terrainOf(scene.loaded()) ? factsOfTerrain(scene.loaded()) : factsOfVolume(scene.loaded());
-    for (auto& [label, text] : rowsOf(facts)) table.rows.push_back({label, text});
+    for (auto& [label, text] : rowsOf(ownFacts(scene.loaded()))) table.rows.push_back({label, text});
     table.rows.push_back({"loading", fmt::format("{:.0f} ms", scene.load_ms)});
     table.rows.push_back({"planes", planesText(plan)});
     table.rows.push_back({"frame", fmt::format("{:.1f} MB at {}x{}", static_cast<double>(plan.bytes) / 1e6,

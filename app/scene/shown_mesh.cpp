@@ -27,7 +27,7 @@ void ShownMesh::Sun::turnTo(const SunPlace& place) {
 
 ShownMesh::ShownMesh(MeshCaster caster, const SunPlace& sun, SimdTarget target)
     : mRenderer(std::move(caster)),
-      mRays{&mRenderer, methodsFor(mRenderer)},
+      mRays{&mRenderer},
       mFrames(mRenderer),
       mSun(mRenderer) {
     simd = availableTarget(target);

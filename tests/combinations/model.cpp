@@ -216,7 +216,7 @@ void addMedia(std::vector<Rule>& all) {
          {{is(Factor::Scene, kTerrains), isGiven(Factor::Medium), is(Factor::Fineness, {"each"})}}});
     all.push_back({"hundreds of slices are for tests of their own",
                    "",
-                   {{isGiven(Factor::Medium), isLeftOut(Factor::Fineness)}}});
+                   {{isNot(Factor::Scene, kMeshes), isGiven(Factor::Medium), isLeftOut(Factor::Fineness)}}});
     all.push_back({"hundreds of slices are for tests of their own",
                    "",
                    {{is(Factor::Scene, kBuiltInMedia), isLeftOut(Factor::Fineness)}}});
