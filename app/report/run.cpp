@@ -7,6 +7,7 @@
 
 #include "app/report/faults.h"
 #include "app/scene/scene_type.h"
+#include "app/scene/shown_as.h"
 #include "app/scene/volume_inside.h"
 #include "engine/base/parallel.h"
 #include "engine/frame/cast_frames.h"
@@ -97,9 +98,7 @@ std::string ReportRun::settingOf(int width, int height) const {
 }
 
 bool isStudy(const std::string& name) {
-    SceneOptions options;
-    options.scene = name;
-    return (sceneTypeNamed(name).optionsFor(options) & scene_type::kStudies) != 0;
+    return (sceneTypeNamed(name).optionsFor(name) & scene_type::kStudies) != 0;
 }
 
 void loadReportScenes(ReportRun& run, bool surfaces, bool media) {
@@ -112,7 +111,7 @@ void loadReportScenes(ReportRun& run, bool surfaces, bool media) {
     for (const std::string& name : names) {
         options.scene = name;
         options.volume.up = isStudy(name) ? run.options().up : std::nullopt;
-        const bool medium = *sceneTypeOf(options) == scene_type::kBuiltInMedium;
+        const bool medium = shownAs(options).swept;
         if (medium && media) loadOne(run, name, name, options);
         if (!medium && surfaces) loadWithGlass(run, idOf(name, run.scenes()), options);
     }
