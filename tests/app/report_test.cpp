@@ -6,7 +6,7 @@
 #include <set>
 #include <thread>
 
-#include "tests/app/program.h"
+#include "tests/app/volume_input.h"
 #include "tests/support/xml_check.h"
 
 namespace stereonav::test {
@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-class Report : public ProgramTest {
+class Report : public VolumeTest {
 protected:
     Outcome report(std::vector<std::string> more) const {
         std::vector<std::string> arguments{"report", "--quick", "--minutes", "0.01"};
@@ -114,6 +114,25 @@ TEST_F(Report, MeasuresANamedMediumInStereoAndABuiltInSceneOnce) {
     }
     EXPECT_FALSE(ids.contains("scene/terrain 2/loading"));
     EXPECT_FALSE(ids.contains("pair/wax 2/sweep/time"));
+}
+
+// A scene file is what its first lines name, as its options say.
+TEST_F(Report, FollowsTheSceneThatAFileNames) {
+    ball();
+    const std::string study =
+        input("study.toml", "scene = \"ball.nrrd\"\n[options]\nisosurface = true\nisovalue = 700\n");
+    const std::string medium = input("medium.toml", "scene = \"wax\"\n[options]\nslices = 40\n");
+    const Outcome outcome =
+        report({"--parts", "volume-light,left-out", "--scene", study, "--scene", medium, "--up", "-z"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    std::set<std::string> ids;
+    const Json json = Json::parse(contentOf(place() / "report/report.json"));
+    for (const Json& figure : json.at("figures")) ids.insert(figure.at("id").get<std::string>());
+    for (const char* id : {"scene/study.toml/loading", "pair/medium.toml/sweep/time"})
+        EXPECT_TRUE(ids.contains(id)) << id;
+    const std::string page = contentOf(place() / "report/index.html");
+    for (const char* words : {"a surface, from outside", "surface at 700", "what points to -z is up"})
+        EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
 // Errors do not depend on the machine: more paths, more texels and the program's lookup are nearer to the
