@@ -63,10 +63,6 @@ struct MediumOptions {
 
     // The ground of a terrain in its own colours.
     bool ground() const { return medium == "ground"; }
-    bool any() const {
-        return model || lightFrom || lamp || lightColor || mist || slices || lightSize || cone_deg ||
-               shadingWidth || !(medium + phase + noise).empty();
-    }
 };
 
 // Which warped pixels of the right eye are cast as well.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "app/scene/medium_options.h"
 #include "engine/base/error.h"
 
 namespace stereonav {

@@ -156,4 +156,12 @@ void finishOptions(ParsedOptions& parsed) {
     refuseWhatDoesNotApply(*parsed.to.scene);
 }
 
+SceneOptions sceneOptionsOf(const std::string& scene) {
+    ParsedOptions parsed;
+    chooseCommand(command::kCompare, parsed);
+    parsed.compare.scene.scene = scene;
+    finishOptions(parsed);
+    return std::move(parsed.compare.scene);
+}
+
 }  // namespace stereonav

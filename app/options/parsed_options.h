@@ -42,4 +42,8 @@ void takeSetOption(const std::string& text, ParsedOptions& parsed);
 // apply. Throws Error.
 void finishOptions(ParsedOptions& parsed);
 
+// How `compare` shows a scene of which the name alone is given: as its file says, if it is a scene file,
+// which may name another scene. Throws Error.
+SceneOptions sceneOptionsOf(const std::string& scene);
+
 }  // namespace stereonav

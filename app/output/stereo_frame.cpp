@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "app/command/quality.h"
-#include "app/scene/medium_options.h"
 #include "engine/image/enlarge.h"
 
 namespace stereonav {
@@ -17,13 +16,6 @@ void addRows(Hash& hash, const Plane<T>& plane) {
 }
 
 }  // namespace
-
-void checkMethod(const SceneOptions& options, const std::string& method, const char* option) {
-    if (showsMedium(options))
-        sweepMethodFromText(method, option);
-    else
-        methodFromText(method, option);
-}
 
 StereoFrame::StereoFrame(const Scene& scene, const std::string& method)
     : mScene(scene), mMethod(method), mLens(scene.lens), mEyes(scene) {

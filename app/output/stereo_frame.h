@@ -9,10 +9,6 @@
 
 namespace stereonav {
 
-// Throws Error, naming the option that it is of, unless `method` names a way of making two eyes of what the
-// options show. "auto" is one.
-void checkMethod(const SceneOptions& options, const std::string& method, const char* option = "--method");
-
 class StereoFrame {
 public:
     // method: one of the scene's FrameMaker, or "auto" for its default.

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/options/parsed_options.h"
 #include "app/report/faults.h"
 #include "app/scene/scene_type.h"
+#include "app/scene/shown_as.h"
 #include "app/scene/volume_inside.h"
 #include "engine/base/parallel.h"
 #include "engine/frame/cast_frames.h"
@@ -97,9 +99,8 @@ std::string ReportRun::settingOf(int width, int height) const {
 }
 
 bool isStudy(const std::string& name) {
-    SceneOptions options;
-    options.scene = name;
-    return (sceneTypeNamed(name).optionsFor(options) & scene_type::kStudies) != 0;
+    const std::string scene = sceneOptionsOf(name).scene;
+    return (sceneTypeNamed(scene).optionsFor(scene) & scene_type::kStudies) != 0;
 }
 
 void loadReportScenes(ReportRun& run, bool surfaces, bool media) {
@@ -107,14 +108,14 @@ void loadReportScenes(ReportRun& run, bool surfaces, bool media) {
     if (!run.quick()) names.emplace_back("cloud");
     for (const std::string& name : run.options().scenes)
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    SceneOptions options;
-    options.threads = run.options().threads;
     for (const std::string& name : names) {
-        options.scene = name;
-        options.volume.up = isStudy(name) ? run.options().up : std::nullopt;
-        const bool medium = *sceneTypeOf(options) == scene_type::kBuiltInMedium;
-        if (medium && media) loadOne(run, name, name, options);
-        if (!medium && surfaces) loadWithGlass(run, idOf(name, run.scenes()), options);
+        SceneOptions options = sceneOptionsOf(name);
+        options.threads = run.options().threads;  // the same for all
+        if (run.options().up && isStudy(name)) options.volume.up = run.options().up;
+        const bool medium = shownAs(options).swept;
+        const std::string id = idOf(name, medium ? run.media() : run.scenes());
+        if (medium && media) loadOne(run, id, id, options);
+        if (!medium && surfaces) loadWithGlass(run, id, options);
     }
 }
 

@@ -64,7 +64,7 @@ void putField(std::shared_ptr<const GreyVolume> field, Perturbation noise, Mediu
 const SceneType& builtInMediumType() {
     static const SceneType type{.noun = "medium",
                                 .builtIn = {"cloud", "wax"},
-                                .optionsFor = [](const SceneOptions&) { return scene_type::kBuiltInMedium; },
+                                .optionsFor = [](const std::string&) { return scene_type::kBuiltInMedium; },
                                 .makeMedium = makeBuiltIn};
     return type;
 }

@@ -19,10 +19,6 @@ constexpr double kHeadLampCone = 2.2;  // radians: wider than what is seen
 
 }  // namespace
 
-bool showsMedium(const SceneOptions& options) {
-    return options.scene == "cloud" || options.scene == "wax" || !options.medium.medium.empty();
-}
-
 void checkMediumOptions(const SceneOptions& options) {
     const MediumOptions& m = options.medium;
     if (!m.phase.empty()) findPhaseFunction(m.phase, "--phase");

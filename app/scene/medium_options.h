@@ -10,9 +10,6 @@
 
 namespace stereonav {
 
-// Whether the options ask for a sweep through a medium instead of rays.
-bool showsMedium(const SceneOptions& options);
-
 // All that can be checked without the scene: files and names. Throws Error.
 void checkMediumOptions(const SceneOptions& options);
 

@@ -30,7 +30,7 @@ std::unique_ptr<Scene> loadMesh(const SceneOptions& options, SimdTarget simd, Pr
 const SceneType& meshType() {
     static const SceneType type{.noun = "mesh",
                                 .owns = isMesh,
-                                .optionsFor = [](const SceneOptions&) { return scene_type::kMeshFile; },
+                                .optionsFor = [](const std::string&) { return scene_type::kMeshFile; },
                                 .load = loadMesh};
     return type;
 }

@@ -9,17 +9,12 @@
 #include <numbers>
 #include <utility>
 
-#include "app/scene/medium_loading.h"
-#include "app/scene/medium_options.h"
 #include "app/scene/scene_type.h"
-#include "app/scene/volume_light.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/memory.h"
 #include "engine/base/parallel.h"
 #include "engine/math/constants.h"
-#include "engine/medium/sweep/swept_frames.h"
-#include "engine/scene/capabilities.h"
 
 namespace stereonav {
 namespace {
@@ -35,17 +30,24 @@ void checkSource(const NamedPlace& input) {
     }
 }
 
+std::string_view methodAmong(std::span<const std::string_view> methods, const std::string& name,
+                             const char* option, const std::string& ofWhat) {
+    const auto known = std::ranges::find(methods, name);
+    if (known != methods.end()) return *known;
+    throw Error(option, "", "there is no method \"" + name + "\"" + ofWhat,
+                fmt::format("the methods are {}", fmt::join(methods, ", ")));
+}
+
 }  // namespace
 
 void checkSize(const SizeOption& size, const SceneOptions& options, const PixelBytes& each) {
     constexpr int kLargest = 32768;
-    constexpr double kSweepLight = 24e6;  // bytes, of the size that is used where none is given
     const std::string got = fmt::format("{}x{}", size.width, size.height);
     if (size.width < 1 || size.height < 1 || size.width > kLargest || size.height > kLargest)
         throw Error("--size", "", "expected 1 to 32768 pixels a side, got " + got, "try 1280x720");
-    const bool swept = showsMedium(options);
-    const double picture = (swept ? each.swept : each.cast) * size.width * size.height;
-    const double beside = each.beside + (swept && picture > 0 ? kSweepLight : 0);
+    const ShownAs& shown = shownAs(options);
+    const double picture = each.*shown.bytesAPixel * size.width * size.height;
+    const double beside = each.beside + (picture > 0 ? shown.lightBytes : 0);
     const double bytes = picture + beside, there = availableMemoryFor(bytes);
     const double share = std::sqrt(std::clamp((there - beside) / picture, 0.0, 1.0));
     if (bytes > there)
@@ -77,17 +79,15 @@ std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
 void checkSceneOptions(const SceneOptions& options) {
     for (const NamedPlace& input : inputsOf(options)) checkSource(input);
     if (options.threads > 0) setThreadCount(options.threads);
-    checkMediumOptions(options);
+    shownAs(options).check(options);
 }
 
 std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress,
                                  const PixelBytes& each) {
     checkSize(size, options, each);
     checkSceneOptions(options);
-    const SimdTarget simd = options.simd;
     const SceneType& type = sceneTypeNamed(options.scene);
-    std::unique_ptr<Scene> scene = showsMedium(options) ? loadMediumScene(type, options, simd, progress)
-                                                        : type.load(options, simd, progress);
+    std::unique_ptr<Scene> scene = shownAs(options).load(type, options, options.simd, progress);
     scene->name = options.scene.empty() ? "terrain" : options.scene;
     scene->lens.width = size.width;
     scene->lens.height = size.height;
@@ -104,26 +104,16 @@ const RecordedPath& flightOf(const Scene& scene, const std::optional<RecordedPat
     return scene.path;
 }
 
-std::optional<RightEyeMethod> methodFromText(const std::string& name, const char* option) {
-    if (name == "auto") return std::nullopt;
-    if (const auto method = rightEyeMethodFromName(name)) return *method;
-    std::string known;
-    for (const NamedMethod& method : kRightEyeMethods)
-        known += std::string(known.empty() ? "" : ", ") + std::string(method.name);
-    throw Error(option, "", "there is no method \"" + name + "\"", "the methods are " + known);
-}
-
-std::string_view sweepMethodFromText(const std::string& name, const char* option) {
-    if (name == "auto") return kSweepMethod;
-    const auto known = std::find(kSweepMethods.begin(), kSweepMethods.end(), name);
-    if (known != kSweepMethods.end()) return *known;
-    throw Error(option, "", "there is no method \"" + name + "\" of making two eyes of a medium",
-                fmt::format("the methods are {}", fmt::join(kSweepMethods, ", ")));
+void checkMethod(const SceneOptions& options, const std::string& method, const char* option) {
+    const ShownAs& shown = shownAs(options);
+    if (method != "auto") methodAmong(shown.methods, method, option, shown.ofMethods);
 }
 
 std::string_view methodNamed(const std::string& name, const Scene& scene) {
-    if (name == "auto") return scene.frames().defaultMethod();
-    return scene.offered<RayCast>() ? nameOf(*methodFromText(name)) : sweepMethodFromText(name);
+    const FrameMaker& frames = scene.frames();
+    if (name == "auto") return frames.defaultMethod();
+    return methodAmong(frames.methods(), name, "--method",
+                       fmt::format(" of making the scene's {}", frames.whatMethodsMake()));
 }
 
 void adjustViews(const SceneOptions& options, Scene& scene) {

@@ -25,7 +25,8 @@ struct SceneType {
     std::vector<std::string_view> builtIn = {};  // names that are no files
     // Whether a file or folder, which is there, is its own; asked in the order of sceneTypes().
     bool (*owns)(const std::string& file) = nullptr;  // null: none is
-    SceneSet (*optionsFor)(const SceneOptions& options) = nullptr;
+    // By which options of it are told, however it is shown: cast and as a medium, where it can be both.
+    SceneSet (*optionsFor)(const std::string& scene) = nullptr;
     // Files that a file of this type names. Null: none.
     std::vector<NamedPlace> (*filesOf)(const SceneOptions& options) = nullptr;
     // Whose rays are cast. Null: it is shown as a medium only. Throws Error, Cancelled.

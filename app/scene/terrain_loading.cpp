@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/scene/medium_options.h"
+#include "app/scene/shown_as.h"
 #include "app/scene/shown_terrain.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
@@ -40,14 +40,14 @@ SceneFile describeTerrain(const SceneOptions& options) {
     if (options.separation_m) scene.separation = options.separation_m;
     if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;
     if (options.fov_deg > 0.0) scene.verticalFov = options.fov_deg * kRadians;
-    scene.colorsAlone = showsMedium(options);
+    scene.colorsAlone = shownAs(options).swept;
     refuseWithoutEffect(options, scene);
     return scene;
 }
 
 // What can only be told once the colours are there.
 void refuseSunWithoutEffect(const SceneOptions& options, const TerrainScene& terrain) {
-    if (!options.sun || showsMedium(options) || terrain.illumination || terrain.landmarks) return;
+    if (!options.sun || shownAs(options).swept || terrain.illumination || terrain.landmarks) return;
     if (terrain.report.colorHoldsSun || terrain.look.specular > 0) return;
     throw Error("--sun", "", "turns nothing: the ground's picture holds the light of its own day",
                 "add --shade-image, or leave it out; in pictures also --light auto, once bake has baked this "

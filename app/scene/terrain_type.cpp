@@ -14,10 +14,6 @@ bool isAnyFile(const std::string& file) {
     return !std::filesystem::is_directory(file, code);
 }
 
-SceneSet terrainOptions(const SceneOptions& options) {
-    return options.medium.medium.empty() ? scene_type::kTerrain : scene_type::kTerrainMedium;
-}
-
 std::vector<NamedPlace> filesOfScene(const SceneOptions& options) {
     return options.scene.ends_with(".toml") ? filesOfTerrain(options.scene) : std::vector<NamedPlace>{};
 }
@@ -28,7 +24,7 @@ const SceneType& terrainType() {
     static const SceneType type{.noun = "terrain",
                                 .builtIn = {"", "terrain"},
                                 .owns = isAnyFile,
-                                .optionsFor = terrainOptions,
+                                .optionsFor = [](const std::string&) { return scene_type::kTerrains; },
                                 .filesOf = filesOfScene,
                                 .load = loadTerrainScene,
                                 .makeMedium = makeFromTerrain,

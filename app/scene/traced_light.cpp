@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "app/scene/light_loading.h"
-#include "app/scene/medium_options.h"
 #include "app/scene/volume_light.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
@@ -44,8 +43,7 @@ std::string tracedErrorText(double error) {
 }  // namespace
 
 std::string methodUnderLight(const SceneOptions& options, const std::string& method) {
-    if (!options.light.traced() || showsMedium(options)) return method;  // media are refused later
-    return "full";
+    return options.light.traced() ? "full" : method;
 }
 
 TracedLight::TracedLight(const SceneOptions& options, const ColonScene& scene)

@@ -14,10 +14,8 @@ bool isStudyFile(const std::string& file) {
     return looksLikeStudy(file);
 }
 
-SceneSet volumeOptions(const SceneOptions& options) {
-    const bool medium = !options.medium.medium.empty();
-    if (options.scene == kBuiltIn) return medium ? scene_type::kColonMedium : scene_type::kColon;
-    return medium ? scene_type::kStudyMedium : scene_type::kStudy;
+SceneSet volumeOptions(const std::string& scene) {
+    return scene == kBuiltIn ? scene_type::kColon | scene_type::kColonMedium : scene_type::kStudies;
 }
 
 }  // namespace

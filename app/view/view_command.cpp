@@ -10,7 +10,7 @@
 #include "app/command/commands.h"
 #include "app/output/output_place.h"
 #include "app/output/stereo_frame.h"
-#include "app/scene/medium_options.h"
+#include "app/scene/shown_as.h"
 #include "app/view/input.h"
 #include "app/view/loading.h"
 #include "app/view/screenshots.h"
@@ -63,7 +63,7 @@ public:
           mFlight(options.path.empty() ? std::nullopt : std::optional(readPath(options.path))),
           mWindow(titleOf(options), composedSize(mMode, options.size.width, options.size.height).first,
                   composedSize(mMode, options.size.width, options.size.height).second),
-          mSweep(showsMedium(options.scene) ? std::make_unique<ViewSweep>(options.sweep) : nullptr),
+          mSweep(shownAs(options.scene).swept ? std::make_unique<ViewSweep>(options.sweep) : nullptr),
           mOverlay(mWindow),
           mScreenshots(options.shots),
           mWorker([options, sweep = mSweep.get()](
@@ -334,7 +334,7 @@ int runView(const ViewOptions& options) {
     checkMethod(options.scene, options.method);
     if (!options.shots.empty()) checkOutputFolder("--shots", options.shots);
     ViewOptions shown = options;
-    shown.scene.skyTurns = !showsMedium(options.scene);  // a medium's keys turn its own light
+    shown.scene.skyTurns = !shownAs(options.scene).swept;  // a medium's keys turn its own light
     Viewer(shown).run();
     return 0;
 }

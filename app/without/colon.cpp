@@ -30,10 +30,7 @@ const SceneType& volumeType() {
         .noun = "volume",
         .builtIn = {"colon"},
         .owns = [](const std::string& file) { return looksLikeStudy(file); },
-        .optionsFor =
-            [](const SceneOptions& options) {
-                return options.medium.medium.empty() ? scene_type::kColon : scene_type::kColonMedium;
-            },
+        .optionsFor = [](const std::string&) { return scene_type::kColon | scene_type::kColonMedium; },
         .load = [](const SceneOptions&, SimdTarget, Progress&) -> std::unique_ptr<Scene> { without(); },
         .makeMedium = [](const SceneOptions&, SimdTarget, Progress&, ShownMedium&) { without(); },
         .bake = [](const BakeOptions&) -> int { without(); },

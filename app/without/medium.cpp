@@ -32,16 +32,12 @@ void makeFromVolume(const SceneOptions&, SimdTarget, Progress&, ShownMedium&) {
 const SceneType& builtInMediumType() {
     static const SceneType type{.noun = "medium",
                                 .builtIn = {"cloud", "wax"},
-                                .optionsFor = [](const SceneOptions&) { return scene_type::kBuiltInMedium; }};
+                                .optionsFor = [](const std::string&) { return scene_type::kBuiltInMedium; }};
     return type;
 }
 
-bool showsMedium(const SceneOptions& options) {
-    return options.scene == "cloud" || options.scene == "wax" || options.medium.any();
-}
-
-void checkMediumOptions(const SceneOptions& options) {
-    if (showsMedium(options)) without();
+void checkMediumOptions(const SceneOptions&) {
+    without();
 }
 
 ViewSweep::ViewSweep(SweepChoice choice) : mChoice(choice) {

@@ -19,10 +19,7 @@ const SceneType& terrainType() {
         .noun = "terrain",
         .builtIn = {"", "terrain"},
         .owns = [](const std::string& file) { return !std::filesystem::is_directory(file); },
-        .optionsFor =
-            [](const SceneOptions& options) {
-                return options.medium.medium.empty() ? scene_type::kTerrain : scene_type::kTerrainMedium;
-            },
+        .optionsFor = [](const std::string&) { return scene_type::kTerrains; },
         .load = [](const SceneOptions&, SimdTarget, Progress&) -> std::unique_ptr<Scene> { without(); },
         .makeMedium = [](const SceneOptions&, SimdTarget, Progress&, ShownMedium&) { without(); },
         .bake = [](const BakeOptions&) -> int { without(); },

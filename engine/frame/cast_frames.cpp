@@ -23,7 +23,7 @@ RightEyeMethod methodNamed(std::string_view name) {
 
 }  // namespace
 
-std::span<const std::string_view> CastFrames::methods() const {
+std::span<const std::string_view> CastFrames::allMethods() {
     return kNames;
 }
 

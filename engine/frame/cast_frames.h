@@ -14,7 +14,9 @@ public:
     explicit CastFrames(const EyeRenderer& renderer, std::optional<RightEyeMethod> uncompared = {})
         : mRenderer(renderer), mUncompared(uncompared) {}
 
-    std::span<const std::string_view> methods() const override;
+    // Whatever is cast.
+    static std::span<const std::string_view> allMethods();
+    std::span<const std::string_view> methods() const override { return allMethods(); }
     std::string_view defaultMethod() const override;
     std::string_view exactMethod() const override { return nameOf(RightEyeMethod::Full); }
     std::vector<std::string_view> compared() const override;

@@ -6,7 +6,7 @@
 #include <set>
 #include <thread>
 
-#include "tests/app/program.h"
+#include "tests/app/volume_input.h"
 #include "tests/support/xml_check.h"
 
 namespace stereonav::test {
@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-class Report : public ProgramTest {
+class Report : public VolumeTest {
 protected:
     Outcome report(std::vector<std::string> more) const {
         std::vector<std::string> arguments{"report", "--quick", "--minutes", "0.01"};
@@ -116,6 +116,25 @@ TEST_F(Report, MeasuresANamedMediumInStereoAndABuiltInSceneOnce) {
     EXPECT_FALSE(ids.contains("pair/wax 2/sweep/time"));
 }
 
+// A scene file is what its first lines name, as its options say.
+TEST_F(Report, FollowsTheSceneThatAFileNames) {
+    ball();
+    const std::string study =
+        input("study.toml", "scene = \"ball.nrrd\"\n[options]\nisosurface = true\nisovalue = 700\n");
+    const std::string medium = input("medium.toml", "scene = \"wax\"\n[options]\nslices = 40\n");
+    const Outcome outcome =
+        report({"--parts", "volume-light,left-out", "--scene", study, "--scene", medium, "--up", "-z"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    std::set<std::string> ids;
+    const Json json = Json::parse(contentOf(place() / "report/report.json"));
+    for (const Json& figure : json.at("figures")) ids.insert(figure.at("id").get<std::string>());
+    for (const char* id : {"scene/study.toml/loading", "pair/medium.toml/sweep/time"})
+        EXPECT_TRUE(ids.contains(id)) << id;
+    const std::string page = contentOf(place() / "report/index.html");
+    for (const char* words : {"a surface, from outside", "surface at 700", "what points to -z is up"})
+        EXPECT_NE(page.find(words), std::string::npos) << words;
+}
+
 // Errors do not depend on the machine: more paths, more texels and the program's lookup are nearer to the
 // truth.
 TEST_F(Report, HoldsBakedLightAgainstPathsFromEveryPixel) {
@@ -188,6 +207,17 @@ TEST_F(Report, LeavesNothingWhenItIsStopped) {
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.err.find("stopped"), std::string::npos) << outcome.err;
     EXPECT_TRUE(left().empty()) << *left().begin();
+}
+
+// Neither a terrain nor a volume: what only these have is left out.
+TEST_F(Report, OfAMeshHasAllThatItCanHave) {
+    const std::string mesh = (mFolder / "hills.glb").string();
+    ASSERT_EQ(run({"mesh", hills(), "--out", mesh}).status, 0);
+    const Outcome outcome = report({"--parts", "left-out,casting,plan", "--scene", mesh, "--out", "page"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const std::string page = contentOf(place() / "page/index.html");
+    for (const char* words : {"hills.glb", "triangles", "Warp or cast"})
+        EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
 }  // namespace

@@ -98,6 +98,42 @@ TEST(CastFrames, UnknownMethodsAreRefused) {
     EXPECT_THROW(frames.meet({0.5}, "sweep", views), Error);
 }
 
+TEST(CastFrames, ARightEyeByItselfIsThatOfTheFrame) {
+    const test::AnalyticScene scene = boxes();
+    CastFrames frames(scene);
+    RightFromLeft* const byItself = frames.rightFromLeft();
+    ASSERT_TRUE(byItself);
+    EyePair exact, whole;
+    EyeImage right;
+    frames.make(framedViews(), 0, {frames.exactMethod(), {}}, exact);
+    EXPECT_FALSE(byItself->holes().open);
+    for (const std::string_view name : frames.methods()) {
+        SCOPED_TRACE(name);
+        const RightEyeTimings timings = byItself->makeRight(framedViews(), exact.left, {name, {}}, right);
+        const bool open = leavesHoles(*rightEyeMethodFromName(name));
+        EXPECT_EQ(byItself->holes().open, open);
+        long long holes = 0;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) holes += byItself->holes().mask.at(x, y) != 0;
+        EXPECT_EQ(timings.holePixels, open ? 0 : holes) << "those that were cast";
+        EXPECT_GT(holes, 0) << "something is in view";
+        frames.make(framedViews(), 0, {name, {}}, whole);
+        EXPECT_TRUE(same(whole.left.color, exact.left.color));
+        EXPECT_TRUE(same(whole.right.color, right.color));
+        EXPECT_TRUE(same(whole.right.viewDepth, right.viewDepth));
+    }
+    EXPECT_THROW(byItself->makeRight(framedViews(), exact.left, {"sweep", {}}, right), Error);
+}
+
+TEST(CastFrames, AComparisonMayLeaveOneOut) {
+    const test::AnalyticScene scene = boxes();
+    std::vector<std::string_view> all = CastFrames(scene).compared();
+    EXPECT_EQ(all.size(), methodsFor(scene).size());
+    EXPECT_EQ(all.front(), CastFrames(scene).exactMethod());
+    std::erase(all, "cubic");
+    EXPECT_EQ(CastFrames(scene, RightEyeMethod::Cubic).compared(), all);
+}
+
 TEST(CastFrames, WishesForQualityAreMet) {
     const test::AnalyticScene scene = boxes();
     CastFrames frames(scene);

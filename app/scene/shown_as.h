@@ -1,0 +1,48 @@
+// The two ways in which a scene can be shown: rays are cast into it, or light is swept through it as a
+// medium. The options choose one before anything is read; what then depends on it is asked here.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "app/command/commands.h"
+#include "engine/base/progress.h"
+#include "engine/scene/scene.h"
+#include "engine/simd/simd_target.h"
+
+namespace stereonav {
+
+struct SceneType;  // app/scene/scene_type.h
+
+// Bytes that a command holds for each pixel of one eye beside the scene, measured at 1500x1500 and rounded
+// up: both eyes and the composed picture while it is encoded (as WebP, which takes most) or refined; a video
+// encoder's frames, FFV1's apart, and its libraries; every method with its truths and the SSIM's intermediate
+// pictures; eyes that are measured and not composed.
+struct PixelBytes {
+    double cast = 0, swept = 0;  // of scenes whose rays are cast; of media
+    double beside = 0;           // bytes, of pictures of any size
+};
+constexpr PixelBytes kRenderBytes{88, 176}, kVideoBytes{80, 176, 24e6}, kLosslessVideoBytes{400, 480, 24e6},
+    kCompareBytes{320, 608}, kInfoBytes{48, 128}, kNoPicture{};
+
+struct ShownAs {
+    // Light of its own goes through it: no other light of the scene has any effect.
+    bool swept = false;
+    double PixelBytes::*bytesAPixel = nullptr;
+    double lightBytes = 0;  // beside any picture, of the size of light that is used where none is given
+    // Of its FrameMaker, and how messages call them: "the methods of making ...".
+    std::span<const std::string_view> methods;
+    const char* ofMethods = "";
+    // What can be checked before it is read, of a medium. Throws Error.
+    void (*check)(const SceneOptions& options) = nullptr;
+    // Throws Error, Cancelled.
+    std::unique_ptr<Scene> (*load)(const SceneType& type, const SceneOptions& options, SimdTarget simd,
+                                   Progress& progress) = nullptr;
+};
+
+// As a medium where the options name one, or a scene that is nothing else.
+const ShownAs& shownAs(const SceneOptions& options);
+
+}  // namespace stereonav
