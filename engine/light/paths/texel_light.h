@@ -51,6 +51,9 @@ public:
                  const TexelSampling& sampling);
     ~TexelLighter();
 
+    // What it will take at most beside what it holds, but for what each thread takes for its paths.
+    std::size_t bytesToCome() const;
+
     // Adds samples [sums[n].samples, sums[n].samples + count) to each texel; the result depends on the texel,
     // the seed and the sample numbers alone: neither on threads nor on how samples are split over calls
     // (but for rounding: equal bytes need equal splits).
