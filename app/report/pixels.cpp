@@ -144,7 +144,8 @@ private:
         std::vector<double> light;
         for (int y = 0; y < mView.height; ++y)
             for (int x = 0; x < mView.width; ++x)
-                if (mImage.viewDepth.at(x, y) < kMissDepth) light.push_back(luminanceOf(lightAt(x, y)));
+                if (mImage.viewDepth.at(x, y) < kMissDepth)
+                    light.push_back(luminance(glm::dvec3(lightAt(x, y))));
         return light;
     }
     std::vector<double> traced(std::uint32_t stream, int samples, double& ms) const {
