@@ -5,8 +5,6 @@
 #include "app/scene/medium_of.h"
 #include "app/scene/medium_options.h"
 #include "app/scene/seen_volume_light.h"
-#include "colon/built_in/built_in_colon.h"
-#include "colon/study/study.h"
 #include "engine/medium/model/noise_file.h"
 
 namespace stereonav {
@@ -17,15 +15,6 @@ constexpr double kLampCone = 2.2;  // radians: wider than what is seen
 constexpr float kVolumeRadiance = 0.85f, kLampRadiance = 0.7f;
 // A colon's wall shows grain far away with 250 slices, none in the pictures looked at with 400.
 constexpr int kColonSlices = 500;
-
-// A colon's field has neither fluid nor what is far from the wall: the study is read again. Null for a mask,
-// which has no grey values.
-std::shared_ptr<const GreyVolume> studyOf(const SceneOptions& options, Progress& progress) {
-    const ColonOptions colon = colonOptionsOf(options);
-    if (colon.study.empty()) return std::make_shared<GreyVolume>(builtInColon(colon.builtIn, progress).grey);
-    Study study = readStudy(colon.study, colon.reading, progress);
-    return study.isMask ? nullptr : std::make_shared<GreyVolume>(std::move(study.grey));
-}
 
 void lightAtHead(const ColonScene& colon, MediumScene& shown) {
     MediumLight& light = shown.look.light;
@@ -59,7 +48,7 @@ void offerLight(const VolumeLighting& light, ShownMedium& scene) {
 }  // namespace
 
 void makeFromVolume(const SceneOptions& options, SimdTarget simd, Progress& progress, ShownMedium& scene) {
-    LitVolume lit = litVolumeOf(options, progress);
+    LitVolume lit = litVolumeOf(options, progress, true);
     VolumeWorld& world = scene.hold(std::move(lit.world));
     world.setViews(options, scene);
     offerWorld(world, simd, scene);
@@ -67,9 +56,10 @@ void makeFromVolume(const SceneOptions& options, SimdTarget simd, Progress& prog
     const ColonScene& colon = world.colon();
     MediumScene& shown = scene.medium();
     std::shared_ptr<const GreyVolume> field;
-    if (colon.isColon()) field = studyOf(options, progress);
-    // what the scene holds already, which lives as long
-    if (!field) field = std::shared_ptr<const GreyVolume>(std::shared_ptr<void>(), &colon.volume.field);
+    if (!colon.study.empty())
+        field = std::make_shared<GreyVolume>(std::move(world.colon().study));
+    else  // what the scene holds already, which lives as long
+        field = std::shared_ptr<const GreyVolume>(std::shared_ptr<void>(), &colon.volume.field);
     const glm::dvec3 size = glm::dvec3(field->frame.size) * field->frame.spacing;
     shown.transfer = options.medium.medium;
     Perturbation noise;
