@@ -1,6 +1,7 @@
 // A study as a medium: a colon's from inside, lit by a lamp at the head, or any volume from outside.
 #include <algorithm>
 
+#include "app/command/scene_facts.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/medium_of.h"
 #include "app/scene/medium_options.h"
@@ -27,6 +28,7 @@ void lightAtHead(const ColonScene& colon, MediumScene& shown) {
 
 void offerWorld(VolumeWorld& world, SimdTarget simd, ShownMedium& scene) {
     scene.alsoOffer<const ColonScene>(world.colon());
+    scene.alsoDescribe([&scene] { return factForJson("volume", factsOfVolume(scene)); });
     scene.alsoOffer<RoomAround>(world);
     scene.alsoOffer<SliceSource>(world);
     if (world.colon().isColon()) scene.alsoOffer<LineThrough>(world);
