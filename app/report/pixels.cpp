@@ -1,5 +1,6 @@
 // The report's part on pictures under baked light: against paths traced from every pixel, by samples,
-// resolution and kind of bake, and by how texels are looked up (Wyman et al. 2006, fig. 6; Y5, Y11).
+// resolution and kind of bake, and by how texels are looked up (Wyman et al. 2006, fig. 6; Y5, Y11 of
+// docs/ledger.md).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Light at single texels: each takes the isosurface through itself (Wyman et al. 2006, section 4.1, Y1),
-// which is met exactly (Y2) from starts lifted along the smoothed normal (Y3).
+// Light at single texels: each takes the isosurface through itself (Wyman et al. 2006, section 4.1, Y1 of
+// docs/ledger.md), which is met exactly (Y2) from starts lifted along the smoothed normal (Y3).
 #pragma once
 
 #include <cstdint>
