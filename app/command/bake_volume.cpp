@@ -32,15 +32,15 @@ BakeGoal goalOf(const BakeOptions& options) {
 }
 
 // What the file holds of this bake, or nothing done yet. A file that can not be used is named.
-BakeSums begin(const std::filesystem::path& file, std::uint64_t key, VolumeBakePlan& plan, bool tell,
-               ProgressBar& bar) {
+BakeSums begin(const std::filesystem::path& file, std::uint64_t key, VolumeBakePlan& plan,
+               const TexelLighter& lighter, bool tell, ProgressBar& bar) {
     std::string problem;
     if (auto kept = readBakeFile(file, key, problem)) return std::move(kept->sums);
     if (!problem.empty() && tell) {
         bar.clear();
         std::fprintf(stderr, "stereonav: %s: %s; it is baked anew\n", file.c_str(), problem.c_str());
     }
-    return BakeSums(plan.inputs.texels, std::move(plan.bricks), plan.inputs.shape);
+    return BakeSums(plan.inputs.texels, std::move(plan.bricks), plan.inputs.shape, lighter.bytesToCome());
 }
 
 std::string errorText(double error) {
@@ -104,11 +104,11 @@ int bakeVolume(const BakeOptions& options) {
     const BakeIdentity identity{bakeKey(plan.inputs), plan.inputs.content};
     const std::filesystem::path file =
         options.out.empty() ? bakeCacheFile(identity.key) : std::filesystem::path(options.out);
-    BakeSums sums = begin(file, identity.key, plan, peers.first(), bar);
-    peers.checkSameStart(sums);
-    const double before = samplesIn(sums);
     const TexelLighter lighter(scene.volume.field, plan.inputs.texels, plan.inputs.light,
                                plan.inputs.sampling);
+    BakeSums sums = begin(file, identity.key, plan, lighter, peers.first(), bar);
+    peers.checkSameStart(sums);
+    const double before = samplesIn(sums);
     BakeKeeping keeping;
     keeping.keep = [&](const BakeSums& now) { writeBakeFile(file, identity, now); };
     const Stopwatch watch;

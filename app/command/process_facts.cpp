@@ -1,5 +1,6 @@
 #include "app/command/process_facts.h"
 
+#include <fmt/format.h>
 #include <malloc.h>
 
 #include <chrono>
@@ -72,6 +73,25 @@ void takeAtEnd(ProcessFacts& facts) {
     facts.peakBytes = peakBytes();
     facts.libraries = loadedLibraries();
     facts.modules = modulesAmong(facts.libraries);
+}
+
+Facts factsOf(const ProcessFacts& process) {
+    const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+    const auto megabytes = [](std::size_t bytes) { return static_cast<double>(bytes) / 1e6; };
+    return {factForJson("before_main_ms", process.beforeMain_ms, "ms"),
+            factForJson("ready_ms", process.ready_ms, "ms"),
+            factForText("start-up",
+                        fmt::format("{:.1f} ms of processor time before main, scene ready after {:.0f} ms",
+                                    process.beforeMain_ms, process.ready_ms)),
+            factForAll("threads_running", std::int64_t{process.threads}, "threads",
+                       fmt::format("{} running", process.threads)),
+            factForJson("heap_bytes", count(process.heapBytes), "bytes"),
+            factForJson("peak_bytes", count(process.peakBytes), "bytes"),
+            factForText("libraries", fmt::format("{} loaded", process.libraries.size())),
+            factForAll("modules", process.modules, "modules", process.modules.empty() ? "none" : ""),
+            factForJson("libraries", process.libraries),
+            factForText("memory", fmt::format("{:.1f} MB of heap with the scene, {:.1f} MB in all at most",
+                                              megabytes(process.heapBytes), megabytes(process.peakBytes)))};
 }
 
 }  // namespace stereonav

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/scene/facts.h"
+
 namespace stereonav {
 
 // Called first in main: the clock of the start runs from there.
@@ -21,5 +23,7 @@ struct ProcessFacts {
 };
 void takeWhenReady(ProcessFacts& facts);  // ready_ms, heapBytes
 void takeAtEnd(ProcessFacts& facts);      // the rest
+
+Facts factsOf(const ProcessFacts& process);
 
 }  // namespace stereonav

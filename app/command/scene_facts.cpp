@@ -2,21 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "colon/scene/colon_scene.h"
-#include "engine/medium/sweep/medium_scene.h"
-#include "engine/mesh/mesh_renderer.h"
-#include "terrain/scene/terrain_scene.h"
-
 namespace stereonav {
-
-Facts describe(const Scene& scene) {
-    Facts facts;
-    if (scene.offered<const TerrainScene>()) facts.push_back(factForJson("terrain", factsOfTerrain(scene)));
-    if (scene.offered<const ColonScene>()) facts.push_back(factForJson("volume", factsOfVolume(scene)));
-    if (scene.offered<const MeshRenderer>()) facts.push_back(factForAll("mesh", factsOfMesh(scene), "mesh"));
-    if (scene.offered<MediumScene>()) facts.push_back(factForAll("medium", factsOfMedium(scene), "medium"));
-    return facts;
-}
 
 std::string addHeld(Facts& facts, const std::vector<Held>& held) {
     std::size_t sum = 0;

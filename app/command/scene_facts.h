@@ -1,4 +1,4 @@
-// What `info` and the report say of a scene, as facts.
+// What scenes are made of, as facts: what Scene::describe() is put together from.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,6 @@
 #include "engine/scene/scene.h"
 
 namespace stereonav {
-
-// All that the scene offers: a group each, "terrain", "volume", "mesh" and "medium".
-Facts describe(const Scene& scene);
 
 Facts factsOfMesh(const Scene& scene);     // of one that offers const MeshRenderer
 Facts factsOfTerrain(const Scene& scene);  // of one that offers const TerrainScene

@@ -1,6 +1,10 @@
 // Options: how exact the right eye is.
-#include <algorithm>
-#include <array>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/options/option_table.h"
 #include "app/options/usual_words.h"
@@ -20,17 +24,25 @@ OptionRule notOfMedia() {
             "choose --slices and --light-size instead"};
 }
 
+// "linear, cubic or selective"
+std::string dialledMethods() {
+    std::vector<std::string_view> names;
+    for (const NamedMethod& named : kRightEyeMethods)
+        if (hasQualityDial(named.method)) names.push_back(named.name);
+    const std::string_view last = names.back();
+    names.pop_back();
+    return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
 std::vector<OptionRule> qualityRules() {
-    return {{[](const Asked& asked) { return asked.is("light", "traced") && asked.shows(kSurfaces); },
-             "does not go with --light traced", "leave it out: nothing is warped"},
-            {[](const Asked& asked) {
-                 constexpr std::array kRefined{"linear", "cubic", "selective"};
-                 const std::string method = asked.given.text("method");
-                 return rightEyeMethodFromName(method) &&
-                        std::find(kRefined.begin(), kRefined.end(), method) == kRefined.end();
-             },
-             "does not go with the method {method}",
-             "choose linear, cubic or selective, or leave the method out"}};
+    return {
+        {[](const Asked& asked) { return asked.is("light", "traced") && asked.shows(kSurfaces); },
+         "does not go with --light traced", "leave it out: nothing is warped"},
+        {[](const Asked& asked) {
+             const auto method = rightEyeMethodFromName(asked.given.text("method"));
+             return method && !hasQualityDial(*method);
+         },
+         "does not go with the method {method}", "choose " + dialledMethods() + ", or leave the method out"}};
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ Baked bakeIrradiance(const LightSubject& subject, const TexelLighter& lighter, i
 
 std::vector<double> lightOf(const LightSubject& subject, const Baked& baked) {
     std::vector<double> light;
-    for (const TexelSum& sum : baked.sums) light.push_back(luminanceOf(sum.mean));
+    for (const TexelSum& sum : baked.sums) light.push_back(luminance(glm::dvec3(sum.mean)));
     return subject.onlyLit(light);
 }
 
@@ -150,7 +150,7 @@ std::vector<double> dotted(const LightSubject& subject, const MeasuredTransfer& 
     for (std::size_t n = 0; n < subject.texels.size(); ++n) {
         double sum = 0;
         for (std::size_t k = 0; k < sky.size(); ++k)
-            sum += static_cast<double>(t.means[n * sky.size() + k]) * luminanceOf(sky[k]);
+            sum += static_cast<double>(t.means[n * sky.size() + k]) * luminance(glm::dvec3(sky[k]));
         light.push_back(std::max(sum, 0.0));
     }
     return subject.onlyLit(light);

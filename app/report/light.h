@@ -9,17 +9,13 @@
 #include "app/report/subjects.h"
 #include "engine/light/paths/texel_light.h"
 #include "engine/light/transfer/bake_texels.h"
+#include "engine/math/luminance.h"
 
 namespace stereonav {
 
 constexpr int kReportBounces = 2, kDefaultOrder = 5,
               kDefaultSamples = 256;  // what bake does where nothing is said
 constexpr int kFirstSeed = 100;       // of the runs that are measured; the truth has those before
-
-inline double luminanceOf(const glm::vec3& c) {
-    return 0.2126 * static_cast<double>(c.x) + 0.7152 * static_cast<double>(c.y) +
-           0.0722 * static_cast<double>(c.z);
-}
 
 // A clear sky, and the bounces of a bake.
 LightSetup clearSkyLight();

@@ -1,5 +1,6 @@
 // The report's part on pictures under baked light: against paths traced from every pixel, by samples,
-// resolution and kind of bake, and by how texels are looked up (Wyman et al. 2006, fig. 6; Y5, Y11).
+// resolution and kind of bake, and by how texels are looked up (Wyman et al. 2006, fig. 6; Y5, Y11 of
+// docs/ledger.md).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -144,7 +145,8 @@ private:
         std::vector<double> light;
         for (int y = 0; y < mView.height; ++y)
             for (int x = 0; x < mView.width; ++x)
-                if (mImage.viewDepth.at(x, y) < kMissDepth) light.push_back(luminanceOf(lightAt(x, y)));
+                if (mImage.viewDepth.at(x, y) < kMissDepth)
+                    light.push_back(luminance(glm::dvec3(lightAt(x, y))));
         return light;
     }
     std::vector<double> traced(std::uint32_t stream, int samples, double& ms) const {

@@ -61,7 +61,7 @@ WayPoint relightPoint(ReportRun& run, const LightSubject& subject, const std::ve
     transferOf(subject, subject.bricks, means, order).relightAll(sky, to);
     std::vector<double> light;
     for (const glm::ivec3& t : subject.texels)
-        light.push_back(luminanceOf(texelLight(to.texels[to.layout.index(t.x, t.y, t.z)])));
+        light.push_back(luminance(glm::dvec3(texelLight(to.texels[to.layout.index(t.x, t.y, t.z)]))));
     light = subject.onlyLit(light);
     WayPoint p;
     p.way = {fmt::format("order {}", order), spreadOf(ms), 100 * relativeRms(light, subject.truth),

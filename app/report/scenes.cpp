@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "app/command/scene_facts.h"
+#include "app/command/frame_facts.h"
 #include "app/report/run.h"
 #include "app/report/stability.h"
 #include "engine/base/file.h"
@@ -30,29 +30,11 @@ int librariesInMemory() {
     return count;
 }
 
-std::string planesText(const FramePlan& plan) {
-    std::string planes = "colour, depth";
-    if (plan.dependence == ViewDependence::Highlight) planes += ", base colour";
-    if (plan.viewDependent) planes += ", normal";
-    if (plan.dependence == ViewDependence::Depths) planes += ", depth spread";
-    return planes + ", hole mask";
-}
-
-// Of whatever it is made of.
-Facts ownFacts(const Scene& scene) {
-    Facts all;
-    for (Fact& group : describe(scene))
-        if (auto* const facts = std::get_if<Facts>(&group.value))
-            all.insert(all.end(), std::make_move_iterator(facts->begin()),
-                       std::make_move_iterator(facts->end()));
-    return all;
-}
-
 ReportTable sceneTable(ReportRun& run, const ReportScene& scene) {
     run.tell("frame plan, " + scene.title);
     const FramePlan plan = planScene(scene.loaded()).value();
     ReportTable table{scene.title, "", {"", "what was read and what a frame holds"}, {}};
-    for (auto& [label, text] : rowsOf(ownFacts(scene.loaded()))) table.rows.push_back({label, text});
+    for (auto& [label, text] : rowsOf(scene.loaded().describe())) table.rows.push_back({label, text});
     table.rows.push_back({"loading", fmt::format("{:.0f} ms", scene.load_ms)});
     table.rows.push_back({"planes", planesText(plan)});
     table.rows.push_back({"frame", fmt::format("{:.1f} MB at {}x{}", static_cast<double>(plan.bytes) / 1e6,

@@ -86,7 +86,7 @@ private:
             const PathLight path = tracePathLight(
                 rays, mGround.worldFromGrid(mPlaces[k]), mLight,
                 [&](const glm::dvec3& d) { return scale * gradient(d); }, setting);
-            mTruth[k] = luminanceOf(glm::vec3(path.mean));
+            mTruth[k] = luminance(glm::dvec3(path.mean));
             variances[k] = path.variance;
         });
         for (std::size_t n = 0; n < mPlaces.size(); ++n) {
@@ -101,7 +101,7 @@ private:
         double sum = 0;
         for (int c = 0; c < 4; ++c)
             sum += (c & 1 ? x.next : 1 - x.next) * (c & 2 ? y.next : 1 - y.next) *
-                   luminanceOf(brightness.at(x.index + (c & 1), y.index + (c >> 1)));
+                   luminance(glm::dvec3(brightness.at(x.index + (c & 1), y.index + (c >> 1))));
         return sum;
     }
 

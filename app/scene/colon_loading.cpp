@@ -41,9 +41,11 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
     return colon;
 }
 
-LitVolume litVolumeOf(const SceneOptions& options, Progress& progress) {
+LitVolume litVolumeOf(const SceneOptions& options, Progress& progress, bool keepsStudy) {
     LitVolume made;
-    made.world = std::make_unique<VolumeWorld>(loadColon(colonOptionsOf(options), progress), options);
+    ColonOptions reading = colonOptionsOf(options);
+    reading.keepsStudy = keepsStudy;
+    made.world = std::make_unique<VolumeWorld>(loadColon(reading, progress), options);
     ColonScene& colon = made.world->colon();
     VolumeLighting& light = made.light;
     checkShading(options.volume, made.world->side());

@@ -10,8 +10,9 @@ namespace stereonav {
 // Throws Error for what does not fit together.
 ColonOptions colonOptionsOf(const SceneOptions& options);
 
-// Reads or makes the study that the options name, with its light. Throws Error, Cancelled.
-LitVolume litVolumeOf(const SceneOptions& options, Progress& progress);
+// Reads or makes the study that the options name, with its light. keepsStudy: as in ColonOptions. Throws
+// Error, Cancelled.
+LitVolume litVolumeOf(const SceneOptions& options, Progress& progress, bool keepsStudy = false);
 // The same as a scene whose rays are cast.
 std::unique_ptr<Scene> loadColonScene(const SceneOptions& options, SimdTarget simd, Progress& progress);
 

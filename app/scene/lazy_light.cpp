@@ -10,16 +10,9 @@
 #include "app/scene/volume_light.h"
 #include "app/scene/volume_side.h"
 #include "engine/light/transfer/seen_bricks.h"
+#include "engine/math/luminance.h"
 
 namespace stereonav {
-namespace {
-
-double luminance(const glm::vec3& c) {
-    return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
-}  // namespace
-
 LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& progress)
     : mField(scene.volume.field.share()), mRegion(scene.lumen.lumen.share()) {
     BakeOptions bake;
@@ -42,10 +35,10 @@ LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& p
     setting.shape = plan.inputs.shape;
     mBake = std::make_unique<LazyBake>(mField, mChoice, sourceOf(*mLighter), *mLight, setting);
     double mean = 1;  // of the sky
-    if (const auto& probe = plan.inputs.light.probe) mean = luminance(probe->mean());
+    if (const auto& probe = plan.inputs.light.probe) mean = luminance(glm::dvec3(probe->mean()));
     if (transfer) {
         mStraight = skyHarmonics(options, setting.shape.order);
-        mean = luminance(mStraight[0]) / std::sqrt(4 * std::numbers::pi);
+        mean = luminance(glm::dvec3(mStraight[0])) / std::sqrt(4 * std::numbers::pi);
         mTurn = skyTurnOf(options);
         mBake->setLight(turnedSky(mStraight, mTurn));
     }

@@ -1,4 +1,5 @@
 // Terrain as a medium: its ground as a layer, in its own colours or under a transfer function.
+#include "app/command/scene_facts.h"
 #include "app/scene/medium_of.h"
 #include "app/scene/medium_options.h"
 #include "app/scene/medium_terrain.h"
@@ -20,6 +21,7 @@ void makeFromTerrain(const SceneOptions& options, SimdTarget, Progress& progress
     const TerrainScene& terrain = scene.hold(std::make_unique<TerrainScene>(terrainOf(options, progress)));
     setViews(terrain, scene);
     scene.alsoOffer<const TerrainScene>(terrain);
+    scene.alsoDescribe([&scene] { return factForJson("terrain", factsOfTerrain(scene)); });
     scene.flyAs([&terrain] { return flightOver(terrain); });
     MediumScene& shown = scene.medium();
     shown.transfer = options.medium.medium;

@@ -1,6 +1,7 @@
 // A study as a medium: a colon's from inside, lit by a lamp at the head, or any volume from outside.
 #include <algorithm>
 
+#include "app/command/scene_facts.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/medium_of.h"
 #include "app/scene/medium_options.h"
@@ -27,6 +28,7 @@ void lightAtHead(const ColonScene& colon, MediumScene& shown) {
 
 void offerWorld(VolumeWorld& world, SimdTarget simd, ShownMedium& scene) {
     world.offerAll([&scene](auto& capability) { scene.alsoOffer(capability); });
+    scene.alsoDescribe([&scene] { return factForJson("volume", factsOfVolume(scene)); });
     scene.flyAs([&world] { return world.makeFlight(); });
     scene.checkBy([&world](const RecordedPath& path, const std::string& file) { world.check(path, file); });
     if (!world.eyesFollow()) return;
@@ -45,14 +47,18 @@ void offerLight(const VolumeLighting& light, ShownMedium& scene) {
 }  // namespace
 
 void makeFromVolume(const SceneOptions& options, SimdTarget simd, Progress& progress, ShownMedium& scene) {
-    LitVolume lit = litVolumeOf(options, progress);
+    LitVolume lit = litVolumeOf(options, progress, true);
     VolumeWorld& world = scene.hold(std::move(lit.world));
     world.setViews(options, scene);
     offerWorld(world, simd, scene);
     offerLight(lit.light, scene);
     const ColonScene& colon = world.colon();
     MediumScene& shown = scene.medium();
-    const std::shared_ptr<const GreyVolume> field = world.wholeField(progress);
+    std::shared_ptr<const GreyVolume> field;
+    if (!colon.study.empty())
+        field = std::make_shared<GreyVolume>(std::move(world.colon().study));
+    else  // what the scene holds already, which lives as long
+        field = std::shared_ptr<const GreyVolume>(std::shared_ptr<void>(), &colon.volume.field);
     const glm::dvec3 size = glm::dvec3(field->frame.size) * field->frame.spacing;
     shown.transfer = options.medium.medium;
     Perturbation noise;

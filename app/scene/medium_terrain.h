@@ -1,4 +1,4 @@
-// Terrain as a height volume (Kniss et al. 2003, section 3.4; row K7), and mist over it.
+// Terrain as a height volume (Kniss et al. 2003, section 3.4; row K7 of docs/ledger.md), and mist over it.
 #pragma once
 
 #include "app/command/commands.h"

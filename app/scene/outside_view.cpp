@@ -14,7 +14,7 @@ namespace {
 constexpr double kFov = 40 * kRadians;
 constexpr double kOrbitSeconds = 15;
 constexpr int kOrbitSamples = 180;
-constexpr double kFraming = 0.85;  // of the distance at which a ball around the bounds fills the picture
+constexpr double kFraming = 0.85;      // of the distance at which a ball around the bounds fills the picture
 constexpr double kExtentSeconds = 10;  // at normal speed
 
 // Around the middle, looking at it from a little above; at turn 0 northwards.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/command/scene_facts.h"
 #include "app/scene/outside_view.h"
 
 namespace stereonav {
@@ -75,6 +76,13 @@ void ShownMedium::begin(SimdTarget target) {
     } else if (mOtherLight) {
         offer(*mOtherLight);
     }
+}
+
+Facts ShownMedium::describe() const {
+    Facts facts;
+    if (mDescribe) facts.push_back(mDescribe());
+    facts.push_back(factForAll("medium", factsOfMedium(*this), "medium"));
+    return facts;
 }
 
 std::string ShownMedium::whyLightStays() const {

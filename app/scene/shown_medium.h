@@ -39,6 +39,7 @@ public:
     }
     void flyAs(MakeFlight make) { mMakeFlight = std::move(make); }
     void flyFreely();  // without ground or walls: one may enter; from startPose as it is when a flight begins
+    void alsoDescribe(std::function<Fact()> describe) { mDescribe = std::move(describe); }
     void checkBy(CheckPath check) { mCheckPath = std::move(check); }
     // Offered where the medium's own light does not turn; held.
     void turnInstead(TurningLight& light) { mOtherLight = &light; }
@@ -51,6 +52,7 @@ public:
         if (mCheckPath) mCheckPath(flight, file);
     }
     std::string whyLightStays() const override;
+    Facts describe() const override;
 
 private:
     class Models;
@@ -67,6 +69,7 @@ private:
     Animation mAnimation;
     MakeFlight mMakeFlight;
     CheckPath mCheckPath;
+    std::function<Fact()> mDescribe;  // what it is made of; null: nothing that is a scene itself
 };
 
 }  // namespace stereonav

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/command/scene_facts.h"
 #include "app/scene/outside_view.h"
 
 namespace stereonav {
@@ -26,10 +27,7 @@ void ShownMesh::Sun::turnTo(const SunPlace& place) {
 }
 
 ShownMesh::ShownMesh(MeshCaster caster, const SunPlace& sun, SimdTarget target)
-    : mRenderer(std::move(caster)),
-      mRays{&mRenderer},
-      mFrames(mRenderer),
-      mSun(mRenderer) {
+    : mRenderer(std::move(caster)), mRays{&mRenderer}, mFrames(mRenderer), mSun(mRenderer) {
     simd = availableTarget(target);
     mSun.turnTo(sun);
     seeFromOutside(mRenderer.caster().low(), mRenderer.caster().high(), "the flight around the mesh", *this);
@@ -37,6 +35,10 @@ ShownMesh::ShownMesh(MeshCaster caster, const SunPlace& sun, SimdTarget target)
     offer(mRays);
     offer<const MeshRenderer>(mRenderer);
     offer<TurningLight>(mSun);
+}
+
+Facts ShownMesh::describe() const {
+    return {factForJson("mesh", factsOfMesh(*this))};
 }
 
 std::unique_ptr<Flight> ShownMesh::makeFlight() const {

@@ -16,6 +16,7 @@ public:
 
     FrameMaker& frames() const override { return mFrames; }
     std::unique_ptr<Flight> makeFlight() const override;
+    Facts describe() const override;
 
 private:
     class Sun final : public TurningLight {

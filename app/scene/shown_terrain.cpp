@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/command/scene_facts.h"
 #include "engine/nav/navigator.h"
 #include "terrain/scene/terrain_illumination.h"
 #include "terrain/scene/terrain_loader.h"
@@ -65,6 +66,10 @@ ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target)
     if (!mTerrain.illumination) return;
     mSun = std::make_unique<Sun>(mTerrain, mRenderer);
     offer<TurningLight>(*mSun);
+}
+
+Facts ShownTerrain::describe() const {
+    return {factForJson("terrain", factsOfTerrain(*this))};
 }
 
 std::string ShownTerrain::whyLightStays() const {

@@ -23,6 +23,7 @@ public:
 
     FrameMaker& frames() const override { return mFrames; }
     std::unique_ptr<Flight> makeFlight() const override { return flightOver(mTerrain); }
+    Facts describe() const override;
     std::string whyLightStays() const override;
 
 private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/command/scene_facts.h"
 #include "app/options/refusals.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/volume_ambient.h"
@@ -194,6 +195,10 @@ std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progres
     scene->mChoices.ambientMethods = mChoices.ambientMethods;  // one that was given stays among them
     if (mLighting.lazy) mLighting.lazy->showSurface(isovalue);
     return scene;
+}
+
+Facts ShownVolume::describe() const {
+    return {factForJson("volume", factsOfVolume(*this))};
 }
 
 std::string ShownVolume::whyLightStays() const {

@@ -37,6 +37,7 @@ public:
     FrameMaker& frames() const override;
     std::unique_ptr<Flight> makeFlight() const override;
     void check(const RecordedPath& flight, const std::string& file) const override;
+    Facts describe() const override;
     std::string whyLightStays() const override;
 
 private:

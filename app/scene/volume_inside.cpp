@@ -43,15 +43,6 @@ std::uint64_t ColonInterior::content(Progress& progress) const {
 
 // What is kept has neither fluid nor what is far from the wall: the study is read again, but for a mask,
 // which has no grey values.
-std::shared_ptr<const GreyVolume> ColonInterior::wholeField(const ColonOptions& options,
-                                                            Progress& progress) const {
-    if (options.study.empty())
-        return std::make_shared<GreyVolume>(builtInColon(options.builtIn, progress).grey);
-    Study study = readStudy(options.study, options.reading, progress);
-    if (study.isMask) return {std::shared_ptr<void>(), &mColon.volume.field};
-    return std::make_shared<GreyVolume>(std::move(study.grey));
-}
-
 // Rays that are asked no further than so far meet light again.
 void ColonInterior::checkLight(const BakeOptions& options, BakeKind kind) const {
     if (options.reach_mm) return;

@@ -20,8 +20,6 @@ public:
 
     const MaskVolume* region() const override { return &mColon.lumen.lumen; }
     std::uint64_t content(Progress& progress) const override;
-    std::shared_ptr<const GreyVolume> wholeField(const ColonOptions& options,
-                                                 Progress& progress) const override;
 
     bool letsLightIn() const override { return false; }
     void checkLight(const BakeOptions& options, BakeKind kind) const override;

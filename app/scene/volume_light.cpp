@@ -16,6 +16,7 @@
 #include "engine/light/skies/sky_probe.h"
 #include "engine/light/transfer/light_beyond.h"
 #include "engine/math/constants.h"
+#include "engine/math/luminance.h"
 
 namespace stereonav {
 namespace {
@@ -33,7 +34,7 @@ double meanLight(const IlluminationVolume& light) {
                 const PackedTexel texel = light.texels[light.layout.index(i, j, k)];
                 if (texel == 0) continue;
                 const double w = texelWeight(texel);
-                sum += w * glm::dot(glm::dvec3(texelLight(texel)), glm::dvec3(0.2126, 0.7152, 0.0722));
+                sum += w * luminance(glm::dvec3(texelLight(texel)));
                 weight += w;
             }
     return weight > 0 ? sum / weight : 0.0;

@@ -24,9 +24,6 @@ public:
 
     const MaskVolume* region() const override { return nullptr; }
     std::uint64_t content(Progress&) const override { return contentHash(mVolume.volume.field); }
-    std::shared_ptr<const GreyVolume> wholeField(const ColonOptions&, Progress&) const override {
-        return {std::shared_ptr<void>(), &mVolume.volume.field};  // which is all of them
-    }
 
     bool letsLightIn() const override { return true; }
     void checkLight(const BakeOptions&, BakeKind) const override {}

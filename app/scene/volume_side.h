@@ -37,10 +37,6 @@ public:
     virtual const MaskVolume* region() const = 0;
     // Of the volume, the same however it was loaded. Throws Cancelled.
     virtual std::uint64_t content(Progress& progress) const = 0;
-    // All of the study's values, for light that goes deeper than the surface. options: that it was loaded by.
-    // Lives as long as the volume. Throws Error, Cancelled.
-    virtual std::shared_ptr<const GreyVolume> wholeField(const ColonOptions& options,
-                                                         Progress& progress) const = 0;
 
     // Whether light from outside reaches what is seen.
     virtual bool letsLightIn() const = 0;

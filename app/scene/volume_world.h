@@ -31,10 +31,6 @@ public:
     ColonScene& colon() { return mColon; }
     const ColonScene& colon() const { return mColon; }
     const VolumeSide& side() const { return *mSide; }
-    // All of the study's values (VolumeSide::wholeField).
-    std::shared_ptr<const GreyVolume> wholeField(Progress& progress) const {
-        return mSide->wholeField(mOptions, progress);
-    }
     // Calls offer(capability) for each that it has, however its frames are made.
     template <typename Offer>
     void offerAll(const Offer& offer) {

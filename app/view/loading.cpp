@@ -31,8 +31,10 @@ OpenScene opened(std::shared_ptr<Scene> shown, const ViewOptions& options, bool 
 
 }  // namespace
 
-OpenScene openScene(const ViewOptions& options, bool measure, ViewSweep* sweep, Progress& progress) {
-    std::shared_ptr<Scene> scene = loadScene(options.scene, options.size, progress);
+OpenScene openScene(const ViewOptions& options, bool measure, const SizeOption& window, ViewSweep* sweep,
+                    Progress& progress) {
+    std::shared_ptr<Scene> scene = loadScene(options.scene, options.size, progress, kNoPicture);
+    checkSize(window, options.scene, kViewBytes);
     // A recorded flight is looked at once, with the scene that it was given for.
     if (measure && !options.path.empty()) scene->check(readPath(options.path), options.path);
     if (sweep) sweep->use(*scene);

@@ -13,8 +13,10 @@ namespace stereonav {
 class ViewSweep;
 
 // measure: whether to find out by measuring how the right eye is made best, where the options leave it
-// open; else it is the scene's default. sweep: of media, null for other scenes. Throws Error, Cancelled.
-OpenScene openScene(const ViewOptions& options, bool measure, ViewSweep* sweep, Progress& progress);
+// open; else it is the scene's default. window: its pixels. sweep: of media, null for other scenes. Throws
+// Error, Cancelled.
+OpenScene openScene(const ViewOptions& options, bool measure, const SizeOption& window, ViewSweep* sweep,
+                    Progress& progress);
 // One that offers SurfaceChoices, so changed; on the thread that loads. Throws Error, Cancelled.
 OpenScene changedScene(const OpenScene& now, const SurfaceChange& change, const ViewOptions& options,
                        Progress& progress);

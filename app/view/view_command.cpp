@@ -2,6 +2,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -66,8 +67,8 @@ public:
           mSweep(shownAs(options.scene).swept ? std::make_unique<ViewSweep>(options.sweep) : nullptr),
           mOverlay(mWindow),
           mScreenshots(options.shots),
-          mWorker([options, sweep = mSweep.get()](
-                      Progress& progress) { return openScene(options, true, sweep, progress); },
+          mWorker([options, size = checkedSize(), sweep = mSweep.get()](
+                      Progress& progress) { return openScene(options, true, size, sweep, progress); },
                   [] { Window::wake(); }) {}
 
     void run() {
@@ -88,6 +89,17 @@ public:
 private:
     static std::string titleOf(const ViewOptions& options) {
         return "stereonav - " + (options.scene.scene.empty() ? "built-in terrain" : options.scene.scene);
+    }
+
+    // Which may be smaller than what was asked for; no mode has larger eyes.
+    SizeOption windowSize() const {
+        const glm::ivec2 size = mWindow.framebufferSize();
+        return {std::max(size.x, 1), std::max(size.y, 1)};
+    }
+    // Throws Error where there is no memory for its pictures.
+    SizeOption checkedSize() const {
+        checkSize(windowSize(), mOptions.scene, kViewBytes);
+        return windowSize();
     }
 
     double waitSeconds() const {
@@ -162,9 +174,10 @@ private:
                     return changedScene(now, surface, options, progress);
                 });
             else
-                mWorker.reload([options = mChanged, sweep = mSweep.get()](Progress& progress) {
-                    return openScene(options, false, sweep, progress);
-                });
+                mWorker.reload(
+                    [options = mChanged, size = windowSize(), sweep = mSweep.get()](Progress& progress) {
+                        return openScene(options, false, size, sweep, progress);
+                    });
         }
         if (const std::string problem = mWorker.takeReloadProblem(); !problem.empty()) {
             mSession->forgetSceneChange();
@@ -330,7 +343,7 @@ private:
 }  // namespace
 
 int runView(const ViewOptions& options) {
-    checkSize(options.size, options.scene);
+    checkSize(options.size, options.scene, kNoPicture);
     checkMethod(options.scene, options.method);
     if (!options.shots.empty()) checkOutputFolder("--shots", options.shots);
     ViewOptions shown = options;

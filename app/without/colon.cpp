@@ -2,7 +2,6 @@
 // says so.
 
 #include "app/command/info_series.h"
-#include "app/command/scene_facts.h"
 #include "app/options/built_without.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/scene_type.h"
@@ -43,10 +42,6 @@ void applyChange(const SurfaceChange&, const SceneOptions&, SceneOptions&) {
 }
 
 int runCentreline(const CentrelineOptions&) {
-    without();
-}
-
-Facts factsOfVolume(const Scene&) {
     without();
 }
 

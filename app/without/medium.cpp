@@ -1,6 +1,5 @@
 // Stands in for volume light where the program is built without it: everything that needs it says so.
 
-#include "app/command/scene_facts.h"
 #include "app/options/built_without.h"
 #include "app/scene/medium_loading.h"
 #include "app/scene/medium_of.h"
@@ -52,10 +51,6 @@ void ViewSweep::use(const Scene&) {
 
 std::string ViewSweep::takeNotice() {
     return "";
-}
-
-Facts factsOfMedium(const Scene&) {
-    without();
 }
 
 std::string mediumPresetNames() {

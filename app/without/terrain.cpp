@@ -1,7 +1,6 @@
 // Stands in for terrain where the program is built without it: everything that needs it says so.
 #include <filesystem>
 
-#include "app/command/scene_facts.h"
 #include "app/options/built_without.h"
 #include "app/scene/scene_type.h"
 
@@ -28,10 +27,6 @@ const SceneType& terrainType() {
 }
 
 int runMesh(const MeshOptions&) {
-    without();
-}
-
-Facts factsOfTerrain(const Scene&) {
     without();
 }
 

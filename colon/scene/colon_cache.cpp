@@ -188,6 +188,7 @@ std::vector<char> packed(const FoundColon& found) {
     out.put(lumen.field.offset);
     out.put(lumen.isovalue);
     out.text(found.format);
+    out.put(static_cast<std::uint8_t>(found.ofMask));
     out.put(found.studyFrame);
     out.put(found.values);
     out.texts(found.notes);
@@ -224,6 +225,7 @@ FoundColon unpacked(std::span<const char> bytes) {
     lumen.field.offset = in.get<double>();
     lumen.isovalue = in.get<double>();
     found.format = in.text();
+    found.ofMask = in.get<std::uint8_t>() != 0;
     found.studyFrame = in.get<VolumeFrame>();
     found.values = in.get<ValueSpan>();
     found.notes = in.texts();

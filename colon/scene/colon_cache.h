@@ -14,6 +14,7 @@ namespace stereonav {
 // it.
 struct FoundColon {
     std::string format;
+    bool ofMask = false;
     VolumeFrame studyFrame;  // of the whole study; the lumen's is a part of it
     LumenField lumen;
     ValueSpan values;  // of the lumen's field as it was found, HU

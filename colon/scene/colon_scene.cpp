@@ -74,6 +74,7 @@ auto inTheNameOf(const ColonOptions& options, const Work& work) {
 FoundColon findColon(const Study& study, const ColonOptions& options, Progress& progress) {
     FoundColon found;
     found.format = study.format;
+    found.ofMask = study.isMask;
     found.studyFrame = study.isMask ? study.mask.frame : study.grey.frame;
     found.notes = study.notes;
     found.lumen = study.isMask ? lumenFromMask(study.mask, options.segmentation, progress)
@@ -302,8 +303,10 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
         key = colonCacheKey(builtIn ? builtInKey(options.builtIn) : studyKey(options.study, options.reading),
                             options);
         if (std::optional<FoundColon> kept = readColonCache(key, damaged)) {
+            const bool reads = options.keepsStudy && !kept->ofMask;
             ColonScene scene = sceneOf(std::move(*kept), options, progress);
             scene.name = name;
+            if (reads) scene.study = readOrMake(options, scene.polyps, progress).grey;
             return scene;
         }
     }
@@ -322,10 +325,11 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
     refuseTurned(options);
     FoundColon found = inTheNameOf(options, [&] { return findColon(study, options, progress); });
     found.polyps = std::move(polyps);
-    study = {};
+    if (!options.keepsStudy) study = {};
     if (options.cache) writeColonCache(key, found);
     ColonScene scene = sceneOf(std::move(found), options, progress);
     scene.name = name;
+    scene.study = std::move(study.grey);  // nothing of a mask
     if (damaged) scene.notes.push_back("the cache was damaged and is made again");
     return scene;
 }

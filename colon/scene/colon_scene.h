@@ -34,6 +34,7 @@ struct ColonOptions {
     double clearance = 0;            // metres; 0: chosen
     std::optional<UpAxis> up;        // of a volume seen from outside; not given: z
     bool cache = true;
+    bool keepsStudy = false;  // ColonScene::study is asked for
 };
 
 struct ColonScene {
@@ -42,6 +43,9 @@ struct ColonScene {
         studyFrame;  // of the study as it was read; the volume's may be a part of it, or have a border
     std::vector<std::string> notes;
     VolumeScene volume;
+    // Of a colon, where it is asked for (keepsStudy): the study's own grey values, of which `volume` has
+    // neither the tagged fluid nor what is far from the wall. Empty of a mask, which has none.
+    GreyVolume study;
     // Of a colon: the smallest and the largest value of its box in the study, tagged fluid made air, when it
     // was found, HU. The cache keeps no values far from the lumen, but these two.
     ValueSpan valuesFound;

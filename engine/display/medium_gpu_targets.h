@@ -1,6 +1,6 @@
 // Where a sweep on the GPU draws: a region for each eye and two for the light, in turn read and written. All
 // regions lie in one target, told apart by viewports, so that nothing is switched between passes (Kniss et
-// al. 2003, section 4; row K8), or each in a target of its own.
+// al. 2003, section 4; row K8 of docs/ledger.md), or each in a target of its own.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -39,7 +39,8 @@ public:
                               EyeImage& image) const = 0;
 
     // Whether renderPixels wants to find, in the viewDepth of each pixel it casts, a depth before which the
-    // ray meets nothing (0: unknown), as far as the other eye saw (W9). Neighbours' depths mean nothing then.
+    // ray meets nothing (0: unknown), as far as the other eye saw (W9 of docs/ledger.md). Neighbours' depths
+    // mean nothing then.
     virtual bool startsAtKnownDepth() const { return false; }
 
     // False only if no ray through the rectangle hits anything before its view depth

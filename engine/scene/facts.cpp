@@ -58,14 +58,13 @@ Fact factForAll(std::string key, FactValue value, std::string label, std::string
     return {std::move(key), std::move(value), std::move(unit), std::move(label), std::move(text)};
 }
 
-std::string factLine(const std::string& label, const std::string& text) {
-    return fmt::format("  {:<12}{}\n", label, text);
-}
-
 std::string linesOf(const Facts& facts) {
     std::string lines;
     walk(
-        facts, [&](const std::string& label, const std::string& text) { lines += factLine(label, text); },
+        facts,
+        [&](const std::string& label, const std::string& text) {
+            lines += fmt::format("  {:<12}{}\n", label, text);
+        },
         [&](const std::string& label) { lines += label + "\n"; });
     return lines;
 }

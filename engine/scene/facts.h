@@ -40,8 +40,6 @@ Fact factForAll(std::string key, FactValue value, std::string label, std::string
 // Lines "  label       text\n". A group (Facts) with a label has it as a heading, on a line of its own; the
 // facts of groups and of lists of groups follow, whether the group has a label or not.
 std::string linesOf(const Facts& facts);
-// One such line.
-std::string factLine(const std::string& label, const std::string& text);
 // The same without headings: label, text.
 std::vector<std::pair<std::string, std::string>> rowsOf(const Facts& facts);
 

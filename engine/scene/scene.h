@@ -14,6 +14,7 @@
 #include "engine/camera/stereo_rig.h"
 #include "engine/frame/frame_maker.h"
 #include "engine/nav/flight.h"
+#include "engine/scene/facts.h"
 #include "engine/simd/simd_target.h"
 
 namespace stereonav {
@@ -40,6 +41,9 @@ public:
     virtual std::unique_ptr<Flight> makeFlight() const = 0;
     // Whether a recorded flight may be played here. Throws Error naming `file`.
     virtual void check(const RecordedPath& /*path*/, const std::string& /*file*/) const {}
+    // What there is to say of it, a group ("terrain", "medium") for each thing that it is made of. May make a
+    // frame.
+    virtual Facts describe() const { return {}; }
     // Why its light stands still, for who asks for another; "" where TurningLight is offered.
     virtual std::string whyLightStays() const { return ""; }
 

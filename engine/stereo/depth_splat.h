@@ -1,8 +1,8 @@
-// Where the right eye's rays may start in translucent scenes (W12; Wan et al. 2004, section 4). The paper
-// splats each left depth over two right pixels and keeps the nearest. Here the hidden-pixel rule and the
-// columns are those of the inverse warp (ResampleRow): a right pixel gathers the two survivors it lies
-// between, and the pixels beside it, which cover as much; a pixel between survivors that were stretched
-// apart or folded stays unknown.
+// Where the right eye's rays may start in translucent scenes (W12 of docs/ledger.md; Wan et al. 2004, section
+// 4). The paper splats each left depth over two right pixels and keeps the nearest. Here the hidden-pixel
+// rule and the columns are those of the inverse warp (ResampleRow): a right pixel gathers the two survivors
+// it lies between, and the pixels beside it, which cover as much; a pixel between survivors that were
+// stretched apart or folded stays unknown.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// W12: depths splatted, every ray cast from there with one jump; for translucent scenes.
+// W12 of docs/ledger.md: depths splatted, every ray cast from there with one jump; for translucent scenes.
 #include "engine/stereo/depth_splat.h"
 #include "engine/stereo/warp_method.h"
 

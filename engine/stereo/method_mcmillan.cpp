@@ -1,4 +1,4 @@
-// W14: back-to-front forward warp without holes filled or clipping fixed.
+// W14 of docs/ledger.md: back-to-front forward warp without holes filled or clipping fixed.
 #include "engine/stereo/paint_row.h"
 #include "engine/stereo/warp_method.h"
 

@@ -1,4 +1,4 @@
-// W5 to W9: splats of eight subpixels, weight threshold, holes cast.
+// W5 to W9 of docs/ledger.md: splats of eight subpixels, weight threshold, holes cast.
 #include "engine/stereo/splat_row.h"
 #include "engine/stereo/warp_method.h"
 

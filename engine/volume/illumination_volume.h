@@ -41,7 +41,7 @@ struct IlluminationVolume {
     bool empty() const { return texels.empty(); }
     std::size_t bytesHeld() const;  // pages in use
 
-    // How neighbouring texels are put together (Y5, fig. 6). The default wins.
+    // How neighbouring texels are put together (Y5 of docs/ledger.md, fig. 6). The default wins.
     enum class Lookup { Nearest, NearestIsovalue, Trilinear, Tricubic };
     struct Light {
         glm::vec3 value{0.0f};

@@ -1,5 +1,5 @@
 // Baked light looked up at hits: eight texels, weighted by place and by how much each is known (Wyman et al.
-// 2006, section 4.2; Y5). IlluminationVolume::at is the oracle. Included by kernels only.
+// 2006, section 4.2; Y5 of docs/ledger.md). IlluminationVolume::at is the oracle. Included by kernels only.
 #pragma once
 
 #include "engine/volume/kernel_rays.h"

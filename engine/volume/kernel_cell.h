@@ -1,6 +1,6 @@
-// The exact hit of rays with the trilinear isosurface in their cells (Parker et al. 1998; Y2): the value
-// along a ray is a cubic, and the first place where it reaches the isovalue is looked for between its
-// extrema. Included by kernels only.
+// The exact hit of rays with the trilinear isosurface in their cells (Parker et al. 1998; Y2 of
+// docs/ledger.md): the value along a ray is a cubic, and the first place where it reaches the isovalue is
+// looked for between its extrema. Included by kernels only.
 #pragma once
 
 #include "engine/volume/kernel_rays.h"

@@ -79,8 +79,8 @@ struct SurfaceSetting {
 SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress);
 
 // The gradient of the values smoothed by a tricubic B-spline over 4x4x4 voxels, at any voxel-space point
-// (Wyman et al. 2006, section 4; Y3), in stored numbers a metre along the world axes. Beyond the faces
-// the outermost voxels count on.
+// (Wyman et al. 2006, section 4; Y3 of docs/ledger.md), in stored numbers a metre along the world axes.
+// Beyond the faces the outermost voxels count on.
 glm::dvec3 smoothGradient(const GreyVolume& volume, const glm::dvec3& voxel);
 
 // A distance that is free of surface around a world point: no point of the surface is nearer, and the

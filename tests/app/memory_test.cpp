@@ -22,6 +22,33 @@ protected:
         arguments.insert(arguments.end(), {"--size", "32x24", "--out", "out.png"});
         expectRefused(arguments, words);
     }
+    // Bytes that no file backs, at most while a command ran, and what it had and asked for at most.
+    struct Taken {
+        double most = 0, asked = 0;
+    };
+    Taken taking(const std::vector<std::string>& arguments) const {
+        const std::string file = (mFolder / "asked").string();
+        std::filesystem::remove(file);
+        setenv("STEREONAV_MEMORY_ASKED", file.c_str(), 1);
+        const pid_t child = start(arguments);
+        unsetenv("STEREONAV_MEMORY_ASKED");
+        Taken taken;
+        siginfo_t ended{};
+        while (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+               ended.si_pid == 0) {
+            std::ifstream status("/proc/" + std::to_string(child) + "/status");
+            for (std::string line; std::getline(status, line);)
+                if (line.rfind("RssAnon:", 0) == 0)
+                    taken.most = std::max(taken.most, 1024 * std::atof(line.c_str() + 8));
+            usleep(1000);
+        }
+        const Outcome outcome = await(child);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        std::ifstream lines(file);
+        for (double had = 0, bytes = 0; lines >> had >> bytes;)
+            taken.asked = std::max(taken.asked, had + bytes);
+        return taken;
+    }
     // The first two numbers around " x " in the words before "would fit".
     static std::pair<int, int> fitting(const std::string& line) {
         const std::size_t end = line.find(" would fit"), times = line.rfind(" x ", end);
@@ -131,6 +158,23 @@ TEST_F(Memory, OfAKeptColonIsChecked) {
     std::filesystem::remove(place() / "out.png");
     allow("5e7");
     expectRefused(render, {"a colon of 200 x 200 x 200 voxels", "of memory"});
+}
+
+// A bake's paths leap over fields of blocks, one for each isovalue that is lit: most of what a whole bake of
+// a large volume takes. 20 MB are the program's own.
+TEST_F(Memory, OfABakeIsNoMoreThanWasAskedFor) {
+    const std::string study = nrrd("ct.nrrd", {160, 160, 160, 1, "short", ""}, [](int i, int j, int k) {
+        return std::max(0.0, 1000 - 12 * std::hypot(i - 79.5, j - 79.5, k - 79.5));
+    });
+    for (const bool full : {true, false}) {
+        SCOPED_TRACE(full);
+        std::vector<std::string> bake{"bake", study, "--isosurface", "--resolution", "0.25"};
+        bake.insert(bake.end(), {"--samples", "1", "--out", full ? "full.light" : "a.light"});
+        if (full) bake.emplace_back("--full");
+        const Taken taken = taking(bake);
+        EXPECT_GT(taken.most, 3e7);
+        EXPECT_LT(taken.most, taken.asked + 2e7);
+    }
 }
 
 // What the program asks for is what it takes: the most it had asked for, with what it held then.

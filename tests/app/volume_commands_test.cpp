@@ -176,6 +176,31 @@ TEST_F(VolumeCommands, FactsAreTheSameFromTheCache) {
               std::string::npos);
 }
 
+// Each reading of a study asks for its memory. A colon's medium shows the study's own values, of which the
+// cache has too few; a mask has none.
+TEST_F(VolumeCommands, AMediumReadsItsStudyOnce) {
+    const SmallStudy size{24, 24, 24, 2, "short", ""};
+    const std::string ct =
+        nrrd("ct.nrrd", size, [](int i, int j, int k) { return inTube(i, j, k) ? -1000 : 40; });
+    const std::string asked = (mFolder / "asked").string();
+    const auto readings = [&](const std::string& study) {
+        fs::remove(asked);
+        setenv("STEREONAV_MEMORY_ASKED", asked.c_str(), 1);
+        runWell(
+            {"render", study, "--medium", "tissue", "--slices", "16", "--size", "32x24", "--out", "a.png"});
+        unsetenv("STEREONAV_MEMORY_ASKED");
+        std::ifstream lines(asked);
+        int count = 0;
+        for (double taken = 0, bytes = 0; lines >> taken >> bytes;)
+            count += bytes == 24.0 * 24 * 24 * 4;  // two bytes a voxel, twice
+        return count;
+    };
+    EXPECT_EQ(readings(ct), 1);
+    EXPECT_EQ(readings(ct), 1) << "from the cache";
+    EXPECT_LE(readings(maskedTube()), 1);
+    EXPECT_EQ(readings(maskedTube()), 0) << "from the cache";
+}
+
 // Every command on a study in a folder that nobody may write to leaves it as it is, cache or no cache.
 TEST_F(VolumeCommands, NothingIsWrittenBesideAnyStudy) {
     fs::create_directory(mFolder / "studies");

@@ -13,6 +13,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/camera/stereo_rig.h"
+#include "engine/math/luminance.h"
 #include "terrain/built_in/built_in_terrain.h"
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/light/terrain_path_light.h"
@@ -62,10 +63,6 @@ TerrainLight truncated(const TerrainLight& light, int order) {
     return less;
 }
 
-double luminance(const glm::dvec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-}
-
 // Path-traced light at places all over the ground, between samples, under one sun.
 struct Truth {
     SunAndSky light;
@@ -112,7 +109,7 @@ double brightnessAt(const TerrainLight& light, const GroundBrightness& brightnes
     double sum = 0;
     for (int c = 0; c < 4; ++c)
         sum += (c & 1 ? x.next : 1 - x.next) * (c & 2 ? y.next : 1 - y.next) *
-               luminance(brightness.at(x.index + (c & 1), y.index + (c >> 1)));
+               luminance(glm::dvec3(brightness.at(x.index + (c & 1), y.index + (c >> 1))));
     return sum;
 }
 

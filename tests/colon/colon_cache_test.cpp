@@ -43,6 +43,7 @@ FoundColon tube() {
     frame.spacing = {0.0007, 0.0008, 0.0009};
     frame.origin = {0.1, -0.2, 0.3};
     found.format = "NRRD";
+    found.ofMask = true;
     found.studyFrame = frame;
     found.studyFrame.size = {140, 137, 150};
     found.notes = {"one", ""};
@@ -72,6 +73,7 @@ TEST_F(ColonCacheTest, GivesBackWhatWasKept) {
     EXPECT_FALSE(damaged);
     EXPECT_EQ(kept->notes, found.notes);
     EXPECT_EQ(kept->format, found.format);
+    EXPECT_TRUE(kept->ofMask);
     EXPECT_EQ(kept->studyFrame.size, found.studyFrame.size);
     EXPECT_EQ(kept->studyFrame.spacing, found.studyFrame.spacing);
     EXPECT_EQ(kept->values.lowest, -1024);

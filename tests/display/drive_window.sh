@@ -20,9 +20,9 @@ hold() {
     xdotool keyup "$1"
 }
 
-# open_window ARGUMENT ...: of the program. Waits for its window and for the first picture in it.
+# open_window ARGUMENT ...: of the program; $size: of its pictures, where 320x240 will not do. Waits for its window and for the first picture in it.
 open_window() {
-    "$program" view "$@" --size 320x240 --mode sbsl --shots "$shots" >"$out/log.txt" 2>&1 &
+    "$program" view "$@" --size "${size:-320x240}" --mode sbsl --shots "$shots" >"$out/log.txt" 2>&1 &
     pid=$!
     window=
     for _ in $(seq 1200); do

@@ -14,6 +14,7 @@
 
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
+#include "engine/math/luminance.h"
 #include "probe_pictures.h"
 #include "sphere_quadrature.h"
 
@@ -29,10 +30,6 @@ using testing::Not;
 
 double solidAngle(int row, int width, int height) {
     return 2 * kPi / width * (std::cos(kPi * row / height) - std::cos(kPi * (row + 1) / height));
-}
-
-double luminance(const glm::vec3& c) {
-    return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
 // Of one float: 24 bits, as a caster gives them.
@@ -87,13 +84,13 @@ TEST(LightProbe, DensityIsLuminanceOverItsIntegralExactly) {
     double total = 0;
     for (int j = 0; j < height; ++j)
         for (int i = 0; i < width; ++i)
-            total += luminance(probe.radiance(glm::vec3(pixelDirection(i, j, width, height)))) *
+            total += luminance(glm::dvec3(probe.radiance(glm::vec3(pixelDirection(i, j, width, height))))) *
                      solidAngle(j, width, height);
     double integral = 0;
     for (int j = 0; j < height; ++j)
         for (int i = 0; i < width; ++i) {
             const glm::vec3 w(pixelDirection(i, j, width, height));
-            const double expected = luminance(probe.radiance(w)) / total;
+            const double expected = luminance(glm::dvec3(probe.radiance(w))) / total;
             ASSERT_NEAR(probe.density(w), expected, 1e-6 * expected) << i << " " << j;
             integral += probe.density(w) * solidAngle(j, width, height);
         }

@@ -12,15 +12,12 @@
 
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
+#include "engine/math/luminance.h"
 
 namespace stereonav {
 namespace {
 
 using testing::HasSubstr;
-
-double luminance(const glm::dvec3& c) {
-    return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722));
-}
 
 // visit(direction at the middle of the pixel, solid angle, radiance)
 void visitPixels(const LightProbe& probe,

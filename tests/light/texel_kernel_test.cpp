@@ -167,6 +167,29 @@ TEST(TexelKernel, RaysMeetWhatThePlainCasterMeets) {
     }
 }
 
+// Where one surface is lit others share few fields, none of which is above a value that it serves.
+TEST(IsovalueFields, TakeNoMoreThanTheySay) {
+    const GreyVolume volume = ballVolume(65, glm::dvec3(32), 16);
+    constexpr double kSurface = 0;
+    const IsovalueFields every(volume, true), one(volume, true, {kSurface, kSurface});
+    ASSERT_GT(every.rungs(), 50);
+    EXPECT_EQ(one.rungOf(kSurface), every.rungOf(kSurface));
+    const std::size_t most = one.bytesToCome();
+    EXPECT_LT(4 * most, every.bytesToCome());
+    const auto [least, largest] =
+        std::minmax_element(volume.values.data(), volume.values.data() + volume.frame.count());
+    for (double isovalue = *least + kAboveLeast; isovalue < *largest; isovalue += 10) {
+        const int rung = one.rungOf(isovalue);
+        ASSERT_LE(rung, every.rungOf(isovalue));
+        ASSERT_LE(one.valueOf(rung), std::max(std::ceil(isovalue), *least + 1.0));
+        one.field(rung);
+        every.field(every.rungOf(isovalue));
+    }
+    EXPECT_GT(one.bytesHeld(), most / 2);
+    EXPECT_EQ(one.bytesHeld() + one.bytesToCome(), most);
+    EXPECT_EQ(every.bytesToCome(), 0u);
+}
+
 TEST(TexelKernel, RaysEndAtTheirLimit) {
     const GreyVolume volume = ballVolume(33, glm::dvec3(16), 8);
     const IsovalueFields fields(volume, true);

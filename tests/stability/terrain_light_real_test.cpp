@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "engine/base/parallel.h"
+#include "engine/math/luminance.h"
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/light/terrain_path_light.h"
 #include "terrain/scene/terrain_illumination.h"
@@ -18,10 +19,6 @@ namespace {
 
 // Pixels that are compared, and pixels cast for each: far ground is then not averaged over its hidden sides.
 constexpr int kRealWidth = 60, kHeight = 40, kFine = 16;
-
-double luminance(const glm::dvec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-}
 
 // The scene in a colour that no light drives out of range.
 TerrainScene greyScene(const std::filesystem::path& file) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/base/parallel.h"
+#include "engine/math/luminance.h"
 #include "engine/stereo/frame_plan.h"
 #include "engine/stereo/right_eye.h"
 #include "terrain/cast/terrain_renderer.h"
@@ -44,10 +45,6 @@ SunAndSky lightAt(double azimuth_deg, double elevation_deg) {
     look.sunAzimuth = azimuth_deg * kDegree;
     look.sunElevation = elevation_deg * kDegree;
     return sunAndSky(look, skyRadiance(gradient));
-}
-
-double luminance(const glm::dvec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
 }
 
 TEST(SunAndSky, IsWhiteAndOneWithTheSunHalfWayUp) {

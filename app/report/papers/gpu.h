@@ -1,4 +1,5 @@
-// The sweep in GLSL, timed off-screen, into one target split by viewports or into several (row K8).
+// The sweep in GLSL, timed off-screen, into one target split by viewports or into several (row K8 of
+// docs/ledger.md).
 #pragma once
 
 #include <memory>

@@ -177,7 +177,8 @@ void addNoise(ReportRun& run, const PaperEngine& engine, const EngineView& view,
             std::vector<TexelSum> sums(piece.size());
             both[static_cast<std::size_t>(seed)]->addIrradiance(piece, samples, sums);
             std::vector<double> light;
-            for (const TexelSum& sum : sums) light.push_back(sum.samples > 0 ? luminanceOf(sum.mean) : -1);
+            for (const TexelSum& sum : sums)
+                light.push_back(sum.samples > 0 ? luminance(glm::dvec3(sum.mean)) : -1);
             return light;
         };
     };
@@ -191,7 +192,8 @@ void addNoise(ReportRun& run, const PaperEngine& engine, const EngineView& view,
             for (std::size_t n = 0; n < piece.size(); ++n) {
                 double sum = 0;
                 for (std::size_t k = 0; k < numbers; ++k)
-                    sum += static_cast<double>(sums[n * numbers + k]) * luminanceOf(sky[k]) / samples;
+                    sum +=
+                        static_cast<double>(sums[n * numbers + k]) * luminance(glm::dvec3(sky[k])) / samples;
                 light.push_back(alive[n] ? std::max(sum, 0.0) : -1);
             }
             return light;

@@ -1,5 +1,5 @@
 // Kniss et al. 2003 beside this program: rates of the shading models by size (section 4, fig. 14), on the
-// processor and in GLSL, into one target or several (fig. 15; row K8).
+// processor and in GLSL, into one target or several (fig. 15; row K8 of docs/ledger.md).
 #include <fmt/format.h>
 
 #include <array>

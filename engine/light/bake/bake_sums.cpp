@@ -21,10 +21,11 @@ constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 // Texels lie along surfaces: they grow with the square of the resolution. What paths take beside them does
 // not: measured, 10 to 23 MB.
-void checkTexelMemory(std::size_t texels, const BakeShape& shape) {
-    constexpr double kBeside = 24e6;
+void checkTexelMemory(std::size_t texels, const BakeShape& shape, double besides) {
+    constexpr double kPaths = 24e6;
+    const double beside = kPaths + besides;
     const double held = static_cast<double>(texels) * static_cast<double>(shape.bytesPerTexel());
-    const double bytes = held + kBeside;
+    const double bytes = held + beside;
     const double there = availableMemoryFor(bytes);
     if (bytes <= there) return;
     throw Error(
@@ -32,7 +33,7 @@ void checkTexelMemory(std::size_t texels, const BakeShape& shape) {
         fmt::format("{} texels need {} of memory, and {} can be had", texels, memoryText(bytes),
                     memoryText(there)),
         fmt::format("{:.0f} % of this --resolution would fit, or fewer isovalues",
-                    std::floor(100 * std::sqrt(std::max(0.0, there - kBeside) / std::max(held, 1.0)))));
+                    std::floor(100 * std::sqrt(std::max(0.0, there - beside) / std::max(held, 1.0)))));
 }
 
 template <typename T>
@@ -60,7 +61,8 @@ std::string_view nameOf(BakeKind kind) {
     return "";
 }
 
-BakeSums::BakeSums(const VolumeFrame& texels, std::vector<TexelBrick> bricks, const BakeShape& shape)
+BakeSums::BakeSums(const VolumeFrame& texels, std::vector<TexelBrick> bricks, const BakeShape& shape,
+                   std::size_t beside)
     : samples(bricks.size(), 0),
       estimates(bricks.size(), BrickEstimate{kUnknown, 0}),
       mFrame(texels),
@@ -74,7 +76,7 @@ BakeSums::BakeSums(const VolumeFrame& texels, std::vector<TexelBrick> bricks, co
         count += static_cast<std::size_t>(countTexels(brick.wanted));
     }
     mFirst.push_back(count);
-    checkTexelMemory(count, shape);
+    checkTexelMemory(count, shape, static_cast<double>(beside));
     if (shape.kind == BakeKind::Transfer) {
         mTransfer = LazyArray<float>(count * static_cast<std::size_t>(shape.numbersPerTexel()));
         mAlive = LazyArray<std::uint8_t>(count);

@@ -41,8 +41,10 @@ struct BrickEstimate {
 class BakeSums {
 public:
     BakeSums() = default;
-    // bricks: by number, none without texels. Throws Error where it needs more than half of the memory.
-    BakeSums(const VolumeFrame& texels, std::vector<TexelBrick> bricks, const BakeShape& shape);
+    // bricks: by number, none without texels. beside: bytes that what lights them will take
+    // (TexelLighter::bytesToCome). Throws Error where there is less memory.
+    BakeSums(const VolumeFrame& texels, std::vector<TexelBrick> bricks, const BakeShape& shape,
+             std::size_t beside = 0);
 
     const VolumeFrame& frame() const { return mFrame; }
     const TexelLayout& layout() const { return mLayout; }

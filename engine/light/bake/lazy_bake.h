@@ -1,7 +1,7 @@
-// Irradiance or transfer computed while one flies (Wyman et al. 2006, section 4.2; Y6): threads of low
-// priority light the texels near what is seen, coarse first, and write them where frames look them up.
-// Nothing here makes a frame wait: whoever asks swaps a list and goes on. Other than the paper's, which
-// lights texels when a ray first meets them, and so makes the ray wait.
+// Irradiance or transfer computed while one flies (Wyman et al. 2006, section 4.2; Y6 of docs/ledger.md):
+// threads of low priority light the texels near what is seen, coarse first, and write them where frames look
+// them up. Nothing here makes a frame wait: whoever asks swaps a list and goes on. Other than the paper's,
+// which lights texels when a ray first meets them, and so makes the ray wait.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,6 @@
-// Opacity modulation as a renderer takes it (Ruiz et al. 2010, section 4.2; R5): what differs from its
-// surroundings stays, what lies among its like becomes clear, so that inner structures show. The measures are
-// those of occlusion.h; here they get their scale.
+// Opacity modulation as a renderer takes it (Ruiz et al. 2010, section 4.2; R5 of docs/ledger.md): what
+// differs from its surroundings stays, what lies among its like becomes clear, so that inner structures show.
+// The measures are those of occlusion.h; here they get their scale.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,7 @@
-// Openness by rays: the truth that the estimates of occlusion.h are compared with (R4), and the two methods
-// that came before them and look along 42 directions. All are of the isosurface through a voxel: the surface
-// is where the trilinear value reaches the voxel's, its normal points along minus the smoothed gradient.
+// Openness by rays: the truth that the estimates of occlusion.h are compared with (R4 of docs/ledger.md), and
+// the two methods that came before them and look along 42 directions. All are of the isosurface through a
+// voxel: the surface is where the trilinear value reaches the voxel's, its normal points along minus the
+// smoothed gradient.
 //
 // Lengths are metres; a volume with a negative scale has its denser side turned around.
 #pragma once

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/memory.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -96,7 +97,7 @@ private:
 
 }  // namespace
 
-IsovalueFields::IsovalueFields(const GreyVolume& volume, bool leaping, std::size_t budget)
+IsovalueFields::IsovalueFields(const GreyVolume& volume, bool leaping, const Often& often, std::size_t budget)
     : mVolume(volume), mLeaping(leaping) {
     const glm::ivec3 cells = volume.frame.size - 1;
     mBlocks = blocksFor(cells, mShift);
@@ -104,6 +105,11 @@ IsovalueFields::IsovalueFields(const GreyVolume& volume, bool leaping, std::size
         mBlocks = blocksFor(cells, ++mShift);
     const auto fits = static_cast<int>(std::min<std::size_t>(budget / (2 * blockCount()), kMostRungs));
     chooseRungs(leaping ? std::max(fits, 2) : 1);
+    mLowestOften = highestRungFor(often.lowest);
+    mHighestOften = highestRungFor(often.highest);
+    const std::size_t octants = leaping ? 8 * sizeof(std::int16_t) * blockCount() : 0;
+    checkMemory("light along paths in a volume", static_cast<double>(octants + bytesToCome()),
+                "crop the volume or make it coarser, or light fewer isovalues");
     if (leaping) {
         mOctants = LazyArray<std::int16_t>(8 * blockCount());
         findOctants(volume, mBlocks, 1 << (mShift - 1), mOctants);
@@ -133,10 +139,21 @@ void IsovalueFields::chooseRungs(int most) {
     for (int& rung : mRungs) rung -= 32768;
 }
 
-int IsovalueFields::rungOf(double isovalue) const {
+int IsovalueFields::highestRungFor(double isovalue) const {
     // Values are whole: those that reach the isovalue are at least its ceiling.
     const auto above = std::upper_bound(mRungs.begin(), mRungs.end(), std::ceil(isovalue));
     return std::max(static_cast<int>(above - mRungs.begin()) - 1, 0);
+}
+
+// A field serves every isovalue from its rung on.
+int IsovalueFields::rungOf(double isovalue) const {
+    const int rung = highestRungFor(isovalue);
+    if (rung < mLowestOften) return rung / kSharedRungs * kSharedRungs;
+    return std::min(rung, mHighestOften);
+}
+
+int IsovalueFields::rungsInUse() const {
+    return mHighestOften - mLowestOften + 1 + (mLowestOften + kSharedRungs - 1) / kSharedRungs;
 }
 
 void IsovalueFields::build(int rung, std::uint8_t* blocks) const {
@@ -194,6 +211,11 @@ std::size_t IsovalueFields::bytesHeld() const {
     std::size_t built = 0;
     for (int n = 0; n < rungs(); ++n) built += mEntries[n].built;
     return built * 2 * blockCount();
+}
+
+std::size_t IsovalueFields::bytesToCome() const {
+    const std::size_t all = 2 * blockCount() * static_cast<std::size_t>(rungsInUse());
+    return all - (mEntries ? std::min(all, bytesHeld()) : 0);
 }
 
 }  // namespace stereonav

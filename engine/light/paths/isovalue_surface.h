@@ -1,5 +1,5 @@
 // The isosurface through any point of a volume, for any isovalue: where it is traced, its smoothed normals
-// (Y3) and where rays start from it. Double precision; the kernels do the same in vectors.
+// (Y3 of docs/ledger.md) and where rays start from it. Double precision; the kernels do the same in vectors.
 //
 // Solid is where the trilinear value is at or above the isovalue; light comes from the side of smaller
 // values.

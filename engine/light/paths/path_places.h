@@ -1,5 +1,5 @@
-// Places on isosurfaces: smoothed normals (Y3) and lifted starts, as isovalue_surface.h has them one at a
-// time. Included by kernels only.
+// Places on isosurfaces: smoothed normals (Y3 of docs/ledger.md) and lifted starts, as isovalue_surface.h has
+// them one at a time. Included by kernels only.
 #pragma once
 
 #include "engine/light/paths/path_trace.h"

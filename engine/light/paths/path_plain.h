@@ -1,6 +1,6 @@
 // Paths one at a time in double precision, every cell on the way visited: the oracle of the kernels. From a
 // point of an isosurface over diffuse bounces to the distant light, the lights being looked for at each
-// vertex (Kajiya 1986; Wyman et al. 2006, eq. 2 and 3; Y1).
+// vertex (Kajiya 1986; Wyman et al. 2006, eq. 2 and 3; Y1 of docs/ledger.md).
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Follows queues of rays to the isosurface of each ray's own isovalue: leaps over blocks in which nothing
 // reaches it, then cell by cell (Amanatides and Woo 1987), with the exact cubic in cells that may hold it
-// (Y2). Lanes whose rays have ended take the next of the queue; cells wait until enough lanes stand in one.
-// Several packets take turns, so that what one waits for (memory, roots, a branch) is there when its turn
-// comes. What a ray meets depends on nothing but the ray. Included by kernels only.
+// (Y2 of docs/ledger.md). Lanes whose rays have ended take the next of the queue; cells wait until enough
+// lanes stand in one. Several packets take turns, so that what one waits for (memory, roots, a branch) is
+// there when its turn comes. What a ray meets depends on nothing but the ray. Included by kernels only.
 #pragma once
 
 #include "engine/light/paths/path_kernel_types.h"

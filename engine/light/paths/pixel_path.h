@@ -1,6 +1,7 @@
-// The reference picture of baked light (Wyman et al. 2006, section 3, "a brute-force approach"; Y11): paths
-// traced from what every pixel shows, with nothing stored and nothing interpolated. Hits are those of the
-// volume's caster, paths those of the bake: the two pictures differ by the lookup and by noise alone.
+// The reference picture of baked light (Wyman et al. 2006, section 3, "a brute-force approach"; Y11 of
+// docs/ledger.md): paths traced from what every pixel shows, with nothing stored and nothing interpolated.
+// Hits are those of the volume's caster, paths those of the bake: the two pictures differ by the lookup and
+// by noise alone.
 #pragma once
 
 #include "engine/base/progress.h"

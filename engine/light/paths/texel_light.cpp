@@ -94,7 +94,7 @@ struct TexelLighter::State {
           pathVolume(stereonav::pathVolume(v)),
           tables(v.frame, setup, how),
           greyTables(v.frame, greyOf(setup), how),
-          fields(v, how.leaping),
+          fields(v, how.leaping, {how.lowest, how.highest}),
           kernels(pathKernels(how.simd)) {}
 
     static LightSetup greyOf(LightSetup setup) {
@@ -224,6 +224,10 @@ TexelLighter::TexelLighter(const GreyVolume& volume, const VolumeFrame& texels, 
 }
 
 TexelLighter::~TexelLighter() = default;
+
+std::size_t TexelLighter::bytesToCome() const {
+    return mState->fields.bytesToCome();
+}
 
 TexelLighter::TexelPlace TexelLighter::place(const glm::ivec3& texel) const {
     const glm::dvec3 voxel = mState->voxelOf(texel);

@@ -1,5 +1,5 @@
-// Light at single texels: each takes the isosurface through itself (Wyman et al. 2006, section 4.1, Y1),
-// which is met exactly (Y2) from starts lifted along the smoothed normal (Y3).
+// Light at single texels: each takes the isosurface through itself (Wyman et al. 2006, section 4.1, Y1 of
+// docs/ledger.md), which is met exactly (Y2) from starts lifted along the smoothed normal (Y3).
 #pragma once
 
 #include <cstdint>
@@ -50,6 +50,9 @@ public:
     TexelLighter(const GreyVolume& volume, const VolumeFrame& texels, const LightSetup& setup,
                  const TexelSampling& sampling);
     ~TexelLighter();
+
+    // What it will take at most beside what it holds, but for what each thread takes for its paths.
+    std::size_t bytesToCome() const;
 
     // Adds samples [sums[n].samples, sums[n].samples + count) to each texel; the result depends on the texel,
     // the seed and the sample numbers alone: neither on threads nor on how samples are split over calls

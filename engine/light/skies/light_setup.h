@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/light/skies/light_probe.h"
+#include "engine/math/luminance.h"
 
 namespace stereonav {
 
@@ -18,8 +19,7 @@ struct PointLight {
 
 // By which one of many is chosen: the luminance of its intensity.
 inline double lightWeight(const PointLight& light) {
-    return 0.2126 * static_cast<double>(light.intensity.x) + 0.7152 * static_cast<double>(light.intensity.y) +
-           0.0722 * static_cast<double>(light.intensity.z);
+    return luminance(glm::dvec3(light.intensity));
 }
 
 struct LightSetup {

@@ -1,6 +1,6 @@
 // Dot products of stored transfer with a light, kLanes texels side by side, for one instruction set (Wyman
-// et al. 2006, eq. 9; Y4). Halves are taken apart with integer arithmetic: none of the kernels' instruction
-// sets but the widest has conversions.
+// et al. 2006, eq. 9; Y4 of docs/ledger.md). Halves are taken apart with integer arithmetic: none of the
+// kernels' instruction sets but the widest has conversions.
 #include "engine/light/transfer/transfer_kernel_types.h"
 #include "engine/simd/simd.h"
 

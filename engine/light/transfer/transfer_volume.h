@@ -1,6 +1,7 @@
 // How texels take up distant light, in spherical harmonics, so that light can be turned while flying (Wyman
-// et al. 2006, section 4.3; Y4). Half floats, kept only where texels lie on a surface. Frames do not read
-// this: relight() writes the irradiance volume that they look up, a pass over what is near.
+// et al. 2006, section 4.3; Y4 of docs/ledger.md). Half floats, kept only where texels lie on a surface.
+// Frames do not read this: relight() writes the irradiance volume that they look up, a pass over what is
+// near.
 #pragma once
 
 #include <cstdint>

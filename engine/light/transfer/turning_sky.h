@@ -1,6 +1,6 @@
-// The sky over a volume's baked transfer, turned while one flies (Wyman et al. 2006, section 4.3; Y7): its
-// harmonics are rotated and dotted with the texels that are in view before the next frame, with the others
-// after it, a part a frame.
+// The sky over a volume's baked transfer, turned while one flies (Wyman et al. 2006, section 4.3; Y7 of
+// docs/ledger.md): its harmonics are rotated and dotted with the texels that are in view before the next
+// frame, with the others after it, a part a frame.
 #pragma once
 
 #include <cstdint>

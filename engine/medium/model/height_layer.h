@@ -1,5 +1,5 @@
-// A height field as a thin volume (Kniss et al. 2003, section 3.4; row K7): opaque between two distances from
-// its height, tapered at both faces, from mip levels that suit the footprint of a sample.
+// A height field as a thin volume (Kniss et al. 2003, section 3.4; row K7 of docs/ledger.md): opaque between
+// two distances from its height, tapered at both faces, from mip levels that suit the footprint of a sample.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,5 @@
-// How a medium is lit and shaded: the light, the model (row K9), the phase function, and what lies behind.
+// How a medium is lit and shaded: the light, the model (row K9 of docs/ledger.md), the phase function, and
+// what lies behind.
 #pragma once
 
 #include <glm/vec3.hpp>

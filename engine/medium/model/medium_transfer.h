@@ -1,6 +1,6 @@
-// From a value, and how steeply it changes, to optical properties (Kniss et al. 2003, section 3.3; row K5).
-// One dimension: points over the value, linear between. Two: regions over value and gradient magnitude, added
-// up by extinction.
+// From a value, and how steeply it changes, to optical properties (Kniss et al. 2003, section 3.3; row K5 of
+// docs/ledger.md). One dimension: points over the value, linear between. Two: regions over value and gradient
+// magnitude, added up by extinction.
 #pragma once
 
 #include <filesystem>

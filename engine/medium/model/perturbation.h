@@ -1,6 +1,6 @@
 // Detail that the data do not have: a small repeating noise volume moves the places at which data are read,
-// or changes optical properties (Kniss et al. 2003, section 3.4; row K6). Moves with a clock that is handed
-// in, so that the same time gives the same picture.
+// or changes optical properties (Kniss et al. 2003, section 3.4; row K6 of docs/ledger.md). Moves with a
+// clock that is handed in, so that the same time gives the same picture.
 #pragma once
 
 #include <array>

@@ -100,7 +100,7 @@ STEREONAV_INLINE F blinnPhong(const SweepLook& look, const V3& normal, const V3&
     return select(square > tiny, sum, zero);
 }
 
-// (1 - S) + f_s S of V3. place: not displaced; gradient: world axes.
+// (1 - S) + f_s S of V3 of docs/volume_light.md. place: not displaced; gradient: world axes.
 [[gnu::noinline]] inline Colors surfaceFactor(const SweepScene& scene, F surface, const V3& place,
                                               const V3& gradient, const V3& way, const V3& toEye, M m) {
     const F one(1.0f);

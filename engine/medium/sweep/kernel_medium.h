@@ -357,7 +357,7 @@ STEREONAV_INLINE Decay decayOf(F z) {
     }
     return {mean, passes};
 }
-// V5 and V6; x: of the eye's ray.
+// V5 and V6 of docs/volume_light.md; x: of the eye's ray.
 STEREONAV_INLINE F slabShareOf(F x, F y, bool forward) {
     if (forward) return x * decayOf(x + y).mean;
     return x * decayOf(min(x, y)).passes * decayOf(abs(x - y)).mean;

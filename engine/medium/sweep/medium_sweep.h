@@ -25,8 +25,8 @@ public:
     ~MediumSweep();
 
     // pictures: one for each eye, resized. startDepths: empty, or one plane an eye: a view depth before which
-    // nothing is expected (0: unknown; infinite: nothing at all), as a depth splat gives it (W12); what lies
-    // more than a slab before it is left out.
+    // nothing is expected (0: unknown; infinite: nothing at all), as a depth splat gives it (W12 of
+    // docs/ledger.md); what lies more than a slab before it is left out.
     SweepTimings render(const MediumLook& look, const SweepSetting& setting, std::span<const EyeView> eyes,
                         const glm::dvec3& head, double time, std::span<MediumPicture> pictures,
                         std::span<const Plane<float>> startDepths = {});

@@ -89,11 +89,11 @@ glm::dvec2 tapLags(const SweepGeometry& geometry, double x, double y, double t);
 // ring stays as it is, and what lies farther outside is like the nearest texel of it.
 std::vector<float> scatteredAtStart(const SweepGeometry& geometry);
 
-// How the light's buffer is blurred while it passes a slab (row K3): taps at `radius` texels with together
-// `share` of the weight, the rest for the texel itself. Where the offset is below a texel the taps are the
-// four neighbours with a share that spreads just as much (explicit diffusion: never below the least nor above
-// the most of its inputs); else they lie on a circle of the offset, turned by a hash of texel and slab, read
-// bilinearly.
+// How the light's buffer is blurred while it passes a slab (row K3 of docs/ledger.md): taps at `radius`
+// texels with together `share` of the weight, the rest for the texel itself. Where the offset is below a
+// texel the taps are the four neighbours with a share that spreads just as much (explicit diffusion: never
+// below the least nor above the most of its inputs); else they lie on a circle of the offset, turned by a
+// hash of texel and slab, read bilinearly.
 struct BlurTaps {
     double radius = 1;  // texels, >= 1
     double share = 0;   // 0..1

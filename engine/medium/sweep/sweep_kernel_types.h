@@ -122,7 +122,8 @@ struct LightPass {
     int slab = 0, inChunk = 0;
     const float* before[3] = {};  // indirect light, as SweepLight::direct
     float* after[3] = {};
-    float* depths[3] = {};  // tau_i at the slab, where slabs lean (V11); the same layout; null: they do not
+    float* depths[3] = {};  // tau_i at the slab, where slabs lean (V11 of docs/volume_light.md); the same
+                            // layout; null: they do not
 };
 // Texels in strips of rows: where nothing is in a strip light is only spread.
 struct LightTile {

@@ -18,7 +18,7 @@ struct SweepSetting {
     // The right eye reads what the left one saw in slabs where a pixel is no wider than this times the finest
     // detail of the medium (sweep_sharing.h). 0: each eye takes samples of its own. Not by the GPU.
     double sharedWidth = 1;
-    bool singleTarget = true;  // GPU: one target split by viewports (K8), or one a buffer
+    bool singleTarget = true;  // GPU: one target split by viewports (K8 of docs/ledger.md), or one a buffer
 };
 
 }  // namespace stereonav

@@ -35,8 +35,8 @@ constexpr std::string_view kOwnSamplesMethod =
     "own-samples";  // the same, but that each eye takes samples of its own
 constexpr std::string_view kTwoSweepsMethod =
     "two-sweeps";  // one for each eye: what the others are measured against
-// The left eye's depths splatted to the right, whose rays start there (W12). FrameTimings::warped: the splat,
-// the sweep after it, and the rays of which no start was known.
+// The left eye's depths splatted to the right, whose rays start there (W12 of docs/ledger.md).
+// FrameTimings::warped: the splat, the sweep after it, and the rays of which no start was known.
 constexpr std::string_view kDepthSplatMethod = "depthsplat";
 constexpr std::array<std::string_view, 4> kSweepMethods{kSweepMethod, kOwnSamplesMethod, kTwoSweepsMethod,
                                                         kDepthSplatMethod};
