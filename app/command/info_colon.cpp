@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/command/scene_facts.h"
+#include "app/scene/volume_inside.h"
 #include "colon/flight/colon_flight.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/pages.h"
@@ -80,12 +81,12 @@ double isovalueOf(const ColonScene& colon) {
     return colon.volume.cells.isovalue * colon.volume.field.scale + colon.volume.field.offset;
 }
 
-std::vector<Facts> segmentFacts(const ColonScene& colon) {
+std::vector<Facts> segmentFacts(const ColonScene& colon, bool inside) {
     std::vector<Facts> segments;
     for (const LumenSegment& segment : colon.lumen.segments) {
         const double volume = kMl * segment.volume;
         Facts facts{factForJson("voxels", countOf(segment.voxels)), factForJson("volume_ml", volume, "ml")};
-        if (colon.isColon())
+        if (inside)
             facts.push_back(factForText("", fmt::format("{:.1f} ml, {} voxels", volume, segment.voxels)));
         segments.push_back(std::move(facts));
     }
@@ -114,7 +115,7 @@ Facts factsOfVolume(const Scene& scene) {
     const ColonScene& colon = *scene.offered<const ColonScene>();
     const VolumeFrame& study = colon.studyFrame;
     const VolumeFrame& frame = colon.volume.field.frame;
-    const bool inside = colon.isColon();
+    const bool inside = scene.offered<const ColonInterior>() != nullptr;
     const ValueSpan range = inside ? colon.valuesFound : wholeRangeOf(colon.volume.field);
     const bool opaque = colon.volume.look.transfer.empty();
     Facts facts;
@@ -159,7 +160,7 @@ Facts factsOfVolume(const Scene& scene) {
         else
             json(key, std::move(value), unit);
     };
-    ofColon("segments", segmentFacts(colon), "segments", "", "");
+    ofColon("segments", segmentFacts(colon, inside), "segments", "", "");
     const double volume = millilitres(colon.lumen);
     ofColon("volume_ml", volume, "volume", fmt::format("{:.1f} ml", volume), "ml");
     const double length = inside ? kMm * colon.centreline.length() : 0.0;
