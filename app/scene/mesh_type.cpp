@@ -16,11 +16,9 @@ bool isMesh(const std::string& file) {
 }
 
 std::unique_ptr<Scene> loadMesh(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    progress.report(0, "reading the mesh");
-    TriangleMesh mesh = readMesh(options.scene);
+    TriangleMesh mesh = readMesh(options.scene, progress);
     const SunPlace sun = options.sun ? SunPlace{options.sun->azimuth, options.sun->elevation} : kSun;
-    progress.report(0.8, "sorting its triangles");
-    auto scene = std::make_unique<ShownMesh>(MeshCaster(std::move(mesh), options.scene), sun, simd);
+    auto scene = std::make_unique<ShownMesh>(MeshCaster(std::move(mesh), options.scene, progress), sun, simd);
     adjustViews(options, *scene);
     return scene;
 }

@@ -58,6 +58,17 @@ void castPacket(RTCScene scene, const glm::vec3& origin, float tNear, const glm:
     }
 }
 
+// Asked by Embree now and then while it builds, on any of its threads; false ends that.
+bool goesOn(void* asked, double fraction) {
+    Progress& progress = *static_cast<Progress*>(asked);
+    try {
+        progress.report(std::clamp(fraction, 0.0, 1.0), "sorting the mesh's triangles");
+    } catch (const Cancelled&) {
+        return false;
+    }
+    return true;
+}
+
 int nativePacket(RTCDevice device) {
     if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) return 16;
     if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) return 8;
@@ -84,14 +95,14 @@ struct MeshCaster::State {
         centre = 0.5 * (low + high);
         for (auto& vertex : mesh.vertices) vertex.position = glm::dvec3(glm::vec3(vertex.position - centre));
     }
-    void build(const std::string& name);
+    void build(const std::string& name, Progress& progress);
     void cast(const glm::vec3& origin, float tNear, const glm::dvec3* direction, const float* tFar, int count,
               PacketHits& hits) const;
     MeshHit hitAt(std::uint32_t triangle, const glm::dvec3& origin, const glm::dvec3& direction,
                   float t) const;
 };
 
-void MeshCaster::State::build(const std::string& name) {
+void MeshCaster::State::build(const std::string& name, Progress& progress) {
     const auto failed = [&] {
         const RTCError code = rtcGetDeviceError(device.get());
         throw Error(name, "",
@@ -126,7 +137,10 @@ void MeshCaster::State::build(const std::string& name) {
     }
     rtcReleaseGeometry(geometry);
     if (!vertices || !indices) failed();
+    rtcSetSceneProgressMonitorFunction(tree.get(), goesOn, &progress);
     rtcCommitScene(tree.get());
+    rtcSetSceneProgressMonitorFunction(tree.get(), nullptr, nullptr);
+    if (progress.cancelled()) throw Cancelled();
     if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE) failed();
 }
 
@@ -164,9 +178,14 @@ MeshHit MeshCaster::State::hitAt(std::uint32_t triangle, const glm::dvec3& origi
     return hit;
 }
 
+MeshCaster::MeshCaster(TriangleMesh mesh, const std::string& name, Progress& progress)
+    : mState(std::make_unique<State>(std::move(mesh))) {
+    mState->build(name, progress);
+}
 MeshCaster::MeshCaster(TriangleMesh mesh, const std::string& name)
     : mState(std::make_unique<State>(std::move(mesh))) {
-    mState->build(name);
+    Progress quiet;
+    mState->build(name, quiet);
 }
 MeshCaster::MeshCaster(MeshCaster&&) noexcept = default;
 MeshCaster& MeshCaster::operator=(MeshCaster&&) noexcept = default;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/base/progress.h"
 #include "engine/camera/eye_view.h"
 #include "engine/mesh/mesh_shader.h"
 #include "engine/mesh/triangle_mesh.h"
@@ -18,8 +19,9 @@ namespace stereonav {
 class MeshCaster {
 public:
     // Builds the tree. Positions are kept about the middle of the mesh and rounded to floats, as Embree has
-    // them. Throws Error naming `name`.
-    MeshCaster(TriangleMesh mesh, const std::string& name);
+    // them. Throws Error naming `name`, Cancelled.
+    MeshCaster(TriangleMesh mesh, const std::string& name, Progress& progress);
+    MeshCaster(TriangleMesh mesh, const std::string& name);  // that nobody waits for
     MeshCaster(MeshCaster&&) noexcept;
     MeshCaster& operator=(MeshCaster&&) noexcept;
     ~MeshCaster();

@@ -20,10 +20,11 @@ namespace {
 
 constexpr const char* kMeshAdvice = "export the mesh again";
 constexpr std::size_t kMaxVertices = 1u << 30;
+constexpr std::size_t kTellEach = 1u << 16;  // vertices
 
 class MeshReader {
 public:
-    explicit MeshReader(const GltfFile& file) : mFile(file) {}
+    MeshReader(const GltfFile& file, Progress& progress) : mFile(file), mProgress(progress) {}
 
     TriangleMesh read() {
         readMaterials();
@@ -49,7 +50,10 @@ private:
     std::vector<double> attribute(const tinygltf::Primitive& primitive, const std::string& name,
                                   int components, std::size_t count, const std::string& place) const;
 
+    void tell() const;
+
     const GltfFile& mFile;
+    Progress& mProgress;
     TriangleMesh mMesh;
     std::vector<int> mTexCoordSet;  // of each material's base colour texture
 };
@@ -86,6 +90,11 @@ void MeshReader::makeRoom(const std::vector<std::vector<int>>& chains) {
                 "simplify the mesh");
     mMesh.vertices.reserve(static_cast<std::size_t>(vertices));
     mMesh.triangles.reserve(static_cast<std::size_t>(triangles));
+}
+
+void MeshReader::tell() const {
+    const double all = static_cast<double>(std::max<std::size_t>(mMesh.vertices.capacity(), 1));
+    mProgress.report(std::min(static_cast<double>(mMesh.vertices.size()) / all, 1.0), "reading the mesh");
 }
 
 void MeshReader::readMaterials() {
@@ -188,6 +197,7 @@ void MeshReader::readVertices(const tinygltf::Primitive& primitive, const glm::d
     const glm::dmat3 turnNormal(glm::cross(turn[1], turn[2]), glm::cross(turn[2], turn[0]),
                                 glm::cross(turn[0], turn[1]));
     for (std::size_t k = 0; k < count; ++k) {
+        if (k % kTellEach == 0) tell();
         TriangleMesh::Vertex v{{}, glm::vec3(0), glm::vec3(1), glm::vec2(0)};
         const glm::dvec4 p(position[3 * k], position[3 * k + 1], position[3 * k + 2], 1);
         v.position = worldFromGltf(glm::dvec3(sceneFromNode * p));
@@ -239,9 +249,15 @@ void MeshReader::readTriangles(const tinygltf::Primitive& primitive, std::size_t
 
 }  // namespace
 
-TriangleMesh readMesh(const std::filesystem::path& path) {
+TriangleMesh readMesh(const std::filesystem::path& path, Progress& progress) {
+    progress.report(0, "reading the mesh");
     const GltfFile file = readGltf(path);
-    return MeshReader(file).read();
+    return MeshReader(file, progress).read();
+}
+
+TriangleMesh readMesh(const std::filesystem::path& path) {
+    Progress quiet;
+    return readMesh(path, quiet);
 }
 
 }  // namespace stereonav

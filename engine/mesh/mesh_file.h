@@ -4,11 +4,13 @@
 
 #include <filesystem>
 
+#include "engine/base/progress.h"
 #include "engine/mesh/triangle_mesh.h"
 
 namespace stereonav {
 
-// Throws Error naming the file and the mesh or accessor; at least one triangle is returned.
-TriangleMesh readMesh(const std::filesystem::path& file);
+// Throws Error naming the file and the mesh or accessor, Cancelled; at least one triangle is returned.
+TriangleMesh readMesh(const std::filesystem::path& file, Progress& progress);
+TriangleMesh readMesh(const std::filesystem::path& file);  // that nobody waits for
 
 }  // namespace stereonav

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <mutex>
 #include <random>
 
 #include "engine/camera/stereo_rig.h"
@@ -169,6 +170,21 @@ TEST(MeshRenderer, TheSunLightsWhatFacesIt) {
     EXPECT_EQ(imageOf(renderer, view).color.at(4, 4), packColor(glm::vec3(0.25f + 0.75f / 2)));
     renderer.setLight({{0, 1, 0}, 0.25f, 1.0});
     EXPECT_EQ(imageOf(renderer, view).color.at(4, 4), packColor(glm::vec3(0.25f)));
+}
+
+TEST(MeshRenderer, BuildingItsTreeEndsWhenItIsCancelled) {
+    Progress cancelled;
+    cancelled.cancel();
+    EXPECT_THROW(MeshCaster(crowd(20000), "crowd", cancelled), Cancelled);
+    double last = 0;
+    std::mutex one;
+    Progress told([&](double fraction, const std::string&) {
+        const std::lock_guard lock(one);
+        last = std::max(last, fraction);
+    });
+    const MeshCaster caster(crowd(20000), "crowd", told);
+    EXPECT_GT(last, 0);
+    EXPECT_LE(last, 1);
 }
 
 // Flat in one direction, in two, in all three: triangles without area are never hit, and harm nothing.
