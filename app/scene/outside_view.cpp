@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <vector>
 
+#include "engine/camera/orbit.h"
 #include "engine/math/constants.h"
 #include "engine/nav/navigator.h"
 
@@ -12,17 +12,8 @@ namespace stereonav {
 namespace {
 
 constexpr double kFov = 40 * kRadians;
-constexpr double kOrbitSeconds = 15;
-constexpr int kOrbitSamples = 180;
 constexpr double kFraming = 0.85;      // of the distance at which a ball around the bounds fills the picture
 constexpr double kExtentSeconds = 10;  // at normal speed
-
-// Around the middle, looking at it from a little above; at turn 0 northwards.
-Pose orbitPose(const glm::dvec3& middle, double distance, double turn) {
-    Pose pose = poseFromAngles(middle, turn, -0.15, 0);
-    pose.position -= distance * pose.forward();
-    return pose;
-}
 
 }  // namespace
 
@@ -34,12 +25,9 @@ void seeFromOutside(const glm::dvec3& low, const glm::dvec3& high, const std::st
     scene.lens.nearDepth = 0.005 * radius;
     scene.stereo.zeroParallax = distance;
     scene.stereo.separation = distance / 30;
-    scene.startPose = orbitPose(middle, distance, 0);
-    std::vector<PathSample> samples;
-    for (int n = 0; n <= kOrbitSamples; ++n)
-        samples.push_back(
-            {n * kOrbitSeconds / kOrbitSamples, orbitPose(middle, distance, 2 * kPi * n / kOrbitSamples)});
-    scene.path = RecordedPath(std::move(samples), flight);
+    const Orbit orbit{middle, distance, -0.15};
+    scene.startPose = poseOn(orbit, 0);
+    scene.path = flightAround(orbit, flight);
 }
 
 std::unique_ptr<Flight> freeFlight(const Pose& home, double extent) {

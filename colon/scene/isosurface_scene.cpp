@@ -14,14 +14,13 @@
 #include "colon/scene/transfer_presets.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
+#include "engine/camera/orbit.h"
 #include "engine/math/constants.h"
 
 namespace stereonav {
 namespace {
 constexpr double kAirSeen = -500, kBone = 300, kSkin = -300;  // HU
 constexpr double kBoneShare = 0.002;  // of the voxels: less is a contrast agent or a calcification
-constexpr double kOrbitSeconds = 15;
-constexpr int kOrbitSamples = 180;
 
 double valueOf(const GreyVolume& grey, double stored) {
     return stored * grey.scale + grey.offset;
@@ -104,13 +103,6 @@ Ball ballAround(const GreyVolume& field, float isovalue) {
     return {0.5 * (a + b), std::max(0.5 * glm::length(b - a), 1e-6)};
 }
 
-Pose orbitPose(const Ball& ball, double distance, double turn) {
-    const double pitch = -0.2;  // from a little above
-    Pose pose = poseFromAngles(ball.middle, turn, pitch, 0);
-    pose.position -= distance * pose.forward();
-    return pose;
-}
-
 void placeViewer(ColonScene& scene) {
     const Ball ball = ballAround(scene.volume.field, scene.volume.cells.isovalue);
     scene.lens.verticalFov = 40 * kPi / 180;
@@ -118,12 +110,9 @@ void placeViewer(ColonScene& scene) {
     scene.lens.nearDepth = 0.005 * ball.radius;
     scene.stereo.zeroParallax = distance;
     scene.stereo.separation = distance / 30;
-    scene.startPose = orbitPose(ball, distance, 0);
-    std::vector<PathSample> samples;
-    for (int n = 0; n <= kOrbitSamples; ++n)
-        samples.push_back(
-            {n * kOrbitSeconds / kOrbitSamples, orbitPose(ball, distance, 2 * kPi * n / kOrbitSamples)});
-    scene.path = RecordedPath(std::move(samples), "the flight around the volume");
+    const Orbit orbit{ball.middle, distance, -0.2};  // from a little above
+    scene.startPose = poseOn(orbit, 0);
+    scene.path = flightAround(orbit, "the flight around the volume");
     scene.extent = 2 * ball.radius;
 }
 

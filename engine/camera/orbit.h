@@ -1,0 +1,24 @@
+// A flight around something, looking at its middle.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "engine/camera/pose.h"
+#include "engine/camera/recorded_path.h"
+
+namespace stereonav {
+
+struct Orbit {
+    glm::dvec3 middle{0.0};  // world, metres
+    double distance = 1;     // metres, > 0
+    double pitch = 0;        // radians; negative looks down from above
+};
+
+// turn: radians, clockwise seen from above; at 0 the viewer looks northwards.
+Pose poseOn(const Orbit& orbit, double turn);
+
+// Once around. name: as messages call it, "the flight around the mesh".
+RecordedPath flightAround(const Orbit& orbit, const std::string& name);
+
+}  // namespace stereonav
