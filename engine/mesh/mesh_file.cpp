@@ -78,16 +78,18 @@ void MeshReader::makeRoom(const std::vector<std::vector<int>>& chains) {
             const std::size_t corners = primitive.indices >= 0 ? countAt(primitive.indices) : own;
             vertices += static_cast<double>(own);
             triangles += static_cast<double>(corners) / (primitive.mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1);
-            constexpr double kNumbers = 3 + 3 + 4 + 2;  // of position, normal, colour, place in the texture
+            double numbers = 0;  // a vertex
+            for (const auto& [attribute, components] :
+                 {std::pair("POSITION", 3), {"NORMAL", 3}, {"COLOR_0", 4}, {"TEXCOORD_0", 2}})
+                if (primitive.attributes.contains(attribute)) numbers += components;
             most =
-                std::max(most, static_cast<double>(own) * kNumbers * sizeof(double) +
+                std::max(most, static_cast<double>(own) * numbers * sizeof(double) +
                                    static_cast<double>(corners) * (sizeof(double) + sizeof(std::uint32_t)));
         }
     }
-    checkMemory(mFile.name,
-                most + vertices * (sizeof(TriangleMesh::Vertex) + 12) +
-                    triangles * (sizeof(TriangleMesh::Triangle) + 12 + kTreeBytes),
-                "simplify the mesh");
+    const double kept = vertices * sizeof(TriangleMesh::Vertex) + triangles * sizeof(TriangleMesh::Triangle);
+    const double tree = vertices * 12 + triangles * (12 + kTreeBytes);  // once all is read
+    checkMemory(mFile.name, kept + std::max(most, tree), "simplify the mesh");
     mMesh.vertices.reserve(static_cast<std::size_t>(vertices));
     mMesh.triangles.reserve(static_cast<std::size_t>(triangles));
 }
