@@ -1,11 +1,13 @@
-# What `cmake --install` gives: the program with its modules, and, for other programs, the rooms of engine, terrain and
-# colon as static libraries with their headers and a CMake package (docs/adding.md, tests/example).
-install(TARGETS stereonav RUNTIME DESTINATION bin)
-install(DIRECTORY ${CMAKE_BINARY_DIR}/lib/stereonav DESTINATION lib FILES_MATCHING PATTERN "stereonav_*.so"
-  PATTERN "stereonav_test*" EXCLUDE)
-if(TARGET stereonav_gdcm)
-  install(TARGETS stereonav_gdcm RUNTIME DESTINATION lib/stereonav)
-endif()
+# What `cmake --install` gives: the program with its modules (component program), and, for other programs, the rooms of
+# engine, terrain and colon as static libraries with their headers and a CMake package (component development;
+# docs/adding.md, tests/example).
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
+install(TARGETS stereonav)
+# Where the program looks for them: engine/base/module.h.
+set(STEREONAV_MODULES_DIR ${CMAKE_INSTALL_BINDIR}/../lib/stereonav)
+cmake_path(NORMAL_PATH STEREONAV_MODULES_DIR)
+get_property(modules GLOBAL PROPERTY stereonav_modules)
+install(TARGETS ${modules} LIBRARY DESTINATION ${STEREONAV_MODULES_DIR} RUNTIME DESTINATION ${STEREONAV_MODULES_DIR})
 
 include(CMakePackageConfigHelpers)
 get_property(rooms GLOBAL PROPERTY stereonav_rooms)
@@ -15,8 +17,9 @@ foreach(room ${rooms})
   set_target_properties(${room} PROPERTIES EXPORT_NAME ${name})  # stereonav::stereo
 endforeach()
 set(development COMPONENT development)
-install(TARGETS ${rooms} EXPORT stereonav_targets ARCHIVE DESTINATION lib/stereonav ${development})
-install(EXPORT stereonav_targets NAMESPACE stereonav:: DESTINATION lib/cmake/stereonav ${development})
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/stereonav)
+install(TARGETS ${rooms} EXPORT stereonav_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/stereonav ${development})
+install(EXPORT stereonav_targets NAMESPACE stereonav:: DESTINATION ${package_dir} ${development})
 
 # Headers of what was built. Those of modules and helpers are for them alone.
 set(folders engine/base engine/math engine/simd engine/text engine/image engine/camera engine/render engine/stereo
@@ -30,12 +33,12 @@ foreach(part TERRAIN terrain COLON colon MEDIUM engine/medium DISPLAY engine/dis
 endforeach()
 foreach(folder ${folders})
   get_filename_component(parent ${folder} DIRECTORY)
-  install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder} DESTINATION include/stereonav/${parent} ${development}
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stereonav/${parent} ${development}
     FILES_MATCHING PATTERN "*.h" PATTERN "opencv" EXCLUDE PATTERN "gdal" EXCLUDE)
 endforeach()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/package.cmake.in ${CMAKE_BINARY_DIR}/stereonav-config.cmake
-  INSTALL_DESTINATION lib/cmake/stereonav)
+  INSTALL_DESTINATION ${package_dir} PATH_VARS STEREONAV_MODULES_DIR)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/stereonav-config-version.cmake COMPATIBILITY ExactVersion)
 install(FILES ${CMAKE_BINARY_DIR}/stereonav-config.cmake ${CMAKE_BINARY_DIR}/stereonav-config-version.cmake
-  DESTINATION lib/cmake/stereonav ${development})
+  DESTINATION ${package_dir} ${development})

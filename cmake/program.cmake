@@ -71,5 +71,5 @@ add_executable(stereonav app/main.cpp app/open_watch.cpp)
 target_link_libraries(stereonav PRIVATE stereonav_options program)
 list(JOIN without ", " without)
 set_source_files_properties(app/options/built_without.cpp PROPERTIES COMPILE_DEFINITIONS
-  "STEREONAV_VERSION=\"${PROJECT_VERSION}\";STEREONAV_WITHOUT=\"${without}\"")
+  "STEREONAV_VERSION=\"${PROJECT_VERSION}\";STEREONAV_DATE=\"${STEREONAV_DATE}\";STEREONAV_WITHOUT=\"${without}\"")
 include(cmake/version.cmake)

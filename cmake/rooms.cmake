@@ -1,4 +1,5 @@
 # One folder is one target; its link line says whom it may know.
+include(GNUInstallDirs)
 
 # Sources of `folder` into `target`. A file *_kernel.cpp is compiled once for each instruction set,
 # with STEREONAV_ISA naming the namespace (plain, avx2, avx512); it is chosen at run time.
@@ -70,7 +71,7 @@ endfunction()
 # Other programs may link it: cmake/install.cmake.
 function(stereonav_installed name)
   set_property(GLOBAL APPEND PROPERTY stereonav_rooms ${name})
-  target_include_directories(${name} INTERFACE $<INSTALL_INTERFACE:include/stereonav>)
+  target_include_directories(${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/stereonav>)
   target_compile_features(${name} INTERFACE cxx_std_20)
 endfunction()
 
@@ -80,6 +81,7 @@ endfunction()
 function(stereonav_module name folder)
   cmake_parse_arguments(ARG "" "" "ONLY;LINK" ${ARGN})
   set(target stereonav_${name})
+  set_property(GLOBAL APPEND PROPERTY stereonav_modules ${target})
   add_library(${target} MODULE)
   stereonav_sources(${target} ${folder} ONLY ${ARG_ONLY})
   target_link_libraries(${target} PRIVATE engine_base ${ARG_LINK})
@@ -98,6 +100,7 @@ endfunction()
 function(stereonav_helper name folder)
   cmake_parse_arguments(ARG "" "" "ONLY;LINK" ${ARGN})
   set(target stereonav_${name})
+  set_property(GLOBAL APPEND PROPERTY stereonav_modules ${target})  # installed beside the modules
   add_executable(${target})
   stereonav_sources(${target} ${folder} ONLY ${ARG_ONLY})
   target_link_libraries(${target} PRIVATE engine_base ${ARG_LINK})

@@ -9,9 +9,8 @@
 
 #include "app/command/commands.h"
 #include "app/options/built_without.h"
-#include "app/options/completion.h"
-#include "app/options/option_page.h"
 #include "app/options/option_table.h"
+#include "app/options/pages.h"
 #include "app/options/parsed_options.h"
 #include "engine/base/error.h"
 
@@ -100,14 +99,14 @@ int print(const std::string& text) {
 
 // Commands that tell of the others.
 void addPages(CLI::App& app, ParsedOptions& parsed) {
-    app.add_subcommand("options", "print docs/options.md: every option of every command")
-        ->callback([&parsed] { parsed.run = [] { return print(optionPage()); }; });
-    CLI::App& completion =
-        *app.add_subcommand("completion", "print a script: source <(stereonav completion bash)");
-    completion.add_subcommand("bash", "of bash")->callback([&parsed] {
-        parsed.run = [] { return print(bashCompletion()); };
-    });
-    completion.require_subcommand(1);
+    for (const PageFacts& page : pageFacts()) {
+        CLI::App* subcommand = app.add_subcommand(page.name, page.help);
+        if (*page.of) {
+            subcommand->require_subcommand(1);
+            subcommand = subcommand->add_subcommand(page.of, std::string("of ") + page.of);
+        }
+        subcommand->callback([&parsed, &page] { parsed.run = [&page] { return print(page.text()); }; });
+    }
 }
 
 void addCommands(CLI::App& app, ParsedOptions& parsed) {

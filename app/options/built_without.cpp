@@ -4,6 +4,14 @@
 
 namespace stereonav {
 
+const char* versionNumber() {
+    return STEREONAV_VERSION;
+}
+
+const char* versionDate() {
+    return STEREONAV_DATE;
+}
+
 std::string versionText() {
     const std::string version = "stereonav " STEREONAV_VERSION, without = STEREONAV_WITHOUT;
     return without.empty() ? version : version + "\nbuilt without " + without;

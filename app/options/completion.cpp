@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/options/option_table.h"
+#include "app/options/pages.h"
 
 namespace stereonav {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 std::vector<std::string> namesOfCommands() {
     std::vector<std::string> names;
     for (const CommandFacts& facts : commandFacts()) names.emplace_back(facts.name);
+    for (const PageFacts& page : pageFacts()) names.emplace_back(page.name);
     return names;
 }
 
@@ -49,6 +51,8 @@ std::string bashCompletion() {
                 option.value.kind != ValueKind::Flag)
                 behind += caseOf(facts, option);
     }
+    for (const PageFacts& page : pageFacts())
+        behind += fmt::format("        \"{0} {0}\") behind=1 words=\"{1}\" ;;\n", page.name, page.of);
     return fmt::format(R"(# Completes the words of stereonav in bash: source <(stereonav completion bash)
 _stereonav() {{
     local current="${{COMP_WORDS[COMP_CWORD]}}" previous="${{COMP_WORDS[COMP_CWORD-1]}}"
@@ -58,7 +62,7 @@ _stereonav() {{
         case " {0} " in *" $word "*) command="$word"; break ;; esac
     done
     if [[ -z $command ]]; then
-        COMPREPLY=($(compgen -W "{0} options completion --help --version" -- "$current"))
+        COMPREPLY=($(compgen -W "{0} --help --version" -- "$current"))
         return
     fi
     case "$command $previous" in

@@ -1,5 +1,5 @@
 // The program's options, each declared once: what it takes, what it is for, what it excludes. The command
-// line, the refusals, the keys of scene files, the completion of shells and docs/options.md come from here.
+// line, refusals, keys of scene files, completion, docs/options.md and the man page come from here.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,15 @@
 // Options in scene files and behind --set: the same as on the command line, which wins.
 #include <gtest/gtest.h>
 
+#include <set>
+#include <sstream>
+
 #include "app/options/arguments.h"
 #include "app/options/completion.h"
+#include "app/options/man_page.h"
 #include "app/options/option_page.h"
 #include "app/options/option_table.h"
+#include "app/options/pages.h"
 #include "engine/base/error.h"
 #include "tests/app/volume_input.h"
 
@@ -170,6 +175,46 @@ TEST_F(SceneFileOptionsTest, ThePageIsThatOfTheTable) {
         EXPECT_NE(optionPage().find("`" + option.name()), std::string::npos) << option.name();
 }
 
+// What roff makes of a page's lines, without their filling and fonts.
+std::string readAsText(std::string page) {
+    const auto replaceAll = [&](const std::string& what, const std::string& by) {
+        for (std::size_t at = page.find(what); at != std::string::npos; at = page.find(what, at + by.size()))
+            page.replace(at, what.size(), by);
+    };
+    for (const auto& [what, by] : {std::pair{"\\-", "-"}, {"\\&", ""}, {"\\e", "\\"}, {"\n", " "}})
+        replaceAll(what, by);
+    return page;
+}
+
+TEST_F(SceneFileOptionsTest, TheManPageNamesEveryCommandAndOption) {
+    const std::string page = manPage(), text = readAsText(page);
+    EXPECT_EQ(run({"man"}).out, page);
+    for (const CommandFacts& command : commandFacts())
+        for (const std::string& entry : {std::string(" \\fBstereonav ") + command.name + "\\fR ",
+                                         std::string(".TP \\fB") + command.name + "\\fR " + command.help})
+            EXPECT_NE(text.find(entry), std::string::npos) << entry;
+    for (const PageFacts& facts : pageFacts())
+        EXPECT_NE(text.find(std::string(".TP \\fB") + facts.name + "\\fR"), std::string::npos) << facts.name;
+    for (const Option& option : optionTable()) {
+        const std::string font = option.positional() ? "\\fI" : "\\fB";
+        const std::size_t head = text.find(".TP " + font + option.name() + "\\fR");
+        ASSERT_NE(head, std::string::npos) << option.name();
+        EXPECT_NE(text.find(helpLine(option), head), std::string::npos)
+            << option.name();  // unit, range, default
+    }
+    for (const char* name : {"SYNOPSIS", "\"EXIT STATUS\"", "FILES", "ENVIRONMENT", "EXAMPLES"})
+        EXPECT_NE(page.find(std::string("\n.SH ") + name + "\n"), std::string::npos) << name;
+    // No text is taken for a request.
+    const std::set<std::string> requests{".\\\"", ".TH", ".SH", ".SS", ".TP", ".PP", ".br"};
+    std::istringstream lines(page);
+    for (std::string line; std::getline(lines, line);) {
+        EXPECT_FALSE(line.empty() || line[0] == '\'');
+        if (line[0] == '.') {
+            EXPECT_TRUE(requests.contains(line.substr(0, 3))) << line;
+        }
+    }
+}
+
 TEST_F(SceneFileOptionsTest, BashCompletesEveryOption) {
     const std::string script = input("completion.bash", run({"completion", "bash"}).out);
     EXPECT_EQ(contentOf(script), bashCompletion());
@@ -192,6 +237,8 @@ TEST_F(SceneFileOptionsTest, BashCompletesEveryOption) {
             }
     }
     EXPECT_NE(offered("stereonav \"\"").find("\nrender\n"), std::string::npos);
+    EXPECT_NE(offered("stereonav \"\"").find("\nman\n"), std::string::npos);
+    EXPECT_EQ(offered("stereonav completion \"\""), "\nbash\n");
     EXPECT_EQ(offered("stereonav render --simd av"), "\navx2\navx512\n");
     EXPECT_EQ(offered("stereonav view --shading phong"), "\nphong\nphong-shadows\n");
 }

@@ -1,0 +1,12 @@
+# Run by cpack over what was installed, before it becomes a .deb: what Debian's rules ask for beside it.
+file(GLOB roots ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/*/usr)
+foreach(root ${roots})
+  set(doc ${root}/share/doc/stereonav)
+  file(COPY ${CPACK_STEREONAV_DEBIAN_DIR}/copyright ${CPACK_STEREONAV_DEBIAN_DIR}/changelog DESTINATION ${doc}
+    FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ
+    DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+  file(RENAME ${doc}/changelog ${doc}/changelog.Debian)
+  file(GLOB pages ${root}/share/man/man1/*.1)
+  # Without names and times of this build: the same sources give the same bytes.
+  execute_process(COMMAND gzip -9nf ${doc}/changelog.Debian ${pages} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
