@@ -16,11 +16,11 @@
 #include "engine/medium/model/medium_transfer.h"
 #include "engine/medium/model/noise_file.h"
 #include "engine/medium/model/phase_function.h"
+#include "engine/mesh/mesh_file.h"
 #include "engine/volume/transfer_function.h"
 #include "terrain/light/terrain_light.h"
 #include "terrain/read/dem_reader.h"
 #include "terrain/read/scene_file.h"
-#include "engine/mesh/mesh_file.h"
 
 namespace stereonav::fuzz {
 namespace {
