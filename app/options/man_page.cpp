@@ -44,11 +44,12 @@ constexpr std::array kStatuses{
         "The command did what was asked. Also: the window was closed; help, version or a page was printed."},
     Entry{"1",
           "An error, told in one line on standard error with the file, the place, what was expected and what "
-          "to do; no result was written. Also a stop by SIGINT or SIGTERM, at the latest after a second (a "
+          "to do; no result was written. Also a stop by SIGINT, SIGTERM or SIGHUP, at the latest after a "
+          "second (a "
           "bake keeps what is done and goes on from there when it is started again), and a report with "
           "--compare that finds something worse."},
     Entry{"128 + N, in a shell",
-          "The program was ended by signal N, which it does not catch: 129 by SIGHUP, 131 by SIGQUIT, 137 by "
+          "The program was ended by signal N, which it does not catch: 131 by SIGQUIT, 137 by "
           "SIGKILL (also of a system that is out of memory), 141 by SIGPIPE (who read standard output has "
           "gone). A file that was being written may be left, hidden and with .part in its name."},
 };

@@ -136,9 +136,9 @@ std::vector<Option> mediumFineness() {
         {.key = "cone",
          .value = numberValue({0, 180, false, true, "degrees"}),
          .help = "in which scattered light spreads",
-         .advice = "35 is the default; 0 lets scattered light go straight on",
+         .advice = "34.4 is the default; 0 lets scattered light go straight on",
          .group = kMediumGroup,
-         .fallback = "35",
+         .fallback = "34.4",
          .commands = kShowing,
          .scenes = kMedia,
          .rules = {unlessModel(

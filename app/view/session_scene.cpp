@@ -184,9 +184,10 @@ void ViewSession::turnSun(double azimuth, double elevation) {
     const auto* const light = offered<TurningLight>();
     if (!light) {
         const std::string why = shown().whyLightStays();
-        return notify(why.empty()
-                          ? "light turns over terrain and volumes where it is baked so, and around media"
-                          : why);
+        return notify(
+            why.empty()
+                ? "light turns over meshes, over terrain and volumes where it is baked so, and around media"
+                : why);
     }
     constexpr double kTurn = 2 * std::numbers::pi, kLowestSun = -0.15;
     const double lowest = light->isSky() ? -0.25 * kTurn : kLowestSun;

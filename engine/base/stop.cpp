@@ -119,9 +119,9 @@ void catchStopSignals() {
     if (timer_create(CLOCK_MONOTONIC, &event, &deadline) != 0) return;
     sigset_t blocked;
     sigemptyset(&blocked);
-    for (const int signal : {SIGINT, SIGTERM, SIGALRM}) sigaddset(&blocked, signal);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGALRM}) sigaddset(&blocked, signal);
     handle(SIGALRM, onDeadline, blocked);
-    for (const int signal : {SIGINT, SIGTERM})
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
         if (!isIgnored(signal)) handle(signal, onWish, blocked);
 }
 

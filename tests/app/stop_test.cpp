@@ -187,6 +187,10 @@ TEST_F(Stop, ByTheKeyboardIsTheSame) {
     EXPECT_LT(stopAfter(jobs()[2], 0.3, SIGINT), 1000 * kLongestStop);
 }
 
+TEST_F(Stop, ByATerminalThatIsClosedIsTheSame) {
+    EXPECT_LT(stopAfter(jobs()[0], 0.3, SIGHUP), 1000 * kLongestStop);
+}
+
 // Nobody reads the other end of the pipe: the write never ends, the run does.
 TEST_F(Stop, EndsARunThatNobodyListensTo) {
     const std::string pipe = (mFolder / "pipe.png").string();
