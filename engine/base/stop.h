@@ -1,8 +1,8 @@
-// The wish of the user or the system to end the run (SIGINT, SIGTERM, SIGHUP), and what is left of a run that ends at
-// once. Loops and reports of progress ask here, so that a stop comes out of them as Cancelled, which takes
-// unfinished files away. What sits in a library meanwhile, or in a write that nobody reads, does not hold the
-// run: after kMostStopping_ms, or sooner where it holds memory that the system takes long to take back, it
-// ends where it is, its unfinished files taken away all the same.
+// The wish of the user or the system to end the run (SIGINT, SIGTERM, SIGHUP), and what is left of a run that
+// ends at once. Loops and reports of progress ask here, so that a stop comes out of them as Cancelled, which
+// takes unfinished files away. What sits in a library meanwhile, or in a write that nobody reads, does not
+// hold the run: after kMostStopping_ms, or sooner where it holds memory that the system takes long to take
+// back, it ends where it is, its unfinished files taken away all the same.
 #pragma once
 
 namespace stereonav {
@@ -13,8 +13,8 @@ constexpr int kMostStopping_ms = 700;
 // within a second. 7.9 GB took 0.26 s.
 int stoppingTime_ms(double bytes);
 
-// From here on SIGINT, SIGTERM and SIGHUP are such wishes, unless whoever started the program had them ignored. A
-// second one ends the run at once.
+// From here on SIGINT, SIGTERM and SIGHUP are such wishes, unless whoever started the program had them
+// ignored. A second one ends the run at once.
 void catchStopSignals();
 
 bool stopWished();
