@@ -22,32 +22,24 @@ std::vector<PlaneName> planesOf(const FramePlan& plan) {
     return planes;
 }
 
-void addPlan(const FramePlan& plan, Facts& facts) {
-    const auto both = [&](const char* key, FactValue value, const char* label, std::string text,
-                          const char* unit = "") {
-        facts.push_back(factForAll(key, std::move(value), label, std::move(text), unit));
-    };
-    const auto json = [&](const char* key, FactValue value, const char* unit = "") {
-        facts.push_back(factForJson(key, std::move(value), unit));
-    };
+void addPlan(const FramePlan& plan, FactList& list) {
     FactWords planes;
     for (const PlaneName& plane : planesOf(plan)) planes.emplace_back(plane.key);
-    json("view_dependent", plan.viewDependent);
-    both("planes", planes, "planes", planesText(plan));
-    both("bytes", countOf(plan.bytes), "memory",
-         fmt::format("{:.1f} MB", static_cast<double>(plan.bytes) / 1e6), "bytes");
+    list.json("view_dependent", plan.viewDependent);
+    list.both("planes", planes, "planes", planesText(plan));
+    list.both("bytes", countOf(plan.bytes), "memory",
+              fmt::format("{:.1f} MB", static_cast<double>(plan.bytes) / 1e6), "bytes");
     const std::string method(nameOf(plan.method));
-    both("method", method, "right eye", method + ": " + plan.reason);
-    json("warp_right_ms", plan.warpRight_ms, "ms");
-    json("cast_right_ms", plan.castRight_ms, "ms");
-    json("cast_ns_per_pixel", plan.costs.cast_ns, "ns");
-    json("warp_ns_per_pixel", plan.costs.warp_ns, "ns");
-    json("hole_ns_per_ray", plan.costs.hole_ns, "ns");
-    json("hole_percent", 100.0 * plan.costs.holeShare, "%");
-    facts.push_back(factForText(
-        "costs", fmt::format("cast {:.2f} ns a pixel, warp {:.2f} ns a pixel, hole {:.0f} ns a ray",
-                             plan.costs.cast_ns, plan.costs.warp_ns, plan.costs.hole_ns)));
-    json("reason", plan.reason);
+    list.both("method", method, "right eye", method + ": " + plan.reason);
+    list.json("warp_right_ms", plan.warpRight_ms, "ms");
+    list.json("cast_right_ms", plan.castRight_ms, "ms");
+    list.json("cast_ns_per_pixel", plan.costs.cast_ns, "ns");
+    list.json("warp_ns_per_pixel", plan.costs.warp_ns, "ns");
+    list.json("hole_ns_per_ray", plan.costs.hole_ns, "ns");
+    list.json("hole_percent", 100.0 * plan.costs.holeShare, "%");
+    list.text("costs", fmt::format("cast {:.2f} ns a pixel, warp {:.2f} ns a pixel, hole {:.0f} ns a ray",
+                                   plan.costs.cast_ns, plan.costs.warp_ns, plan.costs.hole_ns));
+    list.json("reason", plan.reason);
 }
 
 }  // namespace
@@ -60,21 +52,21 @@ std::string planesText(const FramePlan& plan) {
 
 Facts factsOfFrames(const Scene& scene, const std::optional<FramePlan>& plan) {
     const int width = plan ? plan->width : scene.lens.width, height = plan ? plan->height : scene.lens.height;
-    Facts facts;
-    facts.push_back(factForAll("size", FactIntegers{width, height}, "size",
-                               fmt::format("{} x {} pixels an eye", width, height), "pixels"));
-    facts.push_back(factForJson("separation_m", scene.stereo.separation, "m"));
-    facts.push_back(factForJson("zero_parallax_m", scene.stereo.zeroParallax, "m"));
-    facts.push_back(factForText("eyes", lengthText(scene.stereo.separation) + " apart, zero parallax at " +
-                                            lengthText(scene.stereo.zeroParallax)));
-    facts.push_back(factForAll("threads", std::int64_t{threadCount()}, "threads"));
-    facts.push_back(factForAll("simd", std::string(nameOf(scene.simd)), "simd"));
+    FactList list;
+    list.both("size", FactIntegers{width, height}, "size",
+              fmt::format("{} x {} pixels an eye", width, height), "pixels");
+    list.json("separation_m", scene.stereo.separation, "m");
+    list.json("zero_parallax_m", scene.stereo.zeroParallax, "m");
+    list.text("eyes", lengthText(scene.stereo.separation) + " apart, zero parallax at " +
+                          lengthText(scene.stereo.zeroParallax));
+    list.both("threads", std::int64_t{threadCount()}, "threads");
+    list.both("simd", std::string(nameOf(scene.simd)), "simd");
     if (plan)
-        addPlan(*plan, facts);
+        addPlan(*plan, list);
     else
-        facts.push_back(factForAll("method", std::string(scene.frames().defaultMethod()), "both eyes",
-                                   "sweep: slice by slice, from one light"));
-    return facts;
+        list.both("method", std::string(scene.frames().defaultMethod()), "both eyes",
+                  "sweep: slice by slice, from one light");
+    return std::move(list.facts());
 }
 
 }  // namespace stereonav

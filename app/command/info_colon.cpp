@@ -118,67 +118,57 @@ Facts factsOfVolume(const Scene& scene) {
     const bool inside = scene.offered<const ColonInterior>() != nullptr;
     const ValueSpan range = inside ? colon.valuesFound : wholeRangeOf(colon.volume.field);
     const bool opaque = colon.volume.look.transfer.empty();
-    Facts facts;
-    const auto both = [&](const char* key, FactValue value, const char* label, std::string text = "",
-                          const char* unit = "") {
-        facts.push_back(factForAll(key, std::move(value), label, std::move(text), unit));
-    };
-    const auto json = [&](const char* key, FactValue value, const char* unit = "") {
-        facts.push_back(factForJson(key, std::move(value), unit));
-    };
-    const auto text = [&](const char* label, std::string words) {
-        facts.push_back(factForText(label, std::move(words)));
-    };
-    json("kind", inside ? "colon" : "isosurface");
-    both("format", colon.format, "read by");
-    text("shown as", inside ? "a colon, from inside" : "a surface, from outside");
+    FactList list;
+    list.json("kind", inside ? "colon" : "isosurface");
+    list.both("format", colon.format, "read by");
+    list.text("shown as", inside ? "a colon, from inside" : "a surface, from outside");
     // The study's own; what follows is of the grid that is shown: a part around the lumen, or one with a
     // border.
-    json("study", Facts{factForAll("size", sizeOf(study), "voxels"),
-                        factForJson("spacing_mm", mmOf(study.spacing), "mm"),
-                        factForJson("origin_mm", mmOf(study.origin), "mm")});
+    list.json("study", Facts{factForAll("size", sizeOf(study), "voxels"),
+                             factForJson("spacing_mm", mmOf(study.spacing), "mm"),
+                             factForJson("origin_mm", mmOf(study.origin), "mm")});
     if (inside && frame.size != study.size)
-        both("size", sizeOf(frame), "", sizeText(frame) + " of them around the lumen are kept");
+        list.both("size", sizeOf(frame), "", sizeText(frame) + " of them around the lumen are kept");
     else
-        json("size", sizeOf(frame));
+        list.json("size", sizeOf(frame));
     const FactNumbers spacing = mmOf(frame.spacing);
-    both("spacing_mm", spacing, "spacing",
-         fmt::format("{:.4g} x {:.4g} x {:.4g} mm", spacing[0], spacing[1], spacing[2]), "mm");
-    json("origin_mm", mmOf(frame.origin), "mm");
-    json("range", FactNumbers{range.lowest, range.highest});
+    list.both("spacing_mm", spacing, "spacing",
+              fmt::format("{:.4g} x {:.4g} x {:.4g} mm", spacing[0], spacing[1], spacing[2]), "mm");
+    list.json("origin_mm", mmOf(frame.origin), "mm");
+    list.json("range", FactNumbers{range.lowest, range.highest});
     const double isovalue = isovalueOf(colon);
-    json("isovalue", isovalue);
+    list.json("isovalue", isovalue);
     // Those of a colon are of its box, without fluid; a mask's are smoothed.
-    text("values", fmt::format("{:.6g} .. {:.6g}{}, surface at {:.6g}", range.lowest, range.highest,
-                               inside ? " in the lumen's box" : "", isovalue));
-    both("translucent", !opaque, "wall", opaque ? "opaque" : "translucent");
+    list.text("values", fmt::format("{:.6g} .. {:.6g}{}, surface at {:.6g}", range.lowest, range.highest,
+                                    inside ? " in the lumen's box" : "", isovalue));
+    list.both("translucent", !opaque, "wall", opaque ? "opaque" : "translucent");
     // Only a colon's lumen is told of.
     const auto ofColon = [&](const char* key, FactValue value, const char* label, std::string words,
                              const char* unit) {
         if (inside)
-            both(key, std::move(value), label, std::move(words), unit);
+            list.both(key, std::move(value), label, std::move(words), unit);
         else
-            json(key, std::move(value), unit);
+            list.json(key, std::move(value), unit);
     };
     ofColon("segments", segmentFacts(colon, inside), "segments", "", "");
     const double volume = millilitres(colon.lumen);
     ofColon("volume_ml", volume, "volume", fmt::format("{:.1f} ml", volume), "ml");
     const double length = inside ? kMm * colon.centreline.length() : 0.0;
     ofColon("centreline_mm", length, "centreline", fmt::format("{:.0f} mm", length), "mm");
-    json("polyps", polypFacts(colon));
-    json("records", countOf(colon.volume.cells.records.size()));
-    const std::string memory = addHeld(facts, heldBy(colon));
+    list.json("polyps", polypFacts(colon));
+    list.json("records", countOf(colon.volume.cells.records.size()));
+    const std::string memory = addHeld(list.facts(), heldBy(colon));
     const bool flies = colon.path.samples().size() > 1;
     const double flight = flies ? colon.path.duration() : 0.0;
-    json("flight_s", flight, "s");
+    list.json("flight_s", flight, "s");
     const FlightClearance kept = clearanceIn(scene);
-    json("clearance_mm", kMm * kept.head, "mm");
-    json("eye_clearance_mm", kMm * kept.eyes, "mm");
-    if (flies) text("flight", fmt::format("{:.4g} s, {}", flight, clearanceText(kept)));
-    text("memory", memory);
-    json("notes", colon.notes);
-    for (const std::string& note : colon.notes) text("note", note);
-    return facts;
+    list.json("clearance_mm", kMm * kept.head, "mm");
+    list.json("eye_clearance_mm", kMm * kept.eyes, "mm");
+    if (flies) list.text("flight", fmt::format("{:.4g} s, {}", flight, clearanceText(kept)));
+    list.text("memory", memory);
+    list.json("notes", colon.notes);
+    for (const std::string& note : colon.notes) list.text("note", note);
+    return std::move(list.facts());
 }
 
 }  // namespace stereonav

@@ -53,50 +53,40 @@ Facts factsOfMedium(const Scene& loaded) {
     const MediumScene& scene = *loaded.offered<MediumScene>();
     const WorldBox& box = scene.medium.bounds();
     const glm::dvec3 size = box.empty() ? glm::dvec3(0.0) : box.high - box.low;
-    Facts facts;
-    const auto both = [&](const char* key, FactValue value, const char* label, std::string text = "",
-                          const char* unit = "") {
-        facts.push_back(factForAll(key, std::move(value), label, std::move(text), unit));
-    };
-    const auto json = [&](const char* key, FactValue value, const char* unit = "") {
-        facts.push_back(factForJson(key, std::move(value), unit));
-    };
-    const auto text = [&](const char* label, std::string words) {
-        facts.push_back(factForText(label, std::move(words)));
-    };
+    FactList list;
     const bool baked = scene.look.baked.light != nullptr, animated = scene.animated();
     const std::string model(nameOf(scene.look.model)), light = lightText(scene.look.light);
-    both("transfer", scene.transfer, "transfer");
-    both("model", model, "model", fmt::format("{}, phase function {}", model, scene.phase));
-    json("phase", scene.phase);
-    both("light", light, "light", light + (baked ? ", and baked light" : ""));
-    both("noise", scene.noise, "noise", scene.noise + (animated ? ", moving" : ""));
-    json("animated", animated);
+    list.both("transfer", scene.transfer, "transfer");
+    list.both("model", model, "model", fmt::format("{}, phase function {}", model, scene.phase));
+    list.json("phase", scene.phase);
+    list.both("light", light, "light", light + (baked ? ", and baked light" : ""));
+    list.both("noise", scene.noise, "noise", scene.noise + (animated ? ", moving" : ""));
+    list.json("animated", animated);
     const std::int64_t layers = countOf(scene.medium.layers().size());
     if (layers > 0)
-        both("layers", layers, "layers");
+        list.both("layers", layers, "layers");
     else
-        json("layers", layers);
-    both("extent_m", FactNumbers{size.x, size.y, size.z}, "extent",
-         box.empty()
-             ? "nothing is visible"
-             : fmt::format("{} x {} x {}", lengthText(size.x), lengthText(size.y), lengthText(size.z)),
-         "m");
-    json("largest_extinction_per_m", scene.medium.largestExtinction(), "1/m");
-    json("baked_light", baked);
+        list.json("layers", layers);
+    list.both("extent_m", FactNumbers{size.x, size.y, size.z}, "extent",
+              box.empty()
+                  ? "nothing is visible"
+                  : fmt::format("{} x {} x {}", lengthText(size.x), lengthText(size.y), lengthText(size.z)),
+              "m");
+    list.json("largest_extinction_per_m", scene.medium.largestExtinction(), "1/m");
+    list.json("baked_light", baked);
     const SweepSetting& sweep = scene.sweep;
     const double cone = sweep.coneAngle * 180 / std::numbers::pi;
-    json("slices", sweep.slices);
-    json("light_size", sweep.lightSize);
-    json("cone_deg", cone, "degrees");
-    text("sweep", fmt::format("{} slices, light of {} x {} texels, cone of {:.0f} degrees", sweep.slices,
-                              sweep.lightSize, sweep.lightSize, cone));
-    json("shading_width_voxels", sweep.shadingWidth, "voxels");
-    const std::string memory = addHeld(facts, heldBy(loaded));
-    text("memory", memory);
-    json("notes", scene.notes);
-    for (const std::string& note : scene.notes) text("note", note);
-    return facts;
+    list.json("slices", sweep.slices);
+    list.json("light_size", sweep.lightSize);
+    list.json("cone_deg", cone, "degrees");
+    list.text("sweep", fmt::format("{} slices, light of {} x {} texels, cone of {:.0f} degrees", sweep.slices,
+                                   sweep.lightSize, sweep.lightSize, cone));
+    list.json("shading_width_voxels", sweep.shadingWidth, "voxels");
+    const std::string memory = addHeld(list.facts(), heldBy(loaded));
+    list.text("memory", memory);
+    list.json("notes", scene.notes);
+    for (const std::string& note : scene.notes) list.text("note", note);
+    return std::move(list.facts());
 }
 
 }  // namespace stereonav

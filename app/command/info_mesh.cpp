@@ -12,21 +12,21 @@ Facts factsOfMesh(const Scene& scene) {
     const glm::dvec3 size = caster.high() - caster.low(), middle = 0.5 * (caster.low() + caster.high());
     std::size_t textureBytes = 0;
     for (const ColorTexture& texture : mesh.textures) textureBytes += texture.byteCount();
-    Facts facts;
-    facts.push_back(factForAll("triangles", countOf(mesh.triangles.size()), "triangles"));
-    facts.push_back(factForAll("vertices", countOf(mesh.vertices.size()), "vertices"));
-    facts.push_back(factForAll("textures", countOf(mesh.textures.size()), "textures"));
-    facts.push_back(factForAll("size", FactNumbers{size.x, size.y, size.z}, "size",
-                               fmt::format("{:.6g} x {:.6g} x {:.6g} m", size.x, size.y, size.z), "m"));
-    facts.push_back(factForAll("middle", FactNumbers{middle.x, middle.y, middle.z}, "middle",
-                               fmt::format("{:.6g}, {:.6g}, {:.6g} m", middle.x, middle.y, middle.z), "m"));
+    FactList list;
+    list.both("triangles", countOf(mesh.triangles.size()), "triangles");
+    list.both("vertices", countOf(mesh.vertices.size()), "vertices");
+    list.both("textures", countOf(mesh.textures.size()), "textures");
+    list.both("size", FactNumbers{size.x, size.y, size.z}, "size",
+              fmt::format("{:.6g} x {:.6g} x {:.6g} m", size.x, size.y, size.z), "m");
+    list.both("middle", FactNumbers{middle.x, middle.y, middle.z}, "middle",
+              fmt::format("{:.6g}, {:.6g}, {:.6g} m", middle.x, middle.y, middle.z), "m");
     const std::string held =
-        addHeld(facts, {{"vertices", mesh.vertices.size() * sizeof(TriangleMesh::Vertex)},
-                        {"triangles", mesh.triangles.size() * sizeof(TriangleMesh::Triangle)},
-                        {"tree", caster.treeBytes()},
-                        {"textures", textureBytes}});
-    facts.push_back(factForText("memory", held));
-    return facts;
+        addHeld(list.facts(), {{"vertices", mesh.vertices.size() * sizeof(TriangleMesh::Vertex)},
+                               {"triangles", mesh.triangles.size() * sizeof(TriangleMesh::Triangle)},
+                               {"tree", caster.treeBytes()},
+                               {"textures", textureBytes}});
+    list.text("memory", held);
+    return std::move(list.facts());
 }
 
 }  // namespace stereonav

@@ -58,58 +58,51 @@ Facts factsOfTerrain(const Scene& scene) {
     const auto inMetres = [](const glm::dvec2& size) {
         return fmt::format("{:.6g} x {:.6g} m", size.x, size.y);
     };
-    Facts facts;
-    const auto both = [&](const char* key, FactValue value, const char* label, std::string text = "",
-                          const char* unit = "") {
-        facts.push_back(factForAll(key, std::move(value), label, std::move(text), unit));
-    };
-    const auto json = [&](const char* key, FactValue value, const char* unit = "") {
-        facts.push_back(factForJson(key, std::move(value), unit));
-    };
+    FactList list;
     // People are not told of what a file did not need.
     const auto wherePresent = [&](const char* key, const std::string& value, const char* label) {
         if (value.empty())
-            json(key, value);
+            list.json(key, value);
         else
-            both(key, value, label);
+            list.both(key, value, label);
     };
-    both("driver", report.driver, "read by");
-    both("size", FactIntegers{ground.width(), ground.height()}, "samples");
-    both("spacing_m", FactNumbers{spacing.x, spacing.y}, "spacing", inMetres(spacing), "m");
-    both("extent_m", FactNumbers{extent.x, extent.y}, "extent", inMetres(extent), "m");
-    both("height_range_m", FactNumbers{ground.minHeight(), ground.maxHeight()}, "heights",
-         fmt::format("{} .. {} m", heightText(ground.minHeight()), heightText(ground.maxHeight())), "m");
-    both("crs", report.sourceCrs, "crs", orNone(report.sourceCrs));
-    both("projection", report.projection, "projection", orNone(report.projection));
-    json("source_offset", FactNumbers{report.sourceOffset.x, report.sourceOffset.y});
+    list.both("driver", report.driver, "read by");
+    list.both("size", FactIntegers{ground.width(), ground.height()}, "samples");
+    list.both("spacing_m", FactNumbers{spacing.x, spacing.y}, "spacing", inMetres(spacing), "m");
+    list.both("extent_m", FactNumbers{extent.x, extent.y}, "extent", inMetres(extent), "m");
+    list.both("height_range_m", FactNumbers{ground.minHeight(), ground.maxHeight()}, "heights",
+              fmt::format("{} .. {} m", heightText(ground.minHeight()), heightText(ground.maxHeight())), "m");
+    list.both("crs", report.sourceCrs, "crs", orNone(report.sourceCrs));
+    list.both("projection", report.projection, "projection", orNone(report.projection));
+    list.json("source_offset", FactNumbers{report.sourceOffset.x, report.sourceOffset.y});
     wherePresent("placed_by", report.placedBy, "placed by");
     wherePresent("band", report.band, "band");
     wherePresent("height_unit", report.heightUnit, "height unit");
-    json("missing_value", report.missingValue);
-    json("file_samples", std::int64_t{report.sourceSamples});
-    json("missing_samples", std::int64_t{report.missingSamples});
-    json("outside_samples", std::int64_t{report.outsideSamples});
-    json("filled_samples", std::int64_t{report.filledSamples});
-    json("open_samples", std::int64_t{report.openSamples});
-    facts.push_back(factForText("missing", missingText(report)));
-    json("open_holes", ground.hasHoles());
-    both("color", report.colorSource, "colour", orNone(report.colorSource));
+    list.json("missing_value", report.missingValue);
+    list.json("file_samples", std::int64_t{report.sourceSamples});
+    list.json("missing_samples", std::int64_t{report.missingSamples});
+    list.json("outside_samples", std::int64_t{report.outsideSamples});
+    list.json("filled_samples", std::int64_t{report.filledSamples});
+    list.json("open_samples", std::int64_t{report.openSamples});
+    list.text("missing", missingText(report));
+    list.json("open_holes", ground.hasHoles());
+    list.both("color", report.colorSource, "colour", orNone(report.colorSource));
     const bool colored = terrain.color.levelCount() > 0;
-    json("color_size", FactIntegers{colored ? terrain.color.level(0).width() : 0,
-                                    colored ? terrain.color.level(0).height() : 0});
-    both("sky", report.skySource, "sky", orNone(report.skySource));
-    both("baked_light", report.lightSource, "baked light", orNone(report.lightSource));
+    list.json("color_size", FactIntegers{colored ? terrain.color.level(0).width() : 0,
+                                         colored ? terrain.color.level(0).height() : 0});
+    list.both("sky", report.skySource, "sky", orNone(report.skySource));
+    list.both("baked_light", report.lightSource, "baked light", orNone(report.lightSource));
     const std::int64_t triangles = terrain.landmarks ? countOf(terrain.landmarks->triangleCount()) : 0;
-    both("landmark_triangles", triangles, "landmarks",
-         terrain.landmarks ? fmt::format("{} triangles", triangles) : "none");
-    const std::string memory = addHeld(facts, heldByTerrain(scene));
+    list.both("landmark_triangles", triangles, "landmarks",
+              terrain.landmarks ? fmt::format("{} triangles", triangles) : "none");
+    const std::string memory = addHeld(list.facts(), heldByTerrain(scene));
     const double flight = terrain.path.duration();
-    json("flight_s", flight, "s");
-    json("clearance_m", terrain.clearance, "m");
-    facts.push_back(factForText(
-        "flight", fmt::format("{:.4g} s, at least {:.4g} m above the ground", flight, terrain.clearance)));
-    facts.push_back(factForText("memory", memory));
-    return facts;
+    list.json("flight_s", flight, "s");
+    list.json("clearance_m", terrain.clearance, "m");
+    list.text("flight",
+              fmt::format("{:.4g} s, at least {:.4g} m above the ground", flight, terrain.clearance));
+    list.text("memory", memory);
+    return std::move(list.facts());
 }
 
 }  // namespace stereonav

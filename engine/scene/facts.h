@@ -37,6 +37,26 @@ Fact factForText(std::string label, std::string text);
 Fact factForAll(std::string key, FactValue value, std::string label, std::string text = "",
                 std::string unit = "");
 
+// Collects facts of these three kinds.
+class FactList {
+public:
+    void json(std::string key, FactValue value, std::string unit = "") {
+        mFacts.push_back(factForJson(std::move(key), std::move(value), std::move(unit)));
+    }
+    void text(std::string label, std::string words) {
+        mFacts.push_back(factForText(std::move(label), std::move(words)));
+    }
+    void both(std::string key, FactValue value, std::string label, std::string words = "",
+              std::string unit = "") {
+        mFacts.push_back(factForAll(std::move(key), std::move(value), std::move(label), std::move(words),
+                                    std::move(unit)));
+    }
+    Facts& facts() { return mFacts; }
+
+private:
+    Facts mFacts;
+};
+
 // Lines "  label       text\n". A group (Facts) with a label has it as a heading, on a line of its own; the
 // facts of groups and of lists of groups follow, whether the group has a label or not.
 std::string linesOf(const Facts& facts);
