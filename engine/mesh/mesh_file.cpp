@@ -58,15 +58,26 @@ private:
     std::vector<int> mTexCoordSet;  // of each material's base colour texture
 };
 
-// A mesh that several nodes show is there several times. What a file names without having it is refused when
-// it is read.
+// A mesh that several nodes show is there several times. No accessor counts for more elements than its buffer
+// has bytes for: what a file names without having it takes no memory, and is refused when it is read.
 void MeshReader::makeRoom(const std::vector<std::vector<int>>& chains) {
     // Of Embree, a triangle, while its tree is built, beside its copy of the mesh: measured 110 to 131.
     constexpr double kTreeBytes = 140;
     const auto& model = mFile.model;
-    const auto countAt = [&](int accessor) {
-        const bool there = accessor >= 0 && static_cast<std::size_t>(accessor) < model.accessors.size();
-        return there ? model.accessors[accessor].count : 0;
+    const auto holds = [](int index, const auto& list) {
+        return index >= 0 && static_cast<std::size_t>(index) < list.size();
+    };
+    const auto countAt = [&](int index) -> std::size_t {
+        if (!holds(index, model.accessors)) return 0;
+        const tinygltf::Accessor& accessor = model.accessors[index];
+        if (!holds(accessor.bufferView, model.bufferViews)) return 0;
+        const int buffer = model.bufferViews[accessor.bufferView].buffer;
+        const int component =
+            tinygltf::GetComponentSizeInBytes(static_cast<unsigned>(accessor.componentType));
+        const int components = tinygltf::GetNumComponentsInType(static_cast<unsigned>(accessor.type));
+        if (!holds(buffer, model.buffers) || component <= 0 || components <= 0) return 0;
+        const std::size_t bytes = static_cast<std::size_t>(component) * static_cast<std::size_t>(components);
+        return std::min<std::size_t>(accessor.count, model.buffers[buffer].data.size() / bytes);
     };
     double vertices = 0, triangles = 0, most = 0;
     for (const auto& chain : chains) {

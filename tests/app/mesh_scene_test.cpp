@@ -93,6 +93,30 @@ TEST_F(MeshScene, ADamagedFileIsRefused) {
                   {"none.gltf", "triangles", "found none"});
 }
 
+// Vertices that the file does not hold: none of their memory is asked for, and it is called damaged.
+TEST_F(MeshScene, ForgedCountsTakeNoMemory) {
+    const auto gltf = [](const std::string& count, const std::string& mode) {
+        return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": )" +
+               mode +
+               R"(}]}], "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": )" +
+               count +
+               R"(}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)"
+               R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+    };
+    setenv("STEREONAV_MEMORY", "60000000", 1);
+    for (const char* mode : {"4", "5"})
+        for (const char* count : {"1000000000", "300000000000", "4"})
+            expectRefused(
+                {"render", input("forged.gltf", gltf(count, mode)), "--size", "16x12", "--out", "a.png"},
+                {"forged.gltf", "accessor 0", "buffer view of 36 bytes"});
+    const Outcome whole =
+        run({"render", input("whole.gltf", gltf("3", "4")), "--size", "16x12", "--out", "a.png"});
+    unsetenv("STEREONAV_MEMORY");
+    EXPECT_EQ(whole.status, 0) << whole.err;
+}
+
 TEST_F(MeshScene, MemoryIsAskedForBeforeItIsTaken) {
     const std::string file = mesh();
     setenv("STEREONAV_MEMORY", "200000", 1);
