@@ -17,6 +17,7 @@ if(STEREONAV_DISPLAY)
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
   pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
+  find_file(STEREONAV_FONT DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truetype/dejavu dejavu TTF REQUIRED)
 endif()
 
 if(STEREONAV_COLON)

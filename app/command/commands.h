@@ -177,6 +177,7 @@ struct ViewOptions {
     std::string path;   // Z plays this one at first
     std::string shots;  // folder for screenshots and recorded flights; "": the present one
     SweepChoice sweep = SweepChoice::Auto;  // of a medium
+    bool startPage = false;                 // over the scene, at first
 };
 int runView(const ViewOptions& options);
 

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "app/command/commands.h"
+#include "app/options/option_table.h"
 #include "app/output/output_place.h"
 #include "engine/display/window.h"
 
@@ -34,7 +35,11 @@ int playAndCompare() {
 }  // namespace
 
 int runDefault() {
-    return hasDisplay() ? runView({}) : playAndCompare();
+    if (!hasDisplay()) return playAndCompare();
+    ViewOptions options;
+    options.scene.given.command = command::kView;
+    options.startPage = true;
+    return runView(options);
 }
 
 }  // namespace stereonav

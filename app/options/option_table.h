@@ -68,6 +68,9 @@ struct Exclusion {
     std::string advice = "leave one of them out";
 };
 
+// Under which heading the window lists it; None: it is no setting of a scene that is shown.
+enum class OptionPanel { None, View, Light, Material, Medium, Quality, Study };
+
 struct Option {
     const char* key = "";  // "vertical-scale"; "SCENE" stands without dashes
     ValueType value;
@@ -82,6 +85,7 @@ struct Option {
     std::vector<OptionRule> rules{};  // the first that is broken is told
     bool required = false, repeated = false;
     bool inFile = true;  // whether a scene file may say it
+    OptionPanel panel = OptionPanel::None;
     void (*take)(OptionTargets& to, const OptionValue& value) = nullptr;
 
     bool positional() const { return key == std::string_view("SCENE"); }

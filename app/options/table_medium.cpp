@@ -33,6 +33,7 @@ std::vector<Option> mediumItself() {
                         return asked.is("medium", "ground") && !asked.shows(kTerrains);
                     },
                     "ground is of terrains", "the presets are " + mediumPresetNames() + ", or name a file"}},
+         .panel = OptionPanel::Medium,
          .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.medium = value.text; }},
         {.key = "model",
          .value = wordValue({"emission", "surface", "direct", "indirect"}),
@@ -42,6 +43,7 @@ std::vector<Option> mediumItself() {
          .fallback = "indirect",
          .commands = kShowing,
          .scenes = kMedia,
+         .panel = OptionPanel::Medium,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->medium.model = choiceOf<MediumModel>(value); }},
         {.key = "phase",
@@ -54,6 +56,7 @@ std::vector<Option> mediumItself() {
          .rules = {unlessModel([](const Asked& asked) {
              return ownModel(asked) && !asked.is("model", "indirect") && !asked.is("model", "direct");
          })},
+         .panel = OptionPanel::Medium,
          .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.phase = value.text; }},
         {.key = "noise",
          .value = fileOrWordValue({"cloud", "fur", "none"}),
@@ -61,6 +64,7 @@ std::vector<Option> mediumItself() {
          .group = kMediumGroup,
          .commands = kShowing,
          .scenes = kMedia,
+         .panel = OptionPanel::Medium,
          .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.noise = value.text; }},
         {.key = "mist",
          .value = numbersValue(mistNumbers()),
@@ -68,6 +72,7 @@ std::vector<Option> mediumItself() {
          .group = kMediumGroup,
          .commands = kShowing,
          .scenes = kTerrainMedium,
+         .panel = OptionPanel::Medium,
          .take =
              [](OptionTargets& to, const OptionValue& value) {
                  to.scene->medium.mist = Mist{value.numbers[0], value.numbers[1]};
@@ -83,6 +88,7 @@ std::vector<Option> mediumLight() {
          .group = kMediumGroup,
          .commands = kShowing,
          .scenes = kMedia,
+         .panel = OptionPanel::Light,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->medium.lightFrom = lightPlaceOf(value); }},
         {.key = "lamp",
@@ -92,6 +98,7 @@ std::vector<Option> mediumLight() {
          .commands = kShowing,
          .scenes = kMedia,
          .excludes = {{"light-from"}},
+         .panel = OptionPanel::Light,
          .take =
              [](OptionTargets& to, const OptionValue& value) {
                  to.scene->medium.lamp = value.word == kHeadLamp ? LampChoice{} : LampChoice{placeOf(value)};
@@ -104,6 +111,7 @@ std::vector<Option> mediumLight() {
          .scenes = kMedia,
          .rules = {unlessModel(
              [](const Asked& asked) { return ownModel(asked) && asked.is("model", "emission"); })},
+         .panel = OptionPanel::Light,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->medium.lightColor = glm::vec3(colorOf(value)); }},
     };
@@ -119,6 +127,7 @@ std::vector<Option> mediumFineness() {
          .fallback = "256; 1200 of a terrain, 500 in a colon",
          .commands = kShowing,
          .scenes = kMedia,
+         .panel = OptionPanel::Quality,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->medium.slices = static_cast<int>(value.whole); }},
         {.key = "light-size",
@@ -129,6 +138,7 @@ std::vector<Option> mediumFineness() {
          .fallback = "256; 512 of a terrain",
          .commands = kShowing,
          .scenes = kMedia,
+         .panel = OptionPanel::Quality,
          .take =
              [](OptionTargets& to, const OptionValue& value) {
                  to.scene->medium.lightSize = static_cast<int>(value.whole);
@@ -143,6 +153,7 @@ std::vector<Option> mediumFineness() {
          .scenes = kMedia,
          .rules = {unlessModel(
              [](const Asked& asked) { return ownModel(asked) && !asked.is("model", "indirect"); })},
+         .panel = OptionPanel::Medium,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->medium.cone_deg = value.number(); }},
         {.key = "shading-width",
@@ -155,6 +166,7 @@ std::vector<Option> mediumFineness() {
          .scenes = kMedia,
          .rules = {{[](const Asked& asked) { return asked.shows(kTerrainMedium); },
                     "is of surfaces in volumes, a terrain's are shaded at each sample", kLeaveItOut}},
+         .panel = OptionPanel::Quality,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->medium.shadingWidth = value.number(); }},
     };

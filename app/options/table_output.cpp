@@ -85,6 +85,7 @@ std::vector<Option> viewOptions() {
          .help = "how the right eye is made, or both eyes of a medium",
          .fallback = "auto, what measures best here",
          .commands = kView,
+         .panel = OptionPanel::Quality,
          .take = takeMethod},
         {.key = "mode",
          .value = textValue().checked(problemOfMode),
@@ -95,6 +96,7 @@ std::vector<Option> viewOptions() {
                         return asked.has("hash") && !asked.has("out") && !asked.has("video");
                     },
                     "has no effect on --hash, which is of both eyes", kLeaveItOut}},
+         .panel = OptionPanel::View,
          .take = takeMode},
         {.key = "sweep",
          .value = wordValue({"auto", "cpu", "gpu"}),
@@ -104,6 +106,7 @@ std::vector<Option> viewOptions() {
          .commands = kView,
          .rules = {{[](const Asked& asked) { return !asked.is("sweep", "auto") && !asked.shows(kMedia); },
                     "expected with a medium", "leave it out, or show one with --medium"}},
+         .panel = OptionPanel::Quality,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.view->sweep = choiceOf<SweepChoice>(value); }},
         {.key = "shots",

@@ -58,6 +58,7 @@ std::vector<Option> qualityOptions() {
          .scenes = kCast,
          .elsewhere = notOfMedia(),
          .rules = qualityRules(),
+         .panel = OptionPanel::Quality,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->quality.quality = value.number(); }},
         {.key = "target-psnr",
@@ -69,6 +70,7 @@ std::vector<Option> qualityOptions() {
          .scenes = kCast,
          .elsewhere = notOfMedia(),
          .rules = qualityRules(),
+         .panel = OptionPanel::Quality,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->quality.targetPsnr_db = value.number(); }},
         {.key = "target-ms",
@@ -80,6 +82,7 @@ std::vector<Option> qualityOptions() {
          .scenes = kCast,
          .elsewhere = notOfMedia(),
          .rules = qualityRules(),
+         .panel = OptionPanel::Quality,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->quality.target_ms = value.number(); }},
     };

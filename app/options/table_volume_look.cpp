@@ -75,6 +75,7 @@ std::vector<Option> ambientOptions() {
          .scenes = kSurfaces,
          .rules = {{[](const Asked& asked) { return asked.has("light"); },
                     "expected without baked light, --light was given too", kLeaveOneOut}},
+         .panel = OptionPanel::Light,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.ambient_mm = value.number(); }},
         {.key = "ambient-method",
@@ -89,6 +90,7 @@ std::vector<Option> ambientOptions() {
                         return !asked.has("ambient") && !asked.is("modulate", "gradient");
                     },
                     "expected with --ambient or --modulate gradient", kLeaveItOut}},
+         .panel = OptionPanel::Light,
          .take =
              [](OptionTargets& to, const OptionValue& value) {
                  to.scene->volume.ambientMethod =
@@ -103,6 +105,7 @@ std::vector<Option> ambientOptions() {
          .commands = kShowing,
          .scenes = kSurfaces,
          .rules = {unlessAmbient()},
+         .panel = OptionPanel::Light,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.ambientStrength = value.number(); }},
         {.key = "ambient-lamp",
@@ -114,6 +117,7 @@ std::vector<Option> ambientOptions() {
          .commands = kShowing,
          .scenes = kSurfaces,
          .rules = {unlessAmbient()},
+         .panel = OptionPanel::Light,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.ambientLamp = value.number(); }},
     };
@@ -132,6 +136,7 @@ std::vector<Option> modulationOptions() {
          .scenes = kSurfaces,
          .rules = {{[](const Asked& asked) { return isModulated(asked) && !isSeenThrough(asked); },
                     "expected with a translucent volume", "add --transfer or --opacity, or leave it out"}},
+         .panel = OptionPanel::Material,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.modulate = choiceOf<Modulation>(value); }},
         {.key = "modulate-radius",
@@ -143,6 +148,7 @@ std::vector<Option> modulationOptions() {
          .commands = kShowing,
          .scenes = kSurfaces,
          .rules = {unlessModulated()},
+         .panel = OptionPanel::Material,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.modulateRadius_mm = value.number(); }},
         {.key = "modulate-sigma",
@@ -161,6 +167,7 @@ std::vector<Option> modulationOptions() {
                     },
                     "expected " + rangeText(kSteepestRange) + " beside gradient, got {modulate-sigma}",
                     "a change of openness a voxel; 0.05 is usual on surfaces"}},
+         .panel = OptionPanel::Material,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.modulateSigma = value.number(); }},
     };
@@ -177,6 +184,7 @@ std::vector<Option> bakedLookOptions() {
          .commands = kShowing,
          .scenes = kVolumes,
          .rules = {unlessBaked()},
+         .panel = OptionPanel::Light,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.exposure = value.number(); }},
         {.key = "turn",
@@ -188,6 +196,7 @@ std::vector<Option> bakedLookOptions() {
          .commands = kShowing,
          .scenes = kVolumes,
          .rules = {unlessItStands(), unlessBaked()},
+         .panel = OptionPanel::Light,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.turn_deg = value.number(); }},
         {.key = "tilt",
@@ -199,6 +208,7 @@ std::vector<Option> bakedLookOptions() {
          .commands = kShowing,
          .scenes = kVolumes,
          .rules = {unlessItStands(), unlessBaked()},
+         .panel = OptionPanel::Light,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.tilt_deg = value.number(); }},
     };
@@ -214,6 +224,7 @@ std::vector<Option> volumeLookOptions() {
          .group = kStudyGroup,
          .commands = kShowing,
          .scenes = kSurfaces,
+         .panel = OptionPanel::Material,
          .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.transfer = value.text; }},
         {.key = "opacity",
          .value = numberValue(above(0, 1)),
@@ -223,6 +234,7 @@ std::vector<Option> volumeLookOptions() {
          .commands = kShowing,
          .scenes = kSurfaces,
          .excludes = {{"transfer"}},
+         .panel = OptionPanel::Material,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.opacity = value.number(); }},
         {.key = "shading",
@@ -234,6 +246,7 @@ std::vector<Option> volumeLookOptions() {
          .commands = kShowing,
          .scenes = kSurfaces,
          .rules = shadingRules(),
+         .panel = OptionPanel::Material,
          .take = [](OptionTargets& to, const OptionValue& value) {
              to.scene->volume.shading = choiceOf<Shading>(value);
          }}};

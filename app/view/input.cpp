@@ -25,7 +25,9 @@ std::optional<ViewAction> actionOfKey(int key) {
         case GLFW_KEY_SPACE:
             return ViewAction{ViewCommand::Home};
         case GLFW_KEY_TAB:
-            return ViewAction{ViewCommand::CaptureMouse};
+            return ViewAction{ViewCommand::HideInterface};
+        case GLFW_KEY_F2:
+            return ViewAction{ViewCommand::Panels};
         case GLFW_KEY_3:
             return ViewAction{ViewCommand::ToggleStereo};
         case GLFW_KEY_BACKSPACE:
@@ -125,6 +127,8 @@ std::optional<ViewCommand> commandOfLetter(char letter, bool shift) {
             return ViewCommand::Slices;
         case 'p':
             return ViewCommand::Screenshot;
+        case 'y':
+            return ViewCommand::CaptureMouse;
         case 'z':
             return shift ? ViewCommand::Play : ViewCommand::Record;
         default:
@@ -158,9 +162,32 @@ std::optional<ViewCommand> repeatableOfKey(int key) {
     }
 }
 
+// What programs have on these keys everywhere.
+std::optional<ViewAction> actionWithControl(const KeyPress& press) {
+    switch (std::tolower(static_cast<unsigned char>(press.letter))) {
+        case 'o':
+            return ViewAction{ViewCommand::OpenFile};
+        case 'n':
+            return ViewAction{ViewCommand::StartPage};
+        case 's':
+            return ViewAction{ViewCommand::SaveScene};
+        case 'p':
+            return ViewAction{ViewCommand::Search};
+        case 'z':
+            return ViewAction{press.shift ? ViewCommand::Redo : ViewCommand::Undo};
+        case 'y':
+            return ViewAction{ViewCommand::Redo};
+        case 'q':
+            return ViewAction{ViewCommand::QuitAtOnce};
+        default:
+            return std::nullopt;
+    }
+}
+
 }  // namespace
 
 std::optional<ViewAction> actionOf(const KeyPress& press) {
+    if (press.control) return actionWithControl(press);
     const char letter = static_cast<char>(std::tolower(static_cast<unsigned char>(press.letter)));
     if (const auto command = repeatableOfLetter(letter, press.shift)) return ViewAction{*command};
     if (const auto command = repeatableOfKey(press.key);
@@ -172,40 +199,59 @@ std::optional<ViewAction> actionOf(const KeyPress& press) {
     return actionOfKey(press.key);
 }
 
-const std::vector<std::pair<std::string, std::string>>& viewHelp() {
-    static const std::vector<std::pair<std::string, std::string>> help = {
+const std::vector<KeyHelp>& viewKeys() {
+    using enum ViewCommand;
+    const auto does = [](ViewCommand command) { return ViewAction{command}; };
+    static const std::vector<KeyHelp> keys = {
         {"W S A D", "fly forward, back, left, right"},
         {"Q E", "down, up"},
-        {"arrows, drag", "look around (Tab holds the mouse)"},
+        {"arrows, drag", "look around"},
+        {"Y", "hold the mouse to look around, let it go", does(CaptureMouse)},
         {", .", "roll; of a volume seen from outside: move its surface"},
         {"wheel, Shift", "speed, four times the speed"},
-        {"Space, R", "home, reset everything"},
-        {"F", "fly freely, over the ground, along the colon"},
+        {"Space", "home", does(Home)},
+        {"R", "reset everything", does(Reset)},
+        {"F", "fly freely, over the ground, along the colon", does(NextFlightMode)},
         {"[ ]", "eyes closer together, further apart"},
-        {"C", "eyes as far apart as the room suits (colon)"},
+        {"C", "eyes as far apart as the room suits (colon)", does(FollowClearance)},
         {"; '", "screen (zero parallax) nearer, farther"},
-        {"X", "swap the eyes"},
-        {"3", "stereo on, off"},
-        {"M Shift+M", "next, previous output mode"},
-        {"1 2", "side by side, cross-eyed"},
-        {"4 5", "side by side half, top-bottom"},
-        {"6 7 8", "rows, columns, checkerboard"},
-        {"9 0", "red/cyan Dubois, left eye alone"},
-        {"N", "next way of making the right eye"},
-        {"I", "next model of light (media)"},
-        {"L", "anaglyphs in linear light, or on encoded values"},
-        {"z Z", "record the flight, play it"},
+        {"X", "swap the eyes", does(SwapEyes)},
+        {"3", "stereo on, off", does(ToggleStereo)},
+        {"M", "next output mode", does(NextMode)},
+        {"Shift+M", "previous output mode", does(PreviousMode)},
+        {"1", "side by side", ViewAction{SetMode, OutputMode::SideBySide}},
+        {"2", "side by side, cross-eyed", ViewAction{SetMode, OutputMode::CrossEyed}},
+        {"4", "side by side, half width", ViewAction{SetMode, OutputMode::SideBySideHalf}},
+        {"5", "top and bottom", ViewAction{SetMode, OutputMode::TopBottom}},
+        {"6", "rows", ViewAction{SetMode, OutputMode::Rows}},
+        {"7", "columns", ViewAction{SetMode, OutputMode::Columns}},
+        {"8", "checkerboard", ViewAction{SetMode, OutputMode::Checkerboard}},
+        {"9", "red/cyan glasses (Dubois)", ViewAction{SetMode, OutputMode::RedCyanDubois}},
+        {"0", "left eye alone", ViewAction{SetMode, OutputMode::Left}},
+        {"N", "next way of making the right eye", does(NextMethod)},
+        {"I", "next model of light (media)", does(NextModel)},
+        {"L", "anaglyphs in linear light, or on encoded values", does(LinearAnaglyph)},
+        {"z", "record the flight, end recording", does(Record)},
+        {"Shift+Z", "play the flight, stop", does(Play)},
         {"U H J K", "light or sky higher, lower, round (where it turns)"},
-        {"T Shift+T", "translucent, or opaque; next transfer function"},
-        {"O Shift+O", "ambient light: next, previous method, or none"},
+        {"T", "translucent, or opaque", does(ToggleTranslucent)},
+        {"Shift+T", "next transfer function", does(NextTransfer)},
+        {"O Shift+O", "ambient light: next, previous method, or none", does(NextAmbient)},
         {"- =", "what it looks at around: nearer, farther"},
-        {"B", "opacity by variance, by gradient, as it is"},
+        {"B", "opacity by variance, by gradient, as it is", does(NextModulation)},
         {"G Shift+G", "sigma of that: larger, smaller"},
-        {"V", "slices (volumes): clicks set seeds, Enter looks again"},
-        {"P F12", "save a picture"},
-        {"F1 Esc", "this help, back or quit"},
+        {"V", "slices (volumes): clicks set seeds, Enter looks again", does(Slices)},
+        {"P F12", "save a picture", does(Screenshot)},
+        {"Tab", "the picture alone, or with the interface"},
+        {"F2", "panels"},
+        {"Ctrl+P", "find anything"},
+        {"Ctrl+O Ctrl+N", "open a file, start page"},
+        {"Ctrl+S", "save the scene"},
+        {"Ctrl+Z Ctrl+Y", "undo, redo"},
+        {"F1", "these keys"},
+        {"Esc", "back, or quit; Ctrl+Q quits"},
     };
-    return help;
+    return keys;
 }
 
 glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place) {

@@ -15,8 +15,12 @@ namespace stereonav {
 // repeat only what is a matter of degree.
 std::optional<ViewAction> actionOf(const KeyPress& press);
 
-// Keys and what they do, for the help that F1 shows.
-const std::vector<std::pair<std::string, std::string>>& viewHelp();
+// Keys and what they do, for help and for whoever looks for a command by its words.
+struct KeyHelp {
+    std::string keys, meaning;
+    std::optional<ViewAction> action = std::nullopt;  // that a choice of it does
+};
+const std::vector<KeyHelp>& viewKeys();
 
 // Where in an eye's picture a place in the window lies; both are shares of the size, (0, 0) top left.
 glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place);

@@ -30,6 +30,7 @@ public:
     ~SliceReading() { mProgress.cancel(); }  // and waits for the end
 
     bool busy() const { return mReading.valid(); }
+    void cancel() { mProgress.cancel(); }  // take() throws Cancelled soon
     // Nothing while busy, or for a scene without slices. wake: called when it is done.
     void start(std::shared_ptr<const OpenScene> scene, std::function<void()> wake);
     // Null while it is not done; throws what reading threw.

@@ -33,9 +33,10 @@ bool samePose(const Pose& a, const Pose& b) {
 
 bool sameFrame(const FrameRequest& a, const FrameRequest& b) {
     return samePose(a.pose, b.pose) && a.lens.width == b.lens.width && a.lens.height == b.lens.height &&
-           a.stereo.separation == b.stereo.separation && a.stereo.zeroParallax == b.stereo.zeroParallax &&
-           a.way.method == b.way.method && a.model == b.model && a.time == b.time && a.twoEyes == b.twoEyes &&
-           a.mode == b.mode && a.sun == b.sun;
+           a.lens.verticalFov == b.lens.verticalFov && a.stereo.separation == b.stereo.separation &&
+           a.stereo.zeroParallax == b.stereo.zeroParallax && a.way.method == b.way.method &&
+           a.model == b.model && a.time == b.time && a.twoEyes == b.twoEyes && a.mode == b.mode &&
+           a.sun == b.sun;
 }
 
 bool asksForMotion(const FlightInput& input) {
@@ -120,9 +121,6 @@ void ViewSession::act(const ViewAction& action) {
         case ViewCommand::Quit:
             mQuit = true;
             break;
-        case ViewCommand::Help:
-            mHelp = !mHelp;
-            break;
         case ViewCommand::Screenshot:
             mScreenshot = true;
             break;
@@ -136,7 +134,7 @@ void ViewSession::act(const ViewAction& action) {
             togglePlaying();
             break;
         default:
-            actOnFlight(action.command);
+            actOnFlight(action);
     }
 }
 
@@ -199,15 +197,18 @@ bool ViewSession::actOnEyes(ViewCommand command) {
     }
 }
 
-void ViewSession::actOnFlight(ViewCommand command) {
+void ViewSession::actOnFlight(const ViewAction& action) {
     stopPlaying();
-    if (command == ViewCommand::Home) {
+    if (action.command == ViewCommand::Home) {
         mFlight->goHome();
-    } else if (command == ViewCommand::Reset) {
+    } else if (action.command == ViewCommand::Reset) {
         reset();
-    } else if (command == ViewCommand::NextFlightMode) {
-        const int mode = mFlight->modeCount() > 0 ? (mFlight->mode() + 1) % mFlight->modeCount() : 0;
-        mFlight->setMode(mode);
+    } else if ((action.command == ViewCommand::NextFlightMode ||
+                action.command == ViewCommand::SetFlightMode) &&
+               mFlight->modeCount() > 0) {
+        const int wanted =
+            action.command == ViewCommand::NextFlightMode ? mFlight->mode() + 1 : action.number;
+        mFlight->setMode(wanted % mFlight->modeCount());
         notify(fmt::format("flight: {}", mFlight->modeName(mFlight->mode())));
     }
 }
@@ -242,6 +243,7 @@ void ViewSession::reset() {
     mMethod = mScene->way.method;
     mModel = mScene->model;
     mSun = mScene->sun;
+    mFov.reset();
     mStereoOn = true;
     mSwapped = mLinear = false;
     mSpeed = 1;
@@ -338,6 +340,45 @@ void ViewSession::notify(const std::string& text) {
     mNoticeLeft = kNoticeSeconds;
 }
 
+Lens ViewSession::lens() const {
+    Lens lens = shown().lens;
+    if (mFov) lens.verticalFov = *mFov;
+    return lens;
+}
+
+void ViewSession::chooseMethod(std::string_view method) {
+    const std::span<const std::string_view> methods = shown().frames().methods();
+    const auto at = std::find(methods.begin(), methods.end(), method);
+    if (at != methods.end()) mMethod = *at;
+}
+
+void ViewSession::chooseModel(int model) {
+    const auto* const models = offered<LightModels>();
+    if (models && model >= 0 && model < static_cast<int>(models->names().size())) mModel = model;
+}
+
+void ViewSession::placeSun(const SunPlace& place) {
+    if (offered<TurningLight>()) mSun = place;
+}
+
+void ViewSession::setEyes(const StereoSetting& eyes) {
+    mResting = false;
+    mStereo.scaleZeroParallax(eyes.zeroParallax / mStereo.target().zeroParallax);
+    mStereo.setSeparation(eyes.separation);
+}
+
+void ViewSession::setFov(std::optional<double> verticalFov) {
+    mFov = verticalFov;
+    mLooked = true;
+}
+
+void ViewSession::goTo(const Pose& pose) {
+    stopPlaying();
+    mFlight->setPose(pose);
+    mResting = false;
+    mLooked = true;
+}
+
 bool ViewSession::takeScreenshotWish() {
     return std::exchange(mScreenshot, false);
 }
@@ -346,7 +387,7 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
     const auto [eyeWidth, eyeHeight] = eyeSizeFor(compose().mode, width, height);
     FrameRequest wanted;
     wanted.pose = pose();
-    wanted.lens = shown().lens;
+    wanted.lens = lens();
     wanted.lens.width = eyeWidth;
     wanted.lens.height = eyeHeight;
     wanted.stereo = mStereo.now();
@@ -357,7 +398,8 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
     wanted.twoEyes = mStereoOn;
     wanted.mode = compose().mode;
     wanted.version = mRequest.version;
-    if (wanted.version == 0 || !sameFrame(wanted, mRequest)) ++wanted.version;
+    if (mFresh || !sameFrame(wanted, mRequest)) ++wanted.version;
+    mFresh = false;
     mRequest = wanted;
     return mRequest;
 }

@@ -18,12 +18,24 @@
 namespace stereonav {
 
 enum class ViewCommand {
-    Quit,
+    Quit,  // first what is open over the picture, then the window
+    // Of the interface, not the session.
     Help,
+    HideInterface,
+    Panels,
+    Search,
+    OpenFile,
+    SaveScene,
+    StartPage,
+    Undo,
+    Redo,
+    QuitAtOnce,
+    // Of the session.
     Screenshot,
     Home,
     Reset,
     NextFlightMode,
+    SetFlightMode,
     ToggleStereo,
     SwapEyes,
     NextMode,
@@ -65,6 +77,7 @@ enum class ViewCommand {
 struct ViewAction {
     ViewCommand command;
     OutputMode mode = OutputMode::Left;  // of SetMode
+    int number = 0;                      // of SetFlightMode
 };
 
 // Another scene that the user asks for: the same study, seen differently, or with its lumen found again from
@@ -91,6 +104,30 @@ public:
     void forgetSceneChange();
 
     void act(const ViewAction& action);
+    // Settings by value, as panels have them; the scene takes them with the next frame, or by a SceneChange.
+    void chooseMode(OutputMode mode) { act({ViewCommand::SetMode, mode}); }
+    void chooseMethod(std::string_view method);  // one of the scene's
+    void chooseModel(int model);                 // of LightModels::names()
+    void placeSun(const SunPlace& place);
+    void setEyes(const StereoSetting& eyes);         // slowly, and by hand from now on
+    void setFov(std::optional<double> verticalFov);  // radians; none: the scene's
+    void setSurface(const SurfaceChange& surface);
+    void goTo(const Pose& pose);
+    std::string_view method() const { return mMethod; }
+    int model() const { return mModel; }
+    const SunPlace& sun() const { return mSun; }
+    Lens lens() const;  // without a size
+    SurfaceChange surface() const;
+    const StereoSetting& eyesWanted() const { return mStereo.target(); }
+    bool stereoOn() const { return mStereoOn; }
+    bool swapped() const { return mSwapped; }
+    const OpenScene& open() const { return *mScene; }
+    OutputMode firstMode() const { return mFirstMode; }
+    double speed() const { return mSpeed * mFlight->speed(); }  // metres a second at full input
+    const RecordedPath& path() const { return mPath; }
+    double playTime() const { return mPlayTime; }
+    double recorded() const { return mRecorder.duration(); }  // seconds
+
     // Turns by radians: clockwise seen from above, upwards.
     void look(double yaw, double pitch);
     void turnWheel(double notches);  // each notch a fifth faster; in the slice view, a slice
@@ -112,20 +149,24 @@ public:
     long long sliceVersion() const { return mSlices ? mSlices->version() : 0; }
     std::string sliceStatus() const { return mSlices ? mSlices->status() : ""; }
 
-    // What to render for a framebuffer of this size; the version grows with every difference.
+    // Of requests, from here on: where another session made some before.
+    void continueVersions(long long last) {
+        mRequest.version = last;
+        mFresh = true;
+    }
+    // What to render for a composed picture of this size; the version grows with every difference.
     const FrameRequest& requestFor(int width, int height);
     ComposeSetting compose() const;
 
     bool quit() const { return mQuit; }
     bool moving() const { return mMoving; }  // things change by themselves: do not sleep
-    bool helpShown() const { return mHelp; }
     bool mouseCaptured() const { return mCaptured; }
     // True once after each Screenshot.
     bool takeScreenshotWish();
     const std::string& notice() const { return mNotice; }
     void notify(const std::string& text);
 
-    // "24.0 fps  left 3.1 ms  warp ..."; ASCII, which is all that the overlay's font is asked for.
+    // "24.0 fps  left 3.1 ms  warp ...";
     std::string statusLine(const ViewFrame& frame, double framesPerSecond) const;
 
     const StereoSetting& stereo() const { return mStereo.now(); }
@@ -143,7 +184,7 @@ private:
     bool actOnSun(ViewCommand command);
     void turnSun(double azimuth, double elevation);
     bool actOnSlices(ViewCommand command);
-    void actOnFlight(ViewCommand command);
+    void actOnFlight(const ViewAction& action);
     bool actOnAmbient(ViewCommand command);
     void moveIsovalue(double steps);
     void nextTransfer();
@@ -200,10 +241,11 @@ private:
     OutputMode mMode, mFirstMode;
     std::string_view mMethod;
     int mModel = 0;
-    double mTime = 0;  // seconds, of what moves by itself
-    bool mStereoOn = true, mSwapped = false, mLinear = false, mHelp = false, mQuit = false, mCaptured = false;
+    std::optional<double> mFov;  // radians; none: the scene's
+    double mTime = 0;            // seconds, of what moves by itself
+    bool mStereoOn = true, mSwapped = false, mLinear = false, mQuit = false, mCaptured = false;
     bool mMoving = false, mScreenshot = false;
-    bool mResting = false, mLooked = false;
+    bool mResting = false, mLooked = false, mFresh = true;
     double mSpeed = 1;
     std::string mNotice;
     double mNoticeLeft = 0;  // seconds

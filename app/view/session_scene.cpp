@@ -72,6 +72,24 @@ void ViewSession::askForChange() {
     change.surface.ambient = mAmbient;
 }
 
+SurfaceChange ViewSession::surface() const {
+    SurfaceChange now;
+    now.isovalue = mIsovalue;
+    now.translucent = mTranslucent;
+    now.transfer = mTransfer;
+    now.ambient = mAmbient;
+    return now;
+}
+
+void ViewSession::setSurface(const SurfaceChange& surface) {
+    if (!offered<SurfaceChoices>()) return;
+    if (surface.isovalue && mIsovalue) mIsovalue = surface.isovalue;
+    if (surface.translucent) mTranslucent = *surface.translucent;
+    if (surface.transfer) mTransfer = mTriedTransfer = *surface.transfer;
+    if (surface.ambient && mAmbient) mAmbient = surface.ambient;
+    askForChange();
+}
+
 void ViewSession::nextTransfer() {
     const auto* const surface = offered<SurfaceChoices>();
     if (!surface || surface->transfers.empty()) return;

@@ -61,6 +61,12 @@ void ViewStereo::scaleSeparation(double factor) {
     mTarget.separation = std::min({mTarget.separation, kLargestSeparation * mTarget.zeroParallax, mLargest});
 }
 
+void ViewStereo::setSeparation(double separation) {
+    if (follows()) mTarget = mNow;
+    mFollower = nullptr;
+    mTarget.separation = std::min({separation, kLargestSeparation * mTarget.zeroParallax, mLargest});
+}
+
 void ViewStereo::scaleZeroParallax(double factor) {
     if (follows()) mTarget = mNow;
     mFollower = nullptr;

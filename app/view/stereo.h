@@ -18,6 +18,7 @@ public:
 
     void scaleSeparation(double factor);
     void scaleZeroParallax(double factor);  // both end following
+    void setSeparation(double separation);  // metres; as scaleSeparation()
     bool follows() const { return static_cast<bool>(mFollower); }
     void follow();
 
@@ -27,6 +28,8 @@ public:
     void step(double free, double depth, double dt);
 
     const StereoSetting& now() const { return mNow; }
+    // Where it goes by hand.
+    const StereoSetting& target() const { return follows() ? mNow : mTarget; }
     bool moving() const { return mMoving; }  // since the last step
 
 private:

@@ -160,6 +160,30 @@ void ViewWorker::change(Change change) {
     mAsked.notify_all();
 }
 
+void ViewWorker::cancelLoading() {
+    const std::lock_guard lock(mMutex);
+    mLoad.reset();
+    mChange.reset();
+    if (mProgress && mScene) mProgress->cancel();
+}
+
+void ViewWorker::ask(Task task) {
+    {
+        const std::lock_guard lock(mMutex);
+        mTasks.push_back(std::move(task));
+    }
+    mAsked.notify_all();
+}
+
+void ViewWorker::runTask(const Job& job) {
+    try {
+        job.task(*job.scene);
+    } catch (const std::exception&) {
+        // it tells who asked, or nobody
+    }
+    mWake();
+}
+
 ViewWorker::Loading ViewWorker::loading() const {
     const std::lock_guard lock(mMutex);
     return mLoading;
@@ -183,6 +207,10 @@ void ViewWorker::renderFrames() {
     std::uint64_t changes = 0;
     try {
         while (std::optional<Job> job = nextJob(last, changes)) {
+            if (job->task) {
+                runTask(*job);
+                continue;
+            }
             last = job;
             const auto* const light = job->scene->scene->offered<SeenLight>();
             if (light) changes = light->changes();
@@ -203,7 +231,7 @@ void ViewWorker::renderFrames() {
 std::optional<ViewWorker::Job> ViewWorker::nextJob(const std::optional<Job>& last, std::uint64_t changes) {
     constexpr std::chrono::milliseconds kLookAtLight{100};
     std::unique_lock lock(mMutex);
-    const auto asked = [this] { return mStop || (mRequest && mScene); };
+    const auto asked = [this] { return mStop || ((mRequest || !mTasks.empty()) && mScene); };
     const auto* const light = last ? last->scene->scene->offered<SeenLight>() : nullptr;
     while (!asked()) {
         if (!light)
@@ -213,6 +241,11 @@ std::optional<ViewWorker::Job> ViewWorker::nextJob(const std::optional<Job>& las
             return last;
     }
     if (mStop) return std::nullopt;
+    if (!mRequest) {
+        Task task = std::move(mTasks.front());
+        mTasks.pop_front();
+        return Job{{}, mScene, std::move(task)};
+    }
     return Job{*std::exchange(mRequest, std::nullopt), mScene};
 }
 

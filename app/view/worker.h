@@ -4,6 +4,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -80,6 +81,13 @@ public:
     // What the last reload failed with, "" when it did not; told once.
     std::string takeReloadProblem();
 
+    // Ends what is being loaded, or is to be; the present scene stays.
+    void cancelLoading();
+    // Calls it once with the newest scene on the thread that makes frames, between two of them, or not at all
+    // where the worker ends before. What it throws is dropped.
+    using Task = std::function<void(const OpenScene&)>;
+    void ask(Task task);
+
     // The newest scene, null until one is loaded. Throws here what the first load or rendering threw there.
     std::shared_ptr<const OpenScene> scene() const;
     // The newest request replaces one that was not begun.
@@ -92,12 +100,14 @@ private:
     struct Job {
         FrameRequest request;
         std::shared_ptr<const OpenScene> scene;
+        Task task = nullptr;  // instead of a frame
     };
     void loadScenes();
     std::optional<Load> nextLoad();
     Load takeWish();
     void loadOne(const Load& load);
     void renderFrames();
+    void runTask(const Job& job);
     // last: what was drawn last, under the light of that many changes.
     std::optional<Job> nextJob(const std::optional<Job>& last, std::uint64_t changes);
     void fail(std::exception_ptr failure);
@@ -114,6 +124,7 @@ private:
     std::shared_ptr<const OpenScene> mScene;
     std::exception_ptr mFailure;
     std::optional<FrameRequest> mRequest;
+    std::deque<Task> mTasks;
     std::shared_ptr<const ViewFrame> mNewest;
     bool mStop = false;
     std::thread mLoader, mRenderer;  // last: they start when all else is there

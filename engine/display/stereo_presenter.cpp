@@ -109,8 +109,8 @@ void StereoPresenter::uploadEye(const GlTexture& texture, const Plane<PackedColo
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-void StereoPresenter::draw(const ComposeSetting& setting, const Viewport& viewport, int turnX,
-                           int turnY) const {
+void StereoPresenter::draw(const ComposeSetting& setting, const Viewport& viewport, int turnX, int turnY,
+                           const PartInset& inset) const {
     if (!hasPicture()) return;
     const OutputModeInfo& info = infoOf(setting.mode);
     const bool swapped = setting.swapEyes != info.rightFirst;
@@ -119,7 +119,10 @@ void StereoPresenter::draw(const ComposeSetting& setting, const Viewport& viewpo
     const Pass pass = passOf(info);
     const auto [width, height] = composedSize(setting.mode, mWidth, mHeight);
     const auto drawPart = [&](int eye, int other, const Viewport& part, int partWidth, int partHeight) {
-        drawPass(pass, eye, other, part, partWidth, partHeight, setting, turnX, turnY);
+        const Viewport inside{part.x + inset.left, part.y + inset.bottom,
+                              part.width - inset.left - inset.right, part.height - inset.top - inset.bottom};
+        drawPass(pass, eye, other, inside, partWidth, partHeight, setting, turnX + inset.left,
+                 turnY + inset.top);
     };
     const Viewport& v = viewport;
     if (info.layout == OutputLayout::SideBySide) {

@@ -15,6 +15,11 @@ struct Viewport {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
+// What is left free of a part, pixels at its borders.
+struct PartInset {
+    int left = 0, top = 0, right = 0, bottom = 0;
+};
+
 // Needs a current OpenGL 3.3 core context, the same for all calls; one thread.
 class StereoPresenter {
 public:
@@ -28,7 +33,9 @@ public:
     // Fills the viewport with the composed picture (nearest pixels where the sizes differ).
     // turnX, turnY: where the viewport's top left pixel lies on the screen, so that interleaved
     // displays get each eye on its own rows and columns wherever the window is.
-    void draw(const ComposeSetting& setting, const Viewport& viewport, int turnX = 0, int turnY = 0) const;
+    // inset: of the picture within each eye's part of the viewport.
+    void draw(const ComposeSetting& setting, const Viewport& viewport, int turnX = 0, int turnY = 0,
+              const PartInset& inset = {}) const;
 
 private:
     // What one program draws; see shaders/stereo_present.frag.

@@ -55,10 +55,11 @@ std::pair<int, int> fitted(int width, int height) {
     int x = 0, y = 0, areaWidth = 0, areaHeight = 0;
     glfwGetMonitorWorkarea(monitor, &x, &y, &areaWidth, &areaHeight);
     if (areaWidth < 1 || areaHeight < 1) return {width, height};
-    const double scale =
-        std::min({1.0, kMonitorShare * areaWidth / width, kMonitorShare * areaHeight / height});
-    return {std::max(static_cast<int>(width * scale), kSmallestWindow),
-            std::max(static_cast<int>(height * scale), kSmallestWindow)};
+    // Each side by itself: two eyes beside each other would become a narrow strip.
+    const auto fit = [](int side, int area) {
+        return std::max(std::min(side, static_cast<int>(kMonitorShare * area)), kSmallestWindow);
+    };
+    return {fit(width, areaWidth), fit(height, areaHeight)};
 }
 
 char letterOf(int key, int scancode) {
@@ -111,13 +112,27 @@ void Window::open(const std::string& title, int width, int height, bool visible)
 void Window::installCallbacks() {
     glfwSetWindowUserPointer(mHandle, this);
     glfwSetKeyCallback(mHandle, [](GLFWwindow* handle, int key, int scancode, int action, int mods) {
-        if (action == GLFW_RELEASE) return;
         auto* window = static_cast<Window*>(glfwGetWindowUserPointer(handle));
-        window->mKeys.push_back(
-            {key, letterOf(key, scancode), (mods & GLFW_MOD_SHIFT) != 0, action == GLFW_REPEAT});
+        if (window->mSink && window->mSink->takesKey(key, mods, action != GLFW_RELEASE)) return;
+        if (action == GLFW_RELEASE) return;
+        window->mKeys.push_back({key, letterOf(key, scancode), (mods & GLFW_MOD_SHIFT) != 0,
+                                 action == GLFW_REPEAT, (mods & GLFW_MOD_CONTROL) != 0});
+    });
+    glfwSetCharCallback(mHandle, [](GLFWwindow* handle, unsigned codePoint) {
+        auto* window = static_cast<Window*>(glfwGetWindowUserPointer(handle));
+        if (window->mSink) window->mSink->takesText(codePoint);
     });
     glfwSetScrollCallback(mHandle, [](GLFWwindow* handle, double, double y) {
-        static_cast<Window*>(glfwGetWindowUserPointer(handle))->mWheel += y;
+        auto* window = static_cast<Window*>(glfwGetWindowUserPointer(handle));
+        if (!window->mSink || !window->mSink->takesWheel(y)) window->mWheel += y;
+    });
+    glfwSetDropCallback(mHandle, [](GLFWwindow* handle, int count, const char** paths) {
+        auto* window = static_cast<Window*>(glfwGetWindowUserPointer(handle));
+        window->mDrops.insert(window->mDrops.end(), paths, paths + count);
+    });
+    glfwSetCursorEnterCallback(mHandle, [](GLFWwindow* handle, int entered) {
+        auto* window = static_cast<Window*>(glfwGetWindowUserPointer(handle));
+        if (window->mSink && !entered) window->mSink->pointerLeft();
     });
     glfwSetCursorPosCallback(mHandle, [](GLFWwindow* handle, double x, double y) {
         static_cast<Window*>(glfwGetWindowUserPointer(handle))->onPointer(x, y);
@@ -142,34 +157,83 @@ Window::~Window() {
 }
 
 void Window::onPointer(double x, double y) {
-    const bool held = glfwGetMouseButton(mHandle, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS ||
-                      glfwGetMouseButton(mHandle, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
+    const auto drags = [&](int button) {
+        return glfwGetMouseButton(mHandle, button) == GLFW_PRESS && (mTaken & 1u << button) == 0;
+    };
+    const bool held = drags(GLFW_MOUSE_BUTTON_LEFT) || drags(GLFW_MOUSE_BUTTON_RIGHT);
     const glm::dvec2 now(x, y);
+    if (mSink && !mCaptured) mSink->pointerAt(shareOf(now));
     if (mPointerKnown && (held || mCaptured)) mDrag += now - mPointer;
     mPointer = now;
     mPointerKnown = true;
 }
 
 void Window::onButton(int button, bool pressed) {
-    if (button != GLFW_MOUSE_BUTTON_LEFT || mCaptured) return;
+    if (mCaptured || button < 0 || button > GLFW_MOUSE_BUTTON_LAST) return;
     // Where the pointer was then; what the system is asked for is where it is now, some frames later.
     glm::dvec2 now = mPointer;
     if (!mPointerKnown) glfwGetCursorPos(mHandle, &now.x, &now.y);
-    if (pressed) {
-        mPressed = now;
-        return;
+    const unsigned bit = 1u << button;
+    if (mSink) {
+        mSink->pointerAt(shareOf(now));
+        // What was pressed there is let go there.
+        const bool taken = mSink->takesButton(button, pressed);
+        const bool was = (mTaken & bit) != 0;
+        mTaken = pressed && taken ? mTaken | bit : mTaken & ~bit;
+        if (pressed ? taken : was) return;
     }
+    if (button != GLFW_MOUSE_BUTTON_LEFT) return;
+    if (pressed)
+        mPressed = now;
+    else if (glm::length(now - mPressed) <= kClickReach)
+        mClicks.push_back(shareOf(now));
+}
+
+glm::dvec2 Window::shareOf(const glm::dvec2& place) const {
     int width = 0, height = 0;
     glfwGetWindowSize(mHandle, &width, &height);
-    if (glm::length(now - mPressed) <= kClickReach && width > 0 && height > 0)
-        mClicks.push_back(now / glm::dvec2(width, height));
+    return place / glm::dvec2(std::max(width, 1), std::max(height, 1));
+}
+
+void Window::setPointerHidden(bool hidden) {
+    if (hidden == mHidden) return;
+    mHidden = hidden;
+    setPointerMode();
+}
+
+void Window::setPointerMode() {
+    glfwSetInputMode(mHandle, GLFW_CURSOR,
+                     mCaptured ? GLFW_CURSOR_DISABLED
+                     : mHidden ? GLFW_CURSOR_HIDDEN
+                               : GLFW_CURSOR_NORMAL);
+}
+
+std::vector<std::string> Window::takeDrops() {
+    return std::exchange(mDrops, {});
+}
+
+std::string Window::clipboard() const {
+    const char* text = glfwGetClipboardString(mHandle);
+    return text ? text : "";
+}
+
+void Window::setClipboard(const std::string& text) {
+    glfwSetClipboardString(mHandle, text.c_str());
+}
+
+void Window::setTitle(const std::string& title) {
+    glfwSetWindowTitle(mHandle, title.c_str());
+}
+
+void Window::close() {
+    glfwSetWindowShouldClose(mHandle, GLFW_TRUE);
 }
 
 void Window::setCaptured(bool captured) {
     if (captured == mCaptured) return;
     mCaptured = captured;
     mPointerKnown = false;  // the pointer jumps when it is hidden or shown
-    glfwSetInputMode(mHandle, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    setPointerMode();
 }
 
 bool Window::shouldClose() const {
@@ -221,7 +285,10 @@ bool Window::redrawNeeded() {
 }
 
 bool Window::keyDown(int key) const {
-    return glfwGetKey(mHandle, key) == GLFW_PRESS;
+    if (mSink && mSink->holdsKeyboard()) return false;
+    const auto down = [&](int which) { return glfwGetKey(mHandle, which) == GLFW_PRESS; };
+    // With Control a key is a command, not a flight.
+    return down(key) && !down(GLFW_KEY_LEFT_CONTROL) && !down(GLFW_KEY_RIGHT_CONTROL);
 }
 
 std::vector<KeyPress> Window::takeKeys() {

@@ -19,6 +19,7 @@ struct KeyPress {
     char letter = 0;  // what the user's layout has there without shift, 0 when it is not ASCII
     bool shift = false;
     bool repeat = false;  // held down
+    bool control = false;
 };
 
 // Sticks in [-1, 1] (y downwards) with a dead zone taken out; triggers in [0, 1].
@@ -30,9 +31,23 @@ struct Gamepad {
     bool up = false, down = false, left = false, right = false;  // of the cross
 };
 
+// What lies over the picture and is asked first: what it takes does not reach the picture. Places are shares
+// of the window's size, (0, 0) top left.
+class InputSink {
+public:
+    virtual ~InputSink() = default;
+    virtual void pointerAt(const glm::dvec2& place) = 0;
+    virtual void pointerLeft() = 0;
+    virtual bool takesButton(int button, bool pressed) = 0;  // at the pointer's last place
+    virtual bool takesWheel(double notches) = 0;
+    virtual bool takesKey(int key, int modifiers, bool pressed) = 0;
+    virtual bool takesText(unsigned codePoint) = 0;
+    virtual bool holdsKeyboard() const = 0;  // a text is being written: keys do not fly
+};
+
 class Window {
 public:
-    // width, height in screen units, cut to the monitor's free area with their ratio kept. Throws
+    // width, height in screen units, each cut to the monitor's free area. Throws
     // Error where there is no display or no OpenGL 3.3.
     Window(const std::string& title, int width, int height, bool visible = true);
     ~Window();
@@ -59,6 +74,13 @@ public:
     // Places where the left button went down and up without the pointer moving away: shares of the
     // window's size, (0, 0) top left.
     std::vector<glm::dvec2> takeClicks();
+    std::vector<std::string> takeDrops();            // files and folders that were dropped here
+    void setSink(InputSink* sink) { mSink = sink; }  // outlives the window, or is unset; null: none
+    void setPointerHidden(bool hidden);              // it is drawn by what lies over the picture
+    std::string clipboard() const;
+    void setClipboard(const std::string& text);
+    void setTitle(const std::string& title);
+    void close();                     // as if the user had
     void setCaptured(bool captured);  // hide the pointer and take all its motion
     bool captured() const { return mCaptured; }
     Gamepad gamepad() const;
@@ -70,6 +92,8 @@ private:
     void installCallbacks();
     void onPointer(double x, double y);
     void onButton(int button, bool pressed);
+    void setPointerMode();
+    glm::dvec2 shareOf(const glm::dvec2& place) const;  // of the window's size, of screen units
 
     GLFWwindow* mHandle = nullptr;
     std::vector<KeyPress> mKeys;
@@ -77,7 +101,10 @@ private:
     glm::dvec2 mDrag{0.0}, mPointer{0.0};
     std::vector<glm::dvec2> mClicks;
     glm::dvec2 mPressed{0.0};  // where the left button went down, screen units
-    bool mPointerKnown = false, mCaptured = false, mRedraw = true;
+    std::vector<std::string> mDrops;
+    InputSink* mSink = nullptr;
+    unsigned mTaken = 0;  // buttons that are down and the sink's, a bit each
+    bool mPointerKnown = false, mCaptured = false, mHidden = false, mRedraw = true;
 };
 
 }  // namespace stereonav

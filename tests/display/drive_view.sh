@@ -62,4 +62,7 @@ xdotool windowsize "$window" 500 200
 settled resized home
 keys F1
 sleep 0.5
+keys Escape # of the help alone
+sleep 0.5
+kill -0 "$pid" || fail "Escape over the help ended the program"
 close_window

@@ -357,7 +357,7 @@ TEST_F(ViewVolume, WhatWasChangedInPlaceGoesOn) {
     s.act({ViewCommand::Record});
     FlightInput forward;
     forward.forward = 1;
-    for (int i = 0; i < 60; ++i) s.step(forward, kFrame);
+    for (int i = 0; i < 60; ++i) s.step(forward, 1.0 / 60);
     s.act({ViewCommand::Play});
     s.act({ViewCommand::NextMethod});
     const std::string_view method = s.requestFor(100, 100).way.method;

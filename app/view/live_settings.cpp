@@ -1,0 +1,212 @@
+#include "app/view/live_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/options/option_value.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// To a thousandth of a degree, which no picture shows.
+std::string degreeText(double radians) {
+    return fmt::format("{:.6g}", std::round(1000 * radians / kDegree) / 1000 + 0.0);
+}
+
+// The key by which a scene's turning light is said.
+enum class LightKey { None, Sun, LightFrom, Sky };
+LightKey lightKeyOf(const ViewSession& session) {
+    const Scene& scene = *session.open().scene;
+    const auto* const light = scene.offered<TurningLight>();
+    if (!light) return LightKey::None;
+    if (light->isSky()) return LightKey::Sky;
+    return scene.offered<LightModels>() ? LightKey::LightFrom : LightKey::Sun;
+}
+
+std::string sunText(const SunPlace& sun) {
+    return degreeText(std::remainder(sun.azimuth, 2 * std::numbers::pi)) + "," + degreeText(sun.elevation);
+}
+
+struct Live {
+    const char* key;
+    bool (*has)(const ViewSession&);
+    std::string (*now)(const ViewSession&);
+    bool (*asBegun)(const ViewSession&);  // what need not be said
+    void (*set)(ViewSession&, const OptionValue&);
+    void (*reset)(ViewSession&);
+};
+
+bool always(const ViewSession&) {
+    return true;
+}
+const SurfaceChoices* surfaceOf(const ViewSession& session) {
+    return session.open().scene->offered<SurfaceChoices>();
+}
+const StereoSetting& begunEyes(const ViewSession& session) {
+    return session.open().scene->stereo;
+}
+
+constexpr Live kLive[] = {
+    {"mode", always, [](const ViewSession& s) { return std::string(infoOf(s.mode()).shortName); },
+     [](const ViewSession& s) { return s.mode() == s.firstMode(); },
+     [](ViewSession& s, const OptionValue& value) {
+         s.chooseMode(outputModeFromName(value.text).value_or(s.mode()));
+     },
+     [](ViewSession& s) { s.chooseMode(s.firstMode()); }},
+    {"method", always, [](const ViewSession& s) { return std::string(s.method()); },
+     [](const ViewSession& s) { return s.method() == s.open().way.method; },
+     [](ViewSession& s, const OptionValue& value) {
+         s.chooseMethod(value.text == "auto" ? s.open().way.method : std::string_view(value.text));
+     },
+     [](ViewSession& s) { s.chooseMethod(s.open().way.method); }},
+    {"separation", always,
+     [](const ViewSession& s) { return fmt::format("{:.4g}", s.eyesWanted().separation); },
+     [](const ViewSession& s) {
+         return s.followsClearance() || s.eyesWanted().separation == begunEyes(s).separation;
+     },
+     [](ViewSession& s, const OptionValue& value) {
+         s.setEyes({value.number(), s.eyesWanted().zeroParallax});
+     },
+     [](ViewSession& s) {
+         s.setEyes({begunEyes(s).separation, s.eyesWanted().zeroParallax});
+     }},
+    {"zero-parallax", always,
+     [](const ViewSession& s) { return fmt::format("{:.4g}", s.eyesWanted().zeroParallax); },
+     [](const ViewSession& s) {
+         return s.followsClearance() || s.eyesWanted().zeroParallax == begunEyes(s).zeroParallax;
+     },
+     [](ViewSession& s, const OptionValue& value) {
+         s.setEyes({s.eyesWanted().separation, value.number()});
+     },
+     [](ViewSession& s) {
+         s.setEyes({s.eyesWanted().separation, begunEyes(s).zeroParallax});
+     }},
+    {"fov", always, [](const ViewSession& s) { return degreeText(s.lens().verticalFov); },
+     [](const ViewSession& s) { return s.lens().verticalFov == s.open().scene->lens.verticalFov; },
+     [](ViewSession& s, const OptionValue& value) { s.setFov(value.number() * kDegree); },
+     [](ViewSession& s) { s.setFov(std::nullopt); }},
+    {"sun", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::Sun; },
+     [](const ViewSession& s) { return sunText(s.sun()); },
+     [](const ViewSession& s) { return s.sun() == s.open().sun; },
+     [](ViewSession& s, const OptionValue& value) {
+         s.placeSun({value.numbers[0] * kDegree, value.numbers[1] * kDegree});
+     },
+     [](ViewSession& s) { s.placeSun(s.open().sun); }},
+    {"light-from", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::LightFrom; },
+     [](const ViewSession& s) { return sunText(s.sun()); },
+     [](const ViewSession& s) { return s.sun() == s.open().sun; },
+     [](ViewSession& s, const OptionValue& value) {
+         s.placeSun({value.numbers[0] * kDegree, value.numbers[1] * kDegree});
+     },
+     [](ViewSession& s) { s.placeSun(s.open().sun); }},
+    {"turn", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::Sky; },
+     [](const ViewSession& s) { return degreeText(std::remainder(-s.sun().azimuth, 2 * std::numbers::pi)); },
+     [](const ViewSession& s) { return s.sun().azimuth == s.open().sun.azimuth; },
+     [](ViewSession& s, const OptionValue& value) {
+         s.placeSun({-value.number() * kDegree, s.sun().elevation});
+     },
+     [](ViewSession& s) {
+         s.placeSun({s.open().sun.azimuth, s.sun().elevation});
+     }},
+    {"tilt", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::Sky; },
+     [](const ViewSession& s) { return degreeText(s.sun().elevation); },
+     [](const ViewSession& s) { return s.sun().elevation == s.open().sun.elevation; },
+     [](ViewSession& s, const OptionValue& value) {
+         s.placeSun({s.sun().azimuth, value.number() * kDegree});
+     },
+     [](ViewSession& s) {
+         s.placeSun({s.sun().azimuth, s.open().sun.elevation});
+     }},
+    {"model",
+     [](const ViewSession& s) {
+         const auto* const models = s.open().scene->offered<LightModels>();
+         return models && !models->names().empty();
+     },
+     [](const ViewSession& s) {
+         return s.open().scene->offered<LightModels>()->names()[static_cast<std::size_t>(s.model())];
+     },
+     [](const ViewSession& s) { return s.model() == s.open().model; },
+     [](ViewSession& s, const OptionValue& value) {
+         const auto& names = s.open().scene->offered<LightModels>()->names();
+         s.chooseModel(static_cast<int>(std::find(names.begin(), names.end(), value.text) - names.begin()));
+     },
+     [](ViewSession& s) { s.chooseModel(s.open().model); }},
+    {"isovalue", [](const ViewSession& s) { return surfaceOf(s) && s.surface().isovalue.has_value(); },
+     [](const ViewSession& s) { return fmt::format("{:.6g}", *s.surface().isovalue); },
+     [](const ViewSession& s) { return s.surface().isovalue == surfaceOf(s)->isovalue && !s.open().changed; },
+     [](ViewSession& s, const OptionValue& value) {
+         SurfaceChange change;
+         change.isovalue = value.number();
+         s.setSurface(change);
+     },
+     nullptr},
+    {"transfer", [](const ViewSession& s) { return surfaceOf(s) != nullptr; },
+     [](const ViewSession& s) {
+         const SurfaceChange now = s.surface();
+         return *now.translucent ? *now.transfer : std::string();
+     },
+     [](const ViewSession& s) { return !*s.surface().translucent || s.surface().transfer->empty(); },
+     [](ViewSession& s, const OptionValue& value) {
+         SurfaceChange change;
+         change.translucent = true;
+         change.transfer = value.text;
+         s.setSurface(change);
+     },
+     [](ViewSession& s) {
+         SurfaceChange change;
+         change.translucent = false;
+         s.setSurface(change);
+     }},
+};
+
+const Live* liveNamed(const ViewSession& session, const std::string& key) {
+    for (const Live& live : kLive)
+        if (key == live.key && live.has(session)) return &live;
+    return nullptr;
+}
+
+// Of names alone: a file is read with the scene.
+bool takesTransfer(const ViewSession& session, const std::string& text) {
+    const auto& names = surfaceOf(session)->transfers;
+    return std::find(names.begin(), names.end(), text) != names.end();
+}
+
+}  // namespace
+
+bool isLive(const ViewSession& session, const std::string& key) {
+    return liveNamed(session, key) != nullptr;
+}
+
+bool isLive(const ViewSession& session, const std::string& key, const std::optional<std::string>& text) {
+    const Live* const live = liveNamed(session, key);
+    if (!live || (!text && !live->reset)) return false;
+    return key != "transfer" || !text || takesTransfer(session, *text);
+}
+
+SettingTexts withLive(const ViewSession& session, SettingTexts given) {
+    for (const Live& live : kLive) {
+        if (!live.has(session)) continue;
+        if (!live.asBegun(session)) given[live.key] = {live.now(session)};
+    }
+    return given;
+}
+
+std::optional<std::string> valueNow(const ViewSession& session, const std::string& key) {
+    const Live* const live = liveNamed(session, key);
+    return live ? std::optional(live->now(session)) : std::nullopt;
+}
+
+void setLive(ViewSession& session, const std::string& key, const std::optional<std::string>& text) {
+    const Live* const live = liveNamed(session, key);
+    if (!live) return;
+    if (!text) return live->reset ? live->reset(session) : void();
+    const Option& option = *viewOption(key);
+    live->set(session, readValue(option.name(), option.value, option.advice, *text));
+}
+
+}  // namespace stereonav

@@ -1,0 +1,212 @@
+#include "app/view/panel/controls.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "app/options/option_words.h"
+#include "engine/image/stereo_compose.h"
+#include "engine/math/number_range.h"
+#include "engine/scene/capabilities.h"
+
+namespace stereonav {
+namespace {
+
+constexpr float kTooltipWidth = 26;  // of letters' heights
+
+// What there is to choose from; empty where anything may be written.
+std::vector<std::string> choicesOf(PanelHost& host, const Option& option) {
+    std::vector<std::string> choices = option.value.words;
+    ViewSession* const session = host.session();
+    const std::string_view key = option.key;
+    if (!session) return choices;
+    const Scene& scene = *session->open().scene;
+    if (key == "mode") {
+        for (const OutputModeInfo& mode : outputModes()) choices.emplace_back(mode.shortName);
+    } else if (key == "method") {
+        for (const std::string_view method : scene.frames().methods()) choices.emplace_back(method);
+    } else if (key == "transfer") {
+        if (const auto* const surface = scene.offered<SurfaceChoices>())
+            for (const std::string& name : surface->transfers)
+                if (!name.empty()) choices.push_back(name);
+    }
+    return choices;
+}
+
+// As lists show a choice: modes by their long names.
+std::string shownChoice(const Option& option, const std::string& choice) {
+    if (option.key != std::string_view("mode")) return choice;
+    const auto mode = outputModeFromName(choice);
+    return mode ? std::string(infoOf(*mode).longName) + "  (" + choice + ")" : choice;
+}
+
+void chooseControl(PanelHost& host, const Option& option, const std::vector<std::string>& choices,
+                   const std::string& now) {
+    if (!ImGui::BeginCombo("##value", shownChoice(option, now).c_str(), ImGuiComboFlags_HeightLarge)) return;
+    for (const std::string& choice : choices)
+        if (ImGui::Selectable(shownChoice(option, choice).c_str(), choice == now))
+            host.set(option.key, choice);
+    ImGui::EndCombo();
+}
+
+// A text that is being written stays until it is done.
+void textControl(PanelHost& host, const Option& option, const std::string& now) {
+    static std::map<std::string, std::string> writing;
+    const auto kept = writing.find(option.key);
+    std::string text = kept == writing.end() ? now : kept->second;
+    ImGui::InputTextWithHint("##value", option.fallback, &text);
+    if (ImGui::IsItemActive()) {
+        writing[option.key] = text;
+    } else if (kept != writing.end()) {
+        writing.erase(kept);
+        if (text != now) host.set(option.key, text.empty() ? std::nullopt : std::optional(text));
+    }
+}
+
+// Shares of the range, or of the value, that a unit of dragging is.
+float dragSpeed(const NumberRange& range, double value) {
+    const double width = range.high - range.low;
+    if (std::isfinite(width) && width <= 1000) return static_cast<float>(width / 400);
+    return static_cast<float>(std::max(std::abs(value), 1e-6) / 100);
+}
+
+// Where nothing is given the number in use is shown; none is known: its default as words.
+void numberControl(PanelHost& host, const Option& option, const std::string& now) {
+    const NumberRange& range = option.value.range;
+    char* end = nullptr;
+    double value = std::strtod(now.c_str(), &end);
+    const bool known = end && end != now.c_str() && *end == 0;
+    const bool whole = option.value.kind == ValueKind::Whole;
+    static std::map<std::string, double> dragged;  // not live: set once it is let go
+    const bool live = host.live(option);
+    if (const auto kept = dragged.find(option.key); kept != dragged.end()) value = kept->second;
+    const std::string unit = *range.unit ? std::string(" ") + range.unit : "";
+    const std::string format = known || dragged.contains(option.key)
+                                   ? (whole ? "%.0f" : "%.5g") + unit
+                                   : std::string(*option.fallback ? option.fallback : "-");
+    std::string shown;
+    for (const char c : format)
+        shown += !known && c == '%' && !dragged.contains(option.key) ? std::string("%%") : std::string(1, c);
+    const bool moved = ImGui::DragScalar("##value", ImGuiDataType_Double, &value, dragSpeed(range, value),
+                                         nullptr, nullptr, shown.c_str());
+    if (moved) {
+        if (whole) value = std::round(value);
+        value = std::clamp(value, range.openLow ? std::nextafter(range.low, range.high) : range.low,
+                           range.openHigh ? std::nextafter(range.high, range.low) : range.high);
+        dragged[option.key] = value;
+        if (live && ImGui::IsMouseDragging(ImGuiMouseButton_Left))
+            host.set(option.key, fmt::format("{:.6g}", value));
+    }
+    if (ImGui::IsItemDeactivated() && dragged.contains(option.key)) {
+        host.set(option.key, fmt::format("{:.6g}", dragged[option.key]));
+        dragged.erase(option.key);
+    }
+}
+
+std::string tipOf(const Option& option) {
+    std::string tip = helpLine(option) + ".";
+    if (*option.advice) tip += std::string("\n") + option.advice + ".";
+    tip += "\n" + option.name();
+    if (const std::string key = keyOf(option); !key.empty()) tip += "    key: " + key;
+    return tip + "\ndouble click: as it was";
+}
+
+}  // namespace
+
+std::string labelOf(const Option& option) {
+    std::string label = option.key;
+    std::replace(label.begin(), label.end(), '-', ' ');
+    return label;
+}
+
+std::string keyOf(const Option& option) {
+    static const std::map<std::string, std::string> keys = {{"mode", "M"},
+                                                            {"method", "N"},
+                                                            {"model", "I"},
+                                                            {"separation", "[ ]"},
+                                                            {"zero-parallax", "; '"},
+                                                            {"sun", "U H J K"},
+                                                            {"light-from", "U H J K"},
+                                                            {"turn", "J K"},
+                                                            {"tilt", "U H"},
+                                                            {"isovalue", ", ."},
+                                                            {"transfer", "T Shift+T"},
+                                                            {"ambient", "O"},
+                                                            {"modulate", "B"},
+                                                            {"modulate-sigma", "G"}};
+    const auto found = keys.find(option.key);
+    return found == keys.end() ? "" : found->second;
+}
+
+void tooltip(const std::string& text) {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(kTooltipWidth * ImGui::GetFontSize());
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void quietLine(const PanelHost& host, const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, quietColor(host.look()));
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+}
+
+void quietText(const PanelHost& host, const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, quietColor(host.look()));
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+void optionControl(PanelHost& host, const Option& option) {
+    ImGui::PushID(option.key);
+    const SettingTexts settings = host.settings();
+    const auto given = settings.find(option.key);
+    const bool isGiven = given != settings.end() && !given->second.empty();
+    const std::string now = host.valueOf(option).value_or(isGiven ? given->second.back() : "");
+    ImGui::AlignTextToFramePadding();
+    // What was changed stands out.
+    if (isGiven) ImGui::PushStyleColor(ImGuiCol_Text, accentColor(host.look()));
+    ImGui::TextUnformatted(labelOf(option).c_str());
+    if (isGiven) ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+        host.set(option.key, std::nullopt);
+    tooltip(tipOf(option));
+    ImGui::SameLine(0.42f * ImGui::GetContentRegionAvail().x + ImGui::GetCursorPosX());
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    const std::vector<std::string> choices = choicesOf(host, option);
+    const ValueKind kind = option.value.kind;
+    if (kind == ValueKind::Flag) {
+        bool on = isGiven;
+        if (ImGui::Checkbox("##value", &on))
+            host.set(option.key, on ? std::optional<std::string>("") : std::nullopt);
+    } else if (!choices.empty() && (kind == ValueKind::Word || kind == ValueKind::Text)) {
+        chooseControl(host, option, choices, now.empty() ? option.fallback : now);
+    } else if (!choices.empty() && kind == ValueKind::FileOrWord) {
+        const float button = ImGui::GetFrameHeight();
+        ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemInnerSpacing.x);
+        textControl(host, option, now);
+        ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+        if (ImGui::BeginCombo("##choice", "", ImGuiComboFlags_NoPreview)) {
+            for (const std::string& choice : choices)
+                if (ImGui::Selectable(choice.c_str(), choice == now)) host.set(option.key, choice);
+            ImGui::EndCombo();
+        }
+    } else if (kind == ValueKind::Number || kind == ValueKind::Whole) {
+        numberControl(host, option, now);
+    } else {
+        textControl(host, option, now);
+    }
+    tooltip(tipOf(option));
+    ImGui::PopID();
+}
+
+}  // namespace stereonav

@@ -1,0 +1,24 @@
+// Controls that panels share.
+#pragma once
+
+#include <string>
+
+#include "app/view/panel/panel_host.h"
+
+namespace stereonav {
+
+// One option of the table, as its type has it: dragged, typed, chosen; a double click on its name resets it.
+// A tooltip says what it is, what it takes and its key.
+void optionControl(PanelHost& host, const Option& option);
+
+// Words as a person reads them: "zero parallax".
+std::string labelOf(const Option& option);
+// The key that does it in the window, "" for none.
+std::string keyOf(const Option& option);
+
+// Text that explains, in one line; wrapped.
+void quietLine(const PanelHost& host, const std::string& text);
+void quietText(const PanelHost& host, const std::string& text);
+void tooltip(const std::string& text);
+
+}  // namespace stereonav

@@ -1,0 +1,170 @@
+#include "app/view/panel/file_browser.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <system_error>
+
+#include "app/view/panel/controls.h"
+
+namespace stereonav {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostEntries = 5000;  // of a folder: more are not looked at
+
+std::string lowerCase(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::string sizeText(std::uintmax_t bytes) {
+    const char* const units[] = {"B", "kB", "MB", "GB", "TB"};
+    double size = static_cast<double>(bytes);
+    int unit = 0;
+    while (size >= 1000 && unit < 4) size /= 1000, ++unit;
+    return fmt::format("{:.3g} {}", size, units[unit]);
+}
+
+fs::path homeFolder() {
+    const char* const home = std::getenv("HOME");
+    return home && *home ? fs::path(home) : fs::path("/");
+}
+
+}  // namespace
+
+bool looksReadable(const std::filesystem::path& file) {
+    static constexpr std::array kEndings{".toml", ".tif",  ".tiff", ".hgt", ".dem", ".asc", ".png", ".vrt",
+                                         ".img",  ".nrrd", ".nhdr", ".nii", ".gz",  ".mha", ".mhd", ".dcm",
+                                         ".glb",  ".gltf", ".bil",  ".flt", ".grd", ".dt0", ".dt1", ".dt2"};
+    const std::string ending = lowerCase(file.extension().string());
+    if (ending == ".gz") return lowerCase(file.string()).ends_with(".nii.gz");
+    return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+}
+
+void FileBrowser::open(For what) {
+    mFor = what;
+    mOpen = mFresh = true;
+    mFilter.clear();
+    std::error_code code;
+    if (mFolder.empty()) mFolder = fs::current_path(code);
+    if (what == For::SaveScene && mName.empty()) mName = "scene.toml";
+    goTo(mFolder);
+}
+
+void FileBrowser::goTo(const std::filesystem::path& folder) {
+    std::error_code code;
+    mFolder = fs::absolute(folder, code).lexically_normal();
+    if (mFolder.filename().empty() && mFolder.has_parent_path() && mFolder != mFolder.root_path())
+        mFolder = mFolder.parent_path();
+    mEntries.clear();
+    mProblem.clear();
+    fs::directory_iterator entries(mFolder, fs::directory_options::skip_permission_denied, code);
+    if (code) {
+        mProblem = mFolder.string() + ": " + code.message();
+        return;
+    }
+    for (const fs::directory_iterator end; entries != end && mEntries.size() < kMostEntries;
+         entries.increment(code)) {
+        if (code) break;
+        Entry entry;
+        entry.name = entries->path().filename().string();
+        if (entry.name.starts_with(".")) continue;
+        std::error_code ignored;
+        entry.folder = entries->is_directory(ignored);
+        entry.readable = entry.folder || looksReadable(entries->path());
+        if (!entry.folder) entry.bytes = entries->file_size(ignored);
+        mEntries.push_back(std::move(entry));
+    }
+    if (mEntries.size() == kMostEntries)
+        mProblem = fmt::format("only {} of the entries are shown: write the name below", kMostEntries);
+    std::sort(mEntries.begin(), mEntries.end(), [](const Entry& a, const Entry& b) {
+        return a.folder != b.folder ? a.folder : lowerCase(a.name) < lowerCase(b.name);
+    });
+}
+
+void FileBrowser::choose(PanelHost& host, const std::filesystem::path& path) {
+    mOpen = false;
+    if (mFor == For::Open)
+        host.open(path.string());
+    else
+        host.saveScene(path);
+}
+
+void FileBrowser::drawEntries(PanelHost& host) {
+    const float font = ImGui::GetFontSize();
+    ImGui::BeginChild("##entries", {0, -2 * ImGui::GetFrameHeightWithSpacing()}, true);
+    if (!mProblem.empty()) quietText(host, mProblem);
+    fs::path next;
+    const std::string filter = lowerCase(mFilter);
+    for (const Entry& entry : mEntries) {
+        if (!entry.readable && !mAll) continue;
+        if (!filter.empty() && lowerCase(entry.name).find(filter) == std::string::npos) continue;
+        ImGui::PushID(entry.name.c_str());
+        const bool clicked = ImGui::Selectable("##row", false, ImGuiSelectableFlags_AllowDoubleClick);
+        if (clicked && entry.folder && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+            next = mFolder / entry.name;
+        else if (clicked && !entry.folder) {
+            mName = entry.name;
+            if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) choose(host, mFolder / entry.name);
+        } else if (clicked) {
+            mName = entry.name;
+        }
+        ImGui::SameLine(0.4f * font);
+        ImGui::TextUnformatted(((entry.folder ? "\u25b8 " : "   ") + entry.name).c_str());
+        if (!entry.folder) {
+            const std::string size = sizeText(entry.bytes);
+            ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(size.c_str()).x -
+                            0.5f * font);
+            quietText(host, size);
+        }
+        ImGui::PopID();
+    }
+    ImGui::EndChild();
+    if (!next.empty()) {
+        mName.clear();
+        mFilter.clear();
+        goTo(next);
+    }
+}
+
+void FileBrowser::draw(PanelHost& host) {
+    if (!mOpen) return;
+    const ImVec2 whole = ImGui::GetIO().DisplaySize;
+    const float font = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({whole.x / 2, whole.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(whole.x - font, 52 * font), std::min(whole.y - 3 * font, 36 * font)});
+    if (mFresh) ImGui::SetNextWindowFocus();
+    ImGui::Begin(mFor == For::Open ? "Open a file or a folder of DICOM slices" : "Save the scene", &mOpen,
+                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                     ImGuiWindowFlags_NoSavedSettings);
+    if (ImGui::Button("Up")) goTo(mFolder.parent_path());
+    ImGui::SameLine();
+    if (ImGui::Button("Home")) goTo(homeFolder());
+    ImGui::SameLine();
+    ImGui::Checkbox("all files", &mAll);
+    tooltip("Also those whose names say nothing of what the program reads.");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    ImGui::InputTextWithHint("##filter", "part of a name", &mFilter);
+    quietText(host, mFolder.string());
+    drawEntries(host);
+    const bool save = mFor == For::SaveScene;
+    ImGui::SetNextItemWidth(-14 * font);
+    if (mFresh) ImGui::SetKeyboardFocusHere();
+    mFresh = false;
+    bool done = ImGui::InputTextWithHint("##name", "name", &mName, ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    done |= ImGui::Button(save ? "Save" : "Open");
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel")) mOpen = false;
+    if (done && !mName.empty() && mOpen) choose(host, mFolder / mName);
+    ImGui::End();
+}
+
+}  // namespace stereonav

@@ -1,0 +1,17 @@
+// The bar of menus on top.
+#pragma once
+
+#include "app/view/panel/panel_host.h"
+
+namespace stereonav {
+
+// What menus switch of the interface itself.
+struct MenuWishes {
+    bool openFile = false, saveScene = false, start = false, search = false, help = false, hideAll = false;
+    bool* side = nullptr;  // panels at the right
+};
+
+// Its height in units of the interface.
+float drawMenuBar(PanelHost& host, MenuWishes& wishes);
+
+}  // namespace stereonav

@@ -1,0 +1,65 @@
+// What panels see of the viewer, and what they may ask of it. The window's thread.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "app/view/session.h"
+#include "app/view/setting_texts.h"
+#include "engine/display/interface_theme.h"
+
+namespace stereonav {
+
+// Figures of one frame, for small plots.
+struct FrameCost {
+    double left_ms = 0, right_ms = 0;            // of eyes made together the left one has it all
+    double warp_ms = 0, fill_ms = 0, holes = 0;  // holes: percent of the right eye's pixels
+};
+
+class PanelHost {
+public:
+    virtual ~PanelHost() = default;
+
+    virtual ViewSession* session() = 0;                      // null until the first scene is there
+    virtual const ViewFrame* frame() const = 0;              // null until the first one
+    virtual double framesPerSecond() const = 0;              // 0: not known
+    virtual const std::deque<FrameCost>& costs() const = 0;  // newest last
+    virtual std::string sceneName() const = 0;
+    virtual SettingTexts settings() const = 0;  // given and live
+    // None where it is not known, or "" where the option is not given and has no default in the table.
+    virtual std::optional<std::string> valueOf(const Option& option) const = 0;
+    virtual bool applies(const Option& option) const = 0;  // to what is shown
+    virtual bool live(const Option& option) const = 0;     // taken at once, while it is dragged
+    virtual SizeOption pictureSize() const = 0;            // of an eye, pixels
+
+    virtual ViewWorker::Loading loading() const = 0;
+    virtual double loadingSeconds() const = 0;  // since it began
+    virtual void cancelLoading() = 0;
+    virtual bool readingSlices() const = 0;
+    // A line that stays until it is read, "" for none.
+    virtual const std::string& failure() const = 0;
+    virtual void forgetFailure() = 0;
+
+    virtual void act(const ViewAction& action) = 0;
+    // none: as it begins. Failures are told.
+    virtual void set(const std::string& key, const std::optional<std::string>& text) = 0;
+    virtual void open(const std::string& scene) = 0;  // a file, a folder, or a built-in scene's name
+    virtual void quit() = 0;
+    virtual const std::vector<std::string>& recentFiles() const = 0;  // newest first
+    virtual void saveScene(const std::filesystem::path& file) = 0;
+    virtual void copy(const std::string& text) = 0;
+    virtual bool canUndo() const = 0;
+    virtual bool canRedo() const = 0;
+    virtual void undo() = 0;
+    virtual void redo() = 0;
+
+    virtual const InterfaceLook& look() const = 0;
+    virtual void setLook(const InterfaceLook& look) = 0;
+    // Asks for what the scene says of itself; null until it is there.
+    virtual const Facts* facts() = 0;
+};
+
+}  // namespace stereonav

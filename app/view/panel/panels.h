@@ -1,0 +1,42 @@
+// All of the interface: a bar of menus, panels at both sides, a line of figures; what is open, and how wide.
+// At widths that have no room for panels beside the picture they are drawers over it.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <memory>
+
+#include "app/view/panel/panel_host.h"
+
+namespace stereonav {
+
+class Panels {
+public:
+    Panels();
+    ~Panels();
+
+    // One layout; inside Interface::layOut.
+    void draw(PanelHost& host);
+
+    // What is left for the picture, in units of the interface: corner and size. Of the last layout.
+    struct Rest {
+        glm::vec2 corner{0}, size{0};
+    };
+    Rest rest(const glm::vec2& whole) const;
+
+    void toggleAll();   // hides everything, or shows it again
+    void toggleSide();  // panels at the right
+    void openSearch();
+    void openFiles();
+    void openSave();
+    void showStart(bool shown);
+    bool startShown() const;
+    void toggleHelp();
+    // Closes the topmost of what can be closed; false: there is nothing.
+    bool closeOne();
+
+private:
+    struct State;
+    std::unique_ptr<State> mState;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,178 @@
+#include "app/view/panel/side_panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "app/output/length_text.h"
+#include "app/view/panel/comfort_meter.h"
+#include "app/view/panel/controls.h"
+#include "app/view/status.h"
+
+namespace stereonav {
+namespace {
+
+std::vector<const Option*> optionsOf(const PanelHost& host, OptionPanel panel) {
+    std::vector<const Option*> options;
+    for (const Option& option : optionTable())
+        if ((option.commands & command::kView) && option.panel == panel && host.applies(option))
+            options.push_back(&option);
+    return options;
+}
+
+void command(PanelHost& host, const char* label, ViewCommand which, const char* tip) {
+    if (ImGui::Button(label)) host.act({which});
+    tooltip(tip);
+}
+
+void drawView(PanelHost& host, ViewSession& session) {
+    for (const Option* const option : optionsOf(host, OptionPanel::View)) optionControl(host, *option);
+    bool stereo = session.stereoOn(), swapped = session.swapped();
+    if (ImGui::Checkbox("stereo", &stereo)) host.act({ViewCommand::ToggleStereo});
+    tooltip("Two eyes, or one. Key: 3");
+    ImGui::SameLine();
+    if (ImGui::Checkbox("swap eyes", &swapped)) host.act({ViewCommand::SwapEyes});
+    tooltip("Where depth is inverted. Key: X");
+    if (session.open().scene->offered<RoomAround>()) {
+        bool follows = session.followsClearance();
+        if (ImGui::Checkbox("eyes follow the room", &follows) && follows)
+            host.act({ViewCommand::FollowClearance});
+        tooltip("As far apart as the room around them suits; setting them by hand ends it. Key: C");
+    }
+    const ViewFrame* const frame = host.frame();
+    if (!frame || !frame->request.twoEyes) return;
+    drawComfortMeter(host, *frame);
+    const std::string warning = warningLine(*frame);
+    quietText(host, warning.empty() ? fmt::format("parallax {:+.1f} to {:+.1f} % of the width",
+                                                  100 * frame->nearParallax, 100 * frame->farParallax)
+                                    : warning);
+}
+
+void drawOptions(PanelHost& host, OptionPanel panel) {
+    for (const Option* const option : optionsOf(host, panel)) optionControl(host, *option);
+}
+
+void drawLight(PanelHost& host, ViewSession& session) {
+    drawOptions(host, OptionPanel::Light);
+    const std::string why = session.open().scene->whyLightStays();
+    if (session.open().scene->offered<TurningLight>())
+        quietText(host, "U H J K, or the cross of a gamepad, move the light.");
+    else if (!why.empty())
+        quietText(host, "The light stands still: " + why + ".");
+}
+
+void drawMaterial(PanelHost& host, ViewSession& session) {
+    drawOptions(host, OptionPanel::Material);
+    const auto* const surface = session.open().scene->offered<SurfaceChoices>();
+    if (!surface) return;
+    bool translucent = *session.surface().translucent;
+    if (ImGui::Checkbox("translucent", &translucent)) host.act({ViewCommand::ToggleTranslucent});
+    tooltip("Seen through, by the transfer function, or an opaque surface. Key: T");
+    ImGui::SameLine();
+    command(host, "Next function", ViewCommand::NextTransfer, "Key: Shift+T");
+    if (!session.surface().ambient) return;
+    command(host, "Ambient light", ViewCommand::NextAmbient,
+            "The next method of ambient light, or none. Key: O");
+    ImGui::SameLine();
+    command(host, "Modulate", ViewCommand::NextModulation,
+            "Opacity by variance, by gradient, as it is. Key: B");
+}
+
+// One quantity over the last frames, with its newest value.
+void plot(PanelHost& host, const char* label, double FrameCost::*what, const char* unit) {
+    std::array<float, 120> values{};
+    const auto& costs = host.costs();
+    const std::size_t count = std::min(values.size(), costs.size());
+    for (std::size_t n = 0; n < count; ++n)
+        values[n] = static_cast<float>(costs[costs.size() - count + n].*what);
+    const float most =
+        count ? *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count)) : 0;
+    if (!(most > 0)) return;
+    const std::string text = fmt::format("{} {:.1f} {}", label, values[count - 1], unit);
+    ImGui::PushID(label);
+    ImGui::PlotLines("##plot", values.data(), static_cast<int>(count), 0, text.c_str(), 0, 1.2f * most,
+                     {-FLT_MIN, 2.2f * ImGui::GetFontSize()});
+    ImGui::PopID();
+    tooltip(fmt::format("{}, {}: the last {} frames, up to {:.1f}", label, unit, count, most));
+}
+
+void drawQuality(PanelHost& host) {
+    drawOptions(host, OptionPanel::Quality);
+    plot(host, "left", &FrameCost::left_ms, "ms");
+    plot(host, "right", &FrameCost::right_ms, "ms");
+    plot(host, "warp", &FrameCost::warp_ms, "ms");
+    plot(host, "fill", &FrameCost::fill_ms, "ms");
+    plot(host, "holes", &FrameCost::holes, "%");
+    if (const ViewFrame* const frame = host.frame())
+        quietText(host, frameText(*frame, host.framesPerSecond()));
+}
+
+void drawPath(PanelHost& host, ViewSession& session) {
+    command(host, session.recording() ? "End recording" : "Record", ViewCommand::Record, "Key: z");
+    ImGui::SameLine();
+    command(host, session.playing() ? "Stop" : "Play", ViewCommand::Play, "Key: Shift+Z");
+    ImGui::SameLine();
+    command(host, "Home", ViewCommand::Home, "Key: Space");
+    const RecordedPath& path = session.path();
+    quietText(host, path.samples().size() < 2 ? "No flight yet: Record makes one."
+                                              : fmt::format("A flight of {:.1f} s, {} places.",
+                                                            path.duration(), path.samples().size()));
+    quietText(host, fmt::format("speed {}/s: the wheel changes it, Shift is four times",
+                                lengthText(session.speed())));
+}
+
+void drawFacts(PanelHost& host) {
+    const Facts* const facts = host.facts();
+    if (!facts) return quietText(host, "being collected");
+    if (!ImGui::BeginTable("facts", 2, ImGuiTableFlags_SizingStretchProp)) return;
+    for (const auto& [label, text] : rowsOf(*facts)) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        quietText(host, label);
+        ImGui::TableNextColumn();
+        ImGui::PushTextWrapPos(0);
+        ImGui::TextUnformatted(text.c_str());
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::EndTable();
+}
+
+bool heading(const char* label, bool open) {
+    return ImGui::CollapsingHeader(label, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
+
+}  // namespace
+
+void drawSidePanels(PanelHost& host) {
+    ViewSession* const session = host.session();
+    if (!session) return quietText(host, "nothing is open yet");
+    const auto any = [&](OptionPanel panel) { return !optionsOf(host, panel).empty(); };
+    if (heading("View and stereo", true)) drawView(host, *session);
+    if (any(OptionPanel::Light) && heading("Light", true)) drawLight(host, *session);
+    if (any(OptionPanel::Material) && heading("Material", false)) drawMaterial(host, *session);
+    if (any(OptionPanel::Medium) && heading("Medium", false)) drawOptions(host, OptionPanel::Medium);
+    if (heading("Flight and path", false)) drawPath(host, *session);
+    if (heading("Quality and cost", false)) drawQuality(host);
+    if (any(OptionPanel::Study) && heading("Study", false)) drawOptions(host, OptionPanel::Study);
+    if (heading("Scene", false)) drawFacts(host);
+    if (heading("Command line", false)) {
+        quietText(host, commandLineOf(host.settings()));
+        if (ImGui::Button("Copy##view")) host.copy(commandLineOf(host.settings()));
+        tooltip("Opens the window as it is set now.");
+        ImGui::SameLine();
+        const Pose pose = session->pose();
+        const PoseAngles angles = anglesOf(pose);
+        constexpr double kDegrees = 180 / std::numbers::pi;
+        const std::string at = fmt::format("{:.6g},{:.6g},{:.6g},{:.5g},{:.5g},{:.5g}", pose.position.x,
+                                           pose.position.y, pose.position.z, kDegrees * angles.heading,
+                                           kDegrees * angles.pitch, kDegrees * angles.roll);
+        if (ImGui::Button("Copy for a picture"))
+            host.copy(renderLineOf(host.settings(), at, host.pictureSize()));
+        tooltip("Writes what is seen now into view.png, as it is set now.");
+    }
+}
+
+}  // namespace stereonav

@@ -1,0 +1,138 @@
+#include "app/view/panel/status_bar.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <cmath>
+
+#include "app/output/length_text.h"
+#include "app/view/panel/comfort_meter.h"
+#include "app/view/panel/controls.h"
+#include "app/view/status.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kPatience = 0.5;  // seconds without a word
+constexpr ImGuiWindowFlags kBar =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+// Pieces in a row, as many as there is room for, so that none is cut.
+class Row {
+public:
+    explicit Row(float width) : mLeft(width) {}
+    // Width of a piece that is to come: false where it has no room.
+    bool room(float width) {
+        if (width > mLeft) return false;
+        if (!mFirst) ImGui::SameLine(0, kGap * ImGui::GetFontSize());
+        mFirst = false;
+        mLeft -= width + kGap * ImGui::GetFontSize();
+        return true;
+    }
+    void text(const std::string& text, const std::string& tip = "") {
+        if (text.empty() || !room(ImGui::CalcTextSize(text.c_str()).x)) return;
+        ImGui::TextUnformatted(text.c_str());
+        if (!tip.empty()) tooltip(tip);
+    }
+
+private:
+    static constexpr float kGap = 1.1f;
+    float mLeft;
+    bool mFirst = true;
+};
+
+std::string costText(const ViewFrame& frame) {
+    const FrameTimings& timings = frame.timings;
+    if (!(timings.left_ms > 0)) return fmt::format("both eyes {:5.1f} ms", timings.both_ms);
+    std::string text = fmt::format("left {:5.1f}", timings.left_ms);
+    if (frame.request.twoEyes) text += fmt::format("  right {:5.1f}", timings.right_ms);
+    return text + " ms";
+}
+
+std::string placeText(ViewSession& session) {
+    std::string text;
+    const double clearance = session.flight().clearanceNow();
+    if (std::isfinite(clearance)) text = "clearance " + lengthText(clearance);
+    if (const auto* const through = session.open().scene->offered<LineThrough>()) {
+        const PlaceOnLine place = through->placeOnLine(session.pose().position);
+        text += fmt::format("{}{:.0f} of {:.0f} mm", text.empty() ? "" : "   ", 1000 * place.along,
+                            1000 * place.length);
+    }
+    return text;
+}
+
+}  // namespace
+
+float drawStatusBar(PanelHost& host, float left, float right) {
+    const ImVec2 whole = ImGui::GetIO().DisplaySize;
+    const float height = ImGui::GetFontSize() + 2 * ImGui::GetStyle().FramePadding.y + 2;
+    ImGui::SetNextWindowPos({left, whole.y - height});
+    ImGui::SetNextWindowSize({std::max(whole.x - left - right, 1.0f), height});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8, ImGui::GetStyle().FramePadding.y + 1});
+    ImGui::Begin("##status", nullptr, kBar);
+    ImGui::PopStyleVar();
+    Row row(ImGui::GetContentRegionAvail().x);
+    ViewSession* const session = host.session();
+    const ViewFrame* const frame = host.frame();
+    if (session && session->slicesShown()) {
+        row.text(session->sliceStatus());
+    } else if (session && frame) {
+        const double rate = host.framesPerSecond();
+        row.text(rate > 0 ? fmt::format("{:5.1f} /s", rate) : "  rest ",
+                 "frames a second, while something moves");
+        row.text(costText(*frame), frameText(*frame, rate));
+        if (frame->request.twoEyes && row.room(comfortMeterWidth())) drawComfortMeter(host, *frame);
+        if (session->playing())
+            row.text(
+                fmt::format("playing {:.1f} of {:.1f} s", session->playTime(), session->path().duration()));
+        if (session->recording()) row.text(fmt::format("recording {:.1f} s", session->recorded()));
+        row.text(placeText(*session));
+        row.text(std::string(infoOf(session->compose().mode).longName) +
+                 (session->swapped() ? ", swapped" : ""));
+        row.text(std::string(frame->request.way.method), "how the right eye was made: N");
+        row.text(fmt::format("speed {}/s", lengthText(session->speed())), "the wheel changes it");
+    }
+    ImGui::End();
+    return height;
+}
+
+void drawNotices(PanelHost& host, float left, float right, float top) {
+    const ImVec2 whole = ImGui::GetIO().DisplaySize;
+    const float width = whole.x - left - right, margin = 0.6f * ImGui::GetFontSize();
+    const ViewWorker::Loading loading = host.loading();
+    ViewSession* const session = host.session();
+    const std::string notice = session ? session->notice() : "";
+    const bool waits = loading.busy && (host.loadingSeconds() > kPatience || !session);
+    if (notice.empty() && host.failure().empty() && !waits && !host.readingSlices()) return;
+    const float wrap = std::min(width - 2 * margin, 46 * ImGui::GetFontSize());
+    ImGui::SetNextWindowPos({left + width / 2, top + margin}, ImGuiCond_Always, {0.5f, 0});
+    ImGui::Begin("##notices", nullptr, kBar | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PushTextWrapPos(std::max(wrap - 4 * ImGui::GetFontSize(), 60.0f));
+    if (!host.failure().empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, warningColor(host.look()));
+        ImGui::TextUnformatted(host.failure().c_str());
+        ImGui::PopStyleColor();
+        if (ImGui::Button("Dismiss")) host.forgetFailure();
+        ImGui::SameLine();
+        if (ImGui::Button("Copy")) host.copy(host.failure());
+    }
+    if (!notice.empty()) ImGui::TextUnformatted(notice.c_str());
+    if (waits) {
+        ImGui::TextUnformatted(loading.what.empty() ? "loading" : loading.what.c_str());
+        const double gone = host.loadingSeconds();
+        std::string text = fmt::format("{:.0f} %", 100 * loading.fraction);
+        // What is left is told once it is more than a guess.
+        if (loading.fraction > 0.1 && gone > 2)
+            text += fmt::format(", {:.0f} s left", std::ceil(gone / loading.fraction - gone));
+        ImGui::ProgressBar(static_cast<float>(loading.fraction),
+                           {std::min(wrap, 20 * ImGui::GetFontSize()), 0}, text.c_str());
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel")) host.cancelLoading();
+    }
+    if (host.readingSlices()) ImGui::TextUnformatted("reading the slices");
+    ImGui::PopTextWrapPos();
+    ImGui::End();
+}
+
+}  // namespace stereonav

@@ -1,0 +1,91 @@
+#include "app/view/setting_texts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/options/parsed_options.h"
+
+namespace stereonav {
+namespace {
+
+constexpr const char* kScene = "SCENE";
+
+void addWords(std::string& line, const SettingTexts& settings, CommandSet command) {
+    if (const auto scene = settings.find(kScene); scene != settings.end() && !scene->second.empty())
+        line += " " + shellWord(scene->second.back());
+    for (const auto& [key, texts] : settings) {
+        const Option* const option = findOption(command, key);
+        if (!option || option->positional()) continue;
+        for (const std::string& text : texts) {
+            line += " " + option->name();
+            if (option->value.kind != ValueKind::Flag) line += " " + shellWord(text);
+        }
+    }
+}
+
+SettingTexts textsOf(const GivenOptions& given, bool ofFile) {
+    SettingTexts settings;
+    for (const Option& option : optionTable()) {
+        if (!(option.commands & command::kView) || settings.contains(option.key)) continue;
+        const GivenOptions::Given* const found = given.find(option.key);
+        const auto typed = [&] {
+            return found->place == option.name() || found->place.starts_with("--set ");
+        };
+        if (!found || (ofFile && typed())) continue;
+        for (const OptionValue& value : found->values)
+            settings[option.key].push_back(option.value.kind == ValueKind::Flag ? "" : value.text);
+    }
+    return settings;
+}
+
+}  // namespace
+
+SettingTexts settingTextsOf(const GivenOptions& given) {
+    return textsOf(given, false);
+}
+
+SettingTexts fileTextsOf(const GivenOptions& given) {
+    return textsOf(given, true);
+}
+
+const Option* viewOption(const std::string& key) {
+    return findOption(command::kView, key);
+}
+
+ViewOptions viewOptionsOf(const SettingTexts& settings) {
+    ParsedOptions parsed;
+    chooseCommand(command::kView, parsed);
+    for (const auto& [key, texts] : settings)
+        if (const Option* const option = viewOption(key))
+            for (const std::string& text : texts) takeOption(*option, text, option->name(), parsed);
+    finishOptions(parsed);
+    return parsed.view;
+}
+
+std::string shellWord(const std::string& text) {
+    const auto plain = [](unsigned char c) {
+        return std::isalnum(c) ||
+               std::string_view("-_./:,+=@%").find(static_cast<char>(c)) != std::string_view::npos;
+    };
+    if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+    std::string word = "'";
+    for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return word + "'";
+}
+
+std::string commandLineOf(const SettingTexts& settings) {
+    std::string line = "stereonav view";
+    addWords(line, settings, command::kView);
+    return line;
+}
+
+std::string renderLineOf(const SettingTexts& settings, const std::string& pose, const SizeOption& size) {
+    SettingTexts shown = settings;
+    shown["size"] = {fmt::format("{}x{}", size.width, size.height)};
+    std::string line = "stereonav render";
+    addWords(line, shown, command::kRender);
+    return line + " --pose=" + pose + " --out view.png";
+}
+
+}  // namespace stereonav

@@ -1,0 +1,333 @@
+#include "app/view/viewer.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <mutex>
+
+#include "app/output/output_place.h"
+#include "app/output/stereo_frame.h"
+#include "app/scene/shown_as.h"
+#include "app/view/panel/start_pictures.h"
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kActiveWait = 1.0 / 120;  // seconds between looks at the keys while something moves
+constexpr double kIdleWait = 0.1;          // seconds; events and frames end the wait at once
+constexpr std::size_t kKeptCosts = 240;    // frames
+
+// What stays useful after the window is closed.
+void tell(const std::string& text) {
+    if (text.empty()) return;
+    std::printf("%s\n", text.c_str());
+    std::fflush(stdout);
+}
+
+std::string titleOf(const SceneOptions& scene) {
+    return "stereonav - " + (scene.scene.empty() ? "built-in terrain" : scene.scene);
+}
+
+FrameCost costOf(const ViewFrame& frame) {
+    const FrameTimings& timings = frame.timings;
+    FrameCost cost{timings.left_ms > 0 ? timings.left_ms : timings.both_ms, timings.right_ms, 0, 0, 0};
+    if (!timings.warped) return cost;
+    cost.warp_ms = timings.warped->warp_ms;
+    cost.fill_ms = timings.warped->fill_ms;
+    const double pixels = static_cast<double>(frame.left.width()) * frame.left.height();
+    if (pixels > 0) cost.holes = 100 * static_cast<double>(timings.warped->holePixels) / pixels;
+    return cost;
+}
+
+}  // namespace
+
+Viewer::Viewer(const ViewOptions& options)
+    : mOptions(options),
+      mGiven(settingTextsOf(options.scene.given)),
+      mSaid(fileTextsOf(options.scene.given)),
+      mMode(options.mode),
+      mFlight(options.path.empty() ? std::nullopt : std::optional(readPath(options.path))),
+      mWindow(titleOf(options.scene), composedSize(mMode, options.size.width, options.size.height).first,
+              composedSize(mMode, options.size.width, options.size.height).second),
+      mInterface(mWindow),
+      mScreenshots(options.shots) {
+    if (shownAs(options.scene).swept) mSweep = std::make_unique<ViewSweep>(options.sweep);
+    checkSize(windowSize(), options.scene, kViewBytes);
+    mPanels.showStart(options.startPage);
+    mWorker = std::make_unique<ViewWorker>(
+        [options, size = windowSize(), sweep = mSweep.get()](Progress& progress) {
+            return openScene(options, true, size, sweep, progress);
+        },
+        [] { Window::wake(); });
+}
+
+Viewer::~Viewer() {
+    forgetStartPictures();
+}
+
+void Viewer::run() {
+    if (!mOptions.shots.empty()) makeOutputFolder(mOptions.shots);
+    while (!mWindow.shouldClose() && !(mSession && mSession->quit())) {
+        mWindow.handleEvents(waitSeconds());
+        const double dt = mClock.lap_ms() / 1000;
+        takeScene();
+        takeDrops();
+        takeKeys(dt);
+        if (mSession) update(dt);
+        if (!mWindow.minimised()) draw(dt);
+    }
+    while (mScreenshots.waiting() && mFrame) finishScreenshots();
+}
+
+double Viewer::waitSeconds() const {
+    if (mWindow.minimised()) return kIdleWait;
+    const bool flows =
+        mSession && (mSession->moving() || mWindow.gamepad().present || mScreenshots.waiting());
+    return flows || mInterface.active() || mPanels.startShown() ? kActiveWait : kIdleWait;
+}
+
+// The first scene starts the session, others take its place in it, or a session of their own.
+void Viewer::takeScene() {
+    const ViewWorker::Loading loading = mWorker->loading();
+    if (loading.busy && !mWasBusy) mLoadingWatch.lap_ms();
+    mWasBusy = loading.busy;
+    auto scene = mWorker->scene();
+    if (!scene || scene == mScene) return;
+    mScene = std::move(scene);
+    mFacts.reset();
+    if (!loading.busy) mBefore.reset();
+    if (mSession && !mAnother) return mSession->replaceScene(mScene);
+    const bool first = !mSession;
+    mSession.emplace(mScene, ViewSession::Options{mMode, mFlight, mOptions.shots});
+    mSession->continueVersions(mAsked);
+    mAnother = false;
+    mCosts.clear();
+    mWindow.setTitle(titleOf(mOptions.scene));
+    mHistory.start(settings());
+    if (first) mSession->notify("F1 shows the keys, F2 the panels");
+}
+
+void Viewer::takeKeys(double dt) {
+    const Gamepad pad = mWindow.gamepad();
+    for (const KeyPress& press : mWindow.takeKeys())
+        if (const auto action = actionOf(press)) act(*action);
+    for (const ViewAction& action : mInput.actionsOf(pad, dt)) act(action);
+}
+
+// What needs no scene.
+bool Viewer::actOnInterface(const ViewAction& action) {
+    switch (action.command) {
+        case ViewCommand::Quit:
+            if (mPanels.closeOne()) return true;
+            if (mSession && (mSession->slicesShown() || mSlices.busy())) return false;
+            mWindow.close();
+            return true;
+        case ViewCommand::QuitAtOnce:
+            mWindow.close();
+            return true;
+        case ViewCommand::Help:
+            mPanels.toggleHelp();
+            return true;
+        case ViewCommand::HideInterface:
+            mPanels.toggleAll();
+            return true;
+        case ViewCommand::Panels:
+            mPanels.toggleSide();
+            return true;
+        case ViewCommand::Search:
+            mPanels.openSearch();
+            return true;
+        case ViewCommand::OpenFile:
+            mPanels.openFiles();
+            return true;
+        case ViewCommand::StartPage:
+            mPanels.showStart(true);
+            return true;
+        case ViewCommand::SaveScene:
+            if (mSession) mPanels.openSave();
+            return true;
+        case ViewCommand::Undo:
+            undo();
+            return true;
+        case ViewCommand::Redo:
+            redo();
+            return true;
+        default:
+            return false;
+    }
+}
+
+void Viewer::act(const ViewAction& action) {
+    if (actOnInterface(action) || !mSession) return;
+    if (action.command == ViewCommand::Quit && mSlices.busy()) {
+        mSlices.cancel();
+        return;
+    }
+    mSession->act(action);
+}
+
+void Viewer::update(double dt) {
+    mWindow.setCaptured(mSession->mouseCaptured());
+    usePointer();
+    mSession->step(mInput.flightOf(mWindow, mWindow.gamepad()), dt);
+    mHistory.observe(settings(), mInterface.active(), dt);
+    askFor();
+    followWishes();
+    takeFrame();
+}
+
+void Viewer::usePointer() {
+    const glm::dvec2 drag = mWindow.takeDrag();
+    const std::vector<glm::dvec2> clicks = mWindow.takeClicks();
+    mSession->turnWheel(mWindow.takeWheel());
+    const OutputModeInfo& mode = infoOf(mSession->compose().mode);
+    const PicturePlace place = placeFor(mode);
+    const double radiansPerUnit = mSession->lens().verticalFov / place.size.y;
+    mSession->look(drag.x * radiansPerUnit, -drag.y * radiansPerUnit);
+    const SizeOption eye = eyeSizeAt(mode, place);
+    for (const glm::dvec2& click : clicks) {
+        const glm::dvec2 at = placeInPicture(mode, place, click) * glm::dvec2(eye.width, eye.height);
+        tell(mSession->click(at.x, at.y));
+    }
+}
+
+void Viewer::takeDrops() {
+    const std::vector<std::string> drops = mWindow.takeDrops();
+    if (drops.size() > 1) mFailure = "one file or folder at a time: the first one is opened";
+    if (!drops.empty()) open(drops.front());
+}
+
+void Viewer::askFor() {
+    const OutputModeInfo& mode = infoOf(mSession->compose().mode);
+    const glm::ivec2 all = composedAt(mode, placeFor(mode));
+    if (mWindow.minimised()) return;
+    const FrameRequest& request = mSession->requestFor(all.x, all.y);
+    if (request.version != mAsked) mWorker->request(request);
+    mAsked = request.version;
+    if (mSession->takeScreenshotWish()) mScreenshots.wish(mAsked);
+}
+
+void Viewer::takeFrame() {
+    if (auto frame = mWorker->takeFrame()) {
+        mFrame = std::move(frame);
+        mSession->observe(*mFrame);
+        if (!mSession->slicesShown()) mPresenter.upload(mFrame->left.color, mFrame->right.color);
+        mRate.count(mFrame->request.version < mAsked);
+        mCosts.push_back(costOf(*mFrame));
+        if (mCosts.size() > kKeptCosts) mCosts.pop_front();
+        mNewFrame = true;
+    }
+    if (mSession->slicesShown())
+        takeSlice();
+    else
+        mScreenshots.take(mFrame, mSession->compose());
+    if (!mSession->slicesShown() && mSliceVersion != 0) endSlices();
+    reportScreenshots();
+    reportSweep();
+}
+
+void Viewer::takeSlice() {
+    const OutputModeInfo& mode = infoOf(mSession->compose().mode);
+    const SizeOption eye = eyeSizeAt(mode, placeFor(mode));
+    const Plane<PackedColor>& picture = mSession->slicePicture(eye.width, eye.height);
+    mScreenshots.take(picture, mSession->compose());
+    if (mSession->sliceVersion() == mSliceVersion) return;
+    mSliceVersion = mSession->sliceVersion();
+    mPresenter.upload(picture, {});
+    mNewFrame = true;
+}
+
+void Viewer::endSlices() {
+    mSliceVersion = 0;
+    if (mFrame) mPresenter.upload(mFrame->left.color, mFrame->right.color);
+    mNewFrame = true;
+}
+
+void Viewer::reportSweep() {
+    const std::string notice = mSweep ? mSweep->takeNotice() : "";
+    if (!notice.empty()) mSession->notify(notice);
+    tell(notice);
+    if (!mFrame || mFrame->sweep.empty() || mFrame->sweep == mSwept) return;
+    mSwept = mFrame->sweep;
+    tell(mSwept);
+}
+
+void Viewer::reportScreenshots() {
+    if (const std::string text = mScreenshots.report(); !text.empty()) {
+        mSession->notify(text);
+        tell(text);
+    }
+}
+
+void Viewer::finishScreenshots() {
+    mWindow.handleEvents(kActiveWait);
+    takeFrame();
+}
+
+SizeOption Viewer::windowSize() const {
+    const glm::ivec2 size = glm::max(mWindow.framebufferSize(), glm::ivec2(1));
+    return {size.x, size.y};
+}
+
+SizeOption Viewer::pictureSize() const {
+    const OutputModeInfo& mode = infoOf(shownMode());
+    return eyeSizeAt(mode, placeFor(mode));
+}
+
+PicturePlace Viewer::placeFor(const OutputModeInfo& mode) const {
+    const SizeOption window = windowSize();
+    const glm::ivec2 size(window.width, window.height);
+    const glm::vec2 units = glm::vec2(size) * interfacePlaces(mode).size;
+    return picturePlace(mode, size, mPanels.rest(units), units);
+}
+
+OutputMode Viewer::shownMode() const {
+    return mSession ? mSession->compose().mode : mMode;
+}
+
+// The mode of the session; but until a picture made for it is there, that of the one shown.
+ComposeSetting Viewer::shownSetting() const {
+    ComposeSetting setting = mSession ? mSession->compose() : ComposeSetting{mMode, false, false};
+    if (!mSession || mSession->slicesShown() || !mFrame) return setting;
+    const OutputModeInfo &now = infoOf(setting.mode), &then = infoOf(mFrame->request.mode);
+    const SizeOption wanted = eyeSizeAt(now, placeFor(now)), made = eyeSizeAt(then, placeFor(then));
+    if (wanted.width != made.width || wanted.height != made.height) setting.mode = mFrame->request.mode;
+    return setting;
+}
+
+// Draws only when there is something new: the processor is the ray caster's.
+void Viewer::draw(double dt) {
+    const ComposeSetting setting = shownSetting();
+    const OutputModeInfo& mode = infoOf(setting.mode);
+    InterfaceLook look = mInterface.look();
+    look.grey = mode.layout == OutputLayout::Anaglyph;
+    mInterface.setLook(look);
+    const bool laidOut = mInterface.layOut(interfacePlaces(mode), dt, [this] { mPanels.draw(*this); });
+    const PicturePlace place = placeFor(mode);
+    const bool same = setting == mDrawn && place == mDrawnPlace && !mNewFrame && !laidOut;
+    if (!mWindow.redrawNeeded() && same) return;
+    mNewFrame = false;
+    mDrawn = setting;
+    mDrawnPlace = place;
+    show(setting);
+}
+
+void Viewer::show(const ComposeSetting& setting) {
+    const SizeOption size = windowSize();
+    const glm::ivec2 origin = mWindow.framebufferOrigin();
+    const PicturePlace& place = mDrawnPlace;
+    glDisable(GL_SCISSOR_TEST);
+    glViewport(0, 0, size.width, size.height);
+    glClearColor(0, 0, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    const PartInset inset{place.corner.x, place.corner.y, place.part.x - place.corner.x - place.size.x,
+                          place.part.y - place.corner.y - place.size.y};
+    mPresenter.draw(setting, {0, 0, size.width, size.height}, origin.x, origin.y, inset);
+    mInterface.render();
+    mWindow.swapBuffers();
+}
+
+}  // namespace stereonav

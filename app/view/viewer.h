@@ -1,0 +1,128 @@
+// The window: events and drawing on this thread, loading and rendering on the worker's.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/command/commands.h"
+#include "app/view/frame_rate.h"
+#include "app/view/input.h"
+#include "app/view/loading.h"
+#include "app/view/panel/panel_host.h"
+#include "app/view/panel/panels.h"
+#include "app/view/picture_place.h"
+#include "app/view/screenshots.h"
+#include "app/view/session.h"
+#include "app/view/settings_history.h"
+#include "app/view/sweep.h"
+#include "engine/base/stopwatch.h"
+#include "engine/display/interface.h"
+#include "engine/display/stereo_presenter.h"
+#include "engine/display/window.h"
+
+namespace stereonav {
+
+class Viewer final : public PanelHost {
+public:
+    explicit Viewer(const ViewOptions& options);
+    ~Viewer() override;
+
+    void run();
+
+    // PanelHost
+    ViewSession* session() override { return mSession ? &*mSession : nullptr; }
+    const ViewFrame* frame() const override { return mFrame.get(); }
+    double framesPerSecond() const override { return mRate.value(); }
+    const std::deque<FrameCost>& costs() const override { return mCosts; }
+    std::string sceneName() const override;
+    SettingTexts settings() const override;
+    std::optional<std::string> valueOf(const Option& option) const override;
+    bool applies(const Option& option) const override;
+    bool live(const Option& option) const override;
+    SizeOption pictureSize() const override;
+    ViewWorker::Loading loading() const override { return mWorker->loading(); }
+    double loadingSeconds() const override { return mLoadingWatch.elapsed_ms() / 1000; }
+    void cancelLoading() override;
+    bool readingSlices() const override { return mSlices.busy(); }
+    const std::string& failure() const override { return mFailure; }
+    void forgetFailure() override { mFailure.clear(); }
+    void act(const ViewAction& action) override;
+    void set(const std::string& key, const std::optional<std::string>& text) override;
+    void open(const std::string& scene) override;
+    void quit() override { mWindow.close(); }
+    const std::vector<std::string>& recentFiles() const override { return mRecent; }
+    void saveScene(const std::filesystem::path& file) override;
+    void copy(const std::string& text) override;
+    bool canUndo() const override { return mSession && mHistory.canUndo(); }
+    bool canRedo() const override { return mSession && mHistory.canRedo(); }
+    void undo() override;
+    void redo() override;
+    const InterfaceLook& look() const override { return mInterface.look(); }
+    void setLook(const InterfaceLook& look) override { mInterface.setLook(look); }
+    const Facts* facts() override;
+
+private:
+    struct FactsWish;
+    struct Made {  // what the scene that is shown was made of
+        ViewOptions options;
+        SettingTexts given, said;
+    };
+
+    double waitSeconds() const;
+    void takeScene();
+    void update(double dt);
+    void takeKeys(double dt);
+    bool actOnInterface(const ViewAction& action);
+    void usePointer();
+    void followWishes();
+    void takeDrops();
+    void load(const ViewOptions& options, bool another);
+    void goTo(const SettingTexts& settings);
+    void tryTo(const std::function<void()>& what);
+    void askFor();
+    void takeFrame();
+    void takeSlice();
+    void endSlices();
+    void reportSweep();
+    void reportScreenshots();
+    void finishScreenshots();
+    OutputMode shownMode() const;
+    ComposeSetting shownSetting() const;
+    PicturePlace placeFor(const OutputModeInfo& mode) const;
+    SizeOption windowSize() const;
+    void draw(double dt);
+    void show(const ComposeSetting& setting);
+
+    ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed in place since
+    SettingTexts mGiven, mSaid;                 // what is shown was made of; what its scene file says
+    OutputMode mMode;
+    std::optional<RecordedPath> mFlight;
+    Window mWindow;
+    std::unique_ptr<ViewSweep> mSweep;  // of media; before the scenes, which use it to their end
+    StereoPresenter mPresenter;
+    Interface mInterface;
+    Panels mPanels;
+    Screenshots mScreenshots;
+    ViewInput mInput;
+    SettingsHistory mHistory;
+    Stopwatch mClock, mLoadingWatch;
+    FrameRate mRate;
+    std::deque<FrameCost> mCosts;
+    std::vector<std::string> mRecent;
+    std::shared_ptr<const ViewFrame> mFrame;
+    ComposeSetting mDrawn;
+    PicturePlace mDrawnPlace;
+    std::string mSwept = kCpuSweep, mFailure;
+    long long mAsked = 0, mSliceVersion = 0;
+    std::shared_ptr<const OpenScene> mScene;
+    std::shared_ptr<FactsWish> mFacts;
+    std::optional<Made> mBefore;  // while another one is loaded
+    SliceReading mSlices;
+    bool mNewFrame = false, mAnother = false, mWasBusy = false;
+    std::optional<ViewSession> mSession;
+    std::unique_ptr<ViewWorker> mWorker;  // after the window, whose wake() it calls until it has ended
+};
+
+}  // namespace stereonav

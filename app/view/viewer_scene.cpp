@@ -1,0 +1,241 @@
+// The viewer's part that changes what is shown: other files, other settings, back and forth.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+
+#include "app/options/scene_types.h"
+#include "app/scene/shown_as.h"
+#include "app/view/live_settings.h"
+#include "app/view/viewer.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+
+namespace stereonav {
+
+// Collected beside the frames, by the thread that makes them.
+struct Viewer::FactsWish {
+    std::mutex mutex;
+    std::optional<Facts> facts;
+};
+
+void Viewer::tryTo(const std::function<void()>& what) {
+    try {
+        what();
+    } catch (const std::exception& error) {
+        mFailure = error.what();
+    }
+}
+
+std::string Viewer::sceneName() const {
+    const std::string& scene = mOptions.scene.scene;
+    if (scene.empty()) return "terrain";
+    const std::string name = std::filesystem::path(scene).filename().string();
+    return name.empty() ? scene : name;
+}
+
+SettingTexts Viewer::settings() const {
+    return mSession ? withLive(*mSession, mGiven) : mGiven;
+}
+
+std::optional<std::string> Viewer::valueOf(const Option& option) const {
+    return mSession ? valueNow(*mSession, option.key) : std::nullopt;
+}
+
+bool Viewer::applies(const Option& option) const {
+    const auto type = sceneTypeOf(mOptions.scene);
+    return type && (option.scenes & *type) != 0;
+}
+
+bool Viewer::live(const Option& option) const {
+    return mSession && isLive(*mSession, option.key);
+}
+
+void Viewer::load(const ViewOptions& options, bool another) {
+    ViewOptions shown = options;
+    const bool swept = shownAs(shown.scene).swept;
+    shown.scene.skyTurns = !swept;
+    checkMethod(shown.scene, shown.method);
+    checkSize(windowSize(), shown.scene, kViewBytes);
+    if (swept && !mSweep) mSweep = std::make_unique<ViewSweep>(shown.sweep);
+    if (!mBefore) mBefore = Made{mOptions, mGiven, mSaid};
+    mAnother = mAnother || another;
+    mOptions = mChanged = shown;
+    mWorker->reload([options = shown, size = windowSize(), sweep = swept ? mSweep.get() : nullptr](
+                        Progress& progress) { return openScene(options, false, size, sweep, progress); });
+}
+
+void Viewer::open(const std::string& scene) {
+    mFailure.clear();
+    tryTo([&] {
+        SettingTexts settings;
+        if (scene != "terrain") settings["SCENE"] = {scene};
+        // What is of the person and the screen stays.
+        for (const char* key : {"shots", "size", "threads", "simd"})
+            if (const auto kept = mGiven.find(key); kept != mGiven.end()) settings.insert(*kept);
+        ViewOptions options = viewOptionsOf(settings);
+        mMode = mSession ? mSession->mode() : mMode;
+        options.mode = mMode;
+        load(options, true);
+        mGiven = settingTextsOf(options.scene.given);
+        mSaid = fileTextsOf(options.scene.given);
+        mFlight.reset();
+        mPanels.showStart(false);
+    });
+}
+
+void Viewer::cancelLoading() {
+    if (mSession)
+        mWorker->cancelLoading();
+    else
+        mWindow.close();
+}
+
+void Viewer::set(const std::string& key, const std::optional<std::string>& text) {
+    if (!mSession) return;
+    tryTo([&] {
+        if (isLive(*mSession, key, text)) {
+            setLive(*mSession, key, text);
+            if (!text) mGiven.erase(key);
+            return;
+        }
+        SettingTexts settings = this->settings();
+        if (text)
+            settings[key] = {*text};
+        else
+            settings.erase(key);
+        goTo(settings);
+    });
+}
+
+// Throws Error, and nothing is changed then.
+void Viewer::goTo(const SettingTexts& settings) {
+    const SettingTexts now = this->settings();
+    bool again = false;
+    std::vector<std::pair<std::string, std::optional<std::string>>> changes;
+    const auto note = [&](const std::string& key) {
+        const auto a = now.find(key), b = settings.find(key);
+        if (a != now.end() && b != settings.end() && a->second == b->second) return;
+        const std::optional<std::string> text =
+            b == settings.end() || b->second.empty() ? std::nullopt : std::optional(b->second.back());
+        changes.emplace_back(key, text);
+        again = again || !isLive(*mSession, key, text);
+    };
+    for (const auto& [key, texts] : now) note(key);
+    for (const auto& [key, texts] : settings)
+        if (!now.contains(key)) note(key);
+    if (again) {
+        const ViewOptions options = viewOptionsOf(settings);
+        load(options, false);
+        mGiven = settings;
+        mSaid = fileTextsOf(options.scene.given);
+    }
+    for (const auto& [key, text] : changes) {
+        if (!again && !text) mGiven.erase(key);
+        if (isLive(*mSession, key, text)) setLive(*mSession, key, text);
+    }
+}
+
+void Viewer::undo() {
+    if (!mSession) return;
+    const auto settings = mHistory.undo();
+    if (!settings) return mSession->notify("there is nothing to undo");
+    tryTo([&] { goTo(*settings); });
+}
+
+void Viewer::redo() {
+    if (!mSession) return;
+    const auto settings = mHistory.redo();
+    if (!settings) return mSession->notify("there is nothing to redo");
+    tryTo([&] { goTo(*settings); });
+}
+
+void Viewer::copy(const std::string& text) {
+    mWindow.setClipboard(text);
+    if (mSession) mSession->notify("copied");
+}
+
+void Viewer::saveScene(const std::filesystem::path& file) {
+    tryTo([&] {
+        std::filesystem::path place = file;
+        if (place.extension() != ".toml") place += ".toml";
+        SettingTexts settings = this->settings();
+        const auto scene = settings.find("SCENE");
+        const std::string name = scene == settings.end() ? "" : scene->second.back();
+        std::error_code code;
+        const bool isToml = std::filesystem::path(name).extension() == ".toml";
+        const bool there = std::filesystem::exists(place, code);
+        const bool same = isToml && there && std::filesystem::equivalent(name, place, code);
+        if (there && !same)
+            throw Error(place.string(), "", "there is a file already", "choose another name, or delete it");
+        // A copy of a scene file is one beside it: the files that it names are relative to it.
+        if (isToml && !same &&
+            std::filesystem::absolute(name).parent_path() != std::filesystem::absolute(place).parent_path())
+            throw Error(place.string(), "", "a copy of a scene file must lie beside it",
+                        "choose a name in " + std::filesystem::absolute(name).parent_path().string());
+        const std::string before = isToml ? readTextFile(name) : "";
+        std::string named = isToml ? "" : name.empty() ? "terrain" : name;
+        if (!named.empty() && std::filesystem::exists(named, code))
+            named = std::filesystem::absolute(named).lexically_normal().string();
+        settings.erase("SCENE");
+        const std::string text = savedScene(before, named, isToml ? mSaid : SettingTexts(), settings);
+        // The scene file itself was read, and is to be written: what else was read is not.
+        const auto write = [&](const std::filesystem::path& temporary) { std::ofstream(temporary) << text; };
+        writeFileAtomically(place, write, same ? Over::Anything : Over::NothingRead);
+        mSession->notify("saved " + place.string());
+    });
+}
+
+const Facts* Viewer::facts() {
+    if (!mScene) return nullptr;
+    if (!mFacts) {
+        mFacts = std::make_shared<FactsWish>();
+        mWorker->ask([wish = mFacts](const OpenScene& open) {
+            Facts facts = open.scene->describe();
+            const std::lock_guard lock(wish->mutex);
+            wish->facts = std::move(facts);
+        });
+        return nullptr;
+    }
+    const std::lock_guard lock(mFacts->mutex);
+    return mFacts->facts ? &*mFacts->facts : nullptr;
+}
+
+// What the session wants that takes longer than a frame.
+void Viewer::followWishes() {
+    if (const auto change = mSession->takeSceneChange()) {
+        applyChange(*change, mOptions.scene, mChanged.scene);
+        if (mScene->scene->offered<SurfaceChoices>() && !change->seeds)
+            mWorker->change(
+                [options = mChanged, surface = change->surface](const OpenScene& now, Progress& progress) {
+                    return changedScene(now, surface, options, progress);
+                });
+        else
+            mWorker->reload(
+                [options = mChanged, size = windowSize(), sweep = mSweep.get()](Progress& progress) {
+                    return openScene(options, false, size, sweep, progress);
+                });
+    }
+    if (const std::string problem = mWorker->takeReloadProblem(); !problem.empty()) {
+        mSession->forgetSceneChange();
+        mFailure = problem;
+        // What is shown stays what it was.
+        if (mBefore) {
+            mOptions = mChanged = mBefore->options;
+            mGiven = mBefore->given;
+            mSaid = mBefore->said;
+            mBefore.reset();
+        }
+        mAnother = false;
+    }
+    if (mSession->takeStudyWish()) mSlices.start(mScene, [] { Window::wake(); });
+    try {
+        if (auto study = mSlices.take()) mSession->showSlices(std::move(study));
+    } catch (const Cancelled&) {
+        mSession->notify("the slices were not read");
+    } catch (const std::exception& error) {
+        mFailure = error.what();
+    }
+}
+
+}  // namespace stereonav

@@ -1,0 +1,68 @@
+// What lies over the picture: panels, menus and lines of text, through Dear ImGui, fed with the window's
+// events. It is laid out once, in units of its own, and drawn into each eye's part of the window at zero
+// parallax, so that it can be read in stereo; under the pointer each part is the same interface.
+#pragma once
+
+#include <functional>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <vector>
+
+#include "engine/display/interface_theme.h"
+#include "engine/display/window.h"
+
+namespace stereonav {
+
+// A part of the window that shows all of the interface, as shares of the window's size, (0, 0) top left.
+struct InterfaceArea {
+    float x = 0, y = 0, width = 1, height = 1;
+    bool operator==(const InterfaceArea&) const = default;
+};
+
+// Where it is drawn, and how large it takes itself to be.
+struct InterfacePlaces {
+    std::vector<InterfaceArea> areas{{}};  // at least one
+    // Of the window's size, along each axis: what an eye that is squeezed to half stands for is 1.
+    glm::vec2 size{1};
+    bool operator==(const InterfacePlaces&) const = default;
+};
+
+// Needs the window's context to be current in every call. Several may be there, each of its own window.
+class Interface final : public InputSink {
+public:
+    explicit Interface(Window& window);  // the window's sink from now on; the window outlives it
+    ~Interface() override;
+    Interface(const Interface&) = delete;
+    Interface& operator=(const Interface&) = delete;
+
+    // Takes effect with the next layout. A font is made anew where the scale changes: some 0.1 s.
+    void setLook(const InterfaceLook& look);
+    const InterfaceLook& look() const;
+
+    // Lays out what `draw` says by calls of Dear ImGui, once or several times: a box knows its size one turn
+    // late, and events that came together are felt one after another. dt: seconds since the last. False: all
+    // looks as before.
+    bool layOut(const InterfacePlaces& places, double dt, const std::function<void()>& draw);
+    void render() const;  // over what is in the framebuffer
+
+    glm::vec2 size() const;  // of the layout, units
+    // The pointer over the picture: where, in shares of the interface's size; none while it is over the
+    // interface, or outside.
+    bool pointerOverPicture(glm::dvec2& place) const;
+    // Some text is at work.
+    bool active() const;
+
+    void pointerAt(const glm::dvec2& place) override;
+    void pointerLeft() override;
+    bool takesButton(int button, bool pressed) override;
+    bool takesWheel(double notches) override;
+    bool takesKey(int key, int modifiers, bool pressed) override;
+    bool takesText(unsigned codePoint) override;
+    bool holdsKeyboard() const override;
+
+private:
+    struct State;
+    std::unique_ptr<State> mState;
+};
+
+}  // namespace stereonav

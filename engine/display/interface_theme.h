@@ -1,0 +1,25 @@
+// How the interface looks: greys, one accent, at the screen's scale.
+#pragma once
+
+struct ImVec4;
+
+namespace stereonav {
+
+struct InterfaceLook {
+    bool dark = true;
+    bool grey = false;  // under an anaglyph, whose glasses split colours
+    float scale = 1;    // 1 at 96 dots an inch, within 0.5 to 4
+    bool operator==(const InterfaceLook&) const = default;
+};
+
+constexpr float kInterfaceFontPixels = 14;  // at scale 1
+
+// Of the current Dear ImGui context.
+void applyTheme(const InterfaceLook& look);
+
+// Colours with a meaning, as the look has them: of what is at work or chosen, and of what needs attention.
+ImVec4 accentColor(const InterfaceLook& look);
+ImVec4 warningColor(const InterfaceLook& look);
+ImVec4 quietColor(const InterfaceLook& look);  // of what explains
+
+}  // namespace stereonav
