@@ -21,6 +21,8 @@ void makeFromTerrain(const SceneOptions& options, SimdTarget, Progress& progress
     const TerrainScene& terrain = scene.hold(std::make_unique<TerrainScene>(terrainOf(options, progress)));
     setViews(terrain, scene);
     scene.alsoOffer<const TerrainScene>(terrain);
+    const TerrainSurvey& survey = scene.hold(std::make_unique<TerrainSurvey>(terrain));
+    survey.offerAll([&scene](auto& capability) { scene.alsoOffer(capability); });
     scene.alsoDescribe([&scene] { return factForJson("terrain", factsOfTerrain(scene)); });
     scene.flyAs([&terrain] { return flightOver(terrain); });
     MediumScene& shown = scene.medium();

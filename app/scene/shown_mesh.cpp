@@ -27,7 +27,11 @@ void ShownMesh::Sun::turnTo(const SunPlace& place) {
 }
 
 ShownMesh::ShownMesh(MeshCaster caster, const SunPlace& sun, SimdTarget target)
-    : mRenderer(std::move(caster)), mRays{&mRenderer}, mFrames(mRenderer), mSun(mRenderer) {
+    : mRenderer(std::move(caster)),
+      mRays{&mRenderer},
+      mFrames(mRenderer),
+      mSun(mRenderer),
+      mBox{mRenderer.caster().low(), mRenderer.caster().high()} {
     simd = availableTarget(target);
     mSun.turnTo(sun);
     seeFromOutside(mRenderer.caster().low(), mRenderer.caster().high(), "the flight around the mesh", *this);
@@ -35,6 +39,7 @@ ShownMesh::ShownMesh(MeshCaster caster, const SunPlace& sun, SimdTarget target)
     offer(mRays);
     offer<const MeshRenderer>(mRenderer);
     offer<TurningLight>(mSun);
+    offer(std::as_const(mBox));
 }
 
 Facts ShownMesh::describe() const {

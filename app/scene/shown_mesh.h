@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// Offers RayCast, const MeshRenderer and a TurningLight.
+// Offers RayCast, const MeshRenderer, SceneBox and a TurningLight.
 class ShownMesh final : public Scene {
 public:
     // sun: where light comes from.
@@ -34,6 +34,7 @@ private:
     RayCast mRays;
     mutable CastFrames mFrames;
     Sun mSun;
+    SceneBox mBox;
 };
 
 }  // namespace stereonav

@@ -1,9 +1,12 @@
 #include "app/scene/shown_terrain.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "app/command/scene_facts.h"
 #include "engine/nav/navigator.h"
+#include "terrain/scene/ground_map.h"
 #include "terrain/scene/terrain_illumination.h"
 #include "terrain/scene/terrain_loader.h"
 
@@ -38,6 +41,40 @@ void setViews(const TerrainScene& terrain, Scene& scene) {
     scene.path = terrain.path;
 }
 
+TerrainSurvey::TerrainSurvey(const TerrainScene& terrain) : mTerrain(terrain) {
+    const Heightfield& ground = terrain.ground;
+    const glm::dvec2 low = ground.originWorld(),
+                     high = ground.worldFromGrid({ground.width() - 1, ground.height() - 1});
+    mBox = {{low, ground.minHeight()}, {high, ground.maxHeight()}};
+}
+
+MapPicture TerrainSurvey::makeMap(int most, Progress& progress) const {
+    GroundMap map = mapOfGround(mTerrain, most, progress);
+    return {std::move(map.picture), map.northWest, map.metresPerPixel};
+}
+
+std::optional<PlaceOnEarth> TerrainSurvey::placeAt(const glm::dvec3& world) const {
+    const std::optional<EarthPlace> place = mTerrain.earth->placeAt(glm::dvec2(world));
+    if (!place) return std::nullopt;
+    return PlaceOnEarth{place->latitude, place->longitude};
+}
+
+std::optional<glm::dvec2> TerrainSurvey::worldAt(const PlaceOnEarth& place) const {
+    return mTerrain.earth->worldAt({place.latitude, place.longitude});
+}
+
+// Along the meridian, to the north and from the south.
+double TerrainSurvey::northAt(const glm::dvec3& world) const {
+    constexpr double kStep = 1e-5;  // radians: 64 m
+    const std::optional<PlaceOnEarth> place = placeAt(world);
+    if (!place || std::abs(place->latitude) + kStep > std::numbers::pi / 2) return 0;
+    const auto north = worldAt({place->latitude + kStep, place->longitude}),
+               south = worldAt({place->latitude - kStep, place->longitude});
+    if (!north || !south) return 0;
+    const glm::dvec2 way = *north - *south;
+    return std::atan2(way.x, way.y);
+}
+
 // Over baked light.
 class ShownTerrain::Sun final : public TurningLight {
 public:
@@ -56,13 +93,14 @@ private:
 };
 
 ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target)
-    : mTerrain(std::move(terrain)), mRenderer(mTerrain, target), mFrames(mRenderer) {
+    : mTerrain(std::move(terrain)), mSurvey(mTerrain), mRenderer(mTerrain, target), mFrames(mRenderer) {
     setViews(mTerrain, *this);
     simd = mRenderer.target();
     mRays = {&mRenderer};
     offer(mRays);
     offer<const TerrainScene>(mTerrain);
     offer<const TerrainRenderer>(mRenderer);
+    mSurvey.offerAll([this](auto& capability) { offer(capability); });
     if (!mTerrain.illumination) return;
     mSun = std::make_unique<Sun>(mTerrain, mRenderer);
     offer<TurningLight>(*mSun);

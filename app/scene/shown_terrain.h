@@ -16,7 +16,32 @@ std::unique_ptr<Flight> flightOver(const TerrainScene& terrain);
 // What a terrain says of lens, eyes, start and flight.
 void setViews(const TerrainScene& terrain, Scene& scene);
 
-// Offers RayCast, const TerrainScene; with baked light, a TurningLight.
+// What a terrain has however its frames are made: a map, a box, its place on the Earth. terrain: lives as
+// long, and does not move.
+class TerrainSurvey final : public MapFromAbove, public OnEarth {
+public:
+    explicit TerrainSurvey(const TerrainScene& terrain);
+    // Calls offer(capability) for each that it has.
+    template <typename Offer>
+    void offerAll(const Offer& offer) const {
+        offer(static_cast<const MapFromAbove&>(*this));
+        offer(mBox);
+        if (mTerrain.earth) offer(static_cast<const OnEarth&>(*this));
+    }
+
+    MapPicture makeMap(int most, Progress& progress) const override;
+    // Of a terrain that says where it lies.
+    std::optional<PlaceOnEarth> placeAt(const glm::dvec3& world) const override;
+    std::optional<glm::dvec2> worldAt(const PlaceOnEarth& place) const override;
+    double northAt(const glm::dvec3& world) const override;
+
+private:
+    const TerrainScene& mTerrain;
+    SceneBox mBox;
+};
+
+// Offers RayCast, const TerrainScene, MapFromAbove, SceneBox; as they are there, OnEarth and, with baked
+// light, a TurningLight.
 class ShownTerrain final : public Scene {
 public:
     ShownTerrain(TerrainScene terrain, SimdTarget target);
@@ -30,6 +55,7 @@ private:
     class Sun;
 
     TerrainScene mTerrain;
+    TerrainSurvey mSurvey;
     TerrainRenderer mRenderer;
     RayCast mRays;
     mutable CastFrames mFrames;

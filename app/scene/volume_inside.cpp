@@ -27,6 +27,14 @@ void refuseUnless(bool holds, const char* option, const std::string& problem, co
 
 }  // namespace
 
+ColonInterior::ColonInterior(const ColonScene& colon) : mColon(colon) {
+    double along = 0;
+    for (const CentrelinePoint& point : colon.centreline.points) {
+        if (!mLine.places.empty()) along += glm::length(point.position - mLine.places.back().world);
+        mLine.places.push_back({point.position, along, point.segment});
+    }
+}
+
 void ColonInterior::expectOutside(const char* option, const std::string& problem,
                                   const std::string& advice) const {
     throw Error(option, "", problem, advice);
@@ -132,18 +140,16 @@ void ColonInterior::check(const RecordedPath& path, const std::string& file) con
 
 // The nearest point of the centreline, by metres from its start.
 PlaceOnLine ColonInterior::placeOnLine(const glm::dvec3& world) const {
-    const std::vector<CentrelinePoint>& points = mColon.centreline.points;
-    PlaceOnLine place;
+    PlaceOnLine found;
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t n = 0; n < points.size(); ++n) {
-        if (n > 0) place.length += glm::length(points[n].position - points[n - 1].position);
-        const double away = glm::length(points[n].position - world);
-        if (away < nearest) {
-            nearest = away;
-            place.along = place.length;
-        }
+    for (const LinePlace& place : mLine.places) {
+        found.length = place.along;
+        const double away = glm::length(place.world - world);
+        if (away >= nearest) continue;
+        nearest = away;
+        found.along = place.along;
     }
-    return place;
+    return found;
 }
 
 }  // namespace stereonav

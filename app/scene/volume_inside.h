@@ -9,7 +9,7 @@ namespace stereonav {
 class ColonInterior final : public VolumeSide, public LineThrough {
 public:
     // A colon, which must outlive it.
-    explicit ColonInterior(const ColonScene& colon) : mColon(colon) {}
+    explicit ColonInterior(const ColonScene& colon);
 
     const Centreline& centreline() const { return mColon.centreline; }
     std::size_t segments() const { return mColon.lumen.segments.size(); }  // pieces of the lumen
@@ -35,11 +35,14 @@ public:
 
     const ColonInterior* interior() const override { return this; }
     PlaceOnLine placeOnLine(const glm::dvec3& world) const override;
+    // The centreline as a person who faces the patient sees it: the patient's left is on the right.
+    const LineOnMap& lineOnMap() const { return mLine; }
 
 private:
     double meanRadius() const;  // of the lumen, metres
 
     const ColonScene& mColon;
+    LineOnMap mLine;
 };
 
 }  // namespace stereonav

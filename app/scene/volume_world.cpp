@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 
 #include "app/scene/colon_loading.h"
@@ -31,6 +32,19 @@ SeparationControl::Setting limitsOf(const StereoSetting& own, double most, doubl
     return setting;
 }
 
+// Around the outermost voxels' centres.
+SceneBox boxOf(const VolumeFrame& frame) {
+    SceneBox box{glm::dvec3(std::numeric_limits<double>::infinity()),
+                 glm::dvec3(-std::numeric_limits<double>::infinity())};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 end(corner & 1, corner >> 1 & 1, corner >> 2);
+        const glm::dvec3 place = frame.worldFromVoxel(end * glm::dvec3(frame.size - 1));
+        box.low = glm::min(box.low, place);
+        box.high = glm::max(box.high, place);
+    }
+    return box;
+}
+
 GreyVolume greyOf(const MaskVolume& mask) {
     GreyVolume grey(mask.frame);
     for (std::size_t n = 0; n < mask.frame.count(); ++n)
@@ -44,7 +58,8 @@ VolumeWorld::VolumeWorld(ColonScene colon, const SceneOptions& options)
     : mColon(std::move(colon)),
       mOptions(colonOptionsOf(options)),
       mSide(sideOf(mColon)),
-      mFollows(!options.separation_m && !options.zeroParallax_m) {}
+      mFollows(!options.separation_m && !options.zeroParallax_m),
+      mBox(boxOf(mColon.volume.field.frame)) {}
 
 void VolumeWorld::setViews(const SceneOptions& options, Scene& scene) {
     scene.lens = mColon.lens;

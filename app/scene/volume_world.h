@@ -37,10 +37,12 @@ public:
         offer(static_cast<RoomAround&>(*this));
         offer(static_cast<SliceSource&>(*this));
         offer(std::as_const(mColon));
+        offer(std::as_const(mBox));
         const ColonInterior* const interior = mSide->interior();
         if (!interior) return;
         offer(*interior);
         offer(static_cast<const LineThrough&>(*interior));
+        offer(interior->lineOnMap());
     }
     std::unique_ptr<Flight> makeFlight() const;
     // Throws Error naming `file` where a pose lies where no flight can be.
@@ -65,6 +67,7 @@ private:
     SeparationControl::Setting mLimits;       // of the eyes
     bool mFollows = false;
     const EyeRenderer* mWall = nullptr;
+    SceneBox mBox;
 };
 
 }  // namespace stereonav

@@ -19,9 +19,7 @@
 #include <numbers>
 #include <utility>
 
-#include "colon/flight/colon_flight_line.h"
-#include "colon/flight/colon_flight_room.h"
-#include "colon/flight/colon_flight_view.h"
+#include "colon/flight/colon_flight_state.h"
 #include "engine/base/error.h"
 #include "engine/nav/damping.h"
 #include "engine/nav/flight_input.h"
@@ -49,14 +47,14 @@ constexpr double kTurnPiece = 0.25;  // of the clearance that an eye moves betwe
 constexpr int kMostTurnPieces = 64;
 constexpr double kFarthestPlace = 0.5;  // metres within which setPose looks for room
 
-void checkPose(const Pose& pose) {
+}  // namespace
+
+void checkFlightPose(const Pose& pose) {
     const glm::dvec3& p = pose.position;
     const glm::dquat& q = pose.orientation;
     if (!std::isfinite(p.x + p.y + p.z) || !(glm::dot(q, q) > 0.5 && glm::dot(q, q) < 2))
         throw Error("", "pose", "expected finite numbers and a unit quaternion", "check the start pose");
 }
-
-}  // namespace
 
 void checkColonFlightSetting(const ColonFlightSetting& setting) {
     const auto number = [](const char* name, double value, bool zeroToo) {
@@ -69,51 +67,6 @@ void checkColonFlightSetting(const ColonFlightSetting& setting) {
     number("speed", setting.speed, false);
     number("largest separation", setting.largestSeparation, true);
 }
-
-struct ColonFlight::State {
-    State(FreeDistance freeDistance, const Centreline& centreline, const Pose& homePose,
-          const ColonFlightSetting& given)
-        : setting((checkColonFlightSetting(given), given)),
-          line(centreline, freeDistance, setting.clearance, setting.largestSeparation / 2),
-          room(std::move(freeDistance), setting.clearance, setting.largestSeparation / 2, line.narrow()),
-          home(homePose),
-          guided(!line.runs().empty()) {}
-
-    const FlightRun& stretch() const { return line.runs()[run]; }
-    double freeAround(const glm::dvec3& p) const { return room.room(p, view.right(), 1); }
-
-    void substep(const FlightInput& wish, double h);
-    void turn(const FlightInput& wish, double h);
-    void turnTo(const FlightView& wanted);
-    bool turnPiece(const FlightView& next);
-    void moveFree(const FlightInput& wish, double h);
-    void moveGuided(const FlightInput& wish, double h);
-    void pull(double along, const glm::dvec3& side, double h);
-    void followLine(const glm::dvec3& moved, double length);
-    void jumpBetweenRuns(double forward);
-    void startRun(std::size_t next, double s);
-    glm::dvec3 besideWall(const glm::dvec3& by, double range, bool pushes, double h);
-    glm::dvec3 pushed(const glm::dvec3& wall, double length) const;
-    double pushRange() const;
-    bool sees(double s) const;
-    bool findOnLine();
-    bool findPlace(const glm::dvec3& wanted);
-    bool findPlaceTowardsLine(const glm::dvec3& wanted);
-    void rest();
-
-    ColonFlightSetting setting;
-    FlightLine line;
-    LumenRoom room;
-    Pose home;
-    bool guided;
-    FlightView view;
-    glm::dvec3 position{0.0};
-    glm::dvec3 velocity{0.0};                         // metres a second: free, or sideways
-    double along = 0;                                 // metres a second along the line, guided
-    double yawRate = 0, pitchRate = 0, rollRate = 0;  // radians a second
-    std::size_t run = 0;                              // guided: the stretch of the line and
-    double s = 0;                                     // the place on it that the viewer is at
-};
 
 // --- turning
 
@@ -251,7 +204,7 @@ void ColonFlight::State::moveGuided(const FlightInput& wish, double h) {
     const glm::dquat q = view.orientation();
     glm::dvec3 side = q * glm::dvec3(wish.right, wish.up, 0) * speed;
     side -= ahead * glm::dot(side, ahead);
-    double forward = wish.forward * speed;
+    double forward = towards() * wish.forward * speed;
     const bool lastRun = forward > 0 ? run + 1 == line.runs().size() : run == 0;
     const double end = forward > 0 ? stretch().last : stretch().first;
     const double left = std::max(std::abs(end - s), glm::distance(position, line.at(end)));
@@ -263,10 +216,11 @@ void ColonFlight::State::moveGuided(const FlightInput& wish, double h) {
         static_cast<int>(std::clamp(std::ceil(std::abs(length) / step), 1.0, 1.0 * kMostPulls));
     const double piece = std::copysign(std::min(std::abs(length) / pieces, step), length);
     for (int k = 0; k < pieces; ++k) pull(piece, sideways / (1.0 * pieces), h / pieces);
-    jumpBetweenRuns(wish.forward);
+    jumpBetweenRuns(towards() * wish.forward);
+    if (roundAngle != 0) return stepRound(h);
     // The view follows while the user wants to get on.
     const double look = std::clamp(kLookRadii * line.widthAt(s), kNearestLook, kFarthestLook);
-    const glm::dvec3 way = line.ahead(stretch(), s + look) - position;
+    const glm::dvec3 way = line.ahead(stretch(), s + towards() * look) - position;
     const double distance = glm::length(way);
     const double share = 1 - std::exp(-h * std::abs(wish.forward) / kViewDamping);
     if (distance > 0 && share > 0) turnTo(view.facing(way / distance, share));
@@ -277,7 +231,7 @@ void ColonFlight::State::startRun(std::size_t next, double place) {
     s = place;
     position = line.at(s);
     velocity = glm::dvec3(0.0);
-    view = view.facing(line.direction(stretch(), s), 1);
+    view = view.facing(towards() * line.direction(stretch(), s), 1);
 }
 
 // The lumen is interrupted where a run ends: on at the next one.
@@ -302,6 +256,7 @@ void ColonFlight::State::substep(const FlightInput& wish, double h) {
 void ColonFlight::State::rest() {
     velocity = glm::dvec3(0.0);
     along = yawRate = pitchRate = rollRate = 0;
+    roundAngle = roundTime = 0;
 }
 
 // The nearest place of the line that is seen; false when only the nearest unseen one was found.
@@ -363,7 +318,7 @@ bool ColonFlight::State::findPlace(const glm::dvec3& wanted) {
 ColonFlight::ColonFlight(FreeDistance freeDistance, const Centreline& line, const Pose& home,
                          const ColonFlightSetting& setting)
     : mState(std::make_unique<State>(std::move(freeDistance), line, home, setting)) {
-    checkPose(home);
+    checkFlightPose(home);
     mState->view.base = glm::normalize(home.orientation);
     if (!mState->findPlace(home.position))
         throw Error(
@@ -395,7 +350,7 @@ Pose ColonFlight::pose() const {
 }
 
 void ColonFlight::setPose(const Pose& pose) {
-    checkPose(pose);
+    checkFlightPose(pose);
     State& state = *mState;
     const FlightView before = state.view;
     state.view = {glm::normalize(pose.orientation), 0, 0, 0};
@@ -405,6 +360,7 @@ void ColonFlight::setPose(const Pose& pose) {
 }
 
 void ColonFlight::goHome() {
+    mState->back = false;
     setPose(mState->home);
 }
 
@@ -420,6 +376,7 @@ void ColonFlight::setMode(int mode) {
     State& state = *mState;
     if (mode < 0 || mode >= modeCount() || mode == this->mode()) return;
     state.guided = mode == Guided;
+    state.roundAngle = state.roundTime = 0;
     state.view = state.view.settled();
     if (!state.guided) {
         state.velocity += state.along * state.line.direction(state.stretch(), state.s);

@@ -34,10 +34,10 @@ struct ColonFlightSetting {
 
 // Position, orientation and damped velocities; between steps nothing else is remembered. One thread.
 //
-// Guided: `forward` goes along the centreline, +1 towards the caecum whatever way the viewer looks, `right`
-// and `up` sideways as the viewer sees it. While it goes along, the view follows the line's direction
-// ahead, and what the user turned stays on top of it: looking back is turning round. Free: `forward` is where
-// the viewer looks, turning is about the viewer's own axes.
+// Guided: `forward` goes along the centreline, +1 towards the caecum whatever way the viewer looks, or after
+// turnRound() towards the rectum; `right` and `up` sideways as the viewer sees it. While it goes along, the
+// view follows the line's direction ahead, and what the user turned stays on top of it. Free: `forward` is
+// where the viewer looks, turning is about the viewer's own axes.
 class ColonFlight final : public Flight {
 public:
     enum Mode { Guided, Free };
@@ -65,6 +65,15 @@ public:
     // Of the nearer eye, at the largest separation; at most kFarthestClearance.
     double clearanceNow() const override;
     static constexpr double kFarthestClearance = 0.1;  // metres
+    // With the head as it is, and the eyes at their largest separation.
+    bool wayIsClear(const glm::dvec3& from, const glm::dvec3& to) const override;
+    void moveTo(const Pose& pose) override;
+    std::optional<double> along() const override;  // while guided
+    std::optional<int> lineMode() const override;
+    double alongNear(const glm::dvec3& place) const override;
+    bool goesBack() const override;
+    static constexpr double kRoundSeconds = 1.2;  // that turning round takes
+    bool turnRound() override;                    // while guided
     // The clearance that is kept here: the setting's, or less around a narrow part of the centreline.
     double allowedClearance() const;
 

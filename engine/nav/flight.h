@@ -1,6 +1,8 @@
 // A way of flying, as the viewer's window drives it: over ground, or through a lumen.
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <string_view>
 
 #include "engine/camera/pose.h"
@@ -39,6 +41,34 @@ public:
     virtual double speed() const = 0;  // metres a second at full input
     // Distance to what the eyes must not touch, metres; infinite where there is nothing.
     virtual double clearanceNow() const = 0;
+
+    // --- what a flight to a goal asks (flight_to.h). A flight without ground, walls or a line has none of
+    // it.
+
+    // The height below which the viewer is not let over a place, metres; minus infinity where there is none.
+    virtual double lowestAt(const glm::dvec3& /*place*/) const {
+        return -std::numeric_limits<double>::infinity();
+    }
+    // Whether the viewer, with the head as it is, finds room everywhere on the straight way. Of ground it
+    // says nothing: that is lowestAt().
+    virtual bool wayIsClear(const glm::dvec3& /*from*/, const glm::dvec3& /*to*/) const { return true; }
+    // Goes straight to a pose nearby, at rest there, as far as there is room: along walls, never through
+    // them.
+    virtual void moveTo(const Pose& pose) { setPose(pose); }
+
+    // Where it is on the line that leads it, metres from the line's start; none: nothing leads it now.
+    virtual std::optional<double> along() const { return std::nullopt; }
+    // The mode whose `forward` goes along a line; none: it knows no line.
+    virtual std::optional<int> lineMode() const { return std::nullopt; }
+    // The nearest place of that line to a world point, metres from its start; NaN where there is no line.
+    virtual double alongNear(const glm::dvec3& /*place*/) const {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    // Whether `forward` goes to where the line starts.
+    virtual bool goesBack() const { return false; }
+    // From now on `forward` goes along the line the other way; the view turns by half a turn while time
+    // passes. False where nothing leads it.
+    virtual bool turnRound() { return false; }
 };
 
 }  // namespace stereonav

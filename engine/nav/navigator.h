@@ -58,6 +58,7 @@ public:
 
     double speed() const override { return mSetting.speed; }
     double clearanceNow() const override { return heightAboveGround(); }
+    double lowestAt(const glm::dvec3& place) const override { return floorAt(glm::dvec2(place)); }
 
     const glm::dvec3& velocity() const { return mVelocity; }  // world, metres a second
     double heightAboveGround() const;                         // metres; infinite over a hole

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <memory>
@@ -13,6 +14,8 @@
 #include "engine/base/progress.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/image/eye_image.h"
+#include "engine/image/packed_color.h"
+#include "engine/image/plane.h"
 #include "engine/render/eye_renderer.h"
 #include "engine/stereo/room_seen.h"
 
@@ -113,6 +116,61 @@ class LineThrough {
 public:
     virtual ~LineThrough() = default;
     virtual PlaceOnLine placeOnLine(const glm::dvec3& world) const = 0;
+};
+
+// That way as a line to be drawn on a map, seen from the front.
+struct LinePlace {
+    glm::dvec3 world{0.0};  // metres
+    double along = 0;       // metres from the line's start, as PlaceOnLine's
+    int segment = 1;        // between two of them the way is cut
+};
+struct LineOnMap {
+    std::vector<LinePlace> places;
+    glm::dvec3 right{1, 0, 0}, up{0, 0, 1};  // unit world directions of the map's axes
+};
+
+// It lies in this box.
+struct SceneBox {
+    glm::dvec3 low{0.0}, high{0.0};  // world, metres
+};
+
+// Seen from straight above, north up.
+struct MapPicture {
+    Plane<PackedColor> picture;  // row 0 northernmost
+    glm::dvec2 northWest{0.0};   // world x, y of the outer corner of its first pixel
+    double metresPerPixel = 1;   // both ways
+
+    // Between pixels, as Plane counts them, and world x, y in metres.
+    glm::dvec2 worldFromMap(const glm::dvec2& pixel) const {
+        return northWest + metresPerPixel * glm::dvec2(pixel.x, -pixel.y);
+    }
+    glm::dvec2 mapFromWorld(const glm::dvec2& world) const {
+        const glm::dvec2 away = (world - northWest) / metresPerPixel;
+        return {away.x, -away.y};
+    }
+};
+class MapFromAbove {
+public:
+    virtual ~MapFromAbove() = default;
+    // The longer side has `most` pixels, at least 1. On any thread, also while frames are made. Throws
+    // Cancelled.
+    virtual MapPicture makeMap(int most, Progress& progress) const = 0;
+};
+
+// It lies on the Earth. Radians, WGS 84: north of the equator, east of Greenwich.
+struct PlaceOnEarth {
+    double latitude = 0, longitude = 0;
+};
+class OnEarth {
+public:
+    virtual ~OnEarth() = default;
+    // None where its reference system has no such place. From any thread.
+    virtual std::optional<PlaceOnEarth> placeAt(const glm::dvec3& world) const = 0;
+    // World x, y.
+    virtual std::optional<glm::dvec2> worldAt(const PlaceOnEarth& place) const = 0;
+    // Where north is at a world place, radians clockwise from the world's y: what is added to an azimuth of
+    // the Earth (a sun's) to have one of the world. 0 where that is not known.
+    virtual double northAt(const glm::dvec3& world) const = 0;
 };
 
 // How what surrounds a volume's voxels lights them and takes their opacity (app/scene/volume_ambient.h).

@@ -33,4 +33,8 @@ bool overlap(const Georeference& a, const Georeference& b, const std::filesystem
     return gdal().overlap(a, b, file);
 }
 
+std::unique_ptr<EarthPlaces> earthPlaces(const Georeference& grid, const glm::dvec2& spacing) {
+    return gdal().earthPlaces(grid, spacing);
+}
+
 }  // namespace stereonav

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "terrain/raster/earth_places.h"
 #include "terrain/raster/georeference.h"
 #include "terrain/raster/ground_picture.h"
 #include "terrain/read/dem_reader.h"
@@ -33,12 +34,17 @@ PixelMap mapPixels(const Georeference& target, const Georeference& source, const
 // Whether the two rasters share ground. Throws Error as mapPixels does.
 bool overlap(const Georeference& a, const Georeference& b, const std::filesystem::path& file);
 
+// Where the places of a world lie whose grid this is, north up, with so many metres a pixel; the world's
+// origin is the grid's middle. Null where its reference system does not say, or is of another body.
+std::unique_ptr<EarthPlaces> earthPlaces(const Georeference& grid, const glm::dvec2& spacing);
+
 // The module's table.
 struct RasterFunctions {
     decltype(&stereonav::readDem) readDem;
     decltype(&stereonav::openRasterPicture) openRasterPicture;
     decltype(&stereonav::mapPixels) mapPixels;
     decltype(&stereonav::overlap) overlap;
+    decltype(&stereonav::earthPlaces) earthPlaces;
 };
 
 }  // namespace stereonav

@@ -16,6 +16,7 @@
 #include "terrain/light/sky_source.h"
 #include "terrain/read/dem_reader.h"
 #include "terrain/read/height_limits.h"
+#include "terrain/read/raster_file.h"
 #include "terrain/scene/ground_color.h"
 #include "terrain/scene/landmark.h"
 #include "terrain/scene/scene_flight.h"
@@ -92,6 +93,7 @@ LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progr
         report.openSamples = countMissing(dem.heights);
     else
         report.filledSamples = fillMissing(dem.heights, dem.width, dem.height, dem.spacing, progress);
+    if (dem.georeferenced) scene.earth = earthPlaces(dem.grid, dem.spacing);
     scene.ground = Heightfield(dem.width, dem.height, dem.spacing, std::move(dem.heights), file.dem.string());
     return {std::move(dem), std::nullopt};
 }

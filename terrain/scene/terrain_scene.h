@@ -11,6 +11,7 @@
 #include "engine/image/color_texture.h"
 #include "terrain/ground/heightfield.h"
 #include "terrain/light/sky_map.h"
+#include "terrain/raster/earth_places.h"
 #include "terrain/read/scene_file.h"
 
 namespace stereonav {
@@ -53,6 +54,7 @@ struct TerrainScene {
     std::unique_ptr<LandmarkSet> landmarks;  // null when there are none
     // Null without baked light. What is lit by it is `color`, which changes when the sun moves.
     std::unique_ptr<TerrainIllumination> illumination;
+    std::unique_ptr<EarthPlaces> earth;  // null where its file does not say where it lies
     Pose startPose;
     RecordedPath path;  // the scene's own flight
     StereoSetting stereo;

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <glm/vector_relational.hpp>
+
 #include "app/scene/colon_loading.h"
 #include "app/scene/light_loading.h"
 #include "app/scene/volume_inside.h"
@@ -79,6 +81,11 @@ TEST(VolumeSide, AColonAloneHasALineAndARegion) {
     const PlaceOnLine place = inside->interior()->placeOnLine({5e-3, 4e-3, 9e-3});
     EXPECT_NEAR(place.along, 5e-3, 1e-9);
     EXPECT_NEAR(place.length, 20e-3, 1e-9);
+    const LineOnMap& line = inside->interior()->lineOnMap();
+    ASSERT_EQ(line.places.size(), 21u);
+    EXPECT_NEAR(line.places[7].along, 7e-3, 1e-9);
+    EXPECT_EQ(line.places[7].world, colon.centreline.points[7].position);
+    EXPECT_NEAR(line.places.back().along, place.length, 1e-12);
     EXPECT_FALSE(inside->movableIsovalue());
     EXPECT_EQ(outside->movableIsovalue(), 50);
     std::vector<std::string> notes;
@@ -103,12 +110,21 @@ TEST_F(VolumeSideOfScenes, IsWhatTheyOffer) {
     EXPECT_GE(colon->offered<const ColonInterior>()->segments(), 1u);
     ASSERT_TRUE(colon->offered<LineThrough>());
     EXPECT_GT(colon->offered<LineThrough>()->placeOnLine(colon->startPose.position).length, 0.02);
+    ASSERT_TRUE(colon->offered<LineOnMap>());
+    EXPECT_GT(colon->offered<LineOnMap>()->places.size(), 10u);
+    ASSERT_TRUE(colon->offered<SceneBox>());
+    const glm::dvec3 start = colon->startPose.position;
+    EXPECT_TRUE(glm::all(glm::lessThan(colon->offered<SceneBox>()->low, start)));
+    EXPECT_TRUE(glm::all(glm::lessThan(start, colon->offered<SceneBox>()->high)));
+    EXPECT_FALSE(colon->offered<MapFromAbove>());
     EXPECT_TRUE(colon->offered<SliceSource>()->lumen());
     options.scene = ball();
     options.volume.isosurface = true;
     const auto surface = loadColonScene(options, SimdTarget::Auto, progress);
     EXPECT_FALSE(surface->offered<const ColonInterior>());
     EXPECT_FALSE(surface->offered<LineThrough>());
+    EXPECT_FALSE(surface->offered<LineOnMap>());
+    EXPECT_TRUE(surface->offered<SceneBox>());
     EXPECT_FALSE(surface->offered<SliceSource>()->lumen());
     EXPECT_TRUE(surface->offered<RoomAround>());
 }

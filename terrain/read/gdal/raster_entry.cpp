@@ -5,7 +5,7 @@
 namespace stereonav {
 namespace {
 
-constexpr RasterFunctions kFunctions = {readDem, openRasterPicture, mapPixels, overlap};
+constexpr RasterFunctions kFunctions = {readDem, openRasterPicture, mapPixels, overlap, earthPlaces};
 
 }  // namespace
 

@@ -1,0 +1,166 @@
+#include "app/view/kept_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+
+namespace stereonav {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+fs::path folderFrom(const char* variable, const char* besideHome) {
+    // Elsewhere than from the root its value does not count.
+    if (const char* xdg = std::getenv(variable); xdg && *xdg == '/') return fs::path(xdg) / "stereonav";
+    if (const char* home = std::getenv("HOME"); home && *home == '/')
+        return fs::path(home) / besideHome / "stereonav";
+    return {};
+}
+
+std::string utf8(const std::string& text) {
+    const std::string quoted = json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+    return json::parse(quoted).get<std::string>();
+}
+
+// One coordinate of the part of the picture that a thumbnail's pixel is the mean of.
+struct Span {
+    int first, last;  // last: one beyond
+};
+
+Span spanOf(int k, int count, double from, double length, int most) {
+    const int first = std::clamp(static_cast<int>(std::floor(from + length * k / count)), 0, most - 1);
+    const int last = static_cast<int>(std::ceil(from + length * (k + 1) / count - 1e-9));
+    return {first, std::clamp(last, first + 1, most)};
+}
+
+}  // namespace
+
+bool isUtf8(const std::string& text) {
+    return utf8(text) == text;
+}
+
+fs::path dataFolder() {
+    return folderFrom("XDG_DATA_HOME", ".local/share");
+}
+
+fs::path stateFolder() {
+    return folderFrom("XDG_STATE_HOME", ".local/state");
+}
+
+fs::path configFolder() {
+    return folderFrom("XDG_CONFIG_HOME", ".config");
+}
+
+std::optional<std::string> readKept(const fs::path& file) {
+    std::error_code code;
+    if (file.empty() || fs::status(file, code).type() == fs::file_type::not_found) return std::nullopt;
+    checkFileToRead(file);
+    if (const std::uintmax_t size = fs::file_size(file, code); !code && size > kMostKeptBytes)
+        throw Error(file.string(), "", "expected at most 16 MB, got more", "move it away: a new one is made");
+    return readTextFile(file);
+}
+
+void writeKept(const fs::path& file, const std::string& bytes) {
+    if (file.empty())
+        throw Error("", "", "there is no folder to keep it in",
+                    "set HOME, or the XDG folders, to a full path");
+    std::error_code code;
+    if (fs::create_directories(file.parent_path(), code))
+        fs::permissions(file.parent_path(), fs::perms::owner_all, code);
+    PendingFile pending(file, Over::Anything);  // it was read, and is the program's own
+    std::ofstream out(pending.temporary(), std::ios::binary);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (!out) throw Error(file.string(), "", "can not be written", "make room on its disk");
+    pending.finish();
+}
+
+fs::path setAside(const fs::path& file) {
+    fs::path aside = file;
+    aside += ".damaged";
+    std::error_code code;
+    fs::rename(file, aside, code);
+    return code ? fs::path() : aside;
+}
+
+std::optional<json> readKeptJson(const fs::path& file, bool (*isRight)(const json&), std::string& problem) {
+    std::optional<std::string> text;
+    json read;
+    try {
+        text = readKept(file);
+        if (!text) return std::nullopt;
+        read = json::parse(*text, nullptr, false);
+    } catch (const Error& error) {  // a folder in its place, no right to read it, too large
+        problem = error.what();
+        setAside(file);
+        return std::nullopt;
+    }
+    if (!read.is_discarded() && isRight(read)) return read;
+    const fs::path aside = setAside(file);
+    problem = Error(file.string(), "", "is damaged and was left out",
+                    aside.empty() ? "move it away" : "it is kept as " + aside.filename().string())
+                  .what();
+    return std::nullopt;
+}
+
+std::string keptText(const std::string& text, std::size_t mostBytes) {
+    std::string kept = utf8(text);
+    for (char& c : kept)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    if (kept.size() <= mostBytes) return kept;
+    std::size_t end = mostBytes;
+    while (end > 0 && (static_cast<unsigned char>(kept[end]) & 0xc0) == 0x80) --end;
+    kept.resize(end);
+    return kept;
+}
+
+json jsonOfPath(const fs::path& path) {
+    const std::string bytes = path.string();
+    if (isUtf8(bytes)) return bytes;
+    json list = json::array();
+    for (const char c : bytes) list.push_back(static_cast<unsigned char>(c));
+    return list;
+}
+
+std::optional<fs::path> pathOfJson(const json& from) {
+    std::string bytes;
+    if (from.is_string()) {
+        bytes = from.get<std::string>();
+    } else if (from.is_array()) {
+        for (const json& byte : from) {
+            if (!byte.is_number_unsigned() || byte.get<std::uint64_t>() > 255) return std::nullopt;
+            bytes.push_back(static_cast<char>(byte.get<std::uint64_t>()));
+        }
+    }
+    if (bytes.empty() || bytes.find('\0') != std::string::npos) return std::nullopt;
+    return fs::path(bytes);
+}
+
+Plane<PackedColor> thumbnailOf(const Plane<PackedColor>& picture, int width, int height) {
+    const double aspect = static_cast<double>(width) / height;
+    const double shownWidth = std::min<double>(picture.width(), picture.height() * aspect);
+    const double shownHeight = shownWidth / aspect;
+    Plane<PackedColor> small(width, height);
+    for (int y = 0; y < height; ++y) {
+        const Span rows =
+            spanOf(y, height, 0.5 * (picture.height() - shownHeight), shownHeight, picture.height());
+        for (int x = 0; x < width; ++x) {
+            const Span columns =
+                spanOf(x, width, 0.5 * (picture.width() - shownWidth), shownWidth, picture.width());
+            glm::dvec3 sum(0.0);
+            for (int j = rows.first; j < rows.last; ++j)
+                for (int i = columns.first; i < columns.last; ++i)
+                    sum += glm::dvec3(unpackColor(picture.at(i, j)));
+            const double count = double(rows.last - rows.first) * (columns.last - columns.first);
+            small.at(x, y) = packColor(glm::vec3(sum / count));
+        }
+    }
+    return small;
+}
+
+}  // namespace stereonav

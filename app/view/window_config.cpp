@@ -1,0 +1,126 @@
+#include "app/view/window_config.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/view/kept_file.h"
+#include "engine/base/error.h"
+#include "terrain/read/toml_document.h"
+
+namespace stereonav {
+namespace {
+
+constexpr const char* kThemes[] = {"dark", "light"};
+constexpr std::size_t kMostPanels = 100, kLongestPanel = 100;
+
+// A basic string of TOML.
+std::string tomlText(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            result += {'\\', c};
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            result += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+        else
+            result += c;
+    }
+    return result + "\"";
+}
+
+void readOptional(TomlSection& section, const char* key, std::optional<double>& value,
+                  const NumberRange& range) {
+    double number = range.low - 1;
+    section.read(key, number, range);
+    if (number >= range.low) value = number;  // else it is not there, or was noted
+}
+
+void readTheme(TomlSection& window, std::string& theme) {
+    std::string name = theme;
+    window.read("theme", name);
+    if (std::find(std::begin(kThemes), std::end(kThemes), name) != std::end(kThemes))
+        theme = name;
+    else
+        window.note("theme", fmt::format("expected dark or light, got \"{}\"", name), "choose one of them");
+}
+
+std::vector<std::string> panelNames(std::vector<std::string> names) {
+    if (names.size() > kMostPanels) names.resize(kMostPanels);
+    std::erase_if(names, [](const std::string& name) { return name.empty() || name.size() > kLongestPanel; });
+    return names;
+}
+
+void readSections(TomlDocument& document, WindowConfig& config) {
+    TomlSection window = document.section("window");
+    readTheme(window, config.theme);
+    readOptional(window, "scale", config.scale, kWindowScaleRange);
+    std::string folder;
+    window.read("last_folder", folder);
+    config.lastFolder = folder;
+    TomlSection panels = document.section("panels");
+    panels.read("left_width", config.leftWidth, kPanelWidthRange);
+    panels.read("right_width", config.rightWidth, kPanelWidthRange);
+    config.openPanels = panelNames(panels.texts("open"));
+    TomlSection screen = document.section("screen");
+    readOptional(screen, "width_mm", config.screenWidth_mm, kScreenWidthRange);
+    readOptional(screen, "viewing_distance_mm", config.viewingDistance_mm, kViewingDistanceRange);
+}
+
+std::string tomlOf(const WindowConfig& config) {
+    std::string text = "# The window of stereonav, as it was left.\n\n[window]\n";
+    text += "theme = " + tomlText(config.theme) + "\n";
+    if (config.scale) text += fmt::format("scale = {}\n", *config.scale);
+    const std::string folder = config.lastFolder.string();
+    if (!folder.empty() && isUtf8(folder))  // other bytes are no TOML
+        text += "last_folder = " + tomlText(folder) + "\n";
+    text += fmt::format("\n[panels]\nleft_width = {}\nright_width = {}\nopen = [", config.leftWidth,
+                        config.rightWidth);
+    for (std::size_t k = 0; k < config.openPanels.size(); ++k)
+        text += (k > 0 ? ", " : "") + tomlText(keptText(config.openPanels[k], kLongestPanel));
+    text += "]\n";
+    if (!config.screenWidth_mm && !config.viewingDistance_mm) return text;
+    text += "\n[screen]\n";
+    if (config.screenWidth_mm) text += fmt::format("width_mm = {}\n", *config.screenWidth_mm);
+    if (config.viewingDistance_mm)
+        text += fmt::format("viewing_distance_mm = {}\n", *config.viewingDistance_mm);
+    return text;
+}
+
+}  // namespace
+
+std::filesystem::path windowConfigFile() {
+    const std::filesystem::path folder = configFolder();
+    return folder.empty() ? folder : folder / "window.toml";
+}
+
+ReadConfig readWindowConfig(const std::filesystem::path& file) {
+    ReadConfig read;
+    std::error_code code;
+    if (file.empty() || !std::filesystem::exists(file, code)) return read;
+    std::optional<TomlDocument> document;
+    try {
+        document.emplace(file);
+    } catch (const Error& error) {
+        read.problem = error.what();
+        setAside(file);
+        return read;
+    }
+    try {
+        readSections(*document, read.config);
+        document->finish();
+    } catch (const Error& error) {
+        read.problem = error.what();
+    }
+    return read;
+}
+
+std::string writeWindowConfig(const WindowConfig& config, const std::filesystem::path& file) {
+    try {
+        writeKept(file, tomlOf(config));
+    } catch (const Error& error) {
+        return std::string("what was set is not kept: ") + error.what();
+    }
+    return "";
+}
+
+}  // namespace stereonav

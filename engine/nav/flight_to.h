@@ -1,0 +1,66 @@
+// A flight to a goal by itself: eased at both ends, as long as the way asks for, never through ground or
+// wall. The window makes one where a person asks for a place, and steps it in place of the flight until it is
+// there, or until the person takes over.
+#pragma once
+
+#include <optional>
+
+#include "engine/nav/flight.h"
+#include "engine/nav/flight_way.h"
+
+namespace stereonav {
+
+// Seconds that it takes.
+constexpr double kShortestFlightTo = 0.5, kLongestFlightTo = 6.0;
+
+class FlightTo {
+public:
+    enum class State { Flying, Arrived, Blocked };  // Blocked: as near as there was room
+
+    // To a pose. Where the flight knows a line and the straight way is not clear, along the line first.
+    // Throws Error when the goal is not finite, or more than 1e9 metres away from the origin.
+    static FlightTo pose(const Flight& flight, const Pose& goal);
+    // To a place on the flight's line, metres from its start; turns round where it lies behind. Cut to the
+    // line's ends. Throws Error when the flight knows no line, or the place is NaN.
+    static FlightTo along(const Flight& flight, double along);
+
+    // dt seconds pass, in which the flight takes no other steps. Negative and NaN is nothing. The mode of
+    // flying is the same afterwards as before, except that along() leaves it guided.
+    State step(Flight& flight, double dt);
+    double duration() const { return mLineSeconds + mDirectSeconds; }  // seconds, planned
+    double elapsed() const { return mTime; }  // seconds; on a line it may take longer
+
+private:
+    FlightTo() = default;
+    void planLine(const Flight& flight, double from, double goal, double most);
+    void planDirect(const Flight& flight, double most);
+    void begin(Flight& flight);
+    State stepAlong(Flight& flight, double dt);
+    State stepDirect(Flight& flight);
+    State endLine(Flight& flight, State state);
+
+    // Along the line first, where there is such a leg.
+    bool mOnLine = false;
+    double mLineStart = 0, mLineGoal = 0, mLineSeconds = 0;  // metres, seconds
+    double mLineSpeed = 0;                                   // metres a second, towards the goal
+    // Then straight to a pose, where there is one.
+    std::optional<Pose> mGoal;
+    Pose mFrom;
+    FlightWay mWay;
+    double mDirectSeconds = 0, mDirectStart = 0;
+    int mModeBefore = 0;
+    double mTime = 0;
+    bool mBegun = false;
+    State mState = State::Flying;
+};
+
+// A pose that looks at a point from a distance, metres, > 0, from the side that `from` is on, as upright as
+// it can be. Where `from` is at the point it looks as `from` does. Throws Error for numbers that are not
+// finite or a distance that is not above 0.
+Pose poseLookingAt(const glm::dvec3& point, double distance, const Pose& from);
+
+// Between two poses, t from 0 to 1: positions straight. Heads that are level and do not look straight up or
+// down turn by heading and pitch, so that they stay level; others by the shortest arc.
+Pose poseBetween(const Pose& a, const Pose& b, double t);
+
+}  // namespace stereonav

@@ -1,0 +1,111 @@
+// Maps and places on the Earth that terrains offer, however their frames are made.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <glm/vector_relational.hpp>
+#include <numbers>
+
+#include "app/scene/scene_loading.h"
+#include "app/scene/terrain_loading.h"
+#include "engine/scene/capabilities.h"
+#include "tests/camera/temporary_folder.h"
+#include "tests/support/own_cache.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kToDegrees = 180 / std::numbers::pi;
+
+// A slope of 40 x 40 samples, 30 m apart, whose south-west corner lies there in UTM zone 33.
+std::filesystem::path slope(const TemporaryFolder& folder, double east, double north, bool placed) {
+    const std::filesystem::path file = folder / "slope.asc";
+    std::ofstream out(file);
+    out << "ncols 40\nnrows 40\nxllcorner " << std::fixed << east << "\nyllcorner " << north
+        << "\ncellsize 30\n";
+    for (int row = 0; row < 40; ++row)
+        for (int column = 0; column < 40; ++column) out << 10 * row + column << (column == 39 ? "\n" : " ");
+    if (placed)
+        std::ofstream(folder / "slope.prj")
+            << "PROJCS[\"WGS 84 / UTM zone 33N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS "
+               "84\",6378137,"
+               "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION["
+               "\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],PARAMETER[\"central_meridian\","
+               "15],"
+               "PARAMETER[\"scale_factor\",0.9996],PARAMETER[\"false_easting\",500000],PARAMETER["
+               "\"false_northing\",0],UNIT[\"metre\",1]]";
+    return file;
+}
+
+std::unique_ptr<Scene> terrainFrom(const std::filesystem::path& file) {
+    SceneOptions options;
+    options.scene = file.string();
+    Progress progress;
+    return loadTerrainScene(options, SimdTarget::Auto, progress);
+}
+
+TEST(TerrainSurvey, AMapLeadsBackAndForth) {
+    const TemporaryFolder folder;
+    const auto scene = terrainFrom(slope(folder, 600000, 5000000, true));
+    const MapFromAbove* const above = scene->offered<MapFromAbove>();
+    ASSERT_TRUE(above);
+    Progress progress;
+    const MapPicture map = above->makeMap(64, progress);
+    EXPECT_EQ(map.picture.width(), 64);
+    EXPECT_EQ(map.picture.height(), 64);
+    const glm::dvec2 eye(scene->startPose.position), pixel = map.mapFromWorld(eye);
+    EXPECT_NEAR(glm::distance(map.worldFromMap(pixel), eye), 0, 1e-9);
+    EXPECT_TRUE(glm::all(glm::lessThan(glm::dvec2(0.0), pixel)) &&
+                glm::all(glm::lessThan(pixel, glm::dvec2(64.0))));
+    EXPECT_GT(map.worldFromMap({0, 0}).y, map.worldFromMap({0, 10}).y) << "north is up";
+    EXPECT_LT(map.worldFromMap({0, 0}).x, map.worldFromMap({10, 0}).x);
+    const SceneBox* const box = scene->offered<SceneBox>();
+    ASSERT_TRUE(box);
+    EXPECT_EQ(box->low.z, 0);
+    EXPECT_EQ(box->high.z, 429);
+    EXPECT_NEAR(box->high.x - box->low.x, 39 * 30, 1e-9);
+}
+
+// Of a transverse Mercator projection's meridians: sin(latitude) of the longitude from its own, clockwise
+// from the west of it (Snyder 1987, equation 8-1's first term).
+TEST(TerrainSurvey, KnowsWhereItLiesAndWhereNorthIs) {
+    const TemporaryFolder folder;
+    const auto scene = terrainFrom(slope(folder, 600000, 5000000, true));
+    const OnEarth* const earth = scene->offered<OnEarth>();
+    ASSERT_TRUE(earth);
+    const auto place = earth->placeAt({0, 0, 100});
+    ASSERT_TRUE(place);
+    EXPECT_NEAR(place->latitude * kToDegrees, 45.15, 0.01);
+    EXPECT_NEAR(place->longitude * kToDegrees, 16.28, 0.01);
+    const double fromOwn = place->longitude - 15 / kToDegrees;
+    EXPECT_NEAR(earth->northAt({0, 0, 0}), -fromOwn * std::sin(place->latitude), 2e-5);
+    const auto back = earth->worldAt(*place);
+    ASSERT_TRUE(back);
+    EXPECT_NEAR(glm::length(*back), 0, 1e-3);
+    EXPECT_FALSE(earth->placeAt({std::nan(""), 0, 0}));
+    EXPECT_EQ(earth->northAt({std::nan(""), 0, 0}), 0);
+}
+
+TEST(TerrainSurvey, WithoutAReferenceSystemThereIsNoPlaceOnEarth) {
+    const TemporaryFolder folder;
+    const auto scene = terrainFrom(slope(folder, 600000, 5000000, false));
+    EXPECT_FALSE(scene->offered<OnEarth>());
+    EXPECT_TRUE(scene->offered<MapFromAbove>());
+}
+
+TEST(TerrainSurvey, AMediumOfATerrainHasItsMap) {
+    const TemporaryFolder folder;
+    SceneOptions options;
+    options.scene = slope(folder, 600000, 5000000, true).string();
+    options.medium.medium = "ground";
+    Progress progress;
+    const auto scene = loadScene(options, SizeOption{64, 48}, progress);
+    ASSERT_TRUE(scene->offered<MapFromAbove>());
+    EXPECT_EQ(scene->offered<MapFromAbove>()->makeMap(10, progress).picture.width(), 10);
+    EXPECT_TRUE(scene->offered<OnEarth>());
+    EXPECT_TRUE(scene->offered<SceneBox>());
+}
+
+}  // namespace
+}  // namespace stereonav
