@@ -177,6 +177,8 @@ struct ViewOptions {
     std::string path;   // Z plays this one at first
     std::string shots;  // folder for screenshots and recorded flights; "": the present one
     SweepChoice sweep = SweepChoice::Auto;  // of a medium
+    std::string fullScreen;                 // "": a window; auto, a monitor's number, or part of its name
+    std::optional<double> screenWidth_mm, viewingDistance_mm;  // none: as the monitor tells, and usual
 };
 int runView(const ViewOptions& options);
 

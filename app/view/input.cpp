@@ -20,6 +20,8 @@ std::optional<ViewAction> actionOfKey(int key) {
             return ViewAction{ViewCommand::Quit};
         case GLFW_KEY_F1:
             return ViewAction{ViewCommand::Help};
+        case GLFW_KEY_F11:
+            return ViewAction{ViewCommand::FullScreen};
         case GLFW_KEY_F12:
             return ViewAction{ViewCommand::Screenshot};
         case GLFW_KEY_SPACE:
@@ -187,6 +189,7 @@ const std::vector<std::pair<std::string, std::string>>& viewHelp() {
         {"X", "swap the eyes"},
         {"3", "stereo on, off"},
         {"M Shift+M", "next, previous output mode"},
+        {"F11", "the whole screen, or a window"},
         {"1 2", "side by side, cross-eyed"},
         {"4 5", "side by side half, top-bottom"},
         {"6 7 8", "rows, columns, checkerboard"},
@@ -212,6 +215,10 @@ glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place) {
     const auto half = [](double share) { return share < 0.5 ? 2 * share : 2 * share - 1; };
     if (layout == OutputLayout::SideBySide) return {half(place.x), place.y};
     if (layout == OutputLayout::TopBottom) return {place.x, half(place.y)};
+    if (layout == OutputLayout::FramePacked) {
+        const double below = place.y - (1 - kPackedEye);
+        return {place.x, std::min(below < 0 ? place.y : below, static_cast<double>(kPackedEye)) / kPackedEye};
+    }
     return place;
 }
 

@@ -18,6 +18,7 @@
 #include "app/view/session.h"
 #include "app/view/status.h"
 #include "app/view/sweep.h"
+#include "app/view/view_display.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/display/overlay.h"
@@ -53,6 +54,8 @@ private:
 std::vector<OverlayArea> areasOf(OutputLayout layout) {
     if (layout == OutputLayout::SideBySide) return {{0, 0, 0.5f, 1}, {0.5f, 0, 0.5f, 1}};
     if (layout == OutputLayout::TopBottom) return {{0, 0, 1, 0.5f}, {0, 0.5f, 1, 0.5f}};
+    if (layout == OutputLayout::FramePacked)
+        return {{0, 0, 1, kPackedEye}, {0, 1 - kPackedEye, 1, kPackedEye}};
     return {{0, 0, 1, 1}};
 }
 
@@ -60,10 +63,12 @@ class Viewer {
 public:
     explicit Viewer(const ViewOptions& options)
         : mOptions(options),
-          mMode(options.mode),
           mFlight(options.path.empty() ? std::nullopt : std::optional(readPath(options.path))),
-          mWindow(titleOf(options), composedSize(mMode, options.size.width, options.size.height).first,
-                  composedSize(mMode, options.size.width, options.size.height).second),
+          mWindow(titleOf(options), composedSize(options.mode, options.size.width, options.size.height).first,
+                  composedSize(options.mode, options.size.width, options.size.height).second, true,
+                  ViewDisplay::wantsQuadBuffer(options)),
+          mDisplay(mWindow, options),
+          mMode(mDisplay.mode()),
           mSweep(shownAs(options.scene).swept ? std::make_unique<ViewSweep>(options.sweep) : nullptr),
           mOverlay(mWindow),
           mScreenshots(options.shots),
@@ -103,6 +108,7 @@ private:
     }
 
     double waitSeconds() const {
+        if (const auto turn = mDisplay.wait(); turn && !mWindow.minimised()) return *turn;
         if (!mSession || mWindow.minimised()) return kIdleWait;
         return mSession->moving() || mWindow.gamepad().present || mScreenshots.waiting() ? kActiveWait
                                                                                          : kIdleWait;
@@ -116,7 +122,8 @@ private:
         if (mSession) {
             mSession->replaceScene(mScene);
         } else {
-            mSession.emplace(mScene, ViewSession::Options{mMode, mFlight, mOptions.shots});
+            mSession.emplace(mScene,
+                             ViewSession::Options{mMode, mFlight, mOptions.shots, mWindow.quadBuffered()});
             mSession->notify("F1 shows the keys");
         }
     }
@@ -131,7 +138,9 @@ private:
     void update(double dt) {
         const Gamepad pad = mWindow.gamepad();
         for (const KeyPress& press : mWindow.takeKeys())
-            if (const auto action = actionOf(press)) mSession->act(*action);
+            if (const auto action = actionOf(press))
+                action->command == ViewCommand::FullScreen ? mDisplay.toggleFullScreen()
+                                                           : mSession->act(*action);
         for (const ViewAction& action : mInput.actionsOf(pad, dt)) mSession->act(action);
         mWindow.setCaptured(mSession->mouseCaptured());
         const glm::ivec2 size = mWindow.framebufferSize();
@@ -213,6 +222,7 @@ private:
         if (!mSession->slicesShown() && mSliceVersion != 0) endSlices();
         reportScreenshots();
         reportSweep();
+        reportDisplay();
     }
 
     void takeSlice() {
@@ -240,6 +250,12 @@ private:
         if (!mFrame || mFrame->sweep == mSwept) return;
         mSwept = mFrame->sweep;
         tell(mSwept);
+    }
+
+    void reportDisplay() {
+        const std::string notice = mDisplay.takeNotice();
+        if (!notice.empty()) mSession->notify(notice);
+        tell(notice);
     }
 
     void reportScreenshots() {
@@ -271,7 +287,10 @@ private:
         if (mFrame && (mFigureWatch.elapsed_ms() > 1000 * kFigureSeconds || mStatus.empty())) {
             mFigureWatch.lap_ms();
             mStatus = mSession->statusLine(*mFrame, mRate.value());
-            mWarning = warningLine(*mFrame);
+            if (const std::string onScreen = mDisplay.parallaxText(*mFrame); !onScreen.empty())
+                mStatus += "  " + onScreen;
+            mWarning = mDisplay.warning(*mFrame);
+            if (mWarning.empty()) mWarning = warningLine(*mFrame);
         }
         content.status = mSession->slicesShown() ? mSession->sliceStatus() : mStatus;
         content.warning = mSession->slicesShown() ? "" : mWarning;
@@ -304,23 +323,27 @@ private:
         OverlayContent now = content();
         const ComposeSetting setting = shownSetting();
         const bool sameSetting = setting == mDrawn;
-        if (!mWindow.redrawNeeded() && !mNewFrame && sameSetting && now == mContent) return;
+        if (!mWindow.redrawNeeded() && !mNewFrame && sameSetting && now == mContent &&
+            !ViewDisplay::alternates(setting))
+            return;
         mNewFrame = false;
         mContent = std::move(now);
         mDrawn = setting;
         const glm::ivec2 size = mWindow.framebufferSize(), origin = mWindow.framebufferOrigin();
-        glViewport(0, 0, size.x, size.y);
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT);
-        mPresenter.draw(setting, {0, 0, size.x, size.y}, origin.x, origin.y);
-        mOverlay.draw(mContent, areasOf(infoOf(setting.mode).layout));
-        mWindow.swapBuffers();
+        mDisplay.draw(setting, [&](const ComposeSetting& one) {
+            glViewport(0, 0, size.x, size.y);
+            glClearColor(0, 0, 0, 1);
+            glClear(GL_COLOR_BUFFER_BIT);
+            mPresenter.draw(one, {0, 0, size.x, size.y}, origin.x, origin.y);
+            mOverlay.draw(mContent, areasOf(infoOf(one.mode).layout));
+        });
     }
 
     ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed since
-    OutputMode mMode;
     std::optional<RecordedPath> mFlight;
     Window mWindow;
+    ViewDisplay mDisplay;
+    OutputMode mMode;
     std::unique_ptr<ViewSweep> mSweep;  // of a medium; before the scenes, which use it to their end
     StereoPresenter mPresenter;
     Overlay mOverlay;
