@@ -20,6 +20,8 @@ std::optional<ViewAction> actionOfKey(int key) {
             return ViewAction{ViewCommand::Quit};
         case GLFW_KEY_F1:
             return ViewAction{ViewCommand::Help};
+        case GLFW_KEY_F11:
+            return ViewAction{ViewCommand::FullScreen};
         case GLFW_KEY_F12:
             return ViewAction{ViewCommand::Screenshot};
         case GLFW_KEY_SPACE:
@@ -28,9 +30,12 @@ std::optional<ViewAction> actionOfKey(int key) {
             return ViewAction{ViewCommand::HideInterface};
         case GLFW_KEY_F2:
             return ViewAction{ViewCommand::Panels};
+        case GLFW_KEY_F3:
+            return ViewAction{ViewCommand::LeftPanels};
         case GLFW_KEY_3:
             return ViewAction{ViewCommand::ToggleStereo};
         case GLFW_KEY_BACKSPACE:
+            return ViewAction{ViewCommand::TurnRound};  // of seeds in slices: the last one goes
         case GLFW_KEY_DELETE:
             return ViewAction{ViewCommand::RemoveSeed};
         case GLFW_KEY_ENTER:
@@ -169,6 +174,8 @@ std::optional<ViewAction> actionWithControl(const KeyPress& press) {
             return ViewAction{ViewCommand::OpenFile};
         case 'n':
             return ViewAction{ViewCommand::StartPage};
+        case 'b':
+            return ViewAction{ViewCommand::AddPlace};
         case 's':
             return ViewAction{ViewCommand::SaveScene};
         case 'p':
@@ -219,6 +226,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"3", "stereo on, off", does(ToggleStereo)},
         {"M", "next output mode", does(NextMode)},
         {"Shift+M", "previous output mode", does(PreviousMode)},
+        {"F11", "the whole screen, or a window", does(FullScreen)},
         {"1", "side by side", ViewAction{SetMode, OutputMode::SideBySide}},
         {"2", "side by side, cross-eyed", ViewAction{SetMode, OutputMode::CrossEyed}},
         {"4", "side by side, half width", ViewAction{SetMode, OutputMode::SideBySideHalf}},
@@ -242,12 +250,17 @@ const std::vector<KeyHelp>& viewKeys() {
         {"G Shift+G", "sigma of that: larger, smaller"},
         {"V", "slices (volumes): clicks set seeds, Enter looks again", does(Slices)},
         {"P F12", "save a picture", does(Screenshot)},
-        {"Tab", "the picture alone, or with the interface"},
-        {"F2", "panels"},
+        {"Tab", "the picture alone, or with the interface", does(HideInterface)},
+        {"F2", "panels", does(Panels)},
+        {"F3", "places, map and slices", does(LeftPanels)},
         {"Ctrl+P", "find anything"},
-        {"Ctrl+O Ctrl+N", "open a file, start page"},
-        {"Ctrl+S", "save the scene"},
-        {"Ctrl+Z Ctrl+Y", "undo, redo"},
+        {"Ctrl+O", "open a file", does(OpenFile)},
+        {"Ctrl+N", "start page", does(StartPage)},
+        {"Ctrl+S", "save the scene", does(SaveScene)},
+        {"Ctrl+B", "keep this place", does(AddPlace)},
+        {"Ctrl+Z", "undo", does(Undo)},
+        {"Ctrl+Y", "redo", does(Redo)},
+        {"Backspace", "turn round (colon)", does(TurnRound)},
         {"F1", "these keys"},
         {"Esc", "back, or quit; Ctrl+Q quits"},
     };
@@ -258,6 +271,10 @@ glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place) {
     const auto half = [](double share) { return share < 0.5 ? 2 * share : 2 * share - 1; };
     if (layout == OutputLayout::SideBySide) return {half(place.x), place.y};
     if (layout == OutputLayout::TopBottom) return {place.x, half(place.y)};
+    if (layout == OutputLayout::FramePacked) {
+        const double below = place.y - (1 - kPackedEye);
+        return {place.x, std::min(below < 0 ? place.y : below, static_cast<double>(kPackedEye)) / kPackedEye};
+    }
     return place;
 }
 

@@ -8,40 +8,47 @@
 namespace stereonav {
 namespace {
 
-// How many parts there are along each axis.
-glm::ivec2 partsOf(OutputLayout layout) {
-    return {layout == OutputLayout::SideBySide ? 2 : 1, layout == OutputLayout::TopBottom ? 2 : 1};
+constexpr int kUnit = 1 << 14;  // pixels of a picture that shares are taken from
+
+bool oneArea(const std::array<EyeArea, 2>& areas) {
+    return areas[0] == areas[1];
 }
 
 }  // namespace
 
 InterfacePlaces interfacePlaces(const OutputModeInfo& mode) {
-    const glm::ivec2 parts = partsOf(mode.layout);
-    const glm::vec2 share = 1.0f / glm::vec2(parts);
+    const auto areas = eyeAreas(mode.mode, kUnit, kUnit);
     InterfacePlaces places;
     places.areas.clear();
-    for (int y = 0; y < parts.y; ++y)
-        for (int x = 0; x < parts.x; ++x)
-            places.areas.push_back(
-                {static_cast<float>(x) * share.x, static_cast<float>(y) * share.y, share.x, share.y});
-    if (!mode.half) places.size = share;
+    for (const EyeArea& area : areas) {
+        const auto share = [](int pixels) { return static_cast<float>(pixels) / kUnit; };
+        places.areas.push_back({share(area.x), share(area.y), share(area.width), share(area.height)});
+        if (oneArea(areas)) break;
+    }
+    if (!mode.half) places.size = {places.areas.front().width, places.areas.front().height};
     return places;
 }
 
 PicturePlace picturePlace(const OutputModeInfo& mode, const glm::ivec2& window, const Panels::Rest& rest,
                           const glm::vec2& units) {
+    const EyeArea area = eyeAreas(mode.mode, window.x, window.y)[0];
     PicturePlace place;
-    place.part = glm::max(window / partsOf(mode.layout), glm::ivec2(1));
+    place.part = glm::max(glm::ivec2(area.width, area.height), glm::ivec2(1));
     const glm::vec2 scale = glm::vec2(place.part) / glm::max(units, glm::vec2(1));
     place.corner = glm::ivec2(glm::round(rest.corner * scale));
     place.corner = glm::min(place.corner, place.part - 1);
-    place.size =
-        glm::clamp(glm::ivec2(glm::round(rest.size * scale)), glm::ivec2(1), place.part - place.corner);
+    place.size = glm::clamp(glm::ivec2(glm::round(rest.size * scale)), glm::ivec2(1), place.part - place.corner);
     return place;
 }
 
 glm::ivec2 composedAt(const OutputModeInfo& mode, const PicturePlace& place) {
-    return place.size * partsOf(mode.layout);
+    if (mode.half) {
+        // Both parts of the window together, whichever way they lie.
+        const bool beside = mode.layout == OutputLayout::SideBySide;
+        return place.size * glm::ivec2(beside ? 2 : 1, beside ? 1 : 2);
+    }
+    const auto [width, height] = composedSize(mode.mode, place.size.x, place.size.y);
+    return {width, height};
 }
 
 SizeOption eyeSizeAt(const OutputModeInfo& mode, const PicturePlace& place) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/output/length_text.h"
+#include "app/view/mode_steps.h"
 #include "app/view/status.h"
 #include "engine/base/error.h"
 
@@ -59,6 +60,7 @@ ViewSession::ViewSession(std::shared_ptr<const OpenScene> scene, const Options& 
       mSun(mScene->sun),
       mMode(options.mode),
       mFirstMode(options.mode),
+      mQuadBuffer(options.quadBuffer),
       mMethod(mScene->way.method),
       mModel(mScene->model) {
     takeSurface();
@@ -75,6 +77,7 @@ void ViewSession::takeSurface() {
 
 void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
     if (!scene->changed) stopPlaying();
+    mGoal.reset();
     const Pose here = mFlight->pose();
     const int mode = mFlight->mode();
     std::unique_ptr<Flight> flight = scene->scene->makeFlight();
@@ -155,6 +158,8 @@ bool ViewSession::actOnStereo(const ViewAction& action) {
             stepMode(-1);
             return true;
         case ViewCommand::SetMode:
+            if (action.mode == OutputMode::QuadBuffer && !mQuadBuffer)
+                return notify("this window has no buffer for each eye: start with --mode quad"), true;
             mMode = action.mode;
             stepMode(0);
             return true;
@@ -199,6 +204,8 @@ bool ViewSession::actOnEyes(ViewCommand command) {
 
 void ViewSession::actOnFlight(const ViewAction& action) {
     stopPlaying();
+    mGoal.reset();
+    if (action.command == ViewCommand::TurnRound) return turnRound();
     if (action.command == ViewCommand::Home) {
         mFlight->goHome();
     } else if (action.command == ViewCommand::Reset) {
@@ -216,8 +223,7 @@ void ViewSession::actOnFlight(const ViewAction& action) {
 // --- modes
 
 void ViewSession::stepMode(int by) {
-    const int count = static_cast<int>(outputModes().size());
-    mMode = static_cast<OutputMode>((static_cast<int>(mMode) + by + count) % count);
+    mMode = steppedMode(mMode, by, mFirstMode);
     notify(fmt::format("{} ({})", infoOf(mMode).longName, infoOf(mMode).shortName));
 }
 
@@ -252,6 +258,7 @@ void ViewSession::reset() {
 
 void ViewSession::look(double yaw, double pitch) {
     if (mPlaying || mSlices || (yaw == 0 && pitch == 0)) return;
+    mGoal.reset();
     mFlight->turnBy(yaw, pitch);
     mLooked = true;
 }
@@ -313,6 +320,12 @@ void ViewSession::fly(const FlightInput& input, double dt) {
     wish.speedMultiplier *= mSpeed;
     if (mIsovalue) wish.rollRate = 0;  // the same keys move the surface
     const Pose before = mFlight->pose();
+    if (asksForMotion(input)) mGoal.reset();
+    if (mGoal) {
+        stepGoal(dt);
+        mRecorder.step(dt, mFlight->pose());
+        return;
+    }
     if (!mResting || asksForMotion(input)) mFlight->step(wish, dt);
     if (dt > 0)
         mResting = !asksForMotion(input) && atRest(before, mFlight->pose(), mFlight->speed() * mSpeed, dt);
@@ -331,7 +344,7 @@ void ViewSession::step(const FlightInput& input, double dt) {
     }
     if (animated && dt > 0) mTime = mPlaying ? mPlayTime : mTime + dt;
     if (mNoticeLeft > 0 && (mNoticeLeft -= dt) <= 0) mNotice.clear();
-    mMoving = mPlaying || recording() || animated || mStereo.moving() || asksForMotion(input) || looked ||
+    mMoving = mPlaying || mGoal || recording() || animated || mStereo.moving() || asksForMotion(input) || looked ||
               !samePose(poseBefore, pose());
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "app/view/worker.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/nav/flight.h"
+#include "engine/nav/flight_to.h"
 #include "engine/nav/path_recorder.h"
 
 namespace stereonav {
@@ -23,16 +25,20 @@ enum class ViewCommand {
     Help,
     HideInterface,
     Panels,
+    LeftPanels,
     Search,
     OpenFile,
     SaveScene,
     StartPage,
     Undo,
     Redo,
+    AddPlace,
+    FullScreen,
     QuitAtOnce,
     // Of the session.
     Screenshot,
     Home,
+    TurnRound,
     Reset,
     NextFlightMode,
     SetFlightMode,
@@ -72,6 +78,7 @@ enum class ViewCommand {
     HigherSun,
     SunAnticlockwise,
     SunClockwise,
+
 };
 
 struct ViewAction {
@@ -93,6 +100,7 @@ public:
         OutputMode mode = OutputMode::SideBySide;
         std::optional<RecordedPath> path;  // what Play plays before anything is recorded
         std::filesystem::path folder;      // for recorded flights
+        bool quadBuffer = false;           // whether the window has one
     };
     ViewSession(std::shared_ptr<const OpenScene> scene, const Options& options);
 
@@ -113,6 +121,10 @@ public:
     void setFov(std::optional<double> verticalFov);  // radians; none: the scene's
     void setSurface(const SurfaceChange& surface);
     void goTo(const Pose& pose);
+    // Flies there by itself, until the person takes over (engine/nav/flight_to.h).
+    void flyTo(const Pose& pose);
+    void flyAlong(double along);  // metres along the way through; nothing where there is none
+    bool flyingToGoal() const { return mGoal.has_value(); }
     std::string_view method() const { return mMethod; }
     int model() const { return mModel; }
     const SunPlace& sun() const { return mSun; }
@@ -122,6 +134,12 @@ public:
     bool stereoOn() const { return mStereoOn; }
     bool swapped() const { return mSwapped; }
     const OpenScene& open() const { return *mScene; }
+    const std::shared_ptr<const OpenScene>& openShared() const { return mScene; }
+    const std::shared_ptr<const SliceStudy>& study() const { return mStudy; }
+    // The study is read for panels, without the slice view.
+    void wishStudy();
+    void keepStudy(std::shared_ptr<const SliceStudy> study) { mStudy = std::move(study); }
+    bool wantsSliceView() const { return mSliceViewWished; }
     OutputMode firstMode() const { return mFirstMode; }
     double speed() const { return mSpeed * mFlight->speed(); }  // metres a second at full input
     const RecordedPath& path() const { return mPath; }
@@ -199,6 +217,9 @@ private:
     void askForChange();
     void openSlices();
     void fly(const FlightInput& input, double dt);
+    void stepGoal(double dt);
+    void startGoal(const std::function<FlightTo(const Flight&)>& goal);
+    void turnRound();
     void stepMode(int by);
     void nextMethod();
     void nextModel();
@@ -220,6 +241,7 @@ private:
     std::filesystem::path mFolder;
     std::unique_ptr<Flight> mFlight;
     int mFirstFlightMode = 0;
+    std::optional<FlightTo> mGoal;
     PathRecorder mRecorder;
     RecordedPath mPath;  // what Play plays
     bool mPlaying = false;
@@ -236,9 +258,10 @@ private:
     std::optional<SceneChange> mChange;
     std::optional<SliceView> mSlices;
     std::shared_ptr<const SliceStudy> mStudy;
-    bool mStudyWished = false;
+    bool mStudyWished = false, mSliceViewWished = false;
     int mSliceWidth = 1, mSliceHeight = 1;  // pixels of the last slice picture
     OutputMode mMode, mFirstMode;
+    bool mQuadBuffer = false;  // whether the window has one
     std::string_view mMethod;
     int mModel = 0;
     std::optional<double> mFov;  // radians; none: the scene's

@@ -249,6 +249,7 @@ bool ViewSession::actOnSlices(ViewCommand command) {
             mSlices->turnPages(-1);
             return true;
         case ViewCommand::RemoveSeed:
+        case ViewCommand::TurnRound:
             mSlices->removeSeed();
             return true;
         case ViewCommand::FindAgain:
@@ -266,8 +267,12 @@ bool ViewSession::actOnSlices(ViewCommand command) {
 void ViewSession::openSlices() {
     if (mStudy) return showSlices(mStudy);
     if (!offered<SliceSource>()) return notify("there are no slices of a terrain");
-    mStudyWished = true;
+    mStudyWished = mSliceViewWished = true;
     notify("reading the slices");
+}
+
+void ViewSession::wishStudy() {
+    if (!mStudy && offered<SliceSource>()) mStudyWished = true;
 }
 
 bool ViewSession::takeStudyWish() {
@@ -276,6 +281,7 @@ bool ViewSession::takeStudyWish() {
 
 void ViewSession::showSlices(std::shared_ptr<const SliceStudy> study) {
     mStudy = std::move(study);
+    mSliceViewWished = false;
     const auto* const source = offered<SliceSource>();
     mSlices.emplace(mStudy, pose().position, source ? source->seeds() : std::vector<glm::dvec3>{});
 }

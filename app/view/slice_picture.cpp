@@ -144,6 +144,26 @@ std::optional<glm::dvec3> SliceLayout::worldAt(double x, double y, int slice) co
     return mFrame.worldFromVoxel(voxel);
 }
 
+SliceLayout SliceLayout::zoomed(double factor, const glm::dvec3& world) const {
+    SliceLayout larger = *this;
+    if (!(factor > 1)) return larger;
+    larger.mScale *= factor;
+    // The place's way from the study's middle, in pixels of the larger picture; the study's border goes no further in
+    // than it is in the fitted one.
+    const glm::dvec2 away = larger.pixelOf(mFrame.voxelFromWorld(world)) - mMiddle;
+    if (std::isnan(away.x) || std::isnan(away.y)) return larger;
+    const auto half = [&](int axis) { return mFrame.size[axis] * mFrame.spacing[axis] * larger.mScale / 2; };
+    const glm::dvec2 most(std::max(half(mAcross) - mMiddle.x, 0.0), std::max(half(mDown) - mMiddle.y, 0.0));
+    larger.mMiddle = mMiddle - glm::clamp(away, -most, most);
+    return larger;
+}
+
+glm::dvec3 SliceLayout::onSlice(const glm::dvec3& world, int slice) const {
+    glm::dvec3 voxel = mFrame.voxelFromWorld(world);
+    voxel[mNormal] = slice;
+    return mFrame.worldFromVoxel(voxel);
+}
+
 double SliceLayout::placeOf(int slice) const {
     glm::dvec3 middle = 0.5 * glm::dvec3(mFrame.size - 1);
     middle[mNormal] = slice;

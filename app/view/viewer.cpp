@@ -10,7 +10,6 @@
 #include "app/output/output_place.h"
 #include "app/output/stereo_frame.h"
 #include "app/scene/shown_as.h"
-#include "app/view/panel/start_pictures.h"
 #include "engine/base/error.h"
 
 namespace stereonav {
@@ -48,15 +47,18 @@ Viewer::Viewer(const ViewOptions& options)
     : mOptions(options),
       mGiven(settingTextsOf(options.scene.given)),
       mSaid(fileTextsOf(options.scene.given)),
-      mMode(options.mode),
       mFlight(options.path.empty() ? std::nullopt : std::optional(readPath(options.path))),
-      mWindow(titleOf(options.scene), composedSize(mMode, options.size.width, options.size.height).first,
-              composedSize(mMode, options.size.width, options.size.height).second),
+      mWindow(titleOf(options.scene), composedSize(options.mode, options.size.width, options.size.height).first,
+              composedSize(options.mode, options.size.width, options.size.height).second, true,
+              ViewDisplay::wantsQuadBuffer(options)),
+      mDisplay(mWindow, options),
+      mMode(mDisplay.mode()),
       mInterface(mWindow),
       mScreenshots(options.shots) {
     if (shownAs(options.scene).swept) mSweep = std::make_unique<ViewSweep>(options.sweep);
     checkSize(windowSize(), options.scene, kViewBytes);
     mPanels.showStart(options.startPage);
+    readConfig();
     mWorker = std::make_unique<ViewWorker>(
         [options, size = windowSize(), sweep = mSweep.get()](Progress& progress) {
             return openScene(options, true, size, sweep, progress);
@@ -65,7 +67,7 @@ Viewer::Viewer(const ViewOptions& options)
 }
 
 Viewer::~Viewer() {
-    forgetStartPictures();
+    mPanels.forget();
 }
 
 void Viewer::run() {
@@ -80,10 +82,12 @@ void Viewer::run() {
         if (!mWindow.minimised()) draw(dt);
     }
     while (mScreenshots.waiting() && mFrame) finishScreenshots();
+    keepConfig();
 }
 
 double Viewer::waitSeconds() const {
     if (mWindow.minimised()) return kIdleWait;
+    if (const auto turn = mDisplay.wait()) return *turn;
     const bool flows =
         mSession && (mSession->moving() || mWindow.gamepad().present || mScreenshots.waiting());
     return flows || mInterface.active() || mPanels.startShown() ? kActiveWait : kIdleWait;
@@ -101,13 +105,16 @@ void Viewer::takeScene() {
     if (!loading.busy) mBefore.reset();
     if (mSession && !mAnother) return mSession->replaceScene(mScene);
     const bool first = !mSession;
-    mSession.emplace(mScene, ViewSession::Options{mMode, mFlight, mOptions.shots});
+    mSession.emplace(mScene, ViewSession::Options{mMode, mFlight, mOptions.shots, mWindow.quadBuffered()});
     mSession->continueVersions(mAsked);
-    mAnother = false;
+    mAnother = mStudyFailed = false;
     mCosts.clear();
     mWindow.setTitle(titleOf(mOptions.scene));
     mHistory.start(settings());
-    if (first) mSession->notify("F1 shows the keys, F2 the panels");
+    mPlaces.emplace(mOptions.scene.scene.empty() ? "terrain" : mOptions.scene.scene);
+    mRecentDue = true;
+    reportKept();
+    if (first) mSession->notify("F1 shows the keys, F2 and F3 the panels");
 }
 
 void Viewer::takeKeys(double dt) {
@@ -128,6 +135,12 @@ bool Viewer::actOnInterface(const ViewAction& action) {
         case ViewCommand::QuitAtOnce:
             mWindow.close();
             return true;
+        case ViewCommand::FullScreen:
+            mDisplay.toggleFullScreen();
+            return true;
+        case ViewCommand::AddPlace:
+            addPlace();
+            return true;
         case ViewCommand::Help:
             mPanels.toggleHelp();
             return true;
@@ -136,6 +149,9 @@ bool Viewer::actOnInterface(const ViewAction& action) {
             return true;
         case ViewCommand::Panels:
             mPanels.toggleSide();
+            return true;
+        case ViewCommand::LeftPanels:
+            mPanels.toggleLeft();
             return true;
         case ViewCommand::Search:
             mPanels.openSearch();
@@ -218,6 +234,7 @@ void Viewer::takeFrame() {
         mRate.count(mFrame->request.version < mAsked);
         mCosts.push_back(costOf(*mFrame));
         if (mCosts.size() > kKeptCosts) mCosts.pop_front();
+        noteRecent();
         mNewFrame = true;
     }
     if (mSession->slicesShown())
@@ -227,6 +244,9 @@ void Viewer::takeFrame() {
     if (!mSession->slicesShown() && mSliceVersion != 0) endSlices();
     reportScreenshots();
     reportSweep();
+    const std::string notice = mDisplay.takeNotice();
+    if (!notice.empty()) mSession->notify(notice);
+    tell(notice);
 }
 
 void Viewer::takeSlice() {
@@ -308,7 +328,7 @@ void Viewer::draw(double dt) {
     const bool laidOut = mInterface.layOut(interfacePlaces(mode), dt, [this] { mPanels.draw(*this); });
     const PicturePlace place = placeFor(mode);
     const bool same = setting == mDrawn && place == mDrawnPlace && !mNewFrame && !laidOut;
-    if (!mWindow.redrawNeeded() && same) return;
+    if (!mWindow.redrawNeeded() && same && !ViewDisplay::alternates(setting)) return;
     mNewFrame = false;
     mDrawn = setting;
     mDrawnPlace = place;
@@ -319,15 +339,16 @@ void Viewer::show(const ComposeSetting& setting) {
     const SizeOption size = windowSize();
     const glm::ivec2 origin = mWindow.framebufferOrigin();
     const PicturePlace& place = mDrawnPlace;
-    glDisable(GL_SCISSOR_TEST);
-    glViewport(0, 0, size.width, size.height);
-    glClearColor(0, 0, 0, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
     const PartInset inset{place.corner.x, place.corner.y, place.part.x - place.corner.x - place.size.x,
                           place.part.y - place.corner.y - place.size.y};
-    mPresenter.draw(setting, {0, 0, size.width, size.height}, origin.x, origin.y, inset);
-    mInterface.render();
-    mWindow.swapBuffers();
+    mDisplay.draw(setting, [&](const ComposeSetting& one) {
+        glDisable(GL_SCISSOR_TEST);
+        glViewport(0, 0, size.width, size.height);
+        glClearColor(0, 0, 0, 1);
+        glClear(GL_COLOR_BUFFER_BIT);
+        mPresenter.draw(one, {0, 0, size.width, size.height}, origin.x, origin.y, inset);
+        mInterface.render();
+    });
 }
 
 }  // namespace stereonav

@@ -17,6 +17,8 @@
 #include "app/view/session.h"
 #include "app/view/settings_history.h"
 #include "app/view/sweep.h"
+#include "app/view/view_display.h"
+#include "app/view/window_config.h"
 #include "engine/base/stopwatch.h"
 #include "engine/display/interface.h"
 #include "engine/display/stereo_presenter.h"
@@ -52,7 +54,11 @@ public:
     void set(const std::string& key, const std::optional<std::string>& text) override;
     void open(const std::string& scene) override;
     void quit() override { mWindow.close(); }
-    const std::vector<std::string>& recentFiles() const override { return mRecent; }
+    const std::vector<RecentFile>& recentFiles() const override { return mRecent.list(); }
+    Bookmarks* places() override { return mPlaces ? &*mPlaces : nullptr; }
+    void addPlace() override;
+    void goToPlace(const Bookmark& place) override;
+    std::shared_ptr<const SliceStudy> study() override;
     void saveScene(const std::filesystem::path& file) override;
     void copy(const std::string& text) override;
     bool canUndo() const override { return mSession && mHistory.canUndo(); }
@@ -77,6 +83,11 @@ private:
     bool actOnInterface(const ViewAction& action);
     void usePointer();
     void followWishes();
+    void takeStudy();
+    void readConfig();
+    void keepConfig();
+    void noteRecent();
+    void reportKept();
     void takeDrops();
     void load(const ViewOptions& options, bool another);
     void goTo(const SettingTexts& settings);
@@ -97,9 +108,10 @@ private:
 
     ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed in place since
     SettingTexts mGiven, mSaid;                 // what is shown was made of; what its scene file says
-    OutputMode mMode;
     std::optional<RecordedPath> mFlight;
     Window mWindow;
+    ViewDisplay mDisplay;
+    OutputMode mMode;
     std::unique_ptr<ViewSweep> mSweep;  // of media; before the scenes, which use it to their end
     StereoPresenter mPresenter;
     Interface mInterface;
@@ -110,7 +122,10 @@ private:
     Stopwatch mClock, mLoadingWatch;
     FrameRate mRate;
     std::deque<FrameCost> mCosts;
-    std::vector<std::string> mRecent;
+    WindowConfig mConfig;  // as it was read, and is kept at the end
+    RecentFiles mRecent;
+    std::optional<Bookmarks> mPlaces;
+    bool mRecentDue = false;  // the file that is shown goes among them with its first picture
     std::shared_ptr<const ViewFrame> mFrame;
     ComposeSetting mDrawn;
     PicturePlace mDrawnPlace;
@@ -120,7 +135,7 @@ private:
     std::shared_ptr<FactsWish> mFacts;
     std::optional<Made> mBefore;  // while another one is loaded
     SliceReading mSlices;
-    bool mNewFrame = false, mAnother = false, mWasBusy = false;
+    bool mNewFrame = false, mAnother = false, mWasBusy = false, mStudyFailed = false;
     std::optional<ViewSession> mSession;
     std::unique_ptr<ViewWorker> mWorker;  // after the window, whose wake() it calls until it has ended
 };

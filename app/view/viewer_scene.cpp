@@ -228,14 +228,31 @@ void Viewer::followWishes() {
         }
         mAnother = false;
     }
-    if (mSession->takeStudyWish()) mSlices.start(mScene, [] { Window::wake(); });
+    takeStudy();
+}
+
+void Viewer::takeStudy() {
+    if (mSession->takeStudyWish() && !mStudyFailed) mSlices.start(mScene, [] { Window::wake(); });
     try {
-        if (auto study = mSlices.take()) mSession->showSlices(std::move(study));
+        auto study = mSlices.take();
+        if (!study) return;
+        if (mSession->wantsSliceView())
+            mSession->showSlices(std::move(study));
+        else
+            mSession->keepStudy(std::move(study));
     } catch (const Cancelled&) {
+        mStudyFailed = true;
         mSession->notify("the slices were not read");
     } catch (const std::exception& error) {
+        mStudyFailed = true;
         mFailure = error.what();
     }
+}
+
+std::shared_ptr<const SliceStudy> Viewer::study() {
+    if (!mSession) return nullptr;
+    if (!mSession->study() && !mSlices.busy()) mSession->wishStudy();
+    return mSession->study();
 }
 
 }  // namespace stereonav

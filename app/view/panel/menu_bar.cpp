@@ -53,7 +53,9 @@ void scaleMenu(PanelHost& host) {
 void viewMenu(PanelHost& host, MenuWishes& wishes) {
     if (!ImGui::BeginMenu("View")) return;
     ImGui::MenuItem("Panels", "F2", wishes.side);
+    ImGui::MenuItem("Places, map and slices", "F3", wishes.left);
     if (ImGui::MenuItem("Picture alone", "Tab")) wishes.hideAll = true;
+    if (ImGui::MenuItem("Full screen", "F11")) host.act({ViewCommand::FullScreen});
     ImGui::Separator();
     InterfaceLook look = host.look();
     if (ImGui::MenuItem("Dark", nullptr, look.dark)) look.dark = true;
@@ -82,9 +84,12 @@ void stereoMenu(PanelHost& host) {
     ImGui::Separator();
     constexpr std::pair<OutputLayout, const char*> kLayouts[] = {
         {OutputLayout::OneEye, "One eye"},           {OutputLayout::SideBySide, "Side by side"},
-        {OutputLayout::TopBottom, "Top and bottom"}, {OutputLayout::Rows, "Rows"},
+        {OutputLayout::TopBottom, "Top and bottom"},
+                                                                  {OutputLayout::FramePacked, "HDMI frame packing"}, {OutputLayout::Rows, "Rows"},
         {OutputLayout::Columns, "Columns"},          {OutputLayout::Checkerboard, "Checkerboard"},
-        {OutputLayout::Anaglyph, "Coloured glasses"}};
+        {OutputLayout::Anaglyph, "Coloured glasses"},
+                                                                  {OutputLayout::FrameSequential, "Shutter glasses"},
+                                                                  {OutputLayout::QuadBuffer, "Quad buffer"}};
     for (const auto& [layout, name] : kLayouts)
         if (ImGui::BeginMenu(name)) {
             modeItems(host, layout);

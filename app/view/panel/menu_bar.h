@@ -8,7 +8,7 @@ namespace stereonav {
 // What menus switch of the interface itself.
 struct MenuWishes {
     bool openFile = false, saveScene = false, start = false, search = false, help = false, hideAll = false;
-    bool* side = nullptr;  // panels at the right
+    bool *side = nullptr, *left = nullptr;  // panels at the right; places, map and slices
 };
 
 // Its height in units of the interface.

@@ -4,9 +4,12 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "app/view/bookmarks.h"
+#include "app/view/recent_files.h"
 #include "app/view/session.h"
 #include "app/view/setting_texts.h"
 #include "engine/display/interface_theme.h"
@@ -43,12 +46,19 @@ public:
     virtual const std::string& failure() const = 0;
     virtual void forgetFailure() = 0;
 
+    // Places of this file; null before a scene is there.
+    virtual Bookmarks* places() = 0;
+    virtual void addPlace() = 0;
+    virtual void goToPlace(const Bookmark& place) = 0;
+    // What slices are of; asked for, it is read beside the frames. Null until then, or where there is none.
+    virtual std::shared_ptr<const SliceStudy> study() = 0;
+
     virtual void act(const ViewAction& action) = 0;
     // none: as it begins. Failures are told.
     virtual void set(const std::string& key, const std::optional<std::string>& text) = 0;
     virtual void open(const std::string& scene) = 0;  // a file, a folder, or a built-in scene's name
     virtual void quit() = 0;
-    virtual const std::vector<std::string>& recentFiles() const = 0;  // newest first
+    virtual const std::vector<RecentFile>& recentFiles() const = 0;  // newest first
     virtual void saveScene(const std::filesystem::path& file) = 0;
     virtual void copy(const std::string& text) = 0;
     virtual bool canUndo() const = 0;

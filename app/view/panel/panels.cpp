@@ -3,38 +3,53 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "app/view/input.h"
 #include "app/view/panel/controls.h"
 #include "app/view/panel/file_browser.h"
+#include "app/view/panel/map_panel.h"
 #include "app/view/panel/menu_bar.h"
+#include "app/view/panel/places_panel.h"
 #include "app/view/panel/search.h"
 #include "app/view/panel/side_panels.h"
+#include "app/view/panel/slices_panel.h"
 #include "app/view/panel/start_page.h"
+#include "app/view/panel/start_pictures.h"
 #include "app/view/panel/status_bar.h"
 
 namespace stereonav {
 namespace {
 
 // In letters' heights.
-constexpr float kSideWidth = 22, kNarrowest = 14;
-constexpr float kBeside = 56;  // as wide must the interface be for panels beside the picture
+constexpr float kNarrowest = 10;
+constexpr float kBeside = 56;   // as wide must the interface be for panels beside the picture
+constexpr float kPicture = 20;  // what is left for it at least
 constexpr ImGuiWindowFlags kPlainBox = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
 
 }  // namespace
 
 struct Panels::State {
-    bool hidden = false, side = false, help = false;
-    float sideWidth = kSideWidth;  // letters' heights
-    bool beside = true;            // panels take their room from the picture
-    float sideTaken = 0;           // units, at the right
+    // At a side of the picture.
+    struct Column {
+        bool shown = false;
+        float width = 22;  // letters' heights
+        float taken = 0;   // units, in the last layout
+    };
+    bool hidden = false, help = false;
+    Column left, side;
+    bool beside = true;  // columns take their room from the picture
+    MapPanel map;
+    PlacesPanel places;
+    SlicesPanel slices;
     SearchBox search;
     FileBrowser files;
     StartPage start;
 
     void drawHelp(PanelHost& host);
-    void drawSide(PanelHost& host, float top);
+    void drawColumn(Column& column, bool atRight, float top, const std::function<void()>& content);
+    void drawLeft(PanelHost& host);
 };
 
 Panels::Panels() : mState(std::make_unique<State>()) {}
@@ -68,39 +83,60 @@ void Panels::State::drawHelp(PanelHost& host) {
     ImGui::End();
 }
 
-void Panels::State::drawSide(PanelHost& host, float top) {
+void Panels::State::drawColumn(Column& column, bool atRight, float top, const std::function<void()>& content) {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
-    const float font = ImGui::GetFontSize();
-    const float most = std::max(whole.x - 8 * font, 4 * font);
-    const float width = std::min(sideWidth * font, most);
-    ImGui::SetNextWindowPos({whole.x - width, top});
-    ImGui::SetNextWindowSize({width, std::max(whole.y - top, 1.0f)});
-    ImGui::Begin("##side", nullptr, kPlainBox & ~ImGuiWindowFlags_NoScrollbar);
-    drawSidePanels(host);
+    const float font = ImGui::GetFontSize(), height = std::max(whole.y - top, 1.0f);
+    const float other = (atRight ? left : side).taken;
+    const float most = std::max((beside ? whole.x - other - kPicture * font : whole.x - 4 * font), 4 * font);
+    const float width = std::min(column.width * font, most);
+    ImGui::PushID(atRight);
+    ImGui::SetNextWindowPos({atRight ? whole.x - width : 0, top});
+    ImGui::SetNextWindowSize({width, height});
+    ImGui::Begin(atRight ? "##side" : "##left", nullptr, kPlainBox & ~ImGuiWindowFlags_NoScrollbar);
+    content();
     ImGui::End();
-    sideTaken = width;
-    // Its left border is dragged.
-    ImGui::SetNextWindowPos({whole.x - width - 0.25f * font, top});
-    ImGui::SetNextWindowSize({0.5f * font, std::max(whole.y - top, 1.0f)});
+    column.taken = width;
+    // Its inner border is dragged.
+    const float border = atRight ? whole.x - width : width;
+    ImGui::SetNextWindowPos({border - 0.25f * font, top});
+    ImGui::SetNextWindowSize({0.5f * font, height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-    ImGui::Begin("##border", nullptr, kPlainBox | ImGuiWindowFlags_NoBackground);
-    ImGui::InvisibleButton("##grip", {0.5f * font, std::max(whole.y - top, 1.0f)});
+    ImGui::Begin(atRight ? "##side border" : "##left border", nullptr, kPlainBox | ImGuiWindowFlags_NoBackground);
+    ImGui::InvisibleButton("##grip", {0.5f * font, height});
     if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-    if (ImGui::IsItemActive())
-        sideWidth = std::clamp(sideWidth - ImGui::GetIO().MouseDelta.x / font, kNarrowest, most / font);
+    if (ImGui::IsItemActive()) {
+        const float moved = ImGui::GetIO().MouseDelta.x / font;
+        column.width = std::clamp(width / font + (atRight ? -moved : moved), std::min(kNarrowest, most / font), most / font);
+    }
     ImGui::End();
     ImGui::PopStyleVar();
+    ImGui::PopID();
+}
+
+void Panels::State::drawLeft(PanelHost& host) {
+    ViewSession* const session = host.session();
+    if (!session) return quietText(host, "nothing is open yet");
+    const auto open = [](const char* label) {
+        return ImGui::CollapsingHeader(label, ImGuiTreeNodeFlags_DefaultOpen);
+    };
+    if (open("Places")) places.draw(host);
+    if (MapPanel::has(host) && open("Map")) map.draw(host);
+    if (session->open().scene->offered<SliceSource>() && open("Slices")) slices.draw(host);
 }
 
 void Panels::draw(PanelHost& host) {
     State& state = *mState;
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
-    state.sideTaken = 0;
+    state.left.taken = state.side.taken = 0;
     state.beside = whole.x >= kBeside * ImGui::GetFontSize();
-    float top = 0, bottom = 0;
+    float top = 0;
+    struct {
+        bool side;
+    } const before{state.side.shown};
     if (!state.hidden) {
         MenuWishes wishes;
-        wishes.side = &state.side;
+        wishes.side = &state.side.shown;
+        wishes.left = &state.left.shown;
         top = drawMenuBar(host, wishes);
         if (wishes.openFile) state.files.open(FileBrowser::For::Open);
         if (wishes.saveScene) state.files.open(FileBrowser::For::SaveScene);
@@ -108,20 +144,25 @@ void Panels::draw(PanelHost& host) {
         if (wishes.search) state.search.open();
         if (wishes.help) state.help = true;
         if (wishes.hideAll) state.hidden = true;
-        if (state.side) state.drawSide(host, top);
-        bottom = drawStatusBar(host, 0, state.sideTaken);
+        if (!state.beside && state.left.shown && state.side.shown) {
+            // Drawers: the one that was opened last.
+            (before.side ? state.side : state.left).shown = false;
+        }
+        if (state.left.shown) state.drawColumn(state.left, false, top, [&] { state.drawLeft(host); });
+        if (state.side.shown) state.drawColumn(state.side, true, top, [&] { drawSidePanels(host); });
+        drawStatusBar(host, state.left.taken, state.side.taken);
     }
-    (void)bottom;
     if (state.start.shown() && state.start.draw(host)) state.files.open(FileBrowser::For::Open);
     state.files.draw(host);
     state.search.draw(host);
     if (state.help) state.drawHelp(host);
-    drawNotices(host, 0, state.sideTaken, top);
+    drawNotices(host, state.left.taken, state.side.taken, top);
 }
 
 Panels::Rest Panels::rest(const glm::vec2& whole) const {
-    const float taken = mState->beside ? mState->sideTaken : 0;
-    return {{0, 0}, {std::max(whole.x - taken, 1.0f), whole.y}};
+    if (!mState->beside) return {{0, 0}, whole};
+    const float left = mState->left.taken, right = mState->side.taken;
+    return {{left, 0}, {std::max(whole.x - left - right, 1.0f), whole.y}};
 }
 
 void Panels::toggleAll() {
@@ -129,7 +170,13 @@ void Panels::toggleAll() {
 }
 void Panels::toggleSide() {
     mState->hidden = false;
-    mState->side = !mState->side;
+    mState->side.shown = !mState->side.shown;
+    if (!mState->beside && mState->side.shown) mState->left.shown = false;
+}
+void Panels::toggleLeft() {
+    mState->hidden = false;
+    mState->left.shown = !mState->left.shown;
+    if (!mState->beside && mState->left.shown) mState->side.shown = false;
 }
 void Panels::openSearch() {
     mState->search.open();
@@ -148,6 +195,39 @@ bool Panels::startShown() const {
 }
 void Panels::toggleHelp() {
     mState->help = !mState->help;
+}
+
+void Panels::setSide(bool shown, float width) {
+    mState->side.shown = shown;
+    mState->side.width = width / kInterfaceFontPixels;
+}
+void Panels::setLeft(bool shown, float width) {
+    mState->left.shown = shown;
+    mState->left.width = width / kInterfaceFontPixels;
+}
+bool Panels::sideShown() const {
+    return mState->side.shown;
+}
+bool Panels::leftShown() const {
+    return mState->left.shown;
+}
+float Panels::sideWidth() const {
+    return mState->side.width * kInterfaceFontPixels;
+}
+float Panels::leftWidth() const {
+    return mState->left.width * kInterfaceFontPixels;
+}
+void Panels::setFolder(const std::filesystem::path& folder) {
+    mState->files.startIn(folder);
+}
+const std::filesystem::path& Panels::folder() const {
+    return mState->files.folder();
+}
+void Panels::forget() {
+    mState->map.forget();
+    mState->places.forget();
+    mState->slices.forget();
+    forgetStartPictures();
 }
 
 bool Panels::closeOne() {

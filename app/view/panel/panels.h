@@ -2,6 +2,7 @@
 // At widths that have no room for panels beside the picture they are drawers over it.
 #pragma once
 
+#include <filesystem>
 #include <glm/vec2.hpp>
 #include <memory>
 
@@ -25,12 +26,23 @@ public:
 
     void toggleAll();   // hides everything, or shows it again
     void toggleSide();  // panels at the right
+    void toggleLeft();  // places, map, slices
     void openSearch();
     void openFiles();
     void openSave();
     void showStart(bool shown);
     bool startShown() const;
     void toggleHelp();
+    void setSide(bool shown, float width);  // pixels at scale 1
+    void setLeft(bool shown, float width);
+    bool sideShown() const;
+    bool leftShown() const;
+    float sideWidth() const;
+    float leftWidth() const;
+    void setFolder(const std::filesystem::path& folder);  // where files are looked for
+    const std::filesystem::path& folder() const;
+    void forget();  // what belongs to the window's context, while it is there
+
     // Closes the topmost of what can be closed; false: there is nothing.
     bool closeOne();
 

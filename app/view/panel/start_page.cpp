@@ -69,9 +69,12 @@ bool StartPage::draw(PanelHost& host) {
     const auto& recent = host.recentFiles();
     for (std::size_t n = 0; n < std::min<std::size_t>(recent.size(), 8); ++n) {
         ImGui::PushID(static_cast<int>(n));
-        if (ImGui::Selectable(recent[n].c_str())) {
+        const std::string path = recent[n].path.string();
+        if (std::find_if(std::begin(kCards), std::end(kCards), [&](const Card& card) { return path == card.scene; }) ==
+                std::end(kCards) &&
+            ImGui::Selectable(path.c_str())) {
             mShown = false;
-            host.open(recent[n]);
+            host.open(path);
         }
         ImGui::PopID();
     }

@@ -1,0 +1,64 @@
+#include "app/view/panel/places_panel.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "app/view/panel/controls.h"
+#include "engine/base/error.h"
+#include "engine/image/image_file.h"
+
+namespace stereonav {
+
+void PlacesPanel::draw(PanelHost& host) {
+    ViewSession* const session = host.session();
+    Bookmarks* const places = host.places();
+    if (!session || !places) return;
+    if (ImGui::Button("Home")) host.act({ViewCommand::Home});
+    tooltip("Back to the start. Key: Space");
+    ImGui::SameLine();
+    if (ImGui::Button("+ Add")) host.addPlace();
+    tooltip("Keeps this place, for this file. Key: Ctrl+B");
+    if (places->list().empty()) quietText(host, "No places yet: + keeps the one that is shown.");
+    // A copy: what is pressed changes the list.
+    const std::vector<Bookmark> list = places->list();
+    for (const Bookmark& place : list) drawPlace(host, *places, place);
+}
+
+void PlacesPanel::drawPlace(PanelHost& host, Bookmarks& places, const Bookmark& place) {
+    ImGui::PushID(place.name.c_str());
+    const float font = ImGui::GetFontSize(), width = 4.6f * font;
+    if (!place.thumbnail.empty()) {
+        PanelTexture& picture = mPictures[place.thumbnail.string()];
+        if (!picture.any()) try {
+                picture.set(readColorImage(place.thumbnail), true);
+            } catch (const Error&) {
+                picture.set(Plane<PackedColor>(1, 1), true);  // it is gone: grey
+            }
+        if (ImGui::ImageButton(picture.id(), {width, width * kThumbnailHeight / kThumbnailWidth}, {0, 0}, {1, 1}, 0))
+            host.goToPlace(place);
+        tooltip("Fly there.");
+        ImGui::SameLine();
+    }
+    ImGui::BeginGroup();
+    if (mRenaming == place.name) {
+        ImGui::SetNextItemWidth(-FLT_MIN);
+        const bool done = ImGui::InputText("##name", &mName, ImGuiInputTextFlags_EnterReturnsTrue);
+        if (done || ImGui::IsItemDeactivated()) {
+            if (!mName.empty() && mName != place.name) places.rename(place.name, mName);
+            mRenaming.clear();
+        }
+    } else {
+        ImGui::TextUnformatted(place.name.c_str());
+    }
+    if (ImGui::SmallButton("Go")) host.goToPlace(place);
+    tooltip("Fly there.");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Rename")) mRenaming = mName = place.name;
+    ImGui::SameLine();
+    if (ImGui::SmallButton("\u2715")) places.remove(place.name);
+    tooltip("Removes this place.");
+    ImGui::EndGroup();
+    ImGui::PopID();
+}
+
+}  // namespace stereonav

@@ -1,0 +1,37 @@
+// Three slices through a study, linked at one place: the eye's while one flies, or where one clicked.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "app/view/panel/panel_host.h"
+#include "app/view/panel/panel_texture.h"
+#include "app/view/slice_picture.h"
+#include "engine/scene/slices.h"
+
+namespace stereonav {
+
+class SlicesPanel {
+public:
+    void draw(PanelHost& host);
+    void forget();
+
+private:
+    struct View {
+        PanelTexture texture;
+        glm::dvec3 cross{0.0}, eye{0.0};  // that it was drawn with
+        int width = 0, height = 0, slice = -1;
+        double zoom = 0;
+        double window = 0, level = 0;
+    };
+    void drawView(ViewSession& session, const SliceStudy& study, SliceAxis axis);
+    void windowControls(const SliceStudy& study);
+
+    std::weak_ptr<const SliceStudy> mStudy;
+    std::array<View, 3> mViews;
+    glm::dvec3 mCross{0.0};
+    bool mFollows = true;  // the cross goes with the eye
+    double mWindow = 1500, mLevel = -200, mZoom = 1;
+};
+
+}  // namespace stereonav

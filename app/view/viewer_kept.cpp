@@ -1,0 +1,88 @@
+// The viewer's part that is kept for the user between runs: places, recent files, how the window was left.
+#include <algorithm>
+#include <filesystem>
+
+#include "app/view/live_settings.h"
+#include "app/view/viewer.h"
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+constexpr const char* kSidePanels = "side";
+constexpr const char* kLeftPanels = "left";
+
+bool contains(const std::vector<std::string>& names, const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// In full, so that it is found from anywhere; built-in scenes by their names.
+std::filesystem::path fullName(const std::string& scene) {
+    std::error_code code;
+    if (scene.empty()) return "terrain";
+    return std::filesystem::exists(scene, code) ? std::filesystem::absolute(scene, code).lexically_normal()
+                                                : std::filesystem::path(scene);
+}
+
+}  // namespace
+
+void Viewer::readConfig() {
+    const ReadConfig read = readWindowConfig();
+    mConfig = read.config;
+    mFailure = read.problem;
+    InterfaceLook look = mInterface.look();
+    look.dark = mConfig.theme != "light";
+    if (mConfig.scale) look.scale = static_cast<float>(*mConfig.scale);
+    mInterface.setLook(look);
+    mPanels.setSide(contains(mConfig.openPanels, kSidePanels), static_cast<float>(mConfig.rightWidth));
+    mPanels.setLeft(contains(mConfig.openPanels, kLeftPanels), static_cast<float>(mConfig.leftWidth));
+    mPanels.setFolder(mConfig.lastFolder);
+}
+
+// Nothing is written where nothing was changed.
+void Viewer::keepConfig() {
+    WindowConfig config = mConfig;
+    const InterfaceLook& look = mInterface.look();
+    config.theme = look.dark ? "dark" : "light";
+    if (mConfig.scale || look.scale != mWindow.contentScale()) config.scale = look.scale;
+    config.rightWidth = mPanels.sideWidth();
+    config.leftWidth = mPanels.leftWidth();
+    config.openPanels.clear();
+    if (mPanels.sideShown()) config.openPanels.emplace_back(kSidePanels);
+    if (mPanels.leftShown()) config.openPanels.emplace_back(kLeftPanels);
+    config.lastFolder = mPanels.folder();
+    if (!(config == mConfig)) writeWindowConfig(config);
+}
+
+// With the first picture that was made of it.
+void Viewer::noteRecent() {
+    if (!mRecentDue || mBefore) return;
+    mRecentDue = false;
+    mRecent.add(fullName(mOptions.scene.scene), "", &mFrame->left.color);
+    reportKept();
+}
+
+void Viewer::reportKept() {
+    for (const std::string& problem : {mRecent.takeProblem(), mPlaces ? mPlaces->takeProblem() : std::string()})
+        if (!problem.empty()) mFailure = problem;
+}
+
+void Viewer::addPlace() {
+    if (!mSession || !mPlaces) return;
+    tryTo([&] {
+        Bookmark place;
+        place.pose = mSession->pose();
+        if (!mSession->followsClearance()) place.stereo = mSession->stereo();
+        const std::string name = mPlaces->add(place, mFrame ? &mFrame->left.color : nullptr);
+        mSession->notify("kept as " + name);
+    });
+    reportKept();
+}
+
+void Viewer::goToPlace(const Bookmark& place) {
+    if (!mSession) return;
+    mSession->flyTo(place.pose);
+    if (place.stereo && !mSession->followsClearance()) mSession->setEyes(*place.stereo);
+}
+
+}  // namespace stereonav
