@@ -79,12 +79,12 @@ bool hasDisplay() {
     }
 }
 
-Window::Window(const std::string& title, int width, int height, bool visible) {
+Window::Window(const std::string& title, int width, int height, bool visible, bool quadBuffer) {
     if (!environmentNamesDisplay())
         throw displayError("there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
     if (!glfwInit()) throw displayError("the display can not be used: " + lastProblem());
     try {
-        open(title, width, height, visible);
+        open(title, width, height, visible, quadBuffer);
     } catch (...) {
         if (mHandle) glfwDestroyWindow(mHandle);
         glfwTerminate();
@@ -92,7 +92,7 @@ Window::Window(const std::string& title, int width, int height, bool visible) {
     }
 }
 
-void Window::open(const std::string& title, int width, int height, bool visible) {
+void Window::open(const std::string& title, int width, int height, bool visible, bool quadBuffer) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -101,11 +101,22 @@ void Window::open(const std::string& title, int width, int height, bool visible)
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_VISIBLE, visible ? GLFW_TRUE : GLFW_FALSE);
     const auto [fitWidth, fitHeight] = fitted(width, height);
-    mHandle = glfwCreateWindow(fitWidth, fitHeight, title.c_str(), nullptr, nullptr);
+    if (quadBuffer) {
+        glfwWindowHint(GLFW_STEREO, GLFW_TRUE);
+        mHandle = glfwCreateWindow(fitWidth, fitHeight, title.c_str(), nullptr, nullptr);
+        glfwWindowHint(GLFW_STEREO, GLFW_FALSE);  // of no other window
+    }
+    mQuadBuffered = mHandle != nullptr;
+    if (!mHandle) mHandle = glfwCreateWindow(fitWidth, fitHeight, title.c_str(), nullptr, nullptr);
     if (!mHandle) throw displayError("no window with OpenGL 3.3 can be opened: " + lastProblem());
     glfwSetWindowSizeLimits(mHandle, kSmallestWindow, kSmallestWindow, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwMakeContextCurrent(mHandle);
     glfwSwapInterval(1);
+    if (mQuadBuffered) {  // what was asked for is not always what was given
+        GLboolean stereo = GL_FALSE;
+        glGetBooleanv(GL_STEREO, &stereo);
+        mQuadBuffered = stereo == GL_TRUE;
+    }
     installCallbacks();
 }
 
@@ -255,19 +266,43 @@ void Window::swapBuffers() {
     glfwSwapBuffers(mHandle);
 }
 
+double Window::swapTimed() {
+    glfwSwapBuffers(mHandle);
+    glFinish();  // drivers return before the swap is done, some of them several swaps before
+    return glfwGetTime();
+}
+
+double Window::now() {
+    return glfwGetTime();
+}
+
 glm::ivec2 Window::framebufferSize() const {
     glm::ivec2 size(0);
     if (!minimised()) glfwGetFramebufferSize(mHandle, &size.x, &size.y);
     return size;
 }
 
+ScreenRect Window::place() const {
+    ScreenRect place;
+    glfwGetWindowPos(mHandle, &place.x, &place.y);
+    glfwGetWindowSize(mHandle, &place.width, &place.height);
+    return place;
+}
+
 glm::ivec2 Window::framebufferOrigin() const {
-    int x = 0, y = 0, width = 0, height = 0, pixels = 0, rows = 0;
-    glfwGetWindowPos(mHandle, &x, &y);
-    glfwGetWindowSize(mHandle, &width, &height);
+    if (fullScreen()) return {0, 0};
+    const ScreenRect window = place();
+    int pixels = 0, rows = 0;
     glfwGetFramebufferSize(mHandle, &pixels, &rows);
-    const double scale = width > 0 ? static_cast<double>(pixels) / width : 1.0;
-    return {static_cast<int>(std::lround(x * scale)), static_cast<int>(std::lround(y * scale))};
+    const double scale = window.width > 0 ? static_cast<double>(pixels) / window.width : 1.0;
+    const std::vector<Monitor> all = monitors();
+    const auto under = monitorUnder(all, window);
+    return placeOnMonitor(window, under ? all[*under] : Monitor{}, scale);
+}
+
+void Window::toggleFullScreen() {
+    if (fullScreen()) return leaveFullScreen();
+    enterFullScreen(monitorUnder(monitors(), place()).value_or(0));
 }
 
 float Window::contentScale() const {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/display/full_screen.h"
+
 struct GLFWwindow;
 
 namespace stereonav {
@@ -48,8 +50,9 @@ public:
 class Window {
 public:
     // width, height in screen units, each cut to the monitor's free area. Throws
-    // Error where there is no display or no OpenGL 3.3.
-    Window(const std::string& title, int width, int height, bool visible = true);
+    // Error where there is no display or no OpenGL 3.3. quadBuffer: asks the driver for a back buffer for
+    // each eye; where it refuses, the window has one for both.
+    Window(const std::string& title, int width, int height, bool visible = true, bool quadBuffer = false);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
@@ -60,12 +63,23 @@ public:
     // Ends a wait of handleEvents early; from any thread.
     static void wake();
     void swapBuffers();
+    // Swaps, waits until that is done, and says when: seconds of a steady clock.
+    double swapTimed();
+    static double now();  // of the same clock
+    bool quadBuffered() const { return mQuadBuffered; }
 
     glm::ivec2 framebufferSize() const;    // pixels; 0 x 0 while minimised
-    glm::ivec2 framebufferOrigin() const;  // the top left pixel on the screen
+    glm::ivec2 framebufferOrigin() const;  // the top left pixel, from the first one of the monitor it is on
     float contentScale() const;            // 2 on a display with twice the usual density
     bool minimised() const;
     bool redrawNeeded();  // resized or uncovered since the last call
+
+    ScreenRect place() const;  // without its frame
+    // Over a whole monitor, of those of monitors(); throws Error where there is no such one.
+    void enterFullScreen(std::size_t monitor) { mFullScreen.enter(mHandle, monitor); }
+    void leaveFullScreen() { mFullScreen.leave(mHandle); }
+    bool fullScreen() const { return FullScreen::on(mHandle); }
+    void toggleFullScreen();  // on the monitor that the window is on
 
     bool keyDown(int key) const;
     std::vector<KeyPress> takeKeys();
@@ -88,7 +102,7 @@ public:
     GLFWwindow* handle() const { return mHandle; }
 
 private:
-    void open(const std::string& title, int width, int height, bool visible);
+    void open(const std::string& title, int width, int height, bool visible, bool quadBuffer);
     void installCallbacks();
     void onPointer(double x, double y);
     void onButton(int button, bool pressed);
@@ -96,6 +110,8 @@ private:
     glm::dvec2 shareOf(const glm::dvec2& place) const;  // of the window's size, of screen units
 
     GLFWwindow* mHandle = nullptr;
+    FullScreen mFullScreen;
+    bool mQuadBuffered = false;
     std::vector<KeyPress> mKeys;
     double mWheel = 0;
     glm::dvec2 mDrag{0.0}, mPointer{0.0};

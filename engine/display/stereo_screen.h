@@ -1,0 +1,55 @@
+// What parallax is on the real screen: millimetres, and degrees as the eyes see them. Parallax in pictures is
+// a share of their width; whether eyes can follow it depends on how wide the picture stands before them.
+// No OpenGL.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/image/stereo_compose.h"
+
+namespace stereonav {
+
+// As far as the eyes of adults stand apart: parallax behind the screen that is larger would have them turn
+// outwards.
+constexpr double kEyeDistance = 0.065;    // metres
+constexpr double kDeskScreenWidth = 0.5;  // metres, of a screen that tells no size
+constexpr double kViewingDistance = 0.6;  // metres
+
+struct StereoScreen {
+    double width = kDeskScreenWidth;     // metres, all of it, > 0
+    double distance = kViewingDistance;  // metres, > 0
+};
+
+// The screen's width as its maker states it, metres; kDeskScreenWidth where that is no size of a screen:
+// nothing, less than a telephone's, or of another shape than its pixels (projectors state an aspect ratio).
+double statedWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh);
+
+// How much of the window's width one eye's picture takes before the viewer: the half of it in full side by
+// side; all of it where the display stretches it again (half side by side) and in every other mode.
+double eyeShareOf(OutputMode mode);
+
+// Of one thing: negative before the screen, positive behind it.
+struct ScreenParallax {
+    double millimetres = 0;
+    double degrees = 0;     // of visual angle, between its places for the two eyes
+    bool diverges = false;  // behind the screen by more than the eyes' distance
+};
+
+// parallax: share of the eye's picture; pictureWidth: of that picture, metres on the screen. All zero where
+// one of them is no number or the width is not more than 0.
+ScreenParallax onScreen(double parallax, double pictureWidth, double distance);
+
+// Metres on the screen of an eye's picture in a window of so many pixels on a screen of so many.
+double pictureWidth(const StereoScreen& screen, OutputMode mode, int windowPixels, int screenPixels);
+
+// The share of the picture's width that is kEyeDistance on the screen: no parallax may be larger. 0 where the
+// width is not more than 0.
+double largestShare(double pictureWidth);
+
+// "on the screen -3.2 to +8.1 mm, -0.31 to +0.77 degrees"; "" where nothing is known.
+std::string screenParallaxText(const ScreenParallax& nearest, const ScreenParallax& farthest);
+// "" unless the farthest thing diverges.
+std::string divergenceText(const ScreenParallax& farthest);
+
+}  // namespace stereonav
