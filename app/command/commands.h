@@ -178,6 +178,8 @@ struct ViewOptions {
     std::string shots;  // folder for screenshots and recorded flights; "": the present one
     SweepChoice sweep = SweepChoice::Auto;  // of a medium
     bool startPage = false;                 // over the scene, at first
+    std::string fullScreen;                 // "": a window; auto, a monitor's number, or part of its name
+    std::optional<double> screenWidth_mm, viewingDistance_mm;  // none: as the monitor tells, and usual
 };
 int runView(const ViewOptions& options);
 

@@ -28,7 +28,15 @@ void takeOut(OptionTargets& to, const OptionValue& value) {
 
 std::optional<ValueProblem> problemOfMode(const std::string& text) {
     if (outputModeFromName(text)) return std::nullopt;
-    return ValueProblem{"there is no output mode \"" + text + "\"", "the modes are " + outputModeNames()};
+    return ValueProblem{"there is no output mode \"" + text + "\"", "the modes are " + outputModeNames(true)};
+}
+
+std::optional<ValueProblem> problemOfFileMode(const std::string& text) {
+    const std::optional<OutputMode> mode = outputModeFromName(text);
+    const std::string modes = "the modes are " + outputModeNames(false);
+    if (!mode) return ValueProblem{"there is no output mode \"" + text + "\"", modes};
+    if (fitsInPicture(*mode)) return std::nullopt;
+    return ValueProblem{text + " shows one eye after the other, which view alone can", modes};
 }
 
 }  // namespace
@@ -89,9 +97,42 @@ std::vector<Option> viewOptions() {
          .take = takeMethod},
         {.key = "mode",
          .value = textValue().checked(problemOfMode),
+         .help =
+             "how two eyes are shown: ml, mr, sbsl, sbsr, tbl, irl, arcd, ...; al, ar: by turns, for shutter "
+             "glasses that follow a monitor of 100 Hz or more; quad: by the driver",
+         .fallback = "sbsl",
+         .commands = kView,
+         .take = takeMode},
+        {.key = "full-screen",
+         .value = textValue().checked([](const std::string& text) {
+             return text.empty() ? std::optional(ValueProblem{"expected a monitor, got \"\"", "try auto"})
+                                 : std::nullopt;
+         }),
+         .help = "over a whole monitor: auto, the one that the window is on; its number, or part of its name",
+         .advice = "try auto",
+         .commands = kView,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.view->fullScreen = value.text; }},
+        {.key = "screen-width",
+         .value = numberValue(above(0, 1e5, "mm")),
+         .help = "of the whole monitor or projection, for parallax in millimetres",
+         .advice = "leave it out for what the monitor tells",
+         .fallback = "what the monitor tells, or 500",
+         .commands = kView,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.view->screenWidth_mm = value.number(); }},
+        {.key = "viewing-distance",
+         .value = numberValue(above(0, 1e6, "mm")),
+         .help = "from the eyes to the screen, for parallax in degrees",
+         .advice = "600 is usual at a desk",
+         .fallback = "600",
+         .commands = kView,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.view->viewingDistance_mm = value.number(); }},
+        {.key = "mode",
+         .value = textValue().checked(problemOfFileMode),
          .help = "how two eyes become one picture: ml, mr, sbsl, sbsr, tbl, irl, arcd, ...",
          .fallback = "sbsl",
-         .commands = kRender | kPlay | kView,
+         .commands = kRender | kPlay,
          .rules = {{[](const Asked& asked) {
                         return asked.has("hash") && !asked.has("out") && !asked.has("video");
                     },

@@ -20,6 +20,8 @@ std::optional<ViewAction> actionOfKey(int key) {
             return ViewAction{ViewCommand::Quit};
         case GLFW_KEY_F1:
             return ViewAction{ViewCommand::Help};
+        case GLFW_KEY_F11:
+            return ViewAction{ViewCommand::FullScreen};
         case GLFW_KEY_F12:
             return ViewAction{ViewCommand::Screenshot};
         case GLFW_KEY_SPACE:
@@ -219,6 +221,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"3", "stereo on, off", does(ToggleStereo)},
         {"M", "next output mode", does(NextMode)},
         {"Shift+M", "previous output mode", does(PreviousMode)},
+        {"F11", "the whole screen, or a window", does(FullScreen)},
         {"1", "side by side", ViewAction{SetMode, OutputMode::SideBySide}},
         {"2", "side by side, cross-eyed", ViewAction{SetMode, OutputMode::CrossEyed}},
         {"4", "side by side, half width", ViewAction{SetMode, OutputMode::SideBySideHalf}},
@@ -258,6 +261,10 @@ glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place) {
     const auto half = [](double share) { return share < 0.5 ? 2 * share : 2 * share - 1; };
     if (layout == OutputLayout::SideBySide) return {half(place.x), place.y};
     if (layout == OutputLayout::TopBottom) return {place.x, half(place.y)};
+    if (layout == OutputLayout::FramePacked) {
+        const double below = place.y - (1 - kPackedEye);
+        return {place.x, std::min(below < 0 ? place.y : below, static_cast<double>(kPackedEye)) / kPackedEye};
+    }
     return place;
 }
 

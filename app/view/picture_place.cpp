@@ -8,22 +8,25 @@
 namespace stereonav {
 namespace {
 
-// How many parts there are along each axis.
+// How many parts there are along each axis; of frame-packed ones two, with a gap between them.
 glm::ivec2 partsOf(OutputLayout layout) {
-    return {layout == OutputLayout::SideBySide ? 2 : 1, layout == OutputLayout::TopBottom ? 2 : 1};
+    return {layout == OutputLayout::SideBySide ? 2 : 1, 
+            layout == OutputLayout::TopBottom || layout == OutputLayout::FramePacked ? 2 : 1};
 }
 
 }  // namespace
 
 InterfacePlaces interfacePlaces(const OutputModeInfo& mode) {
     const glm::ivec2 parts = partsOf(mode.layout);
-    const glm::vec2 share = 1.0f / glm::vec2(parts);
+    const bool packed = mode.layout == OutputLayout::FramePacked;
+    const glm::vec2 share = packed ? glm::vec2(1, kPackedEye) : 1.0f / glm::vec2(parts);
+    const glm::vec2 step = packed ? 1.0f - share : share;
     InterfacePlaces places;
     places.areas.clear();
     for (int y = 0; y < parts.y; ++y)
         for (int x = 0; x < parts.x; ++x)
             places.areas.push_back(
-                {static_cast<float>(x) * share.x, static_cast<float>(y) * share.y, share.x, share.y});
+                {static_cast<float>(x) * step.x, static_cast<float>(y) * step.y, share.x, share.y});
     if (!mode.half) places.size = share;
     return places;
 }
@@ -31,7 +34,8 @@ InterfacePlaces interfacePlaces(const OutputModeInfo& mode) {
 PicturePlace picturePlace(const OutputModeInfo& mode, const glm::ivec2& window, const Panels::Rest& rest,
                           const glm::vec2& units) {
     PicturePlace place;
-    place.part = glm::max(window / partsOf(mode.layout), glm::ivec2(1));
+    const EyeArea part = eyeAreas(mode.mode, window.x, window.y)[0];
+    place.part = glm::max(glm::ivec2(part.width, part.height), glm::ivec2(1));
     const glm::vec2 scale = glm::vec2(place.part) / glm::max(units, glm::vec2(1));
     place.corner = glm::ivec2(glm::round(rest.corner * scale));
     place.corner = glm::min(place.corner, place.part - 1);
@@ -41,7 +45,9 @@ PicturePlace picturePlace(const OutputModeInfo& mode, const glm::ivec2& window, 
 }
 
 glm::ivec2 composedAt(const OutputModeInfo& mode, const PicturePlace& place) {
-    return place.size * partsOf(mode.layout);
+    if (mode.layout != OutputLayout::FramePacked) return place.size * partsOf(mode.layout);
+    const auto [width, height] = composedSize(mode.mode, place.size.x, place.size.y);
+    return {width, height};
 }
 
 SizeOption eyeSizeAt(const OutputModeInfo& mode, const PicturePlace& place) {

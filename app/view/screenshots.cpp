@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "app/view/mode_steps.h"
 #include "engine/image/image_file.h"
 
 namespace stereonav {
@@ -35,7 +36,8 @@ std::string Screenshots::report() {
 }
 
 void Screenshots::save(std::shared_ptr<const void> owner, const Plane<PackedColor>& left,
-                       const Plane<PackedColor>& right, const ComposeSetting& setting) {
+                       const Plane<PackedColor>& right, const ComposeSetting& shown) {
+    const ComposeSetting setting = pictureSetting(shown);
     std::filesystem::path file;
     do file = mFolder / fmt::format("stereonav_{:04}_{}.png", ++mNumber, infoOf(setting.mode).shortName);
     while (std::filesystem::exists(file));

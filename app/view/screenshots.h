@@ -29,7 +29,7 @@ public:
 private:
     // left, right: kept by `owner`.
     void save(std::shared_ptr<const void> owner, const Plane<PackedColor>& left,
-              const Plane<PackedColor>& right, const ComposeSetting& setting);
+              const Plane<PackedColor>& right, const ComposeSetting& shown);
 
     std::filesystem::path mFolder;
     int mNumber = 0;

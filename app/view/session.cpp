@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/output/length_text.h"
+#include "app/view/mode_steps.h"
 #include "app/view/status.h"
 #include "engine/base/error.h"
 
@@ -59,6 +60,7 @@ ViewSession::ViewSession(std::shared_ptr<const OpenScene> scene, const Options& 
       mSun(mScene->sun),
       mMode(options.mode),
       mFirstMode(options.mode),
+      mQuadBuffer(options.quadBuffer),
       mMethod(mScene->way.method),
       mModel(mScene->model) {
     takeSurface();
@@ -155,6 +157,8 @@ bool ViewSession::actOnStereo(const ViewAction& action) {
             stepMode(-1);
             return true;
         case ViewCommand::SetMode:
+            if (action.mode == OutputMode::QuadBuffer && !mQuadBuffer)
+                return notify("this window has no buffer for each eye: start with --mode quad"), true;
             mMode = action.mode;
             stepMode(0);
             return true;
@@ -216,8 +220,7 @@ void ViewSession::actOnFlight(const ViewAction& action) {
 // --- modes
 
 void ViewSession::stepMode(int by) {
-    const int count = static_cast<int>(outputModes().size());
-    mMode = static_cast<OutputMode>((static_cast<int>(mMode) + by + count) % count);
+    mMode = steppedMode(mMode, by, mFirstMode);
     notify(fmt::format("{} ({})", infoOf(mMode).longName, infoOf(mMode).shortName));
 }
 

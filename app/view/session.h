@@ -72,6 +72,7 @@ enum class ViewCommand {
     HigherSun,
     SunAnticlockwise,
     SunClockwise,
+    FullScreen,  // the window's own, which the session does not see
 };
 
 struct ViewAction {
@@ -93,6 +94,7 @@ public:
         OutputMode mode = OutputMode::SideBySide;
         std::optional<RecordedPath> path;  // what Play plays before anything is recorded
         std::filesystem::path folder;      // for recorded flights
+        bool quadBuffer = false;           // whether the window has one
     };
     ViewSession(std::shared_ptr<const OpenScene> scene, const Options& options);
 
@@ -239,6 +241,7 @@ private:
     bool mStudyWished = false;
     int mSliceWidth = 1, mSliceHeight = 1;  // pixels of the last slice picture
     OutputMode mMode, mFirstMode;
+    bool mQuadBuffer = false;  // whether the window has one
     std::string_view mMethod;
     int mModel = 0;
     std::optional<double> mFov;  // radians; none: the scene's

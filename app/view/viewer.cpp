@@ -48,10 +48,13 @@ Viewer::Viewer(const ViewOptions& options)
     : mOptions(options),
       mGiven(settingTextsOf(options.scene.given)),
       mSaid(fileTextsOf(options.scene.given)),
-      mMode(options.mode),
       mFlight(options.path.empty() ? std::nullopt : std::optional(readPath(options.path))),
-      mWindow(titleOf(options.scene), composedSize(mMode, options.size.width, options.size.height).first,
-              composedSize(mMode, options.size.width, options.size.height).second),
+      mWindow(titleOf(options.scene),
+              composedSize(options.mode, options.size.width, options.size.height).first,
+              composedSize(options.mode, options.size.width, options.size.height).second, true,
+              ViewDisplay::wantsQuadBuffer(options)),
+      mDisplay(mWindow, options),
+      mMode(mDisplay.mode()),
       mInterface(mWindow),
       mScreenshots(options.shots) {
     if (shownAs(options.scene).swept) mSweep = std::make_unique<ViewSweep>(options.sweep);
@@ -84,6 +87,7 @@ void Viewer::run() {
 
 double Viewer::waitSeconds() const {
     if (mWindow.minimised()) return kIdleWait;
+    if (const auto turn = mDisplay.wait()) return *turn;
     const bool flows =
         mSession && (mSession->moving() || mWindow.gamepad().present || mScreenshots.waiting());
     return flows || mInterface.active() || mPanels.startShown() ? kActiveWait : kIdleWait;
@@ -101,7 +105,7 @@ void Viewer::takeScene() {
     if (!loading.busy) mBefore.reset();
     if (mSession && !mAnother) return mSession->replaceScene(mScene);
     const bool first = !mSession;
-    mSession.emplace(mScene, ViewSession::Options{mMode, mFlight, mOptions.shots});
+    mSession.emplace(mScene, ViewSession::Options{mMode, mFlight, mOptions.shots, mWindow.quadBuffered()});
     mSession->continueVersions(mAsked);
     mAnother = false;
     mCosts.clear();
@@ -148,6 +152,9 @@ bool Viewer::actOnInterface(const ViewAction& action) {
             return true;
         case ViewCommand::SaveScene:
             if (mSession) mPanels.openSave();
+            return true;
+        case ViewCommand::FullScreen:
+            mDisplay.toggleFullScreen();
             return true;
         case ViewCommand::Undo:
             undo();
@@ -227,6 +234,7 @@ void Viewer::takeFrame() {
     if (!mSession->slicesShown() && mSliceVersion != 0) endSlices();
     reportScreenshots();
     reportSweep();
+    reportDisplay();
 }
 
 void Viewer::takeSlice() {
@@ -253,6 +261,16 @@ void Viewer::reportSweep() {
     if (!mFrame || mFrame->sweep.empty() || mFrame->sweep == mSwept) return;
     mSwept = mFrame->sweep;
     tell(mSwept);
+}
+
+void Viewer::reportDisplay() {
+    const std::string notice = mDisplay.takeNotice();
+    if (!notice.empty()) mSession->notify(notice);
+    tell(notice);
+}
+
+ScreenWords Viewer::onScreen(const ViewFrame& frame) const {
+    return {mDisplay.parallaxText(frame), mDisplay.warning(frame)};
 }
 
 void Viewer::reportScreenshots() {
@@ -308,7 +326,7 @@ void Viewer::draw(double dt) {
     const bool laidOut = mInterface.layOut(interfacePlaces(mode), dt, [this] { mPanels.draw(*this); });
     const PicturePlace place = placeFor(mode);
     const bool same = setting == mDrawn && place == mDrawnPlace && !mNewFrame && !laidOut;
-    if (!mWindow.redrawNeeded() && same) return;
+    if (!mWindow.redrawNeeded() && same && !ViewDisplay::alternates(setting)) return;
     mNewFrame = false;
     mDrawn = setting;
     mDrawnPlace = place;
@@ -319,15 +337,16 @@ void Viewer::show(const ComposeSetting& setting) {
     const SizeOption size = windowSize();
     const glm::ivec2 origin = mWindow.framebufferOrigin();
     const PicturePlace& place = mDrawnPlace;
-    glDisable(GL_SCISSOR_TEST);
-    glViewport(0, 0, size.width, size.height);
-    glClearColor(0, 0, 0, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
     const PartInset inset{place.corner.x, place.corner.y, place.part.x - place.corner.x - place.size.x,
                           place.part.y - place.corner.y - place.size.y};
-    mPresenter.draw(setting, {0, 0, size.width, size.height}, origin.x, origin.y, inset);
-    mInterface.render();
-    mWindow.swapBuffers();
+    mDisplay.draw(setting, [&](const ComposeSetting& one) {
+        glDisable(GL_SCISSOR_TEST);
+        glViewport(0, 0, size.width, size.height);
+        glClearColor(0, 0, 0, 1);
+        glClear(GL_COLOR_BUFFER_BIT);
+        mPresenter.draw(one, {0, 0, size.width, size.height}, origin.x, origin.y, inset);
+        mInterface.render();
+    });
 }
 
 }  // namespace stereonav

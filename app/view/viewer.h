@@ -17,6 +17,7 @@
 #include "app/view/session.h"
 #include "app/view/settings_history.h"
 #include "app/view/sweep.h"
+#include "app/view/view_display.h"
 #include "engine/base/stopwatch.h"
 #include "engine/display/interface.h"
 #include "engine/display/stereo_presenter.h"
@@ -62,6 +63,8 @@ public:
     const InterfaceLook& look() const override { return mInterface.look(); }
     void setLook(const InterfaceLook& look) override { mInterface.setLook(look); }
     const Facts* facts() override;
+    ScreenWords onScreen(const ViewFrame& frame) const override;
+    bool fullScreen() const override { return mWindow.fullScreen(); }
 
 private:
     struct FactsWish;
@@ -86,6 +89,7 @@ private:
     void takeSlice();
     void endSlices();
     void reportSweep();
+    void reportDisplay();
     void reportScreenshots();
     void finishScreenshots();
     OutputMode shownMode() const;
@@ -97,9 +101,10 @@ private:
 
     ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed in place since
     SettingTexts mGiven, mSaid;                 // what is shown was made of; what its scene file says
-    OutputMode mMode;
     std::optional<RecordedPath> mFlight;
     Window mWindow;
+    ViewDisplay mDisplay;
+    OutputMode mMode;
     std::unique_ptr<ViewSweep> mSweep;  // of media; before the scenes, which use it to their end
     StereoPresenter mPresenter;
     Interface mInterface;

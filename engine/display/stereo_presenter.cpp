@@ -52,6 +52,9 @@ StereoPresenter::Pass StereoPresenter::passOf(const OutputModeInfo& info) {
         case OutputLayout::Anaglyph:
             return Pass::Anaglyph;
         case OutputLayout::OneEye:
+        case OutputLayout::FramePacked:
+        case OutputLayout::FrameSequential:  // eye_passes.h says which eye is drawn when
+        case OutputLayout::QuadBuffer:
             break;
     }
     return Pass::OneEye;
@@ -118,23 +121,18 @@ void StereoPresenter::draw(const ComposeSetting& setting, const Viewport& viewpo
     const int first = swapped ? right : 0, second = swapped ? 0 : right;
     const Pass pass = passOf(info);
     const auto [width, height] = composedSize(setting.mode, mWidth, mHeight);
-    const auto drawPart = [&](int eye, int other, const Viewport& part, int partWidth, int partHeight) {
-        const Viewport inside{part.x + inset.left, part.y + inset.bottom,
-                              part.width - inset.left - inset.right, part.height - inset.top - inset.bottom};
-        drawPass(pass, eye, other, inside, partWidth, partHeight, setting, turnX + inset.left,
+    const EyeArea picture = eyeAreas(setting.mode, width, height)[0];
+    const auto areas = eyeAreas(setting.mode, viewport.width, viewport.height);
+    const auto drawPart = [&](int eye, int other, const EyeArea& area) {
+        const int bottom = viewport.y + viewport.height - area.y - area.height;
+        const Viewport inside{viewport.x + area.x + inset.left, bottom + inset.bottom,
+                              area.width - inset.left - inset.right, area.height - inset.top - inset.bottom};
+        drawPass(pass, eye, other, inside, picture.width, picture.height, setting, turnX + inset.left,
                  turnY + inset.top);
     };
-    const Viewport& v = viewport;
-    if (info.layout == OutputLayout::SideBySide) {
-        drawPart(first, first, {v.x, v.y, v.width / 2, v.height}, width / 2, height);
-        drawPart(second, second, {v.x + v.width / 2, v.y, v.width / 2, v.height}, width / 2, height);
-    } else if (info.layout == OutputLayout::TopBottom) {
-        const int half = v.height / 2;
-        drawPart(first, first, {v.x, v.y + v.height - half, v.width, half}, width, height / 2);
-        drawPart(second, second, {v.x, v.y + v.height - 2 * half, v.width, half}, width, height / 2);
-    } else {
-        drawPart(first, second, v, width, height);
-    }
+    if (areas[0] == areas[1]) return drawPart(first, second, areas[0]);
+    drawPart(first, first, areas[0]);
+    drawPart(second, second, areas[1]);
 }
 
 void StereoPresenter::drawPass(Pass pass, int first, int second, const Viewport& viewport, int pictureWidth,

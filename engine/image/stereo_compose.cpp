@@ -17,7 +17,7 @@ namespace {
 using Picture = Plane<PackedColor>;
 using enum OutputLayout;
 
-constexpr std::array<OutputModeInfo, 28> kModes{{
+constexpr std::array<OutputModeInfo, 34> kModes{{
     {OutputMode::Left, "ml", "left", OneEye, false, false},
     {OutputMode::Right, "mr", "right", OneEye, false, true},
     {OutputMode::SideBySide, "sbsl", "side-by-side", SideBySide, false, false},
@@ -28,6 +28,7 @@ constexpr std::array<OutputModeInfo, 28> kModes{{
     {OutputMode::BottomTop, "tbr", "bottom-top", TopBottom, false, true},
     {OutputMode::TopBottomHalf, "tb2l", "top-bottom-half", TopBottom, true, false},
     {OutputMode::BottomTopHalf, "tb2r", "bottom-top-half", TopBottom, true, true},
+    {OutputMode::FramePacked, "hdmi", "frame-packed", FramePacked, false, false},
     {OutputMode::Rows, "irl", "rows", Rows, false, false},
     {OutputMode::RowsRightFirst, "irr", "rows-right-first", Rows, false, true},
     {OutputMode::Columns, "icl", "columns", Columns, false, false},
@@ -46,16 +47,21 @@ constexpr std::array<OutputModeInfo, 28> kModes{{
     {OutputMode::AmberBlueHalf, "aybh", "amber-blue-half", Anaglyph, false, false},
     {OutputMode::AmberBlueColor, "aybc", "amber-blue-color", Anaglyph, false, false},
     {OutputMode::AmberBlueDubois, "aybd", "amber-blue-dubois", Anaglyph, false, false},
+    {OutputMode::RedBlueGray, "arbg", "red-blue-gray", Anaglyph, false, false},
+    {OutputMode::RedGreenGray, "argg", "red-green-gray", Anaglyph, false, false},
+    {OutputMode::Alternating, "al", "alternating", FrameSequential, false, false},
+    {OutputMode::AlternatingRightFirst, "ar", "alternating-right-first", FrameSequential, false, true},
+    {OutputMode::QuadBuffer, "quad", "quad-buffer", OutputLayout::QuadBuffer, false, false},
 }};
 
 constexpr float kR = 0.299f, kG = 0.587f, kB = 0.114f;  // luma, ITU-R BT.601
 constexpr std::array<float, 6> kLeftLuma{kR, kG, kB, 0, 0, 0}, kRightLuma{0, 0, 0, kR, kG, kB};
 constexpr std::array<float, 6> kLeftRed{1, 0, 0, 0, 0, 0}, kLeftGreen{0, 1, 0, 0, 0, 0};
 constexpr std::array<float, 6> kRightRed{0, 0, 0, 1, 0, 0}, kRightGreen{0, 0, 0, 0, 1, 0};
-constexpr std::array<float, 6> kRightBlue{0, 0, 0, 0, 0, 1};
+constexpr std::array<float, 6> kRightBlue{0, 0, 0, 0, 0, 1}, kDark{0, 0, 0, 0, 0, 0};
 
 // In the order of OutputMode, from RedCyanGray on.
-constexpr std::array<AnaglyphMatrix, 12> kMatrices{{
+constexpr std::array<AnaglyphMatrix, 14> kMatrices{{
     {{kLeftLuma, kRightLuma, kRightLuma}},
     {{kLeftLuma, kRightGreen, kRightBlue}},
     {{kLeftRed, kRightGreen, kRightBlue}},
@@ -74,7 +80,25 @@ constexpr std::array<AnaglyphMatrix, 12> kMatrices{{
     {{{1.062f, -.205f, .299f, -.016f, -.123f, -.017f},
       {-.026f, .908f, .068f, .006f, .062f, -.017f},
       {-.038f, -.173f, .022f, .094f, .185f, .911f}}},
+    {{kLeftLuma, kDark, kRightLuma}},
+    {{kLeftLuma, kRightLuma, kDark}},
 }};
+
+// Rows between the eyes of a frame-packed picture: 45 of 1080, 30 of 720.
+constexpr int kEyeRowsAGapRow = 24;
+int gapBelow(int eyeHeight) {
+    return eyeHeight / kEyeRowsAGapRow;
+}
+int packedHeight(int eyeHeight) {
+    return 2 * eyeHeight + gapBelow(eyeHeight);
+}
+// Rows of the largest eye that is packed into so many.
+int packedEyeHeight(int height) {
+    const long long rows = std::max(height, 0);
+    int eye = static_cast<int>(rows * kEyeRowsAGapRow / (2 * kEyeRowsAGapRow + 1));  // a row too few at most
+    while (packedHeight(eye + 1) <= height) ++eye;
+    return eye;
+}
 
 PackedColor average(PackedColor a, PackedColor b) {
     return packColor((unpackColor(a) + unpackColor(b)) * 0.5f);
@@ -154,6 +178,13 @@ void topBottomRow(const Picture& first, const Picture& second, bool half, int y,
     for (int x = 0; x < eye.width(); ++x) out.at(x, y) = average(a[x], b[x]);
 }
 
+void framePackedRow(const Picture& first, const Picture& second, int y, Picture& out) {
+    const int below = y - first.height() - gapBelow(first.height());
+    if (y < first.height()) return copyRow(first, y, out.row(y));
+    if (below >= 0) return copyRow(second, below, out.row(y));
+    std::fill_n(out.row(y), out.width(), PackedColor{0});
+}
+
 void interleaveRow(const Picture& first, const Picture& second, OutputLayout layout, int y, Picture& out) {
     for (int x = 0; x < out.width(); ++x) {
         const int turn = layout == Rows ? y : layout == Columns ? x : x + y;
@@ -178,10 +209,17 @@ void composeRow(const Picture& first, const Picture& second, const ComposeSettin
             return sideBySideRow(first, second, info.half, y, out);
         case TopBottom:
             return topBottomRow(first, second, info.half, y, out);
+        case FramePacked:
+            return framePackedRow(first, second, y, out);
         case Anaglyph:
             return anaglyphRow(first, second, setting, y, out);
-        default:
+        case Rows:
+        case Columns:
+        case Checkerboard:
             return interleaveRow(first, second, info.layout, y, out);
+        case FrameSequential:
+        case OutputLayout::QuadBuffer:
+            break;  // refused before
     }
 }
 
@@ -195,6 +233,11 @@ const OutputModeInfo& infoOf(OutputMode mode) {
     return kModes[static_cast<std::size_t>(mode)];
 }
 
+bool fitsInPicture(OutputMode mode) {
+    const OutputLayout layout = infoOf(mode).layout;
+    return layout != FrameSequential && layout != OutputLayout::QuadBuffer;
+}
+
 std::optional<OutputMode> outputModeFromName(std::string_view name) {
     std::string wanted(name);
     if (wanted.starts_with("ab")) wanted.replace(0, 2, "tb");  // above-below: FFmpeg has both
@@ -204,16 +247,17 @@ std::optional<OutputMode> outputModeFromName(std::string_view name) {
     return std::nullopt;
 }
 
-std::string outputModeNames() {
+std::string outputModeNames(bool windows) {
     std::string names;
     for (const OutputModeInfo& info : kModes)
-        names += (names.empty() ? "" : ", ") + std::string(info.shortName);
+        if (windows || fitsInPicture(info.mode))
+            names += (names.empty() ? "" : ", ") + std::string(info.shortName);
     return names;
 }
 
 const AnaglyphMatrix& anaglyphMatrix(OutputMode mode) {
-    const int index = static_cast<int>(mode) - static_cast<int>(OutputMode::RedCyanGray);
-    return kMatrices[static_cast<std::size_t>(std::max(index, 0))];
+    if (infoOf(mode).layout != Anaglyph) return kMatrices.front();
+    return kMatrices[static_cast<std::size_t>(mode) - static_cast<std::size_t>(OutputMode::RedCyanGray)];
 }
 
 std::pair<int, int> composedSize(OutputMode mode, int width, int height) {
@@ -221,6 +265,7 @@ std::pair<int, int> composedSize(OutputMode mode, int width, int height) {
     const auto both = [&](int size) { return info.half ? (size + 1) / 2 * 2 : size * 2; };
     if (info.layout == SideBySide) return {both(width), height};
     if (info.layout == TopBottom) return {width, both(height)};
+    if (info.layout == FramePacked) return {width, packedHeight(height)};
     return {width, height};
 }
 
@@ -229,7 +274,26 @@ std::pair<int, int> eyeSizeFor(OutputMode mode, int width, int height) {
     const auto one = [&](int size) { return info.half ? size / 2 * 2 : size / 2; };
     if (info.layout == SideBySide) width = one(width);
     if (info.layout == TopBottom) height = one(height);
+    if (info.layout == FramePacked) height = packedEyeHeight(height);
     return {std::max(width, 1), std::max(height, 1)};
+}
+
+std::array<EyeArea, 2> eyeAreas(OutputMode mode, int width, int height) {
+    width = std::max(width, 0);
+    height = std::max(height, 0);
+    const EyeArea all{0, 0, width, height};
+    switch (infoOf(mode).layout) {
+        case SideBySide:
+            return {EyeArea{0, 0, width / 2, height}, {width / 2, 0, width / 2, height}};
+        case TopBottom:
+            return {EyeArea{0, 0, width, height / 2}, {0, height / 2, width, height / 2}};
+        case FramePacked: {
+            const int eye = packedEyeHeight(height);
+            return {EyeArea{0, 0, width, eye}, {0, eye + gapBelow(eye), width, eye}};
+        }
+        default:
+            return {all, all};
+    }
 }
 
 Picture composeStereo(const Picture& left, const Picture& right, const ComposeSetting& setting) {
@@ -238,6 +302,11 @@ Picture composeStereo(const Picture& left, const Picture& right, const ComposeSe
                     fmt::format("expected two eyes of one size, got {}x{} and {}x{}", left.width(),
                                 left.height(), right.width(), right.height()),
                     "render both eyes at the same size");
+    if (!fitsInPicture(setting.mode))
+        throw Error("", "stereo picture",
+                    fmt::format("{} is a mode of windows: it shows one eye after the other",
+                                infoOf(setting.mode).shortName),
+                    "take sbsl, which keeps both");
     const auto [width, height] = composedSize(setting.mode, left.width(), left.height());
     Picture out(width, height);
     const bool swapped = setting.swapEyes != infoOf(setting.mode).rightFirst;

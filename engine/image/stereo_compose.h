@@ -1,6 +1,7 @@
 // One picture from two eyes, for any display: either eye alone, side by side, top-bottom,
 // interleaved, anaglyph. Pure pixel work on the CPU, used for files and video; the window's fragment
-// shader follows the same tables (engine/display/stereo_presenter).
+// shader follows the same tables (engine/display/stereo_presenter). Modes that show the eyes one after the
+// other are of the window alone (engine/display/eye_passes.h).
 #pragma once
 
 #include <array>
@@ -27,7 +28,8 @@ enum class OutputMode {
     BottomTop,
     TopBottomHalf,  // each eye squeezed to half its height
     BottomTopHalf,
-    Rows,  // row 0 from the left eye, row 1 from the right one, ...
+    FramePacked,  // left eye on top, then a gap of 1/24 of its height: HDMI 1.4a
+    Rows,         // row 0 from the left eye, row 1 from the right one, ...
     RowsRightFirst,
     Columns,
     ColumnsRightFirst,
@@ -45,9 +47,25 @@ enum class OutputMode {
     AmberBlueHalf,
     AmberBlueColor,
     AmberBlueDubois,
+    RedBlueGray,
+    RedGreenGray,
+    Alternating,  // left eye at one refresh of the display, right eye at the next
+    AlternatingRightFirst,
+    QuadBuffer,  // both eyes to the graphics driver, which brings each to its eye
 };
 
-enum class OutputLayout { OneEye, SideBySide, TopBottom, Rows, Columns, Checkerboard, Anaglyph };
+enum class OutputLayout {
+    OneEye,
+    SideBySide,
+    TopBottom,
+    FramePacked,
+    Rows,
+    Columns,
+    Checkerboard,
+    Anaglyph,
+    FrameSequential,  // this one and the next are of windows alone
+    QuadBuffer
+};
 
 struct OutputModeInfo {
     OutputMode mode;
@@ -73,15 +91,17 @@ using AnaglyphMatrix = std::array<std::array<float, 6>, 3>;
 
 std::span<const OutputModeInfo> outputModes();
 const OutputModeInfo& infoOf(OutputMode mode);
+// Whether one picture can hold both eyes in this mode; else it is of windows alone.
+bool fitsInPicture(OutputMode mode);
 // FFmpeg's short names (tbl and abl alike) and the long ones; nullopt for any other.
 std::optional<OutputMode> outputModeFromName(std::string_view name);
-// All short names, "ml, mr, sbsl, ...": for messages.
-std::string outputModeNames();
+// All short names, "ml, mr, sbsl, ...": for messages. windows: those of windows alone, too.
+std::string outputModeNames(bool windows);
 
 // For anaglyph modes only. Colour: each channel from the eye whose glass passes it. Gray: luma
-// .299 .587 .114 of that eye. Half-colour: colour, but luma for the eye that has one channel only.
-// Dubois: E. Dubois, "A projection method to generate anaglyph stereo images", ICASSP 2001, the
-// coefficients published for LCDs.
+// .299 .587 .114 of that eye; channels of no glass stay dark. Half-colour: colour, but luma for the eye that
+// has one channel only. Dubois: E. Dubois, "A projection method to generate anaglyph stereo images", ICASSP
+// 2001, the coefficients published for LCDs.
 const AnaglyphMatrix& anaglyphMatrix(OutputMode mode);
 
 // Pixels of the picture composed from two eyes of width x height. Squeezed eyes have half the size,
@@ -90,8 +110,22 @@ std::pair<int, int> composedSize(OutputMode mode, int width, int height);
 // The other way round: the size of one eye for a picture of at most width x height; at least 1 x 1.
 std::pair<int, int> eyeSizeFor(OutputMode mode, int width, int height);
 
+// Of a frame-packed picture's height, what each eye takes: 1080 rows of 2205.
+constexpr float kPackedEye = 24.0f / 49.0f;
+
+// Pixels, (0, 0) top left.
+struct EyeArea {
+    int x = 0, y = 0, width = 0, height = 0;
+
+    bool operator==(const EyeArea&) const = default;
+};
+// Where the eye that comes first and the other one lie in a picture of this mode and size; the same place
+// twice where they share it. Empty where the picture is too small for two.
+std::array<EyeArea, 2> eyeAreas(OutputMode mode, int width, int height);
+
 // Squeezed modes average pairs of pixels in linear light; interleaved modes take each pixel from the
-// eye whose turn it is, at its own place. Throws Error when the two sizes differ or are empty.
+// eye whose turn it is, at its own place. Throws Error when the two sizes differ or are empty, and for
+// modes that do not fit in a picture.
 Plane<PackedColor> composeStereo(const Plane<PackedColor>& left, const Plane<PackedColor>& right,
                                  const ComposeSetting& setting);
 

@@ -33,6 +33,7 @@ std::string lineAgainst(const Words& arguments) {
 std::string sampleOf(const Option& option) {
     const ValueType& type = option.value;
     if (type.kind == ValueKind::Word) return type.words.front();
+    if (option.key == std::string_view("mode")) return "sbsl";
     if (!type.takesNumbers()) return "some";
     for (const char* text : {"1", "0.5", "1,2", "1,2,3", "8", "64x48"}) {
         try {
@@ -155,6 +156,18 @@ TEST_F(OptionTable, TurnsWordsIntoWhatTheyName) {
     EXPECT_EQ(asked({"colon", "--opacity", "0.5", "--modulate", "gradient"}).scene.volume.modulate,
               Modulation::Gradient);
     EXPECT_EQ(asked({"terrain", "--mode", "abl"}).mode, OutputMode::TopBottom);
+    for (const char* mode : {"al", "ar", "quad"}) {
+        for (const Words& words :
+             {Words{"render", "terrain", "--out", "a.png"}, {"play", "terrain", "--video", "a.mp4"}})
+            EXPECT_TRUE(
+                lineAgainst(words + Words{"--mode", mode})
+                    .starts_with("--mode: " + std::string(mode) +
+                                 " shows one eye after the other, which view alone can; the modes are ml, "))
+                << words.front();
+        EXPECT_EQ(lineAgainst({"view", "terrain", "--mode", mode}), "");
+    }
+    EXPECT_EQ(lineAgainst({"view", "terrain", "--full-screen", ""}),
+              "--full-screen: expected a monitor, got \"\"; try auto");
     const ValueType& kinds = findOption(command::kBake, "what")->value;
     for (const BakeKind kind : {BakeKind::Irradiance, BakeKind::Transfer, BakeKind::Openness})
         EXPECT_EQ(kinds.words[static_cast<std::size_t>(kind)], nameOf(kind));

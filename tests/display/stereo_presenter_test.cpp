@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/display/eye_passes.h"
 #include "engine/display/window.h"
 #include "tests/display/egl_context.h"
 
@@ -92,12 +93,15 @@ void expectEqualToComposed(const Picture& left, const Picture& right, const Comp
 }
 
 TEST_F(StereoPresenterTest, EveryModeEqualsTheCpu) {
-    // Odd sizes, so that squeezed modes meet a last pixel alone.
-    const Picture left = noise(37, 23, 1), right = noise(37, 23, 2);
+    // Odd sizes, so that squeezed modes meet a last pixel alone; high enough for a gap of rows.
+    const Picture left = noise(37, 51, 1), right = noise(37, 51, 2);
     for (const OutputModeInfo& info : outputModes())
         for (const bool swapped : {false, true})
             for (const bool linear : {false, true})
-                expectEqualToComposed(left, right, {info.mode, swapped, linear});
+                for (const int turn : {0, 1})
+                    for (const EyePass& pass : eyePasses({info.mode, swapped, linear}, turn, true))
+                        if (turn == 0 || !fitsInPicture(info.mode))
+                            expectEqualToComposed(left, right, pass.setting);
 }
 
 TEST_F(StereoPresenterTest, OneEyeStandsForBoth) {

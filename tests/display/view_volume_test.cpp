@@ -475,6 +475,12 @@ TEST(ViewPlaces, ClicksLieInTheEyeThatIsShownThere) {
     EXPECT_EQ(placeInEye(OutputLayout::SideBySide, {0.25, 0.3}), glm::dvec2(0.5, 0.3));
     EXPECT_EQ(placeInEye(OutputLayout::SideBySide, {0.75, 0.3}), glm::dvec2(0.5, 0.3));
     EXPECT_EQ(placeInEye(OutputLayout::TopBottom, {0.25, 0.75}), glm::dvec2(0.25, 0.5));
+    const auto packed = [](int row) { return placeInEye(OutputLayout::FramePacked, {0.25, row / 2205.0}); };
+    EXPECT_NEAR(packed(540).y, 0.5, 1e-6);
+    EXPECT_NEAR(packed(1125 + 540).y, 0.5, 1e-6);
+    EXPECT_NEAR(packed(1100).y, 1, 1e-6) << "in the gap";
+    EXPECT_NEAR(packed(2205).y, 1, 1e-6);
+    EXPECT_EQ(packed(540).x, 0.25);
     EXPECT_EQ(placeInEye(OutputLayout::Anaglyph, {0.25, 0.75}), glm::dvec2(0.25, 0.75));
 }
 

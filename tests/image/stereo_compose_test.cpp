@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -147,6 +148,7 @@ TEST(ComposeStereo, AnaglyphsOnEncodedValuesByHand) {
         {OutputMode::GreenMagentaColor, {40, 100, 220}}, {OutputMode::GreenMagentaDubois, {109, 113, 214}},
         {OutputMode::AmberBlueGray, {124, 124, 131}},    {OutputMode::AmberBlueHalf, {200, 100, 131}},
         {OutputMode::AmberBlueColor, {200, 100, 220}},   {OutputMode::AmberBlueDubois, {183, 95, 210}},
+        {OutputMode::RedBlueGray, {124, 0, 131}},        {OutputMode::RedGreenGray, {124, 131, 0}},
     };
     for (const AnaglyphCase& c : cases) {
         const Picture out = composeStereo(left, right, {c.mode, false, false});
@@ -174,8 +176,14 @@ TEST(ComposeStereo, AnaglyphsOfWhiteAndBlackStayNeutral) {
         if (info.layout != OutputLayout::Anaglyph) continue;
         const Picture bright = composeStereo(white, white, {info.mode, false, false});
         const Picture dark = composeStereo(black, black, {info.mode, false, false});
+        const int noGlass = info.mode == OutputMode::RedBlueGray    ? 1
+                            : info.mode == OutputMode::RedGreenGray ? 2
+                                                                    : 3;
         for (int k = 0; k < 3; ++k) {
-            EXPECT_GE(bytes(bright.at(0, 0))[k], 250) << info.longName;
+            if (k == noGlass)
+                EXPECT_EQ(bytes(bright.at(0, 0))[k], 0) << info.longName;
+            else
+                EXPECT_GE(bytes(bright.at(0, 0))[k], 250) << info.longName;
             EXPECT_EQ(bytes(dark.at(0, 0))[k], 0) << info.longName;
         }
     }
@@ -184,6 +192,7 @@ TEST(ComposeStereo, AnaglyphsOfWhiteAndBlackStayNeutral) {
 TEST(ComposeStereo, SwappingEyesIsComposingThemTheOtherWayRound) {
     const Picture a = marked(6, 4, kLeft), b = filled(6, 4, packed(40, 160, 220));
     for (const OutputModeInfo& info : outputModes()) {
+        if (!fitsInPicture(info.mode)) continue;
         const Picture swapped = composeStereo(a, b, {info.mode, true, false});
         const Picture other = composeStereo(b, a, {info.mode, false, false});
         const Picture plain = composeStereo(a, b, {info.mode, false, false});
@@ -204,10 +213,13 @@ TEST(ComposeStereo, NamesFindTheirModes) {
         EXPECT_EQ(outputModeFromName(info.shortName), info.mode);
         EXPECT_EQ(outputModeFromName(info.longName), info.mode);
         EXPECT_EQ(infoOf(info.mode).mode, info.mode) << "the table's order";
-        EXPECT_THAT(outputModeNames(), testing::HasSubstr(std::string(info.shortName)));
+        EXPECT_THAT(outputModeNames(true) + ",", testing::HasSubstr(std::string(info.shortName) + ","));
+        const bool inFiles =
+            (outputModeNames(false) + ",").find(std::string(info.shortName) + ",") != std::string::npos;
+        EXPECT_EQ(inFiles, fitsInPicture(info.mode)) << info.shortName;
         seen.insert(info.mode);
     }
-    EXPECT_EQ(seen.size(), 28u);
+    EXPECT_EQ(seen.size(), 34u);
     EXPECT_EQ(outputModeFromName("abl"), OutputMode::TopBottom);
     EXPECT_EQ(outputModeFromName("ab2l"), OutputMode::TopBottomHalf);
     EXPECT_EQ(outputModeFromName("ab2r"), OutputMode::BottomTopHalf);
@@ -218,12 +230,72 @@ TEST(ComposeStereo, NamesFindTheirModes) {
 TEST(ComposeStereo, SizesMatchWhatIsComposed) {
     for (const OutputModeInfo& info : outputModes())
         for (int width : {1, 2, 3, 8})
-            for (int height : {1, 2, 5}) {
+            for (int height : {1, 2, 5, 24, 49}) {
+                if (!fitsInPicture(info.mode)) continue;
                 const Picture out = compose(info.mode, false, width, height);
                 EXPECT_EQ(composedSize(info.mode, width, height), std::pair(out.width(), out.height()));
                 const auto [w, h] = eyeSizeFor(info.mode, out.width(), out.height());
                 EXPECT_EQ(composedSize(info.mode, w, h), std::pair(out.width(), out.height()));
             }
+}
+
+// The names of FFmpeg's filter stereo3d for what it writes, version 5.1.
+TEST(ComposeStereo, KnowsAllOfFfmpegsNames) {
+    for (const char* name : {"sbsl", "sbsr", "sbs2l", "sbs2r", "tbl",  "abl",  "tbr",  "abr",  "tb2l", "ab2l",
+                             "tb2r", "ab2r", "al",    "ar",    "irl",  "irr",  "arbg", "argg", "arcg", "arch",
+                             "arcc", "arcd", "agmg",  "agmh",  "agmc", "agmd", "aybg", "aybh", "aybc", "aybd",
+                             "ml",   "mr",   "chl",   "chr",   "icl",  "icr",  "hdmi"})
+        EXPECT_NE(outputModeFromName(name), std::nullopt) << name;
+}
+
+TEST(ComposeStereo, FramePackedHasItsGap) {
+    EXPECT_EQ(composedSize(OutputMode::FramePacked, 1920, 1080), std::pair(1920, 2205));
+    EXPECT_EQ(composedSize(OutputMode::FramePacked, 1280, 720), std::pair(1280, 1470));
+    EXPECT_EQ(eyeSizeFor(OutputMode::FramePacked, 1920, 2205), std::pair(1920, 1080));
+    EXPECT_EQ(eyeSizeFor(OutputMode::FramePacked, 1920, 2204), std::pair(1920, 1079));
+    EXPECT_EQ(eyeSizeFor(OutputMode::FramePacked, 1, 0), std::pair(1, 1));
+    Picture left = filled(3, 50, 7), right = filled(3, 50, 9);
+    for (const bool swapped : {false, true}) {
+        const Picture out = composeStereo(left, right, {OutputMode::FramePacked, swapped, false});
+        ASSERT_EQ(out.height(), 102);
+        for (int y = 0; y < 102; ++y) {
+            const PackedColor first = swapped ? 9 : 7, second = swapped ? 7 : 9;
+            EXPECT_EQ(out.at(2, y), y < 50 ? first : y < 52 ? 0u : second) << y;
+        }
+    }
+}
+
+TEST(ComposeStereo, AreasAreWhereTheEyesLie) {
+    for (const OutputModeInfo& info : outputModes())
+        for (int width : {1, 2, 7, 1920})
+            for (int height : {1, 2, 3, 49, 1079, 2205}) {
+                const auto [first, second] = eyeAreas(info.mode, width, height);
+                for (const EyeArea& area : {first, second}) {
+                    EXPECT_GE(std::min({area.x, area.y, area.width, area.height}), 0) << info.longName;
+                    EXPECT_LE(area.x + area.width, width) << info.longName;
+                    EXPECT_LE(area.y + area.height, height) << info.longName;
+                }
+                EXPECT_EQ(first.width, second.width);
+                EXPECT_EQ(first.height, second.height);
+                if (first == second) continue;
+                EXPECT_TRUE(second.x >= first.x + first.width || second.y >= first.y + first.height);
+            }
+    const auto [top, bottom] = eyeAreas(OutputMode::FramePacked, 1920, 2205);
+    EXPECT_EQ(top, (EyeArea{0, 0, 1920, 1080}));
+    EXPECT_EQ(bottom, (EyeArea{0, 1125, 1920, 1080}));
+    EXPECT_NEAR(2205 * kPackedEye, 1080, 1e-3);
+    EXPECT_EQ(eyeAreas(OutputMode::Left, -3, 5)[0], (EyeArea{0, 0, 0, 5}));
+}
+
+TEST(ComposeStereo, ModesOfWindowsAreRefused) {
+    for (const OutputMode mode :
+         {OutputMode::Alternating, OutputMode::AlternatingRightFirst, OutputMode::QuadBuffer})
+        try {
+            composeStereo(filled(2, 2, 1), filled(2, 2, 2), {mode, false, false});
+            FAIL() << "no error";
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr("sbsl"));
+        }
 }
 
 TEST(ComposeStereo, EyesOfDifferentSizesAreRefused) {

@@ -54,6 +54,7 @@ void viewMenu(PanelHost& host, MenuWishes& wishes) {
     if (!ImGui::BeginMenu("View")) return;
     ImGui::MenuItem("Panels", "F2", wishes.side);
     if (ImGui::MenuItem("Picture alone", "Tab")) wishes.hideAll = true;
+    item(host, "Whole screen", "F11", ViewCommand::FullScreen, host.fullScreen());
     ImGui::Separator();
     InterfaceLook look = host.look();
     if (ImGui::MenuItem("Dark", nullptr, look.dark)) look.dark = true;
@@ -84,7 +85,9 @@ void stereoMenu(PanelHost& host) {
         {OutputLayout::OneEye, "One eye"},           {OutputLayout::SideBySide, "Side by side"},
         {OutputLayout::TopBottom, "Top and bottom"}, {OutputLayout::Rows, "Rows"},
         {OutputLayout::Columns, "Columns"},          {OutputLayout::Checkerboard, "Checkerboard"},
-        {OutputLayout::Anaglyph, "Coloured glasses"}};
+        {OutputLayout::Anaglyph, "Coloured glasses"}, {OutputLayout::FramePacked, "Frame-packed"},
+        {OutputLayout::FrameSequential, "Shutter glasses, by turns"},
+        {OutputLayout::QuadBuffer, "Shutter glasses, by the driver"}};
     for (const auto& [layout, name] : kLayouts)
         if (ImGui::BeginMenu(name)) {
             modeItems(host, layout);

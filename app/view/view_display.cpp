@@ -1,0 +1,113 @@
+#include "app/view/view_display.h"
+
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/display/eye_passes.h"
+
+namespace stereonav {
+namespace {
+
+constexpr const char* kNoQuadBuffer =
+    "quad: the graphics driver grants no buffer for each eye; shown side by side (sbsl)";
+
+}  // namespace
+
+ViewDisplay::ViewDisplay(Window& window, const ViewOptions& options)
+    : mWindow(window),
+      mMode(options.mode) {
+    if (wantsQuadBuffer(options) && !window.quadBuffered()) {
+        mMode = OutputMode::SideBySide;
+        mNotice = kNoQuadBuffer;
+    }
+    follow(options);
+}
+
+void ViewDisplay::follow(const ViewOptions& options) {
+    if (options.fullScreen != mFullScreen) fill(options.fullScreen);
+    mFullScreen = options.fullScreen;
+    mWidth_mm = options.screenWidth_mm;
+    mDistance_mm = options.viewingDistance_mm;
+}
+
+void ViewDisplay::fill(const std::string& monitor) {
+    if (monitor.empty()) return mWindow.leaveFullScreen();
+    const std::vector<Monitor> all = monitors();
+    const auto named = monitorNamed(all, monitor);
+    mWindow.enterFullScreen(named ? *named : monitorUnder(all, mWindow.place()).value_or(0));
+}
+
+std::optional<Monitor> ViewDisplay::monitor() const {
+    const std::vector<Monitor> all = monitors();
+    const auto under = monitorUnder(all, mWindow.place());
+    return under ? std::optional(all[*under]) : std::nullopt;
+}
+
+void ViewDisplay::toggleFullScreen() {
+    try {
+        mWindow.toggleFullScreen();
+    } catch (const Error& error) {
+        mNotice = error.what();
+    }
+}
+
+bool ViewDisplay::alternates(const ComposeSetting& setting) {
+    return infoOf(setting.mode).layout == OutputLayout::FrameSequential;
+}
+
+std::optional<double> ViewDisplay::wait() const {
+    return mSequence ? std::optional(mSequence->wait(Window::now())) : std::nullopt;
+}
+
+void ViewDisplay::draw(const ComposeSetting& setting,
+                       const std::function<void(const ComposeSetting&)>& drawOne) {
+    const bool alternating = alternates(setting);
+    if (!alternating) mSequence.reset();
+    if (alternating && (!mSequence || mPlace != mWindow.place())) {
+        const std::optional<Monitor> on = monitor();
+        mPlace = mWindow.place();
+        // Told anew on another monitor only.
+        const double rate = on ? on->refreshRate : 0;
+        if (!mSequence || mSequence->toldRate() != rate) mSequence.emplace(rate);
+    }
+    for (const EyePass& pass : eyePasses(setting, mSequence ? mSequence->eye() : 0, mWindow.quadBuffered())) {
+        drawInto(pass.buffer);
+        drawOne(pass.setting);
+    }
+    if (mWindow.quadBuffered()) drawInto(BackBuffer::Both);
+    if (!mSequence) return mWindow.swapBuffers();
+    mSequence->swapped(mWindow.swapTimed());
+    if (auto problem = mSequence->takeProblem()) mNotice = *std::move(problem);
+}
+
+std::string ViewDisplay::takeNotice() {
+    return std::exchange(mNotice, {});
+}
+
+StereoScreen ViewDisplay::screen(const std::optional<Monitor>& on) const {
+    StereoScreen screen;
+    if (on) screen.width = statedWidth(on->width_mm, on->height_mm, on->area.width, on->area.height);
+    if (mWidth_mm) screen.width = *mWidth_mm / 1000;
+    if (mDistance_mm) screen.distance = *mDistance_mm / 1000;
+    return screen;
+}
+
+double ViewDisplay::pictureWidthOf(const ViewFrame& frame) const {
+    const std::optional<Monitor> on = monitor();
+    const int window = mWindow.place().width;
+    return pictureWidth(screen(on), frame.request.mode, window, on ? on->area.width : window);
+}
+
+std::string ViewDisplay::parallaxText(const ViewFrame& frame) const {
+    if (!frame.request.twoEyes) return "";
+    const double width = pictureWidthOf(frame), distance = screen(std::nullopt).distance;
+    return screenParallaxText(onScreen(frame.nearParallax, width, distance),
+                              onScreen(frame.farParallax, width, distance));
+}
+
+std::string ViewDisplay::warning(const ViewFrame& frame) const {
+    if (!frame.request.twoEyes) return "";
+    return divergenceText(onScreen(frame.farParallax, pictureWidthOf(frame), screen(std::nullopt).distance));
+}
+
+}  // namespace stereonav
