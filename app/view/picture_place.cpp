@@ -10,7 +10,7 @@ namespace {
 
 // How many parts there are along each axis; of frame-packed ones two, with a gap between them.
 glm::ivec2 partsOf(OutputLayout layout) {
-    return {layout == OutputLayout::SideBySide ? 2 : 1, 
+    return {layout == OutputLayout::SideBySide ? 2 : 1,
             layout == OutputLayout::TopBottom || layout == OutputLayout::FramePacked ? 2 : 1};
 }
 

@@ -82,10 +82,14 @@ void stereoMenu(PanelHost& host) {
     item(host, "Swap the eyes", "X", ViewCommand::SwapEyes, session && session->swapped());
     ImGui::Separator();
     constexpr std::pair<OutputLayout, const char*> kLayouts[] = {
-        {OutputLayout::OneEye, "One eye"},           {OutputLayout::SideBySide, "Side by side"},
-        {OutputLayout::TopBottom, "Top and bottom"}, {OutputLayout::Rows, "Rows"},
-        {OutputLayout::Columns, "Columns"},          {OutputLayout::Checkerboard, "Checkerboard"},
-        {OutputLayout::Anaglyph, "Coloured glasses"}, {OutputLayout::FramePacked, "Frame-packed"},
+        {OutputLayout::OneEye, "One eye"},
+        {OutputLayout::SideBySide, "Side by side"},
+        {OutputLayout::TopBottom, "Top and bottom"},
+        {OutputLayout::Rows, "Rows"},
+        {OutputLayout::Columns, "Columns"},
+        {OutputLayout::Checkerboard, "Checkerboard"},
+        {OutputLayout::Anaglyph, "Coloured glasses"},
+        {OutputLayout::FramePacked, "Frame-packed"},
         {OutputLayout::FrameSequential, "Shutter glasses, by turns"},
         {OutputLayout::QuadBuffer, "Shutter glasses, by the driver"}};
     for (const auto& [layout, name] : kLayouts)
