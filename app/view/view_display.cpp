@@ -13,19 +13,26 @@ constexpr const char* kNoQuadBuffer =
 
 }  // namespace
 
-ViewDisplay::ViewDisplay(Window& window, const ViewOptions& options)
-    : mWindow(window),
-      mMode(options.mode),
-      mWidth_mm(options.screenWidth_mm),
-      mDistance_mm(options.viewingDistance_mm) {
+ViewDisplay::ViewDisplay(Window& window, const ViewOptions& options) : mWindow(window), mMode(options.mode) {
     if (wantsQuadBuffer(options) && !window.quadBuffered()) {
         mMode = OutputMode::SideBySide;
         mNotice = kNoQuadBuffer;
     }
-    if (options.fullScreen.empty()) return;
+    follow(options);
+}
+
+void ViewDisplay::follow(const ViewOptions& options) {
+    if (options.fullScreen != mFullScreen) fill(options.fullScreen);
+    mFullScreen = options.fullScreen;
+    mWidth_mm = options.screenWidth_mm;
+    mDistance_mm = options.viewingDistance_mm;
+}
+
+void ViewDisplay::fill(const std::string& monitor) {
+    if (monitor.empty()) return mWindow.leaveFullScreen();
     const std::vector<Monitor> all = monitors();
-    const auto named = monitorNamed(all, options.fullScreen);
-    window.enterFullScreen(named ? *named : monitorUnder(all, window.place()).value_or(0));
+    const auto named = monitorNamed(all, monitor);
+    mWindow.enterFullScreen(named ? *named : monitorUnder(all, mWindow.place()).value_or(0));
 }
 
 std::optional<Monitor> ViewDisplay::monitor() const {
@@ -68,6 +75,7 @@ void ViewDisplay::draw(const ComposeSetting& setting,
     if (mWindow.quadBuffered()) drawInto(BackBuffer::Both);
     if (!mSequence) return mWindow.swapBuffers();
     mSequence->swapped(mWindow.swapTimed());
+    if (!mNotice.empty()) return;  // not told yet
     if (auto problem = mSequence->takeProblem()) mNotice = *std::move(problem);
 }
 
@@ -85,8 +93,10 @@ StereoScreen ViewDisplay::screen(const std::optional<Monitor>& on) const {
 
 double ViewDisplay::pictureWidthOf(const ViewFrame& frame) const {
     const std::optional<Monitor> on = monitor();
-    const int window = mWindow.place().width;
-    return pictureWidth(screen(on), frame.request.mode, window, on ? on->area.width : window);
+    const int window = mWindow.place().width, pixels = mWindow.framebufferSize().x;
+    // Of the monitor's size, which is in the window's units.
+    const double width = pixels > 0 ? frame.left.width() * (static_cast<double>(window) / pixels) : 0;
+    return pictureWidth(screen(on), width, on ? on->area.width : window);
 }
 
 std::string ViewDisplay::parallaxText(const ViewFrame& frame) const {

@@ -14,6 +14,11 @@
 
 namespace stereonav {
 
+// Of parallax on the real screen; "" for nothing to say.
+struct ScreenWords {
+    std::string parallax, warning;
+};
+
 class ViewDisplay {
 public:
     // Fills the monitor that the options name. The window is asked for a quad buffer where their mode is that
@@ -25,6 +30,8 @@ public:
     OutputMode mode() const { return mMode; }
 
     void toggleFullScreen();  // a refusal is a notice
+    // Options that were changed: the screen's size, and the monitor where that is another one than before.
+    void follow(const ViewOptions& options);
 
     // Whether the window has to be drawn at each refresh, new picture or not.
     static bool alternates(const ComposeSetting& setting);
@@ -41,12 +48,14 @@ public:
     std::string warning(const ViewFrame& frame) const;
 
 private:
+    void fill(const std::string& monitor);
     std::optional<Monitor> monitor() const;  // that the window is on
     double pictureWidthOf(const ViewFrame& frame) const;
     StereoScreen screen(const std::optional<Monitor>& on) const;
 
     Window& mWindow;
     OutputMode mMode;
+    std::string mFullScreen;  // as the options say it
     std::optional<double> mWidth_mm, mDistance_mm;
     std::optional<FrameSequence> mSequence;  // while eyes alternate
     ScreenRect mPlace;                       // of the window when that began

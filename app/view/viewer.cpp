@@ -48,7 +48,8 @@ Viewer::Viewer(const ViewOptions& options)
       mGiven(settingTextsOf(options.scene.given)),
       mSaid(fileTextsOf(options.scene.given)),
       mFlight(options.path.empty() ? std::nullopt : std::optional(readPath(options.path))),
-      mWindow(titleOf(options.scene), composedSize(options.mode, options.size.width, options.size.height).first,
+      mWindow(titleOf(options.scene),
+              composedSize(options.mode, options.size.width, options.size.height).first,
               composedSize(options.mode, options.size.width, options.size.height).second, true,
               ViewDisplay::wantsQuadBuffer(options)),
       mDisplay(mWindow, options),
@@ -165,6 +166,9 @@ bool Viewer::actOnInterface(const ViewAction& action) {
         case ViewCommand::SaveScene:
             if (mSession) mPanels.openSave();
             return true;
+        case ViewCommand::FullScreen:
+            mDisplay.toggleFullScreen();
+            return true;
         case ViewCommand::Undo:
             undo();
             return true;
@@ -244,9 +248,7 @@ void Viewer::takeFrame() {
     if (!mSession->slicesShown() && mSliceVersion != 0) endSlices();
     reportScreenshots();
     reportSweep();
-    const std::string notice = mDisplay.takeNotice();
-    if (!notice.empty()) mSession->notify(notice);
-    tell(notice);
+    reportDisplay();
 }
 
 void Viewer::takeSlice() {
@@ -273,6 +275,16 @@ void Viewer::reportSweep() {
     if (!mFrame || mFrame->sweep.empty() || mFrame->sweep == mSwept) return;
     mSwept = mFrame->sweep;
     tell(mSwept);
+}
+
+void Viewer::reportDisplay() {
+    const std::string notice = mDisplay.takeNotice();
+    if (!notice.empty()) mSession->notify(notice);
+    tell(notice);
+}
+
+ScreenWords Viewer::onScreen(const ViewFrame& frame) const {
+    return {mDisplay.parallaxText(frame), mDisplay.warning(frame)};
 }
 
 void Viewer::reportScreenshots() {

@@ -68,6 +68,8 @@ public:
     const InterfaceLook& look() const override { return mInterface.look(); }
     void setLook(const InterfaceLook& look) override { mInterface.setLook(look); }
     const Facts* facts() override;
+    ScreenWords onScreen(const ViewFrame& frame) const override;
+    bool fullScreen() const override { return mWindow.fullScreen(); }
 
 private:
     struct FactsWish;
@@ -97,6 +99,7 @@ private:
     void takeSlice();
     void endSlices();
     void reportSweep();
+    void reportDisplay();
     void reportScreenshots();
     void finishScreenshots();
     OutputMode shownMode() const;

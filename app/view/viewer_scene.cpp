@@ -57,6 +57,7 @@ void Viewer::load(const ViewOptions& options, bool another) {
     shown.scene.skyTurns = !swept;
     checkMethod(shown.scene, shown.method);
     checkSize(windowSize(), shown.scene, kViewBytes);
+    mDisplay.follow(shown);
     if (swept && !mSweep) mSweep = std::make_unique<ViewSweep>(shown.sweep);
     if (!mBefore) mBefore = Made{mOptions, mGiven, mSaid};
     mAnother = mAnother || another;
@@ -71,7 +72,8 @@ void Viewer::open(const std::string& scene) {
         SettingTexts settings;
         if (scene != "terrain") settings["SCENE"] = {scene};
         // What is of the person and the screen stays.
-        for (const char* key : {"shots", "size", "threads", "simd"})
+        for (const char* key :
+             {"shots", "size", "threads", "simd", "full-screen", "screen-width", "viewing-distance"})
             if (const auto kept = mGiven.find(key); kept != mGiven.end()) settings.insert(*kept);
         ViewOptions options = viewOptionsOf(settings);
         mMode = mSession ? mSession->mode() : mMode;

@@ -29,11 +29,6 @@ double statedWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh) 
     return width_mm / 1000.0;
 }
 
-double eyeShareOf(OutputMode mode) {
-    const OutputModeInfo& info = infoOf(mode);
-    return info.layout == OutputLayout::SideBySide && !info.half ? 0.5 : 1.0;
-}
-
 ScreenParallax onScreen(double parallax, double pictureWidth, double distance) {
     const double metres = parallax * pictureWidth;
     if (!std::isfinite(metres) || !(pictureWidth > 0) || !(distance > 0) || !std::isfinite(distance))
@@ -42,9 +37,9 @@ ScreenParallax onScreen(double parallax, double pictureWidth, double distance) {
     return {1000 * metres, std::copysign(angle * 180 / std::numbers::pi, metres), metres > kEyeDistance};
 }
 
-double pictureWidth(const StereoScreen& screen, OutputMode mode, int windowPixels, int screenPixels) {
-    if (windowPixels < 1 || screenPixels < 1) return 0;
-    return screen.width * (static_cast<double>(windowPixels) / screenPixels) * eyeShareOf(mode);
+double pictureWidth(const StereoScreen& screen, double picturePixels, double screenPixels) {
+    if (!(picturePixels > 0) || !(screenPixels > 0)) return 0;
+    return screen.width * (picturePixels / screenPixels);
 }
 
 double largestShare(double pictureWidth) {

@@ -3,10 +3,7 @@
 // No OpenGL.
 #pragma once
 
-#include <optional>
 #include <string>
-
-#include "engine/image/stereo_compose.h"
 
 namespace stereonav {
 
@@ -25,10 +22,6 @@ struct StereoScreen {
 // nothing, less than a telephone's, or of another shape than its pixels (projectors state an aspect ratio).
 double statedWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh);
 
-// How much of the window's width one eye's picture takes before the viewer: the half of it in full side by
-// side; all of it where the display stretches it again (half side by side) and in every other mode.
-double eyeShareOf(OutputMode mode);
-
 // Of one thing: negative before the screen, positive behind it.
 struct ScreenParallax {
     double millimetres = 0;
@@ -40,8 +33,9 @@ struct ScreenParallax {
 // one of them is no number or the width is not more than 0.
 ScreenParallax onScreen(double parallax, double pictureWidth, double distance);
 
-// Metres on the screen of an eye's picture in a window of so many pixels on a screen of so many.
-double pictureWidth(const StereoScreen& screen, OutputMode mode, int windowPixels, int screenPixels);
+// Metres on the screen of a picture so wide on a screen so wide, both in pixels. Pictures that the display
+// widens again (half side by side) count with the pixels that they have before they are squeezed.
+double pictureWidth(const StereoScreen& screen, double picturePixels, double screenPixels);
 
 // The share of the picture's width that is kEyeDistance on the screen: no parallax may be larger. 0 where the
 // width is not more than 0.

@@ -49,9 +49,9 @@ public:
 
 class Window {
 public:
-    // width, height in screen units, each cut to the monitor's free area. Throws Error where there is no display
-    // or no OpenGL 3.3. quadBuffer: asks the driver for a back buffer for each eye; where it refuses, the window
-    // has one for both.
+    // width, height in screen units, each cut to the monitor's free area. Throws
+    // Error where there is no display or no OpenGL 3.3. quadBuffer: asks the driver for a back buffer for
+    // each eye; where it refuses, the window has one for both.
     Window(const std::string& title, int width, int height, bool visible = true, bool quadBuffer = false);
     ~Window();
     Window(const Window&) = delete;

@@ -208,6 +208,30 @@ TEST_F(OnMonitors, WhereNoQuadBufferIsGrantedOneLineSaysSo) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
+TEST_F(OnMonitors, ParallaxIsToldAsItIsOnTheScreen) {
+    const std::vector<Monitor> all = monitors();
+    if (all.empty()) GTEST_SKIP() << "the display has no monitor";
+    ASSERT_TRUE(becomes([&] { return mWindow->place().width == 320; }));
+    ViewOptions options;
+    options.viewingDistance_mm = 1000;
+    // So wide that the window is a metre.
+    options.screenWidth_mm = 1000.0 * all[*monitorUnder(all, mWindow->place())].area.width / 320;
+    ViewDisplay display(*mWindow, options);
+    ViewFrame frame;
+    frame.left.color = Plane<PackedColor>(320, 1);
+    frame.nearParallax = -0.02;
+    frame.farParallax = 0.05;
+    EXPECT_EQ(display.parallaxText(frame), "on the screen -20.0 to +50.0 mm, -1.15 to +2.86 degrees");
+    EXPECT_EQ(display.warning(frame), "");
+    frame.farParallax = 0.07;
+    EXPECT_THAT(display.warning(frame), testing::HasSubstr("70 mm"));
+    frame.left.color = Plane<PackedColor>(160, 1);
+    EXPECT_EQ(display.warning(frame), "") << "half as wide: full side by side, or beside panels";
+    frame.request.twoEyes = false;
+    EXPECT_EQ(display.parallaxText(frame), "");
+    EXPECT_EQ(display.warning(frame), "");
+}
+
 class OnTwoMonitors : public OnMonitors {
 protected:
     void SetUp() override {
@@ -265,6 +289,8 @@ TEST_F(OnTwoMonitors, InterleavedModesKeepToTheMonitorsRows) {
             const glm::ivec2 at = monitor + place;
             glfwSetWindowPos(mWindow->handle(), at.x, at.y);
             ASSERT_TRUE(moves({at.x, at.y, 320, 200})) << at.x << "," << at.y;
+            bool redraws = false;  // while it is moved, too
+            EXPECT_TRUE(becomes([&] { return redraws = redraws || mWindow->redrawNeeded(); }));
             for (const OutputMode mode : {OutputMode::Rows, OutputMode::Columns, OutputMode::Checkerboard}) {
                 fill(presenter, {mode, false, false});
                 for (int y = 0; y < 4; ++y)

@@ -80,18 +80,17 @@ TEST(StereoScreen, MonitorsAreBelievedWhereTheyTellASize) {
         EXPECT_EQ(statedWidth(width, height, 1920, 1080), kDeskScreenWidth) << width << "x" << height;
 }
 
-TEST(StereoScreen, AWindowHasItsPartOfTheScreen) {
+TEST(StereoScreen, APictureHasItsPartOfTheScreen) {
     const StereoScreen screen{0.6, 0.6};
-    EXPECT_NEAR(pictureWidth(screen, OutputMode::RedCyanDubois, 1920, 1920), 0.6, 1e-12);
-    EXPECT_NEAR(pictureWidth(screen, OutputMode::RedCyanDubois, 480, 1920), 0.15, 1e-12);
-    EXPECT_NEAR(pictureWidth(screen, OutputMode::SideBySide, 1920, 1920), 0.3, 1e-12);
-    EXPECT_NEAR(pictureWidth(screen, OutputMode::SideBySideHalf, 1920, 1920), 0.6, 1e-12)
-        << "the display stretches it";
-    EXPECT_NEAR(pictureWidth(screen, OutputMode::TopBottom, 1920, 1920), 0.6, 1e-12);
-    EXPECT_NEAR(pictureWidth(screen, OutputMode::Left, 3840, 1920), 1.2, 1e-12) << "over two monitors";
-    EXPECT_EQ(pictureWidth(screen, OutputMode::Left, 0, 1920), 0);
-    EXPECT_EQ(pictureWidth(screen, OutputMode::Left, 100, 0), 0);
-    EXPECT_EQ(onScreen(0.02, pictureWidth(screen, OutputMode::Left, 0, 1920), 0.6).millimetres, 0);
+    EXPECT_NEAR(pictureWidth(screen, 1920, 1920), 0.6, 1e-12);
+    EXPECT_NEAR(pictureWidth(screen, 480, 1920), 0.15, 1e-12);
+    EXPECT_NEAR(pictureWidth(screen, 3840, 1920), 1.2, 1e-12) << "over two monitors";
+    for (const double none : {0.0, -1.0, kNan}) {
+        EXPECT_EQ(pictureWidth(screen, none, 1920), 0) << none;
+        EXPECT_EQ(pictureWidth(screen, 100, none), 0) << none;
+    }
+    EXPECT_EQ(onScreen(0.02, pictureWidth(screen, 0, 1920), 0.6).millimetres, 0);
+    EXPECT_EQ(onScreen(0.02, pictureWidth(screen, kInfinity, 1920), 0.6).millimetres, 0);
 }
 
 }  // namespace

@@ -70,6 +70,11 @@ TEST(ViewKeys, OnlyMattersOfDegreeRepeat) {
     EXPECT_EQ(commandOf({GLFW_KEY_ESCAPE, 0, false, true}), std::nullopt);
 }
 
+TEST(ViewKeys, F11IsTheWholeScreen) {
+    EXPECT_EQ(commandOf({GLFW_KEY_F11, 0, false, false}), ViewCommand::FullScreen);
+    EXPECT_EQ(commandOf({GLFW_KEY_F11, 0, false, true}), std::nullopt) << "held, it would flicker";
+}
+
 TEST(ViewKeys, DigitsChooseDifferentModes) {
     std::set<OutputMode> seen;
     for (int key = GLFW_KEY_0; key <= GLFW_KEY_9; ++key) {

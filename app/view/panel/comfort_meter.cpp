@@ -32,16 +32,17 @@ void drawComfortMeter(const PanelHost& host, const ViewFrame& frame) {
     list.AddRectFilled({from.x, top}, {from.x + size.x, bottom}, ImGui::GetColorU32(ImGuiCol_FrameBg), 2);
     list.AddRectFilled({place(kNearestParallax), top}, {place(kFarthestParallax), bottom},
                        ImGui::GetColorU32(ImGuiCol_FrameBgActive));
-    const std::string warning = warningLine(frame);
+    const ScreenWords onScreen = host.onScreen(frame);
+    const std::string warning = onScreen.warning.empty() ? warningLine(frame) : onScreen.warning;
     const ImVec4 color = warning.empty() ? accentColor(host.look()) : warningColor(host.look());
     const float left = place(frame.nearParallax), right = std::max(place(frame.farParallax), left + 2);
     list.AddRectFilled({left, top + 2}, {right, bottom - 2}, ImGui::GetColorU32(color), 2);
     list.AddLine({place(0), from.y}, {place(0), from.y + size.y}, ImGui::GetColorU32(ImGuiCol_Text));
     tooltip(fmt::format(
         "Parallax {:+.1f} to {:+.1f} % of the width: left of the line stands before the screen, right of "
-        "it behind.\nComfortable: {:.0f} % in all, within {:+.1f} and {:+.1f} %.{}{}",
+        "it behind.\nComfortable: {:.0f} % in all, within {:+.1f} and {:+.1f} %.\n{}{}{}",
         100 * frame.nearParallax, 100 * frame.farParallax, 100 * kParallaxBudget, 100 * kNearestParallax,
-        100 * kFarthestParallax, warning.empty() ? "" : "\n", warning));
+        100 * kFarthestParallax, onScreen.parallax, warning.empty() ? "" : "\n", warning));
 }
 
 }  // namespace stereonav

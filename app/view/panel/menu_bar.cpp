@@ -55,7 +55,7 @@ void viewMenu(PanelHost& host, MenuWishes& wishes) {
     ImGui::MenuItem("Panels", "F2", wishes.side);
     ImGui::MenuItem("Places, map and slices", "F3", wishes.left);
     if (ImGui::MenuItem("Picture alone", "Tab")) wishes.hideAll = true;
-    if (ImGui::MenuItem("Full screen", "F11")) host.act({ViewCommand::FullScreen});
+    item(host, "Whole screen", "F11", ViewCommand::FullScreen, host.fullScreen());
     ImGui::Separator();
     InterfaceLook look = host.look();
     if (ImGui::MenuItem("Dark", nullptr, look.dark)) look.dark = true;
@@ -83,13 +83,16 @@ void stereoMenu(PanelHost& host) {
     item(host, "Swap the eyes", "X", ViewCommand::SwapEyes, session && session->swapped());
     ImGui::Separator();
     constexpr std::pair<OutputLayout, const char*> kLayouts[] = {
-        {OutputLayout::OneEye, "One eye"},           {OutputLayout::SideBySide, "Side by side"},
+        {OutputLayout::OneEye, "One eye"},
+        {OutputLayout::SideBySide, "Side by side"},
         {OutputLayout::TopBottom, "Top and bottom"},
-                                                                  {OutputLayout::FramePacked, "HDMI frame packing"}, {OutputLayout::Rows, "Rows"},
-        {OutputLayout::Columns, "Columns"},          {OutputLayout::Checkerboard, "Checkerboard"},
+        {OutputLayout::Rows, "Rows"},
+        {OutputLayout::Columns, "Columns"},
+        {OutputLayout::Checkerboard, "Checkerboard"},
         {OutputLayout::Anaglyph, "Coloured glasses"},
-                                                                  {OutputLayout::FrameSequential, "Shutter glasses"},
-                                                                  {OutputLayout::QuadBuffer, "Quad buffer"}};
+        {OutputLayout::FramePacked, "Frame-packed"},
+        {OutputLayout::FrameSequential, "Shutter glasses, by turns"},
+        {OutputLayout::QuadBuffer, "Shutter glasses, by the driver"}};
     for (const auto& [layout, name] : kLayouts)
         if (ImGui::BeginMenu(name)) {
             modeItems(host, layout);

@@ -12,6 +12,7 @@
 #include "app/view/recent_files.h"
 #include "app/view/session.h"
 #include "app/view/setting_texts.h"
+#include "app/view/view_display.h"
 #include "engine/display/interface_theme.h"
 
 namespace stereonav {
@@ -70,6 +71,9 @@ public:
     virtual void setLook(const InterfaceLook& look) = 0;
     // Asks for what the scene says of itself; null until it is there.
     virtual const Facts* facts() = 0;
+    // Parallax as it is on the real screen.
+    virtual ScreenWords onScreen(const ViewFrame& frame) const = 0;
+    virtual bool fullScreen() const = 0;
 };
 
 }  // namespace stereonav

@@ -45,7 +45,9 @@ void drawView(PanelHost& host, ViewSession& session) {
     const ViewFrame* const frame = host.frame();
     if (!frame || !frame->request.twoEyes) return;
     drawComfortMeter(host, *frame);
-    const std::string warning = warningLine(*frame);
+    const ScreenWords onScreen = host.onScreen(*frame);
+    const std::string warning = onScreen.warning.empty() ? warningLine(*frame) : onScreen.warning;
+    if (!onScreen.parallax.empty()) quietText(host, onScreen.parallax);
     quietText(host, warning.empty() ? fmt::format("parallax {:+.1f} to {:+.1f} % of the width",
                                                   100 * frame->nearParallax, 100 * frame->farParallax)
                                     : warning);
