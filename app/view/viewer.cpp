@@ -220,6 +220,7 @@ void Viewer::takeFrame() {
         if (mCosts.size() > kKeptCosts) mCosts.pop_front();
         mNewFrame = true;
     }
+    if (const auto truth = mWorker->takeTruth()) mSession->observe(*truth);
     if (mSession->slicesShown())
         takeSlice();
     else
