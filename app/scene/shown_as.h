@@ -27,7 +27,7 @@ struct PixelBytes {
     double beside = 0;           // bytes, of pictures of any size
 };
 constexpr PixelBytes kRenderBytes{88, 176}, kVideoBytes{80, 176, 24e6}, kLosslessVideoBytes{400, 480, 24e6},
-    kCompareBytes{320, 608}, kInfoBytes{48, 128}, kViewBytes{88, 144, 24e6}, kNoPicture{};
+    kCompareBytes{320, 608}, kInfoBytes{48, 128}, kViewBytes{108, 160, 24e6}, kNoPicture{};
 
 struct ShownAs {
     // Light of its own goes through it: no other light of the scene has any effect.

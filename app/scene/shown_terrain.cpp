@@ -37,6 +37,7 @@ std::unique_ptr<Flight> flightOver(const TerrainScene& terrain) {
 void setViews(const TerrainScene& terrain, Scene& scene) {
     scene.lens = terrain.lens;
     scene.stereo = terrain.stereo;
+    scene.eyesGiven = terrain.eyesGiven;
     scene.startPose = terrain.startPose;
     scene.path = terrain.path;
 }

@@ -37,7 +37,7 @@ bool sameFrame(const FrameRequest& a, const FrameRequest& b) {
            a.lens.verticalFov == b.lens.verticalFov && a.stereo.separation == b.stereo.separation &&
            a.stereo.zeroParallax == b.stereo.zeroParallax && a.way.method == b.way.method &&
            a.model == b.model && a.time == b.time && a.twoEyes == b.twoEyes && a.mode == b.mode &&
-           a.sun == b.sun;
+           a.sun == b.sun && a.fitEyes == b.fitEyes && a.truth == b.truth;
 }
 
 bool asksForMotion(const FlightInput& input) {
@@ -410,6 +410,8 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
     wanted.sun = mSun;
     wanted.twoEyes = mStereoOn;
     wanted.mode = compose().mode;
+    wanted.fitEyes = mStereo.fits();
+    wanted.truth = mTruth;
     wanted.version = mRequest.version;
     if (mFresh || !sameFrame(wanted, mRequest)) ++wanted.version;
     mFresh = false;
@@ -424,8 +426,10 @@ ComposeSetting ViewSession::compose() const {
 std::string ViewSession::statusLine(const ViewFrame& frame, double framesPerSecond) const {
     std::string line = frameText(frame, framesPerSecond);
     if (frame.request.twoEyes)
-        line += fmt::format("  {}{}{}", infoOf(mMode).longName, mSwapped ? " swapped" : "",
-                            mStereo.follows() ? "  eyes follow" : "");
+        line += fmt::format("  {}{}{}{}", infoOf(mMode).longName, mSwapped ? " swapped" : "",
+                            *mStereo.word() ? "  " : "", mStereo.word());
+    if (mMeasured.version == frame.request.version && mMeasured.version > 0 && mMeasured.note.empty())
+        line += "  " + truthText(mMeasured);
     const auto* const models = offered<LightModels>();
     if (models && !models->names().empty())
         line += "  " + models->names()[static_cast<std::size_t>(frame.request.model)];

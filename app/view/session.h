@@ -158,6 +158,8 @@ public:
         mDepthAhead = frame.depthAhead;
         mStereo.observe(frame);
     }
+    // What was measured of one that rests.
+    void observe(const FrameTruth& truth) { mMeasured = truth; }
 
     // The slice view. The study is read by the caller, whom takeStudyWish() tells once.
     bool slicesShown() const { return mSlices.has_value(); }
@@ -188,6 +190,9 @@ public:
     std::string statusLine(const ViewFrame& frame, double framesPerSecond) const;
 
     const StereoSetting& stereo() const { return mStereo.now(); }
+    ViewStereo& eyes() { return mStereo; }  // to be set by what is not a key
+    void setTruth(TruthView truth) { mTruth = truth; }
+    TruthView truth() const { return mTruth; }
     bool followsClearance() const { return mStereo.follows(); }
     OutputMode mode() const { return mMode; }
     Pose pose() const { return mPlaying ? mPlayed : mFlight->pose(); }
@@ -264,6 +269,8 @@ private:
     bool mQuadBuffer = false;  // whether the window has one
     std::string_view mMethod;
     int mModel = 0;
+    TruthView mTruth = TruthView::None;
+    FrameTruth mMeasured;
     std::optional<double> mFov;  // radians; none: the scene's
     double mTime = 0;            // seconds, of what moves by itself
     bool mStereoOn = true, mSwapped = false, mLinear = false, mQuit = false, mCaptured = false;

@@ -7,6 +7,25 @@
 #include "app/output/length_text.h"
 
 namespace stereonav {
+namespace {
+
+// Of what is not comfortable; first what is worst.
+std::string adviceFor(const ComfortReading& reading) {
+    if (reading.range > kParallaxBudget)
+        return fmt::format(
+            "parallax spans {:.1f} % of the width, more than {:.0f} %: [ brings the eyes together",
+            100 * reading.range, 100 * kParallaxBudget);
+    if (reading.near < kNearestParallax)
+        return "the nearest things stand too far before the screen: ; brings the screen nearer";
+    if (reading.far > kFarthestParallax)
+        return "the farthest things lie too far behind the screen: ' moves the screen away";
+    if (reading.near < kUsualNearest)
+        return "the nearest things stand before the screen, well for a short time: ; brings the screen "
+               "nearer";
+    return "the farthest things lie behind the screen, well for a short time: ' moves the screen away";
+}
+
+}  // namespace
 
 std::string frameText(const ViewFrame& frame, double framesPerSecond) {
     // Nothing is known of the rate before the first frames that followed each other.
@@ -34,18 +53,25 @@ std::string frameText(const ViewFrame& frame, double framesPerSecond) {
     return line;
 }
 
+ComfortReading comfortReading(const ViewFrame& frame) {
+    ComfortReading reading;
+    if (!frame.request.twoEyes) return reading;
+    const ParallaxRange parallax{frame.nearParallax, frame.farParallax};
+    reading = {parallax.near, parallax.far, parallax.far - parallax.near, comfortOf(parallax), ""};
+    if (reading.state != ComfortState::Comfortable) reading.advice = adviceFor(reading);
+    return reading;
+}
+
 std::string warningLine(const ViewFrame& frame) {
-    if (!frame.request.twoEyes) return "";
-    const double range = frame.farParallax - frame.nearParallax;
-    if (range > kParallaxBudget)
-        return fmt::format(
-            "parallax spans {:.1f} % of the width, more than {:.0f} %: [ brings the eyes together",
-            100 * range, 100 * kParallaxBudget);
-    if (frame.nearParallax < kNearestParallax)
-        return "the nearest things stand too far before the screen: ; brings the screen nearer";
-    if (frame.farParallax > kFarthestParallax)
-        return "the farthest things lie too far behind the screen: ' moves the screen away";
-    return "";
+    const ComfortReading reading = comfortReading(frame);
+    return reading.state == ComfortState::TooMuch ? reading.advice : "";
+}
+
+std::string truthText(const FrameTruth& truth) {
+    if (!truth.note.empty()) return truth.note;
+    if (truth.error.wrongShare == 0) return "error none";
+    return fmt::format("error {:.1f} dB, {} of 255 at most, in {:.1f} % of the right eye",
+                       truth.error.psnr_db, truth.error.largest, 100 * truth.error.wrongShare);
 }
 
 }  // namespace stereonav

@@ -21,11 +21,16 @@ double approach(double now, double target, double dt) {
     return target * std::pow(now / target, std::exp(-dt / kStereoSeconds));
 }
 
+bool differs(const StereoSetting& a, const StereoSetting& b) {
+    const auto apart = [](double x, double y) { return std::abs(x - y) > kFollowed * y; };
+    return apart(a.separation, b.separation) || apart(a.zeroParallax, b.zeroParallax);
+}
+
 }  // namespace
 
-ViewStereo::ViewStereo(const Scene& scene) {
+ViewStereo::ViewStereo(const Scene& scene) : mGiven(scene.eyesGiven) {
     reset(scene);
-    mNow = mTarget;
+    mNow = mByHand = mTarget;
     if (follows()) follow();  // from there
 }
 
@@ -35,9 +40,11 @@ void ViewStereo::look(const Scene& scene) {
 }
 
 void ViewStereo::reset(const Scene& scene) {
-    mTarget = scene.stereo;
+    takeOver();
+    mTarget = mStart.value_or(scene.stereo);
+    mFits = !mGiven && !mStart;
+    mFitted = mStart.has_value();
     look(scene);
-    mFollower = nullptr;
     if (mRoom && mRoom->followsAtStart()) follow();
 }
 
@@ -49,47 +56,91 @@ void ViewStereo::replaceScene(const Scene& scene) {
 
 void ViewStereo::follow() {
     mFollower = mRoom ? mRoom->makeFollower(mNow) : nullptr;
+    if (follows()) mComfort.restart();
+}
+
+// What is shown is what was asked for.
+void ViewStereo::takeOver() {
+    if (follows() || clamping()) {
+        mTarget = mByHand = mNow;
+        mComfort.restart();
+    }
+    mFollower = nullptr;
+    mFits = mFitted = false;
+}
+
+// The largest separation goes before the distance of the screen.
+void ViewStereo::setTarget(const StereoSetting& target) {
+    mTarget.zeroParallax = target.zeroParallax;
+    const double least = kFirstSeparation * target.zeroParallax;
+    mTarget.separation = target.separation < least ? 0 : target.separation;
+    mTarget.separation = std::min({mTarget.separation, kLargestSeparation * target.zeroParallax, mLargest});
 }
 
 void ViewStereo::scaleSeparation(double factor) {
-    if (follows()) mTarget = mNow;
-    mFollower = nullptr;
-    const double least = kFirstSeparation * mTarget.zeroParallax;
-    mTarget.separation =
-        factor > 1 ? std::max(mTarget.separation * factor, least) : mTarget.separation * factor;
-    if (mTarget.separation < least) mTarget.separation = 0;
-    mTarget.separation = std::min({mTarget.separation, kLargestSeparation * mTarget.zeroParallax, mLargest});
-}
-
-void ViewStereo::setSeparation(double separation) {
-    if (follows()) mTarget = mNow;
-    mFollower = nullptr;
-    mTarget.separation = std::min({separation, kLargestSeparation * mTarget.zeroParallax, mLargest});
+    takeOver();
+    const double least = kFirstSeparation * mTarget.zeroParallax, scaled = mTarget.separation * factor;
+    setTarget({factor > 1 ? std::max(scaled, least) : scaled, mTarget.zeroParallax});
 }
 
 void ViewStereo::scaleZeroParallax(double factor) {
-    if (follows()) mTarget = mNow;
-    mFollower = nullptr;
+    takeOver();
     mTarget.zeroParallax = std::max(mTarget.zeroParallax * factor, mTarget.separation / kLargestSeparation);
 }
 
+void ViewStereo::setSeparation(double metres) {
+    if (!(metres >= 0)) return;
+    takeOver();
+    setTarget({metres, mTarget.zeroParallax});
+}
+
+void ViewStereo::setZeroParallax(double metres) {
+    if (!(metres > 0) || !std::isfinite(metres)) return;
+    takeOver();
+    mTarget.zeroParallax = std::max(metres, mTarget.separation / kLargestSeparation);
+}
+
+bool ViewStereo::clamping() const {
+    return !follows() && mComfort.share() < 1 - kSettled;
+}
+
+void ViewStereo::adopt(const StereoSetting& fitting) {
+    mFitted = differs(fitting, mNow);
+    mFits = false;
+    mStart = mNow = mTarget = mByHand = fitting;
+    mComfort.restart();
+    if (follows()) follow();  // from there
+}
+
 void ViewStereo::observe(const ViewFrame& frame) {
-    if (frame.request.twoEyes)
-        mComfort.observe(frame.request.stereo.separation, {frame.nearParallax, frame.farParallax});
+    const FrameRequest& request = frame.request;
+    if (!request.twoEyes) return;
+    if (mFits && request.fitEyes) adopt(request.stereo);
+    mComfort.observe(request.stereo.separation, {frame.nearParallax, frame.farParallax});
+}
+
+void ViewStereo::stepByHand(double dt) {
+    mByHand.separation = approach(mByHand.separation, mTarget.separation, dt);
+    mByHand.zeroParallax = approach(mByHand.zeroParallax, mTarget.zeroParallax, dt);
+    const StereoSetting wanted = mClamp ? mComfort.limited(mByHand, dt, 0) : mComfort.released(mByHand, dt);
+    if (mComfort.share() == 1 || differs(wanted, mNow)) mNow = wanted;
 }
 
 void ViewStereo::step(double free, double depth, double dt) {
     const StereoSetting before = mNow;
     if (mFollower) {
         const StereoSetting wanted = mComfort.limited(mFollower(free, depth, dt), dt);
-        const auto differs = [](double a, double b) { return std::abs(a - b) > kFollowed * b; };
-        if (differs(wanted.separation, mNow.separation) || differs(wanted.zeroParallax, mNow.zeroParallax))
-            mNow = wanted;
+        if (differs(wanted, mNow)) mNow = wanted;
     } else {
-        mNow.separation = approach(mNow.separation, mTarget.separation, dt);
-        mNow.zeroParallax = approach(mNow.zeroParallax, mTarget.zeroParallax, dt);
+        stepByHand(dt);
     }
     mMoving = before.separation != mNow.separation || before.zeroParallax != mNow.zeroParallax;
+}
+
+const char* ViewStereo::word() const {
+    if (follows()) return "eyes follow";
+    if (mClamp) return "comfort clamp";
+    return mFitted ? "comfort" : "";
 }
 
 }  // namespace stereonav

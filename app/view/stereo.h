@@ -2,6 +2,8 @@
 // room around them; never in jumps.
 #pragma once
 
+#include <optional>
+
 #include "app/view/worker.h"
 
 namespace stereonav {
@@ -11,16 +13,31 @@ public:
     // The follower, where the scene has one, is at work from the start.
     explicit ViewStereo(const Scene& scene);
 
-    // The scene's own setting; follows as at the start.
+    // As at the start: the scene's own setting, or what fitted its first picture; follows as at the start.
     void reset(const Scene& scene);
     // Another scene: the eyes stay as they are and go on from there.
     void replaceScene(const Scene& scene);
 
+    // By hand: each ends following.
     void scaleSeparation(double factor);
-    void scaleZeroParallax(double factor);  // both end following
-    void setSeparation(double separation);  // metres; as scaleSeparation()
+    void scaleZeroParallax(double factor);
+    // Metres, brought within what is possible; what is no number, or a screen that is not ahead, changes
+    // nothing.
+    void setSeparation(double metres);
+    void setZeroParallax(double metres);
     bool follows() const { return static_cast<bool>(mFollower); }
     void follow();
+
+    // Eyes that nobody asked for (Scene::eyesGiven) are made comfortable with the first picture: until that
+    // one is there, requests say so (FrameRequest::fitEyes).
+    bool fits() const { return mFits; }
+    // They are as they were fitted then, and that was not what the scene has.
+    bool fitted() const { return mFitted; }
+    // Where they are set by hand: brings them together, slowly, while a picture's parallax is too much, and
+    // back again after it. Off at first.
+    void setClamp(bool on) { mClamp = on; }
+    bool clamp() const { return mClamp; }
+    bool clamping() const;  // they are nearer to each other than was asked for
 
     // A frame has come: the parallax that it shows limits what is followed.
     void observe(const ViewFrame& frame);
@@ -28,18 +45,28 @@ public:
     void step(double free, double depth, double dt);
 
     const StereoSetting& now() const { return mNow; }
-    // Where it goes by hand.
+    // By hand: where they go, without the clamp.
     const StereoSetting& target() const { return follows() ? mNow : mTarget; }
     bool moving() const { return mMoving; }  // since the last step
+    // For the line of figures: "eyes follow", "comfort", "comfort clamp"; "" where there is nothing to say.
+    const char* word() const;
 
 private:
     void look(const Scene& scene);
+    void takeOver();
+    void setTarget(const StereoSetting& target);
+    void adopt(const StereoSetting& fitting);
+    void stepByHand(double dt);
 
-    StereoSetting mNow, mTarget;        // and where it slowly goes, by hand
+    // As shown; where it slowly goes, by hand; and how far that is, before the clamp.
+    StereoSetting mNow, mTarget, mByHand;
     double mLargest;                    // metres
     const RoomAround* mRoom = nullptr;  // the scene's, which outlives this or is replaced first
     StereoFollower mFollower;
     ComfortLimit mComfort;
+    bool mGiven = false;  // by the user or the scene's file
+    bool mFits = false, mFitted = false, mClamp = false;
+    std::optional<StereoSetting> mStart;  // that fitted the first picture
     bool mMoving = false;
 };
 

@@ -166,9 +166,6 @@ bool Viewer::actOnInterface(const ViewAction& action) {
         case ViewCommand::SaveScene:
             if (mSession) mPanels.openSave();
             return true;
-        case ViewCommand::FullScreen:
-            mDisplay.toggleFullScreen();
-            return true;
         case ViewCommand::Undo:
             undo();
             return true;
@@ -241,6 +238,7 @@ void Viewer::takeFrame() {
         noteRecent();
         mNewFrame = true;
     }
+    if (const auto truth = mWorker->takeTruth()) mSession->observe(*truth);
     if (mSession->slicesShown())
         takeSlice();
     else

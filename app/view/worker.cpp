@@ -3,39 +3,72 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 #include <vector>
+
+#include "engine/stereo/comfort.h"
 
 namespace stereonav {
 namespace {
 
-constexpr int kParallaxStep = 4;  // every fourth pixel of every fourth row tells the range of depths
+constexpr int kAheadStep = 4;  // every fourth pixel of every fourth row tells what lies ahead
+constexpr int kMostFits = 3;   // pictures until eyes fit: those apart see a little more than those together
+constexpr double kFitting = 1e-6;  // relative change of the eyes that is none
 
 // What the frame's left eye tells of the room around it.
 void lookAround(const StereoViews* views, ViewFrame& frame) {
-    const RoomSeen room = roomSeen(frame.left.viewDepth, kParallaxStep);
-    frame.depthAhead = room.ahead;
+    frame.depthAhead = depthAhead(frame.left.viewDepth, kAheadStep);
+    frame.nearParallax = frame.farParallax = 0;
+    frame.parallax = {};
     if (!views) return;
-    const ParallaxRange parallax = parallaxOf(*views, room);
-    frame.nearParallax = parallax.near;
-    frame.farParallax = parallax.far;
+    const ParallaxSeen seen = parallaxSeen(*views, frame.left.viewDepth);
+    frame.nearParallax = seen.range.near;
+    frame.farParallax = seen.range.far;
+    frame.parallax = seen.histogram;
 }
 
-void renderFrame(const Scene& scene, const FrameRequest& request, ViewFrame& frame) {
+bool sameEyes(const StereoSetting& a, const StereoSetting& b) {
+    const auto same = [](double x, double y) { return std::abs(x - y) <= kFitting * std::max(x, y); };
+    return same(a.separation, b.separation) && same(a.zeroParallax, b.zeroParallax);
+}
+
+// Both eyes, and again with eyes that fit what was seen, where that is asked for.
+StereoViews makeEyes(const Scene& scene, const FrameWay& way, ViewFrame& frame) {
+    FrameRequest& request = frame.request;
+    for (int fit = 0;; ++fit) {
+        const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
+        scene.frames().make(views, request.time, way, frame);
+        lookAround(&views, frame);
+        if (!request.fitEyes || fit == kMostFits) return views;
+        const StereoSetting fitting = comfortableEyes(request.stereo, {frame.nearParallax, frame.farParallax},
+                                                      views.shiftAtInfinity / views.left.width);
+        if (sameEyes(fitting, request.stereo)) return views;
+        request.stereo = fitting;
+    }
+}
+
+void takeTruth(TruthMaker::Shown shown, ViewFrame& frame) {
+    frame.truthNote = std::move(shown.note);
+    frame.truthError = shown.error;
+}
+
+void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& truth, ViewFrame& frame) {
     frame.request = request;
-    frame.nearParallax = frame.farParallax = 0;
     if (auto* const light = scene.offered<TurningLight>()) light->turnTo(request.sun);
     if (auto* const models = scene.offered<LightModels>()) models->choose(request.model);
-    std::optional<StereoViews> views;
     EyeView view = makeEyeView(request.pose, request.lens);
     if (request.twoEyes) {
-        views = makeStereoViews(request.pose, request.lens, request.stereo);
-        view = views->left;
-        scene.frames().make(*views, request.time, request.way, frame);
+        const FrameWay way = TruthMaker::wayOf(request.truth, request.way, scene.frames());
+        const StereoViews views = makeEyes(scene, way, frame);
+        view = views.left;
+        takeTruth(truth.show(request.truth, scene, views, request.time, request.way, frame), frame);
+        frame.request.way = way;
     } else {
         scene.frames().makeOne(view, request.time, frame);
+        lookAround(nullptr, frame);
+        takeTruth(truth.showOfOneEye(request.truth), frame);
     }
-    lookAround(views ? &*views : nullptr, frame);
     // Not between the eyes, which are to be lit alike.
     if (auto* const light = scene.offered<SeenLight>()) light->seen(view, frame.left);
     const auto* const place = scene.offered<SweepPlace>();
@@ -78,6 +111,7 @@ ViewWorker::~ViewWorker() {
     {
         const std::lock_guard lock(mMutex);
         mStop = true;
+        mInterrupt = true;
         if (mProgress) mProgress->cancel();
     }
     mAsked.notify_all();
@@ -171,6 +205,7 @@ void ViewWorker::ask(Task task) {
     {
         const std::lock_guard lock(mMutex);
         mTasks.push_back(std::move(task));
+        mInterrupt = true;
     }
     mAsked.notify_all();
 }
@@ -202,43 +237,69 @@ std::shared_ptr<const OpenScene> ViewWorker::scene() const {
 
 // --- rendering
 
+struct ViewWorker::Drawn {
+    std::optional<Job> job;                  // none yet
+    std::shared_ptr<const ViewFrame> frame;  // null once it was measured, or where it is not to be
+    std::uint64_t lightChanges = 0;          // that it was drawn after
+    std::chrono::steady_clock::time_point since;
+};
+
 void ViewWorker::renderFrames() {
-    std::optional<Job> last;
-    std::uint64_t changes = 0;
+    Drawn drawn;
     try {
-        while (std::optional<Job> job = nextJob(last, changes)) {
-            if (job->task) {
+        while (const std::optional<Job> job = nextJob(drawn))
+            if (job->task)
                 runTask(*job);
-                continue;
-            }
-            last = job;
-            const auto* const light = job->scene->scene->offered<SeenLight>();
-            if (light) changes = light->changes();
-            auto frame = mPool->take();
-            renderFrame(*job->scene->scene, job->request, *frame);
-            auto shared = mPool->share(std::move(frame));
-            {
-                const std::lock_guard lock(mMutex);
-                mNewest.swap(shared);
-            }
-            mWake();
-        }
+            else
+                draw(*job, drawn);
     } catch (...) {
         fail(std::current_exception());
     }
 }
 
-std::optional<ViewWorker::Job> ViewWorker::nextJob(const std::optional<Job>& last, std::uint64_t changes) {
+void ViewWorker::draw(const Job& job, Drawn& drawn) {
+    drawn.job = job;
+    drawn.frame.reset();
+    const auto* const light = job.scene->scene->offered<SeenLight>();
+    if (light) drawn.lightChanges = light->changes();
+    auto frame = mPool->take();
+    renderFrame(*job.scene->scene, job.request, mTruthMaker, *frame);
+    std::shared_ptr<const ViewFrame> shared = mPool->share(std::move(frame));
+    if (job.request.fitEyes) drawn.job->request = shared->request;  // drawn again, it stays as it is
+    // A difference is measured already.
+    if (!shared->truthError) drawn.frame = shared;
+    drawn.since = std::chrono::steady_clock::now();
+    {
+        const std::lock_guard lock(mMutex);
+        if (shared->truthError) mTruth = FrameTruth{shared->request.version, *shared->truthError, 0, ""};
+        mNewest.swap(shared);
+    }
+    mWake();
+}
+
+std::optional<ViewWorker::Job> ViewWorker::nextJob(Drawn& drawn) {
     constexpr std::chrono::milliseconds kLookAtLight{100};
     std::unique_lock lock(mMutex);
     const auto asked = [this] { return mStop || ((mRequest || !mTasks.empty()) && mScene); };
-    const auto* const light = last ? last->scene->scene->offered<SeenLight>() : nullptr;
+    const auto* const light = drawn.job ? drawn.job->scene->scene->offered<SeenLight>() : nullptr;
     while (!asked()) {
-        if (!light)
-            mAsked.wait(lock, asked);
-        else if (!mAsked.wait_for(lock, kLookAtLight, asked) && last->scene == mScene &&
-                 light->changes() != changes)
-            return last;
+        const bool measures = mMeasures && drawn.frame;
+        const auto now = std::chrono::steady_clock::now(), rested = drawn.since + kRest;
+        if (measures && now >= rested) {
+            mInterrupt = false;
+            lock.unlock();
+            measure(drawn);
+            lock.lock();
+        } else if (light) {
+            const auto until = measures ? std::min(now + kLookAtLight, rested) : now + kLookAtLight;
+            if (!mAsked.wait_until(lock, until, asked) && drawn.job->scene == mScene &&
+                light->changes() != drawn.lightChanges)
+                return drawn.job;
+        } else if (measures) {
+            mAsked.wait_until(lock, rested);
+        } else {
+            mAsked.wait(lock);
+        }
     }
     if (mStop) return std::nullopt;
     if (!mRequest) {
@@ -249,10 +310,46 @@ std::optional<ViewWorker::Job> ViewWorker::nextJob(const std::optional<Job>& las
     return Job{*std::exchange(mRequest, std::nullopt), mScene};
 }
 
+void ViewWorker::measure(Drawn& drawn) {
+    const std::shared_ptr<const ViewFrame> frame = std::exchange(drawn.frame, nullptr);
+    const FrameRequest& request = frame->request;
+    std::optional<FrameTruth> truth;
+    try {
+        const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
+        truth = mTruthMaker.measure(*drawn.job->scene->scene, views, request.time, request.way, *frame,
+                                    mInterrupt);
+    } catch (const std::exception& error) {  // the picture is there all the same
+        mTruthMaker.forget();
+        truth.emplace().note = std::string("the right eye could not be measured: ") + error.what();
+    }
+    if (!truth) return;
+    truth->version = request.version;
+    {
+        const std::lock_guard lock(mMutex);
+        mTruth = std::move(truth);
+    }
+    mWake();
+}
+
+std::optional<FrameTruth> ViewWorker::takeTruth() {
+    const std::lock_guard lock(mMutex);
+    return std::exchange(mTruth, std::nullopt);
+}
+
+void ViewWorker::measureTruth(bool on) {
+    {
+        const std::lock_guard lock(mMutex);
+        mMeasures = on;
+        if (!on) mInterrupt = true;
+    }
+    mAsked.notify_all();
+}
+
 void ViewWorker::request(const FrameRequest& request) {
     {
         const std::lock_guard lock(mMutex);
         mRequest = request;
+        mInterrupt = true;
     }
     mAsked.notify_all();
 }

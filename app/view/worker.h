@@ -3,6 +3,8 @@
 // closes.
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -15,12 +17,14 @@
 #include <vector>
 
 #include "app/command/commands.h"
+#include "app/view/frame_truth.h"
 #include "engine/base/progress.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/frame/frame_maker.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/scene/capabilities.h"
 #include "engine/scene/scene.h"
+#include "engine/stereo/parallax_histogram.h"
 
 namespace stereonav {
 
@@ -46,14 +50,24 @@ struct FrameRequest {
     SunPlace sun;                        // where it can be moved
     bool twoEyes = true;                 // false: one eye, from the head itself
     OutputMode mode = OutputMode::Left;  // that the eyes' size was chosen for
+    // The eyes may be changed to be comfortable in this picture (comfortableEyes): its own request says to
+    // what.
+    bool fitEyes = false;
+    TruthView truth = TruthView::None;  // in the place of the right eye
 };
 
 struct ViewFrame : EyePair {
     FrameRequest request;
     std::string sweep;  // where they were swept, "" where nobody tells
     // Parallax of the nearest and the farthest thing, as shares of the width; positive is behind the screen.
+    // Of every pixel of the left eye, by its view depth: of what is translucent, and of a medium, that of
+    // what its ray first met, however little of that is seen.
     double nearParallax = 0, farParallax = 0;
-    double depthAhead = 0;  // metres: typical of the picture's middle; infinite where nothing is there
+    ParallaxHistogram parallax;  // of all pixels; empty of one eye
+    double depthAhead = 0;       // metres: typical of the picture's middle; infinite where nothing is there
+    // Why the right eye does not show what request.truth asks for, or what it is held against; "" mostly.
+    std::string truthNote;
+    std::optional<PictureError> truthError;  // of the right eye as made, where the difference is shown
 };
 
 class ViewWorker {
@@ -95,8 +109,16 @@ public:
     // The newest frame, null when there is none since the last call. Throws as scene() does.
     std::shared_ptr<const ViewFrame> takeFrame();
 
+    // While the newest frame rests, its right eye is held against its truth, once: what came out, none when
+    // there is nothing new since the last call. A request ends that (TruthMaker::measure).
+    std::optional<FrameTruth> takeTruth();
+    void measureTruth(bool on);  // on at first
+    static constexpr std::chrono::milliseconds kRest{300};
+
 private:
     class FramePool;
+    // What was drawn last.
+    struct Drawn;
     struct Job {
         FrameRequest request;
         std::shared_ptr<const OpenScene> scene;
@@ -108,8 +130,10 @@ private:
     void loadOne(const Load& load);
     void renderFrames();
     void runTask(const Job& job);
-    // last: what was drawn last, under the light of that many changes.
-    std::optional<Job> nextJob(const std::optional<Job>& last, std::uint64_t changes);
+    // None at the end. Where nothing is asked for, measures what was drawn.
+    std::optional<Job> nextJob(Drawn& drawn);
+    void draw(const Job& job, Drawn& drawn);
+    void measure(Drawn& drawn);
     void fail(std::exception_ptr failure);
 
     std::function<void()> mWake;
@@ -126,8 +150,12 @@ private:
     std::optional<FrameRequest> mRequest;
     std::deque<Task> mTasks;
     std::shared_ptr<const ViewFrame> mNewest;
+    std::optional<FrameTruth> mTruth;
+    bool mMeasures = true;
     bool mStop = false;
-    std::thread mLoader, mRenderer;  // last: they start when all else is there
+    std::atomic<bool> mInterrupt = false;  // what is measured: there is something else to do
+    TruthMaker mTruthMaker;                // the frame maker's thread's own
+    std::thread mLoader, mRenderer;        // last: they start when all else is there
 };
 
 }  // namespace stereonav

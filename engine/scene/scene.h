@@ -29,6 +29,7 @@ public:
     std::string name;  // as it was asked for
     Lens lens;         // width and height are the caller's to set
     StereoSetting stereo;
+    bool eyesGiven = false;  // by an option or a scene's file: the window leaves them as they are
     Pose startPose;
     RecordedPath path;                   // the scene's own flight; empty where there is none
     SimdTarget simd = SimdTarget::Auto;  // that its frames are made with

@@ -11,21 +11,20 @@ namespace {
 
 constexpr double kComfortSeconds = 1.0;  // time constant
 constexpr double kComfortShare = 0.95;   // of the parallax that is warned of
-constexpr double kLeastComfort = 0.2;
+constexpr double kReleased = 1e-4;       // of the separation: less is no limit any more
 
-// Of the picture's middle ninth; infinite where nothing is hit there.
-double medianAhead(const Plane<float>& depth, int step) {
+}  // namespace
+
+double depthAhead(const Plane<float>& depth, int step) {
     std::vector<float> depths;
     for (int y = depth.height() / 3; y < depth.height() - depth.height() / 3; y += step)
         for (int x = depth.width() / 3; x < depth.width() - depth.width() / 3; x += step)
-            depths.push_back(depth.at(x, y));
+            if (depth.at(x, y) > 0) depths.push_back(depth.at(x, y));  // no holes, no NaN
     if (depths.empty()) return static_cast<double>(kMissDepth);
     const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
     std::nth_element(depths.begin(), middle, depths.end());
     return static_cast<double>(*middle);
 }
-
-}  // namespace
 
 RoomSeen roomSeen(const Plane<float>& viewDepth, int step) {
     float nearest = kMissDepth, farthest = 0;
@@ -34,14 +33,15 @@ RoomSeen roomSeen(const Plane<float>& viewDepth, int step) {
             nearest = std::min(nearest, viewDepth.at(x, y));
             farthest = std::max(farthest, viewDepth.at(x, y));
         }
-    return {static_cast<double>(nearest), static_cast<double>(farthest), medianAhead(viewDepth, step)};
+    return {static_cast<double>(nearest), static_cast<double>(farthest), depthAhead(viewDepth, step)};
+}
+
+double parallaxAt(const StereoViews& views, double depth) {
+    return (views.shiftAtInfinity - views.parallaxScale / depth) / std::max(views.left.width, 1);
 }
 
 ParallaxRange parallaxOf(const StereoViews& views, const RoomSeen& room) {
-    const double width = std::max(views.left.width, 1);
-    const auto share = [&](double depth) {
-        return depth > 0 ? (views.shiftAtInfinity - views.parallaxScale / depth) / width : 0.0;
-    };
+    const auto share = [&](double depth) { return depth > 0 ? parallaxAt(views, depth) : 0.0; };
     return {share(room.nearest), share(room.farthest)};
 }
 
@@ -53,10 +53,19 @@ void ComfortLimit::observe(double separation, const ParallaxRange& parallax) {
     mSeparation = used > 0 ? kComfortShare * separation / used : 0;
 }
 
-StereoSetting ComfortLimit::limited(StereoSetting wanted, double dt) {
-    const double target =
-        mSeparation > 0 ? std::clamp(mSeparation / wanted.separation, kLeastComfort, 1.0) : 1.0;
-    if (dt > 0) mShare = target + (mShare - target) * std::exp(-dt / kComfortSeconds);
+void ComfortLimit::approach(double share, double dt) {
+    if (dt > 0) mShare = share + (mShare - share) * std::exp(-dt / kComfortSeconds);
+}
+
+StereoSetting ComfortLimit::limited(StereoSetting wanted, double dt, double leastShare) {
+    approach(mSeparation > 0 ? std::clamp(mSeparation / wanted.separation, leastShare, 1.0) : 1.0, dt);
+    wanted.separation *= mShare;
+    return wanted;
+}
+
+StereoSetting ComfortLimit::released(StereoSetting wanted, double dt) {
+    approach(1, dt);
+    if (1 - mShare < kReleased) mShare = 1;
     wanted.separation *= mShare;
     return wanted;
 }

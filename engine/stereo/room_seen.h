@@ -19,12 +19,16 @@ struct RoomSeen {
 };
 // Of every step-th pixel of every step-th row.
 RoomSeen roomSeen(const Plane<float>& viewDepth, int step);
+// RoomSeen::ahead alone. Infinite where no depth is known there.
+double depthAhead(const Plane<float>& viewDepth, int step);
 
 // Where what was seen lies, as shares of the picture's width: negative before the screen.
 struct ParallaxRange {
     double near = 0, far = 0;
 };
 ParallaxRange parallaxOf(const StereoViews& views, const RoomSeen& room);
+// Of one view depth above 0, which may be infinite.
+double parallaxAt(const StereoViews& views, double depth);
 
 // Makes eyes that suit the room around them: one step on by dt seconds. free: distance around the head;
 // depth: view depth in the middle of the picture; metres.
@@ -37,9 +41,20 @@ public:
     // A picture was made with eyes so far apart.
     void observe(double separation, const ParallaxRange& parallax);
     // The setting with its eyes as near to each other as is comfortable; dt: seconds since the last.
-    StereoSetting limited(StereoSetting wanted, double dt);
+    StereoSetting limited(StereoSetting wanted, double dt) { return limited(wanted, dt, kLeastShare); }
+    // Down to another share of what is wanted; 0: whatever it takes.
+    StereoSetting limited(StereoSetting wanted, double dt, double leastShare);
+    // The setting without a limit, which goes as slowly as it came.
+    StereoSetting released(StereoSetting wanted, double dt);
+    // From now on settings are limited as if they had never been: for who begins with what is shown.
+    void restart() { mShare = 1; }
+    double share() const { return mShare; }  // of what was wanted last
 
 private:
+    static constexpr double kLeastShare = 0.2;  // a wall that is touched leaves some stereo
+
+    void approach(double share, double dt);
+
     // The share of the wanted separation that is comfortable now; and the separation in metres that the last
     // picture would suit, 0: any.
     double mShare = 1, mSeparation = 0;

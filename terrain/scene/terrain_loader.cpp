@@ -216,6 +216,7 @@ TerrainScene loadTerrain(const SceneFile& file, Progress& progress) {
     scene.startPose = startPoseOf(file, scene);
     scene.path = pathOf(file, scene);
     scene.stereo = stereoOf(file, scene);
+    scene.eyesGiven = file.separation || file.zeroParallax;
     progress.report(1, "loaded");
     return scene;
 }

@@ -58,6 +58,7 @@ struct TerrainScene {
     Pose startPose;
     RecordedPath path;  // the scene's own flight
     StereoSetting stereo;
+    bool eyesGiven = false;  // by the scene's file, or an option
     Lens lens;               // width and height are the caller's to set
     double clearance = 2.0;  // metres kept above the ground
     TerrainReport report;

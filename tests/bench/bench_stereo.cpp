@@ -8,6 +8,7 @@
 #include <random>
 #include <string>
 
+#include "engine/stereo/parallax_histogram.h"
 #include "engine/stereo/right_eye.h"
 #include "engine/stereo/row_kernels.h"
 
@@ -132,9 +133,29 @@ void rows(benchmark::State& state, ResampleFunction kernel, bool cubic, bool sur
         benchmark::Counter(1e-6 * 1280 * 180, benchmark::Counter::kIsIterationInvariantRate);
 }
 
+// What a picture's parallax costs: of the ground, and of depths without any order, which no picture has.
+void parallax(benchmark::State& state, SimdTarget target, bool noise, int threads) {
+    setThreadCount(threads);
+    const StereoViews views = viewsOf(1280, 720);
+    EyeImage left = groundImage(views.left);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> logs(2.0f, 9.0f);
+    for (int y = 0; noise && y < 720; ++y)
+        for (int x = 0; x < 1280; ++x) left.viewDepth.at(x, y) = std::exp(logs(random));
+    for (auto _ : state) benchmark::DoNotOptimize(parallaxSeen(views, left.viewDepth, target));
+}
+
 // For each instruction set that may be used here.
 void registerRows() {
     for (const SimdTarget target : simdTargets()) {
+        for (const int threads : {1, 2})
+            for (const bool noise : {false, true})
+                benchmark::RegisterBenchmark(("parallax/" + std::string(nameOf(target)) +
+                                              (noise ? "/noise/" : "/ground/") + std::to_string(threads))
+                                                 .c_str(),
+                                             parallax, target, noise, threads)
+                    ->UseRealTime()
+                    ->Unit(benchmark::kMillisecond);
         const std::string set = "rows/" + std::string(nameOf(target));
         const ResampleFunction kernel = resampler(target);
         benchmark::RegisterBenchmark((set + "/linear").c_str(), rows, kernel, false, false);

@@ -17,6 +17,7 @@ namespace stereonav {
 struct FakeParts {
     std::shared_ptr<const void> owner;  // of what the rest refers to
     FrameMaker* frames = nullptr;
+    const EyeRenderer* rays = nullptr;
     std::function<std::unique_ptr<Flight>()> makeFlight;
     RecordedPath path;
     Lens lens;
@@ -56,6 +57,8 @@ public:
         stereo = parts.stereo;
         path = parts.path;
         if (mParts.surface) offer(*mParts.surface);
+        mRays.renderer = mParts.rays;
+        if (mParts.rays) offer(mRays);
         if (parts.makeFollower || parts.largestSeparation < std::numeric_limits<double>::infinity())
             offer<RoomAround>(*this);
         if (parts.moveSun) offer<TurningLight>(*this);
@@ -101,6 +104,7 @@ private:
     const std::vector<glm::dvec3>& seeds() const override { return mSeeds; }
 
     FakeParts mParts;
+    RayCast mRays;
     Animation mAnimation;
     std::vector<glm::dvec3> mSeeds;
 };

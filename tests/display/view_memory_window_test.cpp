@@ -21,7 +21,7 @@ protected:
     }
 };
 
-// 1280x720 pixels an eye, side by side, are more than the screen of 1280x1024 has: the window is smaller. 130
+// 1280x720 pixels an eye, side by side, are more than the screen of 1280x1024 has: the window is smaller. 145
 // MB are predicted and 75 taken; of eyes of the size asked for it was 215.
 TEST_F(MemoryWindow, IsOfTheWindowThatIsThere) {
     setenv("STEREONAV_MEMORY", "1.6e8", 1);

@@ -202,6 +202,17 @@ TEST_F(ViewSessionTest, ParallaxBeyondTheBudgetIsSaid) {
     ViewFrame oneEye = frameWith(-0.5, 0.5);
     oneEye.request.twoEyes = false;
     EXPECT_EQ(warningLine(oneEye), "");
+    EXPECT_EQ(comfortReading(oneEye).state, ComfortState::Comfortable);
+    // A meter tells of short excursions, too.
+    const ComfortReading reading = comfortReading(frameWith(-0.015, 0.014));
+    EXPECT_EQ(reading.state, ComfortState::Excursion);
+    EXPECT_EQ(reading.near, -0.015);
+    EXPECT_EQ(reading.far, 0.014);
+    EXPECT_NEAR(reading.range, 0.029, 1e-12);
+    EXPECT_THAT(reading.advice, testing::HasSubstr("short time"));
+    EXPECT_EQ(warningLine(frameWith(-0.015, 0.014)), "");
+    EXPECT_THAT(comfortReading(frameWith(0.01, 0.03)).advice, testing::HasSubstr("behind the screen"));
+    EXPECT_EQ(comfortReading(frameWith(-0.01, 0.015)).advice, "");
 }
 
 TEST_F(ViewSessionTest, TheLineHoldsTheFigures) {
@@ -212,6 +223,24 @@ TEST_F(ViewSessionTest, TheLineHoldsTheFigures) {
                              "side-by-side", "separation 20.0 m", "zero parallax 600 m", "-1.0 to +1.5 %"})
         EXPECT_THAT(line, testing::HasSubstr(part));
     EXPECT_THAT(session().statusLine(frame, 0), testing::StartsWith("left 3.1 ms")) << "no rate is known yet";
+}
+
+TEST_F(ViewSessionTest, TheLineTellsTheErrorOfWhatIsShown) {
+    ViewSession s = session();
+    ViewFrame frame = frameWith(-0.01, 0.015);
+    frame.request.version = 4;
+    EXPECT_THAT(s.statusLine(frame, 0), testing::Not(testing::HasSubstr("error")));
+    s.observe(FrameTruth{3, {50.0, 9, 0.1}, 1, ""});
+    EXPECT_THAT(s.statusLine(frame, 0), testing::Not(testing::HasSubstr("error"))) << "of another frame";
+    s.observe(FrameTruth{4, {52.34, 41, 0.061}, 1, ""});
+    EXPECT_THAT(s.statusLine(frame, 0), testing::HasSubstr("error 52.3 dB, 41 of 255 at most, in 6.1 %"));
+    s.observe(FrameTruth{4, {}, 0, "one eye is shown"});
+    EXPECT_THAT(s.statusLine(frame, 0), testing::Not(testing::HasSubstr("one eye is shown")));
+    // What is to be seen of the right eye is part of what is asked for.
+    const long long before = s.requestFor(640, 360).version;
+    s.setTruth(TruthView::Difference);
+    EXPECT_EQ(s.requestFor(640, 360).truth, TruthView::Difference);
+    EXPECT_EQ(s.requestFor(640, 360).version, before + 1);
 }
 
 TEST_F(ViewSessionTest, AFlightComesToRestExactly) {
