@@ -83,13 +83,21 @@ void Navigator::setPose(const Pose& pose) {
     keepClearance();
 }
 
+void Navigator::takeUpHeight(double lowest) {
+    const double height = heightAboveGround();
+    mFollowHeight = std::isfinite(height) ? std::clamp(height, lowest, kHighestFollow) : lowest;
+}
+
 void Navigator::setMode(FlightMode mode) {
-    if (mode == FlightMode::FollowGround && mMode != mode) {
-        const double height = heightAboveGround();
-        const double lowest = std::max(mSetting.followHeight, mSetting.clearance);
-        mFollowHeight = std::isfinite(height) ? std::clamp(height, lowest, kHighestFollow) : lowest;
-    }
+    if (mode == FlightMode::FollowGround && mMode != mode)
+        takeUpHeight(std::max(mSetting.followHeight, mSetting.clearance));
     mMode = mode;
+}
+
+void Navigator::moveTo(const Pose& pose) {
+    setPose(pose);
+    const bool overGround = std::isfinite(heightAboveGround());
+    if (mMode == FlightMode::FollowGround && overGround) takeUpHeight(mSetting.clearance);
 }
 
 void Navigator::setMode(int mode) {

@@ -46,6 +46,8 @@ public:
     // Places the viewer (lifted to the clearance where needed) at rest.
     void setPose(const Pose& pose) override;
     void goHome() override { setPose(mHome); }
+    // Over ground the height that the pose has is kept from then on.
+    void moveTo(const Pose& pose) override;
 
     // FollowGround takes up the present height above the ground, but not below followHeight.
     void setMode(FlightMode mode);
@@ -72,6 +74,7 @@ private:
     void keepClearance();
     glm::dvec3 wantedVelocity(const FlightInput& input) const;
     double floorAt(const glm::dvec2& place) const;
+    void takeUpHeight(double lowest);
 
     GroundHeight mGround;
     Pose mHome;

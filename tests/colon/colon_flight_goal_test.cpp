@@ -14,7 +14,7 @@ using State = FlightTo::State;
 
 constexpr ColonFlightSetting kGoalSetting{0.002, 0.03, 0.004};
 
-ColonFlight flightIn(const AnalyticLumen& lumen) {
+ColonFlight flightThrough(const AnalyticLumen& lumen) {
     return ColonFlight(lumen.freeDistance(), lumen.line, lumen.home, kGoalSetting);
 }
 
@@ -38,7 +38,7 @@ State flyTo(FlightTo to, ColonFlight& flight, const AnalyticLumen& lumen, double
 
 TEST(ColonFlightGoal, GoesAlongTheLineAndBack) {
     for (const AnalyticLumen& lumen : {straightTube(), torus(), flexure(), foldedTube(0.02, 0.008)}) {
-        ColonFlight flight = flightIn(lumen);
+        ColonFlight flight = flightThrough(lumen);
         const double length = lumen.line.length();
         for (const double share : {0.5, 0.9, 0.1, 0.1, 0.6}) {
             const double before = flight.along().value();
@@ -60,7 +60,7 @@ TEST(ColonFlightGoal, GoesAlongTheLineAndBack) {
 
 TEST(ColonFlightGoal, GoesToTheEndsAndBeyondNone) {
     const AnalyticLumen lumen = straightTube();
-    ColonFlight flight = flightIn(lumen);
+    ColonFlight flight = flightThrough(lumen);
     EXPECT_EQ(flyTo(FlightTo::along(flight, 0.3), flight, lumen), State::Arrived);
     EXPECT_NEAR(flight.along().value(), 0.3, 0.003);
     EXPECT_EQ(flyTo(FlightTo::along(flight, 0), flight, lumen), State::Arrived);
@@ -70,7 +70,7 @@ TEST(ColonFlightGoal, GoesToTheEndsAndBeyondNone) {
 
 TEST(ColonFlightGoal, CrossesWhereTheLumenIsInterrupted) {
     const AnalyticLumen lumen = interrupted();
-    ColonFlight flight = flightIn(lumen);
+    ColonFlight flight = flightThrough(lumen);
     const double length = lumen.line.length();
     EXPECT_EQ(flyTo(FlightTo::along(flight, length - 0.03), flight, lumen), State::Arrived);
     EXPECT_NEAR(flight.along().value(), length - 0.03, 0.003);
@@ -80,7 +80,7 @@ TEST(ColonFlightGoal, CrossesWhereTheLumenIsInterrupted) {
 
 TEST(ColonFlightGoal, TurningRoundTakesTheViewAndTheWay) {
     for (const AnalyticLumen& lumen : {straightTube(), torus()}) {
-        ColonFlight flight = flightIn(lumen);
+        ColonFlight flight = flightThrough(lumen);
         flight.step({1, 0, 0}, 1);
         flight.step({1, 0, 0}, 1);
         flight.step({1, 0, 0}, 1);
@@ -111,7 +111,7 @@ TEST(ColonFlightGoal, TurningRoundTakesTheViewAndTheWay) {
 
 TEST(ColonFlightGoal, TurnedRoundTwiceInAHurryLooksWhereItDid) {
     const AnalyticLumen lumen = straightTube();
-    ColonFlight flight = flightIn(lumen);
+    ColonFlight flight = flightThrough(lumen);
     const Pose before = flight.pose();
     flight.turnRound();
     flight.step({}, 0.5);
@@ -122,7 +122,7 @@ TEST(ColonFlightGoal, TurnedRoundTwiceInAHurryLooksWhereItDid) {
 
 TEST(ColonFlightGoal, FreeFlightsHaveNoWayToTurnRoundOn) {
     const AnalyticLumen lumen = straightTube();
-    ColonFlight flight = flightIn(lumen);
+    ColonFlight flight = flightThrough(lumen);
     flight.setMode(ColonFlight::Free);
     EXPECT_FALSE(flight.turnRound());
     EXPECT_FALSE(flight.along());
@@ -138,7 +138,7 @@ TEST(ColonFlightGoal, FindsAPoseAroundTheCornerInBothModes) {
     const double apart = 2 * 0.012 + 0.001;
     const Pose goal = lookingAlong({apart + 0.004, 0.03, 0.003}, glm::normalize(glm::dvec3(0.2, 1, 0.1)));
     for (const int mode : {int(ColonFlight::Guided), int(ColonFlight::Free)}) {
-        ColonFlight flight = flightIn(lumen);
+        ColonFlight flight = flightThrough(lumen);
         flight.setMode(mode);
         flight.setPose(lookingAlong({0, 0.02, 0}, {0, 1, 0}));
         double seconds = 0;
@@ -152,7 +152,7 @@ TEST(ColonFlightGoal, FindsAPoseAroundTheCornerInBothModes) {
 
 TEST(ColonFlightGoal, APoseInTheWallIsComeNearTo) {
     const AnalyticLumen lumen = straightTube();
-    ColonFlight flight = flightIn(lumen);
+    ColonFlight flight = flightThrough(lumen);
     const Pose goal = lookingAlong({0.05, 0.2, 0}, {0, 1, 0});
     EXPECT_EQ(flyTo(FlightTo::pose(flight, goal), flight, lumen), State::Blocked);
     EXPECT_GT(flight.pose().position.y, 0.15);

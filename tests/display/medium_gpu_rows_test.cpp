@@ -91,18 +91,18 @@ TEST_P(GpuSweepRow, IsAsByTheBook) {
 std::vector<GpuCase> cases() {
     std::vector<GpuCase> all;
     for (const double depth : {1e-6, 1e-3, 1.0, 1e3, 1e6})
-        all.push_back({"optical-depth/" + shortNumber(depth),
-                       "optical depth " + shortNumber(depth) + " a decimetre", depth});
+        all.push_back({"optical-depth/" + test::shortNumber(depth),
+                       "optical depth " + test::shortNumber(depth) + " a decimetre", depth});
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 33}, {33, 1}}) {
         const std::string size = std::to_string(width) + "x" + std::to_string(height);
         all.push_back({"image/" + size, size + " pixels", 1, width, height});
     }
     for (const double apart : {0.0, 1e-6, 3.0})
-        all.push_back(
-            {"separation/" + shortNumber(apart), "eyes " + shortNumber(apart) + " m apart", 1, 12, 9, apart});
+        all.push_back({"separation/" + test::shortNumber(apart),
+                       "eyes " + test::shortNumber(apart) + " m apart", 1, 12, 9, apart});
     for (const double distance : {0.01, 300.0})
-        all.push_back({"distance/" + shortNumber(distance),
-                       "seen from " + shortNumber(distance) + " m from its middle", 1, 12, 9, 1e-3,
+        all.push_back({"distance/" + test::shortNumber(distance),
+                       "seen from " + test::shortNumber(distance) + " m from its middle", 1, 12, 9, 1e-3,
                        distance});
     return all;
 }

@@ -130,6 +130,18 @@ TEST(FlightTo, AGoalInTheGroundIsRaised) {
     EXPECT_NEAR(flight.pose().position.z, 602, 1e-9);
 }
 
+TEST(FlightTo, OverGroundTheGoalsHeightIsKept) {
+    for (const double height : {20.0, 500.0}) {
+        Navigator flight = over(goalPlain, poseFromAngles({0, -1500, 30}, 0, 0, 0));
+        flight.setMode(FlightMode::FollowGround);
+        EXPECT_EQ(flown(FlightTo::pose(flight, poseFromAngles({0, 0, height}, 0, 0, 0)), flight).state,
+                  State::Arrived);
+        EXPECT_EQ(flight.mode(), 1);
+        for (int k = 0; k < 10; ++k) flight.step({}, 1);
+        EXPECT_NEAR(flight.pose().position.z, height, 1e-6);
+    }
+}
+
 TEST(FlightTo, FliesTheSameInStepsOfAnyLength) {
     std::vector<Pose> ends;
     for (const double dt : {0.005, 1.0 / 60, 0.3, 30.0}) {

@@ -18,13 +18,13 @@ GroundMap mapOf(const TerrainScene& terrain, int most) {
     return mapOfGround(terrain, most, progress);
 }
 
-float brightness(const GroundMap& map, int x, int y) {
+float mapBrightness(const GroundMap& map, int x, int y) {
     const glm::vec3 color = unpackColor(map.picture.at(x, y));
     return (color.x + color.y + color.z) / 3;
 }
 
 // A ground of one colour, which holds no light.
-TerrainScene plainScene(Heightfield ground) {
+TerrainScene mapScene(Heightfield ground) {
     TerrainScene scene;
     Plane<PackedColor> texels(2, 2);
     for (int k = 0; k < 4; ++k) texels.at(k % 2, k / 2) = packColor(glm::vec3(0.3f));
@@ -42,7 +42,7 @@ Heightfield heightsOf(int width, int height, const std::function<float(int, int)
 }
 
 TEST(GroundMap, LiesWhereTheGroundLies) {
-    const TerrainScene scene = plainScene(test::makeGround("smooth", 101, 61, 1));
+    const TerrainScene scene = mapScene(test::makeGround("smooth", 101, 61, 1));
     for (const int most : {1, 2, 7, 100, 333}) {
         const GroundMap map = mapOf(scene, most);
         EXPECT_EQ(std::max(map.picture.width(), map.picture.height()), most);
@@ -53,13 +53,12 @@ TEST(GroundMap, LiesWhereTheGroundLies) {
     }
     EXPECT_EQ(mapOf(scene, 0).picture.width(), 1);
     EXPECT_EQ(mapOf(scene, -5).picture.width(), 1);
-    EXPECT_EQ(mapOf(plainScene(test::makeGround("flat", 200, 2, 1)), 1 << 30).picture.width(),
-              kMostMapPixels);
+    EXPECT_EQ(mapOf(mapScene(test::makeGround("flat", 200, 2, 1)), 1 << 30).picture.width(), kMostMapPixels);
 }
 
 // Colours by quarter: north-west red, north-east green, south-west blue, south-east white.
 TEST(GroundMap, NorthIsUpAndEastIsRight) {
-    TerrainScene scene = plainScene(test::makeGround("flat", 41, 41, 1));
+    TerrainScene scene = mapScene(test::makeGround("flat", 41, 41, 1));
     Plane<PackedColor> texels(2, 2);  // row 0 northernmost
     texels.at(0, 0) = packColor({1, 0, 0});
     texels.at(1, 0) = packColor({0, 1, 0});
@@ -80,47 +79,47 @@ TEST(GroundMap, NorthIsUpAndEastIsRight) {
 TEST(GroundMap, SlopesTowardsTheNorthWestAreBright) {
     for (const double raise : {0.05, 1.0, 20.0}) {
         // A roof whose ridge runs from south-west to north-east.
-        const TerrainScene roof = plainScene(heightsOf(61, 73, [&](int i, int j) {
+        const TerrainScene roof = mapScene(heightsOf(61, 73, [&](int i, int j) {
             return static_cast<float>(-raise * std::abs((30 * i - 900) - (25 * j - 900)) / 10);
         }));
         const GroundMap map = mapOf(roof, 60);
-        const float level = 0.3f, bright = brightness(map, 10, 10),
-                    dark = brightness(map, map.picture.width() - 11, map.picture.height() - 11);
+        const float level = 0.3f, bright = mapBrightness(map, 10, 10),
+                    dark = mapBrightness(map, map.picture.width() - 11, map.picture.height() - 11);
         EXPECT_GT(bright, level * 1.02f) << raise;
         EXPECT_LT(dark, level * 0.98f) << raise;
     }
-    const GroundMap flat = mapOf(plainScene(test::makeGround("flat", 30, 30, 1)), 20);
-    EXPECT_NEAR(brightness(flat, 5, 5), 0.3, 0.002);
+    const GroundMap flat = mapOf(mapScene(test::makeGround("flat", 30, 30, 1)), 20);
+    EXPECT_NEAR(mapBrightness(flat, 5, 5), 0.3, 0.002);
     // Colours that hold the sun's light are left as they are.
-    TerrainScene lit = plainScene(test::makeGround("smooth", 61, 61, 1));
+    TerrainScene lit = mapScene(test::makeGround("smooth", 61, 61, 1));
     lit.report.colorHoldsSun = true;
     const GroundMap asItIs = mapOf(lit, 40);
-    for (int x = 0; x < 40; ++x) EXPECT_NEAR(brightness(asItIs, x, 20), 0.3, 0.002);
+    for (int x = 0; x < 40; ++x) EXPECT_NEAR(mapBrightness(asItIs, x, 20), 0.3, 0.002);
 }
 
 TEST(GroundMap, HolesAreHatched) {
-    TerrainScene scene = plainScene(test::makeGround("holed", 90, 90, 1));
+    TerrainScene scene = mapScene(test::makeGround("holed", 90, 90, 1));
     const GroundMap map = mapOf(scene, 90);
     // Columns 30 to 44 and rows 30 to 44 from the south are open.
     const int x = 37, y = static_cast<int>((89 - 37) * 25.0 / map.metresPerPixel);
     float least = 1, most = 0;
     for (int d = -4; d <= 4; ++d) {
-        least = std::min(least, brightness(map, x + d, y));
-        most = std::max(most, brightness(map, x + d, y));
+        least = std::min(least, mapBrightness(map, x + d, y));
+        most = std::max(most, mapBrightness(map, x + d, y));
     }
     EXPECT_LT(least, 0.05);
     EXPECT_GT(most, 0.1);
     EXPECT_LT(most, 0.2);
-    EXPECT_GT(brightness(map, 5, 5), 0.2);
+    EXPECT_GT(mapBrightness(map, 5, 5), 0.2);
 }
 
 TEST(GroundMap, OnePixelOfTheSmallestGround) {
-    const GroundMap map = mapOf(plainScene(test::makeGround("flat", 2, 2, 1)), 1);
-    EXPECT_NEAR(brightness(map, 0, 0), 0.3, 0.002);
+    const GroundMap map = mapOf(mapScene(test::makeGround("flat", 2, 2, 1)), 1);
+    EXPECT_NEAR(mapBrightness(map, 0, 0), 0.3, 0.002);
 }
 
 TEST(GroundMap, IsTheSameWithAnyThreads) {
-    const TerrainScene scene = plainScene(test::makeGround("rough", 200, 150, 3));
+    const TerrainScene scene = mapScene(test::makeGround("rough", 200, 150, 3));
     const int before = threadCount();
     setThreadCount(1);
     const GroundMap one = mapOf(scene, 120);
@@ -132,7 +131,7 @@ TEST(GroundMap, IsTheSameWithAnyThreads) {
 }
 
 TEST(GroundMap, CanBeCancelled) {
-    const TerrainScene scene = plainScene(test::makeGround("rough", 50, 50, 3));
+    const TerrainScene scene = mapScene(test::makeGround("rough", 50, 50, 3));
     Progress progress;
     progress.cancel();
     EXPECT_THROW(mapOfGround(scene, 100, progress), Cancelled);

@@ -1,0 +1,48 @@
+// The flight through keyframes. Positions lie on a centripetal Catmull-Rom spline (Yuksel, Schaefer, Keyser,
+// "Parameterization and applications of Catmull-Rom curves", 2011: no cusps, no loops), which is passed along
+// by its arc length: the way against time is a monotone cubic (Fritsch and Carlson 1980), so that the speed
+// has no steps and never turns back. Rotations are quaternion Bezier curves (Shoemake, SIGGRAPH 1985) whose
+// angular speed is continuous. Keyframes with one position are a stop there.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/camera/recorded_path.h"
+
+namespace stereonav {
+
+class KeyframeCurve {
+public:
+    // easeEnds: at rest at the first and the last one. Throws Error unless there are two keyframes at least,
+    // with what RecordedPath asks of its samples.
+    KeyframeCurve(const std::vector<PathSample>& keyframes, bool easeEnds);
+
+    Pose at(double time) const;  // clamped to the ends
+    double startTime() const { return mKeys.front().time; }
+    double endTime() const { return mKeys.back().time; }
+    double length() const { return mAlong.back(); }  // metres
+
+private:
+    // From one keyframe to the next.
+    struct Piece {
+        glm::dvec3 fromTangent{0.0}, toTangent{0.0};  // metres over the piece's own parameter, 0 to 1
+        std::vector<double> lengths;                  // metres from its start at some parameters,
+        std::vector<double> slopes;                   // and there the parameter a metre
+    };
+    glm::dvec3 place(std::size_t piece, double parameter) const;
+    double rate(std::size_t piece, double parameter) const;  // metres a parameter
+    double parameterAt(const Piece& piece, double along) const;
+    void findTangents();
+    void measure();
+    void findSpeeds(bool easeEnds);
+    void findSpins(bool easeEnds);
+
+    std::vector<PathSample> mKeys;  // quaternions on one side
+    std::vector<Piece> mPieces;
+    std::vector<double> mAlong;     // metres, at keyframes
+    std::vector<double> mSpeed;     // metres a second, at keyframes
+    std::vector<glm::dvec3> mSpin;  // radians a second about the head's own axes, at keyframes
+};
+
+}  // namespace stereonav
