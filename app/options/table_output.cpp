@@ -3,6 +3,7 @@
 #include "app/options/option_table.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
+#include "engine/image/stereo_picture_file.h"
 
 namespace stereonav {
 namespace {
@@ -29,6 +30,15 @@ void takeOut(OptionTargets& to, const OptionValue& value) {
 std::optional<ValueProblem> problemOfMode(const std::string& text) {
     if (outputModeFromName(text)) return std::nullopt;
     return ValueProblem{"there is no output mode \"" + text + "\"", "the modes are " + outputModeNames()};
+}
+
+// Files of pictures that have both eyes, each in a place of its own.
+bool rendersJpsOtherwise(const Asked& asked) {
+    return asked.runs(kRender) && isJps(asked.given.text("out")) &&
+           outputModeFromName(asked.given.text("mode")) != OutputMode::CrossEyed;
+}
+bool rendersMpo(const Asked& asked) {
+    return asked.runs(kRender) && isMpo(asked.given.text("out"));
 }
 
 }  // namespace
@@ -95,7 +105,13 @@ std::vector<Option> viewOptions() {
          .rules = {{[](const Asked& asked) {
                         return asked.has("hash") && !asked.has("out") && !asked.has("video");
                     },
-                    "has no effect on --hash, which is of both eyes", kLeaveItOut}},
+                    "has no effect on --hash, which is of both eyes", kLeaveItOut},
+                   {rendersJpsOtherwise,
+                    "{mode} does not go with --out {out}: a .jps has the right eye on the left",
+                    "leave it out, say sbsr, or write a .jpg"},
+                   {rendersMpo,
+                    "{mode} does not go with --out {out}: a .mpo has each eye as a picture of its own",
+                    "leave it out, or write a .jpg"}},
          .panel = OptionPanel::View,
          .take = takeMode},
         {.key = "sweep",
@@ -123,7 +139,7 @@ std::vector<Option> pictureOptions() {
     return {
         {.key = "out",
          .value = fileValue(),
-         .help = "the picture's file; -: PNG to standard output",
+         .help = "the picture's file, .jps and .mpo for 3D viewers; -: PNG to standard output",
          .commands = kRender,
          .required = true,
          .take = takeOut},
