@@ -1,5 +1,5 @@
 # The program: its commands, the modules that only it uses, and what it is built without (app/without).
-stereonav_module(video app/opencv LINK engine_byte_image opencv_imgproc opencv_videoio)
+stereonav_module(video app/ffmpeg LINK engine_image PkgConfig::FFMPEG)
 # All but main(): tests of the program's own functions link it too, so that nothing is compiled twice.
 add_library(program STATIC)
 add_dependencies(program stereonav_video)

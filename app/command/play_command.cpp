@@ -23,16 +23,27 @@ double fpsOf(const PlayOptions& options) {
     return options.fps.value_or(25);
 }
 
-const PixelBytes& bytesOf(const PlayOptions& options) {
+std::pair<int, int> frameSize(const PlayOptions& options) {
+    return composedSize(options.mode, options.size.width, options.size.height);
+}
+
+// A video's codec holds frames as they are composed, in most modes with both eyes in them.
+PixelBytes bytesOf(const PlayOptions& options) {
     if (options.video.empty()) return kRenderBytes;
-    return isLosslessVideo(options.video) ? kLosslessVideoBytes : kVideoBytes;
+    const auto [width, height] = frameSize(options);
+    const double eyes = 1.0 * width * height / (1.0 * options.size.width * options.size.height);
+    const double codec = eyes * videoBytesAPixel(videoKindOf(options.video));
+    return {kVideoBytes.cast + codec, kVideoBytes.swept + codec, kVideoBytes.beside};
 }
 
 void checkOptions(const PlayOptions& options) {
     if (options.out.empty() && options.video.empty() && !options.hash)
         throw Error("play", "", "expected a place for the frames", "give --out DIR, --video FILE or --hash");
     if (!options.out.empty()) checkOutputFolder("--out", options.out);
-    if (!options.video.empty()) checkVideoFile("--video", options.video);
+    if (!options.video.empty()) {
+        const auto [width, height] = frameSize(options);
+        checkVideoFile("--video", options.video, width, height);
+    }
     checkNoInput({"--video", options.video}, inputsOf(options.scene));
     checkSize(options.size, options.scene, bytesOf(options));
 }
@@ -54,8 +65,8 @@ public:
     FrameSink(const PlayOptions& options, const OutputMode mode) : mFolder(options.out), mMode(mode) {
         if (!options.out.empty()) makeOutputFolder(options.out);
         if (options.video.empty()) return;
-        const auto [width, height] = composedSize(mode, options.size.width, options.size.height);
-        mVideo = std::make_unique<VideoFile>(options.video, fpsOf(options), width, height);
+        const auto [width, height] = frameSize(options);
+        mVideo = std::make_unique<VideoFile>(options.video, fpsOf(options), width, height, stereoTagOf(mode));
     }
 
     void add(const StereoFrame& frame, int index) {
@@ -76,6 +87,14 @@ private:
     OutputMode mMode;
     std::unique_ptr<VideoFile> mVideo;
 };
+
+void tellOfStereo(const PlayOptions& options) {
+    if (options.video.empty() || saysStereo(videoKindOf(options.video), options.mode)) return;
+    const bool inMatroska = saysStereo(VideoKind::Mkv, options.mode);
+    std::printf("%s does not say how its pictures show two eyes (%s): %s\n", options.video.c_str(),
+                std::string(infoOf(options.mode).shortName).c_str(),
+                inMatroska ? "tell the player, or write .mkv, which can" : "tell the player");
+}
 
 double medianOf(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -119,6 +138,7 @@ int runPlay(const PlayOptions& options) {
     else
         std::printf("%zu frames, median left %.2f ms, right %.2f ms\n", poses.size(), medianOf(left_ms),
                     medianOf(right_ms));
+    tellOfStereo(options);
     if (options.hash) std::printf("hash %016llx\n", static_cast<unsigned long long>(hash.value()));
     return 0;
 }

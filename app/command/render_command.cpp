@@ -4,23 +4,21 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
+#include "app/output/stereo_picture.h"
 #include "app/scene/traced_light.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
-#include "engine/image/image_file.h"
 #include "engine/scene/capabilities.h"
 
 namespace stereonav {
 
 namespace {
 
-void printEyes(std::FILE* to, const StereoFrame& frame, const Plane<PackedColor>& picture,
-               const std::string& file) {
+void printEyes(std::FILE* to, const StereoFrame& frame, const std::string& size, const std::string& file) {
     const double pixels = static_cast<double>(frame.madeIn().width) * frame.madeIn().height;
     const RightEyeTimings& t = *frame.timings().warped;
-    std::fprintf(to, "%s: %dx%d, left %.2f ms, right %.2f ms, holes %.2f %%\n", file.c_str(), picture.width(),
-                 picture.height(), frame.timings().left_ms, t.right_ms(),
-                 100.0 * static_cast<double>(t.holePixels) / pixels);
+    std::fprintf(to, "%s: %s, left %.2f ms, right %.2f ms, holes %.2f %%\n", file.c_str(), size.c_str(),
+                 frame.timings().left_ms, t.right_ms(), 100.0 * static_cast<double>(t.holePixels) / pixels);
     if (!frame.way().empty()) std::fprintf(to, "  by %s\n", frame.way().c_str());
     if (t.boundPsnr_db > 0)
         std::fprintf(to, "  of them %.2f %% were warped before; 95 of 100 frames reach %.1f dB\n",
@@ -33,7 +31,7 @@ void printEyes(std::FILE* to, const StereoFrame& frame, const Plane<PackedColor>
 }  // namespace
 
 int runRender(const RenderOptions& options) {
-    checkOutputPicture("--out", options.out);
+    checkStereoPicture("--out", options.out);
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     std::FILE* const messages = messagesBeside({{"--out", options.out}});
     checkSize(options.size, options.scene);
@@ -60,15 +58,14 @@ int runRender(const RenderOptions& options) {
     }
     PictureLight* const traced = scene.offered<PictureLight>();
     if (traced) traced->light(frame.views(), frame.left(), frame.right(), bar.progress());
-    const Plane<PackedColor> picture = frame.compose(options.mode);
-    writeColorImage(options.out, picture);
+    const std::string size = writeStereoPicture(options.out, frame, options.mode);
     bar.clear();
     if (!frame.timings().warped) {
-        std::fprintf(messages, "%s: %dx%d, both eyes %.2f ms\n", options.out.c_str(), picture.width(),
-                     picture.height(), frame.timings().both_ms);
+        std::fprintf(messages, "%s: %s, both eyes %.2f ms\n", options.out.c_str(), size.c_str(),
+                     frame.timings().both_ms);
         return 0;
     }
-    printEyes(messages, frame, picture, options.out);
+    printEyes(messages, frame, size, options.out);
     if (traced)
         for (const std::string& note : traced->notes()) std::fprintf(messages, "  %s\n", note.c_str());
     return 0;

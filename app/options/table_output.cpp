@@ -3,6 +3,7 @@
 #include "app/options/option_table.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
+#include "engine/image/stereo_picture_file.h"
 
 namespace stereonav {
 namespace {
@@ -37,6 +38,15 @@ std::optional<ValueProblem> problemOfFileMode(const std::string& text) {
     if (!mode) return ValueProblem{"there is no output mode \"" + text + "\"", modes};
     if (fitsInPicture(*mode)) return std::nullopt;
     return ValueProblem{text + " shows one eye after the other, which view alone can", modes};
+}
+
+// Files of pictures that have both eyes, each in a place of its own.
+bool rendersJpsOtherwise(const Asked& asked) {
+    return asked.runs(kRender) && isJps(asked.given.text("out")) &&
+           outputModeFromName(asked.given.text("mode")) != OutputMode::CrossEyed;
+}
+bool rendersMpo(const Asked& asked) {
+    return asked.runs(kRender) && isMpo(asked.given.text("out"));
 }
 
 }  // namespace
@@ -102,6 +112,7 @@ std::vector<Option> viewOptions() {
              "glasses that follow a monitor of 100 Hz or more; quad: by the driver",
          .fallback = "sbsl",
          .commands = kView,
+         .panel = OptionPanel::View,
          .take = takeMode},
         {.key = "full-screen",
          .value = textValue().checked([](const std::string& text) {
@@ -118,6 +129,7 @@ std::vector<Option> viewOptions() {
          .advice = "leave it out for what the monitor tells",
          .fallback = "what the monitor tells, or 500",
          .commands = kView,
+         .panel = OptionPanel::View,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.view->screenWidth_mm = value.number(); }},
         {.key = "viewing-distance",
@@ -126,6 +138,7 @@ std::vector<Option> viewOptions() {
          .advice = "600 is usual at a desk",
          .fallback = "600",
          .commands = kView,
+         .panel = OptionPanel::View,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.view->viewingDistance_mm = value.number(); }},
         {.key = "mode",
@@ -136,7 +149,13 @@ std::vector<Option> viewOptions() {
          .rules = {{[](const Asked& asked) {
                         return asked.has("hash") && !asked.has("out") && !asked.has("video");
                     },
-                    "has no effect on --hash, which is of both eyes", kLeaveItOut}},
+                    "has no effect on --hash, which is of both eyes", kLeaveItOut},
+                   {rendersJpsOtherwise,
+                    "{mode} does not go with --out {out}: a .jps has the right eye on the left",
+                    "leave it out, say sbsr, or write a .jpg"},
+                   {rendersMpo,
+                    "{mode} does not go with --out {out}: a .mpo has each eye as a picture of its own",
+                    "leave it out, or write a .jpg"}},
          .panel = OptionPanel::View,
          .take = takeMode},
         {.key = "sweep",
@@ -164,7 +183,7 @@ std::vector<Option> pictureOptions() {
     return {
         {.key = "out",
          .value = fileValue(),
-         .help = "the picture's file; -: PNG to standard output",
+         .help = "the picture's file, .jps and .mpo for 3D viewers; -: PNG to standard output",
          .commands = kRender,
          .required = true,
          .take = takeOut},

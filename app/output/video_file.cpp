@@ -1,5 +1,8 @@
 #include "app/output/video_file.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <string>
 
 #include "app/output/output_place.h"
@@ -13,25 +16,59 @@ namespace stereonav {
 namespace fs = std::filesystem;
 namespace {
 
-// Four letters; null where the extension is none of a video that can be written.
-const char* codecOf(const fs::path& file) {
+// Widths and heights that the codec takes, and the bytes it holds for each pixel of a frame, as measured with
+// 2560x720 and 7680x2160 and rounded up.
+struct KindFacts {
+    const char* extension;
+    VideoKind kind;
+    int longest;
+    double bytesAPixel;
+};
+constexpr KindFacts kKinds[] = {{".mp4", VideoKind::Mp4, 16384, 72},
+                                {".avi", VideoKind::Avi, 65500, 8},
+                                {".mkv", VideoKind::Mkv, 65535, 160}};
+constexpr double kMostPixels = 2.5e8;  // FFmpeg's own limit is 2.68e8
+
+// Null where the extension is none of a video that can be written.
+const KindFacts* factsOfVideo(const fs::path& file) {
     const std::string extension = file.extension().string();
-    if (extension == ".mp4") return "mp4v";
-    if (extension == ".avi") return "MJPG";
-    if (extension == ".mkv") return "FFV1";
+    for (const KindFacts& facts : kKinds)
+        if (extension == facts.extension) return &facts;
     return nullptr;
+}
+
+const VideoFunctions& videoModule() {
+    static const auto& functions = moduleFunctions<VideoFunctions>("video", "to write videos");
+    return functions;
+}
+
+void checkFrameSize(const std::string& name, const KindFacts& facts, int width, int height) {
+    if (std::max(width, height) <= facts.longest && 1.0 * width * height <= kMostPixels) return;
+    throw Error(name, "",
+                fmt::format("frames of {}x{} do not go into {}, which takes {} a side and 250 million pixels",
+                            width, height, facts.extension, facts.longest),
+                "make them smaller, or write pictures with --out");
 }
 
 }  // namespace
 
-std::unique_ptr<VideoSink> openVideoSink(const fs::path& file, const char* codec, double framesPerSecond,
-                                         int width, int height) {
-    static const auto& functions = moduleFunctions<VideoFunctions>("video", "to write videos");
-    return functions.open(file, codec, framesPerSecond, width, height);
+void checkVideoCodec(const std::string& name, VideoKind kind) {
+    videoModule().check(name, kind);
 }
 
-bool isLosslessVideo(const fs::path& file) {
-    return file.extension() == ".mkv";
+std::unique_ptr<VideoSink> openVideoSink(const VideoOrder& order) {
+    return videoModule().open(order);
+}
+
+VideoKind videoKindOf(const fs::path& file) {
+    const KindFacts* facts = factsOfVideo(file);
+    return facts ? facts->kind : VideoKind::Mkv;
+}
+
+double videoBytesAPixel(VideoKind kind) {
+    for (const KindFacts& facts : kKinds)
+        if (facts.kind == kind) return facts.bytesAPixel;
+    return 0;
 }
 
 struct VideoFile::State {
@@ -43,24 +80,29 @@ struct VideoFile::State {
     long long frames = 0;
 };
 
-void checkVideoFile(const std::string& option, const fs::path& file) {
-    if (!codecOf(file))
+void checkVideoFile(const std::string& option, const fs::path& file, int width, int height) {
+    const KindFacts* facts = factsOfVideo(file);
+    if (!facts)
         throw Error(option, "", "\"" + file.string() + "\" is not a kind of video that can be written",
                     "use .mp4, .avi or .mkv (lossless)");
     std::error_code code;
     if (fs::exists(file, code) && !fs::is_regular_file(file, code))
         throw Error(option, "", "\"" + file.string() + "\" is no file, and a video is not written in one go",
                     "name a file");
+    checkFrameSize(option, *facts, width, height);
     checkOutputFile(option, file);
+    checkVideoCodec(option, facts->kind);
 }
 
-VideoFile::VideoFile(const fs::path& file, double framesPerSecond, int width, int height) {
-    const Error failed(file.string(), "", "can not be written as a video", "try another extension or folder");
-    const char* codec = codecOf(file);
-    if (!codec) throw failed;
+VideoFile::VideoFile(const fs::path& file, double framesPerSecond, int width, int height,
+                     const StereoTag& stereo) {
+    const KindFacts* facts = factsOfVideo(file);
+    if (!facts || width < 1 || height < 1 || !(framesPerSecond >= 0.001 && framesPerSecond <= 1000))
+        throw Error(file.string(), "", "can not be written as a video", "try another extension or folder");
+    checkFrameSize(file.string(), *facts, width, height);
     mState = std::make_unique<State>(file, width, height);
-    mState->sink = openVideoSink(mState->pending.temporary(), codec, framesPerSecond, width, height);
-    if (!mState->sink) throw failed;
+    mState->sink = openVideoSink(
+        {mState->pending.temporary(), file.string(), facts->kind, framesPerSecond, width, height, stereo});
 }
 
 VideoFile::~VideoFile() = default;

@@ -20,6 +20,12 @@ std::optional<ViewAction> actionOfKey(int key) {
             return ViewAction{ViewCommand::Quit};
         case GLFW_KEY_F1:
             return ViewAction{ViewCommand::Help};
+        case GLFW_KEY_F4:
+            return ViewAction{ViewCommand::ShowFullCast};
+        case GLFW_KEY_F5:
+            return ViewAction{ViewCommand::ShowDifference};
+        case GLFW_KEY_F6:
+            return ViewAction{ViewCommand::ShowHoles};
         case GLFW_KEY_F11:
             return ViewAction{ViewCommand::FullScreen};
         case GLFW_KEY_F12:
@@ -237,6 +243,9 @@ const std::vector<KeyHelp>& viewKeys() {
         {"9", "red/cyan glasses (Dubois)", ViewAction{SetMode, OutputMode::RedCyanDubois}},
         {"0", "left eye alone", ViewAction{SetMode, OutputMode::Left}},
         {"N", "next way of making the right eye", does(NextMethod)},
+        {"F4", "the right eye cast in full, or as it is made", does(ShowFullCast)},
+        {"F5", "five times its difference from that", does(ShowDifference)},
+        {"F6", "its holes in red", does(ShowHoles)},
         {"I", "next model of light (media)", does(NextModel)},
         {"L", "anaglyphs in linear light, or on encoded values", does(LinearAnaglyph)},
         {"z", "record the flight, end recording", does(Record)},

@@ -37,7 +37,8 @@ PicturePlace picturePlace(const OutputModeInfo& mode, const glm::ivec2& window, 
     const glm::vec2 scale = glm::vec2(place.part) / glm::max(units, glm::vec2(1));
     place.corner = glm::ivec2(glm::round(rest.corner * scale));
     place.corner = glm::min(place.corner, place.part - 1);
-    place.size = glm::clamp(glm::ivec2(glm::round(rest.size * scale)), glm::ivec2(1), place.part - place.corner);
+    place.size =
+        glm::clamp(glm::ivec2(glm::round(rest.size * scale)), glm::ivec2(1), place.part - place.corner);
     return place;
 }
 

@@ -163,6 +163,11 @@ bool ViewSession::actOnStereo(const ViewAction& action) {
             mMode = action.mode;
             stepMode(0);
             return true;
+        case ViewCommand::ShowFullCast:
+        case ViewCommand::ShowDifference:
+        case ViewCommand::ShowHoles:
+            showTruth(action.command);
+            return true;
         case ViewCommand::NextMethod:
             nextMethod();
             return true;
@@ -232,6 +237,17 @@ void ViewSession::nextModel() {
     if (!models || models->names().empty()) return notify("lighting models are of media");
     mModel = (mModel + 1) % static_cast<int>(models->names().size());
     notify("light: " + models->names()[static_cast<std::size_t>(mModel)]);
+}
+
+void ViewSession::showTruth(ViewCommand command) {
+    const TruthView wanted = command == ViewCommand::ShowFullCast     ? TruthView::FullCast
+                             : command == ViewCommand::ShowDifference ? TruthView::Difference
+                                                                      : TruthView::Holes;
+    mTruth = mTruth == wanted ? TruthView::None : wanted;
+    notify(mTruth == TruthView::None         ? "the right eye as it is made"
+           : mTruth == TruthView::FullCast   ? "the right eye cast in full"
+           : mTruth == TruthView::Difference ? "five times the right eye's difference from a full cast"
+                                             : "the right eye with its holes in red");
 }
 
 void ViewSession::nextMethod() {
@@ -344,8 +360,8 @@ void ViewSession::step(const FlightInput& input, double dt) {
     }
     if (animated && dt > 0) mTime = mPlaying ? mPlayTime : mTime + dt;
     if (mNoticeLeft > 0 && (mNoticeLeft -= dt) <= 0) mNotice.clear();
-    mMoving = mPlaying || mGoal || recording() || animated || mStereo.moving() || asksForMotion(input) || looked ||
-              !samePose(poseBefore, pose());
+    mMoving = mPlaying || mGoal || recording() || animated || mStereo.moving() || asksForMotion(input) ||
+              looked || !samePose(poseBefore, pose());
 }
 
 void ViewSession::notify(const std::string& text) {
@@ -423,13 +439,18 @@ ComposeSetting ViewSession::compose() const {
     return {mStereoOn ? mMode : OutputMode::Left, mStereoOn && mSwapped, mLinear};
 }
 
+std::string ViewSession::measuredText(const ViewFrame& frame) const {
+    const bool known =
+        mMeasured.version == frame.request.version && mMeasured.version > 0 && mMeasured.note.empty();
+    return known ? truthText(mMeasured) : "";
+}
+
 std::string ViewSession::statusLine(const ViewFrame& frame, double framesPerSecond) const {
     std::string line = frameText(frame, framesPerSecond);
     if (frame.request.twoEyes)
         line += fmt::format("  {}{}{}{}", infoOf(mMode).longName, mSwapped ? " swapped" : "",
                             *mStereo.word() ? "  " : "", mStereo.word());
-    if (mMeasured.version == frame.request.version && mMeasured.version > 0 && mMeasured.note.empty())
-        line += "  " + truthText(mMeasured);
+    if (const std::string measured = measuredText(frame); !measured.empty()) line += "  " + measured;
     const auto* const models = offered<LightModels>();
     if (models && !models->names().empty())
         line += "  " + models->names()[static_cast<std::size_t>(frame.request.model)];

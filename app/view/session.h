@@ -48,6 +48,9 @@ enum class ViewCommand {
     PreviousMode,
     SetMode,
     NextMethod,
+    ShowFullCast,  // these three: again ends it
+    ShowDifference,
+    ShowHoles,
     NextModel,
     LinearAnaglyph,
     LessSeparation,
@@ -193,6 +196,8 @@ public:
     ViewStereo& eyes() { return mStereo; }  // to be set by what is not a key
     void setTruth(TruthView truth) { mTruth = truth; }
     TruthView truth() const { return mTruth; }
+    // What was measured of the picture that rests; "" where it is of another one.
+    std::string measuredText(const ViewFrame& frame) const;
     bool followsClearance() const { return mStereo.follows(); }
     OutputMode mode() const { return mMode; }
     Pose pose() const { return mPlaying ? mPlayed : mFlight->pose(); }
@@ -227,6 +232,7 @@ private:
     void turnRound();
     void stepMode(int by);
     void nextMethod();
+    void showTruth(ViewCommand command);
     void nextModel();
     void reset();
     void takeSurface();

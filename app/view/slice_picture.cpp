@@ -148,8 +148,8 @@ SliceLayout SliceLayout::zoomed(double factor, const glm::dvec3& world) const {
     SliceLayout larger = *this;
     if (!(factor > 1)) return larger;
     larger.mScale *= factor;
-    // The place's way from the study's middle, in pixels of the larger picture; the study's border goes no further in
-    // than it is in the fitted one.
+    // The place's way from the study's middle, in pixels of the larger picture; the study's border goes no
+    // further in than it is in the fitted one.
     const glm::dvec2 away = larger.pixelOf(mFrame.voxelFromWorld(world)) - mMiddle;
     if (std::isnan(away.x) || std::isnan(away.y)) return larger;
     const auto half = [&](int axis) { return mFrame.size[axis] * mFrame.spacing[axis] * larger.mScale / 2; };

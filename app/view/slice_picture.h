@@ -32,8 +32,8 @@ public:
     // Millimetres of the slice along the patient's axis, in its middle.
     double placeOf(int slice) const;
     double pixelsPerMetre() const { return mScale; }
-    // As this one, `factor` (at least 1) times as large about a world place, which stays in the picture's middle as far
-    // as the study reaches.
+    // As this one, `factor` (at least 1) times as large about a world place, which stays in the picture's
+    // middle as far as the study reaches.
     SliceLayout zoomed(double factor, const glm::dvec3& world) const;
     // The place moved onto a slice, straight.
     glm::dvec3 onSlice(const glm::dvec3& world, int slice) const;

@@ -63,7 +63,8 @@ void Viewer::noteRecent() {
 }
 
 void Viewer::reportKept() {
-    for (const std::string& problem : {mRecent.takeProblem(), mPlaces ? mPlaces->takeProblem() : std::string()})
+    for (const std::string& problem :
+         {mRecent.takeProblem(), mPlaces ? mPlaces->takeProblem() : std::string()})
         if (!problem.empty()) mFailure = problem;
 }
 

@@ -177,6 +177,16 @@ TEST_F(Memory, OfABakeIsNoMoreThanWasAskedFor) {
     }
 }
 
+// A video's codec holds frames that it looks ahead at, and room for the largest one that could come out.
+TEST_F(Memory, OfVideosIsNoMoreThanWasAskedFor) {
+    for (const char* file : {"a.mp4", "a.mkv"}) {
+        SCOPED_TRACE(file);
+        const Taken taken = taking({"play", "--size", "640x360", "--frames", "20", "--video", file});
+        EXPECT_GT(taken.most, 3e7);
+        EXPECT_LT(taken.most, taken.asked);
+    }
+}
+
 // What the program asks for is what it takes: the most it had asked for, with what it held then.
 TEST_F(Memory, AskedForIsNoted) {
     const std::string ground = hills(), asked = (mFolder / "asked").string();

@@ -62,8 +62,8 @@ TEST_F(Faults, OfFactsAndReports) {
     tryAll("report", kSample);
 }
 
-// Frames whose rows OpenCV's writer would copy into memory that it does not check for: a crash, where the
-// rows of other sizes were copied only now and then, by the address that they happened to have.
+// Sizes of which a library has copied frames into memory that it did not check for; and a codec whose only
+// word about an allocation that failed is in its log.
 TEST_F(Faults, OfMemoryUnderFramesWithOddRows) {
     const FaultCase video{"play odd rows",
                           {"play", hills(), "--size", "330x240", "--frames", "2", "--video", "a.mp4"},

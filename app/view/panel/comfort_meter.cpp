@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/view/panel/controls.h"
 #include "app/view/status.h"
@@ -11,7 +12,23 @@
 namespace stereonav {
 namespace {
 
-constexpr double kLowest = -0.06, kHighest = 0.08;  // shares of the width that the meter spans
+constexpr double kLowest = ParallaxHistogram::kLowest, kHighest = ParallaxHistogram::kHighest;
+
+// How much of the picture lies at each parallax, by the root, so that what is little shows too.
+void drawHistogram(const ParallaxHistogram& histogram, ImDrawList& list, const ImVec2& from,
+                   const ImVec2& size) {
+    const std::int32_t most = *std::max_element(histogram.counts.begin(), histogram.counts.end());
+    if (most <= 0) return;
+    const float step = size.x / ParallaxHistogram::kBins;
+    for (int bin = 0; bin < ParallaxHistogram::kBins; ++bin) {
+        const std::int32_t count = histogram.counts[static_cast<std::size_t>(bin)];
+        if (count <= 0) continue;
+        const float height = size.y * static_cast<float>(std::sqrt(static_cast<double>(count) / most));
+        const float x = from.x + step * static_cast<float>(bin), bottom = from.y + size.y;
+        list.AddRectFilled({x, bottom - height}, {x + step, bottom},
+                           ImGui::GetColorU32(ImGuiCol_ButtonHovered));
+    }
+}
 
 }  // namespace
 
@@ -28,15 +45,16 @@ void drawComfortMeter(const PanelHost& host, const ViewFrame& frame) {
         const double share = std::clamp((parallax - kLowest) / (kHighest - kLowest), 0.0, 1.0);
         return from.x + static_cast<float>(share) * size.x;
     };
-    const float top = from.y + 0.2f * size.y, bottom = from.y + 0.85f * size.y;
-    list.AddRectFilled({from.x, top}, {from.x + size.x, bottom}, ImGui::GetColorU32(ImGuiCol_FrameBg), 2);
-    list.AddRectFilled({place(kNearestParallax), top}, {place(kFarthestParallax), bottom},
+    const float top = from.y + 0.25f * size.y, bottom = from.y + 0.75f * size.y;
+    list.AddRectFilled(from, {from.x + size.x, from.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), 2);
+    list.AddRectFilled({place(kNearestParallax), from.y}, {place(kFarthestParallax), from.y + size.y},
                        ImGui::GetColorU32(ImGuiCol_FrameBgActive));
     const ScreenWords onScreen = host.onScreen(frame);
+    drawHistogram(frame.parallax, list, from, size);
     const std::string warning = onScreen.warning.empty() ? warningLine(frame) : onScreen.warning;
     const ImVec4 color = warning.empty() ? accentColor(host.look()) : warningColor(host.look());
     const float left = place(frame.nearParallax), right = std::max(place(frame.farParallax), left + 2);
-    list.AddRectFilled({left, top + 2}, {right, bottom - 2}, ImGui::GetColorU32(color), 2);
+    list.AddRectFilled({left, top + 1}, {right, bottom - 1}, ImGui::GetColorU32(color), 2);
     list.AddLine({place(0), from.y}, {place(0), from.y + size.y}, ImGui::GetColorU32(ImGuiCol_Text));
     tooltip(fmt::format(
         "Parallax {:+.1f} to {:+.1f} % of the width: left of the line stands before the screen, right of "

@@ -15,7 +15,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kMapPixels = 512;  // of the longer side
+constexpr int kMapPixels = 512;   // of the longer side
 constexpr float kTallest = 1.2f;  // of the width
 
 ImU32 markColor() {
@@ -30,7 +30,8 @@ void drawEye(const ImVec2& at, double heading, double halfFov) {
         return ImVec2(at.x + reach * static_cast<float>(std::sin(angle)),
                       at.y - reach * static_cast<float>(std::cos(angle)));
     };
-    list.AddTriangleFilled(at, towards(heading - halfFov), towards(heading + halfFov), IM_COL32(255, 190, 70, 110));
+    list.AddTriangleFilled(at, towards(heading - halfFov), towards(heading + halfFov),
+                           IM_COL32(255, 190, 70, 110));
     list.AddCircleFilled(at, 0.3f * font, IM_COL32(20, 20, 20, 255));
     list.AddCircleFilled(at, 0.22f * font, markColor());
 }
@@ -102,7 +103,8 @@ void MapPanel::drawPicture(PanelHost& host, ViewSession& session) {
     list.PushClipRect(from, {from.x + size.x, from.y + size.y}, true);
     const auto placed = [&](const glm::dvec3& world) {
         const glm::dvec2 pixel = mMap->mapFromWorld(glm::dvec2(world));
-        return ImVec2(from.x + scale * static_cast<float>(pixel.x), from.y + scale * static_cast<float>(pixel.y));
+        return ImVec2(from.x + scale * static_cast<float>(pixel.x),
+                      from.y + scale * static_cast<float>(pixel.y));
     };
     const auto& samples = session.path().samples();
     for (std::size_t n = 1; n < samples.size(); ++n)
@@ -113,14 +115,14 @@ void MapPanel::drawPicture(PanelHost& host, ViewSession& session) {
     list.PopClipRect();
     if (!hovered) return;
     const ImVec2 pointer = ImGui::GetIO().MousePos;
-    const glm::dvec2 world =
-        mMap->worldFromMap({(pointer.x - from.x) / scale, (pointer.y - from.y) / scale});
+    const glm::dvec2 world = mMap->worldFromMap({(pointer.x - from.x) / scale, (pointer.y - from.y) / scale});
     const glm::dvec3 there(world.x, world.y, pose.position.z);
     std::string text = fmt::format("{:.0f} m east, {:.0f} m north", world.x, world.y);
     if (const auto* const earth = session.open().scene->offered<OnEarth>())
         if (const auto place = earth->placeAt(there)) {
             constexpr double kDegrees = 180 / std::numbers::pi;
-            text += fmt::format("\n{:.5f} N {:.5f} E", kDegrees * place->latitude, kDegrees * place->longitude);
+            text +=
+                fmt::format("\n{:.5f} N {:.5f} E", kDegrees * place->latitude, kDegrees * place->longitude);
         }
     tooltip(text + "\nclick: fly there");
     if (!clicked) return;
@@ -140,7 +142,8 @@ void MapPanel::drawLine(PanelHost& host, ViewSession& session, const LineOnMap& 
     }
     const glm::dvec2 extent = glm::max(high - low, glm::dvec2(1e-6));
     const float width = ImGui::GetContentRegionAvail().x, margin = ImGui::GetFontSize();
-    const double scale = std::min((width - 2 * margin) / extent.x, (kTallest * width - 2 * margin) / extent.y);
+    const double scale =
+        std::min((width - 2 * margin) / extent.x, (kTallest * width - 2 * margin) / extent.y);
     const ImVec2 size(width, static_cast<float>(scale * extent.y) + 2 * margin);
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const bool clicked = ImGui::InvisibleButton("##line", size);

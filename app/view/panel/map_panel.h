@@ -1,4 +1,5 @@
-// The scene from above, or a colon's way from the front, with the eye's place and direction; a click flies there.
+// The scene from above, or a colon's way from the front, with the eye's place and direction; a click flies
+// there.
 #pragma once
 
 #include <future>

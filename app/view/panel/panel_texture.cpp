@@ -10,7 +10,8 @@ namespace stereonav {
 void PanelTexture::set(const Plane<PackedColor>& picture, bool smooth) {
     if (picture.empty()) return reset();
     const auto& bytes = srgbByteFromPacked();
-    const std::size_t pixels = static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(picture.height());
+    const std::size_t pixels =
+        static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(picture.height());
     std::vector<std::uint8_t> rgba(4 * pixels, 255);
     std::uint8_t* to = rgba.data();
     for (int y = 0; y < picture.height(); ++y)

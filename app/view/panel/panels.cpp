@@ -83,7 +83,8 @@ void Panels::State::drawHelp(PanelHost& host) {
     ImGui::End();
 }
 
-void Panels::State::drawColumn(Column& column, bool atRight, float top, const std::function<void()>& content) {
+void Panels::State::drawColumn(Column& column, bool atRight, float top,
+                               const std::function<void()>& content) {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize(), height = std::max(whole.y - top, 1.0f);
     const float other = (atRight ? left : side).taken;
@@ -101,12 +102,14 @@ void Panels::State::drawColumn(Column& column, bool atRight, float top, const st
     ImGui::SetNextWindowPos({border - 0.25f * font, top});
     ImGui::SetNextWindowSize({0.5f * font, height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-    ImGui::Begin(atRight ? "##side border" : "##left border", nullptr, kPlainBox | ImGuiWindowFlags_NoBackground);
+    ImGui::Begin(atRight ? "##side border" : "##left border", nullptr,
+                 kPlainBox | ImGuiWindowFlags_NoBackground);
     ImGui::InvisibleButton("##grip", {0.5f * font, height});
     if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (ImGui::IsItemActive()) {
         const float moved = ImGui::GetIO().MouseDelta.x / font;
-        column.width = std::clamp(width / font + (atRight ? -moved : moved), std::min(kNarrowest, most / font), most / font);
+        column.width = std::clamp(width / font + (atRight ? -moved : moved),
+                                  std::min(kNarrowest, most / font), most / font);
     }
     ImGui::End();
     ImGui::PopStyleVar();

@@ -34,7 +34,8 @@ void PlacesPanel::drawPlace(PanelHost& host, Bookmarks& places, const Bookmark& 
             } catch (const Error&) {
                 picture.set(Plane<PackedColor>(1, 1), true);  // it is gone: grey
             }
-        if (ImGui::ImageButton(picture.id(), {width, width * kThumbnailHeight / kThumbnailWidth}, {0, 0}, {1, 1}, 0))
+        if (ImGui::ImageButton(picture.id(), {width, width * kThumbnailHeight / kThumbnailWidth}, {0, 0},
+                               {1, 1}, 0))
             host.goToPlace(place);
         tooltip("Fly there.");
         ImGui::SameLine();

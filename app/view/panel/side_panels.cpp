@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <tuple>
 
 #include "app/output/length_text.h"
 #include "app/view/panel/comfort_meter.h"
@@ -42,6 +43,9 @@ void drawView(PanelHost& host, ViewSession& session) {
             host.act({ViewCommand::FollowClearance});
         tooltip("As far apart as the room around them suits; setting them by hand ends it. Key: C");
     }
+    bool clamps = session.eyes().clamp();
+    if (ImGui::Checkbox("keep comfortable", &clamps)) session.eyes().setClamp(clamps);
+    tooltip("Brings the eyes together, slowly, while the picture's parallax is more than is comfortable.");
     const ViewFrame* const frame = host.frame();
     if (!frame || !frame->request.twoEyes) return;
     drawComfortMeter(host, *frame);
@@ -101,8 +105,29 @@ void plot(PanelHost& host, const char* label, double FrameCost::*what, const cha
     tooltip(fmt::format("{}, {}: the last {} frames, up to {:.1f}", label, unit, count, most));
 }
 
-void drawQuality(PanelHost& host) {
+// What the right eye shows, and how far it is from the truth.
+void drawTruth(PanelHost& host, ViewSession& session) {
+    constexpr std::tuple<TruthView, const char*, const char*> kViews[] = {
+        {TruthView::None, "as made", "The right eye as it is made."},
+        {TruthView::FullCast, "full", "The right eye cast in full. Key: F4"},
+        {TruthView::Difference, "x5", "Five times its difference from a full cast; black: none. Key: F5"},
+        {TruthView::Holes, "holes", "What was cast, since the left eye did not see it, in red. Key: F6"}};
+    quietLine(host, "right eye");
+    for (const auto& [view, label, tip] : kViews) {
+        ImGui::SameLine();
+        if (ImGui::RadioButton(label, session.truth() == view)) session.setTruth(view);
+        tooltip(tip);
+    }
+    if (const ViewFrame* const frame = host.frame(); frame && !frame->truthNote.empty())
+        quietText(host, frame->truthNote);
+    if (const ViewFrame* const frame = host.frame())
+        if (const std::string measured = session.measuredText(*frame); !measured.empty())
+            quietText(host, measured);
+}
+
+void drawQuality(PanelHost& host, ViewSession& session) {
     drawOptions(host, OptionPanel::Quality);
+    drawTruth(host, session);
     plot(host, "left", &FrameCost::left_ms, "ms");
     plot(host, "right", &FrameCost::right_ms, "ms");
     plot(host, "warp", &FrameCost::warp_ms, "ms");
@@ -157,7 +182,7 @@ void drawSidePanels(PanelHost& host) {
     if (any(OptionPanel::Material) && heading("Material", false)) drawMaterial(host, *session);
     if (any(OptionPanel::Medium) && heading("Medium", false)) drawOptions(host, OptionPanel::Medium);
     if (heading("Flight and path", false)) drawPath(host, *session);
-    if (heading("Quality and cost", false)) drawQuality(host);
+    if (heading("Quality and cost", false)) drawQuality(host, *session);
     if (any(OptionPanel::Study) && heading("Study", false)) drawOptions(host, OptionPanel::Study);
     if (heading("Scene", false)) drawFacts(host);
     if (heading("Command line", false)) {

@@ -55,11 +55,13 @@ void SlicesPanel::windowControls(const SliceStudy& study) {
     if (ImGui::BeginCombo("##windows", fmt::format("window {:.0f} at {:.0f}", mWindow, mLevel).c_str())) {
         if (ImGui::Selectable("the study's own")) mWindow = study.windowWidth, mLevel = study.windowLevel;
         for (const WindowPreset& preset : kWindows)
-            if (ImGui::Selectable(fmt::format("{}  {:.0f} at {:.0f}", preset.name, preset.width, preset.level).c_str()))
+            if (ImGui::Selectable(
+                    fmt::format("{}  {:.0f} at {:.0f}", preset.name, preset.width, preset.level).c_str()))
                 mWindow = preset.width, mLevel = preset.level;
         ImGui::EndCombo();
     }
-    tooltip("Values from black to white, and their middle; dragging a slice with the right button changes them.");
+    tooltip(
+        "Values from black to white, and their middle; dragging a slice with the right button changes them.");
     ImGui::Checkbox("follow the eye", &mFollows);
     tooltip("The slices go through the eye; else through the place that was clicked.");
 }
@@ -91,8 +93,9 @@ void SlicesPanel::drawView(ViewSession& session, const SliceStudy& study, SliceA
     const SliceLayout layout = fitted.zoomed(mZoom, mCross);
     const int slice = layout.sliceAt(mCross);
     const glm::dvec3 eye = session.pose().position;
-    const bool stale = !view.texture.any() || view.width != width || view.slice != slice || view.zoom != mZoom ||
-                       view.window != mWindow || view.level != mLevel || glm::length(view.eye - eye) > kEyeMoves ||
+    const bool stale = !view.texture.any() || view.width != width || view.slice != slice ||
+                       view.zoom != mZoom || view.window != mWindow || view.level != mLevel ||
+                       glm::length(view.eye - eye) > kEyeMoves ||
                        glm::length(view.cross - mCross) > kEyeMoves;
     if (stale) {
         const SliceSource* const source = session.open().scene->offered<SliceSource>();
@@ -109,8 +112,10 @@ void SlicesPanel::drawView(ViewSession& session, const SliceStudy& study, SliceA
         view.level = mLevel;
     }
     ImGui::PushID(kAxisNames[static_cast<int>(axis)]);
-    const ImVec2 from = ImGui::GetCursorScreenPos(), size(static_cast<float>(width), static_cast<float>(height));
-    ImGui::InvisibleButton("##slice", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+    const ImVec2 from = ImGui::GetCursorScreenPos(),
+                 size(static_cast<float>(width), static_cast<float>(height));
+    ImGui::InvisibleButton("##slice", size,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
     const bool hovered = ImGui::IsItemHovered();
     ImGui::SetItemUsingMouseWheel();
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -139,7 +144,9 @@ void SlicesPanel::drawView(ViewSession& session, const SliceStudy& study, SliceA
             mCross = *world;
         }
         if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::IsMouseDown(ImGuiMouseButton_Right))
-            tooltip("click: the other slices through here\ndouble click: fly there\nwheel: slices; Ctrl+wheel: larger");
+            tooltip(
+                "click: the other slices through here\ndouble click: fly there\nwheel: slices; Ctrl+wheel: "
+                "larger");
     }
     if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
         mWindow = std::max(mWindow + 2 * static_cast<double>(ImGui::GetIO().MouseDelta.x), 1.0);

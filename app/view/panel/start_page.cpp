@@ -70,8 +70,8 @@ bool StartPage::draw(PanelHost& host) {
     for (std::size_t n = 0; n < std::min<std::size_t>(recent.size(), 8); ++n) {
         ImGui::PushID(static_cast<int>(n));
         const std::string path = recent[n].path.string();
-        if (std::find_if(std::begin(kCards), std::end(kCards), [&](const Card& card) { return path == card.scene; }) ==
-                std::end(kCards) &&
+        if (std::find_if(std::begin(kCards), std::end(kCards),
+                         [&](const Card& card) { return path == card.scene; }) == std::end(kCards) &&
             ImGui::Selectable(path.c_str())) {
             mShown = false;
             host.open(path);

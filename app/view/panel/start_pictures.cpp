@@ -76,7 +76,8 @@ void drawStartPicture(std::string_view scene, const ImVec2& corner, const ImVec2
         // Half a pixel inside, so that no neighbour shows.
         const float inset = 0.5f / (kFrames * kStartPictureWidth);
         const float left = static_cast<float>(frame) / kFrames;
-        list.AddImage(picture.texture.id(), corner, end, {left + inset, 0}, {left + 1.0f / kFrames - inset, 1});
+        list.AddImage(picture.texture.id(), corner, end, {left + inset, 0},
+                      {left + 1.0f / kFrames - inset, 1});
         return;
     }
     list.AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg));

@@ -83,6 +83,8 @@ float drawStatusBar(PanelHost& host, float left, float right) {
                  "frames a second, while something moves");
         row.text(costText(*frame), frameText(*frame, rate));
         if (frame->request.twoEyes && row.room(comfortMeterWidth())) drawComfortMeter(host, *frame);
+        row.text(session->measuredText(*frame),
+                 "of the right eye against a full cast, measured while it rests");
         if (session->playing())
             row.text(
                 fmt::format("playing {:.1f} of {:.1f} s", session->playTime(), session->path().duration()));
