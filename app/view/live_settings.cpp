@@ -47,6 +47,10 @@ bool always(const ViewSession&) {
 const SurfaceChoices* surfaceOf(const ViewSession& session) {
     return session.open().scene->offered<SurfaceChoices>();
 }
+// By hand: neither as the room around asks for, nor as they were fitted to the first picture.
+bool eyesAreSet(const ViewSession& session) {
+    return !session.followsClearance() && !session.eyes().fits() && !session.eyes().fitted();
+}
 const StereoSetting& begunEyes(const ViewSession& session) {
     return session.open().scene->stereo;
 }
@@ -67,7 +71,7 @@ constexpr Live kLive[] = {
     {"separation", always,
      [](const ViewSession& s) { return fmt::format("{:.4g}", s.eyesWanted().separation); },
      [](const ViewSession& s) {
-         return s.followsClearance() || s.eyesWanted().separation == begunEyes(s).separation;
+         return !eyesAreSet(s) || s.eyesWanted().separation == begunEyes(s).separation;
      },
      [](ViewSession& s, const OptionValue& value) {
          s.setEyes({value.number(), s.eyesWanted().zeroParallax});
@@ -78,7 +82,7 @@ constexpr Live kLive[] = {
     {"zero-parallax", always,
      [](const ViewSession& s) { return fmt::format("{:.4g}", s.eyesWanted().zeroParallax); },
      [](const ViewSession& s) {
-         return s.followsClearance() || s.eyesWanted().zeroParallax == begunEyes(s).zeroParallax;
+         return !eyesAreSet(s) || s.eyesWanted().zeroParallax == begunEyes(s).zeroParallax;
      },
      [](ViewSession& s, const OptionValue& value) {
          s.setEyes({s.eyesWanted().separation, value.number()});

@@ -436,7 +436,10 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
 }
 
 ComposeSetting ViewSession::compose() const {
-    return {mStereoOn ? mMode : OutputMode::Left, mStereoOn && mSwapped, mLinear};
+    if (!mStereoOn) return {OutputMode::Left, false, mLinear};
+    // A difference is looked at by itself.
+    if (mTruth == TruthView::Difference) return {OutputMode::Right, false, mLinear};
+    return {mMode, mSwapped, mLinear};
 }
 
 std::string ViewSession::measuredText(const ViewFrame& frame) const {

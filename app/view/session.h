@@ -193,6 +193,7 @@ public:
     std::string statusLine(const ViewFrame& frame, double framesPerSecond) const;
 
     const StereoSetting& stereo() const { return mStereo.now(); }
+    const ViewStereo& eyes() const { return mStereo; }
     ViewStereo& eyes() { return mStereo; }  // to be set by what is not a key
     void setTruth(TruthView truth) { mTruth = truth; }
     TruthView truth() const { return mTruth; }

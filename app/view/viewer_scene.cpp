@@ -253,7 +253,8 @@ void Viewer::takeStudy() {
 
 std::shared_ptr<const SliceStudy> Viewer::study() {
     if (!mSession) return nullptr;
-    if (!mSession->study() && !mSlices.busy()) mSession->wishStudy();
+    // Not before the first picture, which is what is waited for.
+    if (!mSession->study() && !mSlices.busy() && mFrame) mSession->wishStudy();
     return mSession->study();
 }
 

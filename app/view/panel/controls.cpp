@@ -59,7 +59,12 @@ void textControl(PanelHost& host, const Option& option, const std::string& now) 
     static std::map<std::string, std::string> writing;
     const auto kept = writing.find(option.key);
     std::string text = kept == writing.end() ? now : kept->second;
-    ImGui::InputTextWithHint("##value", option.fallback, &text);
+    const std::string expected = option.value.expected();
+    ImGui::InputTextWithHint("##value",
+                             *option.fallback   ? option.fallback
+                             : expected.empty() ? "none"
+                                                : expected.c_str(),
+                             &text);
     if (ImGui::IsItemActive()) {
         writing[option.key] = text;
     } else if (kept != writing.end()) {
@@ -86,12 +91,16 @@ void numberControl(PanelHost& host, const Option& option, const std::string& now
     const bool live = host.live(option);
     if (const auto kept = dragged.find(option.key); kept != dragged.end()) value = kept->second;
     const std::string unit = *range.unit ? std::string(" ") + range.unit : "";
-    const std::string format = known || dragged.contains(option.key)
-                                   ? (whole ? "%.0f" : "%.5g") + unit
-                                   : std::string(*option.fallback ? option.fallback : "-");
-    std::string shown;
-    for (const char c : format)
-        shown += !known && c == '%' && !dragged.contains(option.key) ? std::string("%%") : std::string(1, c);
+    // A default in words where nothing is known, if there is room for them.
+    const bool dragging = dragged.contains(option.key);
+    std::string shown = (whole ? "%.0f" : "%.5g") + unit;
+    if (!known && !dragging) {
+        const std::string words = *option.fallback ? option.fallback : "-";
+        const bool fits = ImGui::CalcTextSize(words.c_str()).x < ImGui::CalcItemWidth();
+        shown.clear();
+        for (const char c : fits ? words : std::string("default"))
+            shown += c == '%' ? std::string("%%") : std::string(1, c);
+    }
     const bool moved = ImGui::DragScalar("##value", ImGuiDataType_Double, &value, dragSpeed(range, value),
                                          nullptr, nullptr, shown.c_str());
     if (moved) {

@@ -167,6 +167,13 @@ void drawFacts(PanelHost& host) {
     ImGui::EndTable();
 }
 
+// A picture's eyes neither follow a room nor fit themselves to what they see.
+SettingTexts withEyes(SettingTexts settings, const StereoSetting& eyes) {
+    settings["separation"] = {fmt::format("{:.6g}", eyes.separation)};
+    settings["zero-parallax"] = {fmt::format("{:.6g}", eyes.zeroParallax)};
+    return settings;
+}
+
 bool heading(const char* label, bool open) {
     return ImGui::CollapsingHeader(label, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
 }
@@ -197,7 +204,7 @@ void drawSidePanels(PanelHost& host) {
                                            pose.position.y, pose.position.z, kDegrees * angles.heading,
                                            kDegrees * angles.pitch, kDegrees * angles.roll);
         if (ImGui::Button("Copy for a picture"))
-            host.copy(renderLineOf(host.settings(), at, host.pictureSize()));
+            host.copy(renderLineOf(withEyes(host.settings(), session->stereo()), at, host.pictureSize()));
         tooltip("Writes what is seen now into view.png, as it is set now.");
     }
 }
