@@ -7,7 +7,7 @@ namespace stereonav {
 namespace {
 
 // The eye that is seen of a mode of one eye: 0 left, 1 right.
-int eyeOf(const ComposeSetting& setting) {
+int seenEye(const ComposeSetting& setting) {
     EXPECT_EQ(infoOf(setting.mode).layout, OutputLayout::OneEye);
     return infoOf(setting.mode).rightFirst != setting.swapEyes;
 }
@@ -31,8 +31,8 @@ TEST(EyePasses, AlternatingModesShowTheEyeWhoseTurnItIs) {
             const auto right = eyePasses({OutputMode::AlternatingRightFirst, swapped, false}, turn, true);
             ASSERT_EQ(left.size(), 1u);
             ASSERT_EQ(right.size(), 1u);
-            EXPECT_EQ(eyeOf(left[0].setting), (turn + swapped) % 2);
-            EXPECT_EQ(eyeOf(right[0].setting), (turn + swapped + 1) % 2);
+            EXPECT_EQ(seenEye(left[0].setting), (turn + swapped) % 2);
+            EXPECT_EQ(seenEye(right[0].setting), (turn + swapped + 1) % 2);
             EXPECT_EQ(left[0].buffer, BackBuffer::Both);
         }
 }
@@ -44,12 +44,12 @@ TEST(EyePasses, QuadBufferHasAnEyeInEachBuffer) {
         ASSERT_EQ(passes.size(), 2u);
         EXPECT_EQ(passes[0].buffer, BackBuffer::Left);
         EXPECT_EQ(passes[1].buffer, BackBuffer::Right);
-        EXPECT_EQ(eyeOf(passes[0].setting), swapped ? 1 : 0);
-        EXPECT_EQ(eyeOf(passes[1].setting), swapped ? 0 : 1);
+        EXPECT_EQ(seenEye(passes[0].setting), swapped ? 1 : 0);
+        EXPECT_EQ(seenEye(passes[1].setting), swapped ? 0 : 1);
         const auto refused = eyePasses(setting, 0, false);
         ASSERT_EQ(refused.size(), 1u);
         EXPECT_EQ(refused[0].buffer, BackBuffer::Both) << "buffers that are not there are not drawn into";
-        EXPECT_EQ(eyeOf(refused[0].setting), swapped ? 1 : 0);
+        EXPECT_EQ(seenEye(refused[0].setting), swapped ? 1 : 0);
     }
 }
 

@@ -23,11 +23,11 @@
 namespace stereonav {
 namespace {
 
-constexpr const char* kTwoMonitors = "STEREONAV_TWO_MONITORS";  // set in that process
-constexpr PackedColor kRed = 1023u, kBlue = 1023u << 20;        // left, right eye
-constexpr int kSecondX = 1025, kSecondY = 33;                   // of the second monitor
+constexpr const char* kTwoMonitors = "STEREONAV_TWO_MONITORS";        // set in that process
+constexpr PackedColor kLeftColor = 1023u, kRightColor = 1023u << 20;  // left, right eye
+constexpr int kSecondX = 1025, kSecondY = 33;                         // of the second monitor
 
-Plane<PackedColor> eyeOf(PackedColor color, int width, int height) {
+Plane<PackedColor> filledEye(PackedColor color, int width, int height) {
     Plane<PackedColor> eye(width, height);
     for (int y = 0; y < height; ++y) std::fill_n(eye.row(y), width, color);
     return eye;
@@ -150,7 +150,7 @@ TEST_F(OnMonitors, TheOptionFillsTheMonitor) {
 TEST_F(OnMonitors, EyesAlternate) {
     if (!ServerPixels::there()) GTEST_SKIP() << "GLFW is not X's here";
     StereoPresenter presenter;
-    presenter.upload(eyeOf(kRed, 8, 8), eyeOf(kBlue, 8, 8));
+    presenter.upload(filledEye(kLeftColor, 8, 8), filledEye(kRightColor, 8, 8));
     ViewOptions options;
     options.mode = OutputMode::Alternating;
     ViewDisplay display(*mWindow, options);
@@ -190,7 +190,7 @@ TEST_F(OnMonitors, WhereNoQuadBufferIsGrantedOneLineSaysSo) {
     options.mode = OutputMode::QuadBuffer;
     ViewDisplay display(*mWindow, options);
     StereoPresenter presenter;
-    presenter.upload(eyeOf(kRed, 8, 8), eyeOf(kBlue, 8, 8));
+    presenter.upload(filledEye(kLeftColor, 8, 8), filledEye(kRightColor, 8, 8));
     if (mWindow->quadBuffered()) {
         EXPECT_EQ(display.mode(), OutputMode::QuadBuffer);
         EXPECT_EQ(display.takeNotice(), "");
@@ -282,7 +282,7 @@ TEST_F(OnTwoMonitors, OneIsFilledAfterTheOther) {
 // Pixels of the window, against the rows and columns of the monitor that it stands on.
 TEST_F(OnTwoMonitors, InterleavedModesKeepToTheMonitorsRows) {
     StereoPresenter presenter;
-    presenter.upload(eyeOf(kRed, 64, 64), eyeOf(kBlue, 64, 64));
+    presenter.upload(filledEye(kLeftColor, 64, 64), filledEye(kRightColor, 64, 64));
     const std::array<glm::ivec2, 2> first{glm::ivec2(0, 0), glm::ivec2(kSecondX, kSecondY)};
     for (const glm::ivec2& monitor : first)
         for (const glm::ivec2 place : {glm::ivec2(20, 30), {21, 30}, {20, 31}, {21, 31}}) {
