@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "engine/base/loop_watch.h"
 
@@ -14,6 +15,13 @@ namespace {
 
 constexpr double kRedraw_ms = 80.0;           // often enough to look alive, rare enough to cost nothing
 constexpr double kLineInterval_ms = 10000.0;  // where the lines stay
+
+// Of such lines: what the environment asks for, for a program that reads them.
+double lineInterval_ms() {
+    const char* const asked = std::getenv("STEREONAV_PROGRESS_SECONDS");
+    const double seconds = asked ? std::atof(asked) : 0;
+    return seconds > 0 ? std::max(1000 * seconds, kRedraw_ms) : kLineInterval_ms;
+}
 
 }  // namespace
 
@@ -30,7 +38,8 @@ ProgressBar::ProgressBar(bool shown)
     : mShown(shown),
       mTerminal(isatty(STDERR_FILENO) != 0),
       mProgress([this](double fraction, const std::string& what) { show(fraction, what); }) {
-    mNext_ms = mTerminal ? 0.0 : kLineInterval_ms;
+    mLineInterval_ms = lineInterval_ms();
+    mNext_ms = mTerminal ? 0.0 : mLineInterval_ms;
     if (mShown) watchLoops([this](double share) { showAgain(share); });
 }
 
@@ -62,7 +71,7 @@ void ProgressBar::showAgain(double share) {
 // Under the mutex.
 void ProgressBar::draw(double now_ms) {
     constexpr double kLong_ms = 2000;  // of one report, or one loop, from which on its time or share is told
-    mNext_ms = now_ms + (mTerminal ? kRedraw_ms : kLineInterval_ms);
+    mNext_ms = now_ms + (mTerminal ? kRedraw_ms : mLineInterval_ms);
     const double since_ms = now_ms - mReported_ms;
     std::string what = mWhat;
     if (since_ms >= kLong_ms) what += fmt::format(", {:.0f} s", since_ms / 1000);

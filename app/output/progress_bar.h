@@ -34,6 +34,7 @@ private:
     std::atomic<double> mNext_ms;
     double mFraction = 0, mReported_ms = 0;    // the last report
     double mLoopShare = 0, mLoopStart_ms = 0;  // of the loop looked at last
+    double mLineInterval_ms = 0;
     std::string mWhat;
     bool mShown, mTerminal, mDrawn = false;
     Progress mProgress;

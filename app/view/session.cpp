@@ -297,6 +297,15 @@ void ViewSession::saveFlight() {
     try {
         mPath = mRecorder.finish();
         mOwnPath = false;
+        mPathsBefore.clear();
+        savePath();
+    } catch (const Error& error) {
+        notify(error.what());
+    }
+}
+
+void ViewSession::savePath() {
+    try {
         std::filesystem::path file;
         int number = 1;
         do file = mFolder / fmt::format("flight_{:04}.gltf", number++);

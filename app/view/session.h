@@ -146,6 +146,10 @@ public:
     OutputMode firstMode() const { return mFirstMode; }
     double speed() const { return mSpeed * mFlight->speed(); }  // metres a second at full input
     const RecordedPath& path() const { return mPath; }
+    // Puts another one in its place; what fails is told. The last ones can be had back.
+    void editPath(const std::function<RecordedPath(const RecordedPath&)>& edit);
+    void undoPath();
+    void savePath();
     double playTime() const { return mPlayTime; }
     double recorded() const { return mRecorder.duration(); }  // seconds
 
@@ -260,6 +264,7 @@ private:
     double mPlayTime = 0;  // seconds since the path's start
     Pose mPlayed;
     bool mOwnPath = false;  // mPath is the scene's own
+    std::vector<RecordedPath> mPathsBefore;
     ViewStereo mStereo;
     double mDepthAhead = 0;  // metres
     SunPlace mSun;

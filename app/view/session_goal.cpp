@@ -1,6 +1,8 @@
 // The session's part that flies by itself: to a place, along a way, round to look back.
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "app/view/session.h"
 #include "engine/base/error.h"
 
@@ -40,6 +42,28 @@ void ViewSession::turnRound() {
                                    : "forward goes to the end of the line");
     else
         notify("turning round is of a guided flight: F");
+}
+
+void ViewSession::editPath(const std::function<RecordedPath(const RecordedPath&)>& edit) {
+    constexpr std::size_t kKept = 50;
+    stopPlaying();
+    try {
+        RecordedPath edited = edit(mPath);
+        mPathsBefore.push_back(std::exchange(mPath, std::move(edited)));
+        if (mPathsBefore.size() > kKept) mPathsBefore.erase(mPathsBefore.begin());
+        mOwnPath = false;
+        notify(fmt::format("a flight of {:.1f} s", mPath.duration()));
+    } catch (const Error& error) {
+        notify(error.what());
+    }
+}
+
+void ViewSession::undoPath() {
+    if (mPathsBefore.empty()) return notify("the path was not changed");
+    stopPlaying();
+    mPath = std::move(mPathsBefore.back());
+    mPathsBefore.pop_back();
+    notify(fmt::format("a flight of {:.1f} s", mPath.duration()));
 }
 
 }  // namespace stereonav

@@ -11,17 +11,10 @@ namespace {
 
 constexpr const char* kScene = "SCENE";
 
-void addWords(std::string& line, const SettingTexts& settings, CommandSet command) {
-    if (const auto scene = settings.find(kScene); scene != settings.end() && !scene->second.empty())
-        line += " " + shellWord(scene->second.back());
-    for (const auto& [key, texts] : settings) {
-        const Option* const option = findOption(command, key);
-        if (!option || option->positional()) continue;
-        for (const std::string& text : texts) {
-            line += " " + option->name();
-            if (option->value.kind != ValueKind::Flag) line += " " + shellWord(text);
-        }
-    }
+std::string lineOf(const std::vector<std::string>& words) {
+    std::string line = "stereonav";
+    for (const std::string& word : words) line += " " + shellWord(word);
+    return line;
 }
 
 SettingTexts textsOf(const GivenOptions& given, bool ofFile) {
@@ -74,18 +67,33 @@ std::string shellWord(const std::string& text) {
     return word + "'";
 }
 
+std::vector<std::string> commandWords(CommandSet command, const SettingTexts& settings) {
+    std::vector<std::string> words{factsOf(command).name};
+    if (const auto scene = settings.find(kScene); scene != settings.end() && !scene->second.empty())
+        words.push_back(scene->second.back());
+    for (const auto& [key, texts] : settings) {
+        const Option* const option = findOption(command, key);
+        if (!option || option->positional()) continue;
+        // Some keys stand for another thing with another command.
+        const Option* const shown = viewOption(key);
+        if (shown && shown != option && shown->scenes != option->scenes) continue;
+        for (const std::string& text : texts) {
+            // As one word, so that a value that begins with a dash is none of an option's own.
+            words.push_back(option->value.kind == ValueKind::Flag ? option->name()
+                                                                  : option->name() + "=" + text);
+        }
+    }
+    return words;
+}
+
 std::string commandLineOf(const SettingTexts& settings) {
-    std::string line = "stereonav view";
-    addWords(line, settings, command::kView);
-    return line;
+    return lineOf(commandWords(command::kView, settings));
 }
 
 std::string renderLineOf(const SettingTexts& settings, const std::string& pose, const SizeOption& size) {
     SettingTexts shown = settings;
     shown["size"] = {fmt::format("{}x{}", size.width, size.height)};
-    std::string line = "stereonav render";
-    addWords(line, shown, command::kRender);
-    return line + " --pose=" + pose + " --out view.png";
+    return lineOf(commandWords(command::kRender, shown)) + " --pose=" + pose + " --out view.png";
 }
 
 }  // namespace stereonav

@@ -30,6 +30,9 @@ std::string commandLineOf(const SettingTexts& settings);
 // The command line that writes what is shown, seen from there, into a picture: without options that `render`
 // has not.
 std::string renderLineOf(const SettingTexts& settings, const std::string& pose, const SizeOption& size);
+// The words of a command, after the program's name, with the settings that are the same options there as of
+// `view`.
+std::vector<std::string> commandWords(CommandSet command, const SettingTexts& settings);
 // As one word of a POSIX shell.
 std::string shellWord(const std::string& text);
 

@@ -193,6 +193,7 @@ void Viewer::update(double dt) {
     mHistory.observe(settings(), mInterface.active(), dt);
     askFor();
     followWishes();
+    lookAtJob();
     takeFrame();
 }
 

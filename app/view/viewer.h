@@ -68,6 +68,11 @@ public:
     const InterfaceLook& look() const override { return mInterface.look(); }
     void setLook(const InterfaceLook& look) override { mInterface.setLook(look); }
     const Facts* facts() override;
+    const Job* job() const override { return mJob.get(); }
+    void cancelJob() override;
+    void makeMovie(const MovieWish& movie) override;
+    bool bakes() const override;
+    void bakeLight(const std::string& what, double minutes) override;
     ScreenWords onScreen(const ViewFrame& frame) const override;
     bool fullScreen() const override { return mWindow.fullScreen(); }
 
@@ -89,6 +94,8 @@ private:
     void readConfig();
     void keepConfig();
     void noteRecent();
+    void startJob(const std::string& what, const std::vector<std::string>& words);
+    void lookAtJob();
     void reportKept();
     void takeDrops();
     void load(const ViewOptions& options, bool another);
@@ -128,7 +135,10 @@ private:
     WindowConfig mConfig;  // as it was read, and is kept at the end
     RecentFiles mRecent;
     std::optional<Bookmarks> mPlaces;
-    bool mRecentDue = false;  // the file that is shown goes among them with its first picture
+    std::unique_ptr<Job> mJob;
+    std::filesystem::path mJobPath;   // of the flight that it plays, which goes with it
+    std::string mBaked, mBakedScene;  // the file of a bake at work, and what it is of
+    bool mRecentDue = false;          // the file that is shown goes among them with its first picture
     std::shared_ptr<const ViewFrame> mFrame;
     ComposeSetting mDrawn;
     PicturePlace mDrawnPlace;

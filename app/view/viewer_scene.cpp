@@ -44,7 +44,13 @@ std::optional<std::string> Viewer::valueOf(const Option& option) const {
 
 bool Viewer::applies(const Option& option) const {
     const auto type = sceneTypeOf(mOptions.scene);
-    return type && (option.scenes & *type) != 0;
+    if (!type || (option.scenes & *type) == 0) return false;
+    // What would be refused beside what is set now is not offered.
+    GivenOptions given = mChanged.scene.given;
+    if (!given.has(option.key)) given.add(option.key, OptionValue{}, option.name());
+    const Asked asked{given, *type};
+    return std::none_of(option.rules.begin(), option.rules.end(),
+                        [&](const OptionRule& rule) { return rule.broken(asked); });
 }
 
 bool Viewer::live(const Option& option) const {

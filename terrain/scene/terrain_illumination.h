@@ -28,7 +28,7 @@ public:
     float sunShownAt(const glm::dvec2& grid) const { return mRelight.sunShownAt(mBrightness, grid); }
 
     const TerrainLight& light() const { return mRelight.light(); }
-    const ColorTexture& albedo() const { return mAlbedo; }  // does not change
+    const ColorTexture& albedo() const { return mAlbedo; }              // does not change
     const GroundBrightness& brightness() const { return mBrightness; }  // of the last apply()
     std::size_t byteCount() const;
 

@@ -28,9 +28,9 @@ TEST(SettingTexts, WhatDoesNotGoIsRefusedAsOnTheCommandLine) {
 
 TEST(SettingTexts, ACommandLineIsReadByAShell) {
     EXPECT_EQ(commandLineOf({{"SCENE", {"my dem's.tif"}}, {"open-holes", {""}}, {"sun", {"250,15"}}}),
-              "stereonav view 'my dem'\\''s.tif' --open-holes --sun 250,15");
+              "stereonav view 'my dem'\\''s.tif' --open-holes --sun=250,15");
     EXPECT_EQ(renderLineOf({{"sweep", {"cpu"}}, {"fov", {"40"}}}, "1,2,3,4,5,6", {640, 480}),
-              "stereonav render --fov 40 --size 640x480 --pose=1,2,3,4,5,6 --out view.png");
+              "stereonav render --fov=40 --size=640x480 --pose=1,2,3,4,5,6 --out view.png");
     EXPECT_EQ(shellWord(""), "''");
     EXPECT_EQ(shellWord("a\nb"), "'a\nb'");
 }

@@ -65,11 +65,12 @@ protected:
     int drive(const std::string& script, const std::string& arguments = "") {
         // From a number of this process's own on: xvfb-run's way of finding a free display is a race.
         const std::string display = std::to_string(200 + getpid() % 30000);
-        const std::string command =
-            "HOME='" + mFolder.string() + "' XDG_CACHE_HOME='" + mFolder.string() + "/cache' xvfb-run -a -n " + display +
-            " -s '-noreset -screen 0 1280x1024x24' "
-            "'" STEREONAV_SOURCE_DIR "/tests/display/" +
-            script + "' '" STEREONAV_PROGRAM "' '" + mFolder.string() + "' " + arguments;
+        const std::string command = "HOME='" + mFolder.string() + "' XDG_CACHE_HOME='" + mFolder.string() +
+                                    "/cache' xvfb-run -a -n " + display +
+                                    " -s '-noreset -screen 0 1280x1024x24' "
+                                    "'" STEREONAV_SOURCE_DIR "/tests/display/" +
+                                    script + "' '" STEREONAV_PROGRAM "' '" + mFolder.string() + "' " +
+                                    arguments;
         const int status = std::system(command.c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }

@@ -53,7 +53,7 @@ void FileBrowser::open(For what) {
     mFilter.clear();
     std::error_code code;
     if (mFolder.empty()) mFolder = fs::current_path(code);
-    if (what == For::SaveScene && mName.empty()) mName = "scene.toml";
+    mName = what == For::SaveScene ? "scene.toml" : "";
     goTo(mFolder);
 }
 
@@ -158,7 +158,8 @@ void FileBrowser::draw(PanelHost& host) {
     ImGui::SetNextItemWidth(-14 * font);
     if (mFresh) ImGui::SetKeyboardFocusHere();
     mFresh = false;
-    bool done = ImGui::InputTextWithHint("##name", "name", &mName, ImGuiInputTextFlags_EnterReturnsTrue);
+    bool done = ImGui::InputTextWithHint(
+        "##name", "name", &mName, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     ImGui::SameLine();
     done |= ImGui::Button(save ? "Save" : "Open");
     ImGui::SameLine();

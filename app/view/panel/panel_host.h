@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/view/bookmarks.h"
+#include "app/view/job.h"
 #include "app/view/recent_files.h"
 #include "app/view/session.h"
 #include "app/view/setting_texts.h"
@@ -21,6 +22,12 @@ namespace stereonav {
 struct FrameCost {
     double left_ms = 0, right_ms = 0;            // of eyes made together the left one has it all
     double warp_ms = 0, fill_ms = 0, holes = 0;  // holes: percent of the right eye's pixels
+};
+
+struct MovieWish {
+    std::string file;                // .mp4, .mkv, .avi; or a folder's name, for pictures
+    int width = 1280, height = 720;  // pixels of an eye
+    double fps = 25;
 };
 
 class PanelHost {
@@ -53,6 +60,15 @@ public:
     virtual void goToPlace(const Bookmark& place) = 0;
     // What slices are of; asked for, it is read beside the frames. Null until then, or where there is none.
     virtual std::shared_ptr<const SliceStudy> study() = 0;
+
+    // A movie or a bake that is being made, or was made last; null before the first.
+    virtual const Job* job() const = 0;
+    virtual void cancelJob() = 0;
+    // Of the path that Play plays, as the window is set. Failures are told.
+    virtual void makeMovie(const MovieWish& movie) = 0;
+    // Light of this scene, to be shown when it is done.
+    virtual bool bakes() const = 0;  // whether it has light to bake
+    virtual void bakeLight(const std::string& what, double minutes) = 0;
 
     virtual void act(const ViewAction& action) = 0;
     // none: as it begins. Failures are told.

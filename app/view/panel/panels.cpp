@@ -26,7 +26,8 @@ constexpr float kNarrowest = 10;
 constexpr float kBeside = 56;   // as wide must the interface be for panels beside the picture
 constexpr float kPicture = 20;  // what is left for it at least
 constexpr ImGuiWindowFlags kPlainBox = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
+                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                                       ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 }  // namespace
 

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <tuple>
 
-#include "app/output/length_text.h"
 #include "app/view/panel/comfort_meter.h"
 #include "app/view/panel/controls.h"
+#include "app/view/panel/path_panel.h"
 #include "app/view/status.h"
 
 namespace stereonav {
@@ -61,8 +61,39 @@ void drawOptions(PanelHost& host, OptionPanel panel) {
     for (const Option* const option : optionsOf(host, panel)) optionControl(host, *option);
 }
 
+// Of scenes whose light can be baked: those that `bake` takes.
+void drawBake(PanelHost& host, ViewSession&) {
+    const Option* const light = viewOption("light");
+    const Option* const what = findOption(command::kBake, "what");
+    if (!light || !what || !host.bakes()) return;
+    static int chosen = 1;
+    static double minutes = 2;
+    const std::vector<std::string>& words = what->value.words;
+    ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
+    if (ImGui::BeginCombo("##what", words[static_cast<std::size_t>(chosen)].c_str())) {
+        for (std::size_t n = 0; n < words.size(); ++n)
+            if (ImGui::Selectable(words[n].c_str())) chosen = static_cast<int>(n);
+        ImGui::EndCombo();
+    }
+    tooltip(what->help);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
+    ImGui::DragScalar("##minutes", ImGuiDataType_Double, &minutes, 0.05f, nullptr, nullptr, "%.1f min");
+    minutes = std::clamp(minutes, 0.1, 600.0);
+    tooltip("It takes this long, or less where all is done before.");
+    ImGui::SameLine();
+    const bool busy = host.job() && host.job()->running();
+    ImGui::BeginDisabled(busy);
+    if (ImGui::Button("Bake")) host.bakeLight(words[static_cast<std::size_t>(chosen)], minutes);
+    ImGui::EndDisabled();
+    tooltip(
+        "Computes light with its shadows and reflections beforehand, and shows it. It goes on beside the "
+        "flight.");
+}
+
 void drawLight(PanelHost& host, ViewSession& session) {
     drawOptions(host, OptionPanel::Light);
+    drawBake(host, session);
     const std::string why = session.open().scene->whyLightStays();
     if (session.open().scene->offered<TurningLight>())
         quietText(host, "U H J K, or the cross of a gamepad, move the light.");
@@ -137,20 +168,6 @@ void drawQuality(PanelHost& host, ViewSession& session) {
         quietText(host, frameText(*frame, host.framesPerSecond()));
 }
 
-void drawPath(PanelHost& host, ViewSession& session) {
-    command(host, session.recording() ? "End recording" : "Record", ViewCommand::Record, "Key: z");
-    ImGui::SameLine();
-    command(host, session.playing() ? "Stop" : "Play", ViewCommand::Play, "Key: Shift+Z");
-    ImGui::SameLine();
-    command(host, "Home", ViewCommand::Home, "Key: Space");
-    const RecordedPath& path = session.path();
-    quietText(host, path.samples().size() < 2 ? "No flight yet: Record makes one."
-                                              : fmt::format("A flight of {:.1f} s, {} places.",
-                                                            path.duration(), path.samples().size()));
-    quietText(host, fmt::format("speed {}/s: the wheel changes it, Shift is four times",
-                                lengthText(session.speed())));
-}
-
 void drawFacts(PanelHost& host) {
     const Facts* const facts = host.facts();
     if (!facts) return quietText(host, "being collected");
@@ -188,7 +205,7 @@ void drawSidePanels(PanelHost& host) {
     if (any(OptionPanel::Light) && heading("Light", true)) drawLight(host, *session);
     if (any(OptionPanel::Material) && heading("Material", false)) drawMaterial(host, *session);
     if (any(OptionPanel::Medium) && heading("Medium", false)) drawOptions(host, OptionPanel::Medium);
-    if (heading("Flight and path", false)) drawPath(host, *session);
+    if (heading("Flight and path", false)) drawPathPanel(host, *session);
     if (heading("Quality and cost", false)) drawQuality(host, *session);
     if (any(OptionPanel::Study) && heading("Study", false)) drawOptions(host, OptionPanel::Study);
     if (heading("Scene", false)) drawFacts(host);

@@ -30,9 +30,13 @@ bool drawCard(PanelHost& host, const Card& card, float width) {
     if (hovered)
         ImGui::GetWindowDrawList()->AddRect(from, {from.x + size.x, from.y + size.y},
                                             ImGui::GetColorU32(accentColor(host.look())), 0, 0, 2);
+    if (hovered) tooltip(card.words);
     ImGui::TextUnformatted(card.title);
-    ImGui::SameLine();
-    quietText(host, card.words);
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    if (ImGui::CalcTextSize(card.title).x + gap + ImGui::CalcTextSize(card.words).x < width) {
+        ImGui::SameLine();
+        quietLine(host, card.words);
+    }
     ImGui::PopID();
     ImGui::EndGroup();
     return clicked;
@@ -48,8 +52,7 @@ bool StartPage::draw(PanelHost& host) {
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(whole.y - 3 * font, 4 * font)});
     ImGui::Begin("##start", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
     bool look = false;
     const float inside = width - 2 * ImGui::GetStyle().WindowPadding.x, gap = ImGui::GetStyle().ItemSpacing.x;
     const int columns = width > 30 * font ? 4 : 2;

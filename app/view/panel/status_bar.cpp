@@ -106,7 +106,8 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
     ViewSession* const session = host.session();
     const std::string notice = session ? session->notice() : "";
     const bool waits = loading.busy && (host.loadingSeconds() > kPatience || !session);
-    if (notice.empty() && host.failure().empty() && !waits && !host.readingSlices()) return;
+    const Job* const job = host.job() && host.job()->running() ? host.job() : nullptr;
+    if (notice.empty() && host.failure().empty() && !waits && !job && !host.readingSlices()) return;
     const float wrap = std::min(width - 2 * margin, 46 * ImGui::GetFontSize());
     ImGui::SetNextWindowPos({left + width / 2, top + margin}, ImGuiCond_Always, {0.5f, 0});
     ImGui::Begin("##notices", nullptr, kBar | ImGuiWindowFlags_AlwaysAutoResize);
@@ -133,6 +134,18 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
         if (ImGui::Button("Cancel")) host.cancelLoading();
     }
     if (host.readingSlices()) ImGui::TextUnformatted("reading the slices");
+    if (job) {
+        ImGui::TextUnformatted(job->what().c_str());
+        std::string text = fmt::format("{:.0f} %", 100 * job->fraction());
+        if (job->fraction() > 0.02 && job->seconds() > 2)
+            text +=
+                fmt::format(", {:.0f} s left", std::ceil(job->seconds() / job->fraction() - job->seconds()));
+        ImGui::ProgressBar(static_cast<float>(job->fraction()),
+                           {std::min(wrap, 20 * ImGui::GetFontSize()), 0}, text.c_str());
+        tooltip(job->progress());
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel##job")) host.cancelJob();
+    }
     ImGui::PopTextWrapPos();
     ImGui::End();
 }

@@ -1,0 +1,115 @@
+#include "app/view/job.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+#include "engine/base/error.h"
+
+extern char** environ;
+
+namespace stereonav {
+namespace {
+
+constexpr const char* kOften = "STEREONAV_PROGRESS_SECONDS=0.2";  // app/output/progress_bar.cpp
+
+Error noProcess(int code) {
+    return {"", "window", std::string("no process can be started: ") + std::strerror(code),
+            "close other programs and try again"};
+}
+
+}  // namespace
+
+bool progressOf(const std::string& line, double& fraction, std::string& words) {
+    std::size_t at = line.find(" % ");
+    if (at == std::string::npos || at == 0) return false;
+    std::size_t from = at;
+    while (from > 0 && line[from - 1] >= '0' && line[from - 1] <= '9') --from;
+    if (from == at || at - from > 3) return false;
+    const std::string before = line.substr(0, from);
+    if (before.find_first_not_of("[]=> ") != std::string::npos) return false;
+    fraction = std::min(std::stoi(line.substr(from, at - from)), 100) / 100.0;
+    words = line.substr(at + 3);
+    return true;
+}
+
+Job::Job(std::string what, const std::vector<std::string>& words, const char* program)
+    : mWhat(std::move(what)) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw noProcess(errno);
+    mPipe = ends[0];
+    fcntl(mPipe, F_SETFL, O_NONBLOCK);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&files, ends[1], STDERR_FILENO);
+    std::vector<char*> arguments{const_cast<char*>("stereonav")}, environment;
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    for (char** entry = environ; *entry; ++entry) environment.push_back(*entry);
+    environment.push_back(const_cast<char*>(kOften));
+    environment.push_back(nullptr);
+    pid_t process = 0;
+    const int code = posix_spawn(&process, program, &files, nullptr, arguments.data(), environment.data());
+    posix_spawn_file_actions_destroy(&files);
+    close(ends[1]);
+    if (code != 0) {
+        close(mPipe);
+        throw noProcess(code);
+    }
+    mProcess = process;
+}
+
+Job::~Job() {
+    if (running()) {
+        kill(mProcess, SIGTERM);
+        while (waitpid(mProcess, &mStatus, 0) < 0 && errno == EINTR) {
+        }
+    }
+    close(mPipe);
+}
+
+void Job::cancel() {
+    if (!running()) return;
+    mCancelled = true;
+    kill(mProcess, SIGTERM);
+}
+
+void Job::look() {
+    if (!running()) return;
+    read();
+    int status = 0;
+    if (waitpid(mProcess, &status, WNOHANG) != mProcess) return;
+    read();
+    take(std::exchange(mRest, ""));
+    mProcess = 0;
+    mStatus = status;
+    if (status == 0) mFraction = 1;
+}
+
+void Job::read() {
+    char bytes[4096];
+    for (ssize_t count = 0; (count = ::read(mPipe, bytes, sizeof bytes)) > 0;) {
+        for (ssize_t n = 0; n < count; ++n) {
+            if (bytes[n] == '\n' || bytes[n] == '\r')
+                take(std::exchange(mRest, ""));
+            else
+                mRest += bytes[n];
+        }
+    }
+}
+
+void Job::take(const std::string& line) {
+    if (line.empty() || progressOf(line, mFraction, mProgress)) return;
+    mLast = line;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,48 @@
+// A command of the program's own that runs beside the window, in a process of its own: a movie, a bake. The
+// window's frames lose processor time to it and nothing else, and ending it leaves what the command leaves
+// when it is stopped (docs/using.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/base/stopwatch.h"
+
+namespace stereonav {
+
+class Job {
+public:
+    // words: after the program's name; program: its file. Throws Error where no process can be made.
+    Job(std::string what, const std::vector<std::string>& words, const char* program = "/proc/self/exe");
+    ~Job();  // stops it, and waits until it has ended
+    Job(const Job&) = delete;
+    Job& operator=(const Job&) = delete;
+
+    // Takes what it has told since, and whether it has ended; to be called now and then.
+    void look();
+    void cancel();
+
+    const std::string& what() const { return mWhat; }
+    bool running() const { return mProcess > 0; }
+    bool cancelled() const { return mCancelled; }
+    bool failed() const { return !running() && mStatus != 0 && !mCancelled; }
+    double fraction() const { return mFraction; }                  // 0 to 1
+    const std::string& progress() const { return mProgress; }      // its words on that
+    const std::string& lastLine() const { return mLast; }          // of all else that it told
+    double seconds() const { return mWatch.elapsed_ms() / 1000; }  // since it began
+
+private:
+    void read();
+    void take(const std::string& line);
+
+    std::string mWhat, mProgress, mLast, mRest;
+    int mProcess = 0, mPipe = -1, mStatus = 0;
+    double mFraction = 0;
+    bool mCancelled = false;
+    Stopwatch mWatch;
+};
+
+// The share and the words of a line "[===>   ]  52 % words" or " 52 % words"; false for any other.
+bool progressOf(const std::string& line, double& fraction, std::string& words);
+
+}  // namespace stereonav

@@ -1,0 +1,87 @@
+// The viewer's part that makes movies and bakes light, by the program's own commands beside the window.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "app/options/scene_types.h"
+#include "app/view/viewer.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+
+namespace stereonav {
+
+void Viewer::startJob(const std::string& what, const std::vector<std::string>& words) {
+    if (mJob && mJob->running())
+        throw Error("", mJob->what(), "is still being made", "wait for it, or cancel it");
+    mJob = std::make_unique<Job>(what, words);
+}
+
+void Viewer::cancelJob() {
+    if (mJob) mJob->cancel();
+}
+
+void Viewer::makeMovie(const MovieWish& movie) {
+    tryTo([&] {
+        if (mSession->path().samples().size() < 2)
+            throw Error("", "movie", "there is no flight", "record one with z");
+        SettingTexts settings = this->settings();
+        settings["size"] = {fmt::format("{}x{}", movie.width, movie.height)};
+        if (!fitsInPicture(mSession->mode()))
+            throw Error("", infoOf(mSession->mode()).longName.data(), "is a mode of windows alone",
+                        "choose another mode for the movie");
+        settings["mode"] = {std::string(infoOf(mSession->mode()).shortName)};
+        std::vector<std::string> words = commandWords(command::kPlay, settings);
+        std::error_code code;
+        std::filesystem::path place = movie.file;
+        const bool video = place.has_extension();
+        mJobPath = std::filesystem::temp_directory_path(code) / fmt::format("stereonav_{}.gltf", getpid());
+        writePath(mJobPath, mSession->path());
+        words.push_back("--path=" + mJobPath.string());
+        words.push_back((video ? "--video=" : "--out=") + place.string());
+        if (video) words.push_back(fmt::format("--fps={:.6g}", movie.fps));
+        startJob("the movie " + place.string(), words);
+    });
+}
+
+bool Viewer::bakes() const {
+    const auto type = sceneTypeOf(mOptions.scene);
+    return type && (*type & scene_type::kCast) != 0 && (factsOf(command::kBake).scenes & *type) != 0;
+}
+
+void Viewer::bakeLight(const std::string& what, double minutes) {
+    tryTo([&] {
+        const SettingTexts settings = this->settings();
+        std::vector<std::string> words = commandWords(command::kBake, settings);
+        words.push_back("--what=" + what);
+        words.push_back(fmt::format("--minutes={:.6g}", minutes));
+        Hash hash;
+        for (const std::string& word : words) hash.add(word).add(std::string_view("\n"));
+        const std::filesystem::path folder = cacheFolder();
+        mBaked = (folder / fmt::format("window_{:016x}.light", hash.value())).string();
+        mBakedScene = mOptions.scene.scene;
+        words.push_back("--out=" + mBaked);
+        startJob("baked light", words);
+    });
+}
+
+void Viewer::lookAtJob() {
+    if (!mJob || !mJob->running()) return;
+    mJob->look();
+    if (mJob->running()) return;
+    std::error_code code;
+    if (!mJobPath.empty()) std::filesystem::remove(mJobPath, code);
+    mJobPath.clear();
+    const std::string baked = std::exchange(mBaked, "");
+    if (mJob->failed()) {
+        mFailure = mJob->lastLine().empty() ? mJob->what() + " was not made" : mJob->lastLine();
+    } else if (mJob->cancelled()) {
+        mSession->notify(mJob->what() + ": cancelled");
+    } else {
+        mSession->notify(fmt::format("{}: done in {:.0f} s", mJob->what(), mJob->seconds()));
+        if (!baked.empty() && mBakedScene == mOptions.scene.scene) set("light", baked);
+    }
+}
+
+}  // namespace stereonav
