@@ -19,7 +19,8 @@ constexpr double kStereoStep = 1.1;  // separation and zero parallax, a key pres
 constexpr double kSpeedStep = 1.2;   // a notch of the wheel
 constexpr double kSlowest = 0.01, kFastest = 100.0;
 constexpr double kNoticeSeconds = 4.0;
-constexpr double kStill = 1e-4;  // of the normal speed, and radians a second: at rest
+constexpr double kOtherShape = 0.02;  // of width to height: less is rounding to pixels
+constexpr double kStill = 1e-4;       // of the normal speed, and radians a second: at rest
 
 // Whether so little moved within dt seconds that the flight counts as at rest.
 bool atRest(const Pose& before, const Pose& after, double speed, double dt) {
@@ -38,6 +39,17 @@ bool sameFrame(const FrameRequest& a, const FrameRequest& b) {
            a.stereo.zeroParallax == b.stereo.zeroParallax && a.way.method == b.way.method &&
            a.model == b.model && a.time == b.time && a.twoEyes == b.twoEyes && a.mode == b.mode &&
            a.sun == b.sun && a.fitEyes == b.fitEyes && a.truth == b.truth;
+}
+
+bool mixesEyes(OutputLayout layout) {
+    switch (layout) {
+        case OutputLayout::SideBySide:
+        case OutputLayout::TopBottom:
+        case OutputLayout::FramePacked:
+            return false;
+        default:
+            return true;
+    }
 }
 
 bool asksForMotion(const FlightInput& input) {
@@ -423,6 +435,10 @@ bool ViewSession::takeScreenshotWish() {
 
 const FrameRequest& ViewSession::requestFor(int width, int height) {
     const auto [eyeWidth, eyeHeight] = eyeSizeFor(compose().mode, width, height);
+    // Parallax counts by the width, of which a picture of another shape has more or less.
+    const double shape = static_cast<double>(eyeWidth) / eyeHeight;
+    if (mShape > 0 && std::abs(shape - mShape) > kOtherShape * mShape) mStereo.refit(shown());
+    if (!(mShape > 0) || std::abs(shape - mShape) > kOtherShape * mShape) mShape = shape;
     FrameRequest wanted;
     wanted.pose = pose();
     wanted.lens = lens();
@@ -446,8 +462,9 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
 
 ComposeSetting ViewSession::compose() const {
     if (!mStereoOn) return {OutputMode::Left, false, mLinear};
-    // A difference is looked at by itself.
-    if (mTruth == TruthView::Difference) return {OutputMode::Right, false, mLinear};
+    // A difference is looked at by itself where a display mixes both eyes; they are of the same size there.
+    if (mTruth == TruthView::Difference && mixesEyes(infoOf(mMode).layout))
+        return {OutputMode::Right, false, mLinear};
     return {mMode, mSwapped, mLinear};
 }
 

@@ -283,6 +283,7 @@ private:
     int mModel = 0;
     TruthView mTruth = TruthView::None;
     FrameTruth mMeasured;
+    double mShape = 0;           // width to height of the eyes' pictures that were asked for last
     std::optional<double> mFov;  // radians; none: the scene's
     double mTime = 0;            // seconds, of what moves by itself
     bool mStereoOn = true, mSwapped = false, mLinear = false, mQuit = false, mCaptured = false;

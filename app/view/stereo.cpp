@@ -112,6 +112,13 @@ void ViewStereo::adopt(const StereoSetting& fitting) {
     if (follows()) follow();  // from there
 }
 
+void ViewStereo::refit(const Scene& scene) {
+    if (!mFitted || follows()) return;
+    mNow = mTarget = mByHand = scene.stereo;
+    mFits = true;
+    mComfort.restart();
+}
+
 void ViewStereo::observe(const ViewFrame& frame) {
     const FrameRequest& request = frame.request;
     if (!request.twoEyes) return;

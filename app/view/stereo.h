@@ -39,6 +39,10 @@ public:
     bool clamp() const { return mClamp; }
     bool clamping() const;  // they are nearer to each other than was asked for
 
+    // Pictures have another shape from now on: eyes that were fitted, and not touched since, are fitted to
+    // them anew.
+    void refit(const Scene& scene);
+
     // A frame has come: the parallax that it shows limits what is followed.
     void observe(const ViewFrame& frame);
     // free: distance around the head; depth: in the middle of the last picture; metres.

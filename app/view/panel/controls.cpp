@@ -59,7 +59,7 @@ void textControl(PanelHost& host, const Option& option, const std::string& now) 
     static std::map<std::string, std::string> writing;
     const auto kept = writing.find(option.key);
     std::string text = kept == writing.end() ? now : kept->second;
-    const std::string expected = option.value.expected();
+    const std::string expected = option.value.list ? option.value.list->what : option.value.expected();
     ImGui::InputTextWithHint("##value",
                              *option.fallback   ? option.fallback
                              : expected.empty() ? "none"

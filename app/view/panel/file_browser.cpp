@@ -143,6 +143,7 @@ void FileBrowser::draw(PanelHost& host) {
     ImGui::Begin(mFor == For::Open ? "Open a file or a folder of DICOM slices" : "Save the scene", &mOpen,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoSavedSettings);
+    if (!mFresh && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) mOpen = false;
     if (ImGui::Button("Up")) goTo(mFolder.parent_path());
     ImGui::SameLine();
     if (ImGui::Button("Home")) goTo(homeFolder());

@@ -40,6 +40,7 @@ void SearchBox::draw(PanelHost& host) {
     if (mFresh) ImGui::SetNextWindowFocus();
     ImGui::Begin("##search", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+    if (!mFresh && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) mOpen = false;
     if (mFresh) {
         mWords.clear();
         mChosen = 0;

@@ -83,8 +83,9 @@ float drawStatusBar(PanelHost& host, float left, float right) {
                  "frames a second, while something moves");
         row.text(costText(*frame), frameText(*frame, rate));
         if (frame->request.twoEyes && row.room(comfortMeterWidth())) drawComfortMeter(host, *frame);
-        row.text(session->measuredText(*frame),
-                 "of the right eye against a full cast, measured while it rests");
+        if (const std::string measured = session->measuredText(*frame); !measured.empty())
+            row.text(measured.substr(0, measured.find(',')),
+                     measured + "\nThe right eye against a full cast, measured while the picture rests.");
         if (session->playing())
             row.text(
                 fmt::format("playing {:.1f} of {:.1f} s", session->playTime(), session->path().duration()));
