@@ -94,7 +94,9 @@ void Panels::State::drawColumn(Column& column, bool atRight, float top,
     ImGui::PushID(atRight);
     ImGui::SetNextWindowPos({atRight ? whole.x - width : 0, top});
     ImGui::SetNextWindowSize({width, height});
-    ImGui::Begin(atRight ? "##side" : "##left", nullptr, kPlainBox & ~ImGuiWindowFlags_NoScrollbar);
+    // Always with its bar, so that nothing is laid out anew where it becomes longer.
+    ImGui::Begin(atRight ? "##side" : "##left", nullptr,
+                 (kPlainBox & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_AlwaysVerticalScrollbar);
     content();
     ImGui::End();
     column.taken = width;

@@ -46,7 +46,6 @@ void drawEdits(PanelHost& host, ViewSession& session) {
     ImGui::SameLine();
     if (button("Even pace", "The same way in the same time, at one speed."))
         session.editPath([](const RecordedPath& all) { return evenlyPaced(all, std::nullopt); });
-    ImGui::SameLine();
     if (button("Undo##path", "The path before the last change.")) session.undoPath();
     ImGui::SameLine();
     if (button("Save", "Writes the path as flight_0001.gltf and so on.")) session.savePath();

@@ -145,7 +145,7 @@ void drawTruth(PanelHost& host, ViewSession& session) {
         {TruthView::Holes, "holes", "What was cast, since the left eye did not see it, in red. Key: F6"}};
     quietLine(host, "right eye");
     for (const auto& [view, label, tip] : kViews) {
-        ImGui::SameLine();
+        if (view != TruthView::None) ImGui::SameLine();
         if (ImGui::RadioButton(label, session.truth() == view)) session.setTruth(view);
         tooltip(tip);
     }
