@@ -76,11 +76,12 @@ void Viewer::run() {
     while (!mWindow.shouldClose() && !(mSession && mSession->quit())) {
         mWindow.handleEvents(waitSeconds());
         const double dt = mClock.lap_ms() / 1000;
+        const Stopwatch turn;
         takeScene();
         takeDrops();
         takeKeys(dt);
         if (mSession) update(dt);
-        if (!mWindow.minimised()) draw(dt);
+        if (!mWindow.minimised()) draw(dt, turn);
     }
     while (mScreenshots.waiting() && mFrame) finishScreenshots();
     keepConfig();
@@ -330,20 +331,26 @@ ComposeSetting Viewer::shownSetting() const {
 }
 
 // Draws only when there is something new: the processor is the ray caster's.
-void Viewer::draw(double dt) {
+void Viewer::draw(double dt, const Stopwatch& turn) {
     const ComposeSetting setting = shownSetting();
     const OutputModeInfo& mode = infoOf(setting.mode);
     InterfaceLook look = mInterface.look();
     look.grey = mode.layout == OutputLayout::Anaglyph;
     mInterface.setLook(look);
+    const double before = turn.elapsed_ms();
     const bool laidOut = mInterface.layOut(interfacePlaces(mode), dt, [this] { mPanels.draw(*this); });
+    const double layout = turn.elapsed_ms() - before;
     const PicturePlace place = placeFor(mode);
     const bool same = setting == mDrawn && place == mDrawnPlace && !mNewFrame && !laidOut;
-    if (!mWindow.redrawNeeded() && same && !ViewDisplay::alternates(setting)) return;
+    if (!mWindow.redrawNeeded() && same && !ViewDisplay::alternates(setting))
+        return mTimes.add(layout, 0, turn.elapsed_ms(), false);
     mNewFrame = false;
     mDrawn = setting;
     mDrawnPlace = place;
     show(setting);
+    if (mTimes.on()) glFinish();
+    const double all = turn.elapsed_ms();
+    mTimes.add(layout, all - layout - before, all, true);
 }
 
 void Viewer::show(const ComposeSetting& setting) {

@@ -19,6 +19,7 @@
 #include "app/view/sweep.h"
 #include "app/view/view_display.h"
 #include "app/view/window_config.h"
+#include "app/view/window_times.h"
 #include "engine/base/stopwatch.h"
 #include "engine/display/interface.h"
 #include "engine/display/stereo_presenter.h"
@@ -72,6 +73,7 @@ public:
     void cancelJob() override;
     void makeMovie(const MovieWish& movie) override;
     bool bakes() const override;
+    bool bakeTakes(const std::string& key, const std::string& value) const override;
     void bakeLight(const std::string& what, double minutes) override;
     ScreenWords onScreen(const ViewFrame& frame) const override;
     bool fullScreen() const override { return mWindow.fullScreen(); }
@@ -113,7 +115,7 @@ private:
     ComposeSetting shownSetting() const;
     PicturePlace placeFor(const OutputModeInfo& mode) const;
     SizeOption windowSize() const;
-    void draw(double dt);
+    void draw(double dt, const Stopwatch& turn);
     void show(const ComposeSetting& setting);
 
     ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed in place since
@@ -130,6 +132,7 @@ private:
     ViewInput mInput;
     SettingsHistory mHistory;
     Stopwatch mClock, mLoadingWatch;
+    WindowTimes mTimes;
     FrameRate mRate;
     std::deque<FrameCost> mCosts;
     WindowConfig mConfig;  // as it was read, and is kept at the end

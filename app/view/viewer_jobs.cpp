@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "app/options/scene_types.h"
@@ -50,12 +51,25 @@ bool Viewer::bakes() const {
     return type && (*type & scene_type::kCast) != 0 && (factsOf(command::kBake).scenes & *type) != 0;
 }
 
+bool Viewer::bakeTakes(const std::string& key, const std::string& value) const {
+    const Option* const option = findOption(command::kBake, key);
+    const auto type = sceneTypeOf(mOptions.scene);
+    if (!option || !type || (option->scenes & *type) == 0) return false;
+    GivenOptions given;
+    given.command = command::kBake;
+    given.add(key, readValue(option->name(), option->value, option->advice, value), option->name());
+    const Asked asked{given, *type};
+    return std::none_of(option->rules.begin(), option->rules.end(),
+                        [&](const OptionRule& rule) { return rule.broken(asked); });
+}
+
 void Viewer::bakeLight(const std::string& what, double minutes) {
     tryTo([&] {
         const SettingTexts settings = this->settings();
         std::vector<std::string> words = commandWords(command::kBake, settings);
         words.push_back("--what=" + what);
-        words.push_back(fmt::format("--minutes={:.6g}", minutes));
+        const std::string time = fmt::format("{:.6g}", minutes);
+        if (bakeTakes("minutes", time)) words.push_back("--minutes=" + time);
         Hash hash;
         for (const std::string& word : words) hash.add(word).add(std::string_view("\n"));
         const std::filesystem::path folder = cacheFolder();

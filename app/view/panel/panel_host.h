@@ -68,6 +68,8 @@ public:
     virtual void makeMovie(const MovieWish& movie) = 0;
     // Light of this scene, to be shown when it is done.
     virtual bool bakes() const = 0;  // whether it has light to bake
+    // Whether `bake` takes this of the scene.
+    virtual bool bakeTakes(const std::string& key, const std::string& value) const = 0;
     virtual void bakeLight(const std::string& what, double minutes) = 0;
 
     virtual void act(const ViewAction& action) = 0;

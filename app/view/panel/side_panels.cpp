@@ -72,16 +72,19 @@ void drawBake(PanelHost& host, ViewSession&) {
     ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
     if (ImGui::BeginCombo("##what", words[static_cast<std::size_t>(chosen)].c_str())) {
         for (std::size_t n = 0; n < words.size(); ++n)
-            if (ImGui::Selectable(words[n].c_str())) chosen = static_cast<int>(n);
+            if (host.bakeTakes("what", words[n]) && ImGui::Selectable(words[n].c_str()))
+                chosen = static_cast<int>(n);
         ImGui::EndCombo();
     }
     tooltip(what->help);
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
-    ImGui::DragScalar("##minutes", ImGuiDataType_Double, &minutes, 0.05f, nullptr, nullptr, "%.1f min");
-    minutes = std::clamp(minutes, 0.1, 600.0);
-    tooltip("It takes this long, or less where all is done before.");
-    ImGui::SameLine();
+    if (host.bakeTakes("minutes", "1")) {
+        ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
+        ImGui::DragScalar("##minutes", ImGuiDataType_Double, &minutes, 0.05f, nullptr, nullptr, "%.1f min");
+        minutes = std::clamp(minutes, 0.1, 600.0);
+        tooltip("It takes this long, or less where all is done before.");
+        ImGui::SameLine();
+    }
     const bool busy = host.job() && host.job()->running();
     ImGui::BeginDisabled(busy);
     if (ImGui::Button("Bake")) host.bakeLight(words[static_cast<std::size_t>(chosen)], minutes);
