@@ -77,6 +77,7 @@ void Viewer::run() {
         mWindow.handleEvents(waitSeconds());
         const double dt = mClock.lap_ms() / 1000;
         const Stopwatch turn;
+        mSettings.reset();
         takeScene();
         takeDrops();
         takeKeys(dt);
@@ -104,6 +105,8 @@ void Viewer::takeScene() {
     if (!scene || scene == mScene) return;
     mScene = std::move(scene);
     mFacts.reset();
+    mSettings.reset();
+    mApplies.clear();
     if (!loading.busy) mBefore.reset();
     if (mSession && !mAnother) return mSession->replaceScene(mScene);
     const bool first = !mSession;
@@ -112,6 +115,7 @@ void Viewer::takeScene() {
     mAnother = mStudyFailed = false;
     mCosts.clear();
     mWindow.setTitle(titleOf(mOptions.scene));
+    mSettings.reset();
     mHistory.start(settings());
     mPlaces.emplace(mOptions.scene.scene.empty() ? "terrain" : mOptions.scene.scene);
     mRecentDue = true;
@@ -179,6 +183,7 @@ bool Viewer::actOnInterface(const ViewAction& action) {
 }
 
 void Viewer::act(const ViewAction& action) {
+    mSettings.reset();
     if (actOnInterface(action) || !mSession) return;
     if (action.command == ViewCommand::Quit && mSlices.busy()) {
         mSlices.cancel();
@@ -191,6 +196,7 @@ void Viewer::update(double dt) {
     mWindow.setCaptured(mSession->mouseCaptured());
     usePointer();
     mSession->step(mInput.flightOf(mWindow, mWindow.gamepad()), dt);
+    mSettings.reset();
     mHistory.observe(settings(), mInterface.active(), dt);
     askFor();
     followWishes();

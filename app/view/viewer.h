@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,7 +41,7 @@ public:
     double framesPerSecond() const override { return mRate.value(); }
     const std::deque<FrameCost>& costs() const override { return mCosts; }
     std::string sceneName() const override;
-    SettingTexts settings() const override;
+    const SettingTexts& settings() const override;
     std::optional<std::string> valueOf(const Option& option) const override;
     bool applies(const Option& option) const override;
     bool live(const Option& option) const override;
@@ -102,6 +103,7 @@ private:
     void takeDrops();
     void load(const ViewOptions& options, bool another);
     void goTo(const SettingTexts& settings);
+    bool wouldApply(const Option& option) const;
     void tryTo(const std::function<void()>& what);
     void askFor();
     void takeFrame();
@@ -119,7 +121,10 @@ private:
     void show(const ComposeSetting& setting);
 
     ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed in place since
-    SettingTexts mGiven, mSaid;                 // what is shown was made of; what its scene file says
+    // Asked for by every control of every layout: made once a turn, or once a scene.
+    mutable std::optional<SettingTexts> mSettings;
+    mutable std::map<const Option*, bool> mApplies;
+    SettingTexts mGiven, mSaid;  // what is shown was made of; what its scene file says
     std::optional<RecordedPath> mFlight;
     Window mWindow;
     ViewDisplay mDisplay;

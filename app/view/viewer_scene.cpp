@@ -34,8 +34,9 @@ std::string Viewer::sceneName() const {
     return name.empty() ? scene : name;
 }
 
-SettingTexts Viewer::settings() const {
-    return mSession ? withLive(*mSession, mGiven) : mGiven;
+const SettingTexts& Viewer::settings() const {
+    if (!mSettings) mSettings = mSession ? withLive(*mSession, mGiven) : mGiven;
+    return *mSettings;
 }
 
 std::optional<std::string> Viewer::valueOf(const Option& option) const {
@@ -43,6 +44,12 @@ std::optional<std::string> Viewer::valueOf(const Option& option) const {
 }
 
 bool Viewer::applies(const Option& option) const {
+    const auto [known, fresh] = mApplies.try_emplace(&option, false);
+    if (fresh) known->second = wouldApply(option);
+    return known->second;
+}
+
+bool Viewer::wouldApply(const Option& option) const {
     const auto type = sceneTypeOf(mOptions.scene);
     if (!type || (option.scenes & *type) == 0) return false;
     // What would be refused beside what is set now is not offered.
@@ -68,6 +75,8 @@ void Viewer::load(const ViewOptions& options, bool another) {
     if (!mBefore) mBefore = Made{mOptions, mGiven, mSaid};
     mAnother = mAnother || another;
     mOptions = mChanged = shown;
+    mSettings.reset();
+    mApplies.clear();
     mWorker->reload([options = shown, size = windowSize(), sweep = swept ? mSweep.get() : nullptr](
                         Progress& progress) { return openScene(options, false, size, sweep, progress); });
 }
@@ -114,6 +123,7 @@ void Viewer::set(const std::string& key, const std::optional<std::string>& text)
             settings.erase(key);
         goTo(settings);
     });
+    mSettings.reset();
 }
 
 // Throws Error, and nothing is changed then.
@@ -142,6 +152,7 @@ void Viewer::goTo(const SettingTexts& settings) {
         if (!again && !text) mGiven.erase(key);
         if (isLive(*mSession, key, text)) setLive(*mSession, key, text);
     }
+    mSettings.reset();
 }
 
 void Viewer::undo() {
@@ -213,6 +224,7 @@ const Facts* Viewer::facts() {
 void Viewer::followWishes() {
     if (const auto change = mSession->takeSceneChange()) {
         applyChange(*change, mOptions.scene, mChanged.scene);
+        mApplies.clear();
         if (mScene->scene->offered<SurfaceChoices>() && !change->seeds)
             mWorker->change(
                 [options = mChanged, surface = change->surface](const OpenScene& now, Progress& progress) {
@@ -233,6 +245,8 @@ void Viewer::followWishes() {
             mGiven = mBefore->given;
             mSaid = mBefore->said;
             mBefore.reset();
+            mSettings.reset();
+            mApplies.clear();
         }
         mAnother = false;
     }

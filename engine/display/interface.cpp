@@ -242,13 +242,15 @@ bool Interface::layOut(const InterfacePlaces& places, double dt, const std::func
     state.window->setPointerHidden(places.areas.size() > 1);
     for (int turn = 0; turn < kMostTurns; ++turn) {
         io.DeltaTime = std::max(static_cast<float>(turn == 0 ? dt : 0), 1e-4f);
+        const int cornersBefore =
+            turn == 0 && ImGui::GetDrawData() ? ImGui::GetDrawData()->TotalVtxCount : -1;
         const bool late = turn > 0 && state.events.empty();
         state.feelEvents();
         ImGui::NewFrame();
         draw();
         ImGui::Render();
-        if (late || (turn == 0 && state.events.empty() && digestOf(*ImGui::GetDrawData()) == state.digest))
-            break;
+        // Of as much as before nothing has another size: figures that changed are in place.
+        if (late || (state.events.empty() && ImGui::GetDrawData()->TotalVtxCount == cornersBefore)) break;
     }
     const std::uint64_t digest = digestOf(*ImGui::GetDrawData());
     return std::exchange(state.digest, digest) != digest;
@@ -332,8 +334,9 @@ bool Interface::takesText(unsigned codePoint) {
 }
 
 bool Interface::holdsKeyboard() const {
+    // What was written last frame may have ended since: its Enter is no reason to keep the next key.
     mState->use();
-    return ImGui::GetIO().WantTextInput;
+    return ImGui::GetIO().WantTextInput && mState->context->ActiveId != 0;
 }
 
 }  // namespace stereonav

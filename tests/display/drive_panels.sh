@@ -29,6 +29,7 @@ save_scene() {
     words "$out/$1"
     keys Return
     until_true saved "$1"
+    sleep 1 # the dialog is gone
 }
 
 size=900x600

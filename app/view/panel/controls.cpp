@@ -177,7 +177,7 @@ void quietText(const PanelHost& host, const std::string& text) {
 
 void optionControl(PanelHost& host, const Option& option) {
     ImGui::PushID(option.key);
-    const SettingTexts settings = host.settings();
+    const SettingTexts& settings = host.settings();
     const auto given = settings.find(option.key);
     const bool isGiven = given != settings.end() && !given->second.empty();
     const std::string now = host.valueOf(option).value_or(isGiven ? given->second.back() : "");

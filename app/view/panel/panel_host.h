@@ -39,7 +39,7 @@ public:
     virtual double framesPerSecond() const = 0;              // 0: not known
     virtual const std::deque<FrameCost>& costs() const = 0;  // newest last
     virtual std::string sceneName() const = 0;
-    virtual SettingTexts settings() const = 0;  // given and live
+    virtual const SettingTexts& settings() const = 0;  // given and live; until something is set
     // None where it is not known, or "" where the option is not given and has no default in the table.
     virtual std::optional<std::string> valueOf(const Option& option) const = 0;
     virtual bool applies(const Option& option) const = 0;  // to what is shown
