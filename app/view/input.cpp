@@ -38,6 +38,8 @@ std::optional<ViewAction> actionOfKey(int key) {
             return ViewAction{ViewCommand::Panels};
         case GLFW_KEY_F3:
             return ViewAction{ViewCommand::LeftPanels};
+        case GLFW_KEY_F7:
+            return ViewAction{ViewCommand::Controls};
         case GLFW_KEY_3:
             return ViewAction{ViewCommand::ToggleStereo};
         case GLFW_KEY_BACKSPACE:
@@ -262,6 +264,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"Tab", "the picture alone, or with the interface", does(HideInterface)},
         {"F2", "panels", does(Panels)},
         {"F3", "places, map and slices", does(LeftPanels)},
+        {"F7", "the panels in a window of their own", does(Controls)},
         {"Ctrl+P", "find anything"},
         {"Ctrl+O", "open a file", does(OpenFile)},
         {"Ctrl+N", "start page", does(StartPage)},
@@ -287,10 +290,9 @@ glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place) {
     return place;
 }
 
-FlightInput ViewInput::flightOf(const Window& window, const Gamepad& pad) const {
-    const auto axis = [&](int more, int less) {
-        return (window.keyDown(more) ? 1.0 : 0.0) - (window.keyDown(less) ? 1.0 : 0.0);
-    };
+FlightInput ViewInput::flightOf(const Window& window, const Window* also, const Gamepad& pad) const {
+    const auto down = [&](int key) { return window.keyDown(key) || (also && also->keyDown(key)); };
+    const auto axis = [&](int more, int less) { return (down(more) ? 1.0 : 0.0) - (down(less) ? 1.0 : 0.0); };
     FlightInput input;
     input.forward = std::clamp(axis(GLFW_KEY_W, GLFW_KEY_S) - pad.leftStick.y, -1.0, 1.0);
     input.right = std::clamp(axis(GLFW_KEY_D, GLFW_KEY_A) + pad.leftStick.x, -1.0, 1.0);
@@ -298,7 +300,7 @@ FlightInput ViewInput::flightOf(const Window& window, const Gamepad& pad) const 
     input.yawRate = kTurnRate * (axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) + pad.rightStick.x);
     input.pitchRate = kTurnRate * (axis(GLFW_KEY_UP, GLFW_KEY_DOWN) - pad.rightStick.y);
     input.rollRate = kTurnRate * axis(GLFW_KEY_PERIOD, GLFW_KEY_COMMA);
-    const bool fast = window.keyDown(GLFW_KEY_LEFT_SHIFT) || window.keyDown(GLFW_KEY_RIGHT_SHIFT);
+    const bool fast = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
     input.speedMultiplier = fast ? kFast : 1.0;
     return input;
 }

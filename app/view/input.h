@@ -28,7 +28,8 @@ glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place);
 // Reads what is held down now; remembers the gamepad's buttons to notice new presses.
 class ViewInput {
 public:
-    FlightInput flightOf(const Window& window, const Gamepad& pad) const;
+    // also: a further window whose keys count too; null: none.
+    FlightInput flightOf(const Window& window, const Window* also, const Gamepad& pad) const;
     // dt: seconds since the last call. The cross turns the light on while it is held.
     std::vector<ViewAction> actionsOf(const Gamepad& pad, double dt);
 

@@ -26,6 +26,7 @@ enum class ViewCommand {
     HideInterface,
     Panels,
     LeftPanels,
+    Controls,
     Search,
     OpenFile,
     SaveScene,

@@ -82,6 +82,7 @@ void Viewer::run() {
         takeDrops();
         takeKeys(dt);
         if (mSession) update(dt);
+        drawControls(dt);
         if (!mWindow.minimised()) draw(dt, turn);
     }
     while (mScreenshots.waiting() && mFrame) finishScreenshots();
@@ -89,11 +90,11 @@ void Viewer::run() {
 }
 
 double Viewer::waitSeconds() const {
-    if (mWindow.minimised()) return kIdleWait;
+    if (mWindow.minimised() && !mControls) return kIdleWait;
     if (const auto turn = mDisplay.wait()) return *turn;
     const bool flows =
         mSession && (mSession->moving() || mWindow.gamepad().present || mScreenshots.waiting());
-    return flows || mInterface.active() || mPanels.startShown() ? kActiveWait : kIdleWait;
+    return flows || panelled().active() || mPanels.startShown() ? kActiveWait : kIdleWait;
 }
 
 // The first scene starts the session, others take its place in it, or a session of their own.
@@ -125,8 +126,12 @@ void Viewer::takeScene() {
 
 void Viewer::takeKeys(double dt) {
     const Gamepad pad = mWindow.gamepad();
-    for (const KeyPress& press : mWindow.takeKeys())
-        if (const auto action = actionOf(press)) act(*action);
+    const auto press = [&](const KeyPress& key) {
+        if (const auto action = actionOf(key)) act(*action);
+    };
+    for (const KeyPress& key : mWindow.takeKeys()) press(key);
+    if (mControls)
+        for (const KeyPress& key : mControls->window().takeKeys()) press(key);
     for (const ViewAction& action : mInput.actionsOf(pad, dt)) act(action);
 }
 
@@ -155,6 +160,9 @@ bool Viewer::actOnInterface(const ViewAction& action) {
             return true;
         case ViewCommand::Panels:
             mPanels.toggleSide();
+            return true;
+        case ViewCommand::Controls:
+            toggleControls();
             return true;
         case ViewCommand::LeftPanels:
             mPanels.toggleLeft();
@@ -195,9 +203,11 @@ void Viewer::act(const ViewAction& action) {
 void Viewer::update(double dt) {
     mWindow.setCaptured(mSession->mouseCaptured());
     usePointer();
-    mSession->step(mInput.flightOf(mWindow, mWindow.gamepad()), dt);
+    if (mControls) useControls();
+    mSession->step(mInput.flightOf(mWindow, mControls ? &mControls->window() : nullptr, mWindow.gamepad()),
+                   dt);
     mSettings.reset();
-    mHistory.observe(settings(), mInterface.active(), dt);
+    mHistory.observe(settings(), panelled().active(), dt);
     askFor();
     followWishes();
     lookAtJob();
@@ -220,7 +230,9 @@ void Viewer::usePointer() {
 }
 
 void Viewer::takeDrops() {
-    const std::vector<std::string> drops = mWindow.takeDrops();
+    std::vector<std::string> drops = mWindow.takeDrops();
+    if (mControls)
+        for (std::string& drop : mControls->window().takeDrops()) drops.push_back(std::move(drop));
     if (drops.size() > 1) mFailure = "one file or folder at a time: the first one is opened";
     if (!drops.empty()) open(drops.front());
 }
@@ -244,7 +256,7 @@ void Viewer::takeFrame() {
         mCosts.push_back(costOf(*mFrame));
         if (mCosts.size() > kKeptCosts) mCosts.pop_front();
         noteRecent();
-        mNewFrame = true;
+        mNewFrame = mNewPreview = true;
     }
     if (const auto truth = mWorker->takeTruth()) mSession->observe(*truth);
     if (mSession->slicesShown())
@@ -319,7 +331,7 @@ PicturePlace Viewer::placeFor(const OutputModeInfo& mode) const {
     const SizeOption window = windowSize();
     const glm::ivec2 size(window.width, window.height);
     const glm::vec2 units = glm::vec2(size) * interfacePlaces(mode).size;
-    return picturePlace(mode, size, mPanels.rest(units), units);
+    return picturePlace(mode, size, mControls ? Panels::Rest{{0, 0}, units} : mPanels.rest(units), units);
 }
 
 OutputMode Viewer::shownMode() const {
@@ -344,7 +356,9 @@ void Viewer::draw(double dt, const Stopwatch& turn) {
     look.grey = mode.layout == OutputLayout::Anaglyph;
     mInterface.setLook(look);
     const double before = turn.elapsed_ms();
-    const bool laidOut = mInterface.layOut(interfacePlaces(mode), dt, [this] { mPanels.draw(*this); });
+    const bool laidOut = mInterface.layOut(interfacePlaces(mode), dt, [this] {
+        if (!mControls) mPanels.draw(*this);
+    });
     const double layout = turn.elapsed_ms() - before;
     const PicturePlace place = placeFor(mode);
     const bool same = setting == mDrawn && place == mDrawnPlace && !mNewFrame && !laidOut;

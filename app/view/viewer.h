@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/command/commands.h"
+#include "app/view/control_window.h"
 #include "app/view/frame_rate.h"
 #include "app/view/input.h"
 #include "app/view/loading.h"
@@ -67,8 +68,8 @@ public:
     bool canRedo() const override { return mSession && mHistory.canRedo(); }
     void undo() override;
     void redo() override;
-    const InterfaceLook& look() const override { return mInterface.look(); }
-    void setLook(const InterfaceLook& look) override { mInterface.setLook(look); }
+    const InterfaceLook& look() const override { return panelled().look(); }
+    void setLook(const InterfaceLook& look) override { panelled().setLook(look); }
     const Facts* facts() override;
     const Job* job() const override { return mJob.get(); }
     void cancelJob() override;
@@ -78,6 +79,7 @@ public:
     void bakeLight(const std::string& what, double minutes) override;
     ScreenWords onScreen(const ViewFrame& frame) const override;
     bool fullScreen() const override { return mWindow.fullScreen(); }
+    bool controlsApart() const override { return mControls != nullptr; }
 
 private:
     struct FactsWish;
@@ -89,6 +91,12 @@ private:
     double waitSeconds() const;
     void takeScene();
     void update(double dt);
+    // The interface that has the panels.
+    Interface& panelled() { return mControls ? mControls->interface() : mInterface; }
+    const Interface& panelled() const { return mControls ? mControls->interface() : mInterface; }
+    void toggleControls();
+    void drawControls(double dt);
+    void useControls();
     void takeKeys(double dt);
     bool actOnInterface(const ViewAction& action);
     void usePointer();
@@ -133,6 +141,7 @@ private:
     StereoPresenter mPresenter;
     Interface mInterface;
     Panels mPanels;
+    std::unique_ptr<ControlWindow> mControls;  // while the panels are in a window of their own
     Screenshots mScreenshots;
     ViewInput mInput;
     SettingsHistory mHistory;
@@ -156,7 +165,7 @@ private:
     std::shared_ptr<FactsWish> mFacts;
     std::optional<Made> mBefore;  // while another one is loaded
     SliceReading mSlices;
-    bool mNewFrame = false, mAnother = false, mWasBusy = false, mStudyFailed = false;
+    bool mNewFrame = false, mNewPreview = false, mAnother = false, mWasBusy = false, mStudyFailed = false;
     std::optional<ViewSession> mSession;
     std::unique_ptr<ViewWorker> mWorker;  // after the window, whose wake() it calls until it has ended
 };

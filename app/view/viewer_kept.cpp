@@ -11,6 +11,7 @@ namespace {
 
 constexpr const char* kSidePanels = "side";
 constexpr const char* kLeftPanels = "left";
+constexpr const char* kOwnWindow = "own window";
 
 bool contains(const std::vector<std::string>& names, const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -37,6 +38,7 @@ void Viewer::readConfig() {
     mPanels.setSide(contains(mConfig.openPanels, kSidePanels), static_cast<float>(mConfig.rightWidth));
     mPanels.setLeft(contains(mConfig.openPanels, kLeftPanels), static_cast<float>(mConfig.leftWidth));
     mPanels.setFolder(mConfig.lastFolder);
+    if (contains(mConfig.openPanels, kOwnWindow)) toggleControls();
 }
 
 // Nothing is written where nothing was changed.
@@ -50,6 +52,7 @@ void Viewer::keepConfig() {
     config.openPanels.clear();
     if (mPanels.sideShown()) config.openPanels.emplace_back(kSidePanels);
     if (mPanels.leftShown()) config.openPanels.emplace_back(kLeftPanels);
+    if (mControls) config.openPanels.emplace_back(kOwnWindow);
     config.lastFolder = mPanels.folder();
     if (!(config == mConfig)) writeWindowConfig(config);
 }

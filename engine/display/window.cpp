@@ -20,6 +20,7 @@ namespace {
 constexpr double kMonitorShare = 0.92;  // of the monitor's free area: leaves room for decorations
 constexpr int kSmallestWindow = 64;     // screen units
 constexpr double kClickReach = 4.0;     // screen units that a hand shakes while it clicks
+int openWindows = 0;                    // the first and the last one begin and end GLFW
 constexpr double kDeadZone = 0.12;      // of a stick's way: worn sticks rest that far off centre
 
 std::string lastProblem() {
@@ -80,19 +81,30 @@ bool hasDisplay() {
 }
 
 Window::Window(const std::string& title, int width, int height, bool visible, bool quadBuffer) {
+    start(title, width, height, visible, quadBuffer, nullptr);
+}
+
+Window::Window(const std::string& title, int width, int height, const Window& first) {
+    start(title, width, height, true, false, &first);
+}
+
+void Window::start(const std::string& title, int width, int height, bool visible, bool quadBuffer,
+                   const Window* first) {
     if (!environmentNamesDisplay())
         throw displayError("there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
     if (!glfwInit()) throw displayError("the display can not be used: " + lastProblem());
     try {
-        open(title, width, height, visible, quadBuffer);
+        open(title, width, height, visible, quadBuffer, first);
     } catch (...) {
         if (mHandle) glfwDestroyWindow(mHandle);
-        glfwTerminate();
+        if (openWindows == 0) glfwTerminate();
         throw;
     }
+    ++openWindows;
 }
 
-void Window::open(const std::string& title, int width, int height, bool visible, bool quadBuffer) {
+void Window::open(const std::string& title, int width, int height, bool visible, bool quadBuffer,
+                  const Window* first) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -107,17 +119,34 @@ void Window::open(const std::string& title, int width, int height, bool visible,
         glfwWindowHint(GLFW_STEREO, GLFW_FALSE);  // of no other window
     }
     mQuadBuffered = mHandle != nullptr;
-    if (!mHandle) mHandle = glfwCreateWindow(fitWidth, fitHeight, title.c_str(), nullptr, nullptr);
+    if (!mHandle)
+        mHandle =
+            glfwCreateWindow(fitWidth, fitHeight, title.c_str(), nullptr, first ? first->mHandle : nullptr);
     if (!mHandle) throw displayError("no window with OpenGL 3.3 can be opened: " + lastProblem());
     glfwSetWindowSizeLimits(mHandle, kSmallestWindow, kSmallestWindow, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwMakeContextCurrent(mHandle);
-    glfwSwapInterval(1);
+    // One of them waits for the display: both would halve the frames a second.
+    glfwSwapInterval(first ? 0 : 1);
+    if (first) placeBeside(*first);
     if (mQuadBuffered) {  // what was asked for is not always what was given
         GLboolean stereo = GL_FALSE;
         glGetBooleanv(GL_STEREO, &stereo);
         mQuadBuffered = stereo == GL_TRUE;
     }
     installCallbacks();
+}
+
+// In the middle of the first monitor that has nothing of the first window's.
+void Window::placeBeside(const Window& first) {
+    const std::vector<Monitor> all = monitors();
+    const auto taken = monitorUnder(all, first.place());
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        if (taken == n) continue;
+        const ScreenRect &area = all[n].workArea, own = place();
+        glfwSetWindowPos(mHandle, area.x + std::max(0, (area.width - own.width) / 2),
+                         area.y + std::max(0, (area.height - own.height) / 2));
+        return;
+    }
 }
 
 void Window::installCallbacks() {
@@ -164,7 +193,7 @@ void Window::installCallbacks() {
 
 Window::~Window() {
     glfwDestroyWindow(mHandle);
-    glfwTerminate();
+    if (--openWindows == 0) glfwTerminate();
 }
 
 void Window::onPointer(double x, double y) {
@@ -249,6 +278,10 @@ void Window::setCaptured(bool captured) {
 
 bool Window::shouldClose() const {
     return glfwWindowShouldClose(mHandle) != 0;
+}
+
+void Window::use() const {
+    glfwMakeContextCurrent(mHandle);
 }
 
 void Window::handleEvents(double seconds) {

@@ -1,5 +1,5 @@
-// A window with an OpenGL 3.3 context and what the user does to it: keys, mouse, wheel, gamepad. One
-// window at a time, all calls from the main thread (GLFW's rule), except wake().
+// A window with an OpenGL 3.3 context and what the user does to it: keys, mouse, wheel, gamepad. All calls
+// from the main thread (GLFW's rule), except wake().
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -53,12 +53,18 @@ public:
     // Error where there is no display or no OpenGL 3.3. quadBuffer: asks the driver for a back buffer for
     // each eye; where it refuses, the window has one for both.
     Window(const std::string& title, int width, int height, bool visible = true, bool quadBuffer = false);
+    // A window beside the first one, which outlives it: textures made in the context of either are those of
+    // both. Where there is a monitor that the first one does not lie on, it opens there.
+    Window(const std::string& title, int width, int height, const Window& first);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
+    // Its context becomes the current one, as it is when it has been opened.
+    void use() const;
+
     bool shouldClose() const;
-    // Handles what happened; waits at most `seconds` for something to happen (0: not at all).
+    // Of all windows: handles what happened; waits at most `seconds` for something to happen (0: not at all).
     void handleEvents(double seconds);
     // Ends a wait of handleEvents early; from any thread.
     static void wake();
@@ -102,7 +108,11 @@ public:
     GLFWwindow* handle() const { return mHandle; }
 
 private:
-    void open(const std::string& title, int width, int height, bool visible, bool quadBuffer);
+    void start(const std::string& title, int width, int height, bool visible, bool quadBuffer,
+               const Window* first);
+    void open(const std::string& title, int width, int height, bool visible, bool quadBuffer,
+              const Window* first);
+    void placeBeside(const Window& first);
     void installCallbacks();
     void onPointer(double x, double y);
     void onButton(int button, bool pressed);

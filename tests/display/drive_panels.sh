@@ -66,7 +66,29 @@ shot with_panels
 keys Tab
 sleep 1
 shot without
-keys Tab F2 F3
+keys Tab
+# Panels in a window of their own, whose keys are felt too.
+keys F7
+controls() { xdotool search --onlyvisible --name '^stereonav - controls$' 2>/dev/null | head -n 1; }
+apart() { [ -n "$(controls)" ]; }
+together() { [ -z "$(controls)" ]; }
+until_true apart
+sleep 1
+shot apart
+xdotool windowfocus "$(controls)"
+sleep 0.5
+xdotool keydown w
+sleep 1
+xdotool keyup w
+sleep 1
+shot flown_from_controls
+xdotool windowfocus "$(controls)"
+keys F7
+until_true together
+xdotool windowfocus "$window"
+sleep 1
+shot together
+keys F2 F3
 keys 1
 sleep 1
 # A card of the start page, in the right eye's part.

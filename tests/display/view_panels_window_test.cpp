@@ -41,6 +41,11 @@ TEST_F(PanelsWindow, OpensSavesUndoesAndStartsAgain) {
     for (const auto& [step, file] : steps()) shots[step] = readColorImage(file);
     ASSERT_TRUE(shots.contains("with_panels") && shots.contains("without"));
     EXPECT_LT(shots["with_panels"].width(), shots["without"].width()) << "panels lie beside the picture";
+    ASSERT_TRUE(shots.contains("apart") && shots.contains("flown_from_controls") &&
+                shots.contains("together"));
+    EXPECT_EQ(shots["apart"].width(), shots["without"].width());
+    EXPECT_GT(difference(shots["apart"], shots["flown_from_controls"]), kDifferent);
+    EXPECT_EQ(shots["together"].width(), shots["with_panels"].width());
     EXPECT_TRUE(std::filesystem::exists(mFolder / ".local/state/stereonav/recent.json"));
 }
 

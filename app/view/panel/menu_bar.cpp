@@ -55,6 +55,7 @@ void viewMenu(PanelHost& host, MenuWishes& wishes) {
     ImGui::MenuItem("Panels", "F2", wishes.side);
     ImGui::MenuItem("Places, map and slices", "F3", wishes.left);
     if (ImGui::MenuItem("Picture alone", "Tab")) wishes.hideAll = true;
+    item(host, "Panels in their own window", "F7", ViewCommand::Controls, host.controlsApart());
     item(host, "Whole screen", "F11", ViewCommand::FullScreen, host.fullScreen());
     ImGui::Separator();
     InterfaceLook look = host.look();

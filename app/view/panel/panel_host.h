@@ -92,6 +92,7 @@ public:
     // Parallax as it is on the real screen.
     virtual ScreenWords onScreen(const ViewFrame& frame) const = 0;
     virtual bool fullScreen() const = 0;
+    virtual bool controlsApart() const = 0;  // the panels are in a window of their own
 };
 
 }  // namespace stereonav

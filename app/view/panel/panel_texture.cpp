@@ -7,21 +7,33 @@
 
 namespace stereonav {
 
-void PanelTexture::set(const Plane<PackedColor>& picture, bool smooth) {
-    if (picture.empty()) return reset();
+namespace {
+
+// The mean of a square of encoded bytes, which is near enough for a picture to be recognised by.
+void meanOf(const Plane<PackedColor>& picture, int left, int top, int step, std::uint8_t* to) {
     const auto& bytes = srgbByteFromPacked();
-    const std::size_t pixels =
-        static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(picture.height());
-    std::vector<std::uint8_t> rgba(4 * pixels, 255);
+    unsigned sum[3] = {};
+    for (int y = top; y < top + step; ++y)
+        for (int x = left; x < left + step; ++x)
+            for (int channel = 0; channel < 3; ++channel)
+                sum[channel] += bytes[picture.at(x, y) >> (10 * channel) & 1023];
+    const unsigned count = static_cast<unsigned>(step) * static_cast<unsigned>(step);
+    for (int channel = 0; channel < 3; ++channel)
+        to[channel] = static_cast<std::uint8_t>((sum[channel] + count / 2) / count);
+}
+
+}  // namespace
+
+void PanelTexture::set(const Plane<PackedColor>& picture, bool smooth, int step) {
+    mWidth = picture.width() / step;
+    mHeight = picture.height() / step;
+    if (mWidth < 1 || mHeight < 1) return reset();
+    std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(mWidth) * static_cast<std::size_t>(mHeight),
+                                   255);
     std::uint8_t* to = rgba.data();
-    for (int y = 0; y < picture.height(); ++y)
-        for (int x = 0; x < picture.width(); ++x, to += 4) {
-            const PackedColor color = picture.at(x, y);
-            for (int channel = 0; channel < 3; ++channel) to[channel] = bytes[color >> (10 * channel) & 1023];
-        }
+    for (int y = 0; y < mHeight; ++y)
+        for (int x = 0; x < mWidth; ++x, to += 4) meanOf(picture, x * step, y * step, step, to);
     if (!mTexture) mTexture.emplace();
-    mWidth = picture.width();
-    mHeight = picture.height();
     const GLint filter = smooth ? GL_LINEAR : GL_NEAREST;
     glBindTexture(GL_TEXTURE_2D, mTexture->name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);

@@ -11,11 +11,12 @@ namespace stereonav {
 
 class PanelTexture {
 public:
-    // In the window's context. smooth: neighbours are blended where it is enlarged.
-    void set(const Plane<PackedColor>& picture, bool smooth);
+    // In the window's context. smooth: neighbours are blended where it is enlarged. step: pixels, along each
+    // side, that a texel is the mean of, at least 1; those left over at the right and below are left out.
+    void set(const Plane<PackedColor>& picture, bool smooth, int step = 1);
     void reset() { mTexture.reset(); }
     bool any() const { return mTexture.has_value(); }
-    int width() const { return mWidth; }
+    int width() const { return mWidth; }  // texels
     int height() const { return mHeight; }
     void* id() const;  // as Dear ImGui takes it
 

@@ -40,7 +40,8 @@ struct Panels::State {
     };
     bool hidden = false, help = false;
     Column left, side;
-    bool beside = true;  // columns take their room from the picture
+    bool beside = true;          // columns take their room from the picture
+    float above = 0, below = 0;  // units that the menus and the line at the bottom took, in the last layout
     MapPanel map;
     PlacesPanel places;
     SlicesPanel slices;
@@ -135,10 +136,9 @@ void Panels::draw(PanelHost& host) {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     state.left.taken = state.side.taken = 0;
     state.beside = whole.x >= kBeside * ImGui::GetFontSize();
-    float top = 0;
-    struct {
-        bool side;
-    } const before{state.side.shown};
+    state.above = state.below = 0;
+    float& top = state.above;
+    const bool sideBefore = state.side.shown;
     if (!state.hidden) {
         MenuWishes wishes;
         wishes.side = &state.side.shown;
@@ -152,11 +152,11 @@ void Panels::draw(PanelHost& host) {
         if (wishes.hideAll) state.hidden = true;
         if (!state.beside && state.left.shown && state.side.shown) {
             // Drawers: the one that was opened last.
-            (before.side ? state.side : state.left).shown = false;
+            (sideBefore ? state.side : state.left).shown = false;
         }
         if (state.left.shown) state.drawColumn(state.left, false, top, [&] { state.drawLeft(host); });
         if (state.side.shown) state.drawColumn(state.side, true, top, [&] { drawSidePanels(host); });
-        drawStatusBar(host, state.left.taken, state.side.taken);
+        state.below = drawStatusBar(host, state.left.taken, state.side.taken);
     }
     if (state.start.shown() && state.start.draw(host)) state.files.open(FileBrowser::For::Open);
     state.files.draw(host);
@@ -166,9 +166,10 @@ void Panels::draw(PanelHost& host) {
 }
 
 Panels::Rest Panels::rest(const glm::vec2& whole) const {
-    if (!mState->beside) return {{0, 0}, whole};
+    const float top = mState->above, bottom = mState->below;
+    if (!mState->beside) return {{0, 0}, whole, top, bottom};
     const float left = mState->left.taken, right = mState->side.taken;
-    return {{left, 0}, {std::max(whole.x - left - right, 1.0f), whole.y}};
+    return {{left, 0}, {std::max(whole.x - left - right, 1.0f), whole.y}, top, bottom};
 }
 
 void Panels::toggleAll() {

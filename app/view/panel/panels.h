@@ -21,6 +21,7 @@ public:
     // What is left for the picture, in units of the interface: corner and size. Of the last layout.
     struct Rest {
         glm::vec2 corner{0}, size{0};
+        float top = 0, bottom = 0;  // of it that lie under the menus and the line at the bottom
     };
     Rest rest(const glm::vec2& whole) const;
 
