@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/thread_priority.h"
 
 extern char** environ;
 
@@ -60,6 +61,7 @@ Job::Job(std::string what, const std::vector<std::string>& words, const char* pr
     pid_t process = 0;
     const int code = posix_spawn(&process, program, &files, nullptr, arguments.data(), environment.data());
     posix_spawn_file_actions_destroy(&files);
+    if (code == 0) putBehindTheWindow(process);
     close(ends[1]);
     if (code != 0) {
         close(mPipe);

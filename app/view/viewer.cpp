@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kActiveWait = 1.0 / 120;  // seconds between looks at the keys while something moves
 constexpr double kIdleWait = 0.1;          // seconds; events and frames end the wait at once
+constexpr double kFiguresWait = 0.1;       // seconds that figures and notices may be old in flight
 constexpr std::size_t kKeptCosts = 240;    // frames
 
 // What stays useful after the window is closed.
@@ -192,6 +193,7 @@ bool Viewer::actOnInterface(const ViewAction& action) {
 
 void Viewer::act(const ViewAction& action) {
     mSettings.reset();
+    mLayoutDue = true;
     if (actOnInterface(action) || !mSession) return;
     if (action.command == ViewCommand::Quit && mSlices.busy()) {
         mSlices.cancel();
@@ -348,6 +350,19 @@ ComposeSetting Viewer::shownSetting() const {
     return setting;
 }
 
+// In flight each picture has other figures, which nobody reads as fast: the interface is laid out for what
+// the user does, and else ten times a second.
+bool Viewer::layOut(const InterfacePlaces& places, double dt) {
+    mSinceLayout += dt;
+    const bool flying = mSession && mSession->moving() && mWorker->loading().busy == mLaidOutBusy;
+    if (flying && !mLayoutDue && mSinceLayout < kFiguresWait && !mInterface.waits(places)) return false;
+    mLaidOutBusy = mWorker->loading().busy;
+    mLayoutDue = false;
+    return mInterface.layOut(places, std::exchange(mSinceLayout, 0), [this] {
+        if (!mControls) mPanels.draw(*this);
+    });
+}
+
 // Draws only when there is something new: the processor is the ray caster's.
 void Viewer::draw(double dt, const Stopwatch& turn) {
     const ComposeSetting setting = shownSetting();
@@ -356,9 +371,7 @@ void Viewer::draw(double dt, const Stopwatch& turn) {
     look.grey = mode.layout == OutputLayout::Anaglyph;
     mInterface.setLook(look);
     const double before = turn.elapsed_ms();
-    const bool laidOut = mInterface.layOut(interfacePlaces(mode), dt, [this] {
-        if (!mControls) mPanels.draw(*this);
-    });
+    const bool laidOut = layOut(interfacePlaces(mode), dt);
     const double layout = turn.elapsed_ms() - before;
     const PicturePlace place = placeFor(mode);
     const bool same = setting == mDrawn && place == mDrawnPlace && !mNewFrame && !laidOut;
@@ -385,7 +398,7 @@ void Viewer::show(const ComposeSetting& setting) {
         glClearColor(0, 0, 0, 1);
         glClear(GL_COLOR_BUFFER_BIT);
         mPresenter.draw(one, {0, 0, size.width, size.height}, origin.x, origin.y, inset);
-        mInterface.render();
+        mInterface.render(InterfaceOpening{place.corner, place.size});
     });
 }
 

@@ -125,6 +125,7 @@ private:
     ComposeSetting shownSetting() const;
     PicturePlace placeFor(const OutputModeInfo& mode) const;
     SizeOption windowSize() const;
+    bool layOut(const InterfacePlaces& places, double dt);
     void draw(double dt, const Stopwatch& turn);
     void show(const ComposeSetting& setting);
 
@@ -146,6 +147,7 @@ private:
     ViewInput mInput;
     SettingsHistory mHistory;
     Stopwatch mClock, mLoadingWatch;
+    double mSinceLayout = 0;  // seconds
     WindowTimes mTimes;
     FrameRate mRate;
     std::deque<FrameCost> mCosts;
@@ -165,7 +167,8 @@ private:
     std::shared_ptr<FactsWish> mFacts;
     std::optional<Made> mBefore;  // while another one is loaded
     SliceReading mSlices;
-    bool mNewFrame = false, mNewPreview = false, mAnother = false, mWasBusy = false, mStudyFailed = false;
+    bool mNewFrame = false, mNewPreview = false, mLayoutDue = true, mLaidOutBusy = false, mAnother = false,
+         mWasBusy = false, mStudyFailed = false;
     std::optional<ViewSession> mSession;
     std::unique_ptr<ViewWorker> mWorker;  // after the window, whose wake() it calls until it has ended
 };

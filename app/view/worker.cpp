@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/thread_priority.h"
 #include "engine/stereo/comfort.h"
 
 namespace stereonav {
@@ -130,6 +131,7 @@ void ViewWorker::fail(std::exception_ptr failure) {
 // --- loading
 
 void ViewWorker::loadScenes() {
+    stepBehindTheWindow();
     while (const std::optional<Load> load = nextLoad()) {
         loadOne(*load);
         mAsked.notify_all();
@@ -245,6 +247,7 @@ struct ViewWorker::Drawn {
 };
 
 void ViewWorker::renderFrames() {
+    stepBehindTheWindow();
     Drawn drawn;
     try {
         while (const std::optional<Job> job = nextJob(drawn))

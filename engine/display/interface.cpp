@@ -12,8 +12,10 @@
 #include <cstdint>
 #include <deque>
 #include <glm/common.hpp>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/base/error.h"
 #include "engine/display/interface_font.h"
@@ -84,11 +86,22 @@ private:
     std::uint64_t mValue = 14695981039346656037ull;
 };
 
-std::uint64_t digestOf(const ImDrawData& data) {
+std::uint64_t changedTextures = 0;  // how often
+
+bool within(const ImVec4& clip, const ImVec4& box) {
+    return clip.x >= box.x && clip.y >= box.y && clip.z <= box.z && clip.w <= box.w;
+}
+
+// Of lists that draw beside the box; of all where there is none.
+std::uint64_t digestOf(const ImDrawData& data, const ImVec4* box = nullptr) {
     Digest digest;
     digest.add(&data.DisplaySize, sizeof data.DisplaySize);
+    digest.add(&changedTextures, sizeof changedTextures);
     for (int n = 0; n < data.CmdListsCount; ++n) {
         const ImDrawList& list = *data.CmdLists[n];
+        if (box && std::all_of(list.CmdBuffer.begin(), list.CmdBuffer.end(),
+                               [&](const ImDrawCmd& command) { return within(command.ClipRect, *box); }))
+            continue;
         digest.add(list.VtxBuffer.Data, static_cast<std::size_t>(list.VtxBuffer.size_in_bytes()));
         for (const ImDrawCmd& command : list.CmdBuffer) {
             digest.add(&command.ClipRect, sizeof command.ClipRect);
@@ -98,7 +111,58 @@ std::uint64_t digestOf(const ImDrawData& data) {
     return digest.value();
 }
 
+// What of a drawing lies in a box, while this lives: its commands are cut to it.
+class CutDrawing {
+public:
+    CutDrawing(const ImDrawData& whole, const ImVec4& box) : mData(whole) {
+        for (int n = 0; n < whole.CmdListsCount; ++n) {
+            ImDrawList& list = *whole.CmdLists[n];
+            bool any = false;
+            for (ImDrawCmd& command : list.CmdBuffer) {
+                mClips.push_back(command.ClipRect);
+                ImVec4& clip = command.ClipRect;
+                clip = {std::max(clip.x, box.x), std::max(clip.y, box.y), std::min(clip.z, box.z),
+                        std::min(clip.w, box.w)};
+                any = any || (clip.x < clip.z && clip.y < clip.w);
+            }
+            mAll.push_back(&list);
+            if (any) mLists.push_back(&list);
+        }
+        mData.CmdLists = mLists.data();
+        mData.CmdListsCount = static_cast<int>(mLists.size());
+    }
+    ~CutDrawing() {
+        std::size_t n = 0;
+        for (ImDrawList* const list : mAll)
+            for (ImDrawCmd& command : list->CmdBuffer) command.ClipRect = mClips[n++];
+    }
+    CutDrawing(const CutDrawing&) = delete;
+    CutDrawing& operator=(const CutDrawing&) = delete;
+
+    const ImDrawData& data() const { return mData; }
+
+private:
+    ImDrawData mData;
+    std::vector<ImDrawList*> mAll, mLists;
+    std::vector<ImVec4> mClips;
+};
+
+// Whole pixels of a part; none where it begins or ends between two.
+std::optional<InterfacePart> partOf(const InterfaceArea& area, const glm::dvec2& window) {
+    const glm::dvec2 corner = glm::dvec2(area.x, area.y) * window;
+    const glm::dvec2 size = glm::dvec2(area.width, area.height) * window;
+    const InterfacePart part{glm::ivec2(glm::round(corner)), glm::ivec2(glm::round(size))};
+    constexpr double kNear = 1e-3;
+    const glm::dvec2 off =
+        glm::abs(corner - glm::dvec2(part.corner)) + glm::abs(size - glm::dvec2(part.size));
+    return off.x + off.y < kNear ? std::optional(part) : std::nullopt;
+}
+
 }  // namespace
+
+void noteChangedTexture() {
+    ++changedTextures;
+}
 
 struct Interface::State {
     Window* window = nullptr;
@@ -112,6 +176,10 @@ struct Interface::State {
     std::uint64_t digest = 0;
     std::string clipboard;
     bool down[ImGuiMouseButton_COUNT] = {};
+    InterfaceStill still;
+    glm::ivec2 laidOut{0};  // pixels of the framebuffer then
+
+    void drawArea(const InterfaceArea& area, const ImDrawData& drawing) const;
 
     // The unit of the interface under a share of the window's size.
     glm::dvec2 unitAt(const glm::dvec2& share) const {
@@ -234,6 +302,7 @@ bool Interface::layOut(const InterfacePlaces& places, double dt, const std::func
     ImGuiIO& io = ImGui::GetIO();
     state.places = places;
     const glm::ivec2 pixels = state.window->framebufferSize();
+    state.laidOut = pixels;
     state.unitsOfWindow = glm::max(glm::dvec2(pixels), glm::dvec2(1));
     state.units = glm::max(glm::floor(state.unitsOfWindow * glm::dvec2(places.size)), glm::dvec2(1));
     io.DisplaySize = {static_cast<float>(state.units.x), static_cast<float>(state.units.y)};
@@ -256,22 +325,69 @@ bool Interface::layOut(const InterfacePlaces& places, double dt, const std::func
     return std::exchange(state.digest, digest) != digest;
 }
 
-void Interface::render() const {
+// Each part is a look through another hole at the same drawing: the whole framebuffer in units of the
+// interface, as this part has them, with the part's corner at the drawing's.
+void Interface::State::drawArea(const InterfaceArea& area, const ImDrawData& drawing) const {
+    ImDrawData data = drawing;
+    const ImVec2 scale(static_cast<float>(area.width * unitsOfWindow.x / units.x),
+                       static_cast<float>(area.height * unitsOfWindow.y / units.y));
+    data.DisplaySize = {static_cast<float>(unitsOfWindow.x) / scale.x,
+                        static_cast<float>(unitsOfWindow.y) / scale.y};
+    data.DisplayPos = {-area.x * data.DisplaySize.x, -area.y * data.DisplaySize.y};
+    data.FramebufferScale = scale;
+    ImGui_ImplOpenGL3_RenderDrawData(&data);
+}
+
+void Interface::render(const std::optional<InterfaceOpening>& opening) {
+    State& state = *mState;
+    state.use();
+    const ImDrawData& all = *ImGui::GetDrawData();
+    if (all.CmdListsCount == 0) return;
+    const auto first = partOf(state.places.areas.front(), state.unitsOfWindow);
+    // A buffer for each eye is read and written by turns: each is drawn by itself.
+    const bool beside = opening && first && opening->size != first->size && !state.window->quadBuffered();
+    if (!beside) {
+        state.still.forget();
+        for (const InterfaceArea& area : state.places.areas) state.drawArea(area, all);
+        return;
+    }
+    const glm::vec2 unit = glm::vec2(state.units) / glm::vec2(first->size);
+    constexpr float kNudge = 0.01f;  // pixels: what is cut to a whole pixel by the driver stays that one
+    const glm::vec2 from = (glm::vec2(opening->corner) + kNudge) * unit,
+                    to = (glm::vec2(opening->corner + opening->size) + kNudge) * unit;
+    const ImVec4 box(from.x, from.y, to.x, to.y);
+    const std::uint64_t digest = digestOf(all, &box);
+    bool drawn = false;
+    if (!state.still.holds(digest, *opening, *first)) {
+        state.drawArea(state.places.areas.front(), all);
+        state.still.keep(digest, *opening, *first, glm::ivec2(state.unitsOfWindow));
+        drawn = true;
+    }
+    const CutDrawing over(all, box);
+    for (const InterfaceArea& area : state.places.areas) {
+        if (std::exchange(drawn, false)) continue;
+        const auto part = partOf(area, state.unitsOfWindow);
+        const bool copied = part && state.still.holds(digest, *opening, *part);
+        if (copied) state.still.put(*part);
+        state.drawArea(area, copied ? over.data() : all);
+    }
+}
+
+bool Interface::waits(const InterfacePlaces& places) const {
     const State& state = *mState;
     state.use();
-    ImDrawData data = *ImGui::GetDrawData();
-    if (data.CmdListsCount == 0) return;
-    // Each part is a look through another hole at the same drawing: the whole framebuffer in units of the
-    // interface, as this part has them, with the part's corner at the drawing's.
-    for (const InterfaceArea& area : state.places.areas) {
-        const ImVec2 scale(static_cast<float>(area.width * state.unitsOfWindow.x / state.units.x),
-                           static_cast<float>(area.height * state.unitsOfWindow.y / state.units.y));
-        data.DisplaySize = {static_cast<float>(state.unitsOfWindow.x) / scale.x,
-                            static_cast<float>(state.unitsOfWindow.y) / scale.y};
-        data.DisplayPos = {-area.x * data.DisplaySize.x, -area.y * data.DisplaySize.y};
-        data.FramebufferScale = scale;
-        ImGui_ImplOpenGL3_RenderDrawData(&data);
-    }
+    if (state.fresh || state.wanted != state.look || places != state.places ||
+        state.laidOut != state.window->framebufferSize() || ImGui::IsAnyItemActive() ||
+        !state.context->OpenPopupStack.empty())
+        return true;
+    const bool writes = holdsKeyboard();
+    return std::any_of(state.events.begin(), state.events.end(), [&](const Event& event) {
+        if (event.kind == Event::Kind::Key || event.kind == Event::Kind::Text) return writes;
+        if (event.kind != Event::Kind::Place) return true;
+        const ImVec2 before = ImGui::GetIO().MousePos;
+        return ImGui::GetIO().MouseDrawCursor || state.covers(before) ||
+               state.covers({static_cast<float>(event.x), static_cast<float>(event.y)});
+    });
 }
 
 glm::vec2 Interface::size() const {

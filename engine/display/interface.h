@@ -6,8 +6,10 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "engine/display/interface_still.h"
 #include "engine/display/interface_theme.h"
 #include "engine/display/window.h"
 
@@ -43,7 +45,11 @@ public:
     // late, and events that came together are felt one after another. dt: seconds since the last. False: all
     // looks as before.
     bool layOut(const InterfacePlaces& places, double dt, const std::function<void()>& draw);
-    void render() const;  // over what is in the framebuffer
+    // Over what is in the framebuffer. opening: where the picture lies in each part; none: everywhere.
+    void render(const std::optional<InterfaceOpening>& opening = std::nullopt);
+    // Whether a layout now could show something else for what the user did, or for another window or look.
+    // What is shown of the program's own doing, the caller knows.
+    bool waits(const InterfacePlaces& places) const;
 
     glm::vec2 size() const;  // of the layout, units
     // The pointer over the picture: where, in shares of the interface's size; none while it is over the
@@ -64,5 +70,8 @@ private:
     struct State;
     std::unique_ptr<State> mState;
 };
+
+// A texture that is drawn by calls of Dear ImGui has other contents: interfaces are drawn again.
+void noteChangedTexture();
 
 }  // namespace stereonav

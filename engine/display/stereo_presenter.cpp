@@ -11,18 +11,6 @@
 namespace stereonav {
 namespace {
 
-void uploadEncoding(const GlTexture& texture) {
-    std::array<float, 1024> table;
-    for (int i = 0; i < 1024; ++i) {
-        const float root = static_cast<float>(i) / 1023.0f;
-        table[static_cast<std::size_t>(i)] = srgbFromLinear(root * root);
-    }
-    glBindTexture(GL_TEXTURE_1D, texture.name());
-    glTexImage1D(GL_TEXTURE_1D, 0, GL_R32F, 1024, 0, GL_RED, GL_FLOAT, table.data());
-    glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-}
-
 // Columns of the matrix that act on one eye, in OpenGL's column-major order.
 std::array<float, 9> eyePart(const AnaglyphMatrix& m, std::size_t firstColumn) {
     std::array<float, 9> part{};
@@ -32,10 +20,6 @@ std::array<float, 9> eyePart(const AnaglyphMatrix& m, std::size_t firstColumn) {
 }
 
 }  // namespace
-
-StereoPresenter::StereoPresenter() {
-    uploadEncoding(mEncoded);
-}
 
 StereoPresenter::Pass StereoPresenter::passOf(const OutputModeInfo& info) {
     switch (info.layout) {
@@ -68,7 +52,6 @@ const ShaderProgram& StereoPresenter::programFor(Pass pass) const {
     program.use();
     glUniform1i(program.location("uFirst"), 0);
     glUniform1i(program.location("uSecond"), 1);
-    glUniform1i(program.location("uEncoded"), 2);
     return program;
 }
 
@@ -96,6 +79,8 @@ void StereoPresenter::upload(const Plane<PackedColor>& left, const Plane<PackedC
                          GL_UNSIGNED_INT_2_10_10_10_REV, nullptr);
             glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
             glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+            glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+            glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
             mTextureWidth[i] = mWidth;
             mTextureHeight[i] = mHeight;
         }
@@ -140,8 +125,6 @@ void StereoPresenter::drawPass(Pass pass, int first, int second, const Viewport&
     if (viewport.width < 1 || viewport.height < 1) return;
     const ShaderProgram& program = programFor(pass);
     program.use();
-    glActiveTexture(GL_TEXTURE2);
-    glBindTexture(GL_TEXTURE_1D, mEncoded.name());
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_2D, mEyes[second].name());
     glActiveTexture(GL_TEXTURE0);

@@ -23,8 +23,6 @@ struct PartInset {
 // Needs a current OpenGL 3.3 core context, the same for all calls; one thread.
 class StereoPresenter {
 public:
-    StereoPresenter();
-
     // right may be empty: the left eye then stands for both. Throws Error where the sizes differ or
     // exceed the driver's textures.
     void upload(const Plane<PackedColor>& left, const Plane<PackedColor>& right);
@@ -51,7 +49,6 @@ private:
     mutable std::map<Pass, ShaderProgram> mPrograms;  // made when first drawn
     GlVertexArray mVertices;
     GlTexture mEyes[2];  // left, right
-    GlTexture mEncoded;
     bool mOneEye = false;
     int mWidth = 0, mHeight = 0;
     int mTextureWidth[2] = {0, 0}, mTextureHeight[2] = {0, 0};

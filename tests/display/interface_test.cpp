@@ -45,12 +45,12 @@ protected:
         mInterface->takesButton(0, false);
     }
     // Red, green, blue of the framebuffer, from the top left.
-    std::vector<unsigned char> drawn() {
+    std::vector<unsigned char> drawn(const std::optional<InterfaceOpening>& opening = std::nullopt) {
         glViewport(0, 0, kWidth, kHeight);
         glDisable(GL_SCISSOR_TEST);
         glClearColor(1, 0, 1, 1);
         glClear(GL_COLOR_BUFFER_BIT);
-        mInterface->render();
+        mInterface->render(opening);
         std::vector<unsigned char> pixels(std::size_t{kWidth} * kHeight * 3);
         glPixelStorei(GL_PACK_ALIGNMENT, 1);
         glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
@@ -96,6 +96,61 @@ TEST_F(InterfaceTest, IsDrawnForEachEye) {
         EXPECT_TRUE(covered(pixels, left + 58, 95));
         EXPECT_FALSE(covered(pixels, left + 5, 50));
         EXPECT_FALSE(covered(pixels, left + 65, 50));
+    }
+}
+
+// Columns beside an opening from x = 130 on, and a box that lies over its border.
+TEST_F(InterfaceTest, WhatStaysBesideThePictureIsCopied) {
+    int column = 0, figures = 0;
+    bool bridge = false;
+    const auto layOutColumns = [&](const InterfacePlaces& places) {
+        constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings;
+        mInterface->layOut(places, 0.02, [&] {
+            const float width = ImGui::GetIO().DisplaySize.x - 30;
+            ImGui::SetNextWindowPos({width, 0});
+            ImGui::SetNextWindowSize({30, kHeight});
+            ImGui::Begin("column", nullptr, kPlain);
+            ImGui::Text("%d", column);
+            ImGui::End();
+            ImGui::SetNextWindowPos({10, 150});
+            ImGui::SetNextWindowSize({100, 40});
+            ImGui::Begin("figures", nullptr, kPlain);
+            ImGui::Text("%d", figures);
+            ImGui::End();
+            if (!bridge) return;
+            ImGui::SetNextWindowPos({width - 20, 50});
+            ImGui::SetNextWindowSize({40, 40});
+            ImGui::Begin("bridge", nullptr, kPlain | ImGuiWindowFlags_NoFocusOnAppearing);
+            ImGui::Text("%d", figures);
+            ImGui::End();
+        });
+    };
+    for (const InterfacePlaces& places : {kWhole, kBeside, kSqueezed}) {
+        const int part = int(places.areas.front().width * kWidth);
+        const int beside = int(30 * part / (places.size.x * kWidth));
+        const InterfaceOpening opening{{0, 0}, {part - beside, kHeight}};
+        for (int step = 0; step < 6; ++step) {
+            if (step % 2) ++figures;
+            if (step == 2) ++column;
+            bridge = step >= 3 && step < 5;
+            layOutColumns(places);
+            const auto whole = drawn();  // forgets what was kept
+            drawn(opening);
+            EXPECT_EQ(drawn(opening), whole) << "copied, step " << step << ", part " << part;
+        }
+        // What was kept serves while only the figures change.
+        drawn(opening);
+        for (int step = 0; step < 3; ++step) {
+            ++figures;
+            layOutColumns(places);
+            const auto kept = drawn(opening);
+            EXPECT_EQ(kept, drawn()) << part;
+            drawn(opening);
+        }
+        ++column;
+        layOutColumns(places);
+        const auto renewed = drawn(opening);
+        EXPECT_EQ(renewed, drawn()) << "the column changed";
     }
 }
 

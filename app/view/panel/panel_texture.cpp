@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/display/interface.h"
+
 namespace stereonav {
 
 namespace {
@@ -34,6 +36,7 @@ void PanelTexture::set(const Plane<PackedColor>& picture, bool smooth, int step)
     for (int y = 0; y < mHeight; ++y)
         for (int x = 0; x < mWidth; ++x, to += 4) meanOf(picture, x * step, y * step, step, to);
     if (!mTexture) mTexture.emplace();
+    noteChangedTexture();
     const GLint filter = smooth ? GL_LINEAR : GL_NEAREST;
     glBindTexture(GL_TEXTURE_2D, mTexture->name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
