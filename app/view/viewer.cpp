@@ -68,7 +68,10 @@ Viewer::Viewer(const ViewOptions& options)
         [] { Window::wake(); });
 }
 
+// What is left is deleted in the first window's context.
 Viewer::~Viewer() {
+    mControls.reset();
+    mWindow.use();
     mPanels.forget();
 }
 
