@@ -4,8 +4,10 @@
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "colon/scene/transfer_presets.h"
+#include "engine/base/error.h"
 #include "engine/camera/view_ranges.h"
 #include "engine/light/occlusion/occlusion_modulation.h"
+#include "engine/volume/transfer_text.h"
 
 namespace stereonav {
 namespace {
@@ -19,6 +21,16 @@ constexpr NumberRange kSteepestRange = above(0, kSteepestOpenness);
 
 bool isModulated(const Asked& asked) {
     return asked.has("modulate") && !asked.is("modulate", "none");
+}
+// Of a curve; a file is read with the scene.
+std::optional<ValueProblem> problemOfTransfer(const std::string& text) {
+    if (!isCurveText(text)) return std::nullopt;
+    try {
+        transferFromCurve(text, "");
+        return std::nullopt;
+    } catch (const Error& error) {
+        return ValueProblem{error.what(), ""};
+    }
 }
 bool isSeenThrough(const Asked& asked) {
     return asked.has("transfer") || asked.has("opacity");
@@ -219,8 +231,11 @@ std::vector<Option> bakedLookOptions() {
 std::vector<Option> volumeLookOptions() {
     std::vector<Option> all{
         {.key = "transfer",
-         .value = fileOrWordValue({}),
-         .help = "colours and opacities by value: translucent; a file, " + transferPresetNames(),
+         .value = fileOrWordValue({}).checked(problemOfTransfer),
+         .help = "colours and opacities by value: translucent; a file, " + transferPresetNames() +
+                 ", or a function in one word",
+         .advice =
+             "such a word is curve:-600:1:0.8:0.7:0,-350:1:0.8:0.7:0.95: value, colour and opacity of points",
          .group = kStudyGroup,
          .commands = kShowing,
          .scenes = kSurfaces,

@@ -15,6 +15,7 @@
 #include "engine/base/memory.h"
 #include "engine/base/parallel.h"
 #include "engine/math/constants.h"
+#include "engine/volume/transfer_text.h"
 
 namespace stereonav {
 namespace {
@@ -28,6 +29,11 @@ void checkSource(const NamedPlace& input) {
     } catch (const Error& error) {
         throw Error(input.option, "", error.what(), "");
     }
+}
+
+// "" where it is no file's name.
+std::string transferFileOf(const SceneOptions& options) {
+    return isCurveText(options.volume.transfer) ? "" : options.volume.transfer;
 }
 
 std::string_view methodAmong(std::span<const std::string_view> methods, const std::string& name,
@@ -66,7 +72,7 @@ std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
                                    {"--image", options.image},
                                    {"--sky", options.sky},
                                    {"--light", options.light.file},
-                                   {"--transfer", options.volume.transfer},
+                                   {"--transfer", transferFileOf(options)},
                                    {"--medium", m.medium},
                                    {"--phase", m.phase},
                                    {"--noise", m.noise}};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/command/scene_facts.h"
 #include "app/options/refusals.h"
@@ -9,12 +10,16 @@
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
 #include "colon/scene/transfer_presets.h"
+#include "engine/volume/transfer_text.h"
+#include "engine/volume/value_counts.h"
 #include "engine/volume/value_range.h"
 
 namespace stereonav {
 namespace {
 
 constexpr double kIsovalueSteps = 100;  // from the smallest value to the largest
+constexpr double kAirSeen = -500;       // HU: with smaller values it is taken for CT
+constexpr int kBorder = 1;              // voxels around a volume seen from outside, which are not the study's
 constexpr double kUsualOpacity = 0.95;  // of a translucent wall a millimetre: that of Wan et al. 2004
 
 void setTransfer(const SurfaceChange& change, const VolumeOptions& first, VolumeOptions& volume) {
@@ -75,6 +80,20 @@ void noteWhatIsShown(const VolumeOptions& volume, GivenOptions& given) {
     note("modulate", volume.modulate != Modulation::None, nameOf(volume.modulate), 0);
 }
 
+// Of a colon what lies around the lumen alone: the cache has nothing else.
+std::shared_ptr<const StudyValues> valuesOf(const ColonScene& colon) {
+    auto values = std::make_shared<StudyValues>();
+    values->range = rangeOf(colon.volume.field);
+    if (values->range.lowest <= kAirSeen) values->unit = "HU";
+    auto field = std::make_shared<const GreyVolume>(colon.volume.field.share());
+    std::shared_ptr<const MaskVolume> lumen;
+    if (colon.isColon()) lumen = std::make_shared<const MaskVolume>(colon.lumen.lumen.share());
+    values->count = [field = std::move(field), lumen = std::move(lumen)](Progress& progress) {
+        return countValues(*field, lumen ? 0 : kBorder, lumen.get(), progress);
+    };
+    return values;
+}
+
 VolumeCasting castingFor(SimdTarget target) {
     VolumeCasting casting;
     casting.target = target;
@@ -93,7 +112,7 @@ void applyChange(const SurfaceChange& change, const SceneOptions& first, SceneOp
 }
 
 ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const SceneOptions& made,
-                         SimdTarget target)
+                         SimdTarget target, const ShownValues* before)
     : mFirst(first),
       mMade(made),
       mWorld(std::move(volume.world)),
@@ -104,9 +123,11 @@ ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const Scen
     mWorld->setWall(&mRenderer);
     simd = mRenderer.target();
     mRays = {&mRenderer};
+    setValues(before);
     setChoices();
     offer(mRays);
     offer(mChoices);
+    offer(std::as_const(mValues));
     mWorld->offerAll([this](auto& capability) { offer(capability); });
     if (mLighting.traced) offer<PictureLight>(*mLighting.traced);
     offerLight();
@@ -131,6 +152,23 @@ void ShownVolume::offerLight() {
     if (mLight->turns()) offer<TurningLight>(*mLight);
 }
 
+void ShownVolume::setValues(const ShownValues* before) {
+    const ColonScene& colon = mWorld->colon();
+    mValues.function = colon.volume.look.transfer;
+    if (before) {
+        mValues.values = before->values;
+        mValues.begun = before->begun;
+        return;
+    }
+    mValues.values = valuesOf(colon);
+    BegunSurface& begun = mValues.begun;
+    begun.isovalue = mWorld->side().movableIsovalue();
+    begun.isovalueChosen = !mFirst.volume.isovalue;
+    begun.translucent = mRenderer.translucent();
+    begun.transfer = mFirst.volume.transfer;
+    begun.opacity = mFirst.volume.opacity.value_or(kUsualOpacity);
+}
+
 void ShownVolume::setChoices() {
     mChoices.translucent = mRenderer.translucent();
     mChoices.transfers = {""};  // that of the options, and those that go by names
@@ -138,12 +176,13 @@ void ShownVolume::setChoices() {
         mChoices.transfers.emplace_back(preset.name);
         if (mMade.volume.transfer == preset.name) mChoices.transfer = preset.name;
     }
+    if (isCurveText(mMade.volume.transfer)) mChoices.transfer = mMade.volume.transfer;
     mChoices.changed = [this](const SurfaceChange& change, Progress& progress) {
         return changed(change, progress);
     };
     mChoices.isovalue = mWorld->side().movableIsovalue();
     if (!mChoices.isovalue) return;
-    const ValueSpan range = rangeOf(mWorld->colon().volume.field);
+    const ValueSpan& range = mValues.values->range;
     mChoices.isovalueStep = (range.highest - range.lowest) / kIsovalueSteps;
     mChoices.largestSigma = std::max(0.5 * (range.highest - range.lowest), 1e-9);
     setAmbient();
@@ -189,7 +228,8 @@ std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progres
     made.light.modulateSigma =
         applyModulation(options.volume, &mMade.volume, mLighting.modulateSigma, colon, progress);
     const float isovalue = colon.volume.cells.isovalue;
-    auto scene = std::make_shared<ShownVolume>(std::move(made), mFirst, options, mRenderer.target());
+    auto scene =
+        std::make_shared<ShownVolume>(std::move(made), mFirst, options, mRenderer.target(), &mValues);
     scene->name = name;
     scene->lens = lens;
     scene->mChoices.ambientMethods = mChoices.ambientMethods;  // one that was given stays among them

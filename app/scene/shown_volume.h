@@ -9,6 +9,7 @@
 #include "app/scene/traced_light.h"
 #include "app/scene/volume_world.h"
 #include "engine/frame/cast_frames.h"
+#include "engine/scene/shown_values.h"
 
 namespace stereonav {
 
@@ -26,13 +27,14 @@ struct LitVolume {
     VolumeLighting light;
 };
 
-// Offers RayCast, SurfaceChoices and what its world has (VolumeWorld::offerAll); as they are there,
-// TurningLight, SeenLight, PictureLight.
+// Offers RayCast, SurfaceChoices, ShownValues and what its world has (VolumeWorld::offerAll); as they are
+// there, TurningLight, SeenLight, PictureLight.
 class ShownVolume final : public Scene {
 public:
     // first: the options that the study was loaded with, made: those that this scene shows; the same at
-    // first.
-    ShownVolume(LitVolume volume, const SceneOptions& first, const SceneOptions& made, SimdTarget target);
+    // first. before: of a scene of the same study that this one is made of, null for the first.
+    ShownVolume(LitVolume volume, const SceneOptions& first, const SceneOptions& made, SimdTarget target,
+                const ShownValues* before = nullptr);
 
     FrameMaker& frames() const override;
     std::unique_ptr<Flight> makeFlight() const override;
@@ -43,6 +45,7 @@ public:
 private:
     void offerLight();
     void setChoices();
+    void setValues(const ShownValues* before);
     void setAmbient();
     std::shared_ptr<Scene> changed(const SurfaceChange& change, Progress& progress) const;
 
@@ -51,6 +54,7 @@ private:
     VolumeLighting mLighting;
     VolumeRenderer mRenderer;
     RayCast mRays;
+    ShownValues mValues;
     mutable CastFrames mFrames;
     std::unique_ptr<SeenVolumeLight> mLight;  // that is worked out while one looks, or turns; else null
     SurfaceChoices mChoices;

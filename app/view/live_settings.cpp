@@ -7,6 +7,9 @@
 #include <numbers>
 
 #include "app/options/option_value.h"
+#include "engine/scene/shown_values.h"
+#include "engine/text/number.h"
+#include "engine/volume/transfer_text.h"
 
 namespace stereonav {
 namespace {
@@ -46,6 +49,42 @@ bool always(const ViewSession&) {
 }
 const SurfaceChoices* surfaceOf(const ViewSession& session) {
     return session.open().scene->offered<SurfaceChoices>();
+}
+// Null where the scene does not say.
+const BegunSurface* begunOf(const ViewSession& session) {
+    const auto* const shown = session.open().scene->offered<ShownValues>();
+    return shown && surfaceOf(session) ? &shown->begun : nullptr;
+}
+bool takesByName(const ViewSession& session, const std::string& text) {
+    const auto& names = surfaceOf(session)->transfers;
+    return std::find(names.begin(), names.end(), text) != names.end();
+}
+// What is seen through: the function, "" where it is opaque or there is an opacity instead.
+std::string transferText(const ViewSession& session) {
+    const SurfaceChange now = session.surface();
+    if (!*now.translucent) return "";
+    const BegunSurface* const begun = begunOf(session);
+    return now.transfer->empty() && begun ? begun->transfer : *now.transfer;
+}
+std::string opacityText(const ViewSession& session) {
+    const BegunSurface* const begun = begunOf(session);
+    const bool by = begun && *session.surface().translucent && transferText(session).empty();
+    return by ? fmt::format("{}", begun->opacity) : "";
+}
+void showThrough(ViewSession& session, const std::string& transfer) {
+    SurfaceChange change;
+    change.translucent = true;
+    change.transfer = transfer;
+    session.setSurface(change);
+}
+void showOpaque(ViewSession& session) {
+    SurfaceChange change;
+    change.translucent = false;
+    session.setSurface(change);
+}
+// By tellFunction.
+bool saidApart(const ViewSession&) {
+    return true;
 }
 // By hand: neither as the room around asks for, nor as they were fitted to the first picture.
 bool eyesAreSet(const ViewSession& session) {
@@ -142,29 +181,34 @@ constexpr Live kLive[] = {
      [](ViewSession& s) { s.chooseModel(s.open().model); }},
     {"isovalue", [](const ViewSession& s) { return surfaceOf(s) && s.surface().isovalue.has_value(); },
      [](const ViewSession& s) { return fmt::format("{:.6g}", *s.surface().isovalue); },
-     [](const ViewSession& s) { return s.surface().isovalue == surfaceOf(s)->isovalue && !s.open().changed; },
+     [](const ViewSession& s) {
+         if (const auto* const begun = begunOf(s)) return s.surface().isovalue == begun->isovalue;
+         return s.surface().isovalue == surfaceOf(s)->isovalue && !s.open().changed;
+     },
      [](ViewSession& s, const OptionValue& value) {
          SurfaceChange change;
          change.isovalue = value.number();
          s.setSurface(change);
      },
-     nullptr},
-    {"transfer", [](const ViewSession& s) { return surfaceOf(s) != nullptr; },
-     [](const ViewSession& s) {
-         const SurfaceChange now = s.surface();
-         return *now.translucent ? *now.transfer : std::string();
-     },
-     [](const ViewSession& s) { return !*s.surface().translucent || s.surface().transfer->empty(); },
-     [](ViewSession& s, const OptionValue& value) {
-         SurfaceChange change;
-         change.translucent = true;
-         change.transfer = value.text;
-         s.setSurface(change);
-     },
      [](ViewSession& s) {
          SurfaceChange change;
-         change.translucent = false;
+         if (const auto* const begun = begunOf(s)) change.isovalue = begun->isovalue;
          s.setSurface(change);
+     }},
+    {"transfer", [](const ViewSession& s) { return surfaceOf(s) != nullptr; }, transferText, saidApart,
+     [](ViewSession& s, const OptionValue& value) {
+         const BegunSurface* const begun = begunOf(s);
+         // A file's is that of the options.
+         const bool own = begun && begun->transfer == value.text && !takesByName(s, value.text);
+         showThrough(s, own ? "" : value.text);
+     },
+     [](ViewSession& s) {
+         if (!transferText(s).empty()) showOpaque(s);
+     }},
+    {"opacity", [](const ViewSession& s) { return begunOf(s) != nullptr; }, opacityText, saidApart,
+     [](ViewSession& s, const OptionValue&) { showThrough(s, ""); },
+     [](ViewSession& s) {
+         if (!opacityText(s).empty()) showOpaque(s);
      }},
 };
 
@@ -174,22 +218,44 @@ const Live* liveNamed(const ViewSession& session, const std::string& key) {
     return nullptr;
 }
 
-// Of names alone: a file is read with the scene.
+// Of names and curves; of files that alone which the scene was opened with.
 bool takesTransfer(const ViewSession& session, const std::string& text) {
-    const auto& names = surfaceOf(session)->transfers;
-    return std::find(names.begin(), names.end(), text) != names.end();
+    const BegunSurface* const begun = begunOf(session);
+    return takesByName(session, text) || isCurveText(text) ||
+           (begun && !text.empty() && begun->transfer == text);
+}
+
+// That alone which the scene was opened with, or has where nothing was said.
+bool takesOpacity(const ViewSession& session, const std::string& text) {
+    const BegunSurface* const begun = begunOf(session);
+    return begun && begun->transfer.empty() && numberOf(text) == begun->opacity;
+}
+
+// A function and an opacity are two ways to say one thing, which is said as it is shown, or not.
+void tellFunction(const ViewSession& session, SettingTexts& given) {
+    if (!begunOf(session)) {
+        if (surfaceOf(session) && !transferText(session).empty()) given["transfer"] = {transferText(session)};
+        return;
+    }
+    given.erase("transfer");
+    given.erase("opacity");
+    if (const std::string text = transferText(session); !text.empty()) given["transfer"] = {text};
+    if (const std::string text = opacityText(session); !text.empty()) given["opacity"] = {text};
 }
 
 }  // namespace
 
 bool isLive(const ViewSession& session, const std::string& key) {
-    return liveNamed(session, key) != nullptr;
+    return key != "opacity" && liveNamed(session, key) != nullptr;
 }
 
 bool isLive(const ViewSession& session, const std::string& key, const std::optional<std::string>& text) {
     const Live* const live = liveNamed(session, key);
-    if (!live || (!text && !live->reset)) return false;
-    return key != "transfer" || !text || takesTransfer(session, *text);
+    if (!live) return false;
+    if (key == "isovalue" && !text) return begunOf(session) && begunOf(session)->isovalueChosen;
+    if (key == "transfer") return !text || takesTransfer(session, *text);
+    if (key == "opacity") return !text || takesOpacity(session, *text);
+    return true;
 }
 
 SettingTexts withLive(const ViewSession& session, SettingTexts given) {
@@ -197,6 +263,7 @@ SettingTexts withLive(const ViewSession& session, SettingTexts given) {
         if (!live.has(session)) continue;
         if (!live.asBegun(session)) given[live.key] = {live.now(session)};
     }
+    tellFunction(session, given);
     return given;
 }
 
@@ -208,7 +275,7 @@ std::optional<std::string> valueNow(const ViewSession& session, const std::strin
 void setLive(ViewSession& session, const std::string& key, const std::optional<std::string>& text) {
     const Live* const live = liveNamed(session, key);
     if (!live) return;
-    if (!text) return live->reset ? live->reset(session) : void();
+    if (!text) return live->reset(session);
     const Option& option = *viewOption(key);
     live->set(session, readValue(option.name(), option.value, option.advice, *text));
 }

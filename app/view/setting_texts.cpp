@@ -56,6 +56,18 @@ ViewOptions viewOptionsOf(const SettingTexts& settings) {
     return parsed.view;
 }
 
+void setText(SettingTexts& settings, const std::string& key, const std::string& text) {
+    const auto excludes = [](const std::string& one, const std::string& other) {
+        const Option* const option = viewOption(one);
+        return option && std::any_of(option->excludes.begin(), option->excludes.end(),
+                                     [&](const Exclusion& exclusion) { return other == exclusion.key; });
+    };
+    std::erase_if(settings, [&](const auto& said) {
+        return said.first != key && (excludes(key, said.first) || excludes(said.first, key));
+    });
+    settings[key] = {text};
+}
+
 std::string shellWord(const std::string& text) {
     const auto plain = [](unsigned char c) {
         return std::isalnum(c) ||

@@ -25,6 +25,9 @@ ViewOptions viewOptionsOf(const SettingTexts& settings);
 // The option of `view`, null where it has none of this key.
 const Option* viewOption(const std::string& key);
 
+// What does not go with it (Option::excludes) gives way.
+void setText(SettingTexts& settings, const std::string& key, const std::string& text);
+
 // "stereonav view 'my dem.tif' --sun 250,15": words that a shell reads as they were meant.
 std::string commandLineOf(const SettingTexts& settings);
 // The command line that writes what is shown, seen from there, into a picture: without options that `render`

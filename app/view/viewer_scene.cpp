@@ -118,7 +118,7 @@ void Viewer::set(const std::string& key, const std::optional<std::string>& text)
         }
         SettingTexts settings = this->settings();
         if (text)
-            settings[key] = {*text};
+            setText(settings, key, *text);
         else
             settings.erase(key);
         goTo(settings);

@@ -114,6 +114,17 @@ MaskVolume grown(const MaskVolume& lumen, const glm::ivec3& margin) {
     return result;
 }
 
+// Stored numbers between which a translucent wall is not transparent.
+struct ShownNumbers {
+    float lowest, highest;
+    bool operator==(const ShownNumbers&) const = default;
+};
+ShownNumbers shownNumbers(const GreyVolume& field, const TransferFunction& transfer) {
+    const TransferFunction::Range range = transfer.visibleRange();
+    return {static_cast<float>(std::max((range.lowest - field.offset) / field.scale, -32768.0)),
+            static_cast<float>(std::min((range.highest - field.offset) / field.scale, 32767.0))};
+}
+
 SurfaceCells wallCells(const ColonScene& scene, Progress& progress) {
     const GreyVolume& field = scene.volume.field;
     SurfaceSetting setting;
@@ -121,9 +132,9 @@ SurfaceCells wallCells(const ColonScene& scene, Progress& progress) {
     setting.region = &scene.lumen.lumen;
     const TransferFunction& transfer = scene.volume.look.transfer;
     if (transfer.empty()) return findSurfaceCells(field, setting, progress);
-    const TransferFunction::Range range = transfer.visibleRange();
-    setting.lowest = static_cast<float>(std::max((range.lowest - field.offset) / field.scale, -32768.0));
-    setting.highest = static_cast<float>(std::min((range.highest - field.offset) / field.scale, 32767.0));
+    const ShownNumbers shown = shownNumbers(field, transfer);
+    setting.lowest = shown.lowest;
+    setting.highest = shown.highest;
     const glm::ivec3 margin = glm::min(glm::ivec3(glm::ceil(kTranslucentMargin / field.frame.spacing)),
                                        glm::ivec3(kKeptMargin - 2));
     const MaskVolume region = grown(scene.lumen.lumen, margin);
@@ -288,8 +299,11 @@ ColonScene changedScene(const ColonScene& scene, const ColonOptions& options, Pr
     const double wall = next.lumen.isovalue * field.scale + field.offset;
     TransferFunction transfer = wallTransfer(options, wall, look.surface);
     if (transfer == look.transfer) return next;
+    // Colours, and opacities that stay above 0, change no cell.
+    const bool same = !transfer.empty() && !look.transfer.empty() &&
+                      shownNumbers(field, transfer) == shownNumbers(field, look.transfer);
     look.transfer = std::move(transfer);
-    next.volume.cells = wallCells(next, progress);
+    if (!same) next.volume.cells = wallCells(next, progress);
     return next;
 }
 

@@ -124,20 +124,31 @@ TransferFunction transferOf(const ColonOptions& options, double isovalue, const 
                             "--opacity");
 }
 
+// The cells that hold the surface or, of a translucent volume, anything that is not transparent.
+SurfaceSetting cellsShown(const GreyVolume& field, double isovalue, const TransferFunction& transfer) {
+    SurfaceSetting setting;
+    setting.isovalue = setting.lowest = setting.highest = storedIsovalue(field, isovalue);
+    const TransferFunction::Range range = transfer.visibleRange();
+    if (range.lowest > range.highest) return setting;  // opaque, or all transparent
+    setting.lowest = std::max(storedIsovalue(field, range.lowest), -32768.0f);
+    setting.highest = std::min(storedIsovalue(field, range.highest), 32767.0f);
+    if (setting.lowest > setting.highest) std::swap(setting.lowest, setting.highest);
+    return setting;
+}
+
+bool sameCells(const SurfaceSetting& a, const SurfaceSetting& b) {
+    return a.isovalue == b.isovalue && a.lowest == b.lowest && a.highest == b.highest;
+}
+
 SurfaceCells cellsAt(const GreyVolume& field, double isovalue, const TransferFunction& transfer,
                      Progress& progress) {
     if (!std::isfinite(isovalue))
         throw Error("--isovalue", "", fmt::format("expected a number, got {}", isovalue),
                     "300 shows bone in CT");
-    SurfaceSetting setting;
-    setting.isovalue = setting.lowest = setting.highest = storedIsovalue(field, isovalue);
-    if (!transfer.empty()) {
-        const TransferFunction::Range range = transfer.visibleRange();
-        setting.lowest = std::max(storedIsovalue(field, range.lowest), -32768.0f);
-        setting.highest = std::min(storedIsovalue(field, range.highest), 32767.0f);
-        if (setting.lowest > setting.highest) std::swap(setting.lowest, setting.highest);
-    }
-    SurfaceCells cells = findSurfaceCells(field, setting, progress);
+    SurfaceCells cells = findSurfaceCells(field, cellsShown(field, isovalue, transfer), progress);
+    // A function that shows none of the values that there are shows the background.
+    if (cells.records.empty() && !transfer.empty())
+        cells = findSurfaceCells(field, cellsShown(field, isovalue, {}), progress);
     if (!cells.records.empty()) return cells;
     const auto [low, high] =
         std::minmax_element(field.values.data(), field.values.data() + field.frame.count());
@@ -201,7 +212,11 @@ void setSurface(ColonScene& scene, const std::optional<double>& isovalue, const 
     const double value = isovalue.value_or(valueOf(field, now));
     TransferFunction transfer = transferOf(options, value, look.surface);
     if ((!isovalue || storedIsovalue(field, value) == now) && transfer == look.transfer) return;
-    scene.volume.cells = cellsAt(field, value, transfer, progress);
+    // Colours, and opacities that stay above 0, change no cell.
+    const bool same =
+        look.transfer.empty() == transfer.empty() && std::isfinite(value) &&
+        sameCells(cellsShown(field, value, transfer), cellsShown(field, valueOf(field, now), look.transfer));
+    if (!same) scene.volume.cells = cellsAt(field, value, transfer, progress);
     look.transfer = std::move(transfer);
 }
 

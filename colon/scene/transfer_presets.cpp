@@ -1,6 +1,7 @@
 #include "colon/scene/transfer_presets.h"
 
 #include "engine/base/error.h"
+#include "engine/volume/transfer_text.h"
 
 namespace stereonav {
 
@@ -12,6 +13,7 @@ std::string transferPresetNames() {
 }
 
 TransferFunction findTransferFunction(const std::filesystem::path& fileOrName) {
+    if (isCurveText(fileOrName.string())) return transferFromCurve(fileOrName.string(), "--transfer");
     std::error_code code;
     if (std::filesystem::exists(fileOrName, code)) return readTransferFunction(fileOrName);
     for (const TransferPreset& preset : transferPresets())

@@ -18,7 +18,8 @@ struct TransferPreset {
 std::span<const TransferPreset> transferPresets();
 std::string transferPresetNames();  // "a, b, c"
 
-// From a file; where there is none of that name, by the name of a preset. Throws Error that lists the names.
+// From a curve's text (engine/volume/transfer_text.h), or a file; where there is none of that name, by the
+// name of a preset. Throws Error that lists the names.
 TransferFunction findTransferFunction(const std::filesystem::path& fileOrName);
 
 }  // namespace stereonav

@@ -103,6 +103,15 @@ TEST_F(VolumeBadInput, TransferFunctionsThatCanNotBe) {
     const std::string nan = input("nan.txt", "reference_mm 1\n-100 1 1 1 0.5\nnan 1 1 1 0.5\n");
     expectSceneRefused(mask, {"nan.txt", "3"}, {"--transfer", nan});
     expectSceneRefused(mask, {"empty.txt"}, {"--transfer", input("empty.txt", "")});
+    // In one word, while the command line is read.
+    for (const std::string curve :
+         {"curve:", "curve:0:1:1:1", "curve:0:1:1:1:2", "curve:nan:1:1:1:0", "curve:5:1:1:1:0,5:1:1:1:1",
+          "curve:0:1:1:red:1", "curve:reference_mm:0,0:1:1:1:1"})
+        expectSceneRefused(mask, {"--transfer", "part ", "curve:VALUE:RED:GREEN:BLUE:OPACITY"},
+                           {"--transfer", curve});
+    const std::string scene =
+        input("curve.toml", "scene = \"" + mask + "\"\n\n[options]\ntransfer = \"curve:0:1:1:1:2\"\n");
+    expectSceneRefused(scene, {"curve.toml:4", "transfer", "part 1", "an opacity in 0 to 1, got 2"});
     for (const std::string opacity : {"0", "-1", "1.5", "nan"})
         expectSceneRefused(mask, {"--opacity"}, {"--opacity", opacity});
     expectSceneRefused(mask, {"--opacity", "--transfer"}, {"--opacity", "0.5", "--transfer", nan});

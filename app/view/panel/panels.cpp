@@ -48,6 +48,7 @@ struct Panels::State {
     SearchBox search;
     FileBrowser files;
     StartPage start;
+    SideTools tools;
 
     void drawHelp(PanelHost& host);
     void drawColumn(Column& column, bool atRight, float top, const std::function<void()>& content);
@@ -155,7 +156,8 @@ void Panels::draw(PanelHost& host) {
             (sideBefore ? state.side : state.left).shown = false;
         }
         if (state.left.shown) state.drawColumn(state.left, false, top, [&] { state.drawLeft(host); });
-        if (state.side.shown) state.drawColumn(state.side, true, top, [&] { drawSidePanels(host); });
+        if (state.side.shown)
+            state.drawColumn(state.side, true, top, [&] { drawSidePanels(host, state.tools); });
         state.below = drawStatusBar(host, state.left.taken, state.side.taken);
     }
     if (state.start.shown() && state.start.draw(host)) state.files.open(FileBrowser::For::Open);
@@ -234,6 +236,7 @@ void Panels::forget() {
     mState->map.forget();
     mState->places.forget();
     mState->slices.forget();
+    mState->tools.transfer.forget();
     forgetStartPictures();
 }
 

@@ -94,7 +94,8 @@ void drawBake(PanelHost& host, ViewSession&) {
         "flight.");
 }
 
-void drawLight(PanelHost& host, ViewSession& session) {
+void drawLight(PanelHost& host, ViewSession& session, SunPanel& sun) {
+    if (SunPanel::has(host)) sun.draw(host);
     drawOptions(host, OptionPanel::Light);
     drawBake(host, session);
     const std::string why = session.open().scene->whyLightStays();
@@ -104,7 +105,8 @@ void drawLight(PanelHost& host, ViewSession& session) {
         quietText(host, "The light stands still: " + why + ".");
 }
 
-void drawMaterial(PanelHost& host, ViewSession& session) {
+void drawMaterial(PanelHost& host, ViewSession& session, TransferPanel& transfer) {
+    if (TransferPanel::has(host)) transfer.draw(host);
     drawOptions(host, OptionPanel::Material);
     const auto* const surface = session.open().scene->offered<SurfaceChoices>();
     if (!surface) return;
@@ -200,13 +202,14 @@ bool heading(const char* label, bool open) {
 
 }  // namespace
 
-void drawSidePanels(PanelHost& host) {
+void drawSidePanels(PanelHost& host, SideTools& tools) {
     ViewSession* const session = host.session();
     if (!session) return quietText(host, "nothing is open yet");
     const auto any = [&](OptionPanel panel) { return !optionsOf(host, panel).empty(); };
     if (heading("View and stereo", true)) drawView(host, *session);
-    if (any(OptionPanel::Light) && heading("Light", true)) drawLight(host, *session);
-    if (any(OptionPanel::Material) && heading("Material", false)) drawMaterial(host, *session);
+    if (any(OptionPanel::Light) && heading("Light", true)) drawLight(host, *session, tools.sun);
+    if (any(OptionPanel::Material) && heading("Material", false))
+        drawMaterial(host, *session, tools.transfer);
     if (any(OptionPanel::Medium) && heading("Medium", false)) drawOptions(host, OptionPanel::Medium);
     if (heading("Flight and path", false)) drawPathPanel(host, *session);
     if (heading("Quality and cost", false)) drawQuality(host, *session);

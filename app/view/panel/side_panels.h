@@ -3,9 +3,17 @@
 #pragma once
 
 #include "app/view/panel/panel_host.h"
+#include "app/view/panel/sun_panel.h"
+#include "app/view/panel/transfer_panel.h"
 
 namespace stereonav {
 
-void drawSidePanels(PanelHost& host);
+// Those of them that keep something from one layout to the next.
+struct SideTools {
+    TransferPanel transfer;
+    SunPanel sun;
+};
+
+void drawSidePanels(PanelHost& host, SideTools& tools);
 
 }  // namespace stereonav

@@ -1,0 +1,66 @@
+// The transfer function of a volume over a histogram of its values, to be edited, and its isovalue.
+#pragma once
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/view/panel/panel_host.h"
+#include "app/view/transfer_curve.h"
+#include "engine/base/progress.h"
+#include "engine/scene/shown_values.h"
+
+struct ImVec2;
+
+namespace stereonav {
+
+class TransferPanel {
+public:
+    ~TransferPanel() { forget(); }
+    // Whether the scene has one.
+    static bool has(PanelHost& host);
+    void draw(PanelHost& host);
+    void forget();  // what is counted, and what was
+
+private:
+    enum class Held { Nothing, Point, Isovalue };
+    struct Plot;
+
+    void count(const std::shared_ptr<const StudyValues>& values);
+    void follow(PanelHost& host, const ShownValues& shown);
+    void change(PanelHost& host);
+    void drawPlot(PanelHost& host);
+    void drawBars(const Plot& plot);
+    void drawColors(const PanelHost& host, const Plot& plot);
+    void drawCurve(const Plot& plot);
+    void drawPoints(const PanelHost& host, const Plot& plot);
+    void drawIsovalue(const PanelHost& host, const Plot& plot);
+    void usePointer(PanelHost& host, const Plot& plot);
+    void drag(PanelHost& host, const Plot& plot, const ImVec2& pointer);
+    void tell(const Plot& plot, const ImVec2& pointer);
+    void drawPoint(PanelHost& host);
+    void drawButtons(PanelHost& host, const BegunSurface& begun);
+    std::size_t pointNear(const Plot& plot, const ImVec2& at) const;
+    bool isovalueNear(const Plot& plot, const ImVec2& at) const;
+    std::string withUnit(double value) const;
+
+    std::shared_ptr<const StudyValues> mValues;
+    std::shared_ptr<Progress> mProgress;  // of what is counted
+    std::future<ValueCounts> mCounting;
+    std::optional<ValueCounts> mCounts;
+    std::vector<float> mBars;
+    ValueView mBarsOf;
+
+    TransferCurve mCurve{TransferFunction()};
+    std::string mText;  // that was set from mCurve
+    std::optional<double> mIsovalue;
+    ValueView mAll, mView;
+    bool mZoomed = false;
+    Held mHeld = Held::Nothing;
+    std::size_t mPoint = TransferCurve::kNone;  // that is held, or whose colour is chosen
+    double mFromValue = 0, mFromOpacity = 0;    // from the pointer to what is held
+};
+
+}  // namespace stereonav
