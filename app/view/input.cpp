@@ -113,7 +113,7 @@ std::optional<ViewCommand> repeatableOfLetter(char letter, bool shift) {
 std::optional<ViewCommand> commandOfLetter(char letter, bool shift) {
     switch (letter) {
         case 'f':
-            return ViewCommand::NextFlightMode;
+            return shift ? ViewCommand::SpeedByDistance : ViewCommand::NextFlightMode;
         case 'x':
             return ViewCommand::SwapEyes;
         case 'm':
@@ -225,6 +225,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"Space", "home", does(Home)},
         {"R", "reset everything", does(Reset)},
         {"F", "fly freely, over the ground, along the colon", does(NextFlightMode)},
+        {"Shift+F", "the speed follows the distance ahead, or not", does(SpeedByDistance)},
         {"[ ]", "eyes closer together, further apart"},
         {"C", "eyes as far apart as the room suits (colon)", does(FollowClearance)},
         {"; '", "screen (zero parallax) nearer, farther"},

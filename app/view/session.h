@@ -42,6 +42,7 @@ enum class ViewCommand {
     Reset,
     NextFlightMode,
     SetFlightMode,
+    SpeedByDistance,
     ToggleStereo,
     SwapEyes,
     NextMode,
@@ -104,6 +105,7 @@ public:
         std::optional<RecordedPath> path;  // what Play plays before anything is recorded
         std::filesystem::path folder;      // for recorded flights
         bool quadBuffer = false;           // whether the window has one
+        bool speedByDistance = false;
     };
     ViewSession(std::shared_ptr<const OpenScene> scene, const Options& options);
 
@@ -144,7 +146,9 @@ public:
     void keepStudy(std::shared_ptr<const SliceStudy> study) { mStudy = std::move(study); }
     bool wantsSliceView() const { return mSliceViewWished; }
     OutputMode firstMode() const { return mFirstMode; }
-    double speed() const { return mSpeed * mFlight->speed(); }  // metres a second at full input
+    double speed() const { return mSpeed * mPace * mFlight->speed(); }  // metres a second at full input
+    // The speed follows the distance of what lies ahead (engine/nav/depth_speed.h); the wheel's is a factor.
+    bool speedByDistance() const { return mSpeedByDistance; }
     const RecordedPath& path() const { return mPath; }
     // Puts another one in its place; what fails is told. The last ones can be had back.
     void editPath(const std::function<RecordedPath(const RecordedPath&)>& edit);
@@ -232,6 +236,7 @@ private:
     void askForChange();
     void openSlices();
     void fly(const FlightInput& input, double dt);
+    void stepPace(double dt);
     void stepGoal(double dt);
     void startGoal(const std::function<FlightTo(const Flight&)>& goal);
     void turnRound();
@@ -289,7 +294,9 @@ private:
     bool mStereoOn = true, mSwapped = false, mLinear = false, mQuit = false, mCaptured = false;
     bool mMoving = false, mScreenshot = false;
     bool mResting = false, mLooked = false, mFresh = true;
-    double mSpeed = 1;
+    double mSpeed = 1;  // by the wheel
+    double mPace = 1;   // by the distance ahead
+    bool mSpeedByDistance = false;
     std::string mNotice;
     double mNoticeLeft = 0;  // seconds
     FrameRequest mRequest;

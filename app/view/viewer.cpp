@@ -110,7 +110,9 @@ void Viewer::takeScene() {
     if (!loading.busy) mBefore.reset();
     if (mSession && !mAnother) return mSession->replaceScene(mScene);
     const bool first = !mSession;
-    mSession.emplace(mScene, ViewSession::Options{mMode, mFlight, mOptions.shots, mWindow.quadBuffered()});
+    mSession.emplace(mScene,
+                     ViewSession::Options{mMode, mFlight, mOptions.shots, mWindow.quadBuffered(),
+                                          mSession ? mSession->speedByDistance() : mConfig.speedByDistance});
     mSession->continueVersions(mAsked);
     mAnother = mStudyFailed = false;
     mCosts.clear();

@@ -51,6 +51,7 @@ void Viewer::keepConfig() {
     if (mPanels.sideShown()) config.openPanels.emplace_back(kSidePanels);
     if (mPanels.leftShown()) config.openPanels.emplace_back(kLeftPanels);
     config.lastFolder = mPanels.folder();
+    if (mSession) config.speedByDistance = mSession->speedByDistance();
     if (!(config == mConfig)) writeWindowConfig(config);
 }
 

@@ -61,6 +61,8 @@ void readSections(TomlDocument& document, WindowConfig& config) {
     panels.read("left_width", config.leftWidth, kPanelWidthRange);
     panels.read("right_width", config.rightWidth, kPanelWidthRange);
     config.openPanels = panelNames(panels.texts("open"));
+    TomlSection flight = document.section("flight");
+    flight.read("speed_by_distance", config.speedByDistance);
     TomlSection screen = document.section("screen");
     readOptional(screen, "width_mm", config.screenWidth_mm, kScreenWidthRange);
     readOptional(screen, "viewing_distance_mm", config.viewingDistance_mm, kViewingDistanceRange);
@@ -78,6 +80,7 @@ std::string tomlOf(const WindowConfig& config) {
     for (std::size_t k = 0; k < config.openPanels.size(); ++k)
         text += (k > 0 ? ", " : "") + tomlText(keptText(config.openPanels[k], kLongestPanel));
     text += "]\n";
+    text += fmt::format("\n[flight]\nspeed_by_distance = {}\n", config.speedByDistance);
     if (!config.screenWidth_mm && !config.viewingDistance_mm) return text;
     text += "\n[screen]\n";
     if (config.screenWidth_mm) text += fmt::format("width_mm = {}\n", *config.screenWidth_mm);

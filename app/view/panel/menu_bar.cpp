@@ -111,6 +111,8 @@ void flightMenu(PanelHost& host) {
     item(host, "Home", "Space", ViewCommand::Home);
     item(host, session && session->recording() ? "End recording" : "Record", "z", ViewCommand::Record);
     item(host, session && session->playing() ? "Stop playing" : "Play", "Shift+Z", ViewCommand::Play);
+    item(host, "Speed by the distance ahead", "Shift+F", ViewCommand::SpeedByDistance,
+         session && session->speedByDistance());
     item(host, "Hold the mouse", "Y", ViewCommand::CaptureMouse, session && session->mouseCaptured());
     if (session) {
         ImGui::Separator();

@@ -107,6 +107,12 @@ void drawPathPanel(PanelHost& host, ViewSession& session) {
     if (any) drawEdits(host, session);
     drawThroughPlaces(host, session);
     drawMovie(host, session);
+    bool byDistance = session.speedByDistance();
+    if (ImGui::Checkbox("speed by the distance ahead", &byDistance)) host.act({ViewCommand::SpeedByDistance});
+    tooltip(
+        "What is ahead is reached in about four seconds, near or far; over the sky the speed is as ever. "
+        "Key: "
+        "Shift+F");
     quietText(host, fmt::format("speed {}/s: the wheel changes it, Shift is four times",
                                 lengthText(session.speed())));
 }
