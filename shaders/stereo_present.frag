@@ -6,6 +6,7 @@
 // an `if`, even where the condition is the same for all pixels.
 //   0 one eye, 1 one eye squeezed to half its width, 2 to half its height,
 //   3 rows, 4 columns, 5 checkerboard, 6 anaglyph
+// OVER is defined where a layer lies over each eye.
 
 uniform sampler2D uFirst;    // the eye that comes first, or the only one; in anaglyphs the left
 uniform sampler2D uSecond;   // the other one
@@ -22,8 +23,21 @@ out vec4 color;
 float encodedChannel(float root) { return texelFetch(uEncoded, int(root * 1023.0 + 0.5), 0).r; }
 vec3 encoded(vec3 root) { return vec3(encodedChannel(root.r), encodedChannel(root.g), encodedChannel(root.b)); }
 
+#ifdef OVER
+// Colours multiplied by their alpha, row 0 at the bottom. They are sRGB-encoded, which stands in for roots here: black
+// and white are the same, greys differ by less than 0.04.
+uniform sampler2D uFirstLayer, uSecondLayer;
+
+vec3 eyeAt(sampler2D eye, sampler2D layer, ivec2 p) {
+    vec4 over = texelFetch(layer, ivec2(p.x, uEyeSize.y - 1 - p.y), 0);
+    return texelFetch(eye, p, 0).rgb * (1.0 - over.a) + over.rgb;
+}
+vec3 firstEye(ivec2 p) { return eyeAt(uFirst, uFirstLayer, min(p, uEyeSize - 1)); }
+vec3 secondEye(ivec2 p) { return eyeAt(uSecond, uSecondLayer, min(p, uEyeSize - 1)); }
+#else
 vec3 firstEye(ivec2 p) { return texelFetch(uFirst, min(p, uEyeSize - 1), 0).rgb; }
 vec3 secondEye(ivec2 p) { return texelFetch(uSecond, min(p, uEyeSize - 1), 0).rgb; }
+#endif
 
 #if LAYOUT == 0
 vec3 picture(ivec2 p, ivec2 turn) { return encoded(firstEye(p)); }

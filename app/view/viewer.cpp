@@ -346,10 +346,12 @@ void Viewer::draw(double dt, const Stopwatch& turn) {
     look.grey = mode.layout == OutputLayout::Anaglyph;
     mInterface.setLook(look);
     const double before = turn.elapsed_ms();
+    mInterface.setPointerOfPicture(drawsPointer(mode));
     const bool laidOut = mInterface.layOut(interfacePlaces(mode), dt, [this] { mPanels.draw(*this); });
     const double layout = turn.elapsed_ms() - before;
     const PicturePlace place = placeFor(mode);
-    const bool same = setting == mDrawn && place == mDrawnPlace && !mNewFrame && !laidOut;
+    const bool marked = drawOverlay(mode);
+    const bool same = setting == mDrawn && place == mDrawnPlace && !mNewFrame && !laidOut && !marked;
     if (!mWindow.redrawNeeded() && same && !ViewDisplay::alternates(setting))
         return mTimes.add(layout, 0, turn.elapsed_ms(), false);
     mNewFrame = false;

@@ -22,6 +22,7 @@
 #include "app/view/window_config.h"
 #include "app/view/window_times.h"
 #include "engine/base/stopwatch.h"
+#include "engine/display/eye_overlay.h"
 #include "engine/display/interface.h"
 #include "engine/display/stereo_presenter.h"
 #include "engine/display/window.h"
@@ -60,6 +61,8 @@ public:
     Bookmarks* places() override { return mPlaces ? &*mPlaces : nullptr; }
     void addPlace() override;
     void goToPlace(const Bookmark& place) override;
+    bool placeLabels() const override { return mLabels; }
+    void showPlaceLabels(bool shown) override { mLabels = shown; }
     std::shared_ptr<const SliceStudy> study() override;
     void saveScene(const std::filesystem::path& file) override;
     void copy(const std::string& text) override;
@@ -119,6 +122,9 @@ private:
     SizeOption windowSize() const;
     void draw(double dt, const Stopwatch& turn);
     void show(const ComposeSetting& setting);
+    bool drawsPointer(const OutputModeInfo& mode) const;
+    std::vector<OverlayMark> marks(const OutputModeInfo& mode) const;
+    bool drawOverlay(const OutputModeInfo& mode);
 
     ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed in place since
     // Asked for by every control of every layout: made once a turn, or once a scene.
@@ -132,6 +138,7 @@ private:
     std::unique_ptr<ViewSweep> mSweep;  // of media; before the scenes, which use it to their end
     StereoPresenter mPresenter;
     Interface mInterface;
+    EyeOverlay mOverlay;
     Panels mPanels;
     Screenshots mScreenshots;
     ViewInput mInput;
@@ -156,6 +163,7 @@ private:
     std::shared_ptr<FactsWish> mFacts;
     std::optional<Made> mBefore;  // while another one is loaded
     SliceReading mSlices;
+    bool mLabels = true;  // of places, over the picture
     bool mNewFrame = false, mAnother = false, mWasBusy = false, mStudyFailed = false;
     std::optional<ViewSession> mSession;
     std::unique_ptr<ViewWorker> mWorker;  // after the window, whose wake() it calls until it has ended

@@ -37,6 +37,7 @@ void Viewer::readConfig() {
     mPanels.setSide(contains(mConfig.openPanels, kSidePanels), static_cast<float>(mConfig.rightWidth));
     mPanels.setLeft(contains(mConfig.openPanels, kLeftPanels), static_cast<float>(mConfig.leftWidth));
     mPanels.setFolder(mConfig.lastFolder);
+    mLabels = mConfig.placeLabels;
 }
 
 // Nothing is written where nothing was changed.
@@ -51,6 +52,7 @@ void Viewer::keepConfig() {
     if (mPanels.sideShown()) config.openPanels.emplace_back(kSidePanels);
     if (mPanels.leftShown()) config.openPanels.emplace_back(kLeftPanels);
     config.lastFolder = mPanels.folder();
+    config.placeLabels = mLabels;
     if (mSession) config.speedByDistance = mSession->speedByDistance();
     if (!(config == mConfig)) writeWindowConfig(config);
 }

@@ -54,6 +54,7 @@ void readSections(TomlDocument& document, WindowConfig& config) {
     TomlSection window = document.section("window");
     readTheme(window, config.theme);
     readOptional(window, "scale", config.scale, kWindowScaleRange);
+    window.read("place_labels", config.placeLabels);
     std::string folder;
     window.read("last_folder", folder);
     config.lastFolder = folder;
@@ -72,6 +73,7 @@ std::string tomlOf(const WindowConfig& config) {
     std::string text = "# The window of stereonav, as it was left.\n\n[window]\n";
     text += "theme = " + tomlText(config.theme) + "\n";
     if (config.scale) text += fmt::format("scale = {}\n", *config.scale);
+    text += fmt::format("place_labels = {}\n", config.placeLabels);
     const std::string folder = config.lastFolder.string();
     if (!folder.empty() && isUtf8(folder))  // other bytes are no TOML
         text += "last_folder = " + tomlText(folder) + "\n";

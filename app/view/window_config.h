@@ -22,6 +22,7 @@ struct WindowConfig {
     std::vector<std::string> openPanels;  // by their names
     std::filesystem::path lastFolder;     // "" where there is none
     bool speedByDistance = false;
+    bool placeLabels = true;
     std::optional<double> screenWidth_mm, viewingDistance_mm;
 
     bool operator==(const WindowConfig&) const = default;

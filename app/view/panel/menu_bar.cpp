@@ -55,6 +55,9 @@ void viewMenu(PanelHost& host, MenuWishes& wishes) {
     ImGui::MenuItem("Panels", "F2", wishes.side);
     ImGui::MenuItem("Places, map and slices", "F3", wishes.left);
     if (ImGui::MenuItem("Picture alone", "Tab")) wishes.hideAll = true;
+    if (bool labels = host.placeLabels(); ImGui::MenuItem("Names of places", nullptr, &labels))
+        host.showPlaceLabels(labels);
+    tooltip("Of kept places that are in view, over the picture.");
     item(host, "Whole screen", "F11", ViewCommand::FullScreen, host.fullScreen());
     ImGui::Separator();
     InterfaceLook look = host.look();

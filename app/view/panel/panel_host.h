@@ -58,6 +58,9 @@ public:
     virtual Bookmarks* places() = 0;
     virtual void addPlace() = 0;
     virtual void goToPlace(const Bookmark& place) = 0;
+    // Their names over the picture.
+    virtual bool placeLabels() const = 0;
+    virtual void showPlaceLabels(bool shown) = 0;
     // What slices are of; asked for, it is read beside the frames. Null until then, or where there is none.
     virtual std::shared_ptr<const SliceStudy> study() = 0;
 

@@ -174,6 +174,9 @@ Panels::Rest Panels::rest(const glm::vec2& whole) const {
 void Panels::toggleAll() {
     mState->hidden = !mState->hidden;
 }
+bool Panels::hidden() const {
+    return mState->hidden;
+}
 void Panels::toggleSide() {
     mState->hidden = false;
     mState->side.shown = !mState->side.shown;

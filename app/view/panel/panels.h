@@ -24,7 +24,8 @@ public:
     };
     Rest rest(const glm::vec2& whole) const;
 
-    void toggleAll();   // hides everything, or shows it again
+    void toggleAll();  // hides everything, or shows it again
+    bool hidden() const;
     void toggleSide();  // panels at the right
     void toggleLeft();  // places, map, slices
     void openSearch();
