@@ -105,7 +105,7 @@ void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
     const bool methodStays = scene->changed && scene->way.method == mScene->way.method;
     mStereo.replaceScene(*scene->scene);
     mScene = std::move(scene);
-    if (mOwnPath) mPath = shown().path;
+    if (mOwnPath) takePath(shown().path);
     if (!lightStays) mSun = mScene->sun;
     mModel = mScene->model;
     if (!methodStays) mMethod = mScene->way.method;
@@ -314,7 +314,7 @@ void ViewSession::toggleRecording() {
 
 void ViewSession::saveFlight() {
     try {
-        mPath = mRecorder.finish();
+        takePath(mRecorder.finish());
         mOwnPath = false;
         mPathsBefore.clear();
         savePath();

@@ -33,6 +33,7 @@ enum class ViewCommand {
     Undo,
     Redo,
     AddPlace,
+    OpenPath,
     FullScreen,
     QuitAtOnce,
     // Of the session.
@@ -154,6 +155,9 @@ public:
     void editPath(const std::function<RecordedPath(const RecordedPath&)>& edit);
     void undoPath();
     void savePath();
+    // In its place without a step back or a word: one that is being worked on.
+    void setPath(RecordedPath path);
+    long long pathVersion() const { return mPathVersion; }  // another one with every other path
     double playTime() const { return mPlayTime; }
     double recorded() const { return mRecorder.duration(); }  // seconds
 
@@ -248,6 +252,7 @@ private:
     void takeSurface();
     void toggleRecording();
     void saveFlight();
+    void takePath(RecordedPath path);
     void togglePlaying();
     void stepPlaying(double dt);
     void stopPlaying();
@@ -265,6 +270,7 @@ private:
     std::optional<FlightTo> mGoal;
     PathRecorder mRecorder;
     RecordedPath mPath;  // what Play plays
+    long long mPathVersion = 0;
     bool mPlaying = false;
     double mPlayTime = 0;  // seconds since the path's start
     Pose mPlayed;

@@ -114,6 +114,7 @@ void Viewer::takeScene() {
                      ViewSession::Options{mMode, mFlight, mOptions.shots, mWindow.quadBuffered(),
                                           mSession ? mSession->speedByDistance() : mConfig.speedByDistance});
     mSession->continueVersions(mAsked);
+    mKeyframes.start({});
     mAnother = mStudyFailed = false;
     mCosts.clear();
     mWindow.setTitle(titleOf(mOptions.scene));
@@ -148,6 +149,13 @@ bool Viewer::actOnInterface(const ViewAction& action) {
             return true;
         case ViewCommand::AddPlace:
             addPlace();
+            return true;
+        case ViewCommand::OpenPath:
+            if (mSession) mPanels.openPaths();
+            return true;
+        case ViewCommand::RemoveSeed:
+            if (!mKeyframes.chosen() || !mSession || mSession->slicesShown()) return false;
+            mKeyframes.removeChosen();
             return true;
         case ViewCommand::Help:
             mPanels.toggleHelp();
@@ -200,6 +208,7 @@ void Viewer::update(double dt) {
     mSession->step(mInput.flightOf(mWindow, mWindow.gamepad()), dt);
     mSettings.reset();
     mHistory.observe(settings(), mInterface.active(), dt);
+    followKeyframes();
     askFor();
     followWishes();
     lookAtJob();

@@ -10,6 +10,7 @@
 #include "app/command/commands.h"
 #include "app/view/frame_rate.h"
 #include "app/view/input.h"
+#include "app/view/keyframe_edit.h"
 #include "app/view/loading.h"
 #include "app/view/panel/panel_host.h"
 #include "app/view/panel/panels.h"
@@ -63,11 +64,13 @@ public:
     void goToPlace(const Bookmark& place) override;
     bool placeLabels() const override { return mLabels; }
     void showPlaceLabels(bool shown) override { mLabels = shown; }
+    KeyframeEdit& keyframes() override { return mKeyframes; }
+    void openPath(const std::filesystem::path& file) override;
     std::shared_ptr<const SliceStudy> study() override;
     void saveScene(const std::filesystem::path& file) override;
     void copy(const std::string& text) override;
-    bool canUndo() const override { return mSession && mHistory.canUndo(); }
-    bool canRedo() const override { return mSession && mHistory.canRedo(); }
+    bool canUndo() const override { return mSession && (mKeyframes.canUndo() || mHistory.canUndo()); }
+    bool canRedo() const override { return mSession && (mKeyframes.canRedo() || mHistory.canRedo()); }
     void undo() override;
     void redo() override;
     const InterfaceLook& look() const override { return mInterface.look(); }
@@ -96,6 +99,7 @@ private:
     bool actOnInterface(const ViewAction& action);
     void usePointer();
     void followWishes();
+    void followKeyframes();
     void takeStudy();
     void readConfig();
     void keepConfig();
@@ -165,6 +169,9 @@ private:
     SliceReading mSlices;
     bool mLabels = true;  // of places, over the picture
     bool mNewFrame = false, mAnother = false, mWasBusy = false, mStudyFailed = false;
+    KeyframeEdit mKeyframes;
+    long long mKeyframesSeen = 0, mKeyframesPath = 0;  // versions: of them, and of the path beside them
+    bool mKeyframesFlown = false;                      // that path is theirs
     std::optional<ViewSession> mSession;
     std::unique_ptr<ViewWorker> mWorker;  // after the window, whose wake() it calls until it has ended
 };

@@ -11,6 +11,7 @@
 
 #include "app/view/session.h"
 #include "app/view/status.h"
+#include "engine/base/error.h"
 #include "engine/nav/navigator.h"
 #include "tests/display/fake_frames.h"
 #include "tests/display/fake_scene.h"
@@ -260,6 +261,30 @@ TEST_F(ViewSessionTest, AFlightComesToRestExactly) {
     s.step({}, kFrame);
     EXPECT_TRUE(s.moving());
     EXPECT_GT(s.requestFor(100, 100).version, version);
+}
+
+TEST_F(ViewSessionTest, APathThatIsWorkedOnTakesOneStepBack) {
+    ViewSession s = session();
+    const long long first = s.pathVersion();
+    const RecordedPath own = s.path();
+    const auto lasting = [](double seconds) {
+        return RecordedPath({{0, kStart}, {seconds, poseFromAngles({9, 9, 600}, 0, 0, 0)}}, "test");
+    };
+    s.editPath([&](const RecordedPath&) { return lasting(3); });
+    const long long edited = s.pathVersion();
+    EXPECT_NE(edited, first);
+    s.act({ViewCommand::Play});
+    s.setPath(lasting(5));
+    s.setPath(lasting(7));
+    EXPECT_FALSE(s.playing());
+    EXPECT_EQ(s.path().duration(), 7);
+    EXPECT_NE(s.pathVersion(), edited);
+    s.undoPath();
+    EXPECT_EQ(s.path().duration(), own.duration()) << "what was there before it was worked on";
+    s.editPath(
+        [](const RecordedPath&) -> RecordedPath { throw Error("", "path", "is not so", "change it"); });
+    EXPECT_THAT(s.notice(), testing::HasSubstr("is not so"));
+    EXPECT_EQ(s.path().duration(), own.duration());
 }
 
 // Flies north at full input for so many seconds, towards a wall there; what lies ahead is told with every

@@ -112,6 +112,7 @@ void flightMenu(PanelHost& host) {
     if (!ImGui::BeginMenu("Flight")) return;
     ViewSession* const session = host.session();
     item(host, "Home", "Space", ViewCommand::Home);
+    item(host, "Open a flight...", nullptr, ViewCommand::OpenPath);
     item(host, session && session->recording() ? "End recording" : "Record", "z", ViewCommand::Record);
     item(host, session && session->playing() ? "Stop playing" : "Play", "Shift+Z", ViewCommand::Play);
     item(host, "Speed by the distance ahead", "Shift+F", ViewCommand::SpeedByDistance,

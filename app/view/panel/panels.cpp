@@ -196,6 +196,9 @@ void Panels::openFiles() {
 void Panels::openSave() {
     mState->files.open(FileBrowser::For::SaveScene);
 }
+void Panels::openPaths() {
+    mState->files.open(FileBrowser::For::OpenPath);
+}
 void Panels::showStart(bool shown) {
     mState->start.show(shown);
 }

@@ -31,6 +31,7 @@ public:
     void openSearch();
     void openFiles();
     void openSave();
+    void openPaths();
     void showStart(bool shown);
     bool startShown() const;
     void toggleHelp();
