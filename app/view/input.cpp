@@ -272,6 +272,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"Ctrl+Y", "redo", does(Redo)},
         {"Del", "remove the chosen keyframe; in slices the last seed"},
         {"Backspace", "turn round (colon)", does(TurnRound)},
+        {"3-D mouse", "fly and turn; its buttons: home, keep comfortable"},
         {"F1", "these keys"},
         {"Esc", "back, or quit; Ctrl+Q quits"},
     };
@@ -303,6 +304,26 @@ FlightInput ViewInput::flightOf(const Window& window, const Gamepad& pad) const 
     const bool fast = window.keyDown(GLFW_KEY_LEFT_SHIFT) || window.keyDown(GLFW_KEY_RIGHT_SHIFT);
     input.speedMultiplier = fast ? kFast : 1.0;
     return input;
+}
+
+// It tells turns by the left-hand rule about right, up and forward.
+FlightInput withSpaceMouse(FlightInput input, const SpaceMouseState& mouse) {
+    input.right = std::clamp(input.right + mouse.push[0], -1.0, 1.0);
+    input.up = std::clamp(input.up + mouse.push[1], -1.0, 1.0);
+    input.forward = std::clamp(input.forward + mouse.push[2], -1.0, 1.0);
+    input.pitchRate -= kTurnRate * mouse.twist[0];
+    input.yawRate += kTurnRate * mouse.twist[1];
+    input.rollRate -= kTurnRate * mouse.twist[2];
+    return input;
+}
+
+std::vector<ViewAction> actionsOfSpaceMouse(const std::vector<int>& presses) {
+    std::vector<ViewAction> actions;
+    for (const int button : presses) {
+        if (button == 0) actions.push_back({ViewCommand::Home});
+        if (button == 1) actions.push_back({ViewCommand::KeepComfortable});
+    }
+    return actions;
 }
 
 std::vector<ViewAction> ViewInput::actionsOf(const Gamepad& pad, double dt) {

@@ -221,6 +221,11 @@ bool ViewSession::actOnEyes(ViewCommand command) {
             notify(mStereo.follows() ? "the eyes' separation follows the room around them"
                                      : "the eyes' separation is set by hand here: [ ]");
             return true;
+        case ViewCommand::KeepComfortable:
+            mStereo.setClamp(!mStereo.clamp());
+            notify(mStereo.clamp() ? "the eyes come together where the picture is too much for them"
+                                   : "the eyes stay as far apart as they are set");
+            return true;
         default:
             return false;
     }

@@ -63,6 +63,7 @@ enum class ViewCommand {
     Play,
     CaptureMouse,
     FollowClearance,
+    KeepComfortable,
     LowerIsovalue,
     HigherIsovalue,
     ToggleTranslucent,

@@ -91,8 +91,8 @@ void Viewer::run() {
 double Viewer::waitSeconds() const {
     if (mWindow.minimised()) return kIdleWait;
     if (const auto turn = mDisplay.wait()) return *turn;
-    const bool flows =
-        mSession && (mSession->moving() || mWindow.gamepad().present || mScreenshots.waiting());
+    const bool flows = mSession && (mSession->moving() || mWindow.gamepad().present ||
+                                    mSpaceMouse.state().moved() || mScreenshots.waiting());
     return flows || mInterface.active() || mPanels.startShown() ? kActiveWait : kIdleWait;
 }
 
@@ -131,6 +131,8 @@ void Viewer::takeKeys(double dt) {
     for (const KeyPress& press : mWindow.takeKeys())
         if (const auto action = actionOf(press)) act(*action);
     for (const ViewAction& action : mInput.actionsOf(pad, dt)) act(action);
+    mSpaceMouse.look();
+    for (const ViewAction& action : actionsOfSpaceMouse(mSpaceMouse.takePresses())) act(action);
 }
 
 // What needs no scene.
@@ -205,7 +207,7 @@ void Viewer::act(const ViewAction& action) {
 void Viewer::update(double dt) {
     mWindow.setCaptured(mSession->mouseCaptured());
     usePointer();
-    mSession->step(mInput.flightOf(mWindow, mWindow.gamepad()), dt);
+    mSession->step(withSpaceMouse(mInput.flightOf(mWindow, mWindow.gamepad()), mSpaceMouse.state()), dt);
     mSettings.reset();
     mHistory.observe(settings(), mInterface.active(), dt);
     followKeyframes();

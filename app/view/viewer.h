@@ -146,6 +146,7 @@ private:
     Panels mPanels;
     Screenshots mScreenshots;
     ViewInput mInput;
+    SpaceMouse mSpaceMouse;
     SettingsHistory mHistory;
     Stopwatch mClock, mLoadingWatch;
     WindowTimes mTimes;
