@@ -6,6 +6,7 @@
 // an `if`, even where the condition is the same for all pixels.
 //   0 one eye, 1 one eye squeezed to half its width, 2 to half its height,
 //   3 rows, 4 columns, 5 checkerboard, 6 anaglyph
+// OVER is defined where a layer lies over each eye.
 
 uniform sampler2D uFirst;    // the eye that comes first, or the only one; in anaglyphs the left
 uniform sampler2D uSecond;   // the other one
@@ -28,8 +29,23 @@ vec3 encoded(vec3 x) {
 
 // The middle of a texel, so that no rounding picks its neighbour; beside the picture its border. In llvmpipe this
 // takes half the time of texelFetch.
-vec3 firstEye(ivec2 p) { return textureLod(uFirst, (vec2(p) + 0.5) / vec2(uEyeSize), 0.0).rgb; }
-vec3 secondEye(ivec2 p) { return textureLod(uSecond, (vec2(p) + 0.5) / vec2(uEyeSize), 0.0).rgb; }
+vec3 texel(sampler2D eye, ivec2 p) { return textureLod(eye, (vec2(p) + 0.5) / vec2(uEyeSize), 0.0).rgb; }
+
+#ifdef OVER
+// Colours multiplied by their alpha, row 0 at the bottom. They are sRGB-encoded, which stands in for roots here: black
+// and white are the same, greys differ by less than 0.04.
+uniform sampler2D uFirstLayer, uSecondLayer;
+
+vec3 eyeAt(sampler2D eye, sampler2D layer, ivec2 p) {
+    vec4 over = texelFetch(layer, ivec2(p.x, uEyeSize.y - 1 - p.y), 0);
+    return texel(eye, p) * (1.0 - over.a) + over.rgb;
+}
+vec3 firstEye(ivec2 p) { return eyeAt(uFirst, uFirstLayer, min(p, uEyeSize - 1)); }
+vec3 secondEye(ivec2 p) { return eyeAt(uSecond, uSecondLayer, min(p, uEyeSize - 1)); }
+#else
+vec3 firstEye(ivec2 p) { return texel(uFirst, p); }
+vec3 secondEye(ivec2 p) { return texel(uSecond, p); }
+#endif
 
 #if LAYOUT == 0
 vec3 picture(ivec2 p, ivec2 turn) { return encoded(firstEye(p)); }

@@ -115,7 +115,7 @@ std::optional<ViewCommand> repeatableOfLetter(char letter, bool shift) {
 std::optional<ViewCommand> commandOfLetter(char letter, bool shift) {
     switch (letter) {
         case 'f':
-            return ViewCommand::NextFlightMode;
+            return shift ? ViewCommand::SpeedByDistance : ViewCommand::NextFlightMode;
         case 'x':
             return ViewCommand::SwapEyes;
         case 'm':
@@ -227,6 +227,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"Space", "home", does(Home)},
         {"R", "reset everything", does(Reset)},
         {"F", "fly freely, over the ground, along the colon", does(NextFlightMode)},
+        {"Shift+F", "the speed follows the distance ahead, or not", does(SpeedByDistance)},
         {"[ ]", "eyes closer together, further apart"},
         {"C", "eyes as far apart as the room suits (colon)", does(FollowClearance)},
         {"; '", "screen (zero parallax) nearer, farther"},
@@ -270,9 +271,11 @@ const std::vector<KeyHelp>& viewKeys() {
         {"Ctrl+N", "start page", does(StartPage)},
         {"Ctrl+S", "save the scene", does(SaveScene)},
         {"Ctrl+B", "keep this place", does(AddPlace)},
-        {"Ctrl+Z", "undo", does(Undo)},
+        {"Ctrl+Z", "undo; of keyframes first, while they are on the map", does(Undo)},
         {"Ctrl+Y", "redo", does(Redo)},
+        {"Del", "remove the chosen keyframe; in slices the last seed"},
         {"Backspace", "turn round (colon)", does(TurnRound)},
+        {"3-D mouse", "fly and turn; its buttons: home, keep comfortable"},
         {"F1", "these keys"},
         {"Esc", "back, or quit; Ctrl+Q quits"},
     };
@@ -303,6 +306,26 @@ FlightInput ViewInput::flightOf(const Window& window, const Window* also, const 
     const bool fast = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
     input.speedMultiplier = fast ? kFast : 1.0;
     return input;
+}
+
+// It tells turns by the left-hand rule about right, up and forward.
+FlightInput withSpaceMouse(FlightInput input, const SpaceMouseState& mouse) {
+    input.right = std::clamp(input.right + mouse.push[0], -1.0, 1.0);
+    input.up = std::clamp(input.up + mouse.push[1], -1.0, 1.0);
+    input.forward = std::clamp(input.forward + mouse.push[2], -1.0, 1.0);
+    input.pitchRate -= kTurnRate * mouse.twist[0];
+    input.yawRate += kTurnRate * mouse.twist[1];
+    input.rollRate -= kTurnRate * mouse.twist[2];
+    return input;
+}
+
+std::vector<ViewAction> actionsOfSpaceMouse(const std::vector<int>& presses) {
+    std::vector<ViewAction> actions;
+    for (const int button : presses) {
+        if (button == 0) actions.push_back({ViewCommand::Home});
+        if (button == 1) actions.push_back({ViewCommand::KeepComfortable});
+    }
+    return actions;
 }
 
 std::vector<ViewAction> ViewInput::actionsOf(const Gamepad& pad, double dt) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/view/session.h"
+#include "engine/display/space_mouse.h"
 #include "engine/display/window.h"
 
 namespace stereonav {
@@ -21,6 +22,10 @@ struct KeyHelp {
     std::optional<ViewAction> action = std::nullopt;  // that a choice of it does
 };
 const std::vector<KeyHelp>& viewKeys();
+
+// A mouse of six axes beside what else is pushed; its buttons, home and keeping comfortable.
+FlightInput withSpaceMouse(FlightInput input, const SpaceMouseState& mouse);
+std::vector<ViewAction> actionsOfSpaceMouse(const std::vector<int>& presses);
 
 // Where in an eye's picture a place in the window lies; both are shares of the size, (0, 0) top left.
 glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place);

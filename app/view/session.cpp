@@ -11,6 +11,7 @@
 #include "app/view/mode_steps.h"
 #include "app/view/status.h"
 #include "engine/base/error.h"
+#include "engine/nav/depth_speed.h"
 
 namespace stereonav {
 namespace {
@@ -20,6 +21,7 @@ constexpr double kSpeedStep = 1.2;   // a notch of the wheel
 constexpr double kSlowest = 0.01, kFastest = 100.0;
 constexpr double kNoticeSeconds = 4.0;
 constexpr double kOtherShape = 0.02;  // of width to height: less is rounding to pixels
+constexpr double kEvenPace = 1e-3;    // relative difference at which the pace is the wanted one
 constexpr double kStill = 1e-4;       // of the normal speed, and radians a second: at rest
 
 // Whether so little moved within dt seconds that the flight counts as at rest.
@@ -74,7 +76,8 @@ ViewSession::ViewSession(std::shared_ptr<const OpenScene> scene, const Options& 
       mFirstMode(options.mode),
       mQuadBuffer(options.quadBuffer),
       mMethod(mScene->way.method),
-      mModel(mScene->model) {
+      mModel(mScene->model),
+      mSpeedByDistance(options.speedByDistance) {
     takeSurface();
     if (const auto* const surface = offered<SurfaceChoices>()) mTriedTransfer = surface->transfer;
 }
@@ -102,7 +105,7 @@ void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
     const bool methodStays = scene->changed && scene->way.method == mScene->way.method;
     mStereo.replaceScene(*scene->scene);
     mScene = std::move(scene);
-    if (mOwnPath) mPath = shown().path;
+    if (mOwnPath) takePath(shown().path);
     if (!lightStays) mSun = mScene->sun;
     mModel = mScene->model;
     if (!methodStays) mMethod = mScene->way.method;
@@ -147,6 +150,10 @@ void ViewSession::act(const ViewAction& action) {
             break;
         case ViewCommand::Play:
             togglePlaying();
+            break;
+        case ViewCommand::SpeedByDistance:
+            mSpeedByDistance = !mSpeedByDistance;
+            notify(mSpeedByDistance ? "the speed follows the distance ahead" : "the same speed everywhere");
             break;
         default:
             actOnFlight(action);
@@ -213,6 +220,11 @@ bool ViewSession::actOnEyes(ViewCommand command) {
             mStereo.follow();
             notify(mStereo.follows() ? "the eyes' separation follows the room around them"
                                      : "the eyes' separation is set by hand here: [ ]");
+            return true;
+        case ViewCommand::KeepComfortable:
+            mStereo.setClamp(!mStereo.clamp());
+            notify(mStereo.clamp() ? "the eyes come together where the picture is too much for them"
+                                   : "the eyes stay as far apart as they are set");
             return true;
         default:
             return false;
@@ -295,7 +307,7 @@ void ViewSession::turnWheel(double notches) {
     if (notches == 0) return;
     if (mSlices) return mSlices->turnPages(notches > 0 ? -1 : 1);
     mSpeed = std::clamp(mSpeed * std::pow(kSpeedStep, notches), kSlowest, kFastest);
-    notify(fmt::format("speed {}/s", lengthText(mSpeed * mFlight->speed())));
+    notify(fmt::format("speed {}/s", lengthText(speed())));
 }
 
 void ViewSession::toggleRecording() {
@@ -307,7 +319,7 @@ void ViewSession::toggleRecording() {
 
 void ViewSession::saveFlight() {
     try {
-        mPath = mRecorder.finish();
+        takePath(mRecorder.finish());
         mOwnPath = false;
         mPathsBefore.clear();
         savePath();
@@ -352,9 +364,17 @@ void ViewSession::stepPlaying(double dt) {
     if (mPlayTime >= mPath.duration()) stopPlaying();
 }
 
+// Smoothly both ways, also where it is switched on or off.
+void ViewSession::stepPace(double dt) {
+    const bool known = mSpeedByDistance && mDepthAhead > 0;  // 0: no frame has told yet
+    const double base = mFlight->speed(), wanted = known ? speedFor(mDepthAhead, base) / base : 1;
+    mPace = dampedSpeed(mPace, wanted, dt);
+    if (std::abs(mPace - wanted) <= kEvenPace * wanted) mPace = wanted;
+}
+
 void ViewSession::fly(const FlightInput& input, double dt) {
     FlightInput wish = input;
-    wish.speedMultiplier *= mSpeed;
+    wish.speedMultiplier *= mSpeed * mPace;
     if (mIsovalue) wish.rollRate = 0;  // the same keys move the surface
     const Pose before = mFlight->pose();
     if (asksForMotion(input)) mGoal.reset();
@@ -372,6 +392,7 @@ void ViewSession::fly(const FlightInput& input, double dt) {
 void ViewSession::step(const FlightInput& input, double dt) {
     const bool animated = offered<Animation>() != nullptr;
     mStereo.step(mFlight->clearanceNow(), mDepthAhead, dt);
+    stepPace(dt);
     const Pose poseBefore = pose();
     const bool looked = std::exchange(mLooked, false);
     if (mPlaying) {

@@ -34,6 +34,7 @@ enum class ViewCommand {
     Undo,
     Redo,
     AddPlace,
+    OpenPath,
     FullScreen,
     QuitAtOnce,
     // Of the session.
@@ -43,6 +44,7 @@ enum class ViewCommand {
     Reset,
     NextFlightMode,
     SetFlightMode,
+    SpeedByDistance,
     ToggleStereo,
     SwapEyes,
     NextMode,
@@ -62,6 +64,7 @@ enum class ViewCommand {
     Play,
     CaptureMouse,
     FollowClearance,
+    KeepComfortable,
     LowerIsovalue,
     HigherIsovalue,
     ToggleTranslucent,
@@ -105,6 +108,7 @@ public:
         std::optional<RecordedPath> path;  // what Play plays before anything is recorded
         std::filesystem::path folder;      // for recorded flights
         bool quadBuffer = false;           // whether the window has one
+        bool speedByDistance = false;
     };
     ViewSession(std::shared_ptr<const OpenScene> scene, const Options& options);
 
@@ -145,12 +149,17 @@ public:
     void keepStudy(std::shared_ptr<const SliceStudy> study) { mStudy = std::move(study); }
     bool wantsSliceView() const { return mSliceViewWished; }
     OutputMode firstMode() const { return mFirstMode; }
-    double speed() const { return mSpeed * mFlight->speed(); }  // metres a second at full input
+    double speed() const { return mSpeed * mPace * mFlight->speed(); }  // metres a second at full input
+    // The speed follows the distance of what lies ahead (engine/nav/depth_speed.h); the wheel's is a factor.
+    bool speedByDistance() const { return mSpeedByDistance; }
     const RecordedPath& path() const { return mPath; }
     // Puts another one in its place; what fails is told. The last ones can be had back.
     void editPath(const std::function<RecordedPath(const RecordedPath&)>& edit);
     void undoPath();
     void savePath();
+    // In its place without a step back or a word: one that is being worked on.
+    void setPath(RecordedPath path);
+    long long pathVersion() const { return mPathVersion; }  // another one with every other path
     double playTime() const { return mPlayTime; }
     double recorded() const { return mRecorder.duration(); }  // seconds
 
@@ -233,6 +242,7 @@ private:
     void askForChange();
     void openSlices();
     void fly(const FlightInput& input, double dt);
+    void stepPace(double dt);
     void stepGoal(double dt);
     void startGoal(const std::function<FlightTo(const Flight&)>& goal);
     void turnRound();
@@ -244,6 +254,7 @@ private:
     void takeSurface();
     void toggleRecording();
     void saveFlight();
+    void takePath(RecordedPath path);
     void togglePlaying();
     void stepPlaying(double dt);
     void stopPlaying();
@@ -261,6 +272,7 @@ private:
     std::optional<FlightTo> mGoal;
     PathRecorder mRecorder;
     RecordedPath mPath;  // what Play plays
+    long long mPathVersion = 0;
     bool mPlaying = false;
     double mPlayTime = 0;  // seconds since the path's start
     Pose mPlayed;
@@ -290,7 +302,9 @@ private:
     bool mStereoOn = true, mSwapped = false, mLinear = false, mQuit = false, mCaptured = false;
     bool mMoving = false, mScreenshot = false;
     bool mResting = false, mLooked = false, mFresh = true;
-    double mSpeed = 1;
+    double mSpeed = 1;  // by the wheel
+    double mPace = 1;   // by the distance ahead
+    bool mSpeedByDistance = false;
     std::string mNotice;
     double mNoticeLeft = 0;  // seconds
     FrameRequest mRequest;

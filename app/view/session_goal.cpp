@@ -49,7 +49,8 @@ void ViewSession::editPath(const std::function<RecordedPath(const RecordedPath&)
     stopPlaying();
     try {
         RecordedPath edited = edit(mPath);
-        mPathsBefore.push_back(std::exchange(mPath, std::move(edited)));
+        mPathsBefore.push_back(mPath);
+        takePath(std::move(edited));
         if (mPathsBefore.size() > kKept) mPathsBefore.erase(mPathsBefore.begin());
         mOwnPath = false;
         notify(fmt::format("a flight of {:.1f} s", mPath.duration()));
@@ -58,12 +59,23 @@ void ViewSession::editPath(const std::function<RecordedPath(const RecordedPath&)
     }
 }
 
+void ViewSession::takePath(RecordedPath path) {
+    mPath = std::move(path);
+    ++mPathVersion;
+}
+
+void ViewSession::setPath(RecordedPath path) {
+    stopPlaying();
+    takePath(std::move(path));
+    mOwnPath = false;
+}
+
 void ViewSession::undoPath() {
     if (mPathsBefore.empty()) return notify("the path was not changed");
     stopPlaying();
-    mPath = std::move(mPathsBefore.back());
+    takePath(std::move(mPathsBefore.back()));
     mPathsBefore.pop_back();
-    notify(fmt::format("a flight of {:.1f} s", mPath.duration()));
+    notify(mPath.samples().empty() ? "no flight" : fmt::format("a flight of {:.1f} s", mPath.duration()));
 }
 
 }  // namespace stereonav

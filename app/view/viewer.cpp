@@ -96,8 +96,8 @@ void Viewer::run() {
 double Viewer::waitSeconds() const {
     if (mWindow.minimised() && !mControls) return kIdleWait;
     if (const auto turn = mDisplay.wait()) return *turn;
-    const bool flows =
-        mSession && (mSession->moving() || mWindow.gamepad().present || mScreenshots.waiting());
+    const bool flows = mSession && (mSession->moving() || mWindow.gamepad().present ||
+                                    mSpaceMouse.state().moved() || mScreenshots.waiting());
     return flows || panelled().active() || mPanels.startShown() ? kActiveWait : kIdleWait;
 }
 
@@ -115,8 +115,11 @@ void Viewer::takeScene() {
     if (!loading.busy) mBefore.reset();
     if (mSession && !mAnother) return mSession->replaceScene(mScene);
     const bool first = !mSession;
-    mSession.emplace(mScene, ViewSession::Options{mMode, mFlight, mOptions.shots, mWindow.quadBuffered()});
+    mSession.emplace(mScene,
+                     ViewSession::Options{mMode, mFlight, mOptions.shots, mWindow.quadBuffered(),
+                                          mSession ? mSession->speedByDistance() : mConfig.speedByDistance});
     mSession->continueVersions(mAsked);
+    mKeyframes.start({});
     mAnother = mStudyFailed = false;
     mCosts.clear();
     mWindow.setTitle(titleOf(mOptions.scene));
@@ -137,6 +140,8 @@ void Viewer::takeKeys(double dt) {
     if (mControls)
         for (const KeyPress& key : mControls->window().takeKeys()) press(key);
     for (const ViewAction& action : mInput.actionsOf(pad, dt)) act(action);
+    mSpaceMouse.look();
+    for (const ViewAction& action : actionsOfSpaceMouse(mSpaceMouse.takePresses())) act(action);
 }
 
 // What needs no scene.
@@ -155,6 +160,13 @@ bool Viewer::actOnInterface(const ViewAction& action) {
             return true;
         case ViewCommand::AddPlace:
             addPlace();
+            return true;
+        case ViewCommand::OpenPath:
+            if (mSession) mPanels.openPaths();
+            return true;
+        case ViewCommand::RemoveSeed:
+            if (!mKeyframes.chosen() || !mSession || mSession->slicesShown()) return false;
+            mKeyframes.removeChosen();
             return true;
         case ViewCommand::Help:
             mPanels.toggleHelp();
@@ -209,10 +221,12 @@ void Viewer::update(double dt) {
     mWindow.setCaptured(mSession->mouseCaptured());
     usePointer();
     if (mControls) useControls();
-    mSession->step(mInput.flightOf(mWindow, mControls ? &mControls->window() : nullptr, mWindow.gamepad()),
+    const Window* const controls = mControls ? &mControls->window() : nullptr;
+    mSession->step(withSpaceMouse(mInput.flightOf(mWindow, controls, mWindow.gamepad()), mSpaceMouse.state()),
                    dt);
     mSettings.reset();
     mHistory.observe(settings(), panelled().active(), dt);
+    followKeyframes();
     askFor();
     followWishes();
     lookAtJob();
@@ -374,10 +388,12 @@ void Viewer::draw(double dt, const Stopwatch& turn) {
     look.grey = mode.layout == OutputLayout::Anaglyph;
     mInterface.setLook(look);
     const double before = turn.elapsed_ms();
+    mInterface.setPointerOfPicture(drawsPointer(mode));
     const bool laidOut = layOut(interfacePlaces(mode), dt);
     const double layout = turn.elapsed_ms() - before;
     const PicturePlace place = placeFor(mode);
-    const bool same = setting == mDrawn && place == mDrawnPlace && !mNewFrame && !laidOut;
+    const bool marked = drawOverlay(mode);
+    const bool same = setting == mDrawn && place == mDrawnPlace && !mNewFrame && !laidOut && !marked;
     if (!mWindow.redrawNeeded() && same && !ViewDisplay::alternates(setting))
         return mTimes.add(layout, 0, turn.elapsed_ms(), false);
     mNewFrame = false;

@@ -11,6 +11,7 @@
 #include "app/view/control_window.h"
 #include "app/view/frame_rate.h"
 #include "app/view/input.h"
+#include "app/view/keyframe_edit.h"
 #include "app/view/loading.h"
 #include "app/view/panel/panel_host.h"
 #include "app/view/panel/panels.h"
@@ -23,6 +24,7 @@
 #include "app/view/window_config.h"
 #include "app/view/window_times.h"
 #include "engine/base/stopwatch.h"
+#include "engine/display/eye_overlay.h"
 #include "engine/display/interface.h"
 #include "engine/display/stereo_presenter.h"
 #include "engine/display/window.h"
@@ -61,11 +63,15 @@ public:
     Bookmarks* places() override { return mPlaces ? &*mPlaces : nullptr; }
     void addPlace() override;
     void goToPlace(const Bookmark& place) override;
+    bool placeLabels() const override { return mLabels; }
+    void showPlaceLabels(bool shown) override { mLabels = shown; }
+    KeyframeEdit& keyframes() override { return mKeyframes; }
+    void openPath(const std::filesystem::path& file) override;
     std::shared_ptr<const SliceStudy> study() override;
     void saveScene(const std::filesystem::path& file) override;
     void copy(const std::string& text) override;
-    bool canUndo() const override { return mSession && mHistory.canUndo(); }
-    bool canRedo() const override { return mSession && mHistory.canRedo(); }
+    bool canUndo() const override { return mSession && (mKeyframes.canUndo() || mHistory.canUndo()); }
+    bool canRedo() const override { return mSession && (mKeyframes.canRedo() || mHistory.canRedo()); }
     void undo() override;
     void redo() override;
     const InterfaceLook& look() const override { return panelled().look(); }
@@ -101,6 +107,7 @@ private:
     bool actOnInterface(const ViewAction& action);
     void usePointer();
     void followWishes();
+    void followKeyframes();
     void takeStudy();
     void readConfig();
     void keepConfig();
@@ -128,6 +135,9 @@ private:
     bool layOut(const InterfacePlaces& places, double dt);
     void draw(double dt, const Stopwatch& turn);
     void show(const ComposeSetting& setting);
+    bool drawsPointer(const OutputModeInfo& mode) const;
+    std::vector<OverlayMark> marks(const OutputModeInfo& mode) const;
+    bool drawOverlay(const OutputModeInfo& mode);
 
     ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed in place since
     // Asked for by every control of every layout: made once a turn, or once a scene.
@@ -141,10 +151,12 @@ private:
     std::unique_ptr<ViewSweep> mSweep;  // of media; before the scenes, which use it to their end
     StereoPresenter mPresenter;
     Interface mInterface;
+    EyeOverlay mOverlay;
     Panels mPanels;
     std::unique_ptr<ControlWindow> mControls;  // while the panels are in a window of their own
     Screenshots mScreenshots;
     ViewInput mInput;
+    SpaceMouse mSpaceMouse;
     SettingsHistory mHistory;
     Stopwatch mClock, mLoadingWatch;
     double mSinceLayout = 0;  // seconds
@@ -167,8 +179,12 @@ private:
     std::shared_ptr<FactsWish> mFacts;
     std::optional<Made> mBefore;  // while another one is loaded
     SliceReading mSlices;
+    bool mLabels = true;  // of places, over the picture
     bool mNewFrame = false, mNewPreview = false, mLayoutDue = true, mLaidOutBusy = false, mAnother = false,
          mWasBusy = false, mStudyFailed = false;
+    KeyframeEdit mKeyframes;
+    long long mKeyframesSeen = 0, mKeyframesPath = 0;  // versions: of them, and of the path beside them
+    bool mKeyframesFlown = false;                      // that path is theirs
     std::optional<ViewSession> mSession;
     std::unique_ptr<ViewWorker> mWorker;  // after the window, whose wake() it calls until it has ended
 };

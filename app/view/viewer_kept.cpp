@@ -38,6 +38,7 @@ void Viewer::readConfig() {
     mPanels.setSide(contains(mConfig.openPanels, kSidePanels), static_cast<float>(mConfig.rightWidth));
     mPanels.setLeft(contains(mConfig.openPanels, kLeftPanels), static_cast<float>(mConfig.leftWidth));
     mPanels.setFolder(mConfig.lastFolder);
+    mLabels = mConfig.placeLabels;
     if (contains(mConfig.openPanels, kOwnWindow)) toggleControls();
 }
 
@@ -54,6 +55,8 @@ void Viewer::keepConfig() {
     if (mPanels.leftShown()) config.openPanels.emplace_back(kLeftPanels);
     if (mControls) config.openPanels.emplace_back(kOwnWindow);
     config.lastFolder = mPanels.folder();
+    config.placeLabels = mLabels;
+    if (mSession) config.speedByDistance = mSession->speedByDistance();
     if (!(config == mConfig)) writeWindowConfig(config);
 }
 

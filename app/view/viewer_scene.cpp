@@ -157,6 +157,7 @@ void Viewer::goTo(const SettingTexts& settings) {
 
 void Viewer::undo() {
     if (!mSession) return;
+    if (mKeyframes.canUndo()) return mKeyframes.undo();
     const auto settings = mHistory.undo();
     if (!settings) return mSession->notify("there is nothing to undo");
     tryTo([&] { goTo(*settings); });
@@ -164,6 +165,7 @@ void Viewer::undo() {
 
 void Viewer::redo() {
     if (!mSession) return;
+    if (mKeyframes.canRedo()) return mKeyframes.redo();
     const auto settings = mHistory.redo();
     if (!settings) return mSession->notify("there is nothing to redo");
     tryTo([&] { goTo(*settings); });

@@ -54,6 +54,7 @@ void readSections(TomlDocument& document, WindowConfig& config) {
     TomlSection window = document.section("window");
     readTheme(window, config.theme);
     readOptional(window, "scale", config.scale, kWindowScaleRange);
+    window.read("place_labels", config.placeLabels);
     std::string folder;
     window.read("last_folder", folder);
     config.lastFolder = folder;
@@ -61,6 +62,8 @@ void readSections(TomlDocument& document, WindowConfig& config) {
     panels.read("left_width", config.leftWidth, kPanelWidthRange);
     panels.read("right_width", config.rightWidth, kPanelWidthRange);
     config.openPanels = panelNames(panels.texts("open"));
+    TomlSection flight = document.section("flight");
+    flight.read("speed_by_distance", config.speedByDistance);
     TomlSection screen = document.section("screen");
     readOptional(screen, "width_mm", config.screenWidth_mm, kScreenWidthRange);
     readOptional(screen, "viewing_distance_mm", config.viewingDistance_mm, kViewingDistanceRange);
@@ -70,6 +73,7 @@ std::string tomlOf(const WindowConfig& config) {
     std::string text = "# The window of stereonav, as it was left.\n\n[window]\n";
     text += "theme = " + tomlText(config.theme) + "\n";
     if (config.scale) text += fmt::format("scale = {}\n", *config.scale);
+    text += fmt::format("place_labels = {}\n", config.placeLabels);
     const std::string folder = config.lastFolder.string();
     if (!folder.empty() && isUtf8(folder))  // other bytes are no TOML
         text += "last_folder = " + tomlText(folder) + "\n";
@@ -78,6 +82,7 @@ std::string tomlOf(const WindowConfig& config) {
     for (std::size_t k = 0; k < config.openPanels.size(); ++k)
         text += (k > 0 ? ", " : "") + tomlText(keptText(config.openPanels[k], kLongestPanel));
     text += "]\n";
+    text += fmt::format("\n[flight]\nspeed_by_distance = {}\n", config.speedByDistance);
     if (!config.screenWidth_mm && !config.viewingDistance_mm) return text;
     text += "\n[screen]\n";
     if (config.screenWidth_mm) text += fmt::format("width_mm = {}\n", *config.screenWidth_mm);

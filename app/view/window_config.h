@@ -21,6 +21,8 @@ struct WindowConfig {
     double leftWidth = 260, rightWidth = 300;
     std::vector<std::string> openPanels;  // by their names
     std::filesystem::path lastFolder;     // "" where there is none
+    bool speedByDistance = false;
+    bool placeLabels = true;
     std::optional<double> screenWidth_mm, viewingDistance_mm;
 
     bool operator==(const WindowConfig&) const = default;

@@ -169,6 +169,7 @@ struct Interface::State {
     ImGuiContext* context = nullptr;
     InterfaceLook look, wanted;
     bool fresh = true;  // the font is to be made
+    bool pictureHasPointer = false;
     InterfacePlaces places;
     glm::dvec2 unitsOfWindow{1, 1}, units{1, 1};
     std::deque<Event> events;
@@ -307,8 +308,10 @@ bool Interface::layOut(const InterfacePlaces& places, double dt, const std::func
     state.units = glm::max(glm::floor(state.unitsOfWindow * glm::dvec2(places.size)), glm::dvec2(1));
     io.DisplaySize = {static_cast<float>(state.units.x), static_cast<float>(state.units.y)};
     io.DisplayFramebufferScale = {1, 1};
-    io.MouseDrawCursor = places.areas.size() > 1 && !state.window->captured();
-    state.window->setPointerHidden(places.areas.size() > 1);
+    glm::dvec2 pointed;
+    const bool ofPicture = state.pictureHasPointer && pointerOverPicture(pointed);
+    io.MouseDrawCursor = places.areas.size() > 1 && !ofPicture && !state.window->captured();
+    state.window->setPointerHidden(places.areas.size() > 1 || ofPicture);
     for (int turn = 0; turn < kMostTurns; ++turn) {
         io.DeltaTime = std::max(static_cast<float>(turn == 0 ? dt : 0), 1e-4f);
         const int cornersBefore =
@@ -399,6 +402,20 @@ bool Interface::pointerOverPicture(glm::dvec2& place) const {
     if (state.pointer.x == kNowhere.x || state.covers(state.pointer)) return false;
     place = glm::dvec2(state.pointer.x, state.pointer.y) / state.units;
     return true;
+}
+
+void Interface::setPointerOfPicture(bool drawn) {
+    mState->pictureHasPointer = drawn;
+}
+
+void Interface::use() const {
+    mState->use();
+}
+
+glm::vec2 Interface::textSize(const std::string& text) const {
+    mState->use();
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), text.c_str() + text.size());
+    return {size.x, size.y};
 }
 
 bool Interface::active() const {

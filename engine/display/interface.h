@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/display/interface_still.h"
@@ -51,10 +52,14 @@ public:
     // What is shown of the program's own doing, the caller knows.
     bool waits(const InterfacePlaces& places) const;
 
-    glm::vec2 size() const;  // of the layout, units
+    glm::vec2 size() const;                             // of the layout, units
+    void use() const;                                   // Dear ImGui's calls that follow are of this one
+    glm::vec2 textSize(const std::string& text) const;  // units
     // The pointer over the picture: where, in shares of the interface's size; none while it is over the
     // interface, or outside.
     bool pointerOverPicture(glm::dvec2& place) const;
+    // Over the picture the pointer is drawn by whoever draws that (eye_overlay.h), and by nobody else.
+    void setPointerOfPicture(bool drawn);
     // Some text is at work.
     bool active() const;
 

@@ -44,14 +44,19 @@ StereoPresenter::Pass StereoPresenter::passOf(const OutputModeInfo& info) {
     return Pass::OneEye;
 }
 
-const ShaderProgram& StereoPresenter::programFor(Pass pass) const {
-    if (const auto found = mPrograms.find(pass); found != mPrograms.end()) return found->second;
-    const std::string defines = fmt::format("#define LAYOUT {}\n", static_cast<int>(pass));
+const ShaderProgram& StereoPresenter::programFor(Pass pass, bool layered) const {
+    if (const auto found = mPrograms.find({pass, layered}); found != mPrograms.end()) return found->second;
+    const std::string defines =
+        fmt::format("#define LAYOUT {}\n{}", static_cast<int>(pass), layered ? "#define OVER\n" : "");
     const ShaderProgram& program =
-        mPrograms.try_emplace(pass, "stereo_present.vert", "stereo_present.frag", defines).first->second;
+        mPrograms.try_emplace({pass, layered}, "stereo_present.vert", "stereo_present.frag", defines)
+            .first->second;
     program.use();
     glUniform1i(program.location("uFirst"), 0);
     glUniform1i(program.location("uSecond"), 1);
+    if (!layered) return program;
+    glUniform1i(program.location("uFirstLayer"), 2);
+    glUniform1i(program.location("uSecondLayer"), 3);
     return program;
 }
 
@@ -123,8 +128,15 @@ void StereoPresenter::draw(const ComposeSetting& setting, const Viewport& viewpo
 void StereoPresenter::drawPass(Pass pass, int first, int second, const Viewport& viewport, int pictureWidth,
                                int pictureHeight, const ComposeSetting& setting, int turnX, int turnY) const {
     if (viewport.width < 1 || viewport.height < 1) return;
-    const ShaderProgram& program = programFor(pass);
+    const bool layered = mLayers[0] != 0 && mLayers[1] != 0;
+    const ShaderProgram& program = programFor(pass, layered);
     program.use();
+    if (layered) {
+        glActiveTexture(GL_TEXTURE3);
+        glBindTexture(GL_TEXTURE_2D, mLayers[static_cast<std::size_t>(second)]);
+        glActiveTexture(GL_TEXTURE2);
+        glBindTexture(GL_TEXTURE_2D, mLayers[static_cast<std::size_t>(first)]);
+    }
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_2D, mEyes[second].name());
     glActiveTexture(GL_TEXTURE0);

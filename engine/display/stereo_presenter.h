@@ -2,7 +2,9 @@
 // with the tables of engine/image/stereo_compose, whose picture it equals within 1/255.
 #pragma once
 
+#include <array>
 #include <map>
+#include <utility>
 
 #include "engine/display/gl_object.h"
 #include "engine/display/shader_program.h"
@@ -27,6 +29,8 @@ public:
     // exceed the driver's textures.
     void upload(const Plane<PackedColor>& left, const Plane<PackedColor>& right);
     bool hasPicture() const { return mWidth > 0; }
+    // Over each eye from now on (engine/display/eye_overlay.h), of its picture's size; 0: nothing.
+    void setLayers(GLuint left, GLuint right) { mLayers = {left, right}; }
 
     // Fills the viewport with the composed picture (nearest pixels where the sizes differ).
     // turnX, turnY: where the viewport's top left pixel lies on the screen, so that interleaved
@@ -40,15 +44,17 @@ private:
     enum class Pass { OneEye, HalfWidth, HalfHeight, Rows, Columns, Checkerboard, Anaglyph };
 
     void uploadEye(const GlTexture& texture, const Plane<PackedColor>& eye) const;
-    const ShaderProgram& programFor(Pass pass) const;
+    const ShaderProgram& programFor(Pass pass, bool layered) const;
     static Pass passOf(const OutputModeInfo& info);
     // pictureWidth, pictureHeight: what is scaled to the viewport; first, second: eyes, 0 or 1.
     void drawPass(Pass pass, int first, int second, const Viewport& viewport, int pictureWidth,
                   int pictureHeight, const ComposeSetting& setting, int turnX, int turnY) const;
 
-    mutable std::map<Pass, ShaderProgram> mPrograms;  // made when first drawn
+    // With layers and without; made when first drawn.
+    mutable std::map<std::pair<Pass, bool>, ShaderProgram> mPrograms;
     GlVertexArray mVertices;
     GlTexture mEyes[2];  // left, right
+    std::array<GLuint, 2> mLayers{};
     bool mOneEye = false;
     int mWidth = 0, mHeight = 0;
     int mTextureWidth[2] = {0, 0}, mTextureHeight[2] = {0, 0};

@@ -285,6 +285,8 @@ TEST(WindowConfig, ComesBackAsItWasKept) {
     config.leftWidth = 312.5;
     config.openPanels = {"places", "view and stereo", "a \"b\" \\ \xe5\xb1\xb1"};
     config.lastFolder = "/data/\xe5\xb1\xb1/new\nline \"x\"";
+    config.speedByDistance = true;
+    config.placeLabels = false;
     config.screenWidth_mm = 598;
     config.viewingDistance_mm = 700.5;
     EXPECT_EQ(writeWindowConfig(config, file), "");

@@ -27,6 +27,7 @@ TEST(ViewKeys, LettersFollowTheUsersLayout) {
     EXPECT_EQ(commandOf({GLFW_KEY_M, 'm', true, false}), ViewCommand::PreviousMode);
     EXPECT_EQ(commandOf({GLFW_KEY_X, 'x', false, false}), ViewCommand::SwapEyes);
     EXPECT_EQ(commandOf({GLFW_KEY_F, 'f', false, false}), ViewCommand::NextFlightMode);
+    EXPECT_EQ(commandOf({GLFW_KEY_F, 'f', true, false}), ViewCommand::SpeedByDistance);
     EXPECT_EQ(commandOf({GLFW_KEY_R, 'r', false, false}), ViewCommand::Reset);
     EXPECT_EQ(commandOf({GLFW_KEY_P, 'p', false, false}), ViewCommand::Screenshot);
 }

@@ -5,11 +5,13 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <set>
 
 #include "app/view/session.h"
 #include "app/view/status.h"
+#include "engine/base/error.h"
 #include "engine/nav/navigator.h"
 #include "tests/display/fake_frames.h"
 #include "tests/display/fake_scene.h"
@@ -259,6 +261,121 @@ TEST_F(ViewSessionTest, AFlightComesToRestExactly) {
     s.step({}, kFrame);
     EXPECT_TRUE(s.moving());
     EXPECT_GT(s.requestFor(100, 100).version, version);
+}
+
+TEST_F(ViewSessionTest, APathThatIsWorkedOnTakesOneStepBack) {
+    ViewSession s = session();
+    const long long first = s.pathVersion();
+    const RecordedPath own = s.path();
+    const auto lasting = [](double seconds) {
+        return RecordedPath({{0, kStart}, {seconds, poseFromAngles({9, 9, 600}, 0, 0, 0)}}, "test");
+    };
+    s.editPath([&](const RecordedPath&) { return lasting(3); });
+    const long long edited = s.pathVersion();
+    EXPECT_NE(edited, first);
+    s.act({ViewCommand::Play});
+    s.setPath(lasting(5));
+    s.setPath(lasting(7));
+    EXPECT_FALSE(s.playing());
+    EXPECT_EQ(s.path().duration(), 7);
+    EXPECT_NE(s.pathVersion(), edited);
+    s.undoPath();
+    EXPECT_EQ(s.path().duration(), own.duration()) << "what was there before it was worked on";
+    s.editPath(
+        [](const RecordedPath&) -> RecordedPath { throw Error("", "path", "is not so", "change it"); });
+    EXPECT_THAT(s.notice(), testing::HasSubstr("is not so"));
+    EXPECT_EQ(s.path().duration(), own.duration());
+}
+
+// Flies north at full input for so many seconds, towards a wall there; what lies ahead is told with every
+// step.
+std::vector<double> timesOfHalving(ViewSession& s, double wall, double first, int count) {
+    FlightInput forward;
+    forward.forward = 1;
+    std::vector<double> times;
+    double time = 0, next = first;
+    while (static_cast<int>(times.size()) < count && time < 120) {
+        ViewFrame frame;
+        frame.depthAhead = wall - s.pose().position.y;
+        s.observe(frame);
+        s.step(forward, kFrame);
+        time += kFrame;
+        if (wall - s.pose().position.y > next) continue;
+        times.push_back(time);
+        next /= 2;
+    }
+    return times;
+}
+
+TEST_F(ViewSessionTest, TowardsAWallEveryHalvingTakesAsLong) {
+    ViewSession s = session();
+    s.goTo(poseFromAngles({0, 0, 500}, 0, 0, 0));
+    EXPECT_FALSE(s.speedByDistance());
+    s.act({ViewCommand::SpeedByDistance});
+    EXPECT_TRUE(s.speedByDistance());
+    const std::vector<double> times = timesOfHalving(s, 5000, 1600, 6);
+    ASSERT_EQ(times.size(), 6u);
+    const double halving = times[1] - times[0];
+    EXPECT_GT(halving, 1.5);
+    EXPECT_LT(halving, 4);
+    for (std::size_t n = 2; n < times.size(); ++n)
+        EXPECT_NEAR(times[n] - times[n - 1], halving, 0.05 * halving) << n;
+    // At the same speed everywhere it is not so.
+    ViewSession even = session();
+    even.goTo(poseFromAngles({0, 0, 500}, 0, 0, 0));
+    const std::vector<double> others = timesOfHalving(even, 5000, 1600, 4);
+    ASSERT_EQ(others.size(), 4u);
+    EXPECT_NEAR(others[2] - others[1], (others[1] - others[0]) / 2, 0.1);
+}
+
+TEST_F(ViewSessionTest, TheSpeedByDistanceHasNoJumpsAndBounds) {
+    ViewSession s = session();
+    const double usual = s.speed();
+    s.act({ViewCommand::SpeedByDistance});
+    const auto after = [&](double depth, double seconds) {
+        ViewFrame frame;
+        frame.depthAhead = depth;
+        s.observe(frame);
+        for (double time = 0; time < seconds; time += kFrame) s.step({}, kFrame);
+        return s.speed();
+    };
+    EXPECT_EQ(after(0, 1), usual) << "no frame has told yet";
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const double sky : {infinity, std::nan("")}) EXPECT_EQ(after(sky, 5), usual);
+    EXPECT_NEAR(after(400, 10), 100, 0.2);
+    // A silhouette passes: from 400 m to 8 m and back.
+    EXPECT_GT(after(8, kFrame / 2), 0.85 * 100);
+    EXPECT_NEAR(after(1e-9, 10), 0.02 * usual, 1e-3 * usual);
+    EXPECT_NEAR(after(1e300, 10), 4 * usual, 0.02 * usual);
+    s.turnWheel(1);
+    EXPECT_NEAR(after(1e300, 10), 1.2 * 4 * usual, 0.02 * usual) << "the wheel's is a factor";
+    s.act({ViewCommand::SpeedByDistance});
+    EXPECT_LT(after(1e300, 10), 1.21 * usual);
+}
+
+TEST_F(ViewSessionTest, TheSkyAndAPlayedFlightKnowNoDistance) {
+    ViewSession near = session(), usual = session();
+    near.act({ViewCommand::SpeedByDistance});
+    ViewFrame frame;
+    frame.depthAhead = std::numeric_limits<double>::infinity();
+    FlightInput forward;
+    forward.forward = 1;
+    for (int i = 0; i < 60; ++i) {
+        near.observe(frame);
+        near.step(forward, kFrame);
+        usual.step(forward, kFrame);
+    }
+    EXPECT_EQ(near.pose().position, usual.pose().position) << "over the sky";
+    frame.depthAhead = 0.01;
+    near.observe(frame);
+    near.act({ViewCommand::Play});
+    usual.act({ViewCommand::Play});
+    for (int i = 0; i < 60; ++i) {
+        near.step({}, kFrame);
+        usual.step({}, kFrame);
+    }
+    EXPECT_TRUE(near.playing());
+    EXPECT_EQ(near.pose().position, usual.pose().position);
 }
 
 TEST_F(ViewSessionTest, ScreenshotsAreWishedOnceEach) {

@@ -47,6 +47,11 @@ bool looksReadable(const std::filesystem::path& file) {
     return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
+bool looksLikePath(const std::filesystem::path& file) {
+    const std::string ending = lowerCase(file.extension().string());
+    return ending == ".gltf" || ending == ".glb" || ending == ".path";
+}
+
 void FileBrowser::open(For what) {
     mFor = what;
     mOpen = mFresh = true;
@@ -77,7 +82,8 @@ void FileBrowser::goTo(const std::filesystem::path& folder) {
         if (entry.name.starts_with(".")) continue;
         std::error_code ignored;
         entry.folder = entries->is_directory(ignored);
-        entry.readable = entry.folder || looksReadable(entries->path());
+        entry.readable = entry.folder || (mFor == For::OpenPath ? looksLikePath(entries->path())
+                                                                : looksReadable(entries->path()));
         if (!entry.folder) entry.bytes = entries->file_size(ignored);
         mEntries.push_back(std::move(entry));
     }
@@ -92,6 +98,8 @@ void FileBrowser::choose(PanelHost& host, const std::filesystem::path& path) {
     mOpen = false;
     if (mFor == For::Open)
         host.open(path.string());
+    else if (mFor == For::OpenPath)
+        host.openPath(path);
     else
         host.saveScene(path);
 }
@@ -140,7 +148,10 @@ void FileBrowser::draw(PanelHost& host) {
     ImGui::SetNextWindowPos({whole.x / 2, whole.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({std::min(whole.x - font, 52 * font), std::min(whole.y - 3 * font, 36 * font)});
     if (mFresh) ImGui::SetNextWindowFocus();
-    ImGui::Begin(mFor == For::Open ? "Open a file or a folder of DICOM slices" : "Save the scene", &mOpen,
+    const char* const title = mFor == For::Open       ? "Open a file or a folder of DICOM slices"
+                              : mFor == For::OpenPath ? "Open a flight: .gltf, .glb or .path"
+                                                      : "Save the scene";
+    ImGui::Begin(title, &mOpen,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoSavedSettings);
     if (!mFresh && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) mOpen = false;

@@ -11,7 +11,7 @@ namespace stereonav {
 
 class FileBrowser {
 public:
-    enum class For { Open, SaveScene };
+    enum class For { Open, SaveScene, OpenPath };
 
     void open(For what);
     void close() { mOpen = false; }
@@ -40,5 +40,6 @@ private:
 
 // Whether the program reads a file of this name, by its ending.
 bool looksReadable(const std::filesystem::path& file);
+bool looksLikePath(const std::filesystem::path& file);  // of a flight
 
 }  // namespace stereonav

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 #include <numbers>
 
 #include "app/output/length_text.h"
 #include "app/view/panel/controls.h"
+#include "engine/base/error.h"
 
 namespace stereonav {
 namespace {
@@ -34,6 +36,19 @@ void drawEye(const ImVec2& at, double heading, double halfFov) {
                            IM_COL32(255, 190, 70, 110));
     list.AddCircleFilled(at, 0.3f * font, IM_COL32(20, 20, 20, 255));
     list.AddCircleFilled(at, 0.22f * font, markColor());
+}
+
+// The nearest handle that the pointer can take.
+std::optional<std::size_t> keyframeUnder(const KeyframeEdit& edit, const ImVec2& pointer,
+                                         const std::function<ImVec2(const glm::dvec3&)>& placed) {
+    std::optional<std::size_t> nearest;
+    float best = 0.6f * ImGui::GetFontSize();
+    for (std::size_t n = 0; n < edit.keys().size(); ++n) {
+        const ImVec2 at = placed(edit.keys()[n].pose.position);
+        const float away = std::hypot(at.x - pointer.x, at.y - pointer.y);
+        if (away <= best) best = away, nearest = n;
+    }
+    return nearest;
 }
 
 double halfFovAcross(const ViewSession& session, const SizeOption& size) {
@@ -83,10 +98,70 @@ void MapPanel::draw(PanelHost& host) {
     ViewSession* const session = host.session();
     if (!session) return;
     look(session->openShared());
-    if (mMap) return drawPicture(host, *session);
     const auto* const line = session->open().scene->offered<LineOnMap>();
-    if (line && line->places.size() > 1) return drawLine(host, *session, *line);
-    quietText(host, mMaking.valid() ? "drawing the map" : "no map");
+    if (mMap)
+        drawPicture(host, *session);
+    else if (line && line->places.size() > 1)
+        drawLine(host, *session, *line);
+    else
+        return quietText(host, mMaking.valid() ? "drawing the map" : "no map");
+    if (host.keyframes().any() && mFlown.anyBlocked) quietText(host, "Red: a wall is in the way.");
+}
+
+void MapPanel::drawPath(PanelHost& host, ViewSession& session, const Placed& placed) {
+    constexpr ImU32 kWay = IM_COL32(255, 255, 255, 150), kBlocked = IM_COL32(255, 60, 60, 255);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const KeyframeEdit& edit = host.keyframes();
+    const bool edits = edit.any();
+    if (edits && mFlownVersion != edit.version()) try {
+            mFlownVersion = edit.version();
+            mFlown = flownThrough(edit.keys(), session.flight());
+        } catch (const Error&) {
+            mFlown = {};  // what can not be flown has no line
+        }
+    const auto& samples = edits ? mFlown.path.samples() : session.path().samples();
+    for (std::size_t n = 1; n < samples.size(); ++n)
+        list.AddLine(placed(samples[n - 1].pose.position), placed(samples[n].pose.position),
+                     edits && mFlown.blocked[n - 1] ? kBlocked : kWay, edits ? 2.0f : 1.5f);
+    if (!edits) return;
+    const float font = ImGui::GetFontSize();
+    for (std::size_t n = 0; n < edit.keys().size(); ++n) {
+        const ImVec2 at = placed(edit.keys()[n].pose.position);
+        const bool chosen = edit.chosen() == n;
+        list.AddCircleFilled(at, (chosen ? 0.42f : 0.32f) * font, IM_COL32(20, 20, 20, 255));
+        list.AddCircleFilled(at, (chosen ? 0.34f : 0.24f) * font,
+                             chosen ? markColor() : IM_COL32(255, 255, 255, 255));
+    }
+}
+
+bool MapPanel::dragKeyframes(PanelHost& host, ViewSession& session, const Placed& placed,
+                             const Unplaced& unplaced) {
+    KeyframeEdit& edit = host.keyframes();
+    if (!edit.any()) return false;
+    const ImVec2 pointer = ImGui::GetIO().MousePos;
+    const auto under = keyframeUnder(edit, pointer, placed);
+    if (ImGui::IsItemActivated()) {
+        if (under) edit.beginDrag(*under);
+        mPressedKeyframe = under.has_value();
+    }
+    if (mPressedKeyframe && ImGui::IsItemActive()) {
+        if (edit.dragging() && ImGui::IsMouseDragging(ImGuiMouseButton_Left))
+            edit.dragTo(unplaced(pointer, edit.draggedFrom().position));
+        return true;
+    }
+    if (mPressedKeyframe) {  // let go in this turn
+        edit.endDrag();
+        mPressedKeyframe = false;
+        return true;
+    }
+    if (!under || !ImGui::IsItemHovered()) return false;
+    const PathSample& key = edit.keys()[*under];
+    std::string text = fmt::format("keyframe {} of {}, at {:.1f} s", *under + 1, edit.keys().size(),
+                                   key.time - edit.keys().front().time);
+    if (const auto height = heightOverGround(session.flight(), key.pose.position))
+        text += fmt::format(", {} over the ground", lengthText(*height));
+    tooltip(text + "\ndrag it; Del removes the chosen one");
+    return true;
 }
 
 void MapPanel::drawPicture(PanelHost& host, ViewSession& session) {
@@ -106,16 +181,20 @@ void MapPanel::drawPicture(PanelHost& host, ViewSession& session) {
         return ImVec2(from.x + scale * static_cast<float>(pixel.x),
                       from.y + scale * static_cast<float>(pixel.y));
     };
-    const auto& samples = session.path().samples();
-    for (std::size_t n = 1; n < samples.size(); ++n)
-        list.AddLine(placed(samples[n - 1].pose.position), placed(samples[n].pose.position),
-                     IM_COL32(255, 255, 255, 150), 1.5f);
+    drawPath(host, session, placed);
     const Pose pose = session.pose();
     drawEye(placed(pose.position), anglesOf(pose).heading, halfFovAcross(session, host.pictureSize()));
     list.PopClipRect();
-    if (!hovered) return;
-    const ImVec2 pointer = ImGui::GetIO().MousePos;
-    const glm::dvec2 world = mMap->worldFromMap({(pointer.x - from.x) / scale, (pointer.y - from.y) / scale});
+    const auto pointed = [&](const ImVec2& at) {
+        const glm::dvec2 pixel((at.x - from.x) / scale, (at.y - from.y) / scale);
+        const glm::dvec2 most(mMap->picture.width(), mMap->picture.height());
+        return mMap->worldFromMap(glm::clamp(pixel, glm::dvec2(0), most));
+    };
+    const auto dragged = [&](const ImVec2& at, const glm::dvec3& origin) {
+        return overGround(session.flight(), origin, pointed(at));
+    };
+    if (dragKeyframes(host, session, placed, dragged) || !hovered) return;
+    const glm::dvec2 world = pointed(ImGui::GetIO().MousePos);
     const glm::dvec3 there(world.x, world.y, pose.position.z);
     std::string text = fmt::format("{:.0f} m east, {:.0f} m north", world.x, world.y);
     if (const auto* const earth = session.open().scene->offered<OnEarth>())
@@ -165,11 +244,16 @@ void MapPanel::drawLine(PanelHost& host, ViewSession& session, const LineOnMap& 
         const float away = std::hypot(at.x - pointer.x, at.y - pointer.y);
         if (away < best) best = away, nearest = &line.places[n];
     }
+    if (host.keyframes().any()) drawPath(host, session, placed);
     const Pose pose = session.pose();
     const glm::dvec3 forward = pose.forward();
     const double heading = std::atan2(glm::dot(forward, line.right), glm::dot(forward, line.up));
     drawEye(placed(pose.position), heading, halfFovAcross(session, host.pictureSize()));
-    if (!hovered || !nearest) return;
+    // On the line, which is clear of the wall.
+    const auto dragged = [&](const ImVec2&, const glm::dvec3& origin) {
+        return nearest ? nearest->world : origin;
+    };
+    if (dragKeyframes(host, session, placed, dragged) || !hovered || !nearest) return;
     list.AddCircle(placed(nearest->world), 0.35f * ImGui::GetFontSize(), markColor(), 0, 2);
     tooltip(fmt::format("{} from the start; click: fly there", lengthText(nearest->along)));
     if (clicked) session.flyAlong(nearest->along);

@@ -1,14 +1,18 @@
 // The scene from above, or a colon's way from the front, with the eye's place and direction; a click flies
-// there.
+// there, and keyframes of a path are dragged.
 #pragma once
 
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
 
+#include "app/view/keyframe_edit.h"
 #include "app/view/panel/panel_host.h"
 #include "app/view/panel/panel_texture.h"
 #include "engine/base/progress.h"
+
+struct ImVec2;
 
 namespace stereonav {
 
@@ -22,6 +26,12 @@ public:
 
 private:
     void look(const std::shared_ptr<const OpenScene>& scene);
+    // Between the world and the screen.
+    using Placed = std::function<ImVec2(const glm::dvec3&)>;
+    using Unplaced = std::function<glm::dvec3(const ImVec2&, const glm::dvec3& from)>;
+    void drawPath(PanelHost& host, ViewSession& session, const Placed& placed);
+    // Of the last item, which is the map. True: the pointer is theirs.
+    bool dragKeyframes(PanelHost& host, ViewSession& session, const Placed& placed, const Unplaced& unplaced);
     void drawPicture(PanelHost& host, ViewSession& session);
     void drawLine(PanelHost& host, ViewSession& session, const LineOnMap& line);
 
@@ -30,6 +40,9 @@ private:
     std::future<MapPicture> mMaking;
     std::optional<MapPicture> mMap;
     PanelTexture mTexture;
+    FlownPath mFlown;               // through the keyframes,
+    bool mPressedKeyframe = false;  // the button went down on one
+    long long mFlownVersion = -1;   // of this version
 };
 
 }  // namespace stereonav

@@ -56,6 +56,9 @@ void viewMenu(PanelHost& host, MenuWishes& wishes) {
     ImGui::MenuItem("Places, map and slices", "F3", wishes.left);
     if (ImGui::MenuItem("Picture alone", "Tab")) wishes.hideAll = true;
     item(host, "Panels in their own window", "F7", ViewCommand::Controls, host.controlsApart());
+    if (bool labels = host.placeLabels(); ImGui::MenuItem("Names of places", nullptr, &labels))
+        host.showPlaceLabels(labels);
+    tooltip("Of kept places that are in view, over the picture.");
     item(host, "Whole screen", "F11", ViewCommand::FullScreen, host.fullScreen());
     ImGui::Separator();
     InterfaceLook look = host.look();
@@ -110,8 +113,11 @@ void flightMenu(PanelHost& host) {
     if (!ImGui::BeginMenu("Flight")) return;
     ViewSession* const session = host.session();
     item(host, "Home", "Space", ViewCommand::Home);
+    item(host, "Open a flight...", nullptr, ViewCommand::OpenPath);
     item(host, session && session->recording() ? "End recording" : "Record", "z", ViewCommand::Record);
     item(host, session && session->playing() ? "Stop playing" : "Play", "Shift+Z", ViewCommand::Play);
+    item(host, "Speed by the distance ahead", "Shift+F", ViewCommand::SpeedByDistance,
+         session && session->speedByDistance());
     item(host, "Hold the mouse", "Y", ViewCommand::CaptureMouse, session && session->mouseCaptured());
     if (session) {
         ImGui::Separator();

@@ -18,6 +18,8 @@
 
 namespace stereonav {
 
+class KeyframeEdit;
+
 // Figures of one frame, for small plots.
 struct FrameCost {
     double left_ms = 0, right_ms = 0;            // of eyes made together the left one has it all
@@ -58,6 +60,13 @@ public:
     virtual Bookmarks* places() = 0;
     virtual void addPlace() = 0;
     virtual void goToPlace(const Bookmark& place) = 0;
+    // Their names over the picture.
+    virtual bool placeLabels() const = 0;
+    virtual void showPlaceLabels(bool shown) = 0;
+    // Of the path that Play plays, as they are moved about on the map; that path follows them.
+    virtual KeyframeEdit& keyframes() = 0;
+    virtual void openPath(
+        const std::filesystem::path& file) = 0;  // takes the path's place; failures are told
     // What slices are of; asked for, it is read beside the frames. Null until then, or where there is none.
     virtual std::shared_ptr<const SliceStudy> study() = 0;
 

@@ -177,6 +177,9 @@ Panels::Rest Panels::rest(const glm::vec2& whole) const {
 void Panels::toggleAll() {
     mState->hidden = !mState->hidden;
 }
+bool Panels::hidden() const {
+    return mState->hidden;
+}
 void Panels::toggleSide() {
     mState->hidden = false;
     mState->side.shown = !mState->side.shown;
@@ -195,6 +198,9 @@ void Panels::openFiles() {
 }
 void Panels::openSave() {
     mState->files.open(FileBrowser::For::SaveScene);
+}
+void Panels::openPaths() {
+    mState->files.open(FileBrowser::For::OpenPath);
 }
 void Panels::showStart(bool shown) {
     mState->start.show(shown);

@@ -25,12 +25,14 @@ public:
     };
     Rest rest(const glm::vec2& whole) const;
 
-    void toggleAll();   // hides everything, or shows it again
+    void toggleAll();  // hides everything, or shows it again
+    bool hidden() const;
     void toggleSide();  // panels at the right
     void toggleLeft();  // places, map, slices
     void openSearch();
     void openFiles();
     void openSave();
+    void openPaths();
     void showStart(bool shown);
     bool startShown() const;
     void toggleHelp();

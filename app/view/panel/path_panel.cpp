@@ -5,9 +5,12 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/output/length_text.h"
+#include "app/view/keyframe_edit.h"
 #include "app/view/panel/controls.h"
+#include "engine/base/error.h"
 #include "engine/camera/keyframes.h"
 #include "engine/camera/path_edit.h"
 
@@ -46,24 +49,75 @@ void drawEdits(PanelHost& host, ViewSession& session) {
     ImGui::SameLine();
     if (button("Even pace", "The same way in the same time, at one speed."))
         session.editPath([](const RecordedPath& all) { return evenlyPaced(all, std::nullopt); });
-    if (button("Undo##path", "The path before the last change.")) session.undoPath();
+    if (button("Undo##path", "The path before the last change.")) {
+        if (host.keyframes().canUndo())
+            host.keyframes().undo();
+        else
+            session.undoPath();
+    }
     ImGui::SameLine();
     if (button("Save", "Writes the path as flight_0001.gltf and so on.")) session.savePath();
-    (void)host;
 }
 
-// Through the places that are kept, in their order.
-void drawThroughPlaces(PanelHost& host, ViewSession& session) {
-    const Bookmarks* const places = host.places();
-    if (!places || places->list().size() < 2) return;
-    if (!button("Fly through the places",
-                "A path through the kept places, in their order, smooth and eased."))
+// How high the chosen one is over the ground, where there is some.
+void drawKeyframeHeight(KeyframeEdit& edit, const Flight& flight) {
+    const Pose& pose = edit.keys()[*edit.chosen()].pose;
+    const auto now = heightOverGround(flight, pose.position);
+    if (!now) return;
+    double height = *now;
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    const float step = static_cast<float>(std::max(0.01 * std::abs(height), 0.1));
+    const bool moved = ImGui::DragScalar("##height", ImGuiDataType_Double, &height, step, nullptr, nullptr,
+                                         "%.1f m over the ground");
+    if (ImGui::IsItemActivated()) edit.beginDrag(*edit.chosen());
+    if (moved && edit.dragging()) edit.dragTo(pose.position + glm::dvec3(0, 0, std::max(height, 0.0) - *now));
+    if (ImGui::IsItemDeactivated()) edit.endDrag();
+    tooltip("How high the chosen keyframe is over where the flight may come to the ground.");
+}
+
+void drawKeyframes(PanelHost& host, ViewSession& session) {
+    KeyframeEdit& edit = host.keyframes();
+    const auto tried = [&](const auto& what) {
+        try {
+            what();
+        } catch (const Error& error) {
+            session.notify(error.what());
+        }
+    };
+    const double speed = session.flight().speed();
+    if (!edit.any()) {
+        const bool path = session.path().samples().size() > 1;
+        ImGui::BeginDisabled(!path);
+        if (button("Keyframes of the path", "A few that the path is kept with, to be moved on the map (F3)."))
+            tried([&] { edit.start(keyframesToEdit(session.path())); });
+        ImGui::EndDisabled();
+        if (const Bookmarks* const places = host.places(); places && places->list().size() > 1) {
+            if (button(
+                    "Fly through the places",
+                    "A path through the kept places, in their order, smooth and eased. Its keyframes can be "
+                    "moved on the map (F3).")) {
+                std::vector<Pose> poses;
+                for (const Bookmark& place : places->list()) poses.push_back(place.pose);
+                tried([&] { edit.start(timedKeyframes(poses, speed)); });
+            }
+        }
+        if (button("Begin with this eye", "The first keyframe of a new path."))
+            tried([&] { edit.add(session.pose(), speed); });
         return;
-    std::vector<Pose> poses;
-    for (const Bookmark& place : places->list()) poses.push_back(place.pose);
-    session.editPath([&](const RecordedPath&) {
-        return pathThrough(timedKeyframes(poses, session.flight().speed()), true);
-    });
+    }
+    const std::size_t count = edit.keys().size();
+    quietText(host, edit.chosen() ? fmt::format("keyframe {} of {}", *edit.chosen() + 1, count)
+                    : count == 1  ? "one keyframe: a path needs two"
+                                  : fmt::format("{} keyframes: drag them on the map (F3)", count));
+    if (button("Add this eye", "As a keyframe, after the chosen one or at the end."))
+        tried([&] { edit.add(session.pose(), speed); });
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!edit.chosen());
+    if (button("Remove", "The chosen keyframe. Key: Del")) edit.removeChosen();
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    if (button("Done", "The path stays as it is.")) edit.start({});
+    if (edit.chosen()) drawKeyframeHeight(edit, session.flight());
 }
 
 void drawMovie(PanelHost& host, ViewSession& session) {
@@ -99,14 +153,22 @@ void drawPathPanel(PanelHost& host, ViewSession& session) {
     if (button(session.playing() ? "Stop" : "Play", "Key: Shift+Z")) host.act({ViewCommand::Play});
     ImGui::SameLine();
     if (button("Home", "Key: Space")) host.act({ViewCommand::Home});
+    ImGui::SameLine();
+    if (button("Open...", "A flight from a file, in the path's place.")) host.act({ViewCommand::OpenPath});
     const RecordedPath& path = session.path();
     const bool any = path.samples().size() > 1;
     quietText(host,
               any ? fmt::format("A flight of {:.1f} s, {} places.", path.duration(), path.samples().size())
                   : "No flight yet: Record makes one.");
     if (any) drawEdits(host, session);
-    drawThroughPlaces(host, session);
+    drawKeyframes(host, session);
     drawMovie(host, session);
+    bool byDistance = session.speedByDistance();
+    if (ImGui::Checkbox("speed by the distance ahead", &byDistance)) host.act({ViewCommand::SpeedByDistance});
+    tooltip(
+        "What is ahead is reached in about four seconds, near or far; over the sky the speed is as ever. "
+        "Key: "
+        "Shift+F");
     quietText(host, fmt::format("speed {}/s: the wheel changes it, Shift is four times",
                                 lengthText(session.speed())));
 }

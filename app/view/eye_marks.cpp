@@ -1,0 +1,52 @@
+#include "app/view/eye_marks.h"
+
+#include <cmath>
+
+namespace stereonav {
+namespace {
+
+// Of its depth: so much behind what is seen a point is still not hidden. A pixel's depth is that of its
+// middle.
+constexpr double kBehind = 0.01;
+
+bool isInside(const EyeView& view, const glm::dvec2& place) {
+    return place.x >= 0 && place.y >= 0 && place.x < view.width && place.y < view.height;
+}
+
+// NaN where the plane has no such pixel.
+double depthAt(const Plane<float>& viewDepth, const glm::dvec2& place) {
+    const glm::dvec2 pixel(std::floor(place.x), std::floor(place.y));
+    if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.x < viewDepth.width() && pixel.y < viewDepth.height()))
+        return std::nan("");
+    return static_cast<double>(viewDepth.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y)));
+}
+
+}  // namespace
+
+StereoViews viewsOf(const FrameRequest& request) {
+    if (request.twoEyes) return makeStereoViews(request.pose, request.lens, request.stereo);
+    StereoViews views;
+    views.left = views.right = makeEyeView(request.pose, request.lens);
+    return views;
+}
+
+EyeMark markUnder(const StereoViews& views, const Plane<float>& viewDepth, const glm::dvec2& share) {
+    const glm::dvec2 left = share * glm::dvec2(views.left.width, views.left.height);
+    const double depth = depthAt(viewDepth, left);
+    if (!(depth > 0 && std::isfinite(depth))) return {left, left};
+    return {left, {views.rightColumn(left.x, depth), left.y}};
+}
+
+std::optional<PointMark> markOf(const StereoViews& views, const Plane<float>& viewDepth,
+                                const glm::dvec3& world) {
+    const glm::dvec3 left = views.left.project(world), right = views.right.project(world);
+    if (!(left.z >= views.left.nearDepth && std::isfinite(left.z))) return std::nullopt;
+    const PointMark point{{glm::dvec2(left), glm::dvec2(right)}, left.z};
+    if (!isInside(views.left, point.mark.left) || !isInside(views.right, point.mark.right))
+        return std::nullopt;
+    const double seen = depthAt(viewDepth, point.mark.left);
+    if (seen > 0 && seen < left.z * (1 - kBehind)) return std::nullopt;
+    return point;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,36 @@
+// Where something that is drawn over the picture lies in each eye's picture, so that both eyes see it at one
+// place in depth.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "app/view/worker.h"
+#include "engine/camera/stereo_rig.h"
+#include "engine/image/plane.h"
+
+namespace stereonav {
+
+// Continuous pixels of each eye's picture, (0, 0) its top left corner.
+struct EyeMark {
+    glm::dvec2 left{0.0}, right{0.0};
+};
+
+// The eyes that a frame was made with; of one eye that one twice.
+StereoViews viewsOf(const FrameRequest& request);
+
+// A place of the left eye's picture, shares of its size, on the surface that is seen there (viewDepth: of the
+// left eye); in the plane of the screen where nothing is hit or known, or the place lies beside the picture.
+EyeMark markUnder(const StereoViews& views, const Plane<float>& viewDepth, const glm::dvec2& share);
+
+struct PointMark {
+    EyeMark mark;
+    double depth = 0;  // of the view, metres
+};
+// A point of the world. None where it is nearer than the eyes see or behind them, outside the picture of one
+// of them, or behind what is seen there.
+std::optional<PointMark> markOf(const StereoViews& views, const Plane<float>& viewDepth,
+                                const glm::dvec3& world);
+
+}  // namespace stereonav

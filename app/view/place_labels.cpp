@@ -1,0 +1,77 @@
+#include "app/view/place_labels.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <utility>
+
+namespace stereonav {
+namespace {
+
+constexpr std::size_t kMostLabels = 40, kLongestLabel = 32;  // letters of a label
+constexpr double kNearest = -0.03;  // parallax, shares of the width: before the screen is less than 0
+
+struct Box {
+    glm::dvec2 low, high;
+    bool meets(const Box& other) const {
+        return low.x < other.high.x && other.low.x < high.x && low.y < other.high.y && other.low.y < high.y;
+    }
+};
+
+bool continues(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;  // of UTF-8
+}
+
+std::string shortened(const std::string& name) {
+    std::size_t letters = 0;
+    for (std::size_t n = 0; n < name.size(); ++n)
+        if (!continues(name[n]) && letters++ == kLongestLabel) return name.substr(0, n) + "\u2026";
+    return name;
+}
+
+// The text's corner from the mark: above it, or below where there is no room, and aside as both eyes need it.
+std::optional<glm::dvec2> placed(const EyeMark& mark, const glm::dvec2& size, const glm::dvec2& picture,
+                                 double margin) {
+    const double from = std::min(mark.left.x, mark.right.x), to = std::max(mark.left.x, mark.right.x);
+    const double lowest = margin - from, highest = picture.x - margin - size.x - to;
+    if (lowest > highest) return std::nullopt;
+    double y = -2 * margin - size.y;
+    if (mark.left.y + y < margin) y = 2 * margin;
+    if (mark.left.y + y + size.y > picture.y - margin) return std::nullopt;
+    return glm::dvec2(std::clamp(-size.x / 2, lowest, highest), y);
+}
+
+}  // namespace
+
+std::vector<PlaceLabel> labelsInView(const FrameRequest& request, const Plane<float>& viewDepth,
+                                     const std::vector<Bookmark>& places, const TextSize& sizeOf,
+                                     double margin) {
+    std::vector<PlaceLabel> labels;
+    if (places.empty()) return labels;
+    const StereoViews views = viewsOf(request);
+    const glm::dvec2 picture(views.left.width, views.left.height);
+    std::vector<std::pair<PointMark, const Bookmark*>> seen;
+    for (const Bookmark& place : places) {
+        const auto point = markOf(views, viewDepth, place.pose.position);
+        if (!point || point->mark.right.x - point->mark.left.x < kNearest * picture.x) continue;
+        seen.emplace_back(*point, &place);
+    }
+    std::stable_sort(seen.begin(), seen.end(),
+                     [](const auto& a, const auto& b) { return a.first.depth < b.first.depth; });
+    std::vector<Box> taken;
+    for (const auto& [point, place] : seen) {
+        if (labels.size() == kMostLabels) break;
+        PlaceLabel label{point.mark, shortened(place->name), {}};
+        const glm::dvec2 size = sizeOf(label.text);
+        const auto at = placed(label.mark, size, picture, margin);
+        if (!at) continue;
+        label.textAt = *at;
+        const Box box{label.mark.left + *at - margin, label.mark.left + *at + size + margin};
+        if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return other.meets(box); }))
+            continue;
+        taken.push_back(box);
+        labels.push_back(std::move(label));
+    }
+    return labels;
+}
+
+}  // namespace stereonav

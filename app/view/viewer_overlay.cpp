@@ -1,0 +1,41 @@
+// The viewer's part that is drawn over the picture in depth: the pointer, and names of kept places.
+#include "app/view/eye_marks.h"
+#include "app/view/place_labels.h"
+#include "app/view/viewer.h"
+
+namespace stereonav {
+
+// Where two eyes' pictures are shown, of which slices have none.
+bool Viewer::drawsPointer(const OutputModeInfo& mode) const {
+    return mSession && mFrame && mFrame->request.twoEyes && !mSession->slicesShown() && !mWindow.captured() &&
+           mode.layout != OutputLayout::OneEye;
+}
+
+std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
+    std::vector<OverlayMark> marks;
+    if (!mSession || !mFrame || mSession->slicesShown()) return marks;
+    const Plane<float>& depth = mFrame->left.viewDepth;
+    if (mLabels && mPlaces && !mPanels.hidden() && !mPanels.startShown()) {
+        const auto sizeOf = [this](const std::string& text) { return glm::dvec2(mInterface.textSize(text)); };
+        const double margin = 0.3 * sizeOf("0").y;
+        for (const PlaceLabel& label : labelsInView(mFrame->request, depth, mPlaces->list(), sizeOf, margin))
+            marks.push_back({glm::vec2(label.mark.left), glm::vec2(label.mark.right), label.text,
+                             glm::vec2(label.textAt)});
+    }
+    glm::dvec2 share;
+    if (!drawsPointer(mode) || !mInterface.pointerOverPicture(share)) return marks;
+    const PicturePlace place = placeFor(mode);
+    share = (share * glm::dvec2(place.part) - glm::dvec2(place.corner)) / glm::dvec2(place.size);
+    const EyeMark under = markUnder(viewsOf(mFrame->request), depth, share);
+    marks.push_back({glm::vec2(under.left), glm::vec2(under.right), "", {}});
+    return marks;
+}
+
+bool Viewer::drawOverlay(const OutputModeInfo& mode) {
+    const glm::ivec2 size = mFrame ? glm::ivec2(mFrame->left.width(), mFrame->left.height()) : glm::ivec2(0);
+    const bool changed = mOverlay.draw(mInterface, size, marks(mode));
+    mPresenter.setLayers(mOverlay.layer(0), mOverlay.layer(1));
+    return changed;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,100 @@
+#include "engine/display/eye_overlay.h"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <glm/common.hpp>
+
+#include "engine/display/interface.h"
+
+namespace stereonav {
+namespace {
+
+constexpr ImU32 kInk = IM_COL32(255, 255, 255, 255), kEdge = IM_COL32(0, 0, 0, 255),
+                kPlate = IM_COL32(0, 0, 0, 170);
+
+ImVec2 at(const glm::vec2& place) {
+    return {place.x, place.y};
+}
+
+void drawLabel(ImDrawList& list, const glm::vec2& place, const OverlayMark& mark, float font) {
+    const float dot = 0.2f * font, margin = 0.25f * font;
+    list.AddCircleFilled(at(place), dot + 1, kEdge);
+    list.AddCircleFilled(at(place), dot, kInk);
+    // Whole pixels of either eye: letters are sharp.
+    const glm::vec2 corner = glm::round(place + mark.textAt);
+    const ImVec2 size = ImGui::CalcTextSize(mark.text.c_str());
+    list.AddRectFilled({corner.x - margin, corner.y}, {corner.x + size.x + margin, corner.y + size.y}, kPlate,
+                       0.2f * font);
+    list.AddText(at(corner), kInk, mark.text.c_str());
+}
+
+void drawMark(ImDrawList& list, const glm::vec2& place, const OverlayMark& mark, const InterfaceLook& look) {
+    if (!mark.text.empty()) return drawLabel(list, place, mark, ImGui::GetFontSize());
+    ImGui::RenderMouseCursor(&list, at(glm::round(place)), look.scale, ImGuiMouseCursor_Arrow, kInk, kEdge,
+                             IM_COL32(0, 0, 0, 48));
+}
+
+void makeLayer(const GlTexture& texture, const glm::ivec2& size) {
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size.x, size.y, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+}  // namespace
+
+bool EyeOverlay::draw(const Interface& interface, const glm::ivec2& size,
+                      const std::vector<OverlayMark>& marks) {
+    if (marks.empty() && mMarks.empty()) return false;
+    const bool resized = size != mSize;
+    if (marks == mMarks && !resized && interface.look() == mLook) return false;
+    mMarks = marks;
+    mLook = interface.look();
+    if (marks.empty()) return true;
+    interface.use();
+    if (!mLayers) mLayers.emplace();
+    if (resized)
+        for (const GlTexture& texture : mLayers->textures) makeLayer(texture, size);
+    mSize = size;
+    drawEye(0, mLook);
+    drawEye(1, mLook);
+    return true;
+}
+
+void EyeOverlay::drawEye(int eye, const InterfaceLook& look) const {
+    ImDrawList list(ImGui::GetDrawListSharedData());
+    list._ResetForNewFrame();
+    list.PushTextureID(ImGui::GetIO().Fonts->TexID);
+    const ImVec2 size(static_cast<float>(mSize.x), static_cast<float>(mSize.y));
+    list.PushClipRect({0, 0}, size);
+    for (const OverlayMark& mark : mMarks) drawMark(list, eye == 0 ? mark.left : mark.right, mark, look);
+    list._PopUnusedDrawCmd();
+
+    GLint before = 0;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, mLayers->target.name());
+    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                           mLayers->textures[static_cast<std::size_t>(eye)].name(), 0);
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImDrawList* lists[] = {&list};
+    ImDrawData data;
+    data.Valid = true;
+    data.CmdLists = lists;
+    data.CmdListsCount = 1;
+    data.TotalIdxCount = list.IdxBuffer.Size;
+    data.TotalVtxCount = list.VtxBuffer.Size;
+    data.DisplaySize = size;
+    data.FramebufferScale = {1, 1};
+    ImGui_ImplOpenGL3_RenderDrawData(&data);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(before));
+}
+
+GLuint EyeOverlay::layer(int eye) const {
+    return mLayers && !mMarks.empty() ? mLayers->textures[static_cast<std::size_t>(eye)].name() : 0;
+}
+
+}  // namespace stereonav

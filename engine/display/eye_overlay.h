@@ -1,0 +1,50 @@
+// What is drawn over the picture at a depth of its own: the pointer, and names of places. Each eye has a
+// layer of its picture's size, which StereoPresenter puts over that eye before it composes, so that every
+// layout shows it to the eye that it is for.
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/display/gl_object.h"
+#include "engine/display/interface_theme.h"
+
+namespace stereonav {
+
+class Interface;
+
+// Places are pixels of each eye's picture, (0, 0) its top left corner.
+struct OverlayMark {
+    glm::vec2 left{0}, right{0};
+    std::string text;     // a point with this beside it; "": the pointer
+    glm::vec2 textAt{0};  // the text's top left corner, from the place
+    bool operator==(const OverlayMark&) const = default;
+};
+
+// In the window's context.
+class EyeOverlay {
+public:
+    // Draws them by the interface's letters, where they are not what is there already. True: it looks
+    // otherwise than before.
+    bool draw(const Interface& interface, const glm::ivec2& size, const std::vector<OverlayMark>& marks);
+    // Of an eye, 0 left, 1 right: sRGB values multiplied by their alpha, row 0 at the bottom; 0 while nothing
+    // is there.
+    GLuint layer(int eye) const;
+
+private:
+    void drawEye(int eye, const InterfaceLook& look) const;
+
+    struct Layers {
+        std::array<GlTexture, 2> textures;
+        GlFramebuffer target;
+    };
+    std::optional<Layers> mLayers;  // once there is something
+    std::vector<OverlayMark> mMarks;
+    glm::ivec2 mSize{0};
+    InterfaceLook mLook;
+};
+
+}  // namespace stereonav

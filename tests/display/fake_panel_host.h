@@ -1,0 +1,73 @@
+// A host for panels that are tested by themselves: a session, keyframes, and nothing else.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/view/keyframe_edit.h"
+#include "app/view/panel/panel_host.h"
+
+namespace stereonav {
+
+class FakePanelHost final : public PanelHost {
+public:
+    explicit FakePanelHost(ViewSession& session) : mSession(session) {}
+
+    ViewSession* session() override { return &mSession; }
+    const ViewFrame* frame() const override { return nullptr; }
+    double framesPerSecond() const override { return 0; }
+    const std::deque<FrameCost>& costs() const override { return mCosts; }
+    std::string sceneName() const override { return "test"; }
+    const SettingTexts& settings() const override { return mSettings; }
+    std::optional<std::string> valueOf(const Option&) const override { return std::nullopt; }
+    bool applies(const Option&) const override { return false; }
+    bool live(const Option&) const override { return false; }
+    SizeOption pictureSize() const override { return {320, 200}; }
+    ViewWorker::Loading loading() const override { return {}; }
+    double loadingSeconds() const override { return 0; }
+    void cancelLoading() override {}
+    bool readingSlices() const override { return false; }
+    const std::string& failure() const override { return mFailure; }
+    void forgetFailure() override {}
+    Bookmarks* places() override { return nullptr; }
+    void addPlace() override {}
+    void goToPlace(const Bookmark&) override {}
+    bool placeLabels() const override { return false; }
+    void showPlaceLabels(bool) override {}
+    KeyframeEdit& keyframes() override { return mKeyframes; }
+    void openPath(const std::filesystem::path&) override {}
+    std::shared_ptr<const SliceStudy> study() override { return nullptr; }
+    const Job* job() const override { return nullptr; }
+    void cancelJob() override {}
+    void makeMovie(const MovieWish&) override {}
+    bool bakes() const override { return false; }
+    bool bakeTakes(const std::string&, const std::string&) const override { return false; }
+    void bakeLight(const std::string&, double) override {}
+    void act(const ViewAction& action) override { mSession.act(action); }
+    void set(const std::string&, const std::optional<std::string>&) override {}
+    void open(const std::string&) override {}
+    void quit() override {}
+    const std::vector<RecentFile>& recentFiles() const override { return mRecent; }
+    void saveScene(const std::filesystem::path&) override {}
+    void copy(const std::string&) override {}
+    bool canUndo() const override { return false; }
+    bool canRedo() const override { return false; }
+    void undo() override {}
+    void redo() override {}
+    const InterfaceLook& look() const override { return mLook; }
+    void setLook(const InterfaceLook&) override {}
+    const Facts* facts() override { return nullptr; }
+    ScreenWords onScreen(const ViewFrame&) const override { return {}; }
+    bool fullScreen() const override { return false; }
+
+private:
+    ViewSession& mSession;
+    KeyframeEdit mKeyframes;
+    std::deque<FrameCost> mCosts;
+    SettingTexts mSettings;
+    std::string mFailure;
+    std::vector<RecentFile> mRecent;
+    InterfaceLook mLook;
+};
+
+}  // namespace stereonav
