@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
@@ -39,8 +40,8 @@ TerrainLightSettings settingsOf(const BakeOptions& options) {
 }
 
 // Whether the file holds the same bake already.
-bool holds(const std::filesystem::path& file, const Heightfield& ground,
-           const TerrainLightSettings& settings) {
+bool holds(const std::filesystem::path& file, const Heightfield& ground, const TerrainLightSettings& settings,
+           bool quiet) {
     if (!std::filesystem::exists(file)) return false;
     if (!isTerrainLight(file))
         throw Error(file.string(), "", "there is something else than a terrain's light in this place",
@@ -48,7 +49,7 @@ bool holds(const std::filesystem::path& file, const Heightfield& ground,
     try {
         return loadTerrainLight(file, nullptr).key == terrainLightKey(ground, settings);
     } catch (const Error& error) {
-        std::fprintf(stderr, "stereonav: %s: made anew\n", error.what());
+        if (!quiet) std::fprintf(stderr, "stereonav: %s: made anew\n", error.what());
         return false;
     }
 }
@@ -72,7 +73,8 @@ std::optional<TerrainLight> bakeOrKeep(const Heightfield& ground, const TerrainL
 int bakeTerrain(const BakeOptions& options) {
     const TerrainLightSettings settings = settingsOf(options);
     if (!options.out.empty()) checkOutputToReadAgain("--out", options.out);
-    ProgressBar bar;
+    CommandResult result("bake", options.telling, {});
+    ProgressBar bar(!options.telling.quiet);
     SceneOptions unlit = options.scene;
     unlit.light = {};
     checkSceneOptions(unlit);
@@ -80,9 +82,14 @@ int bakeTerrain(const BakeOptions& options) {
     const Heightfield& ground = terrain.ground;
     const std::filesystem::path file =
         options.out.empty() ? terrainLightCache(ground) : std::filesystem::path(options.out);
-    if (holds(file, ground, settings)) {
+    result.add("scene", options.scene.scene.empty() ? "terrain" : options.scene.scene);
+    result.add("what", std::string(options.what == BakeKind::Openness ? "openness" : "transfer"));
+    if (holds(file, ground, settings, options.telling.quiet)) {
         bar.clear();
-        std::printf("%s: baked before\n", file.string().c_str());
+        result.say(file.string() + ": baked before\n");
+        result.addFile("light", file);
+        result.add("baked_before", true);
+        result.finish();
         return 0;
     }
     const Stopwatch watch;
@@ -92,11 +99,18 @@ int bakeTerrain(const BakeOptions& options) {
     const double seconds = watch.elapsed_ms() / 1000;
     saveTerrainLight(file, light);
     bar.clear();
-    std::printf("%s: %dx%d samples, %.1f MB (%.0f bytes a sample), %.1f s (%.0f samples a second)\n",
-                file.string().c_str(), light.grid.width, light.grid.height,
-                static_cast<double>(light.byteCount()) / 1e6,
-                static_cast<double>(light.byteCount()) / static_cast<double>(light.grid.count()), seconds,
-                static_cast<double>(light.grid.count()) / std::max(seconds, 1e-9));
+    const double samples = static_cast<double>(light.grid.count());
+    const double bytes = static_cast<double>(light.byteCount()), rate = samples / std::max(seconds, 1e-9);
+    result.say(fmt::format(
+        "{}: {}x{} samples, {:.1f} MB ({:.0f} bytes a sample), {:.1f} s ({:.0f} samples a second)\n",
+        file.string(), light.grid.width, light.grid.height, bytes / 1e6, bytes / samples, seconds, rate));
+    result.addFile("light", file);
+    result.add("baked_before", false);
+    result.add("samples", FactIntegers{light.grid.width, light.grid.height});
+    result.add("light_bytes", static_cast<std::int64_t>(light.byteCount()));
+    result.add("time_s", seconds);
+    result.add("samples_per_s", rate);
+    result.finish();
     return 0;
 }
 

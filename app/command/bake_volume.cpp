@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "app/command/bake_peers.h"
+#include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/light_loading.h"
@@ -55,19 +56,31 @@ double samplesIn(const BakeSums& sums) {
 }
 
 // Samples and time of the run, and where they are.
-void print(const std::string& scene, const VolumeBakePlan& plan, const BakeSums& sums, double done,
-           double seconds, const std::filesystem::path& file) {
+void tellOf(CommandResult& result, const std::string& scene, const VolumeBakePlan& plan, const BakeSums& sums,
+            double done, double seconds, const std::filesystem::path& file) {
     const double each = samplesIn(sums) / std::max<double>(1, static_cast<double>(sums.texels()));
     // Of a bake that was stopped some texels have more than others.
-    std::printf("%s: %s of %zu texels, %.0f samples each%s, %s\n", scene.c_str(),
-                std::string(nameOf(sums.shape().kind)).c_str(), sums.texels(), each,
-                each > sums.fewestSamples() ? " on average" : "", errorText(sums.error()).c_str());
-    for (const std::string& note : plan.notes) std::printf("  %s\n", note.c_str());
+    result.say(fmt::format("{}: {} of {} texels, {:.0f} samples each{}, {}\n", scene,
+                           nameOf(sums.shape().kind), sums.texels(), each,
+                           each > sums.fewestSamples() ? " on average" : "", errorText(sums.error())));
+    for (const std::string& note : plan.notes) result.say("  " + note + "\n");
     if (done > 0)
-        std::printf("  %.1f s, %.0f samples a second\n", seconds, done / std::max(seconds, 1e-9));
+        result.say(
+            fmt::format("  {:.1f} s, {:.0f} samples a second\n", seconds, done / std::max(seconds, 1e-9)));
     else
-        std::printf("  nothing was to be done\n");
-    std::printf("  %s: %.1f MB\n", file.c_str(), static_cast<double>(std::filesystem::file_size(file)) / 1e6);
+        result.say("  nothing was to be done\n");
+    result.say(fmt::format("  {}: {:.1f} MB\n", file.string(),
+                           static_cast<double>(std::filesystem::file_size(file)) / 1e6));
+    result.add("scene", scene);
+    result.add("what", std::string(nameOf(sums.shape().kind)));
+    result.addFile("light", file);
+    result.add("baked_before", done <= 0);
+    result.add("texels", static_cast<std::int64_t>(sums.texels()));
+    result.add("samples_per_texel", each);
+    result.add("error_percent", 100 * sums.error());
+    result.add("time_s", seconds);
+    result.add("samples_per_s", done / std::max(seconds, 1e-9));
+    result.add("notes", plan.notes);
 }
 
 // Between passes alone, since others must be waited for.
@@ -92,7 +105,8 @@ BakeShare shareOf(const BakePeers& peers, const BakeKeeping& keeping) {
 int bakeVolume(const BakeOptions& options) {
     checkBakeOptions(options);
     const BakePeers peers;
-    ProgressBar bar(peers.first());
+    CommandResult result("bake", options.telling, {});
+    ProgressBar bar(peers.first() && !options.telling.quiet);
     Progress& progress = bar.progress();
     SceneOptions shown = options.scene;
     const int share = peers.threads();
@@ -106,7 +120,7 @@ int bakeVolume(const BakeOptions& options) {
         options.out.empty() ? bakeCacheFile(identity.key) : std::filesystem::path(options.out);
     const TexelLighter lighter(scene.volume.field, plan.inputs.texels, plan.inputs.light,
                                plan.inputs.sampling);
-    BakeSums sums = begin(file, identity.key, plan, lighter, peers.first(), bar);
+    BakeSums sums = begin(file, identity.key, plan, lighter, peers.first() && !options.telling.quiet, bar);
     peers.checkSameStart(sums);
     const double before = samplesIn(sums);
     BakeKeeping keeping;
@@ -120,7 +134,9 @@ int bakeVolume(const BakeOptions& options) {
         const double seconds = watch.elapsed_ms() / 1000, done = samplesIn(sums) - before;
         if (done > 0 || !std::filesystem::exists(file)) writeBakeFile(file, identity, sums);
         bar.clear();
-        print(options.scene.scene, plan, sums, done, seconds, file);
+        tellOf(result, options.scene.scene, plan, sums, done, seconds, file);
+        result.add("stopped", end == BakeEnd::Cancelled);
+        result.finish();
         if (end == BakeEnd::Cancelled)
             std::fprintf(stderr,
                          "stereonav: stopped; what is done is kept, and the next run goes on from there\n");

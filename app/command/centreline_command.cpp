@@ -2,8 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <cstdint>
 
+#include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
@@ -37,7 +38,8 @@ void checkCentrelineOptions(const CentrelineOptions& options) {
 
 int runCentreline(const CentrelineOptions& options) {
     checkCentrelineOptions(options);
-    ProgressBar bar;
+    CommandResult result("centreline", options.telling, {{"--out", options.out}});
+    ProgressBar bar(!options.telling.quiet);
     const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress(), kNoPicture);
     checkNotRead({{"--out", options.out}});
     const auto* const colon = scene->offered<const ColonInterior>();
@@ -51,10 +53,17 @@ int runCentreline(const CentrelineOptions& options) {
         return a.radius < b.radius;
     };
     const auto [least, most] = std::minmax_element(line.points.begin(), line.points.end(), narrower);
-    std::fprintf(messagesBeside({{"--out", options.out}}),
-                 "%s: %zu points along %.1f mm in %zu segment(s), radius %.1f to %.1f mm\n",
-                 options.out.c_str(), line.points.size(), line.length() * 1e3, colon->segments(),
-                 least->radius * 1e3, most->radius * 1e3);
+    result.say(fmt::format("{}: {} points along {:.1f} mm in {} segment(s), radius {:.1f} to {:.1f} mm\n",
+                           options.out, line.points.size(), line.length() * 1e3, colon->segments(),
+                           least->radius * 1e3, most->radius * 1e3));
+    result.add("scene", scene->name);
+    result.addFile("centreline", options.out);
+    result.add("points", static_cast<std::int64_t>(line.points.size()));
+    result.add("length_mm", line.length() * 1e3);
+    result.add("segments", static_cast<std::int64_t>(colon->segments()));
+    result.add("least_radius_mm", least->radius * 1e3);
+    result.add("largest_radius_mm", most->radius * 1e3);
+    result.finish();
     return 0;
 }
 

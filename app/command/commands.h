@@ -103,6 +103,12 @@ struct SceneOptions {
     bool skyTurns = false;  // set by a window: keep what turning the sky over baked transfer takes
 };
 
+// How a command tells what it has done: in words, as one JSON document, or not at all.
+struct Telling {
+    bool json = false;
+    bool quiet = false;  // neither progress nor notes: only what was asked for, and errors
+};
+
 struct SizeOption {
     int width = 1280, height = 720;  // pixels of one eye
 };
@@ -110,7 +116,7 @@ struct SizeOption {
 struct InfoOptions {
     SceneOptions scene;
     SizeOption size;
-    bool json = false;
+    Telling telling;
     std::string
         series;  // folder for a picture of each series of a DICOM folder, in the place of the rest; "": none
 };
@@ -118,6 +124,7 @@ int runInfo(const InfoOptions& options);
 
 struct RenderOptions {
     SceneOptions scene;
+    Telling telling;
     SizeOption size;
     std::optional<Pose> pose;     // none: the start pose
     std::string method = "auto";  // a right-eye method; auto: the default one, whatever was measured
@@ -128,6 +135,7 @@ int runRender(const RenderOptions& options);
 
 struct PlayOptions {
     SceneOptions scene;
+    Telling telling;
     SizeOption size;
     std::string path;             // "": the scene's own
     std::string method = "auto";  // as in RenderOptions: files do not depend on measured times
@@ -142,6 +150,7 @@ int runPlay(const PlayOptions& options);
 
 struct CompareOptions {
     SceneOptions scene;
+    bool quiet = false;  // no progress, and the table only where nothing else was asked for
     SizeOption size{500, 400};
     std::string path;
     int frames = 24;
@@ -153,6 +162,7 @@ struct CompareOptions {
 int runCompare(const CompareOptions& options);
 
 struct ReportOptions {
+    Telling telling;
     std::string out = "report";       // folder
     bool quick = false;               // within a minute, with fewer frames and repeats
     std::vector<std::string> scenes;  // beside the built-in ones
@@ -171,6 +181,7 @@ int runReport(const ReportOptions& options);
 
 struct ViewOptions {
     SceneOptions scene;
+    Telling telling;
     SizeOption size;
     std::string method = "auto";  // auto: the frame plan's choice
     OutputMode mode = OutputMode::SideBySide;
@@ -185,6 +196,7 @@ int runView(const ViewOptions& options);
 
 struct MeshOptions {
     SceneOptions scene;
+    Telling telling;
     std::string out;      // .glb or .gltf
     double error_m = -1;  // largest vertical error; < 0: half a sample spacing
 };
@@ -192,6 +204,7 @@ int runMesh(const MeshOptions& options);
 
 struct CentrelineOptions {
     SceneOptions scene;
+    Telling telling;
     std::string out;  // .vtp, .vtk or .txt
 };
 int runCentreline(const CentrelineOptions& options);
@@ -204,6 +217,7 @@ struct LightWords {
 // What is not given is chosen from the scene.
 struct BakeOptions {
     SceneOptions scene;
+    Telling telling;
     std::optional<BakeKind> what;  // none: of volumes irradiance, of terrains transfer
     std::optional<int> samples;    // at most one of these three
     std::optional<double> error, minutes;

@@ -130,7 +130,7 @@ int runCompare(const CompareOptions& options) {
         messagesBeside({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
-    ProgressBar bar;
+    ProgressBar bar(!options.quiet);
     const std::unique_ptr<Scene> loaded =
         loadScene(options.scene, options.size, bar.progress(), kCompareBytes);
     Scene& scene = *loaded;
@@ -147,7 +147,9 @@ int runCompare(const CompareOptions& options) {
     report.methods = comparedMethods(options, scene, poses, eyes, bar.progress());
     writeResults(options, report);
     bar.clear();
-    std::fputs(tableOf(report).c_str(), messages);
+    const bool otherwise =
+        !(options.json.empty() && options.csv.empty() && options.plot.empty() && options.images.empty());
+    if (!options.quiet || !otherwise) std::fputs(tableOf(report).c_str(), messages);
     return 0;
 }
 

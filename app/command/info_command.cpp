@@ -1,18 +1,17 @@
 // `stereonav info`: what was read, the frame plan, and what the program has started for it.
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
-#include "app/command/facts_json.h"
 #include "app/command/frame_facts.h"
 #include "app/command/info_series.h"
 #include "app/command/process_facts.h"
+#include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
 
 namespace stereonav {
 int runInfo(const InfoOptions& options) {
     if (!options.series.empty()) return listSeriesOf(options);
-    ProgressBar bar;
+    ProgressBar bar(!options.telling.quiet);
     const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress(), kInfoBytes);
     const Scene& scene = *loaded;
     ProcessFacts process;
@@ -24,11 +23,9 @@ int runInfo(const InfoOptions& options) {
     Facts facts = scene.describe();
     facts.push_back(factForAll("plan", factsOfFrames(scene, plan), "frame plan"));
     facts.push_back(factForAll("process", factsOf(process), "process"));
-    if (options.json) {
-        using Json = nlohmann::ordered_json;
-        Json json{{"scene", scene.name}};
-        json.update(jsonOf(facts));
-        std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    if (options.telling.json) {
+        facts.insert(facts.begin(), factForJson("scene", scene.name));
+        printJson(facts);
         return 0;
     }
     const std::string text = scene.name + "\n" + linesOf(facts);

@@ -53,7 +53,7 @@ int listSeriesOf(const InfoOptions& options) {
     makeOutputFolder(options.series);
     for (std::size_t n = 0; n < looks.size(); ++n)
         if (looks[n].problem.empty()) writeColorImage(pictureFile(options.series, n + 1), looks[n].picture);
-    if (options.json) {
+    if (options.telling.json) {
         const Json json{{"scene", options.scene.scene}, {"series", jsonOf(looks, options.series)}};
         std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
         return 0;

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <cstdint>
 
+#include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
@@ -32,7 +33,8 @@ void checkMeshOptions(const MeshOptions& options) {
 
 int runMesh(const MeshOptions& options) {
     checkMeshOptions(options);
-    ProgressBar bar;
+    CommandResult result("mesh", options.telling, {});
+    ProgressBar bar(!options.telling.quiet);
     const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress(), kNoPicture);
     checkNotRead({{"--out", options.out}});
     const TerrainScene& terrain = *scene->offered<const TerrainScene>();
@@ -44,10 +46,19 @@ int runMesh(const MeshOptions& options) {
     writeTerrainMesh(options.out, ground, terrain.color, mesh);
     bar.clear();
     const double cells = static_cast<double>(ground.width() - 1) * (ground.height() - 1);
-    std::printf(
-        "%s: %zu triangles over %zu vertices (%.2f %% of the grid's), largest error %.3g m of %.3g m\n",
-        options.out.c_str(), mesh.triangles.size(), mesh.vertices.size(),
-        100.0 * static_cast<double>(mesh.triangles.size()) / (2.0 * cells), mesh.maxError, error);
+    const double share = 100.0 * static_cast<double>(mesh.triangles.size()) / (2.0 * cells);
+    result.say(
+        fmt::format("{}: {} triangles over {} vertices ({:.2f} % of the grid's), largest error {:.3g} m "
+                    "of {:.3g} m\n",
+                    options.out, mesh.triangles.size(), mesh.vertices.size(), share, mesh.maxError, error));
+    result.add("scene", scene->name);
+    result.addFile("mesh", options.out);
+    result.add("triangles", static_cast<std::int64_t>(mesh.triangles.size()));
+    result.add("vertices", static_cast<std::int64_t>(mesh.vertices.size()));
+    result.add("triangles_percent", share);
+    result.add("largest_error_m", mesh.maxError);
+    result.add("asked_error_m", error);
+    result.finish();
     return 0;
 }
 

@@ -2,8 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <cstdint>
 
+#include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
@@ -88,18 +89,43 @@ private:
     std::unique_ptr<VideoFile> mVideo;
 };
 
-void tellOfStereo(const PlayOptions& options) {
-    if (options.video.empty() || saysStereo(videoKindOf(options.video), options.mode)) return;
+// "" where the video's file says how it shows two eyes.
+std::string stereoNote(const PlayOptions& options) {
+    if (options.video.empty() || saysStereo(videoKindOf(options.video), options.mode)) return "";
     const bool inMatroska = saysStereo(VideoKind::Mkv, options.mode);
-    std::printf("%s does not say how its pictures show two eyes (%s): %s\n", options.video.c_str(),
-                std::string(infoOf(options.mode).shortName).c_str(),
-                inMatroska ? "tell the player, or write .mkv, which can" : "tell the player");
+    return fmt::format("{} does not say how its pictures show two eyes ({}): {}", options.video,
+                       infoOf(options.mode).shortName,
+                       inMatroska ? "tell the player, or write .mkv, which can" : "tell the player");
 }
 
 double medianOf(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
+}
+
+void tellOfFlight(CommandResult& result, const PlayOptions& options, std::size_t frames, bool madeTogether,
+                  const std::vector<double>& left_ms, const std::vector<double>& right_ms,
+                  const std::vector<double>& both_ms) {
+    result.add("frames", static_cast<std::int64_t>(frames));
+    result.add("frames_per_second", fpsOf(options));
+    result.add("size", FactIntegers{options.size.width, options.size.height});
+    result.add("mode", std::string(infoOf(options.mode).shortName));
+    if (!options.out.empty()) result.add("folder", options.out);
+    if (!options.video.empty()) result.addFile("video", options.video);
+    if (madeTogether) {
+        result.say(fmt::format("{} frames, median both eyes {:.2f} ms\n", frames, medianOf(both_ms)));
+        result.add("median_both_ms", medianOf(both_ms));
+    } else {
+        result.say(fmt::format("{} frames, median left {:.2f} ms, right {:.2f} ms\n", frames,
+                               medianOf(left_ms), medianOf(right_ms)));
+        result.add("median_left_ms", medianOf(left_ms));
+        result.add("median_right_ms", medianOf(right_ms));
+    }
+    if (const std::string note = stereoNote(options); !note.empty()) {
+        result.say(note + "\n");
+        result.add("notes", FactWords{note});
+    }
 }
 
 }  // namespace
@@ -110,7 +136,8 @@ int runPlay(const PlayOptions& options) {
     // the path first: a bad one should not cost the reading of a large scene
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
-    ProgressBar bar;
+    CommandResult result("play", options.telling, {});
+    ProgressBar bar(!options.telling.quiet);
     const std::unique_ptr<Scene> loaded =
         loadScene(options.scene, options.size, bar.progress(), bytesOf(options));
     const Scene& scene = *loaded;
@@ -133,13 +160,14 @@ int runPlay(const PlayOptions& options) {
     }
     sink.finish();
     bar.clear();
-    if (frame.timings().left_ms == 0)  // made together
-        std::printf("%zu frames, median both eyes %.2f ms\n", poses.size(), medianOf(both_ms));
-    else
-        std::printf("%zu frames, median left %.2f ms, right %.2f ms\n", poses.size(), medianOf(left_ms),
-                    medianOf(right_ms));
-    tellOfStereo(options);
-    if (options.hash) std::printf("hash %016llx\n", static_cast<unsigned long long>(hash.value()));
+    tellOfFlight(result, options, poses.size(), frame.timings().left_ms == 0, left_ms, right_ms, both_ms);
+    result.add("scene", scene.name);
+    if (options.hash) {
+        const std::string text = fmt::format("{:016x}", hash.value());
+        result.answer("hash " + text + "\n");
+        result.add("hash", text);
+    }
+    result.finish();
     return 0;
 }
 

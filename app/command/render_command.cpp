@@ -1,6 +1,7 @@
 // `stereonav render`: one pose of a scene into a picture.
-#include <cstdio>
+#include <fmt/format.h>
 
+#include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
@@ -14,18 +15,33 @@ namespace stereonav {
 
 namespace {
 
-void printEyes(std::FILE* to, const StereoFrame& frame, const std::string& size, const std::string& file) {
+// Times, holes, and what was done to keep to what was asked for.
+void tellOfEyes(CommandResult& result, const StereoFrame& frame, const std::string& size,
+                const std::string& file) {
     const double pixels = static_cast<double>(frame.madeIn().width) * frame.madeIn().height;
     const RightEyeTimings& t = *frame.timings().warped;
-    std::fprintf(to, "%s: %s, left %.2f ms, right %.2f ms, holes %.2f %%\n", file.c_str(), size.c_str(),
-                 frame.timings().left_ms, t.right_ms(), 100.0 * static_cast<double>(t.holePixels) / pixels);
-    if (!frame.way().empty()) std::fprintf(to, "  by %s\n", frame.way().c_str());
-    if (t.boundPsnr_db > 0)
-        std::fprintf(to, "  of them %.2f %% were warped before; 95 of 100 frames reach %.1f dB\n",
-                     100.0 * static_cast<double>(t.refinedPixels) / pixels, t.boundPsnr_db);
-    if (frame.isSmaller())
-        std::fprintf(to, "  made in %dx%d and enlarged, to take the time that was asked for\n",
-                     frame.madeIn().width, frame.madeIn().height);
+    const double holes = 100.0 * static_cast<double>(t.holePixels) / pixels;
+    result.say(fmt::format("{}: {}, left {:.2f} ms, right {:.2f} ms, holes {:.2f} %\n", file, size,
+                           frame.timings().left_ms, t.right_ms(), holes));
+    result.add("left_ms", frame.timings().left_ms);
+    result.add("right_ms", t.right_ms());
+    result.add("holes_percent", holes);
+    if (!frame.way().empty()) {
+        result.say(fmt::format("  by {}\n", frame.way()));
+        result.add("way", frame.way());
+    }
+    if (t.boundPsnr_db > 0) {
+        const double refined = 100.0 * static_cast<double>(t.refinedPixels) / pixels;
+        result.say(fmt::format("  of them {:.2f} % were warped before; 95 of 100 frames reach {:.1f} dB\n",
+                               refined, t.boundPsnr_db));
+        result.add("refined_percent", refined);
+        result.add("bound_psnr_db", t.boundPsnr_db);
+    }
+    if (frame.isSmaller()) {
+        result.say(fmt::format("  made in {}x{} and enlarged, to take the time that was asked for\n",
+                               frame.madeIn().width, frame.madeIn().height));
+        result.add("made_in", FactIntegers{frame.madeIn().width, frame.madeIn().height});
+    }
 }
 
 }  // namespace
@@ -33,11 +49,11 @@ void printEyes(std::FILE* to, const StereoFrame& frame, const std::string& size,
 int runRender(const RenderOptions& options) {
     checkStereoPicture("--out", options.out);
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
-    std::FILE* const messages = messagesBeside({{"--out", options.out}});
+    CommandResult result("render", options.telling, {{"--out", options.out}});
     checkSize(options.size, options.scene);
     const std::string method = methodUnderLight(options.scene, options.method);
     checkMethod(options.scene, method);
-    ProgressBar bar;
+    ProgressBar bar(!options.telling.quiet);
     const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress());
     const Scene& scene = *loaded;
     checkNotRead({{"--out", options.out}});
@@ -54,20 +70,30 @@ int runRender(const RenderOptions& options) {
         lit->waitUntilDone();
         frame.render(head);
         bar.clear();
-        std::fprintf(messages, "lit in %.2f s\n", watch.elapsed_ms() / 1000);
+        const double seconds = watch.elapsed_ms() / 1000;
+        result.say(fmt::format("lit in {:.2f} s\n", seconds));
+        result.add("lit_s", seconds);
     }
     PictureLight* const traced = scene.offered<PictureLight>();
     if (traced) traced->light(frame.views(), frame.left(), frame.right(), bar.progress());
     const std::string size = writeStereoPicture(options.out, frame, options.mode);
     bar.clear();
-    if (!frame.timings().warped) {
-        std::fprintf(messages, "%s: %s, both eyes %.2f ms\n", options.out.c_str(), size.c_str(),
-                     frame.timings().both_ms);
-        return 0;
+    result.add("scene", scene.name);
+    result.addFile("picture", options.out);
+    result.add("size", FactIntegers{options.size.width, options.size.height});
+    result.add("separation_m", frame.stereo().separation);
+    result.add("zero_parallax_m", frame.stereo().zeroParallax);
+    if (frame.timings().warped) {
+        tellOfEyes(result, frame, size, options.out);
+    } else {
+        result.say(fmt::format("{}: {}, both eyes {:.2f} ms\n", options.out, size, frame.timings().both_ms));
+        result.add("both_ms", frame.timings().both_ms);
     }
-    printEyes(messages, frame, size, options.out);
-    if (traced)
-        for (const std::string& note : traced->notes()) std::fprintf(messages, "  %s\n", note.c_str());
+    if (traced && frame.timings().warped) {
+        for (const std::string& note : traced->notes()) result.say("  " + note + "\n");
+        result.add("notes", traced->notes());
+    }
+    result.finish();
     return 0;
 }
 

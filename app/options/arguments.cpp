@@ -13,6 +13,7 @@
 #include "app/options/pages.h"
 #include "app/options/parsed_options.h"
 #include "engine/base/error.h"
+#include "engine/text/similar.h"
 
 namespace stereonav {
 namespace {
@@ -67,6 +68,20 @@ std::string commandIn(const CLI::App& app) {
     return chosen.empty() ? "" : " " + chosen.front()->get_name();
 }
 
+// The option that a misspelled one may stand for; "" where none is like it.
+std::string similarOption(const CLI::App& app, const std::string& word) {
+    const auto chosen = app.get_subcommands();
+    if (chosen.empty() || !word.starts_with("--")) return "";
+    const std::string name = word.substr(0, word.find('='));
+    std::vector<std::string> names;
+    for (const CLI::Option* option : chosen.front()->get_options())
+        if (!option->get_lnames().empty()) names.push_back("--" + option->get_lnames().front());
+    const std::string nearest = nearestWord(name, names);
+    // More would be a guess.
+    const int mostEdits = std::min(static_cast<int>(name.size() - 2) / 3, 2);
+    return editDistance(name, nearest) <= mostEdits ? nearest : "";
+}
+
 // CLI11's refusals in our words: which option or word, what is wrong with it, what to do.
 Error refusalOf(const CLI::App& app, const CLI::ParseError& error) {
     const std::string help = "see stereonav" + commandIn(app) + " --help";
@@ -76,11 +91,12 @@ Error refusalOf(const CLI::App& app, const CLI::ParseError& error) {
         const std::vector<std::string> left = app.remaining(true);
         const std::string word = left.empty() ? said : left.front();
         const bool dashes = word.starts_with("-");
+        const std::string meant = dashes ? similarOption(app, word) : "";
         return {word, "",
                 dashes                   ? "there is no such option here"
                 : commandIn(app).empty() ? "there is no such command"
                                          : "is one word too many",
-                help};
+                meant.empty() ? help : "did you mean " + meant + "? " + help};
     }
     if (dynamic_cast<const CLI::RequiredError*>(&error))
         return {said.substr(0, said.find(' ')), "", "is required", help};

@@ -40,7 +40,7 @@ struct Part {
     std::vector<Option> (*options)();
     bool inFile;  // whether scene files may say them
 };
-constexpr std::array<Part, 14> kParts{{{sourceOptions, true},
+constexpr std::array<Part, 15> kParts{{{sourceOptions, true},
                                        {studyOptions, true},
                                        {lookOptions, true},
                                        {volumeLookOptions, true},
@@ -53,7 +53,8 @@ constexpr std::array<Part, 14> kParts{{{sourceOptions, true},
                                        {compareOptions, false},
                                        {reportOptions, false},
                                        {bakeOptions, false},
-                                       {setOption, false}}};
+                                       {setOption, false},
+                                       {tellingOptions, false}}};
 
 std::vector<Option> makeTable() {
     std::vector<Option> all;

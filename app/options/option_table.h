@@ -36,6 +36,7 @@ struct OptionTargets {
     SizeOption* size = nullptr;
     std::string *method = nullptr, *path = nullptr, *out = nullptr;
     OutputMode* mode = nullptr;
+    bool *json = nullptr, *quiet = nullptr;
     InfoOptions* info = nullptr;
     RenderOptions* render = nullptr;
     PlayOptions* play = nullptr;
@@ -112,6 +113,7 @@ std::vector<Option> mediumOptions();
 std::vector<Option> tracedOptions();
 std::vector<Option> viewOptions();
 std::vector<Option> pictureOptions();
+std::vector<Option> tellingOptions();
 std::vector<Option> meshAndLineOptions();
 std::vector<Option> compareOptions();
 std::vector<Option> reportOptions();

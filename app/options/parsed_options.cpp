@@ -71,6 +71,10 @@ void takeSceneFile(ParsedOptions& parsed) {
 
 void chooseCommand(CommandSet which, ParsedOptions& parsed) {
     OptionTargets& to = parsed.to;
+    const auto tells = [&to](Telling& telling) {
+        to.json = &telling.json;
+        to.quiet = &telling.quiet;
+    };
     const auto shows = [&](auto& options) {
         to.scene = &options.scene;
         to.size = &options.size;
@@ -82,18 +86,21 @@ void chooseCommand(CommandSet which, ParsedOptions& parsed) {
         case command::kInfo:
             shows(parsed.info);
             to.info = &parsed.info;
+            tells(parsed.info.telling);
             parsed.run = [&parsed] { return runInfo(parsed.info); };
             break;
         case command::kRender:
             shows(parsed.render);
             parsed.render.scene.traced.emplace();
             to.render = &parsed.render;
+            tells(parsed.render.telling);
             to.method = &parsed.render.method, to.mode = &parsed.render.mode, to.out = &parsed.render.out;
             parsed.run = [&parsed] { return runRender(parsed.render); };
             break;
         case command::kPlay:
             shows(parsed.play);
             to.play = &parsed.play;
+            tells(parsed.play.telling);
             to.method = &parsed.play.method, to.mode = &parsed.play.mode, to.out = &parsed.play.out;
             to.path = &parsed.play.path;
             parsed.run = [&parsed] { return runPlay(parsed.play); };
@@ -101,28 +108,34 @@ void chooseCommand(CommandSet which, ParsedOptions& parsed) {
         case command::kCompare:
             shows(parsed.compare);
             to.compare = &parsed.compare;
+            to.quiet = &parsed.compare.quiet;
             to.path = &parsed.compare.path;
             parsed.run = [&parsed] { return runCompare(parsed.compare); };
             break;
         case command::kReport:
             to.report = &parsed.report;
+            tells(parsed.report.telling);
             parsed.run = [&parsed] { return runReport(parsed.report); };
             break;
         case command::kMesh:
             to.scene = &parsed.mesh.scene, to.mesh = &parsed.mesh, to.out = &parsed.mesh.out;
+            tells(parsed.mesh.telling);
             parsed.run = [&parsed] { return runMesh(parsed.mesh); };
             break;
         case command::kCentreline:
             to.scene = &parsed.centreline.scene, to.out = &parsed.centreline.out;
+            tells(parsed.centreline.telling);
             parsed.run = [&parsed] { return runCentreline(parsed.centreline); };
             break;
         case command::kBake:
             to.scene = &parsed.bake.scene, to.bake = &parsed.bake;
+            tells(parsed.bake.telling);
             parsed.run = [&parsed] { return runBake(parsed.bake); };
             break;
         default:
             shows(parsed.view);
             to.view = &parsed.view;
+            tells(parsed.view.telling);
             to.method = &parsed.view.method, to.mode = &parsed.view.mode, to.path = &parsed.view.path;
             parsed.run = [&parsed] { return runView(parsed.view); };
     }

@@ -220,11 +220,6 @@ std::vector<Option> pictureOptions() {
          .help = "print one content hash of both eyes of all frames",
          .commands = kPlay,
          .take = [](OptionTargets& to, const OptionValue&) { to.play->hash = true; }},
-        {.key = "json",
-         .value = flagValue(),
-         .help = "as JSON",
-         .commands = kInfo,
-         .take = [](OptionTargets& to, const OptionValue&) { to.info->json = true; }},
         {.key = "series-pictures",
          .value = fileValue(),
          .help = "of a DICOM folder: list its series alone, and write a picture of each into this folder",
@@ -256,6 +251,22 @@ std::vector<Option> meshAndLineOptions() {
          .commands = kCentreline,
          .required = true,
          .take = takeOut},
+    };
+}
+
+std::vector<Option> tellingOptions() {
+    return {
+        {.key = "json",
+         .value = flagValue(),
+         .help = "tells what was done, or found, as one JSON document on standard output; the window when it "
+                 "is closed",
+         .commands = kInfo | kRender | kPlay | kReport | kMesh | kCentreline | kBake | kView,
+         .take = [](OptionTargets& to, const OptionValue&) { *to.json = true; }},
+        {.key = "quiet",
+         .value = flagValue(),
+         .help = "neither progress nor notes: only what was asked for, and errors",
+         .commands = kShowing | kReport | kMesh | kCentreline | kBake,
+         .take = [](OptionTargets& to, const OptionValue&) { *to.quiet = true; }},
     };
 }
 

@@ -92,7 +92,7 @@ void checkNotRead(std::initializer_list<NamedPlace> outputs) {
     }
 }
 
-std::FILE* messagesBeside(std::initializer_list<NamedPlace> outputs) {
+std::FILE* messagesBeside(const std::vector<NamedPlace>& outputs) {
     bool toStandardOutput = false;
     for (auto output = outputs.begin(); output != outputs.end(); ++output) {
         if (output->place.empty()) continue;

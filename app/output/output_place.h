@@ -37,6 +37,6 @@ void checkNotRead(std::initializer_list<NamedPlace> outputs);
 
 // Where to print what there is to say beside these outputs: standard output, or standard error where one of
 // them goes to standard output. Throws Error where two go to the same place.
-std::FILE* messagesBeside(std::initializer_list<NamedPlace> outputs);
+std::FILE* messagesBeside(const std::vector<NamedPlace>& outputs);
 
 }  // namespace stereonav

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <ctime>
 #include <thread>
 
+#include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/report/json.h"
@@ -110,6 +110,18 @@ void writeReport(const Report& report, const fs::path& folder) {
     writeTextFile(folder / "index.html", pageOf(report));
 }
 
+void tellOf(CommandResult& result, const ReportOptions& options, const Report& report, double seconds) {
+    const fs::path folder = options.out;
+    result.say((folder / "index.html").string() + "\n");
+    result.addFile("page", folder / "index.html");
+    result.addFile("figures_json", folder / "report.json");
+    result.addFile("figures_csv", folder / "report.csv");
+    if (!report.papers.empty()) result.addFile("papers_csv", folder / "papers.csv");
+    result.add("figures", static_cast<std::int64_t>(report.figures.size()));
+    result.add("time_s", seconds);
+    result.add("warnings", report.warnings);
+}
+
 }  // namespace
 
 int runReport(const ReportOptions& options) {
@@ -125,7 +137,8 @@ int runReport(const ReportOptions& options) {
     const PaperData checked(options.data);
     for (const char* name : {"report.csv", "papers.csv", "report.json", "index.html"})
         checkNotRead({{"--out", (fs::path(options.out) / name).string()}});
-    ProgressBar bar;
+    CommandResult result("report", options.telling, {});
+    ProgressBar bar(!options.telling.quiet);
     ReportRun run(options, bar.progress());
     if (options.threads > 0) setThreadCount(options.threads);
     describeRun(run);
@@ -149,8 +162,13 @@ int runReport(const ReportOptions& options) {
     run.tell("writing");
     writeReport(report, options.out);
     bar.clear();
-    std::printf("%s\n", (fs::path(options.out) / "index.html").c_str());
-    if (earlier) std::printf("%s\n", report.sections.front().text.c_str());
+    tellOf(result, options, report, run.elapsed_s());
+    if (earlier) {
+        result.say(report.sections.front().text + "\n");
+        result.add("worse", worse);
+        result.add("compared", report.sections.front().text);
+    }
+    result.finish();
     return worse ? 1 : 0;
 }
 

@@ -91,7 +91,15 @@ bool eyesAreSet(const ViewSession& session) {
     return !session.followsClearance() && !session.eyes().fits() && !session.eyes().fitted();
 }
 const StereoSetting& begunEyes(const ViewSession& session) {
-    return session.open().scene->stereo;
+    return session.eyes().begun(*session.open().scene);
+}
+// Whether they need not be said: nothing was set, or what was set is as the window began. One that is said
+// has the other said too, where that is not the scene's own: both are fitted, or none.
+bool eyesAsBegun(const ViewSession& session, double StereoSetting::*part) {
+    if (!eyesAreSet(session)) return true;
+    const StereoSetting &wanted = session.eyesWanted(), &begun = begunEyes(session);
+    const bool both = wanted.separation == begun.separation && wanted.zeroParallax == begun.zeroParallax;
+    return both || wanted.*part == session.open().scene->stereo.*part;
 }
 
 constexpr Live kLive[] = {
@@ -109,9 +117,7 @@ constexpr Live kLive[] = {
      [](ViewSession& s) { s.chooseMethod(s.open().way.method); }},
     {"separation", always,
      [](const ViewSession& s) { return fmt::format("{:.4g}", s.eyesWanted().separation); },
-     [](const ViewSession& s) {
-         return !eyesAreSet(s) || s.eyesWanted().separation == begunEyes(s).separation;
-     },
+     [](const ViewSession& s) { return eyesAsBegun(s, &StereoSetting::separation); },
      [](ViewSession& s, const OptionValue& value) {
          s.setEyes({value.number(), s.eyesWanted().zeroParallax});
      },
@@ -120,9 +126,7 @@ constexpr Live kLive[] = {
      }},
     {"zero-parallax", always,
      [](const ViewSession& s) { return fmt::format("{:.4g}", s.eyesWanted().zeroParallax); },
-     [](const ViewSession& s) {
-         return !eyesAreSet(s) || s.eyesWanted().zeroParallax == begunEyes(s).zeroParallax;
-     },
+     [](const ViewSession& s) { return eyesAsBegun(s, &StereoSetting::zeroParallax); },
      [](ViewSession& s, const OptionValue& value) {
          s.setEyes({s.eyesWanted().separation, value.number()});
      },

@@ -434,7 +434,7 @@ void ViewSession::placeSun(const SunPlace& place) {
 
 void ViewSession::setEyes(const StereoSetting& eyes) {
     mResting = false;
-    mStereo.scaleZeroParallax(eyes.zeroParallax / mStereo.target().zeroParallax);
+    mStereo.setZeroParallax(eyes.zeroParallax);
     mStereo.setSeparation(eyes.separation);
 }
 

@@ -21,6 +21,8 @@ SettingTexts textsOf(const GivenOptions& given, bool ofFile) {
     SettingTexts settings;
     for (const Option& option : optionTable()) {
         if (!(option.commands & command::kView) || settings.contains(option.key)) continue;
+        // Of this run of the program alone, and no setting.
+        if (option.key == std::string_view("json") || option.key == std::string_view("quiet")) continue;
         const GivenOptions::Given* const found = given.find(option.key);
         const auto typed = [&] {
             return found->place == option.name() || found->place.starts_with("--set ");

@@ -41,7 +41,7 @@ void ViewStereo::look(const Scene& scene) {
 
 void ViewStereo::reset(const Scene& scene) {
     takeOver();
-    mTarget = mStart.value_or(scene.stereo);
+    mTarget = begun(scene);
     mFits = !mGiven && !mStart;
     mFitted = mStart.has_value();
     look(scene);

@@ -15,6 +15,8 @@ public:
 
     // As at the start: the scene's own setting, or what fitted its first picture; follows as at the start.
     void reset(const Scene& scene);
+    // What reset() goes to.
+    const StereoSetting& begun(const Scene& scene) const { return mStart ? *mStart : scene.stereo; }
     // Another scene: the eyes stay as they are and go on from there.
     void replaceScene(const Scene& scene);
 

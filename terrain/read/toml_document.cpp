@@ -7,13 +7,13 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <set>
 #include <sstream>
 #include <toml.hpp>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/text/similar.h"
 
 namespace stereonav {
 namespace {
@@ -21,22 +21,6 @@ namespace {
 constexpr std::size_t kLargestFile = 1 << 20;  // bytes
 constexpr int kDeepestNesting = 32;            // brackets: the parser recurses
 constexpr std::size_t kLongestLine = 4096;     // bytes: so are the parts of a dotted key
-
-// Levenshtein distance.
-int editDistance(const std::string& a, const std::string& b) {
-    std::vector<int> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0);
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        int diagonal = row[0];
-        row[0] = static_cast<int>(i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const int replaced = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-        }
-    }
-    return row.back();
-}
 
 int lineOf(const toml::value& value) {
     return static_cast<int>(value.location().line());
@@ -158,11 +142,7 @@ struct TomlDocument::State {
             if (other != sectionName && keys.count(key) > 0)
                 return fmt::format("\"{}\"{} (belongs in [{}])", key, where, other);
         const auto& candidates = sectionName.empty() ? sectionNames() : known.at(sectionName);
-        const auto nearest = std::min_element(candidates.begin(), candidates.end(),
-                                              [&](const std::string& a, const std::string& b) {
-                                                  return editDistance(key, a) < editDistance(key, b);
-                                              });
-        return fmt::format("\"{}\"{} (nearest: \"{}\")", key, where, *nearest);
+        return fmt::format("\"{}\"{} (nearest: \"{}\")", key, where, nearestWord(key, candidates));
     }
 
     std::set<std::string> sectionNames() const {

@@ -57,6 +57,9 @@ TEST_F(Messages, NameTheOptionThatWasGivenAndNoOther) {
 TEST_F(Messages, OfTheCommandLineAreInOurWords) {
     expectRefused({"render", hills(), "--nonsense", "3", "--out", "a.png"},
                   {"stereonav: --nonsense: there is no such option here; see stereonav render --help"});
+    expectRefused(
+        {"render", hills(), "--siez", "3x3", "--out", "a.png"},
+        {"stereonav: --siez: there is no such option here; did you mean --size? see stereonav render"});
     expectRefused({"mesh", "terrain", "terrain", "--out", "a.glb"},
                   {"stereonav: terrain: is one word too many; see stereonav mesh"});
     expectRefused({"fly"}, {"stereonav: fly: there is no such command; see stereonav --help"});

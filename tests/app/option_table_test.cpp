@@ -212,11 +212,12 @@ TEST_F(OptionTable, HasForACommandWhatItReads) {
                     if (option.commands & command.command) keys.insert(option.key);
         return keys;
     };
-    EXPECT_EQ(keysOf("mesh"), (std::set<std::string>{"SCENE", "vertical-scale", "open-holes", "threads",
-                                                     "image", "shade-image", "sun", "out", "error", "set"}));
+    EXPECT_EQ(keysOf("mesh"),
+              (std::set<std::string>{"SCENE", "vertical-scale", "open-holes", "threads", "image",
+                                     "shade-image", "sun", "out", "error", "set", "json", "quiet"}));
     EXPECT_EQ(keysOf("centreline"),
               (std::set<std::string>{"SCENE", "threads", "series", "label", "seed", "resample", "backwards",
-                                     "no-cache", "out", "set"}));
+                                     "no-cache", "out", "set", "json", "quiet"}));
     EXPECT_FALSE(keysOf("bake").contains("simd"));
     EXPECT_FALSE(keysOf("bake").contains("fov"));
 }

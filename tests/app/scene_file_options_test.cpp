@@ -122,6 +122,7 @@ TEST_F(SceneFileOptionsTest, ThatAreWrongAreOneLineWithTheirPlace) {
     };
     const std::string ground = "[terrain]\nbuiltin = true\n[options]\n";
     refused(ground + "fof = 40\n", {"scene.toml:4: unknown key \"fof\" in [options]", "nearest: \"fov\""});
+    refused(ground + "siez = 40\n", {"scene.toml:4: unknown key \"siez\"", "nearest: \"size\""});
     refused(ground + "out = \"b.png\"\n", {"scene.toml:4: unknown key \"out\""});
     refused(ground + "fov = 0\n", {"scene.toml:4: fov: expected 1 to 170 degrees, got \"0\"; 45 is common"});
     refused(ground + "fov = \"wide\"\n", {"scene.toml:4: fov: expected 1 to 170 degrees, got \"wide\""});

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "app/view/live_settings.h"
 #include "app/view/session.h"
 #include "app/view/status.h"
 #include "engine/base/error.h"
@@ -89,6 +90,26 @@ TEST_F(ViewSessionTest, SeparationMovesSlowlyToItsTarget) {
     s.act({ViewCommand::MoreSeparation});
     for (int i = 0; i < 600; ++i) s.step({}, kFrame);
     EXPECT_GT(s.stereo().separation, 0.0) << "none is not for ever";
+}
+
+TEST_F(ViewSessionTest, EyesAreSetBackToWhatTheWindowBeganWith) {
+    ViewSession s = session();
+    ViewFrame first = frameWith(-0.0095, 0.019);
+    first.request.fitEyes = true;
+    first.request.stereo = {11, 390};
+    s.observe(first);
+    const auto said = [&](const char* key) { return withLive(s, {}).contains(key); };
+    EXPECT_FALSE(said("separation") || said("zero-parallax")) << "nobody set them";
+    setLive(s, "separation", "30");
+    EXPECT_TRUE(said("separation"));
+    EXPECT_TRUE(said("zero-parallax")) << "given one alone, the other would be the scene's own";
+    setLive(s, "zero-parallax", "777.77");
+    setLive(s, "separation", std::nullopt);
+    EXPECT_EQ(s.eyesWanted().separation, 11);
+    EXPECT_EQ(s.eyesWanted().zeroParallax, 777.77);
+    setLive(s, "zero-parallax", std::nullopt);
+    EXPECT_EQ(s.eyesWanted().zeroParallax, 390);
+    EXPECT_FALSE(said("separation") || said("zero-parallax"));
 }
 
 TEST_F(ViewSessionTest, TheSlowChangeDoesNotDependOnTheFrameRate) {

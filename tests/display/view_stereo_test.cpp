@@ -68,6 +68,17 @@ TEST(ViewStereo, BeginsAsTheFirstPictureFits) {
     EXPECT_STREQ(eyes.word(), "comfort");
 }
 
+TEST(ViewStereo, BeganWithWhatFittedTheFirstPicture) {
+    const FakeScene scene(sceneWith(kOwn));
+    ViewStereo eyes(scene);
+    EXPECT_EQ(eyes.begun(scene).separation, kOwn.separation) << "no picture yet";
+    eyes.observe(firstFrame({11, 390}));
+    eyes.setSeparation(30);
+    eyes.setZeroParallax(900);
+    EXPECT_EQ(eyes.begun(scene).separation, 11);
+    EXPECT_EQ(eyes.begun(scene).zeroParallax, 390);
+}
+
 TEST(ViewStereo, WhatWasGivenStays) {
     FakeScene scene(sceneWith(kOwn));
     scene.eyesGiven = true;

@@ -1,0 +1,56 @@
+#include "app/output/command_result.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "app/command/facts_json.h"
+#include "engine/base/file.h"
+
+namespace stereonav {
+namespace {
+
+std::vector<NamedPlace> withDocument(const Telling& telling, std::vector<NamedPlace> outputs) {
+    if (telling.json) outputs.insert(outputs.begin(), {"--json", "-"});
+    return outputs;
+}
+
+}  // namespace
+
+CommandResult::CommandResult(const char* command, const Telling& telling,
+                             const std::vector<NamedPlace>& outputs)
+    : mTelling(telling), mLines(messagesBeside(withDocument(telling, outputs))) {
+    add("command", std::string(command));
+}
+
+void CommandResult::say(const std::string& words) const {
+    if (!mTelling.quiet) answer(words);
+}
+
+void CommandResult::answer(const std::string& words) const {
+    if (!mTelling.json) std::fputs(words.c_str(), mLines);
+}
+
+void CommandResult::add(std::string key, FactValue value) {
+    mFacts.push_back(factForJson(std::move(key), std::move(value)));
+}
+
+void CommandResult::addFile(const std::string& key, const std::filesystem::path& file) {
+    FactValue bytes;
+    std::error_code code;
+    if (!isStandardOutput(file) && std::filesystem::is_regular_file(file, code))
+        if (const std::uintmax_t size = std::filesystem::file_size(file, code); !code)
+            bytes = static_cast<std::int64_t>(size);
+    add(key, Facts{factForJson("path", file.string()), factForJson("bytes", std::move(bytes))});
+}
+
+void CommandResult::finish() const {
+    if (mTelling.json) printJson(mFacts);
+}
+
+void printJson(const Facts& facts) {
+    // Names of files may hold bytes that are no UTF-8.
+    std::printf("%s\n",
+                jsonOf(facts).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+}
+
+}  // namespace stereonav

@@ -1,0 +1,43 @@
+// What a command tells of what it did: lines for people, or with --json one document, or with --quiet
+// nothing.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/command/commands.h"
+#include "app/output/output_place.h"
+#include "engine/scene/facts.h"
+
+namespace stereonav {
+
+class CommandResult {
+public:
+    // outputs: where the command's files go; lines go to standard error where one of them is standard output.
+    // Throws Error where two go to the same place, the document among them.
+    CommandResult(const char* command, const Telling& telling, const std::vector<NamedPlace>& outputs);
+
+    // Words for people, with their line's end.
+    void say(const std::string& words) const;
+    // What was asked to be printed: for people also where they want no notes.
+    void answer(const std::string& words) const;
+
+    // A field of the document: its name ends with its unit. No number is null.
+    void add(std::string key, FactValue value);
+    // A file that was written, or a folder; of a stream its size is null.
+    void addFile(const std::string& key, const std::filesystem::path& file);
+    // Prints the document, once.
+    void finish() const;
+
+private:
+    Telling mTelling;
+    std::FILE* mLines;
+    Facts mFacts;
+};
+
+// The document on standard output.
+void printJson(const Facts& facts);
+
+}  // namespace stereonav

@@ -1,0 +1,122 @@
+// How every command tells what it did: words, one JSON document, or nothing. The window's is in
+// view_screen_window_test.cpp, as it needs somebody to close it.
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/options/option_table.h"
+#include "app/output/command_result.h"
+#include "tests/app/volume_input.h"
+
+namespace stereonav::test {
+namespace {
+
+using Json = nlohmann::json;
+using Words = std::vector<std::string>;
+
+class CommandTelling : public VolumeTest {
+protected:
+    // A small run of each command, and what it leaves to be read off its document.
+    struct Small {
+        Words words;
+        Words fields;
+    };
+    std::map<std::string, Small> runs(const std::string& ground) const {
+        return {{"info", {{ground, "--size", "16x12"}, {"scene", "terrain", "plan"}}},
+                {"render",
+                 {{ground, "--size", "16x12", "--out", "a.png"}, {"picture", "left_ms", "holes_percent"}}},
+                {"play",
+                 {{ground, "--size", "16x12", "--frames", "2", "--out", "frames"},
+                  {"folder", "frames", "median_left_ms"}}},
+                {"compare",
+                 {{ground, "--size", "16x12", "--frames", "1", "--repeats", "1", "--methods", "paper"}, {}}},
+                {"report",
+                 {{"--quick", "--minutes", "0.01", "--parts", "stability", "--out", "page"},
+                  {"page", "figures", "time_s"}}},
+                {"mesh", {{ground, "--out", "a.glb"}, {"mesh", "triangles", "largest_error_m"}}},
+                {"centreline",
+                 {{"colon", "--out", "line.txt"}, {"centreline", "points", "length_mm", "segments"}}},
+                {"bake",
+                 {{ground, "--what", "openness", "--resolution", "0.25", "--out", "a.light"},
+                  {"light", "what", "baked_before", "samples"}}}};
+    }
+    Outcome runWith(const std::string& command, const Small& small, const Words& more) const {
+        Words all{command};
+        all.insert(all.end(), small.words.begin(), small.words.end());
+        all.insert(all.end(), more.begin(), more.end());
+        return run(all);
+    }
+};
+
+TEST_F(CommandTelling, EveryCommandIsTried) {
+    const auto all = runs("");
+    for (const CommandFacts& command : commandFacts())
+        EXPECT_TRUE(all.contains(command.name) || command.command == command::kView) << command.name;
+    for (const CommandFacts& command : commandFacts())
+        for (const char* key : {"json", "quiet"})
+            EXPECT_NE(findOption(command.command, key), nullptr) << command.name << " --" << key;
+}
+
+TEST_F(CommandTelling, AsJsonIsOneDocument) {
+    // No name of a file breaks the document: quotes, and bytes that are no UTF-8.
+    std::filesystem::copy(hills(), mFolder / "hi\"l\xff.asc");
+    for (const auto& [command, small] : runs((mFolder / "hi\"l\xff.asc").string())) {
+        SCOPED_TRACE(command);
+        const Outcome outcome =
+            runWith(command, small, command == "compare" ? Words{"--json", "-", "--quiet"} : Words{"--json"});
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        const Json json = Json::parse(outcome.out, nullptr, false);
+        ASSERT_TRUE(json.is_object()) << outcome.out;
+        for (const std::string& field : small.fields) EXPECT_TRUE(json.contains(field)) << field;
+        if (command != "info" && command != "compare") EXPECT_EQ(json.at("command"), command);
+    }
+    EXPECT_TRUE(std::filesystem::exists(place() / "a.png")) << "the files are written as without";
+}
+
+TEST_F(CommandTelling, QuietSaysNothing) {
+    setenv("STEREONAV_PROGRESS_SECONDS", "0.1", 1);
+    for (const auto& [command, small] : runs(hills())) {
+        SCOPED_TRACE(command);
+        const Outcome outcome = runWith(command, small, {"--quiet"});
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        // What is asked for is printed: facts and the table.
+        EXPECT_EQ(outcome.out.empty(), command != "info" && command != "compare") << outcome.out;
+    }
+    unsetenv("STEREONAV_PROGRESS_SECONDS");
+    const Outcome compared = run({"compare", hills(), "--size", "16x12", "--frames", "1", "--repeats", "1",
+                                  "--methods", "paper", "--csv", "a.csv", "--quiet"});
+    EXPECT_EQ(compared.out, "") << "a file was asked for";
+    const Outcome hash = run({"play", hills(), "--size", "16x12", "--frames", "1", "--hash", "--quiet"});
+    EXPECT_EQ(hash.out.substr(0, 5), "hash ");
+    EXPECT_EQ(linesIn(hash.out), 1);
+}
+
+TEST_F(CommandTelling, ErrorsStayOneLine) {
+    for (const std::string option : {"--json", "--quiet"})
+        expectRefused({"info", "none.tif", option}, {"none.tif"});
+    expectRefused({"render", hills(), "--size", "16x12", "--out", "-", "--json"}, {"--out", "--json"});
+}
+
+// No number is null, and a stream has no size.
+TEST_F(CommandTelling, DocumentsHoldAnything) {
+    testing::internal::CaptureStdout();
+    CommandResult result("render", {true, false}, {});
+    result.say("words");
+    result.add("nan_ms", std::nan(""));
+    result.add("infinite_ms", FactNumbers{std::numeric_limits<double>::infinity(), 1.0});
+    result.addFile("picture", "-");
+    result.add("name", std::string("a\"\n\xc3("));
+    result.finish();
+    std::fflush(stdout);
+    const Json json = Json::parse(testing::internal::GetCapturedStdout());
+    EXPECT_TRUE(json.at("nan_ms").is_null());
+    EXPECT_TRUE(json.at("infinite_ms").at(0).is_null());
+    EXPECT_TRUE(json.at("picture").at("bytes").is_null());
+    EXPECT_EQ(json.at("name").get<std::string>().substr(0, 3), "a\"\n");
+}
+
+}  // namespace
+}  // namespace stereonav::test
