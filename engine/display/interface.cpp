@@ -355,9 +355,9 @@ void Interface::render(const std::optional<InterfaceOpening>& opening) {
         return;
     }
     const glm::vec2 unit = glm::vec2(state.units) / glm::vec2(first->size);
-    constexpr float kNudge = 0.01f;  // pixels: what is cut to a whole pixel by the driver stays that one
-    const glm::vec2 from = (glm::vec2(opening->corner) + kNudge) * unit,
-                    to = (glm::vec2(opening->corner + opening->size) + kNudge) * unit;
+    // Whole pixels again once the driver has scaled them: in whole parts a pixel is 1 or 2 units.
+    const glm::vec2 from = glm::vec2(opening->corner) * unit,
+                    to = glm::vec2(opening->corner + opening->size) * unit;
     const ImVec4 box(from.x, from.y, to.x, to.y);
     const std::uint64_t digest = digestOf(all, &box);
     bool drawn = false;

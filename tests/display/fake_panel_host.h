@@ -59,6 +59,7 @@ public:
     const Facts* facts() override { return nullptr; }
     ScreenWords onScreen(const ViewFrame&) const override { return {}; }
     bool fullScreen() const override { return false; }
+    bool controlsApart() const override { return false; }
 
 private:
     ViewSession& mSession;

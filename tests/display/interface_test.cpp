@@ -112,6 +112,10 @@ TEST_F(InterfaceTest, WhatStaysBesideThePictureIsCopied) {
             ImGui::Begin("column", nullptr, kPlain);
             ImGui::Text("%d", column);
             ImGui::End();
+            ImGui::SetNextWindowPos({0, 0});
+            ImGui::SetNextWindowSize({width + 30, 18});
+            ImGui::Begin("bar over both", nullptr, kPlain | ImGuiWindowFlags_NoBringToFrontOnFocus);
+            ImGui::End();
             ImGui::SetNextWindowPos({10, 150});
             ImGui::SetNextWindowSize({100, 40});
             ImGui::Begin("figures", nullptr, kPlain);
