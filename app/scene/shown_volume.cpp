@@ -18,8 +18,8 @@ namespace stereonav {
 namespace {
 
 constexpr double kIsovalueSteps = 100;  // from the smallest value to the largest
-constexpr double kAirSeen = -500;       // HU: with smaller values it is taken for CT
-constexpr int kBorder = 1;              // voxels around a volume seen from outside, which are not the study's
+constexpr double kAirOfCt = -500;       // HU: with smaller values it is taken for CT
+constexpr int kAddedBorder = 1;         // voxels around a volume seen from outside, which are not the study's
 constexpr double kUsualOpacity = 0.95;  // of a translucent wall a millimetre: that of Wan et al. 2004
 
 void setTransfer(const SurfaceChange& change, const VolumeOptions& first, VolumeOptions& volume) {
@@ -83,13 +83,13 @@ void noteWhatIsShown(const VolumeOptions& volume, GivenOptions& given) {
 // Of a colon what lies around the lumen alone: the cache has nothing else.
 std::shared_ptr<const StudyValues> valuesOf(const ColonScene& colon) {
     auto values = std::make_shared<StudyValues>();
-    values->range = rangeOf(colon.volume.field);
-    if (values->range.lowest <= kAirSeen) values->unit = "HU";
+    values->range = colon.isColon() ? colon.valuesFound : rangeOf(colon.volume.field);
+    if (values->range.lowest <= kAirOfCt) values->unit = "HU";
     auto field = std::make_shared<const GreyVolume>(colon.volume.field.share());
     std::shared_ptr<const MaskVolume> lumen;
     if (colon.isColon()) lumen = std::make_shared<const MaskVolume>(colon.lumen.lumen.share());
     values->count = [field = std::move(field), lumen = std::move(lumen)](Progress& progress) {
-        return countValues(*field, lumen ? 0 : kBorder, lumen.get(), progress);
+        return countValues(*field, lumen ? 0 : kAddedBorder, lumen.get(), progress);
     };
     return values;
 }

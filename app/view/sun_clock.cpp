@@ -16,7 +16,7 @@ namespace {
 
 namespace chrono = std::chrono;
 
-constexpr double kDegree = std::numbers::pi / 180, kHour = 3600, kDay = 86400;
+constexpr double kArcDegree = std::numbers::pi / 180, kHour = 3600, kDay = 86400;
 constexpr int kFirstYear = 1, kLastYear = 9999;
 constexpr double kLowestOffset = -12, kHighestOffset = 14;
 constexpr double kLastMoment = 24 - 1e-6;  // hours
@@ -47,8 +47,8 @@ std::optional<std::array<int, count>> wholesOf(std::string_view text, char betwe
     return text.empty() ? std::optional(numbers) : std::nullopt;
 }
 
-std::string degreeText(double radians) {
-    return fmt::format("{:.6g}", std::round(1000 * radians / kDegree) / 1000 + 0.0);
+std::string roundDegrees(double radians) {
+    return fmt::format("{:.6g}", std::round(1000 * radians / kArcDegree) / 1000 + 0.0);
 }
 
 }  // namespace
@@ -67,8 +67,8 @@ SunClock tidy(SunClock clock) {
     clock.day = std::clamp(clock.day, 1, daysIn(clock.year));
     clock.hour = within(clock.hour, 0, kLastMoment, 12);
     clock.offset = within(clock.offset, kLowestOffset, kHighestOffset, 0);
-    clock.place.latitude = within(clock.place.latitude, -90 * kDegree, 90 * kDegree, 0);
-    clock.place.longitude = within(clock.place.longitude, -180 * kDegree, 180 * kDegree, 0);
+    clock.place.latitude = within(clock.place.latitude, -90 * kArcDegree, 90 * kArcDegree, 0);
+    clock.place.longitude = within(clock.place.longitude, -180 * kArcDegree, 180 * kArcDegree, 0);
     return clock;
 }
 
@@ -109,7 +109,8 @@ std::optional<SunClock> withTime(SunClock clock, const std::string& time) {
 SunClock clockAt(double seconds, const PlaceOnEarth& place) {
     SunClock clock;
     clock.place = place;
-    clock.offset = std::round(within(place.longitude, -std::numbers::pi, std::numbers::pi, 0) / kDegree / 15);
+    clock.offset =
+        std::round(within(place.longitude, -std::numbers::pi, std::numbers::pi, 0) / kArcDegree / 15);
     const double local = within(seconds, 0, 2e11, 0) + kHour * clock.offset;
     const double days = std::floor(local / kDay);
     const chrono::sys_days day{chrono::days(static_cast<int>(days))};
@@ -143,12 +144,12 @@ SunThen sunThen(const SunClock& asked, double north) {
 }
 
 std::string sunOptionText(const SunPlace& sun) {
-    return degreeText(sun.azimuth) + "," + degreeText(sun.elevation);
+    return roundDegrees(sun.azimuth) + "," + roundDegrees(sun.elevation);
 }
 
 std::string describe(const SunThen& sun) {
-    std::string text = fmt::format("azimuth {:.1f}, elevation {:.1f} degrees", sun.trueAzimuth / kDegree,
-                                   sun.world.elevation / kDegree + 0.0);
+    std::string text = fmt::format("azimuth {:.1f}, elevation {:.1f} degrees", sun.trueAzimuth / kArcDegree,
+                                   sun.world.elevation / kArcDegree + 0.0);
     if (sun.below) text += "\nbelow the horizon";
     if (sun.rises && sun.sets)
         return text + fmt::format("\nsunrise {}, sunset {}", timeText(*sun.rises), timeText(*sun.sets));

@@ -152,6 +152,7 @@ void Viewer::goTo(const SettingTexts& settings) {
         if (!again && !text) mGiven.erase(key);
         if (isLive(*mSession, key, text)) setLive(*mSession, key, text);
     }
+    if (again) mSession->takeSceneChange();  // the scene that is loaded has it
     mSettings.reset();
 }
 

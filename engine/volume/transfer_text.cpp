@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kCurve = "curve:", kLength = "reference_mm";
 constexpr double kMillimetre = 0.001;
-constexpr const char* kAdvice =
+constexpr const char* kCurveAdvice =
     "write curve:VALUE:RED:GREEN:BLUE:OPACITY,... with values ascending and the rest in 0 to 1";
 
 std::vector<std::string_view> partsOf(std::string_view text, char between) {
@@ -35,7 +35,7 @@ public:
         : mWords(partsOf(text, ':')), mPlace(fmt::format("part {}", number)), mSource(source) {}
 
     [[noreturn]] void fail(const std::string& problem) const {
-        throw Error(mSource, "", mPlace + ": " + problem, kAdvice);
+        throw Error(mSource, "", mPlace + ": " + problem, kCurveAdvice);
     }
     bool isLength() const { return mWords[0] == kLength; }
     double length() const {
@@ -107,7 +107,7 @@ TransferFunction transferFromCurve(std::string_view text, const std::string& sou
                         "write them into a file, and name that");
         points.push_back(part.point(points.empty() ? nullptr : &points.back()));
     }
-    if (points.empty()) throw Error(source, "", "expected at least one point, found none", kAdvice);
+    if (points.empty()) throw Error(source, "", "expected at least one point, found none", kCurveAdvice);
     return {std::move(points), length.value_or(kMillimetre), source};
 }
 

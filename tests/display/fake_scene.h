@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/view/worker.h"
+#include "engine/scene/shown_values.h"
 #include "engine/scene/slices.h"
 
 namespace stereonav {
@@ -27,6 +28,7 @@ struct FakeParts {
     bool changed = false;
 
     std::optional<SurfaceChoices> surface;
+    std::optional<ShownValues> values;
     std::function<StereoFollower(const StereoSetting&)> makeFollower;
     double largestSeparation = std::numeric_limits<double>::infinity();
     bool followsAtStart = true;
@@ -57,6 +59,7 @@ public:
         stereo = parts.stereo;
         path = parts.path;
         if (mParts.surface) offer(*mParts.surface);
+        if (mParts.values) offer(*mParts.values);
         mRays.renderer = mParts.rays;
         if (mParts.rays) offer(mRays);
         if (parts.makeFollower || parts.largestSeparation < std::numeric_limits<double>::infinity())

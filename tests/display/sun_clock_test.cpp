@@ -13,14 +13,14 @@
 namespace stereonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSunDegree = std::numbers::pi / 180;
+constexpr double kNoTime = std::numeric_limits<double>::quiet_NaN();
 
 SunClock at(const std::string& date, const std::string& time, double offset, double north_deg,
             double east_deg) {
     SunClock clock;
     clock.offset = offset;
-    clock.place = {north_deg * kDegree, east_deg * kDegree};
+    clock.place = {north_deg * kSunDegree, east_deg * kSunDegree};
     return *withTime(*withDate(clock, date), time);
 }
 
@@ -47,7 +47,7 @@ TEST(SunClock, TurnsWithTheMapsNorth) {
         EXPECT_EQ(turned.trueAzimuth, straight.trueAzimuth);
         EXPECT_LE(std::abs(turned.world.azimuth), std::numbers::pi) << "as --sun takes it";
     }
-    EXPECT_EQ(sunThen(clock, kNaN).world.azimuth, sunThen(clock, 0).world.azimuth);
+    EXPECT_EQ(sunThen(clock, kNoTime).world.azimuth, sunThen(clock, 0).world.azimuth);
 }
 
 TEST(SunClock, IsTakenByTheOption) {
@@ -57,8 +57,8 @@ TEST(SunClock, IsTakenByTheOption) {
         const SunThen sun = sunThen(clock, 0.01);
         const ViewOptions options = viewOptionsOf({{"sun", {sunOptionText(sun.world)}}});
         ASSERT_TRUE(options.scene.sun);
-        EXPECT_NEAR(options.scene.sun->azimuth, sun.world.azimuth, 0.0006 * kDegree);
-        EXPECT_NEAR(options.scene.sun->elevation, sun.world.elevation, 0.0006 * kDegree);
+        EXPECT_NEAR(options.scene.sun->azimuth, sun.world.azimuth, 0.0006 * kSunDegree);
+        EXPECT_NEAR(options.scene.sun->elevation, sun.world.elevation, 0.0006 * kSunDegree);
     }
 }
 
@@ -74,7 +74,7 @@ TEST(SunClock, KnowsPolarDaysAndNights) {
     EXPECT_NE(describe(day).find("does not set"), std::string::npos);
     for (const double pole : {90.0, -90.0}) {
         const SunThen sun = sunThen(at("2024-06-21", "12:00", 0, pole, 0), 0);
-        EXPECT_NEAR(std::abs(sun.world.elevation), 23.44 * kDegree, 0.1 * kDegree);
+        EXPECT_NEAR(std::abs(sun.world.elevation), 23.44 * kSunDegree, 0.1 * kSunDegree);
         EXPECT_EQ(sun.below, pole < 0);
     }
 }
@@ -112,25 +112,25 @@ TEST(SunClock, ReadsDatesAndTimesThatAreSome) {
         const std::string text = timeText(minute / 60.0);
         EXPECT_EQ(timeText(withTime(clock, text)->hour), text);
     }
-    EXPECT_EQ(timeText(kNaN), "00:00");
+    EXPECT_EQ(timeText(kNoTime), "00:00");
 }
 
 TEST(SunClock, IsBroughtIntoRange) {
-    const SunClock wild = tidy({-5, 9999, kNaN, 1e9, {kNaN, -std::numeric_limits<double>::infinity()}});
+    const SunClock wild = tidy({-5, 9999, kNoTime, 1e9, {kNoTime, -std::numeric_limits<double>::infinity()}});
     EXPECT_EQ(wild, tidy(wild));
     EXPECT_TRUE(std::isfinite(sunThen(wild, 0).world.azimuth));
     EXPECT_LT(tidy({2024, 1, 24, 0, {}}).hour, 24);
-    EXPECT_TRUE(std::isfinite(sunThen({20000, -7, kNaN, kNaN, {5, 50}}, kNaN).world.elevation));
+    EXPECT_TRUE(std::isfinite(sunThen({20000, -7, kNoTime, kNoTime, {5, 50}}, kNoTime).world.elevation));
 }
 
 TEST(SunClock, BeginsNow) {
     const double seconds = secondsFromUtc(2024, 6, 21, 22, 45, 12);
-    const SunClock clock = clockAt(seconds, {0.8, 100 * kDegree});
+    const SunClock clock = clockAt(seconds, {0.8, 100 * kSunDegree});
     EXPECT_EQ(clock.offset, 7);
     EXPECT_EQ(dateText(clock), "2024-06-22");
     EXPECT_EQ(timeText(clock.hour), "05:45");
     EXPECT_NEAR(secondsOf(clock), seconds, 60);
-    EXPECT_EQ(clockAt(kNaN, {kNaN, kNaN}), tidy(clockAt(kNaN, {kNaN, kNaN})));
+    EXPECT_EQ(clockAt(kNoTime, {kNoTime, kNoTime}), tidy(clockAt(kNoTime, {kNoTime, kNoTime})));
 }
 
 }  // namespace

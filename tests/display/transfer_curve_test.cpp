@@ -11,8 +11,8 @@
 namespace stereonav {
 namespace {
 
-constexpr double kNoCurve = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 TransferCurve curveOf(const std::string& text) {
     return TransferCurve(transferFromCurve(text, "test"));
@@ -67,10 +67,10 @@ TEST(TransferCurve, PointsDoNotPassEachOther) {
     expectWhole(curve);
     curve.move(0, 5, 0);
     EXPECT_LT(curve.points()[0].value, curve.points()[1].value);
-    curve.move(2, -kInfinite, 0);
+    curve.move(2, -kEndless, 0);
     EXPECT_GT(curve.points()[2].value, curve.points()[1].value);
     expectWhole(curve);
-    curve.move(2, kInfinite, 0);
+    curve.move(2, kEndless, 0);
     EXPECT_TRUE(std::isfinite(curve.points()[2].value));
     expectWhole(curve);
     // Where there is no room between neighbours a point stays.
@@ -84,10 +84,10 @@ TEST(TransferCurve, PointsDoNotPassEachOther) {
 TEST(TransferCurve, TakesNoNumberThatIsNone) {
     TransferCurve curve = ramp();
     const std::string before = curve.text();
-    EXPECT_EQ(curve.insert(kNoCurve, 0.5), TransferCurve::kNone);
-    EXPECT_EQ(curve.insert(kInfinite, 0.5), TransferCurve::kNone);
-    EXPECT_EQ(curve.insert(50, kNoCurve), TransferCurve::kNone);
-    curve.move(0, kNoCurve, kNoCurve);
+    EXPECT_EQ(curve.insert(kNoValue, 0.5), TransferCurve::kNone);
+    EXPECT_EQ(curve.insert(kEndless, 0.5), TransferCurve::kNone);
+    EXPECT_EQ(curve.insert(50, kNoValue), TransferCurve::kNone);
+    curve.move(0, kNoValue, kNoValue);
     curve.move(17, 1, 1);
     curve.recolor(0, {std::nanf(""), 0, 0});
     curve.recolor(17, {1, 1, 1});
@@ -139,15 +139,15 @@ TEST(ValueView, IsOneWhateverTheValues) {
                                     {-1e30, 1e30},
                                     {-1e308, 1e308},
                                     {1e-300, 2e-300},
-                                    {kNoCurve, kNoCurve},
+                                    {kNoValue, kNoValue},
                                     {3.0, -3.0},
-                                    {-kInfinite, kInfinite}})
+                                    {-kEndless, kEndless}})
         for (const TransferCurve& curve : {none, ramp(), curveOf("curve:1e300:1:1:1:1")}) {
             const ValueView view = viewOf(low, high, curve);
             EXPECT_TRUE(std::isfinite(view.low) && std::isfinite(view.high)) << low << " " << high;
             EXPECT_LT(view.low, view.high) << low << " " << high;
-            EXPECT_TRUE(std::isfinite(view.shareOf(kInfinite)));
-            EXPECT_TRUE(std::isfinite(view.shareOf(kNoCurve)));
+            EXPECT_TRUE(std::isfinite(view.shareOf(kEndless)));
+            EXPECT_TRUE(std::isfinite(view.shareOf(kNoValue)));
             EXPECT_GT(view.step(), 0);
             EXPECT_TRUE(std::isfinite(view.rounded(view.low)));
         }
@@ -170,8 +170,8 @@ TEST(ValueView, ZoomsAboutAValueAndNotBeyondAll) {
     EXPECT_NEAR(near.high - near.low, 2000, 1e-9);
     EXPECT_NEAR(near.shareOf(0), all.shareOf(0), 1e-12) << "the value stays where it is";
     EXPECT_EQ(zoomed(near, 100, 0, all), all);
-    for (const double factor : {0.0, -1.0, kNoCurve, kInfinite}) EXPECT_EQ(zoomed(near, factor, 0, all), near);
-    EXPECT_EQ(zoomed(near, 0.5, kNoCurve, all), near);
+    for (const double factor : {0.0, -1.0, kNoValue, kEndless}) EXPECT_EQ(zoomed(near, factor, 0, all), near);
+    EXPECT_EQ(zoomed(near, 0.5, kNoValue, all), near);
     ValueView view = all;
     for (int n = 0; n < 500; ++n) view = zoomed(view, 0.5, 2999, all);
     EXPECT_LT(view.low, view.high);

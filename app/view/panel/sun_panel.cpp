@@ -13,8 +13,8 @@
 namespace stereonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kNoNorth = 0.0005 * kDegree;  // less is not told
+constexpr double kPlaceDegree = std::numbers::pi / 180;
+constexpr double kNoNorth = 0.0005 * kPlaceDegree;  // less is not told
 
 // What says where the sun stands: what the scene takes at once comes first.
 const Option* sunOption(PanelHost& host) {
@@ -41,12 +41,12 @@ bool typed(const char* id, const char* hint, std::string& writing, const std::st
 }
 
 bool angleControl(const char* label, double& radians, double most, const char* tip) {
-    double degrees = radians / kDegree;
+    double degrees = radians / kPlaceDegree;
     ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
     const bool moved =
         ImGui::DragScalar(label, ImGuiDataType_Double, &degrees, 0.05f, nullptr, nullptr, "%.3f");
     tooltip(tip);
-    if (moved && std::isfinite(degrees)) radians = std::clamp(degrees, -most, most) * kDegree;
+    if (moved && std::isfinite(degrees)) radians = std::clamp(degrees, -most, most) * kPlaceDegree;
     return moved;
 }
 
@@ -73,8 +73,8 @@ void SunPanel::look(ViewSession& session) {
     }
     // What was set stays where the same ground was read again; typed places stay everywhere.
     const bool first = !mClock || place.has_value() != mOnEarth ||
-                       (place && (std::abs(place->latitude - mClock->place.latitude) > kDegree ||
-                                  std::abs(place->longitude - mClock->place.longitude) > kDegree));
+                       (place && (std::abs(place->latitude - mClock->place.latitude) > kPlaceDegree ||
+                                  std::abs(place->longitude - mClock->place.longitude) > kPlaceDegree));
     mOnEarth = place.has_value();
     if (first) {
         const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -127,11 +127,11 @@ bool SunPanel::drawClock() {
 bool SunPanel::drawPlace(PanelHost& host) {
     PlaceOnEarth& place = mClock->place;
     if (mOnEarth) {
-        const double north = place.latitude / kDegree, east = place.longitude / kDegree;
+        const double north = place.latitude / kPlaceDegree, east = place.longitude / kPlaceDegree;
         std::string text = fmt::format("at {:.3f} {}, {:.3f} {}", std::abs(north), north < 0 ? "S" : "N",
                                        std::abs(east), east < 0 ? "W" : "E");
         if (std::abs(mNorth) > kNoNorth)
-            text += fmt::format("\ntrue north {:+.2f} degrees from the map's", mNorth / kDegree);
+            text += fmt::format("\ntrue north {:+.2f} degrees from the map's", mNorth / kPlaceDegree);
         quietText(host, text);
         return false;
     }

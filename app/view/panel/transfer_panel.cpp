@@ -121,7 +121,9 @@ void TransferPanel::draw(PanelHost& host) {
     drawPlot(host);
     drawPoint(host);
     drawButtons(host, shown->begun);
-    if (mCurve.empty() && !shown->function.empty())
+    if (shown->function.empty())
+        quietText(host, "Opaque: a preset, or T, makes it translucent.");
+    else if (mCurve.empty())
         quietText(host, fmt::format("This function has more points than can be edited, {}.",
                                     shown->function.points().size()));
     ImGui::PopID();
