@@ -42,7 +42,7 @@ void drawEye(const ImVec2& at, double heading, double halfFov) {
 std::optional<std::size_t> keyframeUnder(const KeyframeEdit& edit, const ImVec2& pointer,
                                          const std::function<ImVec2(const glm::dvec3&)>& placed) {
     std::optional<std::size_t> nearest;
-    float best = 0.6f * ImGui::GetFontSize();
+    float best = 0.8f * ImGui::GetFontSize();
     for (std::size_t n = 0; n < edit.keys().size(); ++n) {
         const ImVec2 at = placed(edit.keys()[n].pose.position);
         const float away = std::hypot(at.x - pointer.x, at.y - pointer.y);
@@ -125,13 +125,13 @@ void MapPanel::drawPath(PanelHost& host, ViewSession& session, const Placed& pla
                      edits && mFlown.blocked[n - 1] ? kBlocked : kWay, edits ? 2.0f : 1.5f);
     if (!edits) return;
     const float font = ImGui::GetFontSize();
-    for (std::size_t n = 0; n < edit.keys().size(); ++n) {
-        const ImVec2 at = placed(edit.keys()[n].pose.position);
-        const bool chosen = edit.chosen() == n;
-        list.AddCircleFilled(at, (chosen ? 0.42f : 0.32f) * font, IM_COL32(20, 20, 20, 255));
-        list.AddCircleFilled(at, (chosen ? 0.34f : 0.24f) * font,
-                             chosen ? markColor() : IM_COL32(255, 255, 255, 255));
-    }
+    const auto handle = [&](std::size_t key, float size, ImU32 color) {
+        const ImVec2 at = placed(edit.keys()[key].pose.position);
+        list.AddCircleFilled(at, (size + 0.08f) * font, IM_COL32(20, 20, 20, 255));
+        list.AddCircleFilled(at, size * font, color);
+    };
+    for (std::size_t n = 0; n < edit.keys().size(); ++n) handle(n, 0.24f, IM_COL32(255, 255, 255, 255));
+    if (edit.chosen()) handle(*edit.chosen(), 0.34f, markColor());  // over its neighbours
 }
 
 bool MapPanel::dragKeyframes(PanelHost& host, ViewSession& session, const Placed& placed,
