@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/command/commands.h"
+#include "app/output/command_result.h"
 #include "app/view/frame_rate.h"
 #include "app/view/input.h"
 #include "app/view/loading.h"
@@ -57,6 +58,8 @@ public:
     void open(const std::string& scene) override;
     void quit() override { mWindow.close(); }
     const std::vector<RecentFile>& recentFiles() const override { return mRecent.list(); }
+    void forgetRecent(const std::filesystem::path& file) override { mRecent.remove(file); }
+    FileLook lookAt(const std::filesystem::path& file) override { return mLooks.look(file); }
     Bookmarks* places() override { return mPlaces ? &*mPlaces : nullptr; }
     void addPlace() override;
     void goToPlace(const Bookmark& place) override;
@@ -77,6 +80,8 @@ public:
     bool bakeTakes(const std::string& key, const std::string& value) const override;
     void bakeLight(const std::string& what, double minutes) override;
     ScreenWords onScreen(const ViewFrame& frame) const override;
+    ScreenAnswer screen() const override;
+    void leaveScreenUnknown() override;
     bool fullScreen() const override { return mWindow.fullScreen(); }
 
 private:
@@ -86,6 +91,8 @@ private:
         SettingTexts given, said;
     };
 
+    // What stays useful after the window is closed.
+    void tell(const std::string& text);
     double waitSeconds() const;
     void takeScene();
     void update(double dt);
@@ -97,6 +104,9 @@ private:
     void readConfig();
     void keepConfig();
     void noteRecent();
+    // Of what is shown: in full, so that it is found from anywhere; built-in scenes by their names.
+    std::filesystem::path fullName() const;
+    void keepBefore();
     void startJob(const std::string& what, const std::vector<std::string>& words);
     void lookAtJob();
     void reportKept();
@@ -104,6 +114,7 @@ private:
     void load(const ViewOptions& options, bool another);
     void goTo(const SettingTexts& settings);
     bool wouldApply(const Option& option) const;
+    bool setScreen(const std::string& key, const std::optional<std::string>& text);
     void tryTo(const std::function<void()>& what);
     void askFor();
     void takeFrame();
@@ -120,6 +131,8 @@ private:
     void draw(double dt, const Stopwatch& turn);
     void show(const ComposeSetting& setting);
 
+    CommandResult mResult;
+    FactWords mTold;
     ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed in place since
     // Asked for by every control of every layout: made once a turn, or once a scene.
     mutable std::optional<SettingTexts> mSettings;
@@ -158,7 +171,8 @@ private:
     SliceReading mSlices;
     bool mNewFrame = false, mAnother = false, mWasBusy = false, mStudyFailed = false;
     std::optional<ViewSession> mSession;
-    std::unique_ptr<ViewWorker> mWorker;  // after the window, whose wake() it calls until it has ended
+    FileLooks mLooks{[] { Window::wake(); }};  // after the window, as the worker
+    std::unique_ptr<ViewWorker> mWorker;       // after the window, whose wake() it calls until it has ended
 };
 
 }  // namespace stereonav

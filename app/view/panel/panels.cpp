@@ -233,6 +233,7 @@ void Panels::forget() {
     mState->map.forget();
     mState->places.forget();
     mState->slices.forget();
+    mState->start.forget();
     forgetStartPictures();
 }
 
