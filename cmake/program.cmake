@@ -25,7 +25,7 @@ endfunction()
 
 stereonav_part(terrain OPTION STEREONAV_TERRAIN LINK terrain
   SOURCES scene/terrain_loading.cpp scene/shown_terrain.cpp scene/medium_terrain.cpp scene/medium_of_terrain.cpp scene/terrain_type.cpp
-    command/bake_terrain.cpp command/info_terrain.cpp command/mesh_command.cpp)
+    scene/glance_terrain.cpp     command/bake_terrain.cpp command/info_terrain.cpp command/mesh_command.cpp)
 if(NOT STEREONAV_TERRAIN)
   # the sky over media, too; the options in scene files
   target_sources(program PRIVATE ${CMAKE_SOURCE_DIR}/terrain/light/sky_map.cpp ${CMAKE_SOURCE_DIR}/terrain/read/toml_document.cpp)
@@ -33,7 +33,7 @@ if(NOT STEREONAV_TERRAIN)
   target_link_libraries(program PRIVATE toml11::toml11)
 endif()
 stereonav_part(colon OPTION STEREONAV_COLON LINK colon
-  SOURCES scene/colon_loading.cpp scene/volume_*.cpp scene/shown_volume.cpp scene/seen_volume_light.cpp
+  SOURCES scene/colon_loading.cpp scene/volume_*.cpp scene/glance_volume.cpp scene/shown_volume.cpp scene/seen_volume_light.cpp
     scene/medium_of_volume.cpp scene/volume_type.cpp scene/light_loading.cpp scene/lazy_light.cpp
     scene/traced_light.cpp command/bake_volume.cpp command/bake_peers_*.cpp command/info_colon.cpp
     command/info_series.cpp command/centreline_command.cpp)

@@ -1,4 +1,5 @@
 // Meshes: glTF files.
+#include "app/scene/file_glance.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/scene_type.h"
 #include "app/scene/shown_mesh.h"
@@ -29,6 +30,7 @@ const SceneType& meshType() {
     static const SceneType type{.noun = "mesh",
                                 .owns = isMesh,
                                 .optionsFor = [](const std::string&) { return scene_type::kMeshFile; },
+                                .glance = glanceAtMesh,
                                 .load = loadMesh};
     return type;
 }

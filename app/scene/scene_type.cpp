@@ -38,6 +38,12 @@ std::span<const SceneType* const> sceneTypes() {
     return types;
 }
 
+bool isBuiltIn(const std::string& name) {
+    return std::ranges::any_of(sceneTypes(), [&](const SceneType* type) {
+        return std::ranges::find(type->builtIn, name) != type->builtIn.end();
+    });
+}
+
 const SceneType& sceneTypeNamed(const std::string& name) {
     constexpr const char* kAdvice =
         "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png), a CT study (a folder of "

@@ -13,6 +13,7 @@
 #include "app/options/scene_types.h"
 #include "app/output/output_place.h"
 #include "engine/base/progress.h"
+#include "engine/scene/facts.h"
 #include "engine/scene/scene.h"
 #include "engine/simd/simd_target.h"
 
@@ -29,6 +30,9 @@ struct SceneType {
     SceneSet (*optionsFor)(const std::string& scene) = nullptr;
     // Files that a file of this type names. Null: none.
     std::vector<NamedPlace> (*filesOf)(const SceneOptions& options) = nullptr;
+    // What a file of it is, by its headers: a bounded read of what is there. Null: nothing is known before it
+    // is loaded. Throws Error, Cancelled.
+    Facts (*glance)(const std::string& file, Progress& progress) = nullptr;
     // Whose rays are cast. Null: it is shown as a medium only. Throws Error, Cancelled.
     std::unique_ptr<Scene> (*load)(const SceneOptions& options, SimdTarget simd,
                                    Progress& progress) = nullptr;
@@ -45,6 +49,9 @@ const SceneType& volumeType();
 const SceneType& builtInMediumType();
 
 std::span<const SceneType* const> sceneTypes();
+
+// Whether it is the name of one that is no file, whatever lies in the present folder.
+bool isBuiltIn(const std::string& name);
 
 // That which a name stands for. Throws Error for a name of nothing, with what can be named.
 const SceneType& sceneTypeNamed(const std::string& name);

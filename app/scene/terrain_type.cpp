@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "app/command/bake_terrain.h"
+#include "app/scene/file_glance.h"
 #include "app/scene/medium_of.h"
 #include "app/scene/scene_type.h"
 #include "app/scene/terrain_loading.h"
@@ -26,6 +27,7 @@ const SceneType& terrainType() {
                                 .owns = isAnyFile,
                                 .optionsFor = [](const std::string&) { return scene_type::kTerrains; },
                                 .filesOf = filesOfScene,
+                                .glance = glanceAtTerrain,
                                 .load = loadTerrainScene,
                                 .makeMedium = makeFromTerrain,
                                 .bake = bakeTerrain,

@@ -1,6 +1,7 @@
 // CT studies, and the built-in colon.
 #include "app/command/bake_volume.h"
 #include "app/scene/colon_loading.h"
+#include "app/scene/file_glance.h"
 #include "app/scene/medium_of.h"
 #include "app/scene/scene_type.h"
 #include "colon/study/study.h"
@@ -25,6 +26,7 @@ const SceneType& volumeType() {
                                 .builtIn = {kBuiltIn},
                                 .owns = isStudyFile,
                                 .optionsFor = volumeOptions,
+                                .glance = glanceAtVolume,
                                 .load = loadColonScene,
                                 .makeMedium = makeFromVolume,
                                 .bake = bakeVolume,

@@ -101,7 +101,7 @@ void checkMark(const Bookmark& mark) {
 
 std::string fullName(const std::string& scene) {
     std::error_code code;
-    if (!fs::exists(scene, code)) return scene;  // built in
+    if (fs::path(scene).is_relative() || !fs::exists(scene, code)) return scene;  // built in
     const fs::path full = fs::canonical(scene, code);
     return code ? scene : full.string();
 }

@@ -31,7 +31,7 @@ bool isRecent(const json& file) {
 
 fs::path fullPath(const fs::path& path) {
     std::error_code code;
-    if (!fs::exists(path, code)) return path;  // built in
+    if (path.is_relative() || !fs::exists(path, code)) return path;  // built in
     const fs::path full = fs::canonical(path, code);
     return code ? path : full;
 }

@@ -25,7 +25,8 @@ public:
     explicit RecentFiles(const std::filesystem::path& folder = stateFolder());
 
     const std::vector<RecentFile>& list() const { return mList; }
-    // To the front. A thumbnail of before stays where there is none now.
+    // To the front. A path that is not full is a built-in scene's name. A thumbnail of before stays where
+    // there is none now.
     void add(const std::filesystem::path& path, const std::string& kind,
              const Plane<PackedColor>* thumbnail = nullptr);
     void remove(const std::filesystem::path& path);

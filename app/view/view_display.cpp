@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/view/kept_file.h"
 #include "engine/base/error.h"
 #include "engine/display/eye_passes.h"
 
@@ -24,8 +25,7 @@ ViewDisplay::ViewDisplay(Window& window, const ViewOptions& options) : mWindow(w
 void ViewDisplay::follow(const ViewOptions& options) {
     if (options.fullScreen != mFullScreen) fill(options.fullScreen);
     mFullScreen = options.fullScreen;
-    mWidth_mm = options.screenWidth_mm;
-    mDistance_mm = options.viewingDistance_mm;
+    mSizes.say(options.screenWidth_mm, options.viewingDistance_mm);
 }
 
 void ViewDisplay::fill(const std::string& monitor) {
@@ -83,32 +83,35 @@ std::string ViewDisplay::takeNotice() {
     return std::exchange(mNotice, {});
 }
 
-StereoScreen ViewDisplay::screen(const std::optional<Monitor>& on) const {
-    StereoScreen screen;
-    if (on) screen.width = statedWidth(on->width_mm, on->height_mm, on->area.width, on->area.height);
-    if (mWidth_mm) screen.width = *mWidth_mm / 1000;
-    if (mDistance_mm) screen.distance = *mDistance_mm / 1000;
-    return screen;
+ScreenTold ViewDisplay::told() const {
+    constexpr std::size_t kLongestName = 200;
+    const std::optional<Monitor> on = monitor();
+    if (!on) return {};
+    return {keptText(on->name, kLongestName), on->width_mm, on->height_mm, on->area.width, on->area.height};
 }
 
-double ViewDisplay::pictureWidthOf(const ViewFrame& frame) const {
-    const std::optional<Monitor> on = monitor();
+double ViewDisplay::pictureWidthOf(const ViewFrame& frame, const ScreenTold& on) const {
     const int window = mWindow.place().width, pixels = mWindow.framebufferSize().x;
     // Of the monitor's size, which is in the window's units.
     const double width = pixels > 0 ? frame.left.width() * (static_cast<double>(window) / pixels) : 0;
-    return pictureWidth(screen(on), width, on ? on->area.width : window);
+    const ScreenSize size = mSizes.of(on);
+    return pictureWidth({size.width_mm / 1000, size.distance_mm / 1000}, width,
+                        on.pixelsWide > 0 ? on.pixelsWide : window);
 }
 
 std::string ViewDisplay::parallaxText(const ViewFrame& frame) const {
     if (!frame.request.twoEyes) return "";
-    const double width = pictureWidthOf(frame), distance = screen(std::nullopt).distance;
+    const ScreenTold on = told();
+    const double width = pictureWidthOf(frame, on), distance = mSizes.of(on).distance_mm / 1000;
     return screenParallaxText(onScreen(frame.nearParallax, width, distance),
                               onScreen(frame.farParallax, width, distance));
 }
 
 std::string ViewDisplay::warning(const ViewFrame& frame) const {
     if (!frame.request.twoEyes) return "";
-    return divergenceText(onScreen(frame.farParallax, pictureWidthOf(frame), screen(std::nullopt).distance));
+    const ScreenTold on = told();
+    return divergenceText(
+        onScreen(frame.farParallax, pictureWidthOf(frame, on), mSizes.of(on).distance_mm / 1000));
 }
 
 }  // namespace stereonav

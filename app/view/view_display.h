@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/command/commands.h"
+#include "app/view/screen_sizes.h"
 #include "app/view/worker.h"
 #include "engine/display/frame_sequence.h"
 #include "engine/display/stereo_screen.h"
@@ -43,6 +44,11 @@ public:
     // What to tell, once; "" for nothing.
     std::string takeNotice();
 
+    // Of the screen that the window is on: how large it is, as far as anybody knows.
+    ScreenSizes& sizes() { return mSizes; }
+    const ScreenSizes& sizes() const { return mSizes; }
+    ScreenTold told() const;
+
     // On the real screen: of the status line, and a warning where eyes would have to turn outwards.
     std::string parallaxText(const ViewFrame& frame) const;
     std::string warning(const ViewFrame& frame) const;
@@ -50,13 +56,12 @@ public:
 private:
     void fill(const std::string& monitor);
     std::optional<Monitor> monitor() const;  // that the window is on
-    double pictureWidthOf(const ViewFrame& frame) const;
-    StereoScreen screen(const std::optional<Monitor>& on) const;
+    double pictureWidthOf(const ViewFrame& frame, const ScreenTold& on) const;
 
     Window& mWindow;
     OutputMode mMode;
     std::string mFullScreen;  // as the options say it
-    std::optional<double> mWidth_mm, mDistance_mm;
+    ScreenSizes mSizes;
     std::optional<FrameSequence> mSequence;  // while eyes alternate
     ScreenRect mPlace;                       // of the window when that began
     std::string mNotice;

@@ -20,13 +20,6 @@ constexpr double kIdleWait = 0.1;          // seconds; events and frames end the
 constexpr double kFiguresWait = 0.1;       // seconds that figures and notices may be old in flight
 constexpr std::size_t kKeptCosts = 240;    // frames
 
-// What stays useful after the window is closed.
-void tell(const std::string& text) {
-    if (text.empty()) return;
-    std::printf("%s\n", text.c_str());
-    std::fflush(stdout);
-}
-
 std::string titleOf(const SceneOptions& scene) {
     return "stereonav - " + (scene.scene.empty() ? "built-in terrain" : scene.scene);
 }
@@ -45,7 +38,8 @@ FrameCost costOf(const ViewFrame& frame) {
 }  // namespace
 
 Viewer::Viewer(const ViewOptions& options)
-    : mOptions(options),
+    : mResult("view", options.telling, {}),
+      mOptions(options),
       mGiven(settingTextsOf(options.scene.given)),
       mSaid(fileTextsOf(options.scene.given)),
       mFlight(options.path.empty() ? std::nullopt : std::optional(readPath(options.path))),
@@ -75,6 +69,14 @@ Viewer::~Viewer() {
     mPanels.forget();
 }
 
+void Viewer::tell(const std::string& text) {
+    constexpr std::size_t kMost = 10'000;
+    if (text.empty()) return;
+    if (mTold.size() < kMost) mTold.push_back(text);
+    mResult.say(text + "\n");
+    std::fflush(stdout);
+}
+
 void Viewer::run() {
     if (!mOptions.shots.empty()) makeOutputFolder(mOptions.shots);
     while (!mWindow.shouldClose() && !(mSession && mSession->quit())) {
@@ -91,6 +93,9 @@ void Viewer::run() {
     }
     while (mScreenshots.waiting() && mFrame) finishScreenshots();
     keepConfig();
+    mResult.add("scene", sceneName());
+    mResult.add("told", mTold);
+    mResult.finish();
 }
 
 double Viewer::waitSeconds() const {
@@ -103,10 +108,11 @@ double Viewer::waitSeconds() const {
 
 // The first scene starts the session, others take its place in it, or a session of their own.
 void Viewer::takeScene() {
-    const ViewWorker::Loading loading = mWorker->loading();
+    auto scene = mWorker->scene();
+    const ViewWorker::Loading loading =
+        mWorker->loading();  // after the scene: it is of that, or of a newer one
     if (loading.busy && !mWasBusy) mLoadingWatch.lap_ms();
     mWasBusy = loading.busy;
-    auto scene = mWorker->scene();
     if (!scene || scene == mScene) return;
     mScene = std::move(scene);
     mFacts.reset();
@@ -125,7 +131,7 @@ void Viewer::takeScene() {
     mWindow.setTitle(titleOf(mOptions.scene));
     mSettings.reset();
     mHistory.start(settings());
-    mPlaces.emplace(mOptions.scene.scene.empty() ? "terrain" : mOptions.scene.scene);
+    mPlaces.emplace(fullName().string());
     mRecentDue = true;
     reportKept();
     if (first) mSession->notify("F1 shows the keys, F2 and F3 the panels");
@@ -322,6 +328,16 @@ void Viewer::reportDisplay() {
 
 ScreenWords Viewer::onScreen(const ViewFrame& frame) const {
     return {mDisplay.parallaxText(frame), mDisplay.warning(frame)};
+}
+
+ScreenAnswer Viewer::screen() const {
+    const ScreenTold told = mDisplay.told();
+    const ScreenSize size = mDisplay.sizes().of(told);
+    return {screenText(size), size.width_mm, mDisplay.sizes().asks(told)};
+}
+
+void Viewer::leaveScreenUnknown() {
+    mDisplay.sizes().noteAsked(mDisplay.told().name);
 }
 
 void Viewer::reportScreenshots() {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/command/commands.h"
+#include "app/output/command_result.h"
 #include "app/view/control_window.h"
 #include "app/view/frame_rate.h"
 #include "app/view/input.h"
@@ -60,6 +61,8 @@ public:
     void open(const std::string& scene) override;
     void quit() override { mWindow.close(); }
     const std::vector<RecentFile>& recentFiles() const override { return mRecent.list(); }
+    void forgetRecent(const std::filesystem::path& file) override { mRecent.remove(file); }
+    FileLook lookAt(const std::filesystem::path& file) override { return mLooks.look(file); }
     Bookmarks* places() override { return mPlaces ? &*mPlaces : nullptr; }
     void addPlace() override;
     void goToPlace(const Bookmark& place) override;
@@ -84,6 +87,8 @@ public:
     bool bakeTakes(const std::string& key, const std::string& value) const override;
     void bakeLight(const std::string& what, double minutes) override;
     ScreenWords onScreen(const ViewFrame& frame) const override;
+    ScreenAnswer screen() const override;
+    void leaveScreenUnknown() override;
     bool fullScreen() const override { return mWindow.fullScreen(); }
     bool controlsApart() const override { return mControls != nullptr; }
 
@@ -94,6 +99,8 @@ private:
         SettingTexts given, said;
     };
 
+    // What stays useful after the window is closed.
+    void tell(const std::string& text);
     double waitSeconds() const;
     void takeScene();
     void update(double dt);
@@ -112,6 +119,9 @@ private:
     void readConfig();
     void keepConfig();
     void noteRecent();
+    // Of what is shown: in full, so that it is found from anywhere; built-in scenes by their names.
+    std::filesystem::path fullName() const;
+    void keepBefore();
     void startJob(const std::string& what, const std::vector<std::string>& words);
     void lookAtJob();
     void reportKept();
@@ -119,6 +129,7 @@ private:
     void load(const ViewOptions& options, bool another);
     void goTo(const SettingTexts& settings);
     bool wouldApply(const Option& option) const;
+    bool setScreen(const std::string& key, const std::optional<std::string>& text);
     void tryTo(const std::function<void()>& what);
     void askFor();
     void takeFrame();
@@ -139,6 +150,8 @@ private:
     std::vector<OverlayMark> marks(const OutputModeInfo& mode) const;
     bool drawOverlay(const OutputModeInfo& mode);
 
+    CommandResult mResult;
+    FactWords mTold;
     ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed in place since
     // Asked for by every control of every layout: made once a turn, or once a scene.
     mutable std::optional<SettingTexts> mSettings;
@@ -186,7 +199,8 @@ private:
     long long mKeyframesSeen = 0, mKeyframesPath = 0;  // versions: of them, and of the path beside them
     bool mKeyframesFlown = false;                      // that path is theirs
     std::optional<ViewSession> mSession;
-    std::unique_ptr<ViewWorker> mWorker;  // after the window, whose wake() it calls until it has ended
+    FileLooks mLooks{[] { Window::wake(); }};  // after the window, as the worker
+    std::unique_ptr<ViewWorker> mWorker;       // after the window, whose wake() it calls until it has ended
 };
 
 }  // namespace stereonav

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/scene/scene_type.h"
 #include "app/view/live_settings.h"
 #include "app/view/viewer.h"
 #include "engine/base/error.h"
@@ -17,14 +18,6 @@ bool contains(const std::vector<std::string>& names, const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// In full, so that it is found from anywhere; built-in scenes by their names.
-std::filesystem::path fullName(const std::string& scene) {
-    std::error_code code;
-    if (scene.empty()) return "terrain";
-    return std::filesystem::exists(scene, code) ? std::filesystem::absolute(scene, code).lexically_normal()
-                                                : std::filesystem::path(scene);
-}
-
 }  // namespace
 
 void Viewer::readConfig() {
@@ -38,6 +31,7 @@ void Viewer::readConfig() {
     mPanels.setSide(contains(mConfig.openPanels, kSidePanels), static_cast<float>(mConfig.rightWidth));
     mPanels.setLeft(contains(mConfig.openPanels, kLeftPanels), static_cast<float>(mConfig.leftWidth));
     mPanels.setFolder(mConfig.lastFolder);
+    mDisplay.sizes().setKept(mConfig.screens);
     mLabels = mConfig.placeLabels;
     if (contains(mConfig.openPanels, kOwnWindow)) toggleControls();
 }
@@ -57,14 +51,27 @@ void Viewer::keepConfig() {
     config.lastFolder = mPanels.folder();
     config.placeLabels = mLabels;
     if (mSession) config.speedByDistance = mSession->speedByDistance();
+    config.screens = mDisplay.sizes().kept();
     if (!(config == mConfig)) writeWindowConfig(config);
+}
+
+// A folder of a built-in scene's name is not that scene.
+std::filesystem::path Viewer::fullName() const {
+    const std::string& scene = mOptions.scene.scene;
+    if (scene.empty()) return "terrain";
+    std::error_code code;
+    if (isBuiltIn(scene) || !std::filesystem::exists(scene, code)) return scene;
+    return std::filesystem::absolute(scene, code).lexically_normal();
 }
 
 // With the first picture that was made of it.
 void Viewer::noteRecent() {
     if (!mRecentDue || mBefore) return;
     mRecentDue = false;
-    mRecent.add(fullName(mOptions.scene.scene), "", &mFrame->left.color);
+    tryTo([&] {
+        const std::string kind(sceneTypeNamed(mOptions.scene.scene).noun);
+        mRecent.add(fullName(), kind, &mFrame->left.color);
+    });
     reportKept();
 }
 

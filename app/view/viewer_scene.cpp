@@ -1,9 +1,13 @@
 // The viewer's part that changes what is shown: other files, other settings, back and forth.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <string_view>
 
+#include "app/options/option_value.h"
 #include "app/options/scene_types.h"
 #include "app/scene/shown_as.h"
 #include "app/view/live_settings.h"
@@ -12,6 +16,16 @@
 #include "engine/base/file.h"
 
 namespace stereonav {
+
+namespace {
+
+constexpr std::string_view kScreenWidthKey = "screen-width", kViewingDistanceKey = "viewing-distance";
+
+bool isOfScreen(std::string_view key) {
+    return key == kScreenWidthKey || key == kViewingDistanceKey;
+}
+
+}  // namespace
 
 // Collected beside the frames, by the thread that makes them.
 struct Viewer::FactsWish {
@@ -40,7 +54,33 @@ const SettingTexts& Viewer::settings() const {
 }
 
 std::optional<std::string> Viewer::valueOf(const Option& option) const {
+    if (option.key == kScreenWidthKey)
+        return fmt::format("{:.6g}", mDisplay.sizes().of(mDisplay.told()).width_mm);
+    if (option.key == kViewingDistanceKey)
+        return fmt::format("{:.6g}", mDisplay.sizes().of(mDisplay.told()).distance_mm);
     return mSession ? valueNow(*mSession, option.key) : std::nullopt;
+}
+
+// The screen's size is the person's, not the scene's: it is kept for the monitor, and nothing is loaded for
+// it. False: the option is another.
+bool Viewer::setScreen(const std::string& key, const std::optional<std::string>& text) {
+    if (!isOfScreen(key)) return false;
+    const Option& option = *viewOption(key);
+    const std::optional<double> mm =
+        text ? std::optional(readValue(option.name(), option.value, option.advice, *text).number())
+             : std::nullopt;
+    const std::string monitor = mDisplay.told().name;
+    if (key == kScreenWidthKey)
+        mDisplay.sizes().setWidth(monitor, mm);
+    else
+        mDisplay.sizes().setDistance(monitor, mm);
+    // What the command line said counts no longer.
+    for (ViewOptions* options : {&mOptions, &mChanged}) {
+        (key == kScreenWidthKey ? options->screenWidth_mm : options->viewingDistance_mm).reset();
+        options->scene.given.forget(key);
+    }
+    mGiven.erase(key);
+    return true;
 }
 
 bool Viewer::applies(const Option& option) const {
@@ -61,7 +101,7 @@ bool Viewer::wouldApply(const Option& option) const {
 }
 
 bool Viewer::live(const Option& option) const {
-    return mSession && isLive(*mSession, option.key);
+    return isOfScreen(option.key) || (mSession && isLive(*mSession, option.key));
 }
 
 void Viewer::load(const ViewOptions& options, bool another) {
@@ -102,15 +142,27 @@ void Viewer::open(const std::string& scene) {
 }
 
 void Viewer::cancelLoading() {
-    if (mSession)
-        mWorker->cancelLoading();
-    else
-        mWindow.close();
+    if (!mSession) return mWindow.close();
+    mWorker->cancelLoading();
+    if (mWorker->scene() == mScene) keepBefore();  // else it was there already
+}
+
+// What is shown stays what it was.
+void Viewer::keepBefore() {
+    mAnother = false;
+    if (!mBefore) return;
+    mOptions = mChanged = mBefore->options;
+    mGiven = mBefore->given;
+    mSaid = mBefore->said;
+    mBefore.reset();
+    mSettings.reset();
+    mApplies.clear();
 }
 
 void Viewer::set(const std::string& key, const std::optional<std::string>& text) {
     if (!mSession) return;
     tryTo([&] {
+        if (setScreen(key, text)) return;
         if (isLive(*mSession, key, text)) {
             setLive(*mSession, key, text);
             if (!text) mGiven.erase(key);
@@ -136,6 +188,7 @@ void Viewer::goTo(const SettingTexts& settings) {
         if (a != now.end() && b != settings.end() && a->second == b->second) return;
         const std::optional<std::string> text =
             b == settings.end() || b->second.empty() ? std::nullopt : std::optional(b->second.back());
+        if (isOfScreen(key)) return;  // not undone: it is no setting of the picture
         changes.emplace_back(key, text);
         again = again || !isLive(*mSession, key, text);
     };
@@ -242,16 +295,7 @@ void Viewer::followWishes() {
     if (const std::string problem = mWorker->takeReloadProblem(); !problem.empty()) {
         mSession->forgetSceneChange();
         mFailure = problem;
-        // What is shown stays what it was.
-        if (mBefore) {
-            mOptions = mChanged = mBefore->options;
-            mGiven = mBefore->given;
-            mSaid = mBefore->said;
-            mBefore.reset();
-            mSettings.reset();
-            mApplies.clear();
-        }
-        mAnother = false;
+        keepBefore();
     }
     takeStudy();
 }

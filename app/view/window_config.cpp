@@ -12,7 +12,7 @@ namespace stereonav {
 namespace {
 
 constexpr const char* kThemes[] = {"dark", "light"};
-constexpr std::size_t kMostPanels = 100, kLongestPanel = 100;
+constexpr std::size_t kMostPanels = 100, kLongestPanel = 100, kLongestMonitor = 200;
 
 // A basic string of TOML.
 std::string tomlText(const std::string& text) {
@@ -64,9 +64,23 @@ void readSections(TomlDocument& document, WindowConfig& config) {
     config.openPanels = panelNames(panels.texts("open"));
     TomlSection flight = document.section("flight");
     flight.read("speed_by_distance", config.speedByDistance);
-    TomlSection screen = document.section("screen");
-    readOptional(screen, "width_mm", config.screenWidth_mm, kScreenWidthRange);
-    readOptional(screen, "viewing_distance_mm", config.viewingDistance_mm, kViewingDistanceRange);
+    for (TomlSection& section : document.sections("screen")) {
+        KeptScreen screen;
+        if (section.has("monitor")) section.read("monitor", screen.monitor);
+        readOptional(section, "width_mm", screen.width_mm, kScreenWidthRange);
+        readOptional(section, "viewing_distance_mm", screen.viewingDistance_mm, kViewingDistanceRange);
+        if (config.screens.size() < kMostScreens) config.screens.push_back(std::move(screen));
+    }
+}
+
+std::string tomlOf(const KeptScreen& screen) {
+    std::string text = "\n[[screen]]\n";
+    if (!screen.monitor.empty())
+        text += "monitor = " + tomlText(keptText(screen.monitor, kLongestMonitor)) + "\n";
+    if (screen.width_mm) text += fmt::format("width_mm = {}\n", *screen.width_mm);
+    if (screen.viewingDistance_mm)
+        text += fmt::format("viewing_distance_mm = {}\n", *screen.viewingDistance_mm);
+    return text;
 }
 
 std::string tomlOf(const WindowConfig& config) {
@@ -77,17 +91,14 @@ std::string tomlOf(const WindowConfig& config) {
     const std::string folder = config.lastFolder.string();
     if (!folder.empty() && isUtf8(folder))  // other bytes are no TOML
         text += "last_folder = " + tomlText(folder) + "\n";
-    text += fmt::format("\n[panels]\nleft_width = {}\nright_width = {}\nopen = [", config.leftWidth,
-                        config.rightWidth);
+    text +=
+        fmt::format("\n[panels]\nleft_width = {}\nright_width = {}\n", config.leftWidth, config.rightWidth);
+    // An empty list is none that is read.
     for (std::size_t k = 0; k < config.openPanels.size(); ++k)
-        text += (k > 0 ? ", " : "") + tomlText(keptText(config.openPanels[k], kLongestPanel));
-    text += "]\n";
+        text += (k > 0 ? ", " : "open = [") + tomlText(keptText(config.openPanels[k], kLongestPanel));
+    if (!config.openPanels.empty()) text += "]\n";
     text += fmt::format("\n[flight]\nspeed_by_distance = {}\n", config.speedByDistance);
-    if (!config.screenWidth_mm && !config.viewingDistance_mm) return text;
-    text += "\n[screen]\n";
-    if (config.screenWidth_mm) text += fmt::format("width_mm = {}\n", *config.screenWidth_mm);
-    if (config.viewingDistance_mm)
-        text += fmt::format("viewing_distance_mm = {}\n", *config.viewingDistance_mm);
+    for (const KeptScreen& screen : config.screens) text += tomlOf(screen);
     return text;
 }
 

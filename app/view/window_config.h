@@ -15,6 +15,15 @@ constexpr NumberRange kPanelWidthRange = within(80, 4000, "pixels");  // at scal
 constexpr NumberRange kScreenWidthRange = within(20, 50'000, "mm");   // of a phone to a wall
 constexpr NumberRange kViewingDistanceRange = within(50, 200'000, "mm");
 
+// Of one monitor; that it is there says that its size was asked for.
+struct KeptScreen {
+    std::string monitor;  // its name
+    std::optional<double> width_mm, viewingDistance_mm;
+
+    bool operator==(const KeptScreen&) const = default;
+};
+constexpr std::size_t kMostScreens = 32;
+
 struct WindowConfig {
     std::string theme = "dark";   // dark, light
     std::optional<double> scale;  // none: the desktop's
@@ -23,7 +32,7 @@ struct WindowConfig {
     std::filesystem::path lastFolder;     // "" where there is none
     bool speedByDistance = false;
     bool placeLabels = true;
-    std::optional<double> screenWidth_mm, viewingDistance_mm;
+    std::vector<KeptScreen> screens;  // used last first
 
     bool operator==(const WindowConfig&) const = default;
 };

@@ -165,6 +165,7 @@ void ViewWorker::loadOne(const Load& load) {
         auto scene = std::make_shared<const OpenScene>(load(*mProgress));
         const std::lock_guard lock(mMutex);
         if (!mProgress->cancelled()) mScene = std::move(scene);
+        mLoading.busy = mLoad || mChange;  // who sees the scene sees that it is all there
     } catch (const Cancelled&) {
         // by a newer wish, or at the end
     } catch (const std::exception& error) {

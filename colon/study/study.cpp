@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <set>
 
 #include "colon/study/study_header.h"
@@ -17,6 +18,12 @@
 namespace stereonav {
 namespace {
 namespace fs = std::filesystem;
+
+const char* nameOf(SampleType type) {
+    constexpr const char* kNames[] = {"uint8", "int8",   "uint16", "int16",   "uint32",
+                                      "int32", "uint64", "int64",  "float32", "float64"};
+    return kNames[static_cast<int>(type)];
+}
 
 // Counts up when the reader gives other voxels or frames for the same bytes.
 constexpr std::int64_t kReaderVersion = 3;
@@ -147,6 +154,15 @@ std::vector<SeriesInfo> listSeries(const fs::path& folder) {
     std::vector<SeriesInfo> list;
     for (const DicomSeries& series : scanFolder(folder)) list.push_back(series.info);
     return list;
+}
+
+StudyGlance glanceAtStudy(const fs::path& path, Progress& progress) {
+    if (isDicom(path)) return glanceAtSlices(path, progress);
+    const VolumeHeader header = readVolumeHeader(path);
+    checkSampleFiles(path, header);
+    StudyGlance glance{header.format, header.description, nameOf(header.type), header.size, {}, 1, 1};
+    for (int axis = 0; axis < 3; ++axis) glance.spacing_mm.push_back(glm::length(header.steps[axis]));
+    return glance;
 }
 
 bool looksLikeStudy(const fs::path& path) {

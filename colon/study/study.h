@@ -54,6 +54,18 @@ struct SeriesLook {
 // Of all of them, in the order of listSeries. Throws Error where the folder holds none.
 std::vector<SeriesLook> lookAtSeries(const std::filesystem::path& folder);
 
+// What headers alone say of a study: no sample is read.
+struct StudyGlance {
+    std::string format, description;  // as of Study; without notes
+    std::string type;                 // of a sample: "int16"; "" where it is not known
+    std::vector<std::uint64_t> size;  // voxels along three axes; of a folder columns and rows alone
+    std::vector<double> spacing_mm;   // along as many; empty where the header does not say
+    std::size_t files = 0;            // that a folder holds
+    std::size_t series = 0;           // of a folder, among the files that were looked at: at least so many
+};
+// Of a folder some files, spread over all, are looked at. Throws Error, Cancelled.
+StudyGlance glanceAtStudy(const std::filesystem::path& path, Progress& progress);
+
 // True where readStudy would try: a folder with DICOM files, or a name ending in .nrrd .nhdr .nii .nii.gz
 // .mha .mhd .dcm .ima; also what begins as DICOM or is a NIfTI pair, and samples of a header beside them,
 // which it refuses by naming that. No more is read than the folder's list and headers.

@@ -133,6 +133,10 @@ struct SlicePlaces {
 SlicePlaces placeSlices(const std::filesystem::path& folder, std::vector<DicomSlice>& slices, bool resample,
                         const std::string& strangers = "");
 
+// --- study_glance.cpp
+// Of DICOM: a folder, or one file. Throws Error, Cancelled.
+StudyGlance glanceAtSlices(const std::filesystem::path& place, Progress& progress);
+
 // --- study_pixels.cpp
 // Calls use(slice, its pixels as stored, widened) for these, all of one file. Throws Error.
 void decodeSlices(const std::vector<const DicomSlice*>& slices, PictureDecoder& decoder,

@@ -11,12 +11,11 @@ namespace {
 constexpr int kSmallest_mm = 50, kLargest_mm = 100000;  // of a screen's width
 constexpr double kShapeReach = 1.4;                     // pixels are square, or nearly
 
-}  // namespace
-
-double statedWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh) {
-    if (width_mm < kSmallest_mm || width_mm > kLargest_mm || height_mm < 1) return kDeskScreenWidth;
+// Millimetres of a screen, and not anything else.
+bool isSize(int width_mm, int height_mm, int pixelsWide, int pixelsHigh) {
+    if (width_mm < kSmallest_mm || width_mm > kLargest_mm || height_mm < 1) return false;
     // What stands for 16:9 and 16:10 in centimetres: no screen of this size is looked at in stereo.
-    if (width_mm == 160 && (height_mm == 90 || height_mm == 100)) return kDeskScreenWidth;
+    if (width_mm == 160 && (height_mm == 90 || height_mm == 100)) return false;
     if (pixelsWide > 0 && pixelsHigh > 0) {
         const double shape =
             (static_cast<double>(width_mm) / height_mm) / (static_cast<double>(pixelsWide) / pixelsHigh);
@@ -24,9 +23,22 @@ double statedWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh) 
         const auto near = [&](double factor) {
             return shape < factor * kShapeReach && shape * kShapeReach > factor;
         };
-        if (!near(1) && !near(0.5) && !near(2)) return kDeskScreenWidth;
+        if (!near(1) && !near(0.5) && !near(2)) return false;
     }
-    return width_mm / 1000.0;
+    return true;
+}
+
+}  // namespace
+
+double statedWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh) {
+    return isSize(width_mm, height_mm, pixelsWide, pixelsHigh) ? width_mm / 1000.0 : kDeskScreenWidth;
+}
+
+bool tellsWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh) {
+    constexpr double kMadeUp = 25.4 / 96;  // millimetres a pixel
+    const auto madeUp = [](int mm, int pixels) { return pixels > 0 && std::abs(mm - pixels * kMadeUp) <= 1; };
+    return isSize(width_mm, height_mm, pixelsWide, pixelsHigh) &&
+           !(madeUp(width_mm, pixelsWide) && madeUp(height_mm, pixelsHigh));
 }
 
 ScreenParallax onScreen(double parallax, double pictureWidth, double distance) {

@@ -22,6 +22,10 @@ struct StereoScreen {
 // nothing, less than a telephone's, or of another shape than its pixels (projectors state an aspect ratio).
 double statedWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh);
 
+// Whether that is a size which somebody measured: no size of a screen is none, nor is what a desktop makes up
+// where a monitor says nothing: as if it had 96 pixels an inch, both ways.
+bool tellsWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh);
+
 // Of one thing: negative before the screen, positive behind it.
 struct ScreenParallax {
     double millimetres = 0;

@@ -48,4 +48,15 @@ using BytesForSamples = std::function<double(double samples)>;
 DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
                 const BytesForSamples& after = {});
 
+// What the file's header says of it: no sample is read.
+struct DemGlance {
+    int width = 0, height = 0;                                // samples of the file
+    glm::dvec2 step{1.0};                                     // between them, in `unit`
+    std::string unit;                                         // of the plan: "m", "degrees", "units"
+    std::string driver, crs, band, heightUnit, missingValue;  // as of DemGrid
+    std::string type;                                         // of a sample, as GDAL calls it: "Int16"
+};
+// Throws Error as readDem() does where the header is enough to refuse it.
+DemGlance glanceAtDem(const std::filesystem::path& file);
+
 }  // namespace stereonav

@@ -19,6 +19,10 @@ DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progres
     return gdal().readDem(file, verticalScale, progress, after);
 }
 
+DemGlance glanceAtDem(const std::filesystem::path& file) {
+    return gdal().glanceAtDem(file);
+}
+
 std::unique_ptr<RasterPicture> openRasterPicture(const std::filesystem::path& file,
                                                  const std::string& expected, const std::string& advice) {
     return gdal().openRasterPicture(file, expected, advice);

@@ -41,6 +41,7 @@ std::unique_ptr<EarthPlaces> earthPlaces(const Georeference& grid, const glm::dv
 // The module's table.
 struct RasterFunctions {
     decltype(&stereonav::readDem) readDem;
+    decltype(&stereonav::glanceAtDem) glanceAtDem;
     decltype(&stereonav::openRasterPicture) openRasterPicture;
     decltype(&stereonav::mapPixels) mapPixels;
     decltype(&stereonav::overlap) overlap;

@@ -55,8 +55,9 @@ TEST_F(CommandTelling, EveryCommandIsTried) {
     for (const CommandFacts& command : commandFacts())
         EXPECT_TRUE(all.contains(command.name) || command.command == command::kView) << command.name;
     for (const CommandFacts& command : commandFacts())
-        for (const char* key : {"json", "quiet"})
+        for (const char* key : {"json", "quiet"}) {
             EXPECT_NE(findOption(command.command, key), nullptr) << command.name << " --" << key;
+        }
 }
 
 TEST_F(CommandTelling, AsJsonIsOneDocument) {
@@ -70,7 +71,8 @@ TEST_F(CommandTelling, AsJsonIsOneDocument) {
         const Json json = Json::parse(outcome.out, nullptr, false);
         ASSERT_TRUE(json.is_object()) << outcome.out;
         for (const std::string& field : small.fields) EXPECT_TRUE(json.contains(field)) << field;
-        if (command != "info" && command != "compare") EXPECT_EQ(json.at("command"), command);
+        if (command == "info" || command == "compare") continue;
+        EXPECT_EQ(json.at("command"), command);
     }
     EXPECT_TRUE(std::filesystem::exists(place() / "a.png")) << "the files are written as without";
 }

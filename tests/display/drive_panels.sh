@@ -96,7 +96,7 @@ keys ctrl+n
 sleep 2
 set -- $(xdotool getwindowgeometry --shell "$window" | sed -n 's/^\(WIDTH\|HEIGHT\)=//p')
 half=$(($1 / 2))
-xdotool mousemove --window "$window" $((half + half / 2 - 80)) $(($2 / 2 - 55))
+xdotool mousemove --window "$window" $((half + half / 2 - 80)) $(($2 / 2 - 95))
 sleep 0.3
 xdotool mousedown 1
 sleep 0.2

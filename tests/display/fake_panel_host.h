@@ -60,6 +60,10 @@ public:
     ScreenWords onScreen(const ViewFrame&) const override { return {}; }
     bool fullScreen() const override { return false; }
     bool controlsApart() const override { return false; }
+    void forgetRecent(const std::filesystem::path&) override {}
+    FileLook lookAt(const std::filesystem::path&) override { return {}; }
+    ScreenAnswer screen() const override { return {}; }
+    void leaveScreenUnknown() override {}
 
 private:
     ViewSession& mSession;

@@ -280,6 +280,7 @@ TEST(WindowConfig, ComesBackAsItWasKept) {
     WindowConfig config;
     EXPECT_EQ(writeWindowConfig(config, file), "");
     EXPECT_EQ(readWindowConfig(file).config, config);
+    EXPECT_EQ(readWindowConfig(file).problem, "") << "nothing that it writes is wrong";
     config.theme = "light";
     config.scale = 1.25;
     config.leftWidth = 312.5;
@@ -287,8 +288,7 @@ TEST(WindowConfig, ComesBackAsItWasKept) {
     config.lastFolder = "/data/\xe5\xb1\xb1/new\nline \"x\"";
     config.speedByDistance = true;
     config.placeLabels = false;
-    config.screenWidth_mm = 598;
-    config.viewingDistance_mm = 700.5;
+    config.screens = {{"DP-1 \"\xe5\xb1\xb1\"", 598, 700.5}, {"HDMI-1", std::nullopt, 900}, {"", {}, {}}};
     EXPECT_EQ(writeWindowConfig(config, file), "");
     const ReadConfig read = readWindowConfig(file);
     EXPECT_EQ(read.problem, "");
@@ -311,7 +311,12 @@ TEST(WindowConfig, WhatIsWrongIsToldAndTheRestCounts) {
     EXPECT_THAT(problemOf(panels + "[window]\ntheme = \"pink\"\n"), HasSubstr("dark or light"));
     EXPECT_THAT(problemOf(panels + "[window]\nscale = 100\n"), HasSubstr("0.5 to 4"));
     EXPECT_THAT(problemOf(panels + "[window]\nscale = nan\n"), HasSubstr("scale"));
-    EXPECT_THAT(problemOf(panels + "[screen]\nwidht_mm = 3\n"), HasSubstr("width_mm"));
+    EXPECT_THAT(problemOf(panels + "[[screen]]\nwidht_mm = 3\n"), HasSubstr("width_mm"));
+    for (const char* bad : {"0", "-5", "nan", "inf", "1e9", "\"wide\"", "[]"})
+        EXPECT_THAT(problemOf(panels + "[[screen]]\nmonitor = \"DP-1\"\nwidth_mm = " + bad + "\n"),
+                    HasSubstr("width_mm"));
+    EXPECT_THAT(problemOf(panels + "[[screen]]\nmonitor = 3\n"), HasSubstr("monitor"));
+    EXPECT_THAT(problemOf(panels + "[screen]\nwidth_mm = 500\n"), HasSubstr("screen"));
     EXPECT_THAT(problemOf(panels + "[future]\nx = 3\n"), HasSubstr("future"));
     EXPECT_THAT(problemOf(panels + "open = 3\n"), testing::_);
 }

@@ -10,12 +10,14 @@
 #include <system_error>
 
 #include "app/view/panel/controls.h"
+#include "app/view/panel/file_look_rows.h"
 
 namespace stereonav {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kLookLines = 5;
 constexpr std::size_t kMostEntries = 5000;  // of a folder: more are not looked at
 
 std::string lowerCase(std::string text) {
@@ -106,7 +108,8 @@ void FileBrowser::choose(PanelHost& host, const std::filesystem::path& path) {
 
 void FileBrowser::drawEntries(PanelHost& host) {
     const float font = ImGui::GetFontSize();
-    ImGui::BeginChild("##entries", {0, -2 * ImGui::GetFrameHeightWithSpacing()}, true);
+    const float below = mFor == For::Open ? kLookLines * ImGui::GetTextLineHeightWithSpacing() : 0;
+    ImGui::BeginChild("##entries", {0, -2 * ImGui::GetFrameHeightWithSpacing() - below}, true);
     if (!mProblem.empty()) quietText(host, mProblem);
     fs::path next;
     const std::string filter = lowerCase(mFilter);
@@ -141,6 +144,15 @@ void FileBrowser::drawEntries(PanelHost& host) {
     }
 }
 
+// Of what is named below, where that is there.
+void FileBrowser::drawLook(PanelHost& host) {
+    ImGui::BeginChild("##look", {0, kLookLines * ImGui::GetTextLineHeightWithSpacing()});
+    std::error_code code;
+    const fs::path chosen = mFolder / mName;
+    if (!mName.empty() && fs::exists(chosen, code)) drawFileLook(host, host.lookAt(chosen), kLookLines);
+    ImGui::EndChild();
+}
+
 void FileBrowser::draw(PanelHost& host) {
     if (!mOpen) return;
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
@@ -167,6 +179,7 @@ void FileBrowser::draw(PanelHost& host) {
     quietText(host, mFolder.string());
     drawEntries(host);
     const bool save = mFor == For::SaveScene;
+    if (!save) drawLook(host);
     ImGui::SetNextItemWidth(-14 * font);
     if (mFresh) ImGui::SetKeyboardFocusHere();
     mFresh = false;

@@ -30,6 +30,7 @@ private:
     void goTo(const std::filesystem::path& folder);
     void choose(PanelHost& host, const std::filesystem::path& path);
     void drawEntries(PanelHost& host);
+    void drawLook(PanelHost& host);
 
     bool mOpen = false, mFresh = false, mAll = false;
     For mFor = For::Open;

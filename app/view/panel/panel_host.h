@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/view/bookmarks.h"
+#include "app/view/file_looks.h"
 #include "app/view/job.h"
 #include "app/view/recent_files.h"
 #include "app/view/session.h"
@@ -30,6 +31,13 @@ struct MovieWish {
     std::string file;                // .mp4, .mkv, .avi; or a folder's name, for pictures
     int width = 1280, height = 720;  // pixels of an eye
     double fps = 25;
+};
+
+// The screen that the window is on.
+struct ScreenAnswer {
+    std::string words;    // how large it is, and who says so
+    double width_mm = 0;  // in use
+    bool asks = false;    // it is a guess that nobody was asked about
 };
 
 class PanelHost {
@@ -87,6 +95,9 @@ public:
     virtual void open(const std::string& scene) = 0;  // a file, a folder, or a built-in scene's name
     virtual void quit() = 0;
     virtual const std::vector<RecentFile>& recentFiles() const = 0;  // newest first
+    virtual void forgetRecent(const std::filesystem::path& file) = 0;
+    // What a file is before it is opened: asked for again with each layout until it is there.
+    virtual FileLook lookAt(const std::filesystem::path& file) = 0;
     virtual void saveScene(const std::filesystem::path& file) = 0;
     virtual void copy(const std::string& text) = 0;
     virtual bool canUndo() const = 0;
@@ -100,6 +111,8 @@ public:
     virtual const Facts* facts() = 0;
     // Parallax as it is on the real screen.
     virtual ScreenWords onScreen(const ViewFrame& frame) const = 0;
+    virtual ScreenAnswer screen() const = 0;
+    virtual void leaveScreenUnknown() = 0;  // it is not asked again
     virtual bool fullScreen() const = 0;
     virtual bool controlsApart() const = 0;  // the panels are in a window of their own
 };

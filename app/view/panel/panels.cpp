@@ -243,6 +243,7 @@ void Panels::forget() {
     mState->places.forget();
     mState->slices.forget();
     mState->tools.transfer.forget();
+    mState->start.forget();
     forgetStartPictures();
 }
 

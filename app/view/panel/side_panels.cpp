@@ -31,6 +31,8 @@ void command(PanelHost& host, const char* label, ViewCommand which, const char* 
 
 void drawView(PanelHost& host, ViewSession& session) {
     for (const Option* const option : optionsOf(host, OptionPanel::View)) optionControl(host, *option);
+    quietText(host, host.screen().words);
+    tooltip("Parallax in millimetres and degrees is by this. It is kept for this monitor.");
     bool stereo = session.stereoOn(), swapped = session.swapped();
     if (ImGui::Checkbox("stereo", &stereo)) host.act({ViewCommand::ToggleStereo});
     tooltip("Two eyes, or one. Key: 3");

@@ -3,12 +3,18 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/view/panel/controls.h"
+#include "app/view/panel/file_look_rows.h"
 #include "app/view/panel/start_pictures.h"
+#include "engine/base/error.h"
+#include "engine/image/image_file.h"
 
 namespace stereonav {
 namespace {
+
+constexpr int kMostRecent = 8;
 
 struct Card {
     const char *scene, *title, *words;
@@ -44,6 +50,84 @@ bool drawCard(PanelHost& host, const Card& card, float width) {
 
 }  // namespace
 
+void StartPage::show(bool shown) {
+    mShown = shown;
+    if (shown) mPictures.clear();  // they may have been made anew since
+}
+
+// True: it is to be opened. width: units.
+bool StartPage::drawRecentFile(PanelHost& host, const RecentFile& file, float width) {
+    const float font = ImGui::GetFontSize(), height = 2.6f * font;
+    const ImVec2 picture(height * kThumbnailWidth / kThumbnailHeight, height);
+    const std::string name =
+        file.path.filename().empty() ? file.path.string() : file.path.filename().string();
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const bool clicked = ImGui::Selectable("##file", false, 0, {width, height});
+    const bool hovered = ImGui::IsItemHovered();
+    if (ImGui::BeginPopupContextItem()) {
+        if (ImGui::MenuItem("Remove from this list")) mForget = file.path;
+        ImGui::EndPopup();
+    }
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 to(from.x + picture.x, from.y + picture.y);
+    if (PanelTexture* const texture = pictureOf(file))
+        list.AddImage(texture->id(), from, to);
+    else
+        list.AddRectFilled(from, to, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    // Cut at its width: the whole path is in the tooltip.
+    const float text = to.x + 0.6f * font;
+    list.PushClipRect({text, from.y}, {from.x + width, to.y}, true);
+    list.AddText({text, from.y + 0.2f * font}, ImGui::GetColorU32(ImGuiCol_Text), name.c_str());
+    const std::string where = file.path.parent_path().string();
+    list.AddText({text, from.y + 1.35f * font}, ImGui::GetColorU32(quietColor(host.look())), where.c_str());
+    list.PopClipRect();
+    if (hovered) {
+        ImGui::BeginTooltip();
+        ImGui::PushTextWrapPos(34 * font);
+        ImGui::TextUnformatted(file.path.string().c_str());
+        drawFileLook(host, host.lookAt(file.path), 8, 34 * font);
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+    }
+    return clicked;
+}
+
+// Null where there is none.
+PanelTexture* StartPage::pictureOf(const RecentFile& file) {
+    if (file.thumbnail.empty()) return nullptr;
+    const auto [known, fresh] = mPictures.try_emplace(file.thumbnail.string());
+    if (fresh) try {
+            known->second.set(readColorImage(file.thumbnail), true);
+        } catch (const Error&) {
+            // it is gone, or damaged: without
+        }
+    return known->second.any() ? &known->second : nullptr;
+}
+
+void StartPage::drawRecent(PanelHost& host, float width) {
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const int columns = width > 30 * ImGui::GetFontSize() ? 2 : 1;
+    const float each = (width - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns);
+    std::string open;
+    int shown = 0;
+    for (const RecentFile& file : host.recentFiles()) {
+        const std::string path = file.path.string();
+        if (std::find_if(std::begin(kCards), std::end(kCards),
+                         [&](const Card& card) { return path == card.scene; }) != std::end(kCards))
+            continue;
+        if (shown == kMostRecent) break;
+        if (shown == 0) ImGui::Spacing();
+        if (shown % columns != 0) ImGui::SameLine();
+        ImGui::PushID(shown++);
+        if (drawRecentFile(host, file, each - 1)) open = path;
+        ImGui::PopID();
+    }
+    if (!mForget.empty()) host.forgetRecent(std::exchange(mForget, {}));
+    if (open.empty()) return;
+    mShown = false;
+    host.open(open);
+}
+
 bool StartPage::draw(PanelHost& host) {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize();
@@ -69,18 +153,7 @@ bool StartPage::draw(PanelHost& host) {
     tooltip("An elevation model, a CT study, a mesh or a scene. Key: Ctrl+O");
     ImGui::SameLine();
     quietText(host, "or drop it here: GeoTIFF and other elevation models, DICOM, NIfTI, NRRD, glTF");
-    const auto& recent = host.recentFiles();
-    for (std::size_t n = 0; n < std::min<std::size_t>(recent.size(), 8); ++n) {
-        ImGui::PushID(static_cast<int>(n));
-        const std::string path = recent[n].path.string();
-        if (std::find_if(std::begin(kCards), std::end(kCards),
-                         [&](const Card& card) { return path == card.scene; }) == std::end(kCards) &&
-            ImGui::Selectable(path.c_str())) {
-            mShown = false;
-            host.open(path);
-        }
-        ImGui::PopID();
-    }
+    drawRecent(host, inside);
     ImGui::Separator();
     quietText(host, "Look: drag, or the arrow keys.");
     quietText(host, "Fly: W S A D; the wheel changes the speed, Space goes home.");

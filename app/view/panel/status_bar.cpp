@@ -62,6 +62,30 @@ std::string placeText(ViewSession& session) {
     return text;
 }
 
+// Asked once for a monitor, and only of who sees with two eyes.
+bool asksForScreen(PanelHost& host) {
+    ViewSession* const session = host.session();
+    const ViewFrame* const frame = host.frame();
+    return session && frame && frame->request.twoEyes && !session->slicesShown() &&
+           infoOf(session->compose().mode).layout != OutputLayout::OneEye && host.screen().asks;
+}
+
+void askForScreen(PanelHost& host) {
+    static double width_mm = 0;  // as it is being written
+    ImGui::TextUnformatted("How wide is this screen? It does not tell, so parallax in mm is a guess.");
+    if (!(width_mm > 0)) width_mm = std::round(host.screen().width_mm);
+    ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
+    ImGui::InputDouble("mm##screen", &width_mm, 0, 0, "%.0f");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!(width_mm > 0 && std::isfinite(width_mm)));
+    if (ImGui::Button("Set")) host.set("screen-width", fmt::format("{:.6g}", width_mm));
+    ImGui::EndDisabled();
+    tooltip("Of the whole monitor. It is kept, and can be changed in the panel View and stereo.");
+    ImGui::SameLine();
+    if (ImGui::Button("Not now")) host.leaveScreenUnknown();
+    tooltip("It is not asked again.");
+}
+
 }  // namespace
 
 float drawStatusBar(PanelHost& host, float left, float right) {
@@ -108,7 +132,8 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
     const std::string notice = session ? session->notice() : "";
     const bool waits = loading.busy && (host.loadingSeconds() > kPatience || !session);
     const Job* const job = host.job() && host.job()->running() ? host.job() : nullptr;
-    if (notice.empty() && host.failure().empty() && !waits && !job && !host.readingSlices()) return;
+    const bool asks = asksForScreen(host);
+    if (notice.empty() && host.failure().empty() && !waits && !job && !host.readingSlices() && !asks) return;
     const float wrap = std::min(width - 2 * margin, 46 * ImGui::GetFontSize());
     ImGui::SetNextWindowPos({left + width / 2, top + margin}, ImGuiCond_Always, {0.5f, 0});
     ImGui::Begin("##notices", nullptr, kBar | ImGuiWindowFlags_AlwaysAutoResize);
@@ -135,6 +160,7 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
         if (ImGui::Button("Cancel")) host.cancelLoading();
     }
     if (host.readingSlices()) ImGui::TextUnformatted("reading the slices");
+    if (asks) askForScreen(host);
     if (job) {
         ImGui::TextUnformatted(job->what().c_str());
         std::string text = fmt::format("{:.0f} %", 100 * job->fraction());

@@ -15,6 +15,7 @@
 #include "engine/text/number.h"
 #include "terrain/read/gdal/dem_resample.h"
 #include "terrain/read/gdal/dem_samples.h"
+#include "terrain/read/gdal/height_band.h"
 #include "terrain/read/gdal/reference_system.h"
 #include "terrain/read/raster_file.h"
 
@@ -278,6 +279,31 @@ void checkGrid(const std::filesystem::path& file, const DemGrid& dem) {
 }
 
 }  // namespace
+
+DemGlance glanceAtDem(const std::filesystem::path& file) {
+    GdalMessages messages;
+    const GdalDataset dataset = openRaster(file, messages, kExpected, kAdvice);
+    checkRasterSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
+    DemGrid dem;
+    placeSource(*dataset, file, dem);
+    checkPlacement(*dataset, file, dem.georeferenced);
+    checkGrid(file, dem);
+    DemGlance glance;
+    glance.width = dem.source.width, glance.height = dem.source.height;
+    const auto& t = dem.source.transform;
+    glance.step = {std::hypot(t[1], t[4]), std::hypot(t[2], t[5])};
+    const double unit = metresPerUnit(dem.source);
+    if (unit > 0) glance.step *= unit;
+    glance.unit = !dem.georeferenced && dem.projection.empty() ? "units" : unit > 0 ? "m" : "degrees";
+    glance.driver = dem.driver, glance.crs = dem.crs;
+    // A tile of coloured heights has no band of its own for them.
+    if (!isGsiTile(*dataset)) {
+        const HeightBand band = heightBandOf(*dataset, file);
+        glance.band = band.chosen, glance.heightUnit = band.unit, glance.missingValue = band.missing;
+        glance.type = GDALGetDataTypeName(dataset->GetRasterBand(band.number)->GetRasterDataType());
+    }
+    return glance;
+}
 
 DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
                 const BytesForSamples& after) {

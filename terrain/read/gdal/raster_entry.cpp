@@ -5,7 +5,7 @@
 namespace stereonav {
 namespace {
 
-constexpr RasterFunctions kFunctions = {readDem, openRasterPicture, mapPixels, overlap, earthPlaces};
+constexpr RasterFunctions kFunctions = {readDem, glanceAtDem, openRasterPicture, mapPixels, overlap, earthPlaces};
 
 }  // namespace
 

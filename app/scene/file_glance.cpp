@@ -1,0 +1,39 @@
+#include "app/scene/file_glance.h"
+
+#include <filesystem>
+
+#include "app/options/scene_file_options.h"
+#include "app/scene/scene_type.h"
+
+namespace stereonav {
+namespace {
+
+// A scene file that names another scene, or "": it is a terrain's, or none.
+std::string namedIn(const std::string& scene) {
+    return std::filesystem::path(scene).extension() == ".toml" ? readSceneFileOptions(scene).scene : "";
+}
+
+Facts factsOfKind(const SceneType& type, const std::string& scene) {
+    return {factForText("kind", std::string(type.noun) + (isBuiltIn(scene) ? ", built in" : ""))};
+}
+
+}  // namespace
+
+Facts glanceAt(const std::string& scene, Progress& progress) {
+    progress.report(0, "looking");
+    const SceneType& type = sceneTypeNamed(scene);  // says of what is not there
+    const std::string named = namedIn(scene);
+    if (!named.empty()) {
+        Facts facts{factForText("kind", "scene of " + std::filesystem::path(named).filename().string())};
+        const Facts inside = glanceAt(named, progress);
+        facts.insert(facts.end(), inside.begin(), inside.end());
+        return facts;
+    }
+    Facts facts = factsOfKind(type, scene);
+    if (!type.glance || isBuiltIn(scene)) return facts;
+    const Facts more = type.glance(scene, progress);
+    facts.insert(facts.end(), more.begin(), more.end());
+    return facts;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,28 @@
+#include "app/view/panel/file_look_rows.h"
+
+#include <imgui.h>
+
+#include "app/view/panel/controls.h"
+
+namespace stereonav {
+
+void drawFileLook(PanelHost& host, const FileLook& look, int mostLines, float wrap) {
+    if (look.busy) return quietLine(host, "looking ...");
+    if (!look.problem.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, warningColor(host.look()));
+        ImGui::PushTextWrapPos(wrap);
+        ImGui::TextUnformatted(look.problem.c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::PopStyleColor();
+        return;
+    }
+    int lines = 0;
+    for (const auto& [label, words] : look.rows) {
+        if (lines++ == mostLines) break;
+        quietLine(host, label);
+        ImGui::SameLine(7 * ImGui::GetFontSize());
+        ImGui::TextUnformatted(words.c_str());
+    }
+}
+
+}  // namespace stereonav

@@ -1,0 +1,88 @@
+// What files are is looked at beside the window: the last wish goes first, and what is known stays known.
+#include "app/view/file_looks.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <fstream>
+
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileLooksTest : public testing::Test {
+protected:
+    void SetUp() override {
+        mFolder = fs::path(testing::TempDir()) / ("stereonav_looks_" + std::to_string(getpid()));
+        fs::create_directories(mFolder);
+        for (const char* name : {"a", "b", "bad"}) write(name, name);
+    }
+    void TearDown() override { fs::remove_all(mFolder); }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(mFolder / name) << text;
+    }
+    FileLook await(FileLooks& looks, const std::string& name) const {
+        for (int n = 0; n < 10'000; ++n) {
+            FileLook look = looks.look(mFolder / name);
+            if (!look.busy) return look;
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        ADD_FAILURE() << "no look at " << name;
+        return {};
+    }
+    fs::path mFolder;
+    std::atomic<int> mLooked = 0, mReady = 0;
+};
+
+TEST_F(FileLooksTest, TellsOnceAndKeepsIt) {
+    FileLooks looks([this] { ++mReady; },
+                    [this](const std::string& file, Progress&) {
+                        ++mLooked;
+                        if (file.ends_with("bad")) throw Error(file, "", "is broken", "mend it");
+                        return Facts{factForText("kind", fs::path(file).filename().string())};
+                    });
+    EXPECT_TRUE(looks.look(mFolder / "a").busy);
+    const FileLook a = await(looks, "a");
+    ASSERT_EQ(a.rows.size(), 1u);
+    EXPECT_EQ(a.rows[0].second, "a");
+    const FileLook bad = await(looks, "bad");
+    EXPECT_TRUE(bad.rows.empty());
+    EXPECT_THAT(bad.problem, testing::HasSubstr("is broken"));
+    EXPECT_EQ(bad.problem.find('\n'), std::string::npos);
+    await(looks, "a");
+    EXPECT_EQ(mLooked, 2) << "a is known";
+    EXPECT_GE(mReady, 1);
+    write("a", "longer");
+    await(looks, "a");
+    EXPECT_EQ(mLooked, 3) << "it was changed";
+}
+
+TEST_F(FileLooksTest, AnotherWishEndsTheOneBefore) {
+    std::atomic<bool> ended = false;
+    FileLooks looks([] {},
+                    [&](const std::string& file, Progress& progress) {
+                        ++mLooked;
+                        try {
+                            while (file.ends_with("a")) {  // for ever
+                                progress.report(0, "");
+                                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                            }
+                        } catch (const Cancelled&) {
+                            ended = true;
+                            throw;
+                        }
+                        return Facts{factForText("kind", "b")};
+                    });
+    looks.look(mFolder / "a");
+    while (mLooked == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const FileLook b = await(looks, "b");
+    EXPECT_TRUE(ended);
+    EXPECT_EQ(b.rows.size(), 1u);
+    EXPECT_TRUE(looks.look(mFolder / "a").busy) << "it is not known";
+}  // and it ends while a is looked at
+
+}  // namespace
+}  // namespace stereonav
