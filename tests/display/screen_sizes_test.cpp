@@ -13,7 +13,7 @@ namespace {
 using From = ScreenSize::From;
 
 const ScreenTold kTells{"DP-1", 598, 336, 2560, 1440}, kSilent{"HDMI-1", 0, 0, 1920, 1080};
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoSize = std::numeric_limits<double>::quiet_NaN();
 
 TEST(ScreenSizes, BeginWithWhatTheMonitorTells) {
     const ScreenSizes sizes;
@@ -76,7 +76,7 @@ TEST(ScreenSizes, IsAskedOnce) {
 
 TEST(ScreenSizes, NoNumberChangesNothingAndFarOnesAreBroughtNear) {
     ScreenSizes sizes;
-    for (const double bad : {kNan, std::numeric_limits<double>::infinity()}) {
+    for (const double bad : {kNoSize, std::numeric_limits<double>::infinity()}) {
         sizes.setWidth("DP-1", bad);
         sizes.setDistance("DP-1", bad);
     }
