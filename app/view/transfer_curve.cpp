@@ -13,7 +13,8 @@ constexpr double kLargest = 1e30;  // of values: floats hold it
 constexpr double kMargin = 0.02;   // of a view, at both ends
 constexpr double kFar = 1;         // widths of the values: points farther beyond them are out of view
 constexpr double kSteps = 1000;    // across a view
-constexpr double kFinest = 1e-9;   // of the values' size: a view is not smaller
+constexpr double kRampOpacity = 0.5, kMillimetre = 0.001;
+constexpr double kFinest = 1e-9;  // of the values' size: a view is not smaller
 
 // What two neighbours are apart at least.
 double gapBeside(double value) {
@@ -108,6 +109,14 @@ bool TransferCurve::remove(std::size_t index) {
     if (index >= mPoints.size() || mPoints.size() == 1) return false;
     mPoints.erase(mPoints.begin() + static_cast<std::ptrdiff_t>(index));
     return true;
+}
+
+TransferCurve rampBetween(double low, double high) {
+    if (!(low < high) || !std::isfinite(low) || !std::isfinite(high))
+        return TransferCurve(TransferFunction());
+    const glm::vec3 dark(0.5f, 0.25f, 0.2f), bright(1.0f);
+    return TransferCurve(
+        TransferFunction({{low, dark, 0}, {high, bright, kRampOpacity}}, kMillimetre, "ramp"));
 }
 
 double ValueView::shareOf(double value) const {

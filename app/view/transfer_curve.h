@@ -47,6 +47,10 @@ private:
     double mReferenceLength = 0.001;
 };
 
+// Nothing at `low`, more towards `high`: to begin with where functions by name are for other values. Empty
+// unless low < high, both finite.
+TransferCurve rampBetween(double low, double high);
+
 // The part of the values that a curve is drawn over.
 struct ValueView {
     double low = 0, high = 1;  // finite, low < high

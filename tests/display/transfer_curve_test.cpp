@@ -123,6 +123,17 @@ TEST(TransferCurve, HasAsManyPointsAsItsTextMayHave) {
     EXPECT_TRUE(TransferCurve(TransferFunction(many, 0.001, "test")).empty());
 }
 
+TEST(TransferCurve, BeginsWithARamp) {
+    const TransferCurve ramp = rampBetween(77.5, 255);
+    ASSERT_EQ(ramp.points().size(), 2u);
+    EXPECT_EQ(ramp.points()[0].value, 77.5);
+    EXPECT_EQ(ramp.points()[0].opacity, 0);
+    EXPECT_GT(ramp.points()[1].opacity, 0);
+    expectWhole(ramp);
+    for (const auto& [low, high] : {std::pair{5.0, 5.0}, {6.0, 5.0}, {kNoValue, 5.0}, {-kEndless, kEndless}})
+        EXPECT_TRUE(rampBetween(low, high).empty()) << low << " " << high;
+}
+
 TEST(ValueView, ShowsTheValuesAndThePointsNearThem) {
     const ValueView view = viewOf(-1000, 3000, curveOf("curve:-1200:1:1:1:0,1e9:1:1:1:1"));
     EXPECT_LT(view.low, -1200);

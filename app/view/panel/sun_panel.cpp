@@ -22,7 +22,9 @@ const Option* sunOption(PanelHost& host) {
     if (!session) return nullptr;
     const Option *const sun = viewOption("sun"), *const light = viewOption("light-from");
     const bool ofSun = sun && host.applies(*sun);
-    const bool ofLight = light && host.applies(*light) && session->open().scene->offered<OnEarth>();
+    // Of ground that is shown as a medium; of clouds there is no sun by date.
+    const bool ofGround = ofSun || session->open().scene->offered<OnEarth>();
+    const bool ofLight = light && host.applies(*light) && ofGround;
     if (ofLight && (!ofSun || (host.live(*light) && !host.live(*sun)))) return light;
     return ofSun ? sun : nullptr;
 }

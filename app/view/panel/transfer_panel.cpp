@@ -30,6 +30,13 @@ double roundedOpacity(double opacity) {
     return std::round(std::clamp(opacity, 0.0, 1.0) * kOpacitySteps) / kOpacitySteps;
 }
 
+// From the surface up, or over the upper half of the values.
+TransferCurve rampOf(const std::optional<double>& isovalue, const ValueSpan& range) {
+    const double middle = range.lowest / 2 + range.highest / 2;
+    const bool inside = isovalue && *isovalue > range.lowest && *isovalue < range.highest;
+    return rampBetween(inside ? *isovalue : middle, range.highest);
+}
+
 // Of the curve, also under glasses that split colours.
 ImU32 colorOf(const PanelHost& host, const std::array<float, 3>& color, float alpha) {
     ImVec4 shown(color[0], color[1], color[2], alpha);
@@ -121,9 +128,9 @@ void TransferPanel::draw(PanelHost& host) {
     drawPlot(host);
     drawPoint(host);
     drawButtons(host, shown->begun);
-    if (shown->function.empty())
+    if (!*host.session()->surface().translucent)
         quietText(host, "Opaque: a preset, or T, makes it translucent.");
-    else if (mCurve.empty())
+    else if (mCurve.empty() && !shown->function.empty())
         quietText(host, fmt::format("This function has more points than can be edited, {}.",
                                     shown->function.points().size()));
     ImGui::PopID();
@@ -371,12 +378,14 @@ void TransferPanel::drawButtons(PanelHost& host, const BegunSurface& begun) {
     if (surface) {
         ImGui::SetNextItemWidth(8 * ImGui::GetFontSize());
         if (ImGui::BeginCombo("##presets", "Presets")) {
+            const TransferCurve ramp = rampOf(mIsovalue, mValues->range);
+            if (!ramp.empty() && ImGui::Selectable("ramp")) host.set("transfer", ramp.text());
             for (const std::string& name : surface->transfers)
                 if (!name.empty() && ImGui::Selectable(name.c_str(), name == mText))
                     host.set("transfer", name);
             ImGui::EndCombo();
         }
-        tooltip("Functions by name, to begin with.");
+        tooltip("Functions to begin with: a ramp over these values, and those by name.");
         ImGui::SameLine();
     }
     if (ImGui::Button("Reset")) {
