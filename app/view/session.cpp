@@ -310,60 +310,6 @@ void ViewSession::turnWheel(double notches) {
     notify(fmt::format("speed {}/s", lengthText(speed())));
 }
 
-void ViewSession::toggleRecording() {
-    if (mRecorder.recording()) return saveFlight();
-    stopPlaying();
-    mRecorder.start(mFlight->pose());
-    notify("recording; z ends it");
-}
-
-void ViewSession::saveFlight() {
-    try {
-        takePath(mRecorder.finish());
-        mOwnPath = false;
-        mPathsBefore.clear();
-        savePath();
-    } catch (const Error& error) {
-        notify(error.what());
-    }
-}
-
-void ViewSession::savePath() {
-    try {
-        std::filesystem::path file;
-        int number = 1;
-        do file = mFolder / fmt::format("flight_{:04}.gltf", number++);
-        while (std::filesystem::exists(file));
-        writePath(file, mPath);
-        notify(fmt::format("flight of {:.1f} s recorded in {}; Z plays it", mPath.duration(), file.string()));
-    } catch (const Error& error) {
-        notify(error.what());
-    }
-}
-
-void ViewSession::togglePlaying() {
-    if (mPlaying) return stopPlaying();
-    if (mRecorder.recording()) saveFlight();
-    if (mPath.samples().size() < 2) return notify("there is no flight to play; z records one");
-    mPlaying = true;
-    mPlayTime = 0;
-    mPlayed = mPath.at(mPath.startTime());
-    notify(fmt::format("playing {:.1f} s", mPath.duration()));
-}
-
-void ViewSession::stopPlaying() {
-    if (!mPlaying) return;
-    mPlaying = false;
-    mFlight->setPose(mPlayed);
-    notify(fmt::format("played {:.1f} s", mPlayTime));
-}
-
-void ViewSession::stepPlaying(double dt) {
-    mPlayTime = std::min(mPlayTime + dt, mPath.duration());
-    mPlayed = mPath.at(mPath.startTime() + mPlayTime);
-    if (mPlayTime >= mPath.duration()) stopPlaying();
-}
-
 // Smoothly both ways, also where it is switched on or off.
 void ViewSession::stepPace(double dt) {
     const bool known = mSpeedByDistance && mDepthAhead > 0;  // 0: no frame has told yet
