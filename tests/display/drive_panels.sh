@@ -89,6 +89,7 @@ xdotool windowfocus "$window"
 sleep 1
 shot together
 keys F2 F3
+keys shift+f # stays on in what is opened next, and is kept
 keys 1
 sleep 1
 # A card of the start page, in the right eye's part.

@@ -16,7 +16,8 @@ pixels() {
     done
 }
 
-open_window terrain --method cubic
+# A screen of a known width, so that no question about it lies over the picture.
+open_window terrain --method cubic --screen-width 600
 settled start
 keys x
 shot swapped F12

@@ -47,6 +47,7 @@ TEST_F(PanelsWindow, OpensSavesUndoesAndStartsAgain) {
     EXPECT_GT(difference(shots["apart"], shots["flown_from_controls"]), kDifferent);
     EXPECT_EQ(shots["together"].width(), shots["with_panels"].width());
     EXPECT_TRUE(std::filesystem::exists(mFolder / ".local/state/stereonav/recent.json"));
+    EXPECT_THAT(textOf(".config/stereonav/window.toml"), testing::HasSubstr("speed_by_distance = true"));
 }
 
 }  // namespace
