@@ -1,5 +1,6 @@
 #include "app/view/loading.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -56,13 +57,26 @@ void applyChange(const SceneChange& change, const SceneOptions& first, SceneOpti
     options.volume.seeds = *change.seeds;
 }
 
+void SliceReading::cancel() {
+    if (mProgress) mProgress->cancel();
+}
+
+void SliceReading::abandon() {
+    mAbandoned = true;
+    cancel();
+}
+
 void SliceReading::start(std::shared_ptr<const OpenScene> scene, std::function<void()> wake) {
     const auto* const source = scene->scene->offered<SliceSource>();
     if (busy() || !source) return;
+    mFraction = 0;
+    mAbandoned = false;
+    mProgress = std::make_unique<Progress>(
+        [this](double fraction, const std::string&) { mFraction = std::clamp(fraction, 0.0, 1.0); });
     mReading =
         std::async(std::launch::async, [this, source, scene = std::move(scene), wake = std::move(wake)] {
             try {
-                auto study = source->readSlices(mProgress);
+                auto study = source->readSlices(*mProgress);
                 wake();
                 return study;
             } catch (...) {
@@ -74,7 +88,13 @@ void SliceReading::start(std::shared_ptr<const OpenScene> scene, std::function<v
 
 std::shared_ptr<const SliceStudy> SliceReading::take() {
     if (!busy() || mReading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
-    return mReading.get();
+    if (!mAbandoned) return mReading.get();
+    try {
+        mReading.get();
+    } catch (const std::exception&) {
+        // Nobody waits for it.
+    }
+    return nullptr;
 }
 
 }  // namespace stereonav

@@ -146,6 +146,7 @@ public:
     const std::shared_ptr<const SliceStudy>& study() const { return mStudy; }
     // The study is read for panels, without the slice view.
     void wishStudy();
+    void dropStudyWish() { mStudyWished = mSliceViewWished = false; }
     void keepStudy(std::shared_ptr<const SliceStudy> study) { mStudy = std::move(study); }
     bool wantsSliceView() const { return mSliceViewWished; }
     OutputMode firstMode() const { return mFirstMode; }

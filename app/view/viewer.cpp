@@ -121,6 +121,7 @@ void Viewer::takeScene() {
     if (!loading.busy) mBefore.reset();
     if (mSession && !mAnother) return mSession->replaceScene(mScene);
     const bool first = !mSession;
+    mSlices.abandon();
     mSession.emplace(mScene,
                      ViewSession::Options{mMode, mFlight, mOptions.shots, mWindow.quadBuffered(),
                                           mSession ? mSession->speedByDistance() : mConfig.speedByDistance});

@@ -53,7 +53,10 @@ public:
     ViewWorker::Loading loading() const override { return mWorker->loading(); }
     double loadingSeconds() const override { return mLoadingWatch.elapsed_ms() / 1000; }
     void cancelLoading() override;
-    bool readingSlices() const override { return mSlices.busy(); }
+    std::optional<double> readingSlices() const override {
+        return mSlices.busy() ? std::optional(mSlices.fraction()) : std::nullopt;
+    }
+    void cancelSlices() override { mSlices.cancel(); }
     const std::string& failure() const override { return mFailure; }
     void forgetFailure() override { mFailure.clear(); }
     void act(const ViewAction& action) override;

@@ -35,7 +35,8 @@ void Viewer::makeMovie(const MovieWish& movie) {
         settings["mode"] = {std::string(infoOf(mSession->mode()).shortName)};
         std::vector<std::string> words = commandWords(command::kPlay, settings);
         std::error_code code;
-        std::filesystem::path place = movie.file;
+        // Whole, so that it is told where the movie is.
+        const std::filesystem::path place = std::filesystem::absolute(movie.file).lexically_normal();
         const bool video = place.has_extension();
         mJobPath = std::filesystem::temp_directory_path(code) / fmt::format("stereonav_{}.gltf", getpid());
         writePath(mJobPath, mSession->path());

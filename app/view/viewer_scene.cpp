@@ -301,7 +301,11 @@ void Viewer::followWishes() {
 }
 
 void Viewer::takeStudy() {
-    if (mSession->takeStudyWish() && !mStudyFailed) mSlices.start(mScene, [] { Window::wake(); });
+    // A panel asks with each layout, and not again for what failed; the key V does.
+    if (!mSlices.busy() && mSession->takeStudyWish() && (!mStudyFailed || mSession->wantsSliceView())) {
+        mStudyFailed = false;
+        mSlices.start(mScene, [] { Window::wake(); });
+    }
     try {
         auto study = mSlices.take();
         if (!study) return;
@@ -311,9 +315,11 @@ void Viewer::takeStudy() {
             mSession->keepStudy(std::move(study));
     } catch (const Cancelled&) {
         mStudyFailed = true;
-        mSession->notify("the slices were not read");
+        mSession->dropStudyWish();
+        mSession->notify("the slices were not read; V reads them again");
     } catch (const std::exception& error) {
         mStudyFailed = true;
+        mSession->dropStudyWish();
         mFailure = error.what();
     }
 }

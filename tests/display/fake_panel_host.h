@@ -26,7 +26,8 @@ public:
     ViewWorker::Loading loading() const override { return {}; }
     double loadingSeconds() const override { return 0; }
     void cancelLoading() override {}
-    bool readingSlices() const override { return false; }
+    std::optional<double> readingSlices() const override { return std::nullopt; }
+    void cancelSlices() override {}
     const std::string& failure() const override { return mFailure; }
     void forgetFailure() override {}
     Bookmarks* places() override { return nullptr; }

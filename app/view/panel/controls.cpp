@@ -10,6 +10,7 @@
 #include <map>
 
 #include "app/options/option_words.h"
+#include "app/view/panel/line_breaks.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/math/number_range.h"
 #include "engine/scene/capabilities.h"
@@ -152,12 +153,21 @@ std::string keyOf(const Option& option) {
     return found == keys.end() ? "" : found->second;
 }
 
+void wrappedText(const std::string& text, float width) {
+    if (width <= 0) width = ImGui::GetContentRegionAvail().x;
+    const auto widthOf = [](std::string_view part) {
+        return ImGui::CalcTextSize(part.data(), part.data() + part.size()).x;
+    };
+    // A word that is wider is broken where ImGui breaks it.
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+    ImGui::TextUnformatted(withLineBreaks(text, width, widthOf).c_str());
+    ImGui::PopTextWrapPos();
+}
+
 void tooltip(const std::string& text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(kTooltipWidth * ImGui::GetFontSize());
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
+    wrappedText(text, kTooltipWidth * ImGui::GetFontSize());
     ImGui::EndTooltip();
 }
 
@@ -169,9 +179,7 @@ void quietLine(const PanelHost& host, const std::string& text) {
 
 void quietText(const PanelHost& host, const std::string& text) {
     ImGui::PushStyleColor(ImGuiCol_Text, quietColor(host.look()));
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
+    wrappedText(text);
     ImGui::PopStyleColor();
 }
 

@@ -16,6 +16,8 @@ std::string labelOf(const Option& option);
 // The key that does it in the window, "" for none.
 std::string keyOf(const Option& option);
 
+// Wrapped at blanks, within so many units; 0: within the room that there is.
+void wrappedText(const std::string& text, float width = 0);
 // Text that explains, in one line; wrapped.
 void quietLine(const PanelHost& host, const std::string& text);
 void quietText(const PanelHost& host, const std::string& text);

@@ -109,13 +109,17 @@ void stereoMenu(PanelHost& host) {
     ImGui::EndMenu();
 }
 
-void flightMenu(PanelHost& host) {
+void flightMenu(PanelHost& host, MenuWishes& wishes) {
     if (!ImGui::BeginMenu("Flight")) return;
     ViewSession* const session = host.session();
     item(host, "Home", "Space", ViewCommand::Home);
+    item(host, "Keep this place", "Ctrl+B", ViewCommand::AddPlace);
+    ImGui::Separator();
     item(host, "Open a flight...", nullptr, ViewCommand::OpenPath);
     item(host, session && session->recording() ? "End recording" : "Record", "z", ViewCommand::Record);
     item(host, session && session->playing() ? "Stop playing" : "Play", "Shift+Z", ViewCommand::Play);
+    if (ImGui::MenuItem("Make a movie...", nullptr, false, session != nullptr)) wishes.movie = true;
+    ImGui::Separator();
     item(host, "Speed by the distance ahead", "Shift+F", ViewCommand::SpeedByDistance,
          session && session->speedByDistance());
     item(host, "Hold the mouse", "Y", ViewCommand::CaptureMouse, session && session->mouseCaptured());
@@ -148,7 +152,7 @@ float drawMenuBar(PanelHost& host, MenuWishes& wishes) {
     editMenu(host);
     viewMenu(host, wishes);
     stereoMenu(host);
-    flightMenu(host);
+    flightMenu(host, wishes);
     toolsMenu(host, wishes);
     if (ImGui::MenuItem("Help")) wishes.help = true;
     tooltip("All keys: F1");

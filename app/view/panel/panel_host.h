@@ -59,7 +59,8 @@ public:
     virtual ViewWorker::Loading loading() const = 0;
     virtual double loadingSeconds() const = 0;  // since it began
     virtual void cancelLoading() = 0;
-    virtual bool readingSlices() const = 0;
+    virtual std::optional<double> readingSlices() const = 0;  // how much of them, while they are read
+    virtual void cancelSlices() = 0;
     // A line that stays until it is read, "" for none.
     virtual const std::string& failure() const = 0;
     virtual void forgetFailure() = 0;

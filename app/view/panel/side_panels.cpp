@@ -7,6 +7,7 @@
 #include <array>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include "app/view/panel/comfort_meter.h"
 #include "app/view/panel/controls.h"
@@ -184,9 +185,7 @@ void drawFacts(PanelHost& host) {
         ImGui::TableNextColumn();
         quietText(host, label);
         ImGui::TableNextColumn();
-        ImGui::PushTextWrapPos(0);
-        ImGui::TextUnformatted(text.c_str());
-        ImGui::PopTextWrapPos();
+        wrappedText(text);
     }
     ImGui::EndTable();
 }
@@ -213,7 +212,10 @@ void drawSidePanels(PanelHost& host, SideTools& tools) {
     if (any(OptionPanel::Material) && heading("Material", false))
         drawMaterial(host, *session, tools.transfer);
     if (any(OptionPanel::Medium) && heading("Medium", false)) drawOptions(host, OptionPanel::Medium);
-    if (heading("Flight and path", false)) drawPathPanel(host, *session);
+    if (tools.showPath) ImGui::SetNextItemOpen(true);
+    const bool path = heading("Flight and path", false);
+    if (std::exchange(tools.showPath, false)) ImGui::SetScrollHereY(0);
+    if (path) drawPathPanel(host, *session);
     if (heading("Quality and cost", false)) drawQuality(host, *session);
     if (any(OptionPanel::Study) && heading("Study", false)) drawOptions(host, OptionPanel::Study);
     if (heading("Scene", false)) drawFacts(host);

@@ -70,7 +70,8 @@ void SlicesPanel::draw(PanelHost& host) {
     ViewSession* const session = host.session();
     if (!session) return;
     const std::shared_ptr<const SliceStudy> study = host.study();
-    if (!study) return quietText(host, host.readingSlices() ? "reading the slices" : "not read");
+    if (!study)
+        return quietText(host, host.readingSlices() ? "reading the slices" : "not read: V reads them");
     if (mStudy.lock() != study) {
         mStudy = study;
         mViews = {};

@@ -70,9 +70,9 @@ bool asksForScreen(PanelHost& host) {
            infoOf(session->compose().mode).layout != OutputLayout::OneEye && host.screen().asks;
 }
 
-void askForScreen(PanelHost& host) {
+void askForScreen(PanelHost& host, float wrap) {
     static double width_mm = 0;  // as it is being written
-    ImGui::TextUnformatted("How wide is this screen? It does not tell, so parallax in mm is a guess.");
+    wrappedText("How wide is this screen? It does not tell, so parallax in mm is a guess.", wrap);
     if (!(width_mm > 0)) width_mm = std::round(host.screen().width_mm);
     ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
     ImGui::InputDouble("mm##screen", &width_mm, 0, 0, "%.0f");
@@ -134,21 +134,21 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
     const Job* const job = host.job() && host.job()->running() ? host.job() : nullptr;
     const bool asks = asksForScreen(host);
     if (notice.empty() && host.failure().empty() && !waits && !job && !host.readingSlices() && !asks) return;
-    const float wrap = std::min(width - 2 * margin, 46 * ImGui::GetFontSize());
+    const float wrap =
+        std::max(std::min(width - 2 * margin, 46 * ImGui::GetFontSize()) - 4 * ImGui::GetFontSize(), 60.0f);
     ImGui::SetNextWindowPos({left + width / 2, top + margin}, ImGuiCond_Always, {0.5f, 0});
     ImGui::Begin("##notices", nullptr, kBar | ImGuiWindowFlags_AlwaysAutoResize);
-    ImGui::PushTextWrapPos(std::max(wrap - 4 * ImGui::GetFontSize(), 60.0f));
     if (!host.failure().empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, warningColor(host.look()));
-        ImGui::TextUnformatted(host.failure().c_str());
+        wrappedText(host.failure(), wrap);
         ImGui::PopStyleColor();
         if (ImGui::Button("Dismiss")) host.forgetFailure();
         ImGui::SameLine();
         if (ImGui::Button("Copy")) host.copy(host.failure());
     }
-    if (!notice.empty()) ImGui::TextUnformatted(notice.c_str());
+    if (!notice.empty()) wrappedText(notice, wrap);
     if (waits) {
-        ImGui::TextUnformatted(loading.what.empty() ? "loading" : loading.what.c_str());
+        wrappedText(loading.what.empty() ? "loading" : loading.what, wrap);
         const double gone = host.loadingSeconds();
         std::string text = fmt::format("{:.0f} %", 100 * loading.fraction);
         // What is left is told once it is more than a guess.
@@ -159,10 +159,15 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
         ImGui::SameLine();
         if (ImGui::Button("Cancel")) host.cancelLoading();
     }
-    if (host.readingSlices()) ImGui::TextUnformatted("reading the slices");
-    if (asks) askForScreen(host);
+    if (const std::optional<double> read = host.readingSlices()) {
+        wrappedText("reading the slices", wrap);
+        ImGui::ProgressBar(static_cast<float>(*read), {std::min(wrap, 20 * ImGui::GetFontSize()), 0});
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel##slices")) host.cancelSlices();
+    }
+    if (asks) askForScreen(host, wrap);
     if (job) {
-        ImGui::TextUnformatted(job->what().c_str());
+        wrappedText(job->what(), wrap);
         std::string text = fmt::format("{:.0f} %", 100 * job->fraction());
         if (job->fraction() > 0.02 && job->seconds() > 2)
             text +=
@@ -173,7 +178,6 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
         ImGui::SameLine();
         if (ImGui::Button("Cancel##job")) host.cancelJob();
     }
-    ImGui::PopTextWrapPos();
     ImGui::End();
 }
 
