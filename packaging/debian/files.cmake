@@ -6,7 +6,12 @@ foreach(root ${roots})
     FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ
     DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
   file(RENAME ${doc}/changelog ${doc}/changelog.Debian)
+  file(COPY ${CPACK_STEREONAV_CHANGELOG} DESTINATION ${doc} FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+  file(RENAME ${doc}/CHANGELOG.md ${doc}/changelog)
   file(GLOB pages ${root}/share/man/man1/*.1)
   # Without names and times of this build: the same sources give the same bytes.
-  execute_process(COMMAND gzip -9nf ${doc}/changelog.Debian ${pages} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND gzip -9nf ${doc}/changelog.Debian ${doc}/changelog ${pages} COMMAND_ERROR_IS_FATAL ANY)
+  # What CPACK_STRIP_FILES leaves and Debian's own stripping takes: the compiler's name.
+  file(GLOB programs ${root}/bin/* ${root}/lib/stereonav/*)
+  execute_process(COMMAND strip --remove-section=.comment ${programs} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

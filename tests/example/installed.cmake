@@ -15,8 +15,8 @@ run(${CMAKE_COMMAND} -E env DESTDIR=${WORK}/destination ${CMAKE_COMMAND} --insta
 set(files bin/stereonav lib/stereonav/stereonav_pictures.so ${LIBDIR}/stereonav/libengine_stereo.a
   ${LIBDIR}/cmake/stereonav/stereonav-config.cmake share/man/man1/stereonav.1
   share/bash-completion/completions/stereonav)
-set(entry share/applications/org.stereonav.stereonav.desktop)
-set(metainfo share/metainfo/org.stereonav.stereonav.metainfo.xml)
+set(entry share/applications/${APP_ID}.desktop)
+set(metainfo share/metainfo/${APP_ID}.metainfo.xml)
 set(types share/mime/packages/stereonav.xml)
 if(DISPLAY)  # there is something to click at
   list(APPEND files ${entry} ${metainfo} ${types} share/icons/hicolor/256x256/apps/stereonav.png)
