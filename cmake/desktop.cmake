@@ -23,9 +23,14 @@ endif()
 
 if(STEREONAV_DISPLAY)
   set(packaging ${CMAKE_SOURCE_DIR}/packaging)
-  configure_file(${packaging}/metainfo.xml.in ${pages_dir}/org.stereonav.stereonav.metainfo.xml @ONLY)
-  install(FILES ${pages_dir}/org.stereonav.stereonav.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
-  install(FILES ${packaging}/org.stereonav.stereonav.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
+  # An id begins with a domain that its giver owns. The project owns none, so it takes one that nobody can own (RFC 6761).
+  set(STEREONAV_APP_ID invalid.stereonav.stereonav CACHE STRING
+    "Name of the program's entry in menus and AppStream, from a domain of whoever distributes it: org.example.stereonav")
+  set(metainfo ${pages_dir}/${STEREONAV_APP_ID}.metainfo.xml)
+  configure_file(${packaging}/metainfo.xml.in ${metainfo} @ONLY)
+  install(FILES ${metainfo} DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
+  install(FILES ${packaging}/entry.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications
+    RENAME ${STEREONAV_APP_ID}.desktop)
   install(FILES ${packaging}/mime_types.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages RENAME stereonav.xml)
   install(FILES ${packaging}/icon.png DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/256x256/apps
     RENAME stereonav.png)

@@ -20,6 +20,7 @@ public:
 
     CommandSet command = 0;  // that they were given to
 
+    bool empty() const { return mGiven.empty(); }
     bool has(const std::string& key) const { return mGiven.contains(key); }
     // As written; "" where it is not given.
     std::string text(const std::string& key) const;

@@ -164,6 +164,8 @@ void takeSetOption(const std::string& text, ParsedOptions& parsed) {
 void finishOptions(ParsedOptions& parsed) {
     if (parsed.to.report) refuseWhatDoesNotApply(parsed.given, 0, "");
     if (!parsed.to.scene) return;
+    // `view` alone is what a desktop's menu starts, with a file or with none.
+    parsed.view.startPage = parsed.to.view && parsed.given.empty();
     takeSceneFile(parsed);
     parsed.to.scene->given = parsed.given;
     refuseWhatDoesNotApply(*parsed.to.scene);

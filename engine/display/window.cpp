@@ -112,6 +112,9 @@ void Window::open(const std::string& title, int width, int height, bool visible,
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_VISIBLE, visible ? GLFW_TRUE : GLFW_FALSE);
+    // Left alone it is the title, which changes with the scene: desktops find the program's entry by it.
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "stereonav");
+    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "stereonav");
     const auto [fitWidth, fitHeight] = fitted(width, height);
     if (quadBuffer) {
         glfwWindowHint(GLFW_STEREO, GLFW_TRUE);

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <thread>
 
+#include "app/options/option_table.h"
+#include "app/options/parsed_options.h"
 #include "app/view/loading.h"
 #include "app/view/session.h"
 #include "app/view/status.h"
@@ -169,6 +171,20 @@ TEST_F(ViewStart, AHandIsFasterThanThePicture) {
                 1e-9 * opened->scene->stereo.separation);
     session.act({ViewCommand::Reset});
     EXPECT_TRUE(session.requestFor(640, 180).fitEyes) << "the start is to be comfortable yet";
+}
+
+// As a desktop's menu starts it: packaging/entry.desktop.
+TEST(StartPageAtFirst, IsShownWhereViewIsGivenNothing) {
+    const auto shown = [](const char* key, const std::string& text) {
+        ParsedOptions parsed;
+        chooseCommand(command::kView, parsed);
+        if (key) takeOption(*findOption(command::kView, key), text, key, parsed);
+        finishOptions(parsed);
+        return parsed.view.startPage;
+    };
+    EXPECT_TRUE(shown(nullptr, ""));
+    EXPECT_FALSE(shown("SCENE", "colon"));
+    EXPECT_FALSE(shown("mode", "ml"));
 }
 
 }  // namespace

@@ -32,6 +32,8 @@ open_window() {
         sleep 0.1
     done
     [ -n "$window" ] || fail "no window within two minutes"
+    xdotool search --onlyvisible --class '^stereonav$' 2>/dev/null | grep -qx "$window" ||
+        fail "the window's class is not stereonav, by which packaging/entry.desktop knows it"
     xdotool windowfocus --sync "$window"
     # Keys that come while the scene loads are dropped: ask until the first picture is there.
     for n in $(seq 1200); do

@@ -1,5 +1,6 @@
 # Installs BUILD below WORK (with DESTDIR, so that the package is also tried at a place it was not made for), holds each
 # installed header's includes against what was installed, then builds SOURCE's programs against it and runs them.
+cmake_minimum_required(VERSION 3.25)  # of its policies
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -12,11 +13,17 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 set(prefix ${WORK}/destination/opt/stereonav)
 run(${CMAKE_COMMAND} -E env DESTDIR=${WORK}/destination ${CMAKE_COMMAND} --install ${BUILD} --prefix /opt/stereonav)
-set(files bin/stereonav lib/stereonav/stereonav_pictures.so ${LIBDIR}/stereonav/libengine_stereo.a
+set(files bin/stereonav ${LIBDIR}/stereonav/libengine_stereo.a
   ${LIBDIR}/cmake/stereonav/stereonav-config.cmake share/man/man1/stereonav.1
   share/bash-completion/completions/stereonav)
-set(entry share/applications/org.stereonav.stereonav.desktop)
-set(metainfo share/metainfo/org.stereonav.stereonav.metainfo.xml)
+file(GLOB modules RELATIVE ${BUILD} ${BUILD}/lib/stereonav/stereonav_*)
+list(FILTER modules EXCLUDE REGEX "stereonav_test")
+if(NOT "lib/stereonav/stereonav_pictures.so" IN_LIST modules)
+  message(FATAL_ERROR "no modules in ${BUILD}: ${modules}")
+endif()
+list(APPEND files ${modules})
+set(entry share/applications/${APP_ID}.desktop)
+set(metainfo share/metainfo/${APP_ID}.metainfo.xml)
 set(types share/mime/packages/stereonav.xml)
 if(DISPLAY)  # there is something to click at
   list(APPEND files ${entry} ${metainfo} ${types} share/icons/hicolor/256x256/apps/stereonav.png)
@@ -44,6 +51,12 @@ file(GLOB_RECURSE parts ${prefix}/bin/* ${prefix}/lib/stereonav/stereonav_*)
 foreach(part ${parts})
   if(part MATCHES "stereonav_test")
     message(FATAL_ERROR "${part} was installed")
+  endif()
+  if(CONFIG STREQUAL "Release")  # others have file names for debuggers
+    file(STRINGS ${part} places REGEX "(${BUILD}|${TOP})/")
+    if(places)
+      message(FATAL_ERROR "${part} names a place of the build: ${places}")
+    endif()
   endif()
   if(READELF)
     run(${READELF} -d ${part})
