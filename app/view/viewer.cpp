@@ -99,6 +99,7 @@ void Viewer::run() {
 }
 
 double Viewer::waitSeconds() const {
+    if (!mActsOfPanels.empty()) return 0;
     if (mWindow.minimised() && !mControls) return kIdleWait;
     if (const auto turn = mDisplay.wait()) return *turn;
     const bool flows = mSession && (mSession->moving() || mWindow.gamepad().present ||
@@ -139,6 +140,7 @@ void Viewer::takeScene() {
 }
 
 void Viewer::takeKeys(double dt) {
+    for (const ViewAction& action : std::exchange(mActsOfPanels, {})) act(action);
     const Gamepad pad = mWindow.gamepad();
     const auto press = [&](const KeyPress& key) {
         if (const auto action = actionOf(key)) act(*action);
@@ -213,7 +215,15 @@ bool Viewer::actOnInterface(const ViewAction& action) {
     }
 }
 
+// An action may open or close the window, or the session, that is being drawn: those of panels wait.
+void Viewer::drawPanels(const std::function<void()>& drawn) {
+    mInPanels = true;
+    drawn();
+    mInPanels = false;
+}
+
 void Viewer::act(const ViewAction& action) {
+    if (mInPanels) return mActsOfPanels.push_back(action);
     mSettings.reset();
     mLayoutDue = true;
     if (actOnInterface(action) || !mSession) return;
@@ -393,7 +403,7 @@ bool Viewer::layOut(const InterfacePlaces& places, double dt) {
     mLaidOutBusy = mWorker->loading().busy;
     mLayoutDue = false;
     return mInterface.layOut(places, std::exchange(mSinceLayout, 0), [this] {
-        if (!mControls) mPanels.draw(*this);
+        if (!mControls) drawPanels([this] { mPanels.draw(*this); });
     });
 }
 

@@ -115,6 +115,7 @@ private:
     void useControls();
     void takeKeys(double dt);
     bool actOnInterface(const ViewAction& action);
+    void drawPanels(const std::function<void()>& drawn);
     void usePointer();
     void followWishes();
     void followKeyframes();
@@ -170,6 +171,8 @@ private:
     EyeOverlay mOverlay;
     Panels mPanels;
     std::unique_ptr<ControlWindow> mControls;  // while the panels are in a window of their own
+    bool mInPanels = false;
+    std::vector<ViewAction> mActsOfPanels;  // asked for while they were drawn
     Screenshots mScreenshots;
     ViewInput mInput;
     SpaceMouse mSpaceMouse;

@@ -20,7 +20,7 @@ void Viewer::toggleControls() {
 void Viewer::drawControls(double dt) {
     if (mControls && mControls->window().shouldClose()) toggleControls();
     if (!mControls) return;
-    mControls->draw(mPanels, *this, mFrame.get(), mNewPreview, dt);
+    drawPanels([&] { mControls->draw(mPanels, *this, mFrame.get(), mNewPreview, dt); });
     mNewPreview = false;
 }
 

@@ -8,7 +8,8 @@ namespace {
 
 // Letters of one width.
 std::string within(std::string_view text, float letters) {
-    return withLineBreaks(text, letters, [](std::string_view part) { return static_cast<float>(part.size()); });
+    return withLineBreaks(text, letters,
+                          [](std::string_view part) { return static_cast<float>(part.size()); });
 }
 
 TEST(LineBreaks, AreAtBlanks) {
