@@ -11,6 +11,7 @@
 #include "app/output/stereo_frame.h"
 #include "app/scene/shown_as.h"
 #include "engine/base/error.h"
+#include "engine/base/stop.h"
 
 namespace stereonav {
 namespace {
@@ -64,6 +65,7 @@ Viewer::Viewer(const ViewOptions& options)
 
 // What is left is deleted in the first window's context.
 Viewer::~Viewer() {
+    cancelJob();  // ends while the rest does
     mControls.reset();
     mWindow.use();
     mPanels.forget();
@@ -81,6 +83,7 @@ void Viewer::run() {
     if (!mOptions.shots.empty()) makeOutputFolder(mOptions.shots);
     while (!mWindow.shouldClose() && !(mSession && mSession->quit())) {
         mWindow.handleEvents(waitSeconds());
+        throwIfStopped();
         const double dt = mClock.lap_ms() / 1000;
         const Stopwatch turn;
         mSettings.reset();

@@ -122,6 +122,7 @@ private:
     // Of what is shown: in full, so that it is found from anywhere; built-in scenes by their names.
     std::filesystem::path fullName() const;
     void keepBefore();
+    void checkNoJob() const;
     void startJob(const std::string& what, const std::vector<std::string>& words);
     void lookAtJob();
     void reportKept();
@@ -179,8 +180,8 @@ private:
     WindowConfig mConfig;  // as it was read, and is kept at the end
     RecentFiles mRecent;
     std::optional<Bookmarks> mPlaces;
+    std::unique_ptr<JobFile> mJobPath;  // of the flight that the job plays; goes after it
     std::unique_ptr<Job> mJob;
-    std::filesystem::path mJobPath;   // of the flight that it plays, which goes with it
     std::string mBaked, mBakedScene;  // the file of a bake at work, and what it is of
     bool mRecentDue = false;          // the file that is shown goes among them with its first picture
     std::shared_ptr<const ViewFrame> mFrame;
