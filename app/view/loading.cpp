@@ -56,25 +56,38 @@ void applyChange(const SceneChange& change, const SceneOptions& first, SceneOpti
     options.volume.seeds = *change.seeds;
 }
 
+void SliceReading::cancel() {
+    if (mProgress) mProgress->cancel();
+}
+
+void SliceReading::forget() {
+    cancel();
+    mForgotten = true;
+}
+
 void SliceReading::start(std::shared_ptr<const OpenScene> scene, std::function<void()> wake) {
     const auto* const source = scene->scene->offered<SliceSource>();
     if (busy() || !source) return;
-    mReading =
-        std::async(std::launch::async, [this, source, scene = std::move(scene), wake = std::move(wake)] {
-            try {
-                auto study = source->readSlices(mProgress);
-                wake();
-                return study;
-            } catch (...) {
-                wake();
-                throw;
-            }
-        });
+    mForgotten = false;
+    mProgress = std::make_shared<Progress>();
+    mReading = std::async(std::launch::async,
+                          [progress = mProgress, source, scene = std::move(scene), wake = std::move(wake)] {
+                              try {
+                                  auto study = source->readSlices(*progress);
+                                  wake();
+                                  return study;
+                              } catch (...) {
+                                  wake();
+                                  throw;
+                              }
+                          });
 }
 
 std::shared_ptr<const SliceStudy> SliceReading::take() {
     if (!busy() || mReading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
-    return mReading.get();
+    if (!mForgotten) return mReading.get();
+    mReading = {};
+    return nullptr;
 }
 
 }  // namespace stereonav

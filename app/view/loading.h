@@ -27,17 +27,20 @@ void applyChange(const SceneChange& change, const SceneOptions& first, SceneOpti
 // Reads the slices of a scene beside the window's thread.
 class SliceReading {
 public:
-    ~SliceReading() { mProgress.cancel(); }  // and waits for the end
+    ~SliceReading() { cancel(); }  // and waits for the end
 
     bool busy() const { return mReading.valid(); }
-    void cancel() { mProgress.cancel(); }  // take() throws Cancelled soon
+    void cancel();  // take() throws Cancelled soon
+    // Of what is shown no longer: take() says nothing of it.
+    void forget();
     // Nothing while busy, or for a scene without slices. wake: called when it is done.
     void start(std::shared_ptr<const OpenScene> scene, std::function<void()> wake);
     // Null while it is not done; throws what reading threw.
     std::shared_ptr<const SliceStudy> take();
 
 private:
-    Progress mProgress;
+    std::shared_ptr<Progress> mProgress;  // of the one at work, or the last
+    bool mForgotten = false;
     std::future<std::shared_ptr<const SliceStudy>> mReading;
 };
 

@@ -103,6 +103,7 @@ private:
     void tell(const std::string& text);
     double waitSeconds() const;
     void takeScene();
+    void beginSession();
     void update(double dt);
     // The interface that has the panels.
     Interface& panelled() { return mControls ? mControls->interface() : mInterface; }
@@ -189,6 +190,7 @@ private:
     PicturePlace mDrawnPlace;
     std::string mSwept = kCpuSweep, mFailure;
     long long mAsked = 0, mSliceVersion = 0;
+    long long mSessionSince = 0;  // asked for later: frames of this session
     std::shared_ptr<const OpenScene> mScene;
     std::shared_ptr<FactsWish> mFacts;
     std::optional<Made> mBefore;  // while another one is loaded
