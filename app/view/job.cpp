@@ -26,6 +26,24 @@ Error noProcess(int code) {
             "close other programs and try again"};
 }
 
+// Of the process: what it tells when nobody reads any more fails, and does not end it before it has tidied
+// up.
+struct WithoutPipeSignal {
+    WithoutPipeSignal() {
+        sigset_t blocked;
+        pthread_sigmask(SIG_SETMASK, nullptr, &blocked);
+        sigaddset(&blocked, SIGPIPE);
+        posix_spawnattr_init(&attributes);
+        posix_spawnattr_setsigmask(&attributes, &blocked);
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+    }
+    ~WithoutPipeSignal() { posix_spawnattr_destroy(&attributes); }
+    WithoutPipeSignal(const WithoutPipeSignal&) = delete;
+    WithoutPipeSignal& operator=(const WithoutPipeSignal&) = delete;
+
+    posix_spawnattr_t attributes;
+};
+
 }  // namespace
 
 bool progressOf(const std::string& line, double& fraction, std::string& words) {
@@ -59,7 +77,9 @@ Job::Job(std::string what, const std::vector<std::string>& words, const char* pr
     environment.push_back(const_cast<char*>(kOften));
     environment.push_back(nullptr);
     pid_t process = 0;
-    const int code = posix_spawn(&process, program, &files, nullptr, arguments.data(), environment.data());
+    const WithoutPipeSignal how;
+    const int code =
+        posix_spawn(&process, program, &files, &how.attributes, arguments.data(), environment.data());
     posix_spawn_file_actions_destroy(&files);
     if (code == 0) putBehindTheWindow(process);
     close(ends[1]);
@@ -77,6 +97,13 @@ Job::~Job() {
         }
     }
     close(mPipe);
+}
+
+JobFile::JobFile(std::filesystem::path path) : mPath(std::move(path)), mUnfinished(mPath.c_str()) {}
+
+JobFile::~JobFile() {
+    std::error_code code;
+    std::filesystem::remove(mPath, code);
 }
 
 void Job::cancel() {

@@ -3,9 +3,11 @@
 // when it is stopped (docs/using.md).
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "engine/base/stop.h"
 #include "engine/base/stopwatch.h"
 
 namespace stereonav {
@@ -24,7 +26,8 @@ public:
 
     const std::string& what() const { return mWhat; }
     bool running() const { return mProcess > 0; }
-    bool cancelled() const { return mCancelled; }
+    // What was done before the wish to end came is not cancelled.
+    bool cancelled() const { return mCancelled && (running() || mStatus != 0); }
     bool failed() const { return !running() && mStatus != 0 && !mCancelled; }
     double fraction() const { return mFraction; }                  // 0 to 1
     const std::string& progress() const { return mProgress; }      // its words on that
@@ -40,6 +43,21 @@ private:
     double mFraction = 0;
     bool mCancelled = false;
     Stopwatch mWatch;
+};
+
+// A file that a job reads and nobody else wants: taken away with this, and where the run ends at once.
+class JobFile {
+public:
+    explicit JobFile(std::filesystem::path path);
+    ~JobFile();
+    JobFile(const JobFile&) = delete;
+    JobFile& operator=(const JobFile&) = delete;
+
+    const std::filesystem::path& path() const { return mPath; }
+
+private:
+    std::filesystem::path mPath;
+    UnfinishedFile mUnfinished;
 };
 
 // The share and the words of a line "[===>   ]  52 % words" or " 52 % words"; false for any other.

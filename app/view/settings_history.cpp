@@ -1,5 +1,7 @@
 #include "app/view/settings_history.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace stereonav {
@@ -35,6 +37,21 @@ void SettingsHistory::keep() {
     mSteps.resize(mAt + 1);
     mSteps.push_back(*std::exchange(mPending, std::nullopt));
     if (mSteps.size() > kMostSteps) mSteps.erase(mSteps.begin());
+    mAt = mSteps.size() - 1;
+}
+
+void SettingsHistory::backTo(const SettingTexts& now) {
+    mPending.reset();
+    const auto isNow = [&](const SettingTexts& step) { return step == now; };
+    const auto here = mSteps.begin() + static_cast<std::ptrdiff_t>(mAt);
+    // A step back that did not come about is taken forth again; what is after it was there before.
+    if (const auto after = std::find_if(here, mSteps.end(), isNow); after != mSteps.end()) {
+        mAt = static_cast<std::size_t>(after - mSteps.begin());
+        return;
+    }
+    const auto before = std::find_if(std::reverse_iterator(here), mSteps.rend(), isNow);
+    if (before == mSteps.rend()) return;
+    mSteps.erase(before.base(), mSteps.end());
     mAt = mSteps.size() - 1;
 }
 

@@ -18,6 +18,9 @@ public:
 
     bool canUndo() const { return mAt > 0 || mPending; }
     bool canRedo() const { return mAt + 1 < mSteps.size() && !mPending; }
+    // What was set, or gone to, did not come about: it is no step. now: what holds all the same.
+    void backTo(const SettingTexts& now);
+
     // What to go to; none where there is nothing. The settings are to be so when they are observed next.
     std::optional<SettingTexts> undo();
     std::optional<SettingTexts> redo();

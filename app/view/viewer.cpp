@@ -11,6 +11,7 @@
 #include "app/output/stereo_frame.h"
 #include "app/scene/shown_as.h"
 #include "engine/base/error.h"
+#include "engine/base/stop.h"
 
 namespace stereonav {
 namespace {
@@ -64,6 +65,7 @@ Viewer::Viewer(const ViewOptions& options)
 
 // What is left is deleted in the first window's context.
 Viewer::~Viewer() {
+    cancelJob();  // ends while the rest does
     mControls.reset();
     mWindow.use();
     mPanels.forget();
@@ -81,6 +83,7 @@ void Viewer::run() {
     if (!mOptions.shots.empty()) makeOutputFolder(mOptions.shots);
     while (!mWindow.shouldClose() && !(mSession && mSession->quit())) {
         mWindow.handleEvents(waitSeconds());
+        throwIfStopped();
         const double dt = mClock.lap_ms() / 1000;
         const Stopwatch turn;
         mSettings.reset();
@@ -121,14 +124,34 @@ void Viewer::takeScene() {
     mApplies.clear();
     if (!loading.busy) mBefore.reset();
     if (mSession && !mAnother) return mSession->replaceScene(mScene);
+    if (!mSession && mBefore) {
+        // Another one was chosen while the first was loaded: this is the first, and is shown until then.
+        const Made next{mOptions, mGiven, mSaid};
+        keepBefore();
+        beginSession();
+        mBefore = Made{mOptions, mGiven, mSaid};
+        mOptions = mChanged = next.options;
+        mGiven = next.given;
+        mSaid = next.said;
+        mSettings.reset();
+        mApplies.clear();
+    } else {
+        beginSession();
+    }
+    mAnother = mBefore.has_value();
+}
+
+void Viewer::beginSession() {
     const bool first = !mSession;
     mSlices.abandon();
     mSession.emplace(mScene,
-                     ViewSession::Options{mMode, mFlight, mOptions.shots, mWindow.quadBuffered(),
+                     ViewSession::Options{mMode, std::exchange(mFlight, std::nullopt), mOptions.shots,
+                                          mWindow.quadBuffered(),
                                           mSession ? mSession->speedByDistance() : mConfig.speedByDistance});
     mSession->continueVersions(mAsked);
+    mSessionSince = mAsked;
     mKeyframes.start({});
-    mAnother = mStudyFailed = false;
+    mStudyFailed = false;
     mCosts.clear();
     mWindow.setTitle(titleOf(mOptions.scene));
     mSettings.reset();
@@ -284,7 +307,13 @@ void Viewer::askFor() {
 }
 
 void Viewer::takeFrame() {
-    if (auto frame = mWorker->takeFrame()) {
+    auto frame = mWorker->takeFrame();
+    if (frame && frame->request.version <= mSessionSince) {
+        // Of the scene before: its eyes would become this one's. It is saved where that was asked for.
+        mScreenshots.take(frame, mSession->compose());
+        frame.reset();
+    }
+    if (frame) {
         mFrame = std::move(frame);
         mSession->observe(*mFrame);
         if (!mSession->slicesShown()) mPresenter.upload(mFrame->left.color, mFrame->right.color);

@@ -106,6 +106,7 @@ private:
     void tell(const std::string& text);
     double waitSeconds() const;
     void takeScene();
+    void beginSession();
     void update(double dt);
     // The interface that has the panels.
     Interface& panelled() { return mControls ? mControls->interface() : mInterface; }
@@ -126,6 +127,7 @@ private:
     // Of what is shown: in full, so that it is found from anywhere; built-in scenes by their names.
     std::filesystem::path fullName() const;
     void keepBefore();
+    void checkNoJob() const;
     void startJob(const std::string& what, const std::vector<std::string>& words);
     void lookAtJob();
     void reportKept();
@@ -185,8 +187,8 @@ private:
     WindowConfig mConfig;  // as it was read, and is kept at the end
     RecentFiles mRecent;
     std::optional<Bookmarks> mPlaces;
+    std::unique_ptr<JobFile> mJobPath;  // of the flight that the job plays; goes after it
     std::unique_ptr<Job> mJob;
-    std::filesystem::path mJobPath;   // of the flight that it plays, which goes with it
     std::string mBaked, mBakedScene;  // the file of a bake at work, and what it is of
     bool mRecentDue = false;          // the file that is shown goes among them with its first picture
     std::shared_ptr<const ViewFrame> mFrame;
@@ -194,6 +196,7 @@ private:
     PicturePlace mDrawnPlace;
     std::string mSwept = kCpuSweep, mFailure;
     long long mAsked = 0, mSliceVersion = 0;
+    long long mSessionSince = 0;  // asked for later: frames of this session
     std::shared_ptr<const OpenScene> mScene;
     std::shared_ptr<FactsWish> mFacts;
     std::optional<Made> mBefore;  // while another one is loaded

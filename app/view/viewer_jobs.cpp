@@ -13,9 +13,12 @@
 
 namespace stereonav {
 
-void Viewer::startJob(const std::string& what, const std::vector<std::string>& words) {
+void Viewer::checkNoJob() const {
     if (mJob && mJob->running())
         throw Error("", mJob->what(), "is still being made", "wait for it, or cancel it");
+}
+
+void Viewer::startJob(const std::string& what, const std::vector<std::string>& words) {
     mJob = std::make_unique<Job>(what, words);
 }
 
@@ -25,6 +28,7 @@ void Viewer::cancelJob() {
 
 void Viewer::makeMovie(const MovieWish& movie) {
     tryTo([&] {
+        checkNoJob();
         if (mSession->path().samples().size() < 2)
             throw Error("", "movie", "there is no flight", "record one with z");
         SettingTexts settings = this->settings();
@@ -38,9 +42,10 @@ void Viewer::makeMovie(const MovieWish& movie) {
         // Whole, so that it is told where the movie is.
         const std::filesystem::path place = std::filesystem::absolute(movie.file).lexically_normal();
         const bool video = place.has_extension();
-        mJobPath = std::filesystem::temp_directory_path(code) / fmt::format("stereonav_{}.gltf", getpid());
-        writePath(mJobPath, mSession->path());
-        words.push_back("--path=" + mJobPath.string());
+        mJobPath = std::make_unique<JobFile>(std::filesystem::temp_directory_path(code) /
+                                             fmt::format("stereonav_{}.gltf", getpid()));
+        writePath(mJobPath->path(), mSession->path());
+        words.push_back("--path=" + mJobPath->path().string());
         words.push_back((video ? "--video=" : "--out=") + place.string());
         if (video) words.push_back(fmt::format("--fps={:.6g}", movie.fps));
         startJob("the movie " + place.string(), words);
@@ -66,6 +71,7 @@ bool Viewer::bakeTakes(const std::string& key, const std::string& value) const {
 
 void Viewer::bakeLight(const std::string& what, double minutes) {
     tryTo([&] {
+        checkNoJob();
         const SettingTexts settings = this->settings();
         std::vector<std::string> words = commandWords(command::kBake, settings);
         words.push_back("--what=" + what);
@@ -74,10 +80,11 @@ void Viewer::bakeLight(const std::string& what, double minutes) {
         Hash hash;
         for (const std::string& word : words) hash.add(word).add(std::string_view("\n"));
         const std::filesystem::path folder = cacheFolder();
-        mBaked = (folder / fmt::format("window_{:016x}.light", hash.value())).string();
-        mBakedScene = mOptions.scene.scene;
-        words.push_back("--out=" + mBaked);
+        const std::string baked = (folder / fmt::format("window_{:016x}.light", hash.value())).string();
+        words.push_back("--out=" + baked);
         startJob("baked light", words);
+        mBaked = baked;
+        mBakedScene = mOptions.scene.scene;
     });
 }
 
@@ -85,9 +92,7 @@ void Viewer::lookAtJob() {
     if (!mJob || !mJob->running()) return;
     mJob->look();
     if (mJob->running()) return;
-    std::error_code code;
-    if (!mJobPath.empty()) std::filesystem::remove(mJobPath, code);
-    mJobPath.clear();
+    mJobPath.reset();
     const std::string baked = std::exchange(mBaked, "");
     if (mJob->failed()) {
         mFailure = mJob->lastLine().empty() ? mJob->what() + " was not made" : mJob->lastLine();

@@ -136,7 +136,6 @@ void Viewer::open(const std::string& scene) {
         load(options, true);
         mGiven = settingTextsOf(options.scene.given);
         mSaid = fileTextsOf(options.scene.given);
-        mFlight.reset();
         mPanels.showStart(false);
     });
 }
@@ -157,6 +156,7 @@ void Viewer::keepBefore() {
     mBefore.reset();
     mSettings.reset();
     mApplies.clear();
+    if (mSession) mHistory.backTo(settings());
 }
 
 void Viewer::set(const std::string& key, const std::optional<std::string>& text) {
@@ -309,6 +309,7 @@ void Viewer::takeStudy() {
     try {
         auto study = mSlices.take();
         if (!study) return;
+        mSession->takeStudyWish();  // asked for again meanwhile
         if (mSession->wantsSliceView())
             mSession->showSlices(std::move(study));
         else

@@ -10,16 +10,6 @@ words() {
     xdotool type --delay 40 -- "$1"
     sleep 0.4
 }
-# until COMMAND...: within half a minute
-until_true() {
-    for _ in $(seq 300); do
-        "$@" && return
-        kill -0 "$pid" 2>/dev/null || fail "the program ended before: $*"
-        sleep 0.1
-    done
-    fail "not within half a minute: $*"
-}
-titled() { [ "$(xdotool getwindowname "$window")" = "stereonav - $1" ]; }
 saved() { [ -s "$out/$1" ]; }
 # save_scene NAME: through the dialog
 save_scene() {

@@ -3,8 +3,8 @@
 # inside xvfb-run.
 #   drive_random.sh PROGRAM FOLDER SECONDS SEED [ARGUMENT ...]
 # The program is opened again where a random click closed it. Leaves a line for each opening in runs.txt (exit status,
-# threads, open files and resident KiB after 3 seconds and at the end; between them in states.txt), its output in log.txt, and in events.txt what was
-# done last.
+# threads, open files and resident KiB after 3 seconds and at the end; between them in states.txt), its output in
+# log.txt, and in events.txt what was done last.
 set -u
 program=$1
 out=$2

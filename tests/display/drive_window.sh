@@ -20,9 +20,9 @@ hold() {
     xdotool keyup "$1"
 }
 
-# open_window ARGUMENT ...: of the program; $size: of its pictures, where 320x240 will not do. Waits for its window and for the first picture in it.
-open_window() {
-    "$program" view "$@" --size "${size:-320x240}" --mode sbsl --shots "$shots" >"$out/log.txt" 2>&1 &
+# start_window ARGUMENT ...: of the program. Waits for its window.
+start_window() {
+    "$program" view "$@" --shots "$shots" >"$out/log.txt" 2>&1 &
     pid=$!
     window=
     for _ in $(seq 1200); do
@@ -35,14 +35,13 @@ open_window() {
     xdotool search --onlyvisible --class '^stereonav$' 2>/dev/null | grep -qx "$window" ||
         fail "the window's class is not stereonav, by which packaging/entry.desktop knows it"
     xdotool windowfocus --sync "$window"
-    # Keys that come while the scene loads are dropped: ask until the first picture is there.
-    for n in $(seq 1200); do
-        [ $((n % 20)) -eq 1 ] && keys p
-        sleep 0.1
-        [ "$(pictures)" -gt 0 ] && break
-        kill -0 "$pid" 2>/dev/null || fail "the program ended while it loaded"
-    done
-    [ "$(pictures)" -gt 0 ] || fail "no picture within two minutes"
+}
+
+# open_window ARGUMENT ...: of the program; $size: of its pictures, where 320x240 will not do. Waits for its window and
+# for the first picture in it.
+open_window() {
+    start_window "$@" --size "${size:-320x240}" --mode sbsl
+    first_picture
     # Those that were asked for once it was loaded, so that none of them is taken for a step's.
     local before=0
     while [ "$(pictures)" -gt "$before" ]; do
@@ -50,6 +49,31 @@ open_window() {
         sleep 2
     done
 }
+
+# Waits for one that is not there yet.
+first_picture() {
+    local before
+    before=$(pictures)
+    # Keys that come while the scene loads are dropped: ask until the first picture is there.
+    for n in $(seq 1200); do
+        [ $((n % 20)) -eq 1 ] && keys p
+        sleep 0.1
+        [ "$(pictures)" -gt "$before" ] && return
+        kill -0 "$pid" 2>/dev/null || fail "the program ended while it loaded"
+    done
+    fail "no picture within two minutes"
+}
+
+# until_true COMMAND ...: within half a minute
+until_true() {
+    for _ in $(seq 300); do
+        "$@" && return
+        kill -0 "$pid" 2>/dev/null || fail "the program ended before: $*"
+        sleep 0.1
+    done
+    fail "not within half a minute: $*"
+}
+titled() { [ "$(xdotool getwindowname "$window")" = "stereonav - $1" ]; }
 
 # take [KEY]: the picture after everything pressed so far; its file in $picture.
 take() {

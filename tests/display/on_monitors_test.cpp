@@ -13,7 +13,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
+#include <sstream>
 
 #include "app/view/view_display.h"
 #include "engine/base/error.h"
@@ -312,22 +314,59 @@ TEST_F(OnTwoMonitors, InterleavedModesKeepToTheMonitorsRows) {
     for (const int y : {0, 1, 2, 1078, 1079}) EXPECT_EQ(drawnAt(5, y), y % 2);
 }
 
-TEST(TwoMonitors, HoldThemAll) {
-    if (std::getenv(kTwoMonitors)) GTEST_SKIP() << "is that process";
-    const auto folder =
-        std::filesystem::path(testing::TempDir()) / ("stereonav_monitors_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder);
+class TwoMonitors : public testing::Test {
+protected:
+    void SetUp() override {
+        if (std::getenv(kTwoMonitors)) GTEST_SKIP() << "is that process";
+        mFolder =
+            std::filesystem::path(testing::TempDir()) / ("stereonav_monitors_" + std::to_string(getpid()));
+        std::filesystem::create_directories(mFolder);
+    }
+    void TearDown() override { std::filesystem::remove_all(mFolder); }
+    // On a server of two monitors; its output is in the log. 77: there is none.
+    int run(const std::string& command) const {
+        const int status =
+            std::system(("'" STEREONAV_SOURCE_DIR "/tests/display/two_monitors.sh' '" + mFolder.string() +
+                         "' " + command + " >'" + mFolder.string() + "/log' 2>&1")
+                            .c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    std::string textOf(const char* name) const {
+        return std::filesystem::exists(mFolder / name) ? readTextFile(mFolder / name) : "";
+    }
+
+    std::filesystem::path mFolder;
+};
+
+TEST_F(TwoMonitors, HoldThemAll) {
     const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-    const std::string command = "'" STEREONAV_SOURCE_DIR "/tests/display/two_monitors.sh' '" +
-                                folder.string() + "' env " + kTwoMonitors + "=1 '" + self +
-                                "' --gtest_filter='OnTwoMonitors.*:OnMonitors.*' >'" + folder.string() +
-                                "/log.txt' 2>&1";
-    const int status = std::system(command.c_str());
-    const std::string log = readTextFile(folder / "log.txt");
-    std::filesystem::remove_all(folder);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << log;
+    const int status = run(std::string("env ") + kTwoMonitors + "=1 '" + self +
+                           "' --gtest_filter='OnTwoMonitors.*:OnMonitors.*'");
+    const std::string log = textOf("log");
+    if (status == 77) GTEST_SKIP() << log;
     EXPECT_EQ(status, 0) << log;
     EXPECT_EQ(log.find("SKIPPED"), std::string::npos) << log;
+}
+
+TEST_F(TwoMonitors, TheProgramFillsTheOneThatIsMeant) {
+    if (std::system("command -v xdotool >/dev/null") != 0) GTEST_SKIP() << "xdotool is not installed";
+    const std::string folder = "'" + mFolder.string() + "'";
+    const int status =
+        run("env HOME=" + folder + " XDG_CACHE_HOME=" + folder +
+            "/cache '" STEREONAV_SOURCE_DIR "/tests/display/drive_monitors.sh' '" STEREONAV_PROGRAM "' " +
+            folder);
+    if (status == 77) GTEST_SKIP() << textOf("log");
+    ASSERT_EQ(status, 0) << textOf("log") << textOf("problems.txt") << textOf("log.txt");
+    EXPECT_EQ(textOf("status.txt"), "0\n");
+    std::istringstream places(textOf("places.txt"));
+    std::map<std::string, ScreenRect> at;
+    std::string step;
+    for (ScreenRect place; places >> step >> place.x >> place.y >> place.width >> place.height;)
+        at[step] = place;
+    EXPECT_EQ(at["option"], (ScreenRect{kSecondX, kSecondY, 3840, 1080}));
+    EXPECT_EQ(at["key"].width, 320) << textOf("places.txt");
+    EXPECT_EQ(at["key"].height, 240);
+    EXPECT_EQ(at["again"], (ScreenRect{0, 0, 1025, 768})) << "the one that it was moved to";
 }
 
 }  // namespace

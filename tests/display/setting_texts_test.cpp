@@ -98,5 +98,40 @@ TEST(SettingsHistory, WhatComesBackByItselfIsNoStep) {
     EXPECT_FALSE(history.canUndo());
 }
 
+// A load that was cancelled, or failed: opened, gone back to, gone forth to.
+TEST(SettingsHistory, WhatDidNotComeAboutIsNoStep) {
+    SettingsHistory history;
+    const SettingTexts a{{"fov", {"40"}}}, b{{"fov", {"50"}}}, c{{"fov", {"60"}}};
+    const auto rest = [&](const SettingTexts& at) {
+        history.observe(at, false, 1);
+        history.observe(at, false, 1);
+    };
+    history.start(a);
+    rest(b);
+    history.backTo(a);
+    rest(a);
+    EXPECT_FALSE(history.canUndo());
+    EXPECT_FALSE(history.canRedo());
+    history.observe(b, false, 0.1);
+    history.backTo(a);
+    rest(a);
+    EXPECT_FALSE(history.canUndo()) << "before it came to rest";
+
+    rest(b);
+    rest(c);
+    EXPECT_EQ(history.undo(), b);
+    history.backTo(c);
+    rest(c);
+    EXPECT_FALSE(history.canRedo());
+    EXPECT_EQ(history.undo(), b) << "what was there stays";
+    EXPECT_EQ(history.redo(), c);
+    EXPECT_EQ(history.undo(), b);
+    rest(b);
+    EXPECT_EQ(history.redo(), c);
+    history.backTo(b);
+    EXPECT_FALSE(history.canRedo());
+    EXPECT_EQ(history.undo(), a);
+}
+
 }  // namespace
 }  // namespace stereonav
