@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "engine/base/parallel.h"
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/ext/vector_int3_sized.hpp>
 
 namespace stereonav {
 namespace {
@@ -24,38 +26,48 @@ PackedColor dimmed(PackedColor c, double share) {
     return packColor(unpackColor(c) * static_cast<float>(share));
 }
 
-// Bilinear in the slice; along the cut axis the voxel is whole.
-double valueAt(const GreyVolume& grey, const glm::dvec3& voxel, int normal) {
-    const int a = (normal + 1) % 3, b = (normal + 2) % 3;
-    glm::ivec3 low(glm::floor(voxel));
-    low[normal] = static_cast<int>(std::lround(voxel[normal]));
-    const glm::ivec3 last = grey.frame.size - 1;
-    const double fa = voxel[a] - low[a], fb = voxel[b] - low[b];
-    const auto at = [&](int da, int db) {
-        glm::ivec3 v = low;
-        v[a] += da;
-        v[b] += db;
-        return static_cast<double>(grey.at(glm::clamp(v, glm::ivec3(0), last)));
-    };
-    const double near = at(0, 0) * (1 - fa) + at(1, 0) * fa;
-    const double far = at(0, 1) * (1 - fa) + at(1, 1) * fa;
-    return (near * (1 - fb) + far * fb) * grey.scale + grey.offset;
-}
+// Along one axis of the picture: the voxels before and behind each pixel's middle, as steps from the first
+// value, and the share of the one behind.
+struct Between {
+    std::ptrdiff_t before = 0, behind = 0;
+    double share = 0;
+    bool within = false;  // of the study
+};
 
-bool insideOf(const MaskVolume& mask, const glm::dvec3& world) {
-    const glm::ivec3 v(glm::round(mask.frame.voxelFromWorld(world)));
-    return mask.frame.contains(v) && mask.at(v) != 0;
+std::vector<Between> betweenVoxels(int pixels, int size, std::ptrdiff_t step,
+                                   const std::function<double(double)>& voxelAt) {
+    std::vector<Between> list(static_cast<std::size_t>(pixels));
+    for (int n = 0; n < pixels; ++n) {
+        const double voxel = voxelAt(n + 0.5);
+        Between& here = list[static_cast<std::size_t>(n)];
+        here.within = voxel >= -0.5 && voxel <= size - 0.5;
+        if (!here.within) continue;
+        const double low = std::floor(voxel);
+        here.share = voxel - low;
+        const int first = static_cast<int>(low);
+        here.before = step * std::clamp(first, 0, size - 1);
+        here.behind = step * std::clamp(first + 1, 0, size - 1);
+    }
+    return list;
 }
 
 // Where the lumen changes between a pixel and the one to its right or below.
 void outline(const SliceContent& content, const SliceLayout& layout, int slice, Plane<PackedColor>& picture) {
-    const VolumeFrame& frame = content.grey->frame;
+    const MaskVolume& mask = *content.lumen;
     Plane<std::uint8_t> inside(picture.width() + 1, picture.height() + 1);
-    parallelFor(inside.height(), [&](int y) {
-        for (int x = 0; x < inside.width(); ++x)
-            inside.at(x, y) =
-                insideOf(*content.lumen, frame.worldFromVoxel(layout.voxelAt(x + 0.5, y + 0.5, slice)));
-    });
+    const auto maskVoxelAt = [&](double x, double y) {
+        return mask.frame.voxelFromWorld(content.grey->frame.worldFromVoxel(layout.voxelAt(x, y, slice)));
+    };
+    // One frame's voxels from the other's, and from pixels: the same step everywhere.
+    const double w = inside.width(), h = inside.height();
+    const glm::dvec3 first = maskVoxelAt(0.5, 0.5), right = (maskVoxelAt(w + 0.5, 0.5) - first) / w,
+                     down = (maskVoxelAt(0.5, h + 0.5) - first) / h;
+    for (int y = 0; y < inside.height(); ++y)
+        for (int x = 0; x < inside.width(); ++x) {
+            const glm::ivec3 v(
+                glm::round(first + static_cast<double>(x) * right + static_cast<double>(y) * down));
+            inside.at(x, y) = mask.frame.contains(v) && mask.at(v) != 0;
+        }
     for (int y = 0; y < picture.height(); ++y)
         for (int x = 0; x < picture.width(); ++x)
             if (inside.at(x, y) != inside.at(x + 1, y) || inside.at(x, y) != inside.at(x, y + 1))
@@ -173,16 +185,35 @@ double SliceLayout::placeOf(int slice) const {
 Plane<PackedColor> drawSlice(const SliceContent& content, const SliceLayout& layout, int slice, int width,
                              int height) {
     const GreyVolume& grey = *content.grey;
+    const glm::ivec3& size = grey.frame.size;
     const double lowest = content.windowLevel - content.windowWidth / 2;
     Plane<PackedColor> picture(width, height);
-    parallelFor(height, [&](int y) {
+    const int across = layout.across(), down = layout.down(), normal = layout.normal();
+    const glm::i64vec3 steps(1, size.x, static_cast<std::int64_t>(size.x) * size.y);
+    // Bilinear in the slice; along the cut axis the voxel is whole. A pixel's voxel is a number by its column
+    // and one by its row.
+    const auto columns = betweenVoxels(width, size[across], steps[across],
+                                       [&](double x) { return layout.voxelAt(x, 0, slice)[across]; });
+    const auto rows = betweenVoxels(height, size[down], steps[down],
+                                    [&](double y) { return layout.voxelAt(0, y, slice)[down]; });
+    const std::int16_t* const values =
+        grey.values.data() + steps[normal] * std::clamp(slice, 0, size[normal] - 1);
+    const bool within = slice >= 0 && slice < size[normal];
+    for (int y = 0; within && y < height; ++y) {
+        const Between& row = rows[static_cast<std::size_t>(y)];
+        if (!row.within) continue;
+        const std::int16_t *const upper = values + row.before, *const lower = values + row.behind;
         for (int x = 0; x < width; ++x) {
-            const glm::dvec3 voxel = layout.voxelAt(x + 0.5, y + 0.5, slice);
-            if (layout.worldAt(x + 0.5, y + 0.5, slice))
-                picture.at(x, y) =
-                    greyOf((valueAt(grey, voxel, layout.normal()) - lowest) / content.windowWidth);
+            const Between& column = columns[static_cast<std::size_t>(x)];
+            if (!column.within) continue;
+            const double above =
+                upper[column.before] * (1 - column.share) + upper[column.behind] * column.share;
+            const double below =
+                lower[column.before] * (1 - column.share) + lower[column.behind] * column.share;
+            const double value = (above * (1 - row.share) + below * row.share) * grey.scale + grey.offset;
+            picture.at(x, y) = greyOf((value - lowest) / content.windowWidth);
         }
-    });
+    }
     if (content.lumen && !content.lumen->empty()) outline(content, layout, slice, picture);
     for (const SliceMark& mark : content.marks) {
         const glm::dvec3 voxel = grey.frame.voxelFromWorld(mark.world);

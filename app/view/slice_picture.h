@@ -37,7 +37,10 @@ public:
     SliceLayout zoomed(double factor, const glm::dvec3& world) const;
     // The place moved onto a slice, straight.
     glm::dvec3 onSlice(const glm::dvec3& world, int slice) const;
-    int normal() const { return mNormal; }  // voxel axis that is cut
+    // Voxel axes: those along the picture's axes, and the one that is cut.
+    int across() const { return mAcross; }
+    int down() const { return mDown; }
+    int normal() const { return mNormal; }
 
 private:
     VolumeFrame mFrame;

@@ -36,7 +36,7 @@ void ViewDisplay::fill(const std::string& monitor) {
 }
 
 std::optional<Monitor> ViewDisplay::monitor() const {
-    const std::vector<Monitor> all = monitors();
+    const std::vector<Monitor>& all = recentMonitors();
     const auto under = monitorUnder(all, mWindow.place());
     return under ? std::optional(all[*under]) : std::nullopt;
 }

@@ -66,6 +66,18 @@ std::vector<Monitor> monitors() {
     return list;
 }
 
+const std::vector<Monitor>& recentMonitors() {
+    constexpr double kAge = 0.25;  // seconds
+    static std::vector<Monitor> list;
+    static double made = 0;
+    const double now = glfwGetTime();  // which begins anew with GLFW
+    if (list.empty() || !(now >= made && now - made < kAge)) {
+        list = monitors();
+        made = now;
+    }
+    return list;
+}
+
 std::optional<std::size_t> monitorUnder(std::span<const Monitor> monitors, const ScreenRect& window) {
     std::optional<std::size_t> best;
     long long bestArea = 0;

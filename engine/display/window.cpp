@@ -21,6 +21,7 @@ constexpr double kMonitorShare = 0.92;  // of the monitor's free area: leaves ro
 constexpr int kSmallestWindow = 64;     // screen units
 constexpr double kClickReach = 4.0;     // screen units that a hand shakes while it clicks
 int openWindows = 0;                    // the first and the last one begin and end GLFW
+unsigned turns = 1;                     // of handleEvents, and of what a window did to itself
 constexpr double kDeadZone = 0.12;      // of a stick's way: worn sticks rest that far off centre
 
 std::string lastProblem() {
@@ -148,6 +149,7 @@ void Window::placeBeside(const Window& first) {
         const ScreenRect &area = all[n].workArea, own = place();
         glfwSetWindowPos(mHandle, area.x + std::max(0, (area.width - own.width) / 2),
                          area.y + std::max(0, (area.height - own.height) / 2));
+        ++turns;
         return;
     }
 }
@@ -233,9 +235,8 @@ void Window::onButton(int button, bool pressed) {
 }
 
 glm::dvec2 Window::shareOf(const glm::dvec2& place) const {
-    int width = 0, height = 0;
-    glfwGetWindowSize(mHandle, &width, &height);
-    return place / glm::dvec2(std::max(width, 1), std::max(height, 1));
+    const ScreenRect& window = told().place;
+    return place / glm::dvec2(std::max(window.width, 1), std::max(window.height, 1));
 }
 
 void Window::setPointerHidden(bool hidden) {
@@ -292,6 +293,7 @@ void Window::handleEvents(double seconds) {
         glfwWaitEventsTimeout(seconds);
     else
         glfwPollEvents();
+    ++turns;
 }
 
 void Window::wake() {
@@ -312,26 +314,40 @@ double Window::now() {
     return glfwGetTime();
 }
 
+const Window::Told& Window::told() const {
+    if (mTold.turn == turns) return mTold;
+    mTold.turn = turns;
+    mTold.minimised = glfwGetWindowAttrib(mHandle, GLFW_ICONIFIED) != 0;
+    glfwGetFramebufferSize(mHandle, &mTold.pixels.x, &mTold.pixels.y);
+    ScreenRect& place = mTold.place;
+    glfwGetWindowPos(mHandle, &place.x, &place.y);
+    glfwGetWindowSize(mHandle, &place.width, &place.height);
+    return mTold;
+}
+
 glm::ivec2 Window::framebufferSize() const {
-    glm::ivec2 size(0);
-    if (!minimised()) glfwGetFramebufferSize(mHandle, &size.x, &size.y);
-    return size;
+    return minimised() ? glm::ivec2(0) : told().pixels;
 }
 
 ScreenRect Window::place() const {
-    ScreenRect place;
-    glfwGetWindowPos(mHandle, &place.x, &place.y);
-    glfwGetWindowSize(mHandle, &place.width, &place.height);
-    return place;
+    return told().place;
+}
+
+void Window::enterFullScreen(std::size_t monitor) {
+    mFullScreen.enter(mHandle, monitor);
+    ++turns;
+}
+
+void Window::leaveFullScreen() {
+    mFullScreen.leave(mHandle);
+    ++turns;
 }
 
 glm::ivec2 Window::framebufferOrigin() const {
     if (fullScreen()) return {0, 0};
     const ScreenRect window = place();
-    int pixels = 0, rows = 0;
-    glfwGetFramebufferSize(mHandle, &pixels, &rows);
-    const double scale = window.width > 0 ? static_cast<double>(pixels) / window.width : 1.0;
-    const std::vector<Monitor> all = monitors();
+    const double scale = window.width > 0 ? static_cast<double>(told().pixels.x) / window.width : 1.0;
+    const std::vector<Monitor>& all = recentMonitors();
     const auto under = monitorUnder(all, window);
     return placeOnMonitor(window, under ? all[*under] : Monitor{}, scale);
 }
@@ -348,7 +364,7 @@ float Window::contentScale() const {
 }
 
 bool Window::minimised() const {
-    return glfwGetWindowAttrib(mHandle, GLFW_ICONIFIED) != 0;
+    return told().minimised;
 }
 
 bool Window::redrawNeeded() {

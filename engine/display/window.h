@@ -82,8 +82,8 @@ public:
 
     ScreenRect place() const;  // without its frame
     // Over a whole monitor, of those of monitors(); throws Error where there is no such one.
-    void enterFullScreen(std::size_t monitor) { mFullScreen.enter(mHandle, monitor); }
-    void leaveFullScreen() { mFullScreen.leave(mHandle); }
+    void enterFullScreen(std::size_t monitor);
+    void leaveFullScreen();
     bool fullScreen() const { return FullScreen::on(mHandle); }
     void toggleFullScreen();  // on the monitor that the window is on
 
@@ -117,9 +117,19 @@ private:
     void onPointer(double x, double y);
     void onButton(int button, bool pressed);
     void setPointerMode();
+    // What the window system says of it. It is asked once between two calls of handleEvents: each answer
+    // takes a turn to the X server and back.
+    struct Told {
+        unsigned turn = 0;  // of handleEvents
+        bool minimised = false;
+        glm::ivec2 pixels{0};
+        ScreenRect place;
+    };
+    const Told& told() const;
     glm::dvec2 shareOf(const glm::dvec2& place) const;  // of the window's size, of screen units
 
     GLFWwindow* mHandle = nullptr;
+    mutable Told mTold;
     FullScreen mFullScreen;
     bool mQuadBuffered = false;
     std::vector<KeyPress> mKeys;

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -195,6 +196,62 @@ TEST(SlicePicture, MarksFadeAndEndWithTheDistanceOfTheirSlice) {
     const SliceMark astray{glm::dvec3(std::numeric_limits<double>::quiet_NaN()), kRed, false};
     const SliceMark beside{glm::dvec3(1e6), kRed, true};
     EXPECT_EQ(drawSlice({&grey, 1500, 5000, nullptr, {astray, beside}}, layout, 5, 30, 30).at(15, 15), 0u);
+}
+
+// The picture by the layout's own places, pixel by pixel.
+PackedColor plainPixel(const SliceContent& content, const SliceLayout& layout, int slice, int x, int y) {
+    const GreyVolume& grey = *content.grey;
+    if (!layout.worldAt(x + 0.5, y + 0.5, slice)) return 0;
+    const glm::dvec3 voxel = layout.voxelAt(x + 0.5, y + 0.5, slice);
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        glm::ivec3 v(glm::floor(voxel));
+        double weight = 1;
+        for (int k = 0; k < 3; ++k) {
+            const double share = voxel[k] - std::floor(voxel[k]);
+            const bool behind = (corner >> k & 1) != 0;
+            weight *= behind ? share : 1 - share;
+            v[k] += behind;
+        }
+        sum += weight * grey.at(glm::clamp(v, glm::ivec3(0), grey.frame.size - 1));
+    }
+    const double value = sum * grey.scale + grey.offset;
+    const double black = content.windowLevel - content.windowWidth / 2;
+    const double byte = std::clamp((value - black) / content.windowWidth, 0.0, 1.0) * 255 + 0.5;
+    const PackedColor channel = packedFromSrgbByte()[static_cast<std::size_t>(byte)];
+    return channel | channel << 10 | channel << 20;
+}
+
+TEST(DrawSlice, IsThePlainOneInEveryDirectionAndSize) {
+    VolumeFrame frame = upright();
+    for (int turned = 0; turned < 2; ++turned) {
+        if (turned) {  // axes exchanged and one of them turned over, as scanners give them
+            frame.axes[0] = {0, 0, -1};
+            frame.axes[1] = {1, 0, 0};
+            frame.axes[2] = {0, 1, 0};
+        }
+        GreyVolume grey = numbered(frame);
+        grey.scale = 0.5;
+        grey.offset = -100;
+        SliceContent content;
+        content.grey = &grey;
+        content.windowWidth = 3000;
+        content.windowLevel = 1400;
+        for (const SliceAxis axis : kAxes)
+            for (const glm::ivec2 size : {glm::ivec2(61, 83), glm::ivec2(7, 5), glm::ivec2(1, 1)})
+                for (const double zoom : {1.0, 3.7}) {
+                    const SliceLayout layout = SliceLayout(frame, axis, size.x, size.y)
+                                                   .zoomed(zoom, frame.worldFromVoxel({3, 20, 7}));
+                    for (const int slice : {0, layout.sliceCount() - 1, layout.sliceCount() / 2}) {
+                        const auto picture = drawSlice(content, layout, slice, size.x, size.y);
+                        int other = 0;  // where rounding falls on the other side
+                        for (int y = 0; y < size.y; ++y)
+                            for (int x = 0; x < size.x; ++x)
+                                other += picture.at(x, y) != plainPixel(content, layout, slice, x, y);
+                        EXPECT_LE(other, size.x * size.y / 500) << static_cast<int>(axis) << " " << slice;
+                    }
+                }
+    }
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST(SliceReading, OfTheStudyBeforeIsForgotten) {
     for (const bool forEver : {true, false}) {
         SliceReading reading;
         reading.start(studyThatReads(forEver), [] {});
-        reading.forget();
+        reading.abandon();
         EXPECT_EQ(outcomeOf(reading), nullptr);
         EXPECT_FALSE(reading.busy());
         reading.start(studyThatReads(false), [] {});
