@@ -29,6 +29,14 @@ InterfacePlaces interfacePlaces(const OutputModeInfo& mode) {
     return places;
 }
 
+bool partsCover(OutputMode mode, const SizeOption& window) {
+    const auto areas = eyeAreas(mode, window.width, window.height);
+    const auto pixels = [](int width, int height) { return static_cast<long long>(width) * height; };
+    long long covered = pixels(areas[0].width, areas[0].height);
+    if (!oneArea(areas)) covered += pixels(areas[1].width, areas[1].height);
+    return covered == pixels(window.width, window.height);
+}
+
 PicturePlace picturePlace(const OutputModeInfo& mode, const glm::ivec2& window, const Panels::Rest& rest,
                           const glm::vec2& units) {
     const EyeArea area = eyeAreas(mode.mode, window.x, window.y)[0];

@@ -11,6 +11,10 @@ namespace stereonav {
 // The parts of both eyes, one where they share one.
 InterfacePlaces interfacePlaces(const OutputModeInfo& mode);
 
+// Whether the parts of both eyes leave nothing of a window of so many pixels, as an odd column or the gap
+// between packed frames.
+bool partsCover(OutputMode mode, const SizeOption& window);
+
 // Of one part, pixels from its top left corner.
 struct PicturePlace {
     glm::ivec2 part{1}, corner{0}, size{1};

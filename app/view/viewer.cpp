@@ -316,7 +316,7 @@ void Viewer::takeFrame() {
     if (frame) {
         mFrame = std::move(frame);
         mSession->observe(*mFrame);
-        if (!mSession->slicesShown()) mPresenter.upload(mFrame->left.color, mFrame->right.color);
+        if (!mSession->slicesShown()) showFrame();
         mRate.count(mFrame->request.version < mAsked);
         mCosts.push_back(costOf(*mFrame));
         if (mCosts.size() > kKeptCosts) mCosts.pop_front();
@@ -334,6 +334,11 @@ void Viewer::takeFrame() {
     reportDisplay();
 }
 
+void Viewer::showFrame() {
+    using Eye = StereoPresenter::SharedEye;
+    mPresenter.show(Eye(mFrame, &mFrame->left.color), Eye(mFrame, &mFrame->right.color));
+}
+
 void Viewer::takeSlice() {
     const OutputModeInfo& mode = infoOf(mSession->compose().mode);
     const SizeOption eye = eyeSizeAt(mode, placeFor(mode));
@@ -347,7 +352,7 @@ void Viewer::takeSlice() {
 
 void Viewer::endSlices() {
     mSliceVersion = 0;
-    if (mFrame) mPresenter.upload(mFrame->left.color, mFrame->right.color);
+    if (mFrame) showFrame();
     mNewFrame = true;
 }
 
@@ -470,8 +475,11 @@ void Viewer::show(const ComposeSetting& setting) {
     mDisplay.draw(setting, [&](const ComposeSetting& one) {
         glDisable(GL_SCISSOR_TEST);
         glViewport(0, 0, size.width, size.height);
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT);
+        // Pictures and panels cover both parts; where these do not cover the window, it is black.
+        if (!mPresenter.hasPicture() || !partsCover(one.mode, size)) {
+            glClearColor(0, 0, 0, 1);
+            glClear(GL_COLOR_BUFFER_BIT);
+        }
         mPresenter.draw(one, {0, 0, size.width, size.height}, origin.x, origin.y, inset);
         mInterface.render(InterfaceOpening{place.corner, place.size});
     });

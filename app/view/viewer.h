@@ -139,6 +139,7 @@ private:
     void tryTo(const std::function<void()>& what);
     void askFor();
     void takeFrame();
+    void showFrame();
     void takeSlice();
     void endSlices();
     void reportSweep();

@@ -34,7 +34,7 @@ std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
 bool Viewer::drawOverlay(const OutputModeInfo& mode) {
     const glm::ivec2 size = mFrame ? glm::ivec2(mFrame->left.width(), mFrame->left.height()) : glm::ivec2(0);
     const bool changed = mOverlay.draw(mInterface, size, marks(mode));
-    mPresenter.setLayers(mOverlay.layer(0), mOverlay.layer(1));
+    mPresenter.setLayers(mOverlay.layers());
     return changed;
 }
 

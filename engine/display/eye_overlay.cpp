@@ -36,6 +36,20 @@ void drawMark(ImDrawList& list, const glm::vec2& place, const OverlayMark& mark,
                              IM_COL32(0, 0, 0, 48));
 }
 
+// Around all that was drawn since the list had so many corners.
+EyeLayer::Box boxOf(const ImDrawList& list, int firstCorner) {
+    constexpr float kFar = 1e6f;  // no picture is as wide
+    glm::vec2 low(kFar), high(-kFar);
+    for (int n = firstCorner; n < list.VtxBuffer.Size; ++n) {
+        const glm::vec2 corner(list.VtxBuffer[n].pos.x, list.VtxBuffer[n].pos.y);
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    if (!(low.x <= high.x && low.y <= high.y)) return {};
+    return {glm::ivec2(glm::floor(glm::clamp(low, -kFar, kFar))),
+            glm::ivec2(glm::ceil(glm::clamp(high, -kFar, kFar)))};
+}
+
 void makeLayer(const GlTexture& texture, const glm::ivec2& size) {
     glBindTexture(GL_TEXTURE_2D, texture.name());
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size.x, size.y, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
@@ -63,20 +77,25 @@ bool EyeOverlay::draw(const Interface& interface, const glm::ivec2& size,
     return true;
 }
 
-void EyeOverlay::drawEye(int eye, const InterfaceLook& look) const {
+void EyeOverlay::drawEye(std::size_t eye, const InterfaceLook& look) {
     ImDrawList list(ImGui::GetDrawListSharedData());
     list._ResetForNewFrame();
     list.PushTextureID(ImGui::GetIO().Fonts->TexID);
     const ImVec2 size(static_cast<float>(mSize.x), static_cast<float>(mSize.y));
     list.PushClipRect({0, 0}, size);
-    for (const OverlayMark& mark : mMarks) drawMark(list, eye == 0 ? mark.left : mark.right, mark, look);
+    mBoxes[eye].clear();
+    for (const OverlayMark& mark : mMarks) {
+        const int first = list.VtxBuffer.Size;
+        drawMark(list, eye == 0 ? mark.left : mark.right, mark, look);
+        mBoxes[eye].push_back(boxOf(list, first));
+    }
     list._PopUnusedDrawCmd();
 
     GLint before = 0;
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, mLayers->target.name());
     glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
-                           mLayers->textures[static_cast<std::size_t>(eye)].name(), 0);
+                           mLayers->textures[eye].name(), 0);
     glDisable(GL_SCISSOR_TEST);
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT);
@@ -93,8 +112,10 @@ void EyeOverlay::drawEye(int eye, const InterfaceLook& look) const {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(before));
 }
 
-GLuint EyeOverlay::layer(int eye) const {
-    return mLayers && !mMarks.empty() ? mLayers->textures[static_cast<std::size_t>(eye)].name() : 0;
+std::optional<std::array<EyeLayer, 2>> EyeOverlay::layers() const {
+    if (!mLayers || mMarks.empty()) return std::nullopt;
+    return std::array{EyeLayer{mLayers->textures[0].name(), mBoxes[0]},
+                      EyeLayer{mLayers->textures[1].name(), mBoxes[1]}};
 }
 
 }  // namespace stereonav

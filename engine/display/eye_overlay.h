@@ -11,6 +11,7 @@
 
 #include "engine/display/gl_object.h"
 #include "engine/display/interface_theme.h"
+#include "engine/display/stereo_presenter.h"
 
 namespace stereonav {
 
@@ -30,18 +31,18 @@ public:
     // Draws them by the interface's letters, where they are not what is there already. True: it looks
     // otherwise than before.
     bool draw(const Interface& interface, const glm::ivec2& size, const std::vector<OverlayMark>& marks);
-    // Of an eye, 0 left, 1 right: sRGB values multiplied by their alpha, row 0 at the bottom; 0 while nothing
-    // is there.
-    GLuint layer(int eye) const;
+    // Of the left and of the right eye; none while nothing is there.
+    std::optional<std::array<EyeLayer, 2>> layers() const;
 
 private:
-    void drawEye(int eye, const InterfaceLook& look) const;
+    void drawEye(std::size_t eye, const InterfaceLook& look);
 
     struct Layers {
         std::array<GlTexture, 2> textures;
         GlFramebuffer target;
     };
     std::optional<Layers> mLayers;  // once there is something
+    std::array<std::vector<EyeLayer::Box>, 2> mBoxes;
     std::vector<OverlayMark> mMarks;
     glm::ivec2 mSize{0};
     InterfaceLook mLook;

@@ -360,20 +360,22 @@ void Interface::render(const std::optional<InterfaceOpening>& opening) {
                     to = glm::vec2(opening->corner + opening->size) * unit;
     const ImVec4 box(from.x, from.y, to.x, to.y);
     const std::uint64_t digest = digestOf(all, &box);
-    bool drawn = false;
+    // All copies before all drawings: a copy waits for what is being drawn.
+    std::size_t drawn = 0;
     if (!state.still.holds(digest, *opening, *first)) {
         state.drawArea(state.places.areas.front(), all);
         state.still.keep(digest, *opening, *first, glm::ivec2(state.unitsOfWindow));
-        drawn = true;
+        drawn = 1;
+    }
+    std::vector<char> copied(state.places.areas.size());
+    for (std::size_t n = drawn; n < copied.size(); ++n) {
+        const auto part = partOf(state.places.areas[n], state.unitsOfWindow);
+        copied[n] = part && state.still.holds(digest, *opening, *part);
+        if (copied[n]) state.still.put(*part);
     }
     const CutDrawing over(all, box);
-    for (const InterfaceArea& area : state.places.areas) {
-        if (std::exchange(drawn, false)) continue;
-        const auto part = partOf(area, state.unitsOfWindow);
-        const bool copied = part && state.still.holds(digest, *opening, *part);
-        if (copied) state.still.put(*part);
-        state.drawArea(area, copied ? over.data() : all);
-    }
+    for (std::size_t n = drawn; n < copied.size(); ++n)
+        state.drawArea(state.places.areas[n], copied[n] ? over.data() : all);
 }
 
 bool Interface::waits(const InterfacePlaces& places) const {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <glm/common.hpp>
 #include <string>
 
 #include "engine/base/error.h"
@@ -60,7 +61,7 @@ const ShaderProgram& StereoPresenter::programFor(Pass pass, bool layered) const 
     return program;
 }
 
-void StereoPresenter::upload(const Plane<PackedColor>& left, const Plane<PackedColor>& right) {
+void StereoPresenter::checkSizes(const Plane<PackedColor>& left, const Plane<PackedColor>* right) const {
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (left.empty() || left.width() > largest || left.height() > largest)
@@ -68,38 +69,79 @@ void StereoPresenter::upload(const Plane<PackedColor>& left, const Plane<PackedC
             "", "picture size",
             fmt::format("expected 1 to {} pixels a side, got {}x{}", largest, left.width(), left.height()),
             "make the window smaller");
-    mOneEye = right.empty();
-    if (!mOneEye && (right.width() != left.width() || right.height() != left.height()))
+    if (right && (right->width() != left.width() || right->height() != left.height()))
         throw Error("", "stereo picture",
                     fmt::format("expected two eyes of one size, got {}x{} and {}x{}", left.width(),
-                                left.height(), right.width(), right.height()),
+                                left.height(), right->width(), right->height()),
                     "render both eyes at the same size");
-    mWidth = left.width();
-    mHeight = left.height();
-    for (int i = 0; i < (mOneEye ? 1 : 2); ++i) {
-        const Plane<PackedColor>& eye = i == 0 ? left : right;
-        if (mTextureWidth[i] != mWidth || mTextureHeight[i] != mHeight) {
-            glBindTexture(GL_TEXTURE_2D, mEyes[i].name());
-            glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB10_A2, mWidth, mHeight, 0, GL_RGBA,
-                         GL_UNSIGNED_INT_2_10_10_10_REV, nullptr);
-            glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-            glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-            glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-            glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-            mTextureWidth[i] = mWidth;
-            mTextureHeight[i] = mHeight;
-        }
-        uploadEye(mEyes[i], eye);
-    }
 }
 
-void StereoPresenter::uploadEye(const GlTexture& texture, const Plane<PackedColor>& eye) const {
-    glBindTexture(GL_TEXTURE_2D, texture.name());
+void StereoPresenter::show(SharedEye left, SharedEye right) {
+    if (right && right->empty()) right = nullptr;
+    checkSizes(*left, right.get());
+    mOneEye = !right;
+    mWidth = left->width();
+    mHeight = left->height();
+    mEyes[0].picture = std::move(left);
+    mEyes[1].picture = std::move(right);
+    for (Eye& eye : mEyes) eye.uploaded = eye.plain = false;
+}
+
+void StereoPresenter::upload(const Plane<PackedColor>& left, const Plane<PackedColor>& right) {
+    show(std::make_shared<Plane<PackedColor>>(left), std::make_shared<Plane<PackedColor>>(right));
+}
+
+void StereoPresenter::uploadEye(std::size_t which) const {
+    Eye& eye = mEyes[which];
+    if (std::exchange(eye.uploaded, true)) return;
+    glBindTexture(GL_TEXTURE_2D, eye.texture.name());
+    if (eye.width != mWidth || eye.height != mHeight) {
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB10_A2, mWidth, mHeight, 0, GL_RGBA,
+                     GL_UNSIGNED_INT_2_10_10_10_REV, nullptr);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        eye.width = mWidth;
+        eye.height = mHeight;
+    }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, eye.stride());
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, eye.width(), eye.height(), GL_RGBA,
-                    GL_UNSIGNED_INT_2_10_10_10_REV, eye.row(0));
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, eye.picture->stride());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, mWidth, mHeight, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV,
+                    eye.picture->row(0));
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
+bool StereoPresenter::copyEye(std::size_t which, const Viewport& viewport) const {
+    Eye& eye = mEyes[which];
+    glActiveTexture(GL_TEXTURE0);
+    if (!std::exchange(eye.plain, true)) mPlain.upload(which, *eye.picture);
+    if (!mPlain.copy(which, viewport.x, viewport.y)) return false;
+    if (!mLayers) return true;
+    if (!mLayerProgram)
+        mLayerProgram = std::make_unique<ShaderProgram>("stereo_present.vert", "stereo_layer.frag");
+    const EyeLayer& layer = (*mLayers)[which];
+    mLayerProgram->use();
+    glUniform1i(mLayerProgram->location("uLayer"), 0);
+    glUniform2i(mLayerProgram->location("uCorner"), viewport.x, viewport.y);
+    glBindTexture(GL_TEXTURE_2D, layer.texture);
+    glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glEnable(GL_SCISSOR_TEST);
+    glBindVertexArray(mVertices.name());
+    const glm::ivec2 whole(viewport.width, viewport.height);
+    for (const EyeLayer::Box& box : layer.boxes) {
+        const glm::ivec2 first = glm::clamp(box.first, glm::ivec2(0), whole),
+                         last = glm::clamp(box.last, first, whole);
+        if (first.x == last.x || first.y == last.y) continue;
+        glScissor(viewport.x + first.x, viewport.y + whole.y - last.y, last.x - first.x, last.y - first.y);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    return true;
 }
 
 void StereoPresenter::draw(const ComposeSetting& setting, const Viewport& viewport, int turnX, int turnY,
@@ -128,19 +170,24 @@ void StereoPresenter::draw(const ComposeSetting& setting, const Viewport& viewpo
 void StereoPresenter::drawPass(Pass pass, int first, int second, const Viewport& viewport, int pictureWidth,
                                int pictureHeight, const ComposeSetting& setting, int turnX, int turnY) const {
     if (viewport.width < 1 || viewport.height < 1) return;
-    const bool layered = mLayers[0] != 0 && mLayers[1] != 0;
+    if (pass == Pass::OneEye && viewport.width == mWidth && viewport.height == mHeight &&
+        copyEye(static_cast<std::size_t>(first), viewport))
+        return;
+    uploadEye(static_cast<std::size_t>(first));
+    uploadEye(static_cast<std::size_t>(second));
+    const bool layered = mLayers.has_value();
     const ShaderProgram& program = programFor(pass, layered);
     program.use();
     if (layered) {
         glActiveTexture(GL_TEXTURE3);
-        glBindTexture(GL_TEXTURE_2D, mLayers[static_cast<std::size_t>(second)]);
+        glBindTexture(GL_TEXTURE_2D, (*mLayers)[static_cast<std::size_t>(second)].texture);
         glActiveTexture(GL_TEXTURE2);
-        glBindTexture(GL_TEXTURE_2D, mLayers[static_cast<std::size_t>(first)]);
+        glBindTexture(GL_TEXTURE_2D, (*mLayers)[static_cast<std::size_t>(first)].texture);
     }
     glActiveTexture(GL_TEXTURE1);
-    glBindTexture(GL_TEXTURE_2D, mEyes[second].name());
+    glBindTexture(GL_TEXTURE_2D, mEyes[static_cast<std::size_t>(second)].texture.name());
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, mEyes[first].name());
+    glBindTexture(GL_TEXTURE_2D, mEyes[static_cast<std::size_t>(first)].texture.name());
     glUniform2i(program.location("uEyeSize"), mWidth, mHeight);
     glUniform4i(program.location("uViewport"), viewport.x, viewport.y, viewport.width, viewport.height);
     glUniform2f(program.location("uScale"),

@@ -1,12 +1,18 @@
 // Puts two eyes on the screen in any output mode: uploads them and composes in one fragment shader,
-// with the tables of engine/image/stereo_compose, whose picture it equals within 1/255.
+// with the tables of engine/image/stereo_compose, whose picture it equals within 1/255. Eyes that are shown
+// whole and in their own size are copied (plain_eyes.h) and equal it.
 #pragma once
 
 #include <array>
+#include <glm/vec2.hpp>
 #include <map>
+#include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "engine/display/gl_object.h"
+#include "engine/display/plain_eyes.h"
 #include "engine/display/shader_program.h"
 #include "engine/image/stereo_compose.h"
 
@@ -17,6 +23,16 @@ struct Viewport {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
+// What lies over an eye: sRGB values multiplied by their alpha, row 0 at the bottom, and where there is
+// something.
+struct EyeLayer {
+    struct Box {  // pixels from the top left corner, the last ones beside it
+        glm::ivec2 first{0}, last{0};
+    };
+    GLuint texture = 0;
+    std::vector<Box> boxes;
+};
+
 // What is left free of a part, pixels at its borders.
 struct PartInset {
     int left = 0, top = 0, right = 0, bottom = 0;
@@ -25,12 +41,16 @@ struct PartInset {
 // Needs a current OpenGL 3.3 core context, the same for all calls; one thread.
 class StereoPresenter {
 public:
-    // right may be empty: the left eye then stands for both. Throws Error where the sizes differ or
+    using SharedEye = std::shared_ptr<const Plane<PackedColor>>;
+    // right may be null or empty: the left eye then stands for both. Kept until the next ones come: they are
+    // uploaded when they are drawn, as what is drawn needs them. Throws Error where the sizes differ or
     // exceed the driver's textures.
+    void show(SharedEye left, SharedEye right);
+    // Copies of them.
     void upload(const Plane<PackedColor>& left, const Plane<PackedColor>& right);
     bool hasPicture() const { return mWidth > 0; }
-    // Over each eye from now on (engine/display/eye_overlay.h), of its picture's size; 0: nothing.
-    void setLayers(GLuint left, GLuint right) { mLayers = {left, right}; }
+    // Over each eye from now on (engine/display/eye_overlay.h), of its picture's size; none: nothing.
+    void setLayers(std::optional<std::array<EyeLayer, 2>> layers) { mLayers = std::move(layers); }
 
     // Fills the viewport with the composed picture (nearest pixels where the sizes differ).
     // turnX, turnY: where the viewport's top left pixel lies on the screen, so that interleaved
@@ -43,7 +63,10 @@ private:
     // What one program draws; see shaders/stereo_present.frag.
     enum class Pass { OneEye, HalfWidth, HalfHeight, Rows, Columns, Checkerboard, Anaglyph };
 
-    void uploadEye(const GlTexture& texture, const Plane<PackedColor>& eye) const;
+    void checkSizes(const Plane<PackedColor>& left, const Plane<PackedColor>* right) const;
+    void uploadEye(std::size_t eye) const;
+    // Copies an eye to a viewport of its size, with its layer over it. False where the driver can not.
+    bool copyEye(std::size_t eye, const Viewport& viewport) const;
     const ShaderProgram& programFor(Pass pass, bool layered) const;
     static Pass passOf(const OutputModeInfo& info);
     // pictureWidth, pictureHeight: what is scaled to the viewport; first, second: eyes, 0 or 1.
@@ -53,11 +76,19 @@ private:
     // With layers and without; made when first drawn.
     mutable std::map<std::pair<Pass, bool>, ShaderProgram> mPrograms;
     GlVertexArray mVertices;
-    GlTexture mEyes[2];  // left, right
-    std::array<GLuint, 2> mLayers{};
+    // Of an eye, left and right: what it shows, and what of that is uploaded.
+    struct Eye {
+        SharedEye picture;
+        GlTexture texture;
+        int width = 0, height = 0;  // of the texture
+        bool uploaded = false, plain = false;
+    };
+    mutable std::array<Eye, 2> mEyes;
+    mutable PlainEyes mPlain;
+    mutable std::unique_ptr<ShaderProgram> mLayerProgram;
+    std::optional<std::array<EyeLayer, 2>> mLayers;
     bool mOneEye = false;
     int mWidth = 0, mHeight = 0;
-    int mTextureWidth[2] = {0, 0}, mTextureHeight[2] = {0, 0};
 };
 
 }  // namespace stereonav

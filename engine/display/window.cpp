@@ -17,12 +17,12 @@
 namespace stereonav {
 namespace {
 
-constexpr double kMonitorShare = 0.92;  // of the monitor's free area: leaves room for decorations
-constexpr int kSmallestWindow = 64;     // screen units
-constexpr double kClickReach = 4.0;     // screen units that a hand shakes while it clicks
-int openWindows = 0;                    // the first and the last one begin and end GLFW
-unsigned turns = 1;                     // of handleEvents, and of what a window did to itself
-constexpr double kDeadZone = 0.12;      // of a stick's way: worn sticks rest that far off centre
+constexpr double kMonitorShare = 0.92;   // of the monitor's free area: leaves room for decorations
+constexpr int kSmallestWindow = 64;      // screen units
+constexpr double kClickReach = 4.0;      // screen units that a hand shakes while it clicks
+int openWindows = 0;                     // the first and the last one begin and end GLFW
+unsigned turns = 1;                      // of handleEvents, and of what a window did to itself
+constexpr double kStickDeadZone = 0.12;  // of a stick's way: worn sticks rest that far off centre
 
 std::string lastProblem() {
     const char* text = nullptr;
@@ -46,8 +46,8 @@ bool environmentNamesDisplay() {
 
 double withoutDeadZone(float value) {
     const double size = std::abs(value);
-    if (size < kDeadZone) return 0;
-    return std::copysign((size - kDeadZone) / (1 - kDeadZone), value);
+    if (size < kStickDeadZone) return 0;
+    return std::copysign((size - kStickDeadZone) / (1 - kStickDeadZone), value);
 }
 
 // The asked-for size, or as much of it as the monitor has room for.

@@ -42,7 +42,7 @@ protected:
         const Plane<PackedColor> eye(width, height);
         mPresenter->upload(eye, eye);
         mOverlay->draw(*mInterface, {width, height}, marks);
-        mPresenter->setLayers(mOverlay->layer(0), mOverlay->layer(1));
+        mPresenter->setLayers(mOverlay->layers());
         glDisable(GL_SCISSOR_TEST);
         glClearColor(0, 0, 0, 1);
         glClear(GL_COLOR_BUFFER_BIT);
@@ -111,14 +111,14 @@ TEST_F(EyeOverlayTest, ColouredGlassesAndRowsSeparateIt) {
 
 TEST_F(EyeOverlayTest, NothingIsDrawnAgainWhereNothingChanged) {
     EXPECT_FALSE(mOverlay->draw(*mInterface, {160, 200}, {}));
-    EXPECT_EQ(mOverlay->layer(0), 0u) << "nothing is there, and costs nothing";
+    EXPECT_FALSE(mOverlay->layers()) << "nothing is there, and costs nothing";
     const std::vector<OverlayMark> marks{labelAt(60, 52, 100), {{20, 20}, {22, 20}, "", {}}};
     EXPECT_TRUE(mOverlay->draw(*mInterface, {160, 200}, marks));
     EXPECT_FALSE(mOverlay->draw(*mInterface, {160, 200}, marks));
     EXPECT_TRUE(mOverlay->draw(*mInterface, {170, 200}, marks)) << "another size";
-    EXPECT_NE(mOverlay->layer(1), 0u);
+    EXPECT_TRUE(mOverlay->layers());
     EXPECT_TRUE(mOverlay->draw(*mInterface, {170, 200}, {}));
-    EXPECT_EQ(mOverlay->layer(0), 0u);
+    EXPECT_FALSE(mOverlay->layers());
     EXPECT_FALSE(mOverlay->draw(*mInterface, {170, 200}, {}));
 }
 
