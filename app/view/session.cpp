@@ -131,7 +131,8 @@ void ViewSession::forgetSceneChange() {
 }
 
 void ViewSession::act(const ViewAction& action) {
-    mResting = false;
+    // A picture of what rests is of just that: it does not set going what is left of the motion.
+    if (action.command != ViewCommand::Screenshot) mResting = false;
     if (actOnSlices(action.command) || actOnVolume(action.command) || actOnSun(action.command) ||
         actOnEyes(action.command) || actOnStereo(action))
         return;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "app/options/parsed_options.h"
 
@@ -98,6 +99,20 @@ std::vector<std::string> commandWords(CommandSet command, const SettingTexts& se
         }
     }
     return words;
+}
+
+std::string poseText(const Pose& pose) {
+    const PoseAngles angles = anglesOf(pose);
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    return fmt::format("{:.6g},{:.6g},{:.6g},{:.5g},{:.5g},{:.5g}", pose.position.x, pose.position.y,
+                       pose.position.z, kDegrees * angles.heading, kDegrees * angles.pitch,
+                       kDegrees * angles.roll);
+}
+
+SettingTexts withEyes(SettingTexts settings, const StereoSetting& eyes) {
+    settings["separation"] = {fmt::format("{:.6g}", eyes.separation)};
+    settings["zero-parallax"] = {fmt::format("{:.6g}", eyes.zeroParallax)};
+    return settings;
 }
 
 std::string commandLineOf(const SettingTexts& settings) {

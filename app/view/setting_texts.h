@@ -9,6 +9,7 @@
 
 #include "app/command/commands.h"
 #include "app/options/option_table.h"
+#include "engine/camera/stereo_rig.h"
 
 namespace stereonav {
 
@@ -33,6 +34,10 @@ std::string commandLineOf(const SettingTexts& settings);
 // The command line that writes what is shown, seen from there, into a picture: without options that `render`
 // has not.
 std::string renderLineOf(const SettingTexts& settings, const std::string& pose, const SizeOption& size);
+// Where one is and looks, as --pose takes it.
+std::string poseText(const Pose& pose);
+// With eyes as they are, for a picture: its eyes neither follow a room nor fit themselves to what they see.
+SettingTexts withEyes(SettingTexts settings, const StereoSetting& eyes);
 // The words of a command, after the program's name, with the settings that are the same options there as of
 // `view`.
 std::vector<std::string> commandWords(CommandSet command, const SettingTexts& settings);

@@ -86,6 +86,7 @@ public:
     const Job* job() const override { return mJob.get(); }
     void cancelJob() override;
     void makeMovie(const MovieWish& movie) override;
+    void savePicture(const PictureWish& picture) override;
     bool bakes() const override;
     bool bakeTakes(const std::string& key, const std::string& value) const override;
     void bakeLight(const std::string& what, double minutes) override;
@@ -128,6 +129,7 @@ private:
     std::filesystem::path fullName() const;
     void keepBefore();
     void checkNoJob() const;
+    std::string modeOfFiles() const;
     void startJob(const std::string& what, const std::vector<std::string>& words);
     void lookAtJob();
     void reportKept();

@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/image/stereo_picture_file.h"
 
 namespace stereonav {
 
@@ -26,6 +27,37 @@ void Viewer::cancelJob() {
     if (mJob) mJob->cancel();
 }
 
+// Swapped eyes are another mode of the same layout, where there is one. Throws Error for modes that no file
+// can have.
+std::string Viewer::modeOfFiles() const {
+    const OutputModeInfo& shown = infoOf(mSession->mode());
+    if (!fitsInPicture(shown.mode))
+        throw Error("", shown.longName.data(), "is a mode of windows alone", "choose another mode for files");
+    if (mSession->swapped() && shown.layout != OutputLayout::Anaglyph)
+        for (const OutputModeInfo& mode : outputModes())
+            if (mode.layout == shown.layout && mode.half == shown.half && mode.rightFirst != shown.rightFirst)
+                return std::string(mode.shortName);
+    return std::string(shown.shortName);
+}
+
+void Viewer::savePicture(const PictureWish& picture) {
+    tryTo([&] {
+        checkNoJob();
+        const std::filesystem::path place = std::filesystem::absolute(picture.file).lexically_normal();
+        SettingTexts settings = withEyes(this->settings(), mSession->stereo());
+        settings["size"] = {fmt::format("{}x{}", picture.width, picture.height)};
+        // Nobody waits for it in flight.
+        settings.try_emplace("method",
+                             std::vector{std::string(mSession->open().scene->frames().exactMethod())});
+        settings.erase("mode");  // files of both eyes have their own
+        if (!isJps(place) && !isMpo(place)) settings["mode"] = {modeOfFiles()};
+        std::vector<std::string> words = commandWords(command::kRender, settings);
+        words.push_back("--pose=" + poseText(mSession->pose()));
+        words.push_back("--out=" + place.string());
+        startJob("the picture " + place.string(), words);
+    });
+}
+
 void Viewer::makeMovie(const MovieWish& movie) {
     tryTo([&] {
         checkNoJob();
@@ -33,10 +65,7 @@ void Viewer::makeMovie(const MovieWish& movie) {
             throw Error("", "movie", "there is no flight", "record one with z");
         SettingTexts settings = this->settings();
         settings["size"] = {fmt::format("{}x{}", movie.width, movie.height)};
-        if (!fitsInPicture(mSession->mode()))
-            throw Error("", infoOf(mSession->mode()).longName.data(), "is a mode of windows alone",
-                        "choose another mode for the movie");
-        settings["mode"] = {std::string(infoOf(mSession->mode()).shortName)};
+        settings["mode"] = {modeOfFiles()};
         std::vector<std::string> words = commandWords(command::kPlay, settings);
         std::error_code code;
         // Whole, so that it is told where the movie is.

@@ -14,6 +14,7 @@
 #include <glm/common.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -459,7 +460,10 @@ bool Interface::takesKey(int key, int modifiers, bool pressed) {
     const bool popup = key == GLFW_KEY_ESCAPE && !mState->context->OpenPopupStack.empty();
     mState->events.push_back(
         {.kind = Event::Kind::Key, .which = key, .pressed = pressed, .modifiers = modifiers});
-    return popup || (holdsKeyboard() && key < GLFW_KEY_F1);  // keys with a function go on having it
+    const char* const letter = glfwGetKeyName(key, 0);
+    const bool quits = (modifiers & GLFW_MOD_CONTROL) != 0 && letter && std::string_view(letter) == "q";
+    // Keys with a function go on having it, and Ctrl+Q.
+    return popup || (holdsKeyboard() && key < GLFW_KEY_F1 && !quits);
 }
 
 bool Interface::takesText(unsigned codePoint) {

@@ -41,6 +41,7 @@ public:
     const Job* job() const override { return nullptr; }
     void cancelJob() override {}
     void makeMovie(const MovieWish&) override {}
+    void savePicture(const PictureWish&) override {}
     bool bakes() const override { return false; }
     bool bakeTakes(const std::string&, const std::string&) const override { return false; }
     void bakeLight(const std::string&, double) override {}

@@ -3,6 +3,8 @@
 #include "engine/display/interface.h"
 
 #include <epoxy/gl.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 
@@ -192,6 +194,9 @@ TEST_F(InterfaceTest, ATextKeepsItsKeys) {
     EXPECT_TRUE(mInterface->takesText('w'));
     layOut(kWhole);
     EXPECT_STREQ(mText, "w");
+    EXPECT_FALSE(mInterface->takesKey(GLFW_KEY_Q, GLFW_MOD_CONTROL, true)) << "ends the program all the same";
+    mInterface->takesKey(GLFW_KEY_Q, GLFW_MOD_CONTROL, false);
+    layOut(kWhole);
     click(200, 150);
     layOut(kWhole);
     EXPECT_FALSE(mInterface->holdsKeyboard()) << "a click beside it ends writing";

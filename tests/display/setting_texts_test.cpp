@@ -133,5 +133,17 @@ TEST(SettingsHistory, WhatDidNotComeAboutIsNoStep) {
     EXPECT_EQ(history.undo(), a);
 }
 
+TEST(SettingText, APictureHasThePlaceAndTheEyesThatAreSeen) {
+    Pose pose;
+    pose.position = {1.5, -2, 1234.5678};
+    EXPECT_THAT(poseText(pose), testing::StartsWith("1.5,-2,1234.57,"));
+    const std::vector<std::string> words =
+        commandWords(command::kRender,
+                     withEyes({{"separation", {"9"}}, {"fov", {"40"}}}, StereoSetting{.separation = 0.25}));
+    EXPECT_THAT(words, testing::Contains("--separation=0.25")) << "not as it was asked for";
+    EXPECT_THAT(words, testing::Contains("--fov=40"));
+    EXPECT_THAT(words, testing::Contains(testing::StartsWith("--zero-parallax=")));
+}
+
 }  // namespace
 }  // namespace stereonav

@@ -278,6 +278,9 @@ TEST_F(ViewSessionTest, AFlightComesToRestExactly) {
     const long long version = s.requestFor(100, 100).version;
     for (int i = 0; i < 60; ++i) s.step({}, kFrame);
     EXPECT_EQ(s.requestFor(100, 100).version, version);
+    s.act({ViewCommand::Screenshot});
+    s.step({}, kFrame);
+    EXPECT_EQ(s.requestFor(100, 100).version, version) << "what is left of the motion stays where it is";
     s.look(0.1, 0);
     s.step({}, kFrame);
     EXPECT_TRUE(s.moving());

@@ -20,6 +20,7 @@ void fileMenu(PanelHost& host, MenuWishes& wishes) {
     ImGui::Separator();
     if (ImGui::MenuItem("Save scene...", "Ctrl+S", false, shown)) wishes.saveScene = true;
     item(host, "Save picture", "P", ViewCommand::Screenshot);
+    if (ImGui::MenuItem("Save picture as...", nullptr, false, shown)) wishes.picture = true;
     if (ImGui::MenuItem("Copy command line", nullptr, false, shown))
         host.copy(commandLineOf(host.settings()));
     tooltip("The command that opens the window as it is set now.");

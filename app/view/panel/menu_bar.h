@@ -8,7 +8,7 @@ namespace stereonav {
 // What menus switch of the interface itself.
 struct MenuWishes {
     bool openFile = false, saveScene = false, start = false, search = false, help = false, hideAll = false;
-    bool movie = false;                     // of the path: its panel is opened
+    bool movie = false, picture = false;    // their panels are opened
     bool *side = nullptr, *left = nullptr;  // panels at the right; places, map and slices
 };
 

@@ -33,6 +33,11 @@ struct MovieWish {
     double fps = 25;
 };
 
+struct PictureWish {
+    std::string file;                // .png, .jps, .mpo
+    int width = 1280, height = 720;  // pixels of an eye
+};
+
 // The screen that the window is on.
 struct ScreenAnswer {
     std::string words;    // how large it is, and who says so
@@ -84,6 +89,8 @@ public:
     virtual void cancelJob() = 0;
     // Of the path that Play plays, as the window is set. Failures are told.
     virtual void makeMovie(const MovieWish& movie) = 0;
+    // Of what is seen, as the window is set. Failures are told.
+    virtual void savePicture(const PictureWish& picture) = 0;
     // Light of this scene, to be shown when it is done.
     virtual bool bakes() const = 0;  // whether it has light to bake
     // Whether `bake` takes this of the scene.

@@ -151,6 +151,7 @@ void Panels::draw(PanelHost& host) {
         if (wishes.search) state.search.open();
         if (wishes.help) state.help = true;
         if (wishes.hideAll) state.hidden = true;
+        if (wishes.picture) state.side.shown = state.tools.showPicture = true;
         if (wishes.movie) state.side.shown = state.tools.showPath = true;
         if (!state.beside && state.left.shown && state.side.shown) {
             // Drawers: the one that was opened last.

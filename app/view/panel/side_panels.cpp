@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
-#include <numbers>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -190,11 +191,29 @@ void drawFacts(PanelHost& host) {
     ImGui::EndTable();
 }
 
-// A picture's eyes neither follow a room nor fit themselves to what they see.
-SettingTexts withEyes(SettingTexts settings, const StereoSetting& eyes) {
-    settings["separation"] = {fmt::format("{:.6g}", eyes.separation)};
-    settings["zero-parallax"] = {fmt::format("{:.6g}", eyes.zeroParallax)};
-    return settings;
+// Of what is seen, in any size and kind of file.
+void drawPicture(PanelHost& host) {
+    static PictureWish picture{"view.png"};
+    const SizeOption shown = host.pictureSize();
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    ImGui::InputTextWithHint("##picture", "view.png", &picture.file);
+    tooltip("A .png of the mode that is shown, or of both eyes for 3D viewers: a .jps or an .mpo.");
+    static double times = 1;
+    ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
+    ImGui::DragScalar("##times", ImGuiDataType_Double, &times, 0.02f, nullptr, nullptr, "%.2f times");
+    times = std::clamp(times, 0.1, 16.0);
+    tooltip("As large as the picture that is shown.");
+    picture.width = static_cast<int>(std::lround(times * shown.width));
+    picture.height = static_cast<int>(std::lround(times * shown.height));
+    ImGui::SameLine();
+    const bool busy = host.job() && host.job()->running();
+    ImGui::BeginDisabled(busy || picture.file.empty());
+    if (ImGui::Button("Save picture")) host.savePicture(picture);
+    ImGui::EndDisabled();
+    tooltip(
+        "Of what is seen now; both eyes are made in full, unless a method is set. It goes on beside the "
+        "flight.");
+    quietText(host, fmt::format("{} x {} pixels an eye", picture.width, picture.height));
 }
 
 bool heading(const char* label, bool open) {
@@ -216,6 +235,10 @@ void drawSidePanels(PanelHost& host, SideTools& tools) {
     const bool path = heading("Flight and path", false);
     if (std::exchange(tools.showPath, false)) ImGui::SetScrollHereY(0);
     if (path) drawPathPanel(host, *session);
+    if (tools.showPicture) ImGui::SetNextItemOpen(true);
+    const bool picture = heading("Picture", false);
+    if (std::exchange(tools.showPicture, false)) ImGui::SetScrollHereY(0);
+    if (picture) drawPicture(host);
     if (heading("Quality and cost", false)) drawQuality(host, *session);
     if (any(OptionPanel::Study) && heading("Study", false)) drawOptions(host, OptionPanel::Study);
     if (heading("Scene", false)) drawFacts(host);
@@ -224,12 +247,7 @@ void drawSidePanels(PanelHost& host, SideTools& tools) {
         if (ImGui::Button("Copy##view")) host.copy(commandLineOf(host.settings()));
         tooltip("Opens the window as it is set now.");
         ImGui::SameLine();
-        const Pose pose = session->pose();
-        const PoseAngles angles = anglesOf(pose);
-        constexpr double kDegrees = 180 / std::numbers::pi;
-        const std::string at = fmt::format("{:.6g},{:.6g},{:.6g},{:.5g},{:.5g},{:.5g}", pose.position.x,
-                                           pose.position.y, pose.position.z, kDegrees * angles.heading,
-                                           kDegrees * angles.pitch, kDegrees * angles.roll);
+        const std::string at = poseText(session->pose());
         if (ImGui::Button("Copy for a picture"))
             host.copy(renderLineOf(withEyes(host.settings(), session->stereo()), at, host.pictureSize()));
         tooltip("Writes what is seen now into view.png, as it is set now.");

@@ -12,7 +12,8 @@ namespace stereonav {
 struct SideTools {
     TransferPanel transfer;
     SunPanel sun;
-    bool showPath = false;  // in the next layout "Flight and path" is opened and scrolled to
+    bool showPicture = false;  // as showPath, of "Picture"
+    bool showPath = false;     // in the next layout "Flight and path" is opened and scrolled to
 };
 
 void drawSidePanels(PanelHost& host, SideTools& tools);
