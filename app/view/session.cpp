@@ -401,12 +401,22 @@ bool ViewSession::takeScreenshotWish() {
     return std::exchange(mScreenshot, false);
 }
 
+void ViewSession::observe(const ViewFrame& frame) {
+    mDepthAhead = frame.depthAhead;
+    mStereo.observe(frame, !hasOtherShape(frame.request.lens.width, frame.request.lens.height));
+}
+
+// Parallax counts by the width, of which a picture of another shape has more or less.
+bool ViewSession::hasOtherShape(int width, int height) const {
+    if (!(mShape > 0) || width < 1 || height < 1) return false;
+    return std::abs(static_cast<double>(width) / height - mShape) > kOtherShape * mShape;
+}
+
 const FrameRequest& ViewSession::requestFor(int width, int height) {
     const auto [eyeWidth, eyeHeight] = eyeSizeFor(compose().mode, width, height);
-    // Parallax counts by the width, of which a picture of another shape has more or less.
-    const double shape = static_cast<double>(eyeWidth) / eyeHeight;
-    if (mShape > 0 && std::abs(shape - mShape) > kOtherShape * mShape) mStereo.refit(shown());
-    if (!(mShape > 0) || std::abs(shape - mShape) > kOtherShape * mShape) mShape = shape;
+    const bool otherShape = hasOtherShape(eyeWidth, eyeHeight);
+    if (otherShape) mStereo.refit(shown());
+    if (otherShape || !(mShape > 0)) mShape = static_cast<double>(eyeWidth) / eyeHeight;
     FrameRequest wanted;
     wanted.pose = pose();
     wanted.lens = lens();

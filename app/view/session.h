@@ -172,10 +172,7 @@ public:
     // dt seconds pass. The input's speed multiplier is applied on top of the session's own.
     void step(const FlightInput& input, double dt);
     // A frame has come: what it shows guides what follows the room.
-    void observe(const ViewFrame& frame) {
-        mDepthAhead = frame.depthAhead;
-        mStereo.observe(frame);
-    }
+    void observe(const ViewFrame& frame);
     // What was measured of one that rests.
     void observe(const FrameTruth& truth) { mMeasured = truth; }
 
@@ -222,6 +219,7 @@ public:
     bool recording() const { return mRecorder.recording(); }
 
 private:
+    bool hasOtherShape(int width, int height) const;  // than the pictures that were asked for last
     bool actOnStereo(const ViewAction& action);
     bool actOnEyes(ViewCommand command);
     bool actOnVolume(ViewCommand command);

@@ -119,10 +119,10 @@ void ViewStereo::refit(const Scene& scene) {
     mComfort.restart();
 }
 
-void ViewStereo::observe(const ViewFrame& frame) {
+void ViewStereo::observe(const ViewFrame& frame, bool fitsNow) {
     const FrameRequest& request = frame.request;
     if (!request.twoEyes) return;
-    if (mFits && request.fitEyes) adopt(request.stereo);
+    if (mFits && request.fitEyes && fitsNow) adopt(request.stereo);
     mComfort.observe(request.stereo.separation, {frame.nearParallax, frame.farParallax});
 }
 

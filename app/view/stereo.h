@@ -46,7 +46,9 @@ public:
     void refit(const Scene& scene);
 
     // A frame has come: the parallax that it shows limits what is followed.
-    void observe(const ViewFrame& frame);
+    // fitsNow: its shape is that of the pictures that are asked for; eyes that fitted another one are not
+    // taken.
+    void observe(const ViewFrame& frame, bool fitsNow = true);
     // free: distance around the head; depth: in the middle of the last picture; metres.
     void step(double free, double depth, double dt);
 

@@ -92,6 +92,25 @@ TEST_F(ViewSessionTest, SeparationMovesSlowlyToItsTarget) {
     EXPECT_GT(s.stereo().separation, 0.0) << "none is not for ever";
 }
 
+TEST_F(ViewSessionTest, EyesThatFitAPictureOfAnotherShapeAreNotTaken) {
+    ViewSession s = session();
+    ViewFrame wide = frameWith(-0.0095, 0.019);
+    wide.request = s.requestFor(2560, 720);
+    ASSERT_TRUE(wide.request.fitEyes);
+    wide.request.stereo = {11, 390};
+    // Panels were opened before that one came.
+    EXPECT_TRUE(s.requestFor(1600, 720).fitEyes);
+    s.observe(wide);
+    EXPECT_EQ(s.stereo().separation, 20);
+    EXPECT_TRUE(s.requestFor(1600, 720).fitEyes) << "they are still to be fitted";
+    ViewFrame narrow = wide;
+    narrow.request = s.requestFor(1600, 720);
+    narrow.request.stereo = {7, 390};
+    s.observe(narrow);
+    EXPECT_EQ(s.stereo().separation, 7);
+    EXPECT_FALSE(s.requestFor(1600, 720).fitEyes);
+}
+
 TEST_F(ViewSessionTest, EyesAreSetBackToWhatTheWindowBeganWith) {
     ViewSession s = session();
     ViewFrame first = frameWith(-0.0095, 0.019);
