@@ -5,6 +5,7 @@ words() {
     xdotool type --delay 40 -- "$1"
     sleep 0.4
 }
+saved() { [ -s "$out/$1" ]; }
 # save_scene NAME: through the dialog
 save_scene() {
     keys ctrl+s
@@ -12,12 +13,7 @@ save_scene() {
     keys ctrl+a
     words "$out/$1"
     keys Return
-    for _ in $(seq 300); do
-        [ -s "$out/$1" ] && break
-        kill -0 "$pid" 2>/dev/null || fail "the program ended before it saved $1"
-        sleep 0.1
-    done
-    [ -s "$out/$1" ] || fail "no $1 within half a minute"
+    until_true saved "$1"
     sleep 1 # the dialog is gone
 }
 at() { xdotool mousemove --window "$window" "$1" "$2"; }

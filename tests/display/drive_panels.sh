@@ -3,24 +3,9 @@
 #   drive_panels.sh PROGRAM FOLDER DEM
 # Leaves the window's titles after each opening in titles.txt, scene files that were saved, the log and the exit status
 # in FOLDER; view_panels_window_test.cpp judges them.
-. "$(dirname "$0")/drive_window.sh"
+. "$(dirname "$0")/drive_interface.sh"
 dem=$3
 cd "$out" || exit 1
-words() {
-    xdotool type --delay 40 -- "$1"
-    sleep 0.4
-}
-saved() { [ -s "$out/$1" ]; }
-# save_scene NAME: through the dialog
-save_scene() {
-    keys ctrl+s
-    sleep 0.5
-    keys ctrl+a
-    words "$out/$1"
-    keys Return
-    until_true saved "$1"
-    sleep 1 # the dialog is gone
-}
 
 size=900x600
 open_window terrain --method cubic

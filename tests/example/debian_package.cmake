@@ -1,13 +1,6 @@
 # Makes the Debian package of BUILD in WORK and holds what lies in it, what it depends on and what lintian says of it.
 cmake_minimum_required(VERSION 3.25)  # of its policies
-function(run)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(NOT status EQUAL 0)
-    list(JOIN ARGN " " command)
-    message(FATAL_ERROR "${command}: ${status}\n${output}")
-  endif()
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 # As from a shell that gives new files to their owner alone: nobody else could read what it installs.

@@ -1,14 +1,7 @@
 # Installs BUILD below WORK (with DESTDIR, so that the package is also tried at a place it was not made for), holds each
 # installed header's includes against what was installed, then builds SOURCE's programs against it and runs them.
 cmake_minimum_required(VERSION 3.25)  # of its policies
-function(run)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(NOT status EQUAL 0)
-    list(JOIN ARGN " " command)
-    message(FATAL_ERROR "${command}: ${status}\n${output}")
-  endif()
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 set(prefix ${WORK}/destination/opt/stereonav)
