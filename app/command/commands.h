@@ -70,6 +70,15 @@ struct QualityOptions {
     std::optional<double> quality;        // 0..1: share of the expected squared error that is to go
     std::optional<double> targetPsnr_db;  // against a full cast, for 95 of 100 frames
     std::optional<double> target_ms;      // of a frame, both eyes: what fits is cast
+    std::optional<int> edges;  // rays added to pixels at edges; none: kDefaultEdgeRays where rays are cast
+};
+
+// Of whole pictures.
+struct RayOptions {
+    int rays = 1;                    // a pixel
+    std::optional<double> until_db;  // as many as this expected PSNR against very many takes; none: `rays`
+
+    bool many() const { return rays > 1 || until_db; }
 };
 
 // The light of a picture whose every pixel is path traced; each as of a bake.
@@ -128,6 +137,7 @@ struct RenderOptions {
     SizeOption size;
     std::optional<Pose> pose;     // none: the start pose
     std::string method = "auto";  // a right-eye method; auto: the default one, whatever was measured
+    RayOptions rays;
     OutputMode mode = OutputMode::SideBySide;
     std::string out;  // image file
 };
@@ -139,6 +149,7 @@ struct PlayOptions {
     SizeOption size;
     std::string path;             // "": the scene's own
     std::string method = "auto";  // as in RenderOptions: files do not depend on measured times
+    RayOptions rays;
     OutputMode mode = OutputMode::SideBySide;
     std::string out;            // folder for frame_00000.png ...; "" with --video or --hash
     std::string video;          // .mp4, .avi or .mkv

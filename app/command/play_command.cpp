@@ -145,7 +145,7 @@ int runPlay(const PlayOptions& options) {
     const std::vector<TimedPose> poses = posesOf(options, flightOf(scene, path, options.path));
     FrameSink sink(options, options.mode);
     StereoFrame frame(scene, options.method);
-    frame.refine(options.scene, bar.progress());
+    frame.refine(options.scene, options.rays, bar.progress());
     Hash hash;
     std::vector<double> left_ms, right_ms, both_ms;
     for (std::size_t k = 0; k < poses.size(); ++k) {

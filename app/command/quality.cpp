@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.h"
+#include "engine/scene/capabilities.h"
 
 namespace stereonav {
 namespace {
@@ -14,6 +15,13 @@ bool wantsQuality(const QualityOptions& q) {
 }
 
 }  // namespace
+
+EdgeSetting edgesOf(const SceneOptions& options, const Scene& scene, const RayOptions& rays) {
+    EdgeSetting edges;
+    const bool byDefault = scene.frames().rightFromLeft() && !rays.many() && !scene.offered<PictureLight>();
+    edges.rays = options.quality.edges.value_or(byDefault ? kDefaultEdgeRays : 0);
+    return edges;
+}
 
 std::vector<StereoViews> calibrationViews(const Scene& scene) {
     std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};

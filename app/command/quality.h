@@ -9,6 +9,7 @@
 #include "app/command/commands.h"
 #include "app/scene/scene_loading.h"
 #include "engine/base/progress.h"
+#include "engine/sampling/edge_rays.h"
 #include "engine/stereo/quality_plan.h"
 
 namespace stereonav {
@@ -19,6 +20,10 @@ namespace stereonav {
 // or "auto". Throws Error, Cancelled.
 std::optional<QualityPlan> qualityOf(const SceneOptions& options, const Scene& scene,
                                      const std::string& method, Progress& progress);
+
+// Rays at edges, as asked for, or as they are by default: kDefaultEdgeRays where rays are cast and the
+// picture is not to have more of them everywhere, or light traced for each pixel.
+EdgeSetting edgesOf(const SceneOptions& options, const Scene& scene, const RayOptions& rays = {});
 
 // The frames that a scene is measured on: its start pose and some of its flight.
 std::vector<StereoViews> calibrationViews(const Scene& scene);

@@ -22,9 +22,9 @@ void tellOfEyes(CommandResult& result, const StereoFrame& frame, const std::stri
     const RightEyeTimings& t = *frame.timings().warped;
     const double holes = 100.0 * static_cast<double>(t.holePixels) / pixels;
     result.say(fmt::format("{}: {}, left {:.2f} ms, right {:.2f} ms, holes {:.2f} %\n", file, size,
-                           frame.timings().left_ms, t.right_ms(), holes));
+                           frame.timings().left_ms, frame.timings().right_ms, holes));
     result.add("left_ms", frame.timings().left_ms);
-    result.add("right_ms", t.right_ms());
+    result.add("right_ms", frame.timings().right_ms);
     result.add("holes_percent", holes);
     if (!frame.way().empty()) {
         result.say(fmt::format("  by {}\n", frame.way()));
@@ -37,11 +37,31 @@ void tellOfEyes(CommandResult& result, const StereoFrame& frame, const std::stri
         result.add("refined_percent", refined);
         result.add("bound_psnr_db", t.boundPsnr_db);
     }
+    if (frame.timings().edges.pixels > 0) {
+        const double edges = 50.0 * static_cast<double>(frame.timings().edges.pixels) / pixels;
+        result.say(fmt::format(
+            "  {:.2f} % of both eyes' pixels are edges with more rays, {:.2f} ms of these times\n", edges,
+            frame.timings().edges.ms));
+        result.add("edge_percent", edges);
+        result.add("edge_ms", frame.timings().edges.ms);
+    }
     if (frame.isSmaller()) {
         result.say(fmt::format("  made in {}x{} and enlarged, to take the time that was asked for\n",
                                frame.madeIn().width, frame.madeIn().height));
         result.add("made_in", FactIntegers{frame.madeIn().width, frame.madeIn().height});
     }
+}
+
+void tellOfRays(CommandResult& result, const StereoFrame& frame, const RayOptions& wished) {
+    if (!wished.many()) return;
+    const double db = frame.expected_db();
+    result.add("rays", static_cast<std::int64_t>(frame.rays()));
+    if (frame.rays() < 2) return;
+    result.add("expected_psnr_db", db);
+    const bool missed = wished.until_db && db < *wished.until_db;
+    result.say(fmt::format(
+        "  {} rays a pixel; {:.1f} dB or more are expected against very many{}\n", frame.rays(), db,
+        missed ? fmt::format(", less than the {} that were asked for", *wished.until_db) : ""));
 }
 
 }  // namespace
@@ -58,7 +78,7 @@ int runRender(const RenderOptions& options) {
     const Scene& scene = *loaded;
     checkNotRead({{"--out", options.out}});
     StereoFrame frame(scene, method);
-    frame.refine(options.scene, bar.progress());
+    frame.refine(options.scene, options.rays, bar.progress());
     bar.progress().report(0.9, "casting");
     const Pose head = options.pose.value_or(scene.startPose);
     frame.render(head);
@@ -89,6 +109,7 @@ int runRender(const RenderOptions& options) {
         result.say(fmt::format("{}: {}, both eyes {:.2f} ms\n", options.out, size, frame.timings().both_ms));
         result.add("both_ms", frame.timings().both_ms);
     }
+    tellOfRays(result, frame, options.rays);
     if (traced && frame.timings().warped) {
         for (const std::string& note : traced->notes()) result.say("  " + note + "\n");
         result.add("notes", traced->notes());

@@ -37,6 +37,7 @@ struct OptionTargets {
     std::string *method = nullptr, *path = nullptr, *out = nullptr;
     OutputMode* mode = nullptr;
     bool *json = nullptr, *quiet = nullptr;
+    RayOptions* rays = nullptr;
     InfoOptions* info = nullptr;
     RenderOptions* render = nullptr;
     PlayOptions* play = nullptr;

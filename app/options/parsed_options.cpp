@@ -94,14 +94,16 @@ void chooseCommand(CommandSet which, ParsedOptions& parsed) {
             parsed.render.scene.traced.emplace();
             to.render = &parsed.render;
             tells(parsed.render.telling);
-            to.method = &parsed.render.method, to.mode = &parsed.render.mode, to.out = &parsed.render.out;
+            to.method = &parsed.render.method, to.rays = &parsed.render.rays, to.mode = &parsed.render.mode,
+            to.out = &parsed.render.out;
             parsed.run = [&parsed] { return runRender(parsed.render); };
             break;
         case command::kPlay:
             shows(parsed.play);
             to.play = &parsed.play;
             tells(parsed.play.telling);
-            to.method = &parsed.play.method, to.mode = &parsed.play.mode, to.out = &parsed.play.out;
+            to.method = &parsed.play.method, to.rays = &parsed.play.rays, to.mode = &parsed.play.mode,
+            to.out = &parsed.play.out;
             to.path = &parsed.play.path;
             parsed.run = [&parsed] { return runPlay(parsed.play); };
             break;

@@ -8,6 +8,8 @@
 
 #include "app/options/option_table.h"
 #include "app/options/usual_words.h"
+#include "engine/frame/refined_frames.h"
+#include "engine/sampling/edge_rays.h"
 #include "engine/stereo/quality_plan.h"
 #include "engine/stereo/right_eye.h"
 
@@ -22,6 +24,11 @@ constexpr CommandSet kDialled = kRender | kPlay | kView;
 OptionRule notOfMedia() {
     return {nullptr, "does not go with a medium, whose eyes are swept together",
             "choose --slices and --light-size instead"};
+}
+
+OptionRule notOfTracedLight() {
+    return {[](const Asked& asked) { return asked.is("light", "traced"); }, "does not go with --light traced",
+            "choose --samples instead"};
 }
 
 // "linear, cubic or selective"
@@ -85,6 +92,40 @@ std::vector<Option> qualityOptions() {
          .panel = OptionPanel::Quality,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->quality.target_ms = value.number(); }},
+        {.key = "edges",
+         .value = wholeValue(within(0, kMostEdgeRays, "rays")),
+         .help = "rays added to pixels at edges, of both eyes; 0: jagged edges, in less time",
+         .advice = "4 smooths them, 16 is fine",
+         .group = kQualityGroup,
+         .fallback = "4",
+         .commands = kDialled,
+         .scenes = kCast,
+         .elsewhere = notOfMedia(),
+         .rules = {notOfTracedLight()},
+         .panel = OptionPanel::Quality,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->quality.edges = static_cast<int>(value.whole); }},
+        {.key = "rays",
+         .value = wholeValue(within(1, kMostRays, "rays")),
+         .help = "rays a pixel of the whole picture, at places that cover the pixel evenly",
+         .advice = "16 is fine, 64 is hard to tell from the truth",
+         .group = kQualityGroup,
+         .fallback = "1",
+         .commands = kRender | kPlay,
+         .excludes = {{"edges"}},
+         .rules = {notOfTracedLight()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.rays->rays = static_cast<int>(value.whole); }},
+        {.key = "until-db",
+         .value = numberValue(within(1, kMostPsnr_db, "dB")),
+         .help =
+             fmt::format("as many rays a pixel, {} at most, as this PSNR against very many takes", kMostRays),
+         .advice = "55 is under half a grey level",
+         .group = kQualityGroup,
+         .commands = kRender,
+         .excludes = {{"edges"}, {"rays"}},
+         .rules = {notOfTracedLight()},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.rays->until_db = value.number(); }},
     };
 }
 

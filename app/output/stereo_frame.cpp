@@ -15,6 +15,17 @@ void addRows(Hash& hash, const Plane<T>& plane) {
         hash.add(plane.row(y), sizeof(T) * static_cast<std::size_t>(plane.width()));
 }
 
+// Of several frames that make one picture. Of the warps the last one's figures but for its times.
+FrameTimings plus(const FrameTimings& sum, const FrameTimings& frame) {
+    FrameTimings all = frame;
+    all.both_ms += sum.both_ms;
+    all.left_ms += sum.left_ms;
+    all.right_ms += sum.right_ms;
+    if (all.warped && sum.warped)
+        all.warped->warp_ms += sum.warped->warp_ms, all.warped->fill_ms += sum.warped->fill_ms;
+    return all;
+}
+
 }  // namespace
 
 StereoFrame::StereoFrame(const Scene& scene, const std::string& method)
@@ -22,10 +33,16 @@ StereoFrame::StereoFrame(const Scene& scene, const std::string& method)
     mWay.method = methodNamed(method, scene);
 }
 
-void StereoFrame::refine(const SceneOptions& options, Progress& progress) {
+void StereoFrame::refine(const SceneOptions& options, const RayOptions& rays, Progress& progress) {
+    mRays = rays;
+    // What is to be as near to the truth as that is no warped picture.
+    if (rays.until_db && mMethod == "auto") mWay.method = mScene.frames().exactMethod();
+    const EdgeSetting edges = edgesOf(options, mScene, rays);
+    mWay.edges = edges;
     const auto plan = qualityOf(options, mScene, mMethod, progress);
     if (!plan) return;
     mWay = wayOf(plan->setting);
+    mWay.edges = edges;
     mWayName = plan->name;
     const Lens& whole = mScene.lens;
     mLens.width = std::max(1, static_cast<int>(std::lround(plan->scale * whole.width)));
@@ -39,10 +56,29 @@ void StereoFrame::render(const Pose& head, double time) {
     mStereo = mEyes.at(head, time);
     mViews = makeStereoViews(head, mScene.lens, mStereo);
     const StereoViews views = makeStereoViews(head, mLens, mStereo);
-    mScene.frames().make(views, time, mWay, mFrame);
+    if (mRays.many())
+        makeMany(views, time);
+    else
+        mScene.frames().make(views, time, mWay, mFrame);
     if (!isSmaller()) return;
     for (EyeImage* eye : {&mFrame.left, &mFrame.right})
         *eye = enlarged(*eye, mScene.lens.width, mScene.lens.height);
+}
+
+void StereoFrame::makeMany(const StereoViews& views, double time) {
+    // Looked at now and then: it takes as long as a warp.
+    const auto enough = [this] {
+        const int rays = mRefined.count();
+        if (!mRays.until_db) return rays >= mRays.rays;
+        return rays >= kMostRays || (rays % 4 == 0 && mRefined.error_db() >= *mRays.until_db);
+    };
+    FrameTimings sum;
+    for (mRefined.restart(); mRefined.count() == 0 || !enough();) {
+        mRefined.add(mScene.frames(), views, time, mWay);
+        sum = plus(sum, mRefined.timings());
+    }
+    mFrame = mRefined.mean();
+    mFrame.timings = sum;
 }
 
 void StereoFrame::addTo(Hash& hash) const {

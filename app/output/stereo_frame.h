@@ -6,6 +6,7 @@
 #include "app/command/narrowed_eyes.h"
 #include "app/scene/scene_loading.h"
 #include "engine/base/hash.h"
+#include "engine/frame/refined_frames.h"
 
 namespace stereonav {
 
@@ -13,9 +14,9 @@ class StereoFrame {
 public:
     // method: one of the scene's FrameMaker, or "auto" for its default.
     StereoFrame(const Scene& scene, const std::string& method);
-    // How the right eye is made and which warped pixels are cast as well, from options; measures the scene
-    // where they ask for it.
-    void refine(const SceneOptions& options, Progress& progress);
+    // How the right eye is made, which warped pixels are cast as well, and where more rays than one go
+    // through a pixel, from options; measures the scene where they ask for it.
+    void refine(const SceneOptions& options, const RayOptions& rays, Progress& progress);
 
     // Both eyes at one pose, as far apart as suits the room there (NarrowedEyes). time: seconds, of what
     // moves by itself; no less than before.
@@ -34,6 +35,9 @@ public:
     const Lens& madeIn() const { return mLens; }
     bool isSmaller() const { return mLens.width < mScene.lens.width || mLens.height < mScene.lens.height; }
     const FrameTimings& timings() const { return mFrame.timings; }
+    // Of the last picture: rays a pixel, and how near it is expected to be to one of very many; 0 of one ray.
+    int rays() const { return mRays.many() ? mRefined.count() : 1; }
+    double expected_db() const { return mRays.many() ? mRefined.error_db() : 0; }
     Plane<PackedColor> compose(OutputMode mode) const {
         return composeStereo(mFrame.left.color, mFrame.right.color, {mode, false, false});
     }
@@ -42,6 +46,8 @@ public:
     void addTo(Hash& hash) const;
 
 private:
+    void makeMany(const StereoViews& views, double time);
+
     const Scene& mScene;
     std::string mMethod, mWayName;
     Lens mLens;
@@ -49,6 +55,8 @@ private:
     NarrowedEyes mEyes;
     StereoSetting mStereo;
     StereoViews mViews;  // with the size asked for
+    RayOptions mRays;
+    RefinedFrames mRefined;
     EyePair mFrame;
 };
 

@@ -111,7 +111,7 @@ void showHoles(const Plane<std::uint8_t>& mask, Plane<PackedColor>& image) {
 }
 
 FrameWay TruthMaker::wayOf(TruthView view, const FrameWay& way, const FrameMaker& frames) {
-    if (view == TruthView::FullCast) return {frames.exactMethod(), {}};
+    if (view == TruthView::FullCast) return {frames.exactMethod(), {}, way.edges};
     return way;
 }
 
@@ -133,7 +133,7 @@ TruthMaker::Shown TruthMaker::show(TruthView view, const Scene& scene, const Ste
                        : "this way sweeps each eye by itself: there is no shortcut to look at",
                 std::nullopt};
     if (view == TruthView::Difference) {
-        makeTruth(scene, views, time, nullptr);
+        makeTruth(scene, views, time, way, nullptr);
         const PictureError error = errorOf(mTruth.left.color, frame.right.color);
         showDifference(mTruth.left.color, frame.right.color);
         return {warped ? "" : "both eyes are swept: the difference is from the right eye's own sweep", error};
@@ -148,7 +148,7 @@ TruthMaker::Shown TruthMaker::show(TruthView view, const Scene& scene, const Ste
     return {};
 }
 
-bool TruthMaker::makeTruth(const Scene& scene, const StereoViews& views, double time,
+bool TruthMaker::makeTruth(const Scene& scene, const StereoViews& views, double time, const FrameWay& way,
                            const std::atomic<bool>* stop) {
     const auto* const rays = scene.offered<RayCast>();
     if (!rays) {  // an eye is made as a whole
@@ -161,7 +161,10 @@ bool TruthMaker::makeTruth(const Scene& scene, const StereoViews& views, double 
     parallelFor(renderer.tileCount(view), [&](int tile) {
         if (!(stop && *stop)) renderer.renderTile(view, tile, mTruth.left);
     });
-    return !(stop && *stop);
+    if (stop && *stop) return false;
+    // What is measured is the warp: both pictures have the same rays at their edges.
+    if (RightFromLeft* const cast = scene.frames().rightFromLeft()) cast->smoothEdges(view, way, mTruth.left);
+    return true;
 }
 
 std::optional<FrameTruth> TruthMaker::measure(const Scene& scene, const StereoViews& views, double time,
@@ -181,7 +184,7 @@ std::optional<FrameTruth> TruthMaker::measure(const Scene& scene, const StereoVi
         return truth;
     }
     const Stopwatch watch;
-    if (!makeTruth(scene, views, time, &stop)) return std::nullopt;
+    if (!makeTruth(scene, views, time, way, &stop)) return std::nullopt;
     truth.cast_ms = watch.elapsed_ms();
     truth.error = errorOf(mTruth.left.color, mAsMade.empty() ? frame.right.color : mAsMade);
     return truth;

@@ -67,7 +67,8 @@ public:
 
 private:
     // False where it was stopped.
-    bool makeTruth(const Scene& scene, const StereoViews& views, double time, const std::atomic<bool>* stop);
+    bool makeTruth(const Scene& scene, const StereoViews& views, double time, const FrameWay& way,
+                   const std::atomic<bool>* stop);
 
     EyePair mTruth;              // its left eye is the truth of the right one
     Plane<PackedColor> mAsMade;  // what holes were painted over; else empty

@@ -27,6 +27,7 @@ OpenScene opened(std::shared_ptr<Scene> shown, const ViewOptions& options, bool 
         progress.report(1.0, "measuring how to make the right eye");
         if (const auto measured = planScene(scene)) open.way.method = nameOf(measured->method);
     }
+    open.way.edges = edgesOf(options.scene, scene);
     return open;
 }
 

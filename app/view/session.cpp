@@ -423,7 +423,7 @@ const FrameRequest& ViewSession::requestFor(int width, int height) {
     wanted.lens.width = eyeWidth;
     wanted.lens.height = eyeHeight;
     wanted.stereo = mStereo.now();
-    wanted.way = {mMethod, mScene->way.warp};
+    wanted.way = {mMethod, mScene->way.warp, mScene->way.edges};
     wanted.model = mModel;
     wanted.time = mTime;
     wanted.sun = mSun;

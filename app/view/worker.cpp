@@ -67,6 +67,8 @@ void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& tr
         frame.request.way = way;
     } else {
         scene.frames().makeOne(view, request.time, frame);
+        if (RightFromLeft* const cast = scene.frames().rightFromLeft())
+            cast->smoothEdges(view, request.way, frame.left);
         lookAround(nullptr, frame);
         takeTruth(truth.showOfOneEye(request.truth), frame);
     }

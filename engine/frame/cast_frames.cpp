@@ -46,8 +46,15 @@ void CastFrames::make(const StereoViews& views, double, const FrameWay& way, Eye
     frame.timings.left_ms = watch.elapsed_ms();
     const RightEyeTimings right = warp(views, frame.left, setting, frame.right);
     frame.timings.right_ms = right.right_ms();
-    frame.timings.both_ms = frame.timings.left_ms + frame.timings.right_ms;
     frame.timings.warped = right;
+    // After the warp, which takes each pixel for one surface.
+    const EdgeTimings leftEdges = smoothEdges(views.left, way, frame.left);
+    const EdgeTimings rightEdges =
+        leavesHoles(setting.method) ? EdgeTimings{} : smoothEdges(views.right, way, frame.right);
+    frame.timings.left_ms += leftEdges.ms;
+    frame.timings.right_ms += rightEdges.ms;
+    frame.timings.edges = {leftEdges.ms + rightEdges.ms, leftEdges.pixels + rightEdges.pixels};
+    frame.timings.both_ms = frame.timings.left_ms + frame.timings.right_ms;
 }
 
 RightEyeTimings CastFrames::makeRight(const StereoViews& views, const EyeImage& left, const FrameWay& way,

@@ -1,5 +1,5 @@
 // Frames of scenes whose rays are cast: the left eye in full, the right one from it
-// (engine/stereo/right_eye.h).
+// (engine/stereo/right_eye.h), then more rays at the edges of both (engine/sampling/edge_rays.h).
 #pragma once
 
 #include "engine/frame/frame_maker.h"
@@ -26,6 +26,9 @@ public:
     RightFromLeft* rightFromLeft() override { return this; }
     RightEyeTimings makeRight(const StereoViews& views, const EyeImage& left, const FrameWay& way,
                               EyeImage& right) override;
+    EdgeTimings smoothEdges(const EyeView& view, const FrameWay& way, EyeImage& image) override {
+        return mEdges.smooth(mRenderer, view, way.edges, image);
+    }
     RightHoles holes() const override { return {mRightEye.holeMask(), leavesHoles(mLast)}; }
     std::optional<FramePlan> measure(std::span<const StereoViews> views) override;
     std::optional<QualityPlan> meet(const QualityWish& wish, std::string_view method,
@@ -39,6 +42,7 @@ private:
     const EyeRenderer& mRenderer;
     std::optional<RightEyeMethod> mUncompared;
     RightEye mRightEye;
+    EdgeRays mEdges;
     RightEyeMethod mLast = kDefaultRightEyeMethod;  // that the right eye was made by
 };
 

@@ -12,6 +12,7 @@
 
 #include "engine/camera/stereo_rig.h"
 #include "engine/image/eye_image.h"
+#include "engine/sampling/edge_rays.h"
 #include "engine/stereo/frame_plan.h"
 #include "engine/stereo/quality_plan.h"
 #include "engine/stereo/right_eye.h"
@@ -21,7 +22,8 @@ namespace stereonav {
 // How the eyes are to be made.
 struct FrameWay {
     std::string_view method;  // one of FrameMaker::methods(); "": the default
-    WarpSetting warp;         // of methods that warp: all but which one it is
+    WarpSetting warp{};       // of methods that warp: all but which one it is
+    EdgeSetting edges{};      // of scenes whose rays are cast
 };
 
 // As a setting says, its method too.
@@ -33,6 +35,7 @@ struct FrameTimings {
     double both_ms = 0;                     // of the whole frame
     double left_ms = 0, right_ms = 0;       // of each eye; 0 where they are made together
     std::optional<RightEyeTimings> warped;  // of a right eye that came from the left one
+    EdgeTimings edges;                      // of both eyes; its time is part of theirs
 };
 
 struct EyePair {
@@ -57,10 +60,13 @@ struct RightHoles {
 class RightFromLeft {
 public:
     virtual ~RightFromLeft() = default;
-    // left: the left eye of these views as FrameMaker::make gives it. Sizes the image. Throws Error as
+    // left: the left eye of these views as FrameMaker::make gives it, without rays for its edges: they would
+    // be warped with what lies beside them. Nor does the right eye get any. Sizes the image. Throws Error as
     // make().
     virtual RightEyeTimings makeRight(const StereoViews& views, const EyeImage& left, const FrameWay& way,
                                       EyeImage& right) = 0;
+    // What the way adds to an eye's edges, once the right eye was made: EdgeRays::smooth.
+    virtual EdgeTimings smoothEdges(const EyeView& view, const FrameWay& way, EyeImage& image) = 0;
     // Of the last right eye, by makeRight() or FrameMaker::make().
     virtual RightHoles holes() const = 0;
 };

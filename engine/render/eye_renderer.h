@@ -38,6 +38,15 @@ public:
     virtual void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
                               EyeImage& image) const = 0;
 
+    // Casts more rays through pixels, and writes no others: `view` is `known` with its window moved by less
+    // than a pixel, and `depths` what is known of that one, cast or warped, from which the scene may conclude
+    // where a ray can start. The rest as renderPixels, but that viewDepth of `image` is 0 inside `bounds`.
+    virtual void renderMoreRays(const EyeView& view, const EyeView& known, const Plane<float>& depths,
+                                PixelRect bounds, std::span<const PixelIndex> pixels, EyeImage& image) const {
+        (void)known, (void)depths;
+        renderPixels(view, bounds, pixels, image);
+    }
+
     // Whether renderPixels wants to find, in the viewDepth of each pixel it casts, a depth before which the
     // ray meets nothing (0: unknown), as far as the other eye saw (W9 of docs/ledger.md). Neighbours' depths
     // mean nothing then.

@@ -5,9 +5,6 @@
 #include <bit>
 #include <cstring>
 #include <numeric>
-#include <span>
-
-#include "engine/stereo/work_queue.h"
 
 namespace stereonav {
 
@@ -62,8 +59,7 @@ void HoleFill::cutBand(const Plane<std::uint8_t>& mask, int band) {
     }
 }
 
-long long HoleFill::fill(const EyeRenderer& renderer, const EyeView& view, const Plane<std::uint8_t>& mask,
-                         Schedule schedule, EyeImage& image) {
+long long HoleFill::list(const Plane<std::uint8_t>& mask, Schedule schedule) {
     const int bands = (mask.width() + kBandWidth - 1) / kBandWidth;
     const std::size_t capacity = static_cast<std::size_t>(kBandWidth) * mask.height();
     mPixels.resize(capacity * bands);
@@ -74,12 +70,16 @@ long long HoleFill::fill(const EyeRenderer& renderer, const EyeView& view, const
     if (schedule == Schedule::Dynamic)
         std::stable_sort(mTasks.begin(), mTasks.end(),
                          [](const Task& a, const Task& b) { return a.holes > b.holes; });
-    forEachPiece(static_cast<int>(mTasks.size()), schedule, [&](int, int i) {
-        const Task& task = mTasks[i];
-        renderer.renderPixels(view, task.bounds, std::span(task.pixels, static_cast<std::size_t>(task.holes)),
-                              image);
-    });
     return std::accumulate(mHoles.begin(), mHoles.end(), 0ll);
+}
+
+long long HoleFill::fill(const EyeRenderer& renderer, const EyeView& view, const Plane<std::uint8_t>& mask,
+                         Schedule schedule, EyeImage& image) {
+    const long long count = list(mask, schedule);
+    forEach(schedule, [&](PixelRect bounds, std::span<const PixelIndex> pixels) {
+        renderer.renderPixels(view, bounds, pixels, image);
+    });
+    return count;
 }
 
 }  // namespace stereonav

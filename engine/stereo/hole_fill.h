@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/base/parallel.h"
 #include "engine/image/plane.h"
 #include "engine/render/eye_renderer.h"
+#include "engine/stereo/work_queue.h"
 
 namespace stereonav {
 
@@ -22,6 +24,18 @@ public:
     // is 0, or as startsAtKnownDepth() wants it. Dynamic takes the fullest bands first, one at a time.
     long long fill(const EyeRenderer& renderer, const EyeView& view, const Plane<std::uint8_t>& mask,
                    Schedule schedule, EyeImage& image);
+
+    // The two halves of that, for who casts its pixels otherwise. Lists the pixels and gives their number;
+    long long list(const Plane<std::uint8_t>& mask, Schedule schedule);
+    // then calls body(bounds, pixels) for each batch, as EyeRenderer::renderPixels wants them, on all
+    // threads.
+    template <typename Body>
+    void forEach(Schedule schedule, const Body& body) const {
+        forEachPiece(static_cast<int>(mTasks.size()), schedule, [&](int, int i) {
+            const Task& task = mTasks[i];
+            body(task.bounds, std::span(task.pixels, static_cast<std::size_t>(task.holes)));
+        });
+    }
 
 private:
     struct Task {

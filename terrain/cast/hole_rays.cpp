@@ -18,7 +18,7 @@ struct Heading {
     double x, y, slope, run;  // unit horizontal direction, rise over run, horizontal length
 };
 
-Heading headingOf(const CasterView& v, const GroundData& ground, int lane, int step) {
+Heading headingOf(const CasterView& v, const GroundData& ground, double lane, double step) {
     const double x = (v.base[0] + lane * v.perLane[0] + step * v.perStep[0]) * ground.spacingX;
     const double y = (v.base[1] + lane * v.perLane[1] + step * v.perStep[1]) * ground.spacingY;
     const double z = v.base[2] + lane * v.perLane[2] + step * v.perStep[2];
@@ -26,15 +26,23 @@ Heading headingOf(const CasterView& v, const GroundData& ground, int lane, int s
     return {x / run, y / run, z / run, run};
 }
 
-float depthInside(const EyeImage& image, PixelRect bounds, int x, int y) {
+float depthInside(const Plane<float>& viewDepth, PixelRect bounds, int x, int y) {
     const bool inside = x >= bounds.x0 && x < bounds.x1 && y >= bounds.y0 && y < bounds.y1;
-    return inside ? image.viewDepth.at(x, y) : -1.0f;
+    return inside ? viewDepth.at(x, y) : -1.0f;
+}
+
+// Where a ray may start that is higher than a lower one, which meets the ground at that view depth: 0 where
+// the ground between their directions might rise above it.
+float provenStart(const Heading& ray, const Heading& lower, float depth, const GroundData& ground) {
+    const double x = ray.x - lower.x, y = ray.y - lower.y;
+    if (!(ray.slope - lower.slope >= ground.maxSlope * std::sqrt(x * x + y * y))) return 0.0f;
+    return depth * static_cast<float>(lower.run / ray.run) * kInFront;
 }
 
 // Columns in vertical planes: any lower pixel of the column proves the way.
-float startInColumn(const CasterView& v, PixelRect bounds, const EyeImage& image, PixelIndex p) {
+float startInColumn(const CasterView& v, PixelRect bounds, const Plane<float>& viewDepth, PixelIndex p) {
     for (int back = 1; back <= kLookBack; ++back) {
-        const float depth = depthInside(image, bounds, p.x - back * v.stepX, p.y - back * v.stepY);
+        const float depth = depthInside(viewDepth, bounds, p.x - back * v.stepX, p.y - back * v.stepY);
         if (depth != 0.0f) return std::max(0.0f, depth) * kInFront;
     }
     return 0.0f;
@@ -42,11 +50,11 @@ float startInColumn(const CasterView& v, PixelRect bounds, const EyeImage& image
 
 }  // namespace
 
-float startInFront(const CasterView& v, const GroundData& ground, PixelRect bounds, const EyeImage& image,
-                   PixelIndex p) {
+float startInFront(const CasterView& v, const GroundData& ground, PixelRect bounds,
+                   const Plane<float>& viewDepth, PixelIndex p) {
     // Through a hole in the ground a lower ray goes below it, and says nothing of a higher one.
     if (!v.coherent || !std::isfinite(ground.maxSlope)) return 0.0f;
-    if (v.verticalColumns) return startInColumn(v, bounds, image, p);
+    if (v.verticalColumns) return startInColumn(v, bounds, viewDepth, p);
     const int a = (p.x - v.firstX) * v.laneX + (p.y - v.firstY) * v.laneY;
     const int q = (p.x - v.firstX) * v.stepX + (p.y - v.firstY) * v.stepY;
     const double lowQ = v.lowQ - q * v.lowW;
@@ -59,15 +67,59 @@ float startInFront(const CasterView& v, const GroundData& ground, PixelRect boun
         // Too far aside to be proven, most likely.
         if (std::abs(at - nearest) * ground.maxSlope > back) continue;
         const int lane = a + static_cast<int>(nearest), step = q - back;
-        const float depth = depthInside(image, bounds, v.firstX + lane * v.laneX + step * v.stepX,
+        const float depth = depthInside(viewDepth, bounds, v.firstX + lane * v.laneX + step * v.stepX,
                                         v.firstY + lane * v.laneY + step * v.stepY);
         if (depth < 0.0f) return 0.0f;
         if (depth == 0.0f || !std::isfinite(depth)) continue;
         --tries;
-        const Heading lower = headingOf(v, ground, lane, step);
-        const double x = ray.x - lower.x, y = ray.y - lower.y;
-        if (!(ray.slope - lower.slope >= ground.maxSlope * std::sqrt(x * x + y * y))) continue;
-        return depth * static_cast<float>(lower.run / ray.run) * kInFront;
+        if (const float start = provenStart(ray, headingOf(v, ground, lane, step), depth, ground))
+            return start;
+    }
+    return 0.0f;
+}
+
+StartBeside::StartBeside(const CasterView& view, const CasterView& known, const GroundData& ground,
+                         const Plane<float>& viewDepth)
+    : mView(view), mKnown(known), mGround(ground), mDepth(viewDepth) {
+    if (!view.coherent || !known.coherent || !std::isfinite(ground.maxSlope)) return;
+    // Both views have the same directions across and along where they are turned alike.
+    if (view.laneX != known.laneX || view.stepX != known.stepX || view.stepY != known.stepY) return;
+    // base - known.base = mLane * perLane + mStep * perStep, by least squares.
+    double aa = 0, ab = 0, bb = 0, ad = 0, bd = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double a = known.perLane[k], b = known.perStep[k], d = view.base[k] - known.base[k];
+        aa += a * a, ab += a * b, bb += b * b, ad += a * d, bd += b * d;
+    }
+    const double det = aa * bb - ab * ab;
+    if (!(det > 0)) return;
+    mLane = (bb * ad - ab * bd) / det;
+    mStep = (aa * bd - ab * ad) / det;
+    mAny = std::abs(mLane) < 1 && std::abs(mStep) < 1;
+}
+
+float StartBeside::of(PixelIndex p) const {
+    if (!mAny) return 0.0f;
+    const CasterView& v = mKnown;
+    const double a = (p.x - v.firstX) * v.laneX + (p.y - v.firstY) * v.laneY + mLane;
+    const double q = (p.x - v.firstX) * v.stepX + (p.y - v.firstY) * v.stepY + mStep;
+    const double lowQ = v.lowQ - q * v.lowW;
+    if (!(lowQ < 0)) return 0.0f;
+    const double drift = (v.lowA - a * v.lowW) / -lowQ;
+    const Heading ray = headingOf(v, mGround, a, q);
+    const PixelRect all{0, 0, mDepth.width(), mDepth.height()};
+    int tries = kProofs;
+    const int first = static_cast<int>(std::ceil(q)) - 1;  // the next lower row
+    for (int step = first; step >= std::max(0, first - kLookBack) && tries > 0; --step) {
+        const double back = q - step, lane = std::floor(a + drift * back + 0.5);
+        if (std::abs(a + drift * back - lane) * mGround.maxSlope > back) continue;
+        const int x = static_cast<int>(lane);
+        const float depth = depthInside(mDepth, all, v.firstX + x * v.laneX + step * v.stepX,
+                                        v.firstY + x * v.laneY + step * v.stepY);
+        if (depth < 0.0f) return 0.0f;
+        if (depth == 0.0f || !std::isfinite(depth)) continue;
+        --tries;
+        if (const float start = provenStart(ray, headingOf(v, mGround, lane, step), depth, mGround))
+            return start;
     }
     return 0.0f;
 }

@@ -259,21 +259,41 @@ void TerrainRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::s
         mState->kernels->castBand(scene, caster, band, target, scratch.data());
         if (mScene.landmarks || viewDependent()) finish(view, pixelsOf(caster, band), image);
     }
+    castSparse(
+        view, caster, holes.sparse(),
+        [&](PixelIndex p) { return startInFront(caster, mState->scene.ground, bounds, image.viewDepth, p); },
+        image);
+}
+
+// startOf is asked in turn, a chunk of rays ahead of those that are cast.
+void TerrainRenderer::castSparse(const EyeView& view, const CasterView& caster,
+                                 std::span<const PixelIndex> pixels,
+                                 const std::function<float(PixelIndex)>& startOf, EyeImage& image) const {
+    const CasterTarget target = targetOf(image);
+    const CasterScene& scene = keepsBase(image) ? mState->clear : mState->scene;
     // Long enough to keep all lanes busy, short enough for later pixels to start from earlier ones.
     constexpr std::size_t kChunk = 128;
     CasterPixel chunk[kChunk];
     float start[kChunk];
-    const std::span<const PixelIndex> sparse = holes.sparse();
-    for (std::size_t first = 0; first < sparse.size(); first += kChunk) {
-        const int count = static_cast<int>(std::min(kChunk, sparse.size() - first));
+    for (std::size_t first = 0; first < pixels.size(); first += kChunk) {
+        const int count = static_cast<int>(std::min(kChunk, pixels.size() - first));
         for (int k = 0; k < count; ++k) {
-            const PixelIndex p = sparse[first + k];
+            const PixelIndex p = pixels[first + k];
             chunk[k] = {p.x, p.y};
-            start[k] = startInFront(caster, mState->scene.ground, bounds, image, p);
+            start[k] = startOf(p);
         }
         mState->kernels->castPixels(scene, caster, {chunk, start, count}, target);
     }
-    if (mScene.landmarks || viewDependent()) finish(view, sparse, image);
+    if (mScene.landmarks || viewDependent()) finish(view, pixels, image);
+}
+
+void TerrainRenderer::renderMoreRays(const EyeView& view, const EyeView& known, const Plane<float>& depths,
+                                     PixelRect, std::span<const PixelIndex> pixels, EyeImage& image) const {
+    const CasterView caster = makeCasterView(view, mScene.ground),
+                     cast = makeCasterView(known, mScene.ground);
+    const StartBeside starts(caster, cast, mState->scene.ground, depths);
+    castSparse(
+        view, caster, pixels, [&](PixelIndex p) { return starts.of(p); }, image);
 }
 
 namespace {

@@ -1,11 +1,13 @@
 // Casts rays at a terrain for any view: the engine's door into a terrain scene.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "engine/render/eye_renderer.h"
 #include "engine/simd/simd_target.h"
+#include "terrain/cast/caster_types.h"
 #include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
@@ -29,6 +31,8 @@ public:
     void renderTile(const EyeView& view, int tile, EyeImage& image) const override;
     void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
                       EyeImage& image) const override;
+    void renderMoreRays(const EyeView& view, const EyeView& known, const Plane<float>& depths,
+                        PixelRect bounds, std::span<const PixelIndex> pixels, EyeImage& image) const override;
     bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
                           double parallaxScale) const override;
     ViewDependence viewDependence() const override;
@@ -54,6 +58,8 @@ private:
     // eye sees through its own distances.
     bool keepsBase(const EyeImage& image) const { return viewDependent() && !image.normal.empty(); }
     // What the kernels leave out: landmarks, normals, highlights and the fog before them.
+    void castSparse(const EyeView& view, const CasterView& caster, std::span<const PixelIndex> pixels,
+                    const std::function<float(PixelIndex)>& startOf, EyeImage& image) const;
     void finish(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const;
     void castLandmarks(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image,
                        std::vector<bool>& hit) const;

@@ -10,6 +10,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"
+#include "engine/sampling/pixel_samples.h"
 #include "terrain/cast/plain_caster.h"
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/scene/terrain_loader.h"
@@ -133,7 +134,46 @@ void expectPlainHitsInHoles(const TerrainScene& scene, int views, unsigned seed)
     }
 }
 
+// More rays through pixels of a picture that is known, by the plain walk of each.
+void expectPlainHitsBeside(const TerrainScene& scene, int views, unsigned seed) {
+    for (const SimdTarget target : simdTargets()) {
+        const TerrainRenderer renderer(scene, target);
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> within(-0.5, 0.5);
+        Tally tally;
+        for (int k = 0; k < views; ++k) {
+            const EyeView view = randomView(scene.ground, random, k);
+            EyeImage known, image;
+            known.resize(view.width, view.height);
+            image.resize(view.width, view.height);
+            renderEye(renderer, view, known);
+            const EyeView beside = shiftedBy(view, {within(random), within(random)});
+            std::vector<PixelIndex> pixels;
+            for (int y = 0; y < view.height; ++y)
+                for (int x = 0; x < view.width; ++x)
+                    if (random() % 3 == 0)
+                        pixels.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+            renderer.renderMoreRays(beside, view, known.viewDepth, {0, 0, view.width, view.height}, pixels,
+                                    image);
+            for (const PixelIndex p : pixels) {
+                const GroundHit hit = castPlain(scene.ground, beside.eye,
+                                                beside.rayDirection(p.x + 0.5, p.y + 0.5), beside.nearDepth);
+                ++tally.pixels;
+                if (!sameDepth(hit.t, image.viewDepth.at(p.x, p.y), 1e-6) && tally.wrong++ == 0)
+                    tally.first = "pixel " + std::to_string(p.x) + "," + std::to_string(p.y) + " expected " +
+                                  std::to_string(hit.t) + " got " +
+                                  std::to_string(image.viewDepth.at(p.x, p.y));
+            }
+        }
+        EXPECT_LE(tally.wrong, tally.pixels / 1000000) << tally.first;
+    }
+}
+
 class CasterOnGround : public testing::TestWithParam<std::string> {};
+
+TEST_P(CasterOnGround, AddsRaysThatHitWhatThePlainWalkHits) {
+    expectPlainHitsBeside(test::makeScene(test::makeGround(GetParam(), 97, 83, 7)), 100, 29);
+}
 
 TEST_P(CasterOnGround, HitsWhatThePlainWalkHits) {
     expectPlainHits(test::makeScene(test::makeGround(GetParam(), 97, 83, 7)), 150, 11);

@@ -1,0 +1,117 @@
+#include "engine/frame/refined_frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "engine/base/parallel.h"
+#include "engine/sampling/pixel_samples.h"
+#include "engine/stereo/error_prediction.h"
+
+namespace stereonav {
+namespace {
+
+constexpr float kScale = 1.0f / 1023.0f;
+
+// Adds a frame to the sums of its half, or begins them. A row of sums has three runs, one for each channel:
+// loops that the compiler turns into vectors.
+void addColors(const Plane<PackedColor>& color, bool begin, Plane<float>& sums) {
+    const int width = color.width();
+    sums.resize(3 * width, color.height());
+    parallelFor(color.height(), [&](int y) {
+        const PackedColor* const from = color.row(y);
+        for (int c = 0; c < 3; ++c) {
+            float* const __restrict to = sums.row(y) + c * width;
+            const float keep = begin ? 0.0f : 1.0f;
+            for (int x = 0; x < width; ++x) {
+                const float root = static_cast<float>(static_cast<int>(from[x] >> 10 * c & 1023u)) * kScale;
+                to[x] = keep * to[x] + root * root;
+            }
+        }
+    });
+}
+
+// The mean of both halves as packColor has it.
+void packMean(const Plane<float>& even, const Plane<float>& odd, int count, Plane<PackedColor>& color) {
+    const float perAll = 1.0f / static_cast<float>(count);
+    const int width = color.width();
+    parallelFor(color.height(), [&](int y) {
+        PackedColor* const __restrict to = color.row(y);
+        for (int c = 0; c < 3; ++c) {
+            const float *const a = even.row(y) + c * width, *const b = odd.row(y) + c * width;
+            for (int x = 0; x < width; ++x) {
+                const float root = std::sqrt((a[x] + b[x]) * perAll) * 1023.0f + 0.5f;
+                const auto channel =
+                    static_cast<std::uint32_t>(static_cast<int>(root < 1023.0f ? root : 1023.0f));
+                to[x] = (c == 0 ? 0u : to[x]) | channel << 10 * c;
+            }
+        }
+    });
+}
+
+// The squares by which the halves' means differ: a sum for each row, so that it does not depend on threads.
+double squaresApart(const Plane<float>& even, const Plane<float>& odd, int count) {
+    const float perEven = 1.0f / static_cast<float>((count + 1) / 2),
+                perOdd = 1.0f / static_cast<float>(count / 2);
+    std::vector<double> squares(static_cast<std::size_t>(even.height()));
+    parallelFor(even.height(), [&](int y) {
+        const float *const a = even.row(y), *const b = odd.row(y);
+        double sum = 0;
+        for (int x = 0; x < even.width(); ++x) {
+            const float apart = std::sqrt(a[x] * perEven) - std::sqrt(b[x] * perOdd);
+            sum += static_cast<double>(apart * apart);
+        }
+        squares[static_cast<std::size_t>(y)] = sum;
+    });
+    return std::accumulate(squares.begin(), squares.end(), 0.0);
+}
+
+double channelsOf(const EyeImage& eye) {
+    return 3.0 * eye.width() * eye.height();
+}
+
+}  // namespace
+
+void RefinedFrames::add(FrameMaker& frames, const StereoViews& views, double time, const FrameWay& way) {
+    frames.make(shiftedBy(views, evenPlace(mCount)), time, way, next());
+    gather();
+}
+
+void RefinedFrames::addOne(FrameMaker& frames, const EyeView& view, double time) {
+    frames.makeOne(shiftedBy(view, evenPlace(mCount)), time, next());
+    gather();
+}
+
+void RefinedFrames::gather() {
+    const EyePair& made = next();
+    const int index = mCount++;
+    Plane<float> Sums::*const half = index % 2 == 0 ? &Sums::even : &Sums::odd;
+    addColors(made.left.color, index < 2, mLeft.*half);
+    addColors(made.right.color, index < 2, mRight.*half);
+    mMean.timings = made.timings;
+}
+
+EyePair& RefinedFrames::mean() {
+    if (mCount > 1) {
+        packMean(mLeft.even, mLeft.odd, mCount, mMean.left.color);
+        packMean(mRight.even, mRight.odd, mCount, mMean.right.color);
+    }
+    return mMean;
+}
+
+double RefinedFrames::error_levels() const {
+    if (mCount < 2) return std::numeric_limits<double>::infinity();
+    const double squares =
+        squaresApart(mLeft.even, mLeft.odd, mCount) + squaresApart(mRight.even, mRight.odd, mCount);
+    return 0.5 * 255 * std::sqrt(squares / (channelsOf(mMean.left) + channelsOf(mMean.right)));
+}
+
+double RefinedFrames::error_db() const {
+    const double levels = error_levels();
+    if (!std::isfinite(levels)) return 0;
+    return levels > 0 ? std::clamp(20 * std::log10(255 / levels), 0.0, kMostPsnr_db) : kMostPsnr_db;
+}
+
+}  // namespace stereonav
