@@ -130,7 +130,23 @@ void addCommands(CLI::App& app, ParsedOptions& parsed) {
     addPages(app, parsed);
 }
 
+// `view --json` alone is `--json=-`: of the window alone it may name a file, which ends with .json, or is any
+// word beside --bench.
+void nameJsonFile(std::vector<std::string>& words) {
+    if (words.empty() || words.front() != "view") return;
+    const bool bench = std::find(words.begin(), words.end(), "--bench") != words.end();
+    for (std::size_t n = 1; n < words.size(); ++n) {
+        if (words[n] != "--json") continue;
+        const std::string next = n + 1 < words.size() ? words[n + 1] : "";
+        const bool isFile =
+            next == "-" || next.ends_with(".json") || (bench && !next.empty() && !next.starts_with("-"));
+        words[n] += "=" + (isFile ? next : "-");
+        if (isFile) words.erase(words.begin() + static_cast<std::ptrdiff_t>(n) + 1);
+    }
+}
+
 void parse(CLI::App& app, std::vector<std::string> words) {
+    nameJsonFile(words);
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
     try {
         app.parse(std::move(words));
@@ -151,7 +167,10 @@ int runCommandLine(int argc, char** argv) {
     ParsedOptions parsed;
     addCommands(app, parsed);
     try {
-        app.parse(argc, argv);
+        std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+        nameJsonFile(words);
+        std::reverse(words.begin(), words.end());  // as CLI11 takes them
+        app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
         throw refusalOf(app, error);

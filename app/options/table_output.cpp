@@ -3,6 +3,7 @@
 #include "app/options/option_table.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
+#include "engine/base/file.h"
 #include "engine/image/stereo_picture_file.h"
 
 namespace stereonav {
@@ -83,7 +84,7 @@ std::vector<Option> viewOptions() {
          .take = takePath},
         {.key = "path",
          .value = fileValue(),
-         .help = "a recorded path (.gltf, .glb, .path) for Z to play",
+         .help = "a recorded path (.gltf, .glb, .path) for Z to play, and for --bench",
          .commands = kView,
          .inFile = false,
          .take = takePath},
@@ -176,6 +177,32 @@ std::vector<Option> viewOptions() {
          .commands = kView,
          .inFile = false,
          .take = [](OptionTargets& to, const OptionValue& value) { to.view->shots = value.text; }},
+        {.key = "late-warp",
+         .value = wordValue({"on", "off"}),
+         .help =
+             "while something moves: the newest picture, warped to where the eyes are now, at each refresh",
+         .fallback = "on",
+         .commands = kView,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.view->lateWarp = value.text == "on"; }},
+        {.key = "target-ms",
+         .value = numberValue(within(1e-3, 1e6, "ms")),
+         .help =
+             "that a frame may take while something moves: it is made smaller, and enlarged, to keep that",
+         .advice = "33 is 30 frames a second",
+         .fallback = "twice the monitor's refresh, at most 40; four times that of a medium",
+         .commands = kView,
+         .rules = {{[](const Asked& asked) { return asked.is("late-warp", "off"); },
+                    "has no effect beside --late-warp off, whose frames are whole", kLeaveItOut}},
+         .panel = OptionPanel::Quality,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.view->target_ms = value.number(); }},
+        {.key = "bench",
+         .value = flagValue(),
+         .help =
+             "flies --path, or the scene's own flight, for 20 s at most, rests for 10 s, tells how evenly "
+             "pictures came, how old and how right they were, and closes",
+         .commands = kView,
+         .inFile = false,
+         .take = [](OptionTargets& to, const OptionValue&) { to.view->bench = true; }},
     };
 }
 
@@ -258,10 +285,21 @@ std::vector<Option> tellingOptions() {
     return {
         {.key = "json",
          .value = flagValue(),
-         .help = "tells what was done, or found, as one JSON document on standard output; the window when it "
-                 "is closed",
-         .commands = kInfo | kRender | kPlay | kReport | kMesh | kCentreline | kBake | kView,
+         .help = "tells what was done, or found, as one JSON document on standard output",
+         .commands = kInfo | kRender | kPlay | kReport | kMesh | kCentreline | kBake,
          .take = [](OptionTargets& to, const OptionValue&) { *to.json = true; }},
+        {.key = "json",
+         .value = fileValue(),
+         .help = "tells what was done as one JSON document when the window is closed, into a file; -, or "
+                 "nothing: "
+                 "on standard output",
+         .commands = kView,
+         .inFile = false,
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.view->json = value.text;
+                 *to.json = isStandardOutput(value.text);
+             }},
         {.key = "quiet",
          .value = flagValue(),
          .help = "neither progress nor notes: only what was asked for, and errors",

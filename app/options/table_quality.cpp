@@ -85,7 +85,7 @@ std::vector<Option> qualityOptions() {
          .help = "time for a frame, both eyes: fewer pixels are cast, or pictures made smaller, to keep it",
          .advice = "33 is 30 frames a second",
          .group = kQualityGroup,
-         .commands = kDialled,
+         .commands = kRender | kPlay,
          .scenes = kCast,
          .elsewhere = notOfMedia(),
          .rules = qualityRules(),

@@ -14,6 +14,11 @@ std::vector<NamedPlace> withDocument(const Telling& telling, std::vector<NamedPl
     return outputs;
 }
 
+// Names of files may hold bytes that are no UTF-8.
+std::string documentOf(const Facts& facts) {
+    return jsonOf(facts).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 }  // namespace
 
 CommandResult::CommandResult(const char* command, const Telling& telling,
@@ -47,10 +52,12 @@ void CommandResult::finish() const {
     if (mTelling.json) printJson(mFacts);
 }
 
+void CommandResult::writeTo(const std::filesystem::path& file) const {
+    writeTextFile(file, documentOf(mFacts) + "\n");
+}
+
 void printJson(const Facts& facts) {
-    // Names of files may hold bytes that are no UTF-8.
-    std::printf("%s\n",
-                jsonOf(facts).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+    std::printf("%s\n", documentOf(facts).c_str());
 }
 
 }  // namespace stereonav

@@ -30,6 +30,8 @@ public:
     void addFile(const std::string& key, const std::filesystem::path& file);
     // Prints the document, once.
     void finish() const;
+    // Writes it into a file, whatever --json says of standard output. Throws Error.
+    void writeTo(const std::filesystem::path& file) const;
 
 private:
     Telling mTelling;

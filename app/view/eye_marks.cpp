@@ -13,9 +13,11 @@ bool isInside(const EyeView& view, const glm::dvec2& place) {
     return place.x >= 0 && place.y >= 0 && place.x < view.width && place.y < view.height;
 }
 
-// NaN where the plane has no such pixel.
-double depthAt(const Plane<float>& viewDepth, const glm::dvec2& place) {
-    const glm::dvec2 pixel(std::floor(place.x), std::floor(place.y));
+// NaN where the plane has no such pixel. The plane may have fewer pixels than the view.
+double depthAt(const EyeView& view, const Plane<float>& viewDepth, const glm::dvec2& place) {
+    const glm::dvec2 scale(static_cast<double>(viewDepth.width()) / view.width,
+                           static_cast<double>(viewDepth.height()) / view.height);
+    const glm::dvec2 pixel(std::floor(place.x * scale.x), std::floor(place.y * scale.y));
     if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.x < viewDepth.width() && pixel.y < viewDepth.height()))
         return std::nan("");
     return static_cast<double>(viewDepth.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y)));
@@ -32,7 +34,7 @@ StereoViews viewsOf(const FrameRequest& request) {
 
 EyeMark markUnder(const StereoViews& views, const Plane<float>& viewDepth, const glm::dvec2& share) {
     const glm::dvec2 left = share * glm::dvec2(views.left.width, views.left.height);
-    const double depth = depthAt(viewDepth, left);
+    const double depth = depthAt(views.left, viewDepth, left);
     if (!(depth > 0 && std::isfinite(depth))) return {left, left};
     return {left, {views.rightColumn(left.x, depth), left.y}};
 }
@@ -44,7 +46,7 @@ std::optional<PointMark> markOf(const StereoViews& views, const Plane<float>& vi
     const PointMark point{{glm::dvec2(left), glm::dvec2(right)}, left.z};
     if (!isInside(views.left, point.mark.left) || !isInside(views.right, point.mark.right))
         return std::nullopt;
-    const double seen = depthAt(viewDepth, point.mark.left);
+    const double seen = depthAt(views.left, viewDepth, point.mark.left);
     if (seen > 0 && seen < left.z * (1 - kBehind)) return std::nullopt;
     return point;
 }

@@ -351,6 +351,7 @@ void ViewSession::step(const FlightInput& input, double dt) {
     if (mNoticeLeft > 0 && (mNoticeLeft -= dt) <= 0) mNotice.clear();
     mMoving = mPlaying || mGoal || recording() || animated || mStereo.moving() || asksForMotion(input) ||
               looked || !samePose(poseBefore, pose());
+    mAhead.step(poseBefore, pose(), dt);
 }
 
 void ViewSession::notify(const std::string& text) {
@@ -412,20 +413,30 @@ bool ViewSession::hasOtherShape(int width, int height) const {
     return std::abs(static_cast<double>(width) / height - mShape) > kOtherShape * mShape;
 }
 
-const FrameRequest& ViewSession::requestFor(int width, int height) {
+Pose ViewSession::poseAhead(double seconds) const {
+    if (!(seconds > 0) || !mMoving) return pose();
+    if (mPlaying) return mPath.at(mPath.startTime() + std::min(mPlayTime + seconds, mPath.duration()));
+    return mAhead.from(pose(), seconds, mFlight->clearanceNow());
+}
+
+const FrameRequest& ViewSession::requestFor(int width, int height, double ahead, double scale) {
     const auto [eyeWidth, eyeHeight] = eyeSizeFor(compose().mode, width, height);
     const bool otherShape = hasOtherShape(eyeWidth, eyeHeight);
     if (otherShape) mStereo.refit(shown());
     if (otherShape || !(mShape > 0)) mShape = static_cast<double>(eyeWidth) / eyeHeight;
     FrameRequest wanted;
-    wanted.pose = pose();
+    wanted.pose = poseAhead(ahead);
     wanted.lens = lens();
-    wanted.lens.width = eyeWidth;
-    wanted.lens.height = eyeHeight;
+    const auto scaled = [&](int pixels) {
+        return std::max(1, static_cast<int>(std::lround(scale * pixels)));
+    };
+    wanted.lens.width = scaled(eyeWidth);
+    wanted.lens.height = scaled(eyeHeight);
+    wanted.scale = scale;
     wanted.stereo = mStereo.now();
     wanted.way = {mMethod, mScene->way.warp, mScene->way.edges};
     wanted.model = mModel;
-    wanted.time = mTime;
+    wanted.time = offered<Animation>() ? mTime + ahead : mTime;
     wanted.sun = mSun;
     wanted.twoEyes = mStereoOn;
     wanted.mode = compose().mode;

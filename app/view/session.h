@@ -15,6 +15,7 @@
 #include "engine/image/stereo_compose.h"
 #include "engine/nav/flight.h"
 #include "engine/nav/flight_to.h"
+#include "engine/nav/motion_ahead.h"
 #include "engine/nav/path_recorder.h"
 
 namespace stereonav {
@@ -189,8 +190,14 @@ public:
         mRequest.version = last;
         mFresh = true;
     }
-    // What to render for a composed picture of this size; the version grows with every difference.
-    const FrameRequest& requestFor(int width, int height);
+    // What to render for a composed picture of this size; the version grows with every difference. ahead:
+    // seconds until the picture is there, while something moves: it is of where the eyes will be then. scale:
+    // the frame has only so much of the width and height.
+    const FrameRequest& requestFor(int width, int height, double ahead = 0, double scale = 1);
+    // Where the eyes will be: on a path as it goes, in flight as they move now. Not nearer to what is around
+    // than half of the way there.
+    Pose poseAhead(double seconds) const;
+    double time() const { return mTime; }  // seconds, of what moves by itself
     ComposeSetting compose() const;
 
     bool quit() const { return mQuit; }
@@ -275,6 +282,7 @@ private:
     bool mPlaying = false;
     double mPlayTime = 0;  // seconds since the path's start
     Pose mPlayed;
+    MotionAhead mAhead;
     bool mOwnPath = false;  // mPath is the scene's own
     std::vector<RecordedPath> mPathsBefore;
     ViewStereo mStereo;

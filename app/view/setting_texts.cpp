@@ -18,12 +18,16 @@ std::string lineOf(const std::vector<std::string>& words) {
     return line;
 }
 
+// Of this run of the program alone, and no setting.
+bool isOfTheRun(std::string_view key) {
+    return key == "json" || key == "quiet" || key == "bench";
+}
+
 SettingTexts textsOf(const GivenOptions& given, bool ofFile) {
     SettingTexts settings;
     for (const Option& option : optionTable()) {
         if (!(option.commands & command::kView) || settings.contains(option.key)) continue;
-        // Of this run of the program alone, and no setting.
-        if (option.key == std::string_view("json") || option.key == std::string_view("quiet")) continue;
+        if (isOfTheRun(option.key)) continue;
         const GivenOptions::Given* const found = given.find(option.key);
         const auto typed = [&] {
             return found->place == option.name() || found->place.starts_with("--set ");

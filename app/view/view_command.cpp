@@ -11,6 +11,8 @@ int runView(const ViewOptions& options) {
     checkSize(options.size, options.scene, kNoPicture);
     checkMethod(options.scene, options.method);
     if (!options.shots.empty()) checkOutputFolder("--shots", options.shots);
+    if (!options.json.empty()) checkOutputFile("--json", options.json);
+    checkNoInput({"--json", options.json}, inputsOf(options.scene));
     ViewOptions shown = options;
     shown.scene.skyTurns = !shownAs(options.scene).swept;  // a medium's keys turn its own light
     Viewer(shown).run();

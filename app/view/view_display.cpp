@@ -83,6 +83,13 @@ std::string ViewDisplay::takeNotice() {
     return std::exchange(mNotice, {});
 }
 
+double ViewDisplay::refreshPeriod() const {
+    constexpr double kUsual = 60, kLeast = 20, kMost = 500;  // Hz
+    const std::optional<Monitor> on = monitor();
+    const double rate = on ? on->refreshRate : 0;
+    return 1 / (rate >= kLeast && rate <= kMost ? rate : kUsual);
+}
+
 ScreenTold ViewDisplay::told() const {
     constexpr std::size_t kLongestName = 200;
     const std::optional<Monitor> on = monitor();
@@ -93,7 +100,8 @@ ScreenTold ViewDisplay::told() const {
 double ViewDisplay::pictureWidthOf(const ViewFrame& frame, const ScreenTold& on) const {
     const int window = mWindow.place().width, pixels = mWindow.framebufferSize().x;
     // Of the monitor's size, which is in the window's units.
-    const double width = pixels > 0 ? frame.left.width() * (static_cast<double>(window) / pixels) : 0;
+    const double width =
+        pixels > 0 ? frame.left.width() / frame.request.scale * (static_cast<double>(window) / pixels) : 0;
     const ScreenSize size = mSizes.of(on);
     return pictureWidth({size.width_mm / 1000, size.distance_mm / 1000}, width,
                         on.pixelsWide > 0 ? on.pixelsWide : window);

@@ -48,6 +48,7 @@ public:
     ScreenSizes& sizes() { return mSizes; }
     const ScreenSizes& sizes() const { return mSizes; }
     ScreenTold told() const;
+    double refreshPeriod() const;  // seconds: of the monitor that the window is on, as it tells
 
     // On the real screen: of the status line, and a warning where eyes would have to turn outwards.
     std::string parallaxText(const ViewFrame& frame) const;

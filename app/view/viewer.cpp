@@ -11,6 +11,7 @@
 #include "app/output/stereo_frame.h"
 #include "app/scene/shown_as.h"
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "engine/base/stop.h"
 
 namespace stereonav {
@@ -40,6 +41,7 @@ FrameCost costOf(const ViewFrame& frame) {
 
 Viewer::Viewer(const ViewOptions& options)
     : mResult("view", options.telling, {}),
+      mJson(options.json),
       mOptions(options),
       mGiven(settingTextsOf(options.scene.given)),
       mSaid(fileTextsOf(options.scene.given)),
@@ -55,6 +57,7 @@ Viewer::Viewer(const ViewOptions& options)
     if (shownAs(options.scene).swept) mSweep = std::make_unique<ViewSweep>(options.sweep);
     checkSize(windowSize(), options.scene, kViewBytes);
     mPanels.showStart(options.startPage);
+    if (options.bench) mBench = std::make_shared<ViewBench>();
     readConfig();
     mWorker = std::make_unique<ViewWorker>(
         [options, size = windowSize(), sweep = mSweep.get()](Progress& progress) {
@@ -93,18 +96,23 @@ void Viewer::run() {
         if (mSession) update(dt);
         drawControls(dt);
         if (!mWindow.minimised()) draw(dt, turn);
+        stepBench();
     }
+    endBench();
     while (mScreenshots.waiting() && mFrame) finishScreenshots();
     keepConfig();
     mResult.add("scene", sceneName());
     mResult.add("told", mTold);
     mResult.finish();
+    if (!mJson.empty() && !isStandardOutput(mJson)) mResult.writeTo(mJson);
 }
 
 double Viewer::waitSeconds() const {
     if (!mActsOfPanels.empty()) return 0;
     if (mWindow.minimised() && !mControls) return kIdleWait;
     if (const auto turn = mDisplay.wait()) return *turn;
+    if (mSession && warps() && mSession->moving())
+        return std::clamp(mLateShown + latePeriod() - Window::now(), 0.0, kActiveWait);
     const bool flows = mSession && (mSession->moving() || mWindow.gamepad().present ||
                                     mSpaceMouse.state().moved() || mScreenshots.waiting());
     return flows || panelled().active() || mPanels.startShown() ? kActiveWait : kIdleWait;
@@ -153,6 +161,7 @@ void Viewer::beginSession() {
     mKeyframes.start({});
     mStudyFailed = false;
     mCosts.clear();
+    mGovernor.forget();
     mWindow.setTitle(titleOf(mOptions.scene));
     mSettings.reset();
     mHistory.start(settings());
@@ -296,16 +305,6 @@ void Viewer::takeDrops() {
     if (!drops.empty()) open(drops.front());
 }
 
-void Viewer::askFor() {
-    const OutputModeInfo& mode = infoOf(mSession->compose().mode);
-    const glm::ivec2 all = composedAt(mode, placeFor(mode));
-    if (mWindow.minimised()) return;
-    const FrameRequest& request = mSession->requestFor(all.x, all.y);
-    if (request.version != mAsked) mWorker->request(request);
-    mAsked = request.version;
-    if (mSession->takeScreenshotWish()) mScreenshots.wish(mAsked);
-}
-
 void Viewer::takeFrame() {
     auto frame = mWorker->takeFrame();
     if (frame && frame->request.version <= mSessionSince) {
@@ -315,14 +314,18 @@ void Viewer::takeFrame() {
     }
     if (frame) {
         mFrame = std::move(frame);
+        mLead.came(mFrame->request.asked_s, Window::now());
+        mGovernor.took(mFrame->request.scale, mFrame->made_ms);
         mSession->observe(*mFrame);
-        if (!mSession->slicesShown()) showFrame();
-        mRate.count(mFrame->request.version < mAsked);
+        if (!mSession->slicesShown() && !warps()) showFrame();
+        if (mBench) mBench->cast(*mFrame);
+        if (!warps()) mRate.count(mFrame->request.version < mAsked);
         mCosts.push_back(costOf(*mFrame));
         if (mCosts.size() > kKeptCosts) mCosts.pop_front();
         noteRecent();
-        mNewFrame = mNewPreview = true;
+        mNewPreview = true;
     }
+    if (!mSession->slicesShown() && lateDue()) showLate();
     if (const auto truth = mWorker->takeTruth()) mSession->observe(*truth);
     if (mSession->slicesShown())
         takeSlice();
@@ -336,7 +339,10 @@ void Viewer::takeFrame() {
 
 void Viewer::showFrame() {
     using Eye = StereoPresenter::SharedEye;
-    mPresenter.show(Eye(mFrame, &mFrame->left.color), Eye(mFrame, &mFrame->right.color));
+    const Eye left(mFrame, &mFrame->left.color), right(mFrame, &mFrame->right.color);
+    mPresenter.show(left, right);
+    mPicture = {left, right, mFrame->request, mFrame->request, false};
+    mNewFrame = true;
 }
 
 void Viewer::takeSlice() {
@@ -347,6 +353,7 @@ void Viewer::takeSlice() {
     if (mSession->sliceVersion() == mSliceVersion) return;
     mSliceVersion = mSession->sliceVersion();
     mPresenter.upload(picture, {});
+    mPicture = {};
     mNewFrame = true;
 }
 
@@ -421,10 +428,10 @@ OutputMode Viewer::shownMode() const {
 // The mode of the session; but until a picture made for it is there, that of the one shown.
 ComposeSetting Viewer::shownSetting() const {
     ComposeSetting setting = mSession ? mSession->compose() : ComposeSetting{mMode, false, false};
-    if (!mSession || mSession->slicesShown() || !mFrame) return setting;
-    const OutputModeInfo &now = infoOf(setting.mode), &then = infoOf(mFrame->request.mode);
+    if (!mSession || mSession->slicesShown() || !mPicture.left) return setting;
+    const OutputModeInfo &now = infoOf(setting.mode), &then = infoOf(mPicture.of.mode);
     const SizeOption wanted = eyeSizeAt(now, placeFor(now)), made = eyeSizeAt(then, placeFor(then));
-    if (wanted.width != made.width || wanted.height != made.height) setting.mode = mFrame->request.mode;
+    if (wanted.width != made.width || wanted.height != made.height) setting.mode = mPicture.of.mode;
     return setting;
 }
 
@@ -462,7 +469,9 @@ void Viewer::draw(double dt, const Stopwatch& turn) {
     mDrawnPlace = place;
     show(setting);
     if (mTimes.on()) glFinish();
+    noteShown();
     const double all = turn.elapsed_ms();
+    if (mPicture.warped) mLatePace.took(all / 1000);
     mTimes.add(layout, all - layout - before, all, true);
 }
 

@@ -10,9 +10,11 @@
 #include "app/command/commands.h"
 #include "app/output/command_result.h"
 #include "app/view/control_window.h"
+#include "app/view/frame_governor.h"
 #include "app/view/frame_rate.h"
 #include "app/view/input.h"
 #include "app/view/keyframe_edit.h"
+#include "app/view/late_view.h"
 #include "app/view/loading.h"
 #include "app/view/panel/panel_host.h"
 #include "app/view/panel/panels.h"
@@ -21,6 +23,7 @@
 #include "app/view/session.h"
 #include "app/view/settings_history.h"
 #include "app/view/sweep.h"
+#include "app/view/view_bench.h"
 #include "app/view/view_display.h"
 #include "app/view/window_config.h"
 #include "app/view/window_times.h"
@@ -98,6 +101,7 @@ public:
 
 private:
     struct FactsWish;
+    struct BenchJudgement;
     struct Made {  // what the scene that is shown was made of
         ViewOptions options;
         SettingTexts given, said;
@@ -142,6 +146,14 @@ private:
     void askFor();
     void takeFrame();
     void showFrame();
+    bool warps() const;
+    bool lateDue() const;
+    void showLate();
+    double scaleNow(bool screenshot);
+    double latePeriod() const;  // seconds between pictures that are warped
+    void stepBench();
+    void noteShown();
+    void endBench();
     void takeSlice();
     void endSlices();
     void reportSweep();
@@ -161,6 +173,7 @@ private:
 
     CommandResult mResult;
     FactWords mTold;
+    std::string mJson;                          // the document's file; "": none
     ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed in place since
     // Asked for by every control of every layout: made once a turn, or once a scene.
     mutable std::optional<SettingTexts> mSettings;
@@ -195,6 +208,15 @@ private:
     std::string mBaked, mBakedScene;  // the file of a bake at work, and what it is of
     bool mRecentDue = false;          // the file that is shown goes among them with its first picture
     std::shared_ptr<const ViewFrame> mFrame;
+    FrameRequest mPresent;  // what the session wants to see now
+    ShownPicture mPicture;  // what the presenter has; without eyes where that is none of the scene
+    LateView mLate;
+    LateLead mLead;
+    FrameGovernor mGovernor;
+    LatePace mLatePace;
+    double mLateShown = 0;  // when the last picture came: seconds
+    std::shared_ptr<ViewBench> mBench;
+    std::shared_ptr<BenchJudgement> mJudgement;
     ComposeSetting mDrawn;
     PicturePlace mDrawnPlace;
     std::string mSwept = kCpuSweep, mFailure;

@@ -7,18 +7,18 @@ namespace stereonav {
 
 // Where two eyes' pictures are shown, of which slices have none.
 bool Viewer::drawsPointer(const OutputModeInfo& mode) const {
-    return mSession && mFrame && mFrame->request.twoEyes && !mSession->slicesShown() && !mWindow.captured() &&
-           mode.layout != OutputLayout::OneEye;
+    return mSession && mFrame && mPicture.left && mPicture.of.twoEyes && !mSession->slicesShown() &&
+           !mWindow.captured() && mode.layout != OutputLayout::OneEye;
 }
 
 std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
     std::vector<OverlayMark> marks;
-    if (!mSession || !mFrame || mSession->slicesShown()) return marks;
+    if (!mSession || !mFrame || !mPicture.left || mSession->slicesShown()) return marks;
     const Plane<float>& depth = mFrame->left.viewDepth;
     if (mLabels && mPlaces && !mPanels.hidden() && !mPanels.startShown()) {
         const auto sizeOf = [this](const std::string& text) { return glm::dvec2(mInterface.textSize(text)); };
         const double margin = 0.3 * sizeOf("0").y;
-        for (const PlaceLabel& label : labelsInView(mFrame->request, depth, mPlaces->list(), sizeOf, margin))
+        for (const PlaceLabel& label : labelsInView(mPicture.of, depth, mPlaces->list(), sizeOf, margin))
             marks.push_back({glm::vec2(label.mark.left), glm::vec2(label.mark.right), label.text,
                              glm::vec2(label.textAt)});
     }
@@ -26,13 +26,14 @@ std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
     if (!drawsPointer(mode) || !mInterface.pointerOverPicture(share)) return marks;
     const PicturePlace place = placeFor(mode);
     share = (share * glm::dvec2(place.part) - glm::dvec2(place.corner)) / glm::dvec2(place.size);
-    const EyeMark under = markUnder(viewsOf(mFrame->request), depth, share);
+    const EyeMark under = markUnder(viewsOf(mPicture.of), depth, share);
     marks.push_back({glm::vec2(under.left), glm::vec2(under.right), "", {}});
     return marks;
 }
 
 bool Viewer::drawOverlay(const OutputModeInfo& mode) {
-    const glm::ivec2 size = mFrame ? glm::ivec2(mFrame->left.width(), mFrame->left.height()) : glm::ivec2(0);
+    const glm::ivec2 size =
+        mPicture.left ? glm::ivec2(mPicture.left->width(), mPicture.left->height()) : glm::ivec2(0);
     const bool changed = mOverlay.draw(mInterface, size, marks(mode));
     mPresenter.setLayers(mOverlay.layers());
     return changed;

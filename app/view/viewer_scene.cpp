@@ -127,8 +127,8 @@ void Viewer::open(const std::string& scene) {
         SettingTexts settings;
         if (scene != "terrain") settings["SCENE"] = {scene};
         // What is of the person and the screen stays.
-        for (const char* key :
-             {"shots", "size", "threads", "simd", "full-screen", "screen-width", "viewing-distance"})
+        for (const char* key : {"shots", "size", "threads", "simd", "full-screen", "screen-width",
+                                "viewing-distance", "late-warp", "target-ms"})
             if (const auto kept = mGiven.find(key); kept != mGiven.end()) settings.insert(*kept);
         ViewOptions options = viewOptionsOf(settings);
         mMode = mSession ? mSession->mode() : mMode;

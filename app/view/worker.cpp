@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/stopwatch.h"
 #include "engine/base/thread_priority.h"
 #include "engine/stereo/comfort.h"
 
@@ -49,6 +50,17 @@ StereoViews makeEyes(const Scene& scene, const FrameWay& way, ViewFrame& frame) 
     }
 }
 
+void prepareLate(SimdTarget simd, ViewFrame& frame) {
+    for (LateEye& eye : frame.late) eye.forget();
+    const FrameRequest& request = frame.request;
+    if (!request.late || request.truth != TruthView::None) return;
+    if (!request.twoEyes)
+        return frame.late[0].prepare(frame.left.viewDepth, makeEyeView(request.pose, request.lens), simd);
+    const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
+    frame.late[0].prepare(frame.left.viewDepth, views.left, simd);
+    frame.late[1].prepare(frame.right.viewDepth, views.right, simd);
+}
+
 void takeTruth(TruthMaker::Shown shown, ViewFrame& frame) {
     frame.truthNote = std::move(shown.note);
     frame.truthError = shown.error;
@@ -72,6 +84,7 @@ void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& tr
         lookAround(nullptr, frame);
         takeTruth(truth.showOfOneEye(request.truth), frame);
     }
+    prepareLate(scene.simd, frame);
     // Not between the eyes, which are to be lit alike.
     if (auto* const light = scene.offered<SeenLight>()) light->seen(view, frame.left);
     const auto* const place = scene.offered<SweepPlace>();
@@ -269,7 +282,9 @@ void ViewWorker::draw(const Job& job, Drawn& drawn) {
     const auto* const light = job.scene->scene->offered<SeenLight>();
     if (light) drawn.lightChanges = light->changes();
     auto frame = mPool->take();
+    const Stopwatch watch;
     renderFrame(*job.scene->scene, job.request, mTruthMaker, *frame);
+    frame->made_ms = watch.elapsed_ms();
     std::shared_ptr<const ViewFrame> shared = mPool->share(std::move(frame));
     if (job.request.fitEyes) drawn.job->request = shared->request;  // drawn again, it stays as it is
     // A difference is measured already.

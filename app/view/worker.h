@@ -3,6 +3,7 @@
 // closes.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -22,6 +23,7 @@
 #include "engine/camera/stereo_rig.h"
 #include "engine/frame/frame_maker.h"
 #include "engine/image/stereo_compose.h"
+#include "engine/late/late_warp.h"
 #include "engine/scene/capabilities.h"
 #include "engine/scene/scene.h"
 #include "engine/stereo/parallax_histogram.h"
@@ -41,6 +43,8 @@ struct OpenScene {
 // All that a frame depends on: one value, taken at the start of a frame.
 struct FrameRequest {
     long long version = 0;
+    double asked_s = 0;  // when that was: seconds of the window's clock
+    double ahead_s = 0;  // it is of so much later
     Pose pose;
     Lens lens;
     StereoSetting stereo;
@@ -54,6 +58,8 @@ struct FrameRequest {
     // what.
     bool fitEyes = false;
     TruthView truth = TruthView::None;  // in the place of the right eye
+    double scale = 1;                   // of the eyes' full size: less while something moves
+    bool late = false;                  // it will be seen from elsewhere too (ViewFrame::late)
 };
 
 struct ViewFrame : EyePair {
@@ -68,6 +74,8 @@ struct ViewFrame : EyePair {
     // Why the right eye does not show what request.truth asks for, or what it is held against; "" mostly.
     std::string truthNote;
     std::optional<PictureError> truthError;  // of the right eye as made, where the difference is shown
+    double made_ms = 0;                      // all that the frame took
+    std::array<LateEye, 2> late;             // to be warped; not ready where nobody asked for that
 };
 
 class ViewWorker {

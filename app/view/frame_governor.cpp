@@ -1,0 +1,95 @@
+#include "app/view/frame_governor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stereonav {
+namespace {
+
+constexpr double kTooSlow = 1.15;    // of the target: the size goes down
+constexpr double kFarTooSlow = 1.5;  // two frames are enough then
+constexpr double kRoom = 0.95;       // of the target: what a larger size may cost
+constexpr std::size_t kLooked = 3;   // frames that are looked at
+constexpr int kFirstHold = 2;        // frames before it goes up
+constexpr int kMostBackOff = 64;
+constexpr int kSteadyFrames = 120;  // that a step up has to last, so that failed ones are forgotten
+constexpr double kMostFixed = 0.8;
+constexpr double kSameScale = 1e-3;
+
+double middleOf(std::deque<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+double shareOf(double scale) {
+    return scale * scale;
+}
+
+}  // namespace
+
+double FrameGovernor::predicted(std::size_t step) const {
+    const double here = mFixed + (1 - mFixed) * shareOf(kScales[mStep]);
+    const double there = mFixed + (1 - mFixed) * shareOf(kScales[step]);
+    return middleOf(mLast) * there / here;
+}
+
+double FrameGovernor::predicted_ms() const {
+    return mLast.empty() ? 0 : predicted(0);
+}
+
+// Two sizes tell what no size changes: cost = full * (fixed + (1 - fixed) * share).
+void FrameGovernor::learn(double share, double ms) {
+    if (!(mBefore > 0) || std::abs(share - mShareBefore) < 0.05) return;
+    const double slope = (mBefore - ms) / (mShareBefore - share), none = ms - slope * share;
+    const double full = none + slope;
+    const double fixed = full > 0 && slope > 0 ? std::clamp(none / full, 0.0, kMostFixed) : mFixed;
+    mFixed += 0.5 * (fixed - mFixed);
+}
+
+void FrameGovernor::step(std::size_t to) {
+    mWentUp = to < mStep;
+    mShareBefore = shareOf(kScales[mStep]);
+    mBefore = middleOf(mLast);
+    mStep = to;
+    mSinceStep = 0;
+    mHold = kFirstHold * mBackOff;
+    mLast.clear();
+}
+
+void FrameGovernor::took(double scale, double ms) {
+    if (!(ms > 0) || std::abs(scale - kScales[mStep]) > kSameScale) return;
+    mLast.push_back(ms);
+    if (mLast.size() > kLooked) mLast.pop_front();
+    ++mSinceStep;
+    if (mSinceStep == 1) learn(shareOf(scale), ms);
+    if (mWentUp && mSinceStep > kSteadyFrames) mBackOff = 1;
+    const auto least = [&](std::size_t count) {  // of the newest frames
+        return *std::min_element(mLast.end() - static_cast<std::ptrdiff_t>(count), mLast.end());
+    };
+    const bool slow = (mLast.size() >= 2 && least(2) > kFarTooSlow * mTarget) ||
+                      (mLast.size() == kLooked && least(kLooked) > kTooSlow * mTarget);
+    if (slow && mStep + 1 < kScales.size()) {
+        std::size_t to = mStep + 1;
+        while (to + 1 < kScales.size() && predicted(to) > mTarget) ++to;
+        if (mWentUp) mBackOff = std::min(2 * mBackOff, kMostBackOff);
+        return step(to);
+    }
+    // One that goes on upwards was looked at before.
+    const std::size_t enough = mWentUp && mSinceStep < static_cast<int>(kLooked) ? kLooked - 1 : kLooked;
+    if (mLast.size() < enough || mSinceStep < mHold || mStep == 0) return;
+    // Of the slowest of them.
+    const double spread = *std::max_element(mLast.begin(), mLast.end()) / middleOf(mLast);
+    std::size_t to = mStep;
+    while (to > 0 && spread * predicted(to - 1) <= kRoom * mTarget) --to;
+    if (to < mStep) step(to);
+}
+
+void FrameGovernor::forget() {
+    mLast.clear();
+    mBefore = mFixed = 0;
+    mSinceStep = mHold = 0;
+    mBackOff = 1;
+    mWentUp = false;
+}
+
+}  // namespace stereonav

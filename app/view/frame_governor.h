@@ -1,0 +1,48 @@
+// What a frame may cost while something moves: frames are made smaller, and enlarged by the late warp, so
+// that each takes the time that it is given. No window and no clock.
+//
+// A frame's cost is taken for a part that no size changes and one that goes with the pixels. The size moves
+// by steps; one is left when frames are clearly too slow for it, or clearly fast enough for a larger one, and
+// the larger one only after longer and longer waits where it did not last: pictures do not pump.
+#pragma once
+
+#include <array>
+#include <deque>
+
+namespace stereonav {
+
+class FrameGovernor {
+public:
+    // Of the full width and height; shares of the pixels go down by a quarter to a third each.
+    static constexpr std::array<double, 9> kScales{1, 0.86, 0.74, 0.64, 0.55, 0.47, 0.4, 0.34, 0.29};
+
+    explicit FrameGovernor(double target_ms = 33) : mTarget(target_ms) {}
+    void setTarget(double ms) { mTarget = ms; }
+    double target_ms() const { return mTarget; }
+
+    // A frame of this size took so long. Those of another size than is asked for now count for the prediction
+    // alone.
+    void took(double scale, double ms);
+    // Of the next frame while something moves.
+    double scale() const { return kScales[mStep]; }
+    // Another scene, method or window: what was learned holds no longer; the size stays.
+    void forget();
+    // Of a frame in full size, as the last ones tell; 0: nothing is known.
+    double predicted_ms() const;
+
+private:
+    double predicted(std::size_t step) const;
+    void learn(double share, double ms);
+    void step(std::size_t to);
+
+    double mTarget;
+    std::size_t mStep = 0;
+    std::deque<double> mLast;              // milliseconds at this size, newest last
+    double mFixed = 0;                     // share of a full frame's cost that no size changes
+    double mShareBefore = 0, mBefore = 0;  // the size before this one, and its cost
+    int mSinceStep = 0, mHold = 0;         // frames
+    bool mWentUp = false;
+    int mBackOff = 1;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,65 @@
+#include "app/view/late_view.h"
+
+#include <algorithm>
+
+#include "app/view/eye_marks.h"
+#include "engine/base/parallel.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kFewThreads = 3;     // with so few the casting has them all: the window's own thread warps
+constexpr double kShare = 0.6;     // of the time that goes into showing pictures, at most
+constexpr double kSlowest = 0.03;  // seconds between pictures: slower ones are seen one by one
+constexpr double kWeight = 0.1;    // of the newest cost in the mean
+
+}  // namespace
+
+bool sameView(const FrameRequest& a, const FrameRequest& b) {
+    return a.pose.position == b.pose.position && a.pose.orientation == b.pose.orientation &&
+           a.lens.width == b.lens.width && a.lens.height == b.lens.height &&
+           a.lens.verticalFov == b.lens.verticalFov && a.stereo.separation == b.stereo.separation &&
+           a.stereo.zeroParallax == b.stereo.zeroParallax && a.twoEyes == b.twoEyes;
+}
+
+bool LateView::fits(const ViewFrame& frame, const FrameRequest& now) {
+    return frame.late[0].ready() && (!now.twoEyes || frame.late[1].ready()) &&
+           now.twoEyes == frame.request.twoEyes && now.truth == TruthView::None &&
+           frame.request.truth == TruthView::None;
+}
+
+std::shared_ptr<const LateView::Eyes> LateView::warp(const ViewFrame& frame, const FrameRequest& now) {
+    auto free =
+        std::find_if(mEyes.begin(), mEyes.end(), [](const auto& eyes) { return eyes.use_count() == 1; });
+    if (free == mEyes.end()) free = mEyes.insert(free, std::make_shared<Eyes>());
+    Eyes& eyes = **free;
+    const StereoViews views = viewsOf(now);
+    const bool parallel = threadCount() > kFewThreads;
+    frame.late[0].warp(frame.left.color, views.left, eyes[0], nullptr, parallel);
+    if (now.twoEyes)
+        frame.late[1].warp(frame.right.color, views.right, eyes[1], nullptr, parallel);
+    else
+        eyes[1] = {};
+    return *free;
+}
+
+void LateLead::came(double asked, double now) {
+    constexpr double kNewest = 0.3;  // of the newest in the mean
+    constexpr double kLongest = 1;   // seconds: a rest, or a load
+    const double delay = now - asked, between = mLast < 0 ? kLongest : now - mLast;
+    mLast = now;
+    if (delay > kLongest || between > kLongest) return;
+    mDelay += kNewest * (delay - mDelay);
+    mBetween += kNewest * (between - mBetween);
+}
+
+double LatePace::period(double refresh, double wanted) const {
+    if (wanted > 0) return wanted;
+    return std::clamp(mCost / kShare, refresh, std::max(refresh, kSlowest));
+}
+
+void LatePace::took(double seconds) {
+    mCost = mCost > 0 ? mCost + kWeight * (seconds - mCost) : seconds;
+}
+
+}  // namespace stereonav

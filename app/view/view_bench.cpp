@@ -1,0 +1,201 @@
+#include "app/view/view_bench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "engine/metrics/image_difference.h"
+#include "engine/metrics/supersampled_picture.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kSettled = 2;  // seconds at rest before the flight: eyes that follow have arrived
+constexpr int kTruthSide = 8;   // 64 rays a pixel
+constexpr double kMs = 1000;
+
+// The smallest value that so large a share of them does not exceed; none of nothing.
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return std::nan("");
+    std::sort(values.begin(), values.end());
+    const double rank = std::ceil(share * static_cast<double>(values.size()));
+    return values[static_cast<std::size_t>(std::max(rank - 1, 0.0))];
+}
+
+bool sameMoment(const FrameRequest& a, const FrameRequest& b) {
+    return a.pose.position == b.pose.position && a.pose.orientation == b.pose.orientation &&
+           a.time == b.time && a.lens.width == b.lens.width && a.lens.height == b.lens.height &&
+           a.stereo.separation == b.stereo.separation && a.stereo.zeroParallax == b.stereo.zeroParallax;
+}
+
+// Squared errors of all channels of all pictures together.
+class ErrorMean {
+public:
+    void add(const Plane<PackedColor>& truth, const ShownPicture::Eye& eye) {
+        if (!eye || eye->empty() || eye->width() != truth.width() || eye->height() != truth.height()) return;
+        const double psnr = errorOf(truth, *eye).psnr_db;
+        mSum += psnr >= kIdenticalPsnr_db ? 0 : std::pow(10, -psnr / 10);
+        ++mCount;
+    }
+    std::optional<double> psnr() const {
+        if (mCount == 0) return std::nullopt;
+        return mSum > 0 ? std::min(kIdenticalPsnr_db, -10 * std::log10(mSum / mCount)) : kIdenticalPsnr_db;
+    }
+
+private:
+    double mSum = 0;
+    int mCount = 0;
+};
+
+StereoViews viewsAt(const FrameRequest& request, const ShownPicture& picture) {
+    Lens lens = request.lens;
+    lens.width = picture.left->width();
+    lens.height = picture.left->height();
+    if (request.twoEyes) return makeStereoViews(request.pose, lens, request.stereo);
+    StereoViews views;
+    views.left = views.right = makeEyeView(request.pose, lens);
+    return views;
+}
+
+void setLight(const Scene& scene, const FrameRequest& request) {
+    if (auto* const light = scene.offered<TurningLight>()) light->turnTo(request.sun);
+    if (auto* const models = scene.offered<LightModels>()) models->choose(request.model);
+}
+
+// Each eye by itself, as the scene's exact method makes it.
+void addExact(const Scene& scene, const FrameRequest& request, const ShownPicture& picture, EyePair& pair,
+              ErrorMean& error) {
+    setLight(scene, request);
+    const StereoViews views = viewsAt(request, picture);
+    if (request.twoEyes)
+        scene.frames().make(views, request.time, {scene.frames().exactMethod(), {}}, pair);
+    else
+        scene.frames().makeOne(views.left, request.time, pair);
+    error.add(pair.left.color, picture.left);
+    if (request.twoEyes) error.add(pair.right.color, picture.right);
+}
+
+void addFine(const Scene& scene, const ShownPicture& picture, Progress& progress, ErrorMean& error) {
+    setLight(scene, picture.of);
+    const StereoViews views = viewsAt(picture.of, picture);
+    const EyeRenderer& renderer = *scene.offered<RayCast>()->renderer;
+    error.add(renderSupersampled(renderer, views.left, kTruthSide, progress), picture.left);
+    if (picture.of.twoEyes)
+        error.add(renderSupersampled(renderer, views.right, kTruthSide, progress), picture.right);
+}
+
+FactValue valueOf(const std::optional<double>& number) {
+    return number ? FactValue(*number) : FactValue(std::nan(""));
+}
+
+}  // namespace
+
+ViewBench::Wish ViewBench::step(double now, bool ready, bool flying, double duration) {
+    switch (mStage) {
+        case Stage::Wait:
+            if (!ready) mReadySince = -1;
+            if (ready && mReadySince < 0) mReadySince = now;
+            if (!ready || now - mReadySince < kSettled) return Wish::None;
+            mStage = Stage::Fly;
+            mStarted = now;
+            mDuration = std::min(duration, kLongestFlight);
+            return Wish::Fly;
+        case Stage::Fly:
+            if (flying && now - mStarted < mDuration) return Wish::None;
+            mStage = Stage::Rest;
+            mStopped = now;
+            return flying ? Wish::Stop : Wish::None;
+        case Stage::Rest:
+            keepRest(now);
+            if (now - mStopped < kRest) return Wish::None;
+            mStage = Stage::Judge;
+            return Wish::Judge;
+        case Stage::Judge:
+            break;
+    }
+    return Wish::None;
+}
+
+void ViewBench::keepRest(double now) {
+    if (!mAfterOne && now - mStopped >= 1) mAfterOne = mNewest;
+    if (!mAfterTen && now - mStopped >= 10) mAfterTen = mNewest;
+}
+
+void ViewBench::cast(const ViewFrame& frame) {
+    if (mStage != Stage::Fly) return;
+    mCast.push_back(frame.timings.both_ms);
+}
+
+void ViewBench::shown(const ShownPicture& picture, const FrameRequest& now, double at) {
+    const bool isNew = !mNewest || !sameMoment(mNewest->of, picture.of) ||
+                       mNewest->cast.version != picture.cast.version || mNewest->left != picture.left;
+    if (!isNew) return;
+    const bool isLater = !mNewest || !sameMoment(mNewest->of, picture.of);
+    if (mStage == Stage::Rest) keepRest(at);
+    mNewest = picture;
+    if (mStage != Stage::Fly || !isLater) return;
+    if (mLast >= 0) {
+        mBetween.push_back(kMs * (at - mLast));
+        mAge.push_back(kMs * std::abs(at - picture.cast.asked_s - picture.cast.ahead_s));
+        mDelay.push_back(kMs * (at - picture.cast.asked_s));
+        mShownAge.push_back(kMs * (at - picture.of.asked_s));
+        mWarped += picture.warped;
+        keepSample(picture, now, at);
+    }
+    mLast = at;
+}
+
+void ViewBench::keepSample(const ShownPicture& picture, const FrameRequest& now, double at) {
+    const double next = mStarted + mDuration * (static_cast<double>(mSamples.size()) + 0.5) / kSamples;
+    if (at >= next && static_cast<int>(mSamples.size()) < kSamples) mSamples.push_back({picture, now});
+}
+
+void ViewBench::judge(const Scene& scene, Progress& progress) {
+    ErrorMean moving, present, one, ten;
+    EyePair pair;
+    for (const Kept& kept : mSamples) {
+        progress.report(0, "judging");
+        addExact(scene, kept.picture.of, kept.picture, pair, moving);
+        addExact(scene, kept.now, kept.picture, pair, present);
+    }
+    mMovingPsnr = moving.psnr();
+    mNowPsnr = present.psnr();
+    const bool fine = scene.offered<RayCast>() != nullptr;
+    mTruthRays = fine ? kTruthSide * kTruthSide : 1;
+    const auto judgeRest = [&](const std::optional<ShownPicture>& picture, ErrorMean& error) {
+        if (!picture) return;
+        if (fine)
+            addFine(scene, *picture, progress, error);
+        else
+            addExact(scene, picture->of, *picture, pair, error);
+    };
+    judgeRest(mAfterOne, one);
+    judgeRest(mAfterTen, ten);
+    mOnePsnr = one.psnr();
+    mTenPsnr = ten.psnr();
+}
+
+Facts ViewBench::facts() const {
+    FactList list;
+    list.json("flight_s", mStopped - mStarted);
+    list.json("pictures", static_cast<std::int64_t>(mBetween.size()));
+    list.json("warped", static_cast<std::int64_t>(mWarped));
+    list.json("cast", static_cast<std::int64_t>(mCast.size()));
+    list.json("shown_p50_ms", quantile(mBetween, 0.5));
+    list.json("shown_p95_ms", quantile(mBetween, 0.95));
+    list.json("shown_p99_ms", quantile(mBetween, 0.99));
+    list.json("age_p50_ms", quantile(mAge, 0.5));
+    list.json("age_p95_ms", quantile(mAge, 0.95));
+    list.json("delay_p95_ms", quantile(mDelay, 0.95));
+    list.json("pose_age_p95_ms", quantile(mShownAge, 0.95));
+    list.json("cast_p50_ms", quantile(mCast, 0.5));
+    list.json("cast_p95_ms", quantile(mCast, 0.95));
+    list.json("psnr_moving_db", valueOf(mMovingPsnr));
+    list.json("psnr_now_db", valueOf(mNowPsnr));
+    list.json("psnr_1s_db", valueOf(mOnePsnr));
+    list.json("psnr_10s_db", valueOf(mTenPsnr));
+    list.json("rest_truth_rays", static_cast<std::int64_t>(mTruthRays));
+    return list.facts();
+}
+
+}  // namespace stereonav

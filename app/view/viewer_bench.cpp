@@ -1,0 +1,80 @@
+// The viewer's part that measures a flight: `view --bench`.
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+
+#include "app/view/viewer.h"
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+
+namespace stereonav {
+
+// On the thread that makes frames, when the flight is over.
+struct Viewer::BenchJudgement {
+    Progress progress;
+    std::atomic<bool> done = false;
+};
+
+void Viewer::stepBench() {
+    if (!mBench || !mSession) return;
+    if (mJudgement) {
+        if (mJudgement->done) mWindow.close();
+        return;
+    }
+    const RecordedPath& path = mSession->path();
+    const bool animated = mSession->open().scene->offered<Animation>() != nullptr;
+    const bool rests = animated || !mSession->moving();
+    const bool ready = mFrame && rests && !mWorker->loading().busy && mFrame->request.version > mSessionSince;
+    if (ready && path.samples().size() < 2)
+        throw Error("--bench", "", "this scene has no flight of its own", "give --path FILE");
+    const double duration = path.samples().size() < 2 ? 0 : path.duration();
+    switch (mBench->step(Window::now(), ready, mSession->playing(), duration)) {
+        case ViewBench::Wish::Fly:
+        case ViewBench::Wish::Stop:
+            mSession->act({ViewCommand::Play});
+            break;
+        case ViewBench::Wish::Judge:
+            mJudgement = std::make_shared<BenchJudgement>();
+            mWorker->ask([bench = mBench, judgement = mJudgement](const OpenScene& open) {
+                try {
+                    bench->judge(*open.scene, judgement->progress);
+                } catch (...) {
+                    judgement->done = true;
+                    throw;
+                }
+                judgement->done = true;
+            });
+            break;
+        case ViewBench::Wish::None:
+            break;
+    }
+}
+
+// What is there now came to the screen.
+void Viewer::noteShown() {
+    if (mBench && !mJudgement && mPicture.left) mBench->shown(mPicture, mPresent, Window::now());
+}
+
+void Viewer::endBench() {
+    if (!mBench) return;
+    if (mJudgement && !mJudgement->done) {  // closed meanwhile
+        mJudgement->progress.cancel();
+        return;
+    }
+    const SizeOption eye = pictureSize();
+    mResult.add("size", FactIntegers{eye.width, eye.height});
+    mResult.add("mode", std::string(infoOf(shownMode()).shortName));
+    mResult.add("threads", static_cast<std::int64_t>(threadCount()));
+    mResult.add("simd", std::string(nameOf(availableTarget(SimdTarget::Auto))));
+    const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    mResult.add("renderer", std::string(renderer ? renderer : ""));
+    for (Fact& fact : mBench->facts()) {
+        if (const auto* number = std::get_if<double>(&fact.value); number && std::isfinite(*number))
+            mResult.say(fmt::format("{:17} {:8.2f}\n", fact.key, *number));
+        mResult.add(fact.key, std::move(fact.value));
+    }
+}
+
+}  // namespace stereonav

@@ -1,0 +1,75 @@
+// The viewer's part that asks for frames and shows the newest one as it is seen now.
+#include <algorithm>
+
+#include "app/view/viewer.h"
+
+namespace stereonav {
+
+void Viewer::askFor() {
+    const OutputModeInfo& mode = infoOf(mSession->compose().mode);
+    const glm::ivec2 all = composedAt(mode, placeFor(mode));
+    if (mWindow.minimised()) return;
+    const bool screenshot = mSession->takeScreenshotWish();
+    const double scale = scaleNow(screenshot);
+    const bool late = mOptions.lateWarp && mSession->moving() && !screenshot && !mScreenshots.waiting();
+    const double ahead = late ? mLead.seconds() : 0;
+    FrameRequest request = mSession->requestFor(all.x, all.y, ahead, scale);
+    request.late = mOptions.lateWarp;
+    request.asked_s = request.version == mPresent.version ? mPresent.asked_s : Window::now();
+    request.ahead_s = ahead;
+    if (request.version != mAsked) mWorker->request(request);
+    mAsked = request.version;
+    if (screenshot) mScreenshots.wish(mAsked);
+    mPresent = std::move(request);
+    // The picture for now, which the frame is warped to.
+    mPresent.pose = mSession->pose();
+    if (ahead > 0) mPresent.time = mSession->time();
+    const auto [width, height] = eyeSizeFor(mPresent.mode, all.x, all.y);
+    mPresent.lens.width = width;
+    mPresent.lens.height = height;
+    mPresent.ahead_s = 0;
+    mPresent.scale = 1;
+}
+
+// Of the frames that are asked for now. Truths and pictures that are saved are whole.
+double Viewer::scaleNow(bool screenshot) {
+    constexpr double kMost = 40;   // milliseconds: what is seen for longer lags behind
+    constexpr double kMedium = 4;  // times: a smaller picture of a medium saves less
+    const bool swept = mSession->open().scene->offered<RayCast>() == nullptr;
+    const double usual = std::min(2000 * mDisplay.refreshPeriod(), kMost) * (swept ? kMedium : 1);
+    mGovernor.setTarget(mOptions.target_ms.value_or(usual));
+    const bool whole = screenshot || mScreenshots.waiting() || mSession->truth() != TruthView::None;
+    return mOptions.lateWarp && mSession->moving() && !whole ? mGovernor.scale() : 1;
+}
+
+// Whether the newest frame is not of this moment, and can be seen from where the eyes are now.
+bool Viewer::warps() const {
+    return mOptions.lateWarp && mFrame && mFrame->request.version > mSessionSince &&
+           !sameView(mFrame->request, mPresent) && LateView::fits(*mFrame, mPresent);
+}
+
+bool Viewer::lateDue() const {
+    constexpr double kEarly = 0.0005;  // seconds: a turn is not worth waiting so little for
+    if (!warps() || (sameView(mPicture.of, mPresent) && mPicture.cast.version == mFrame->request.version))
+        return false;
+    return Window::now() >= mLateShown + latePeriod() - kEarly;
+}
+
+double Viewer::latePeriod() const {
+    return mLatePace.period(mDisplay.refreshPeriod(), 0);
+}
+
+void Viewer::showLate() {
+    const double now = Window::now();
+    // Even where a turn came late now and then.
+    mLateShown = std::max(mLateShown + latePeriod(), now - latePeriod() / 2);
+    const std::shared_ptr<const LateView::Eyes> eyes = mLate.warp(*mFrame, mPresent);
+    using Eye = StereoPresenter::SharedEye;
+    const Eye left(eyes, &(*eyes)[0]), right(eyes, &(*eyes)[1]);
+    mPresenter.show(left, right);
+    mPicture = {left, right, mPresent, mFrame->request, true};
+    mRate.count(mSession->moving());
+    mNewFrame = true;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,172 @@
+#include "engine/late/late_warp.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "engine/base/parallel.h"
+#include "engine/simd/kernel_sets.h"
+
+namespace stereonav {
+
+STEREONAV_EACH_SET(const LateKernels& lateKernels();)
+
+namespace {
+
+constexpr float kSmooth = 0.3f;   // pixels that neighbours move apart: less is one surface
+constexpr float kLittle = 0.5f;   // pixels between the nearest and the farthest: no search is worth it
+constexpr float kNothing = 0.1f;  // pixels: as if all were equally far
+constexpr float kAhead = 1e-3f;   // of the viewing axis: less is beside what was seen
+constexpr int kNarrowings = 3;
+
+const LateKernels& kernelsFor(SimdTarget target) {
+    using Get = const LateKernels& (*)();
+    return kernelsOf<Get>(target, plain::lateKernels, avx2::lateKernels, avx512::lateKernels)();
+}
+
+int tilesFor(int pixels, int tile) {
+    return (pixels + tile - 1) / tile;
+}
+
+struct Corner {
+    float a = 0, b = 0, du = 0, dv = 0;
+};
+
+}  // namespace
+
+LateMove lateMove(const EyeView& from, const EyeView& to) {
+    const double pw = from.pixelWidth(), ph = from.pixelHeight();
+    // A direction of the world, as columns and rows of the picture times its depth, and its depth.
+    const auto seen = [&](const glm::dvec3& direction) {
+        const double x = glm::dot(direction, from.right), y = glm::dot(direction, from.up),
+                     z = glm::dot(direction, from.forward);
+        return glm::dvec3((x - from.xMin * z) / pw, (from.yMax * z - y) / ph, z);
+    };
+    const glm::dvec3 column = seen(to.right * to.pixelWidth()), row = seen(to.up * -to.pixelHeight());
+    const glm::dvec3 corner = seen(to.forward + to.right * to.xMin + to.up * to.yMax);
+    const glm::dvec3 shift = seen(to.eye - from.eye);
+    LateMove move;
+    for (int n = 0; n < 3; ++n) {
+        move.rows[n][0] = static_cast<float>(column[n]);
+        move.rows[n][1] = static_cast<float>(row[n]);
+        move.rows[n][2] = static_cast<float>(corner[n]);
+        move.shift[n] = static_cast<float>(shift[n]);
+    }
+    return move;
+}
+
+void LateEye::prepare(const Plane<float>& depth, const EyeView& view, SimdTarget simd) {
+    mView = view;
+    mSimd = simd;
+    mInverse.resize(depth.width(), depth.height());
+    mAcross = tilesFor(depth.width(), kLateTileWidth);
+    mDown = tilesFor(depth.height(), kLateTileHeight);
+    mTiles.resize(static_cast<std::size_t>(mAcross) * static_cast<std::size_t>(mDown));
+    mReady = !depth.empty();
+    if (!mReady) return;
+    const LateKernels& kernels = kernelsFor(simd);
+    const LateDepths depths{depth.row(0),  depth.stride(), mInverse.row(0), mInverse.stride(),
+                            depth.width(), depth.height(), mTiles.data()};
+    parallelFor(mDown, [&](int tile) {
+        const int end = std::min(depth.height(), (tile + 1) * kLateTileHeight);
+        for (int y = tile * kLateTileHeight; y < end; ++y) kernels.invert(depths, y);
+    });
+    parallelFor(mDown, [&](int tile) { kernels.measure(depths, tile); });
+    mFarthest = mTiles.front().farthest;
+    mNearest = 0;
+    for (const LateTile& tile : mTiles) {
+        mFarthest = std::min(mFarthest, tile.farthest);
+        mNearest = std::max(mNearest, tile.nearest);
+    }
+}
+
+LatePlan LateEye::planOf(const LateMove& move, int x0, int y0, int x1, int y1, float nearestSeen) const {
+    std::array<Corner, 4> corners;
+    float length = 0;
+    for (std::size_t n = 0; n < corners.size(); ++n) {
+        const auto x = static_cast<float>(n % 2 ? x1 : x0), y = static_cast<float>(n / 2 ? y1 : y0);
+        const auto row = [&](int k) { return move.rows[k][0] * x + move.rows[k][1] * y + move.rows[k][2]; };
+        if (!(row(2) > kAhead)) return {};
+        Corner& corner = corners[n];
+        corner.a = row(0) / row(2);
+        corner.b = row(1) / row(2);
+        corner.du = move.shift[0] - move.shift[2] * corner.a;
+        corner.dv = move.shift[1] - move.shift[2] * corner.b;
+        length = std::max(length, corner.du * corner.du + corner.dv * corner.dv);
+    }
+    length = std::sqrt(length);
+    LatePlan plan{mFarthest, std::min(mNearest, nearestSeen), 0};
+    float jump = 0;
+    // What depths are seen says where it may lie, which says what depths are seen.
+    for (int round = 0; round < kNarrowings; ++round) {
+        float left = 1e30f, right = -1e30f, top = 1e30f, bottom = -1e30f;
+        for (const Corner& corner : corners)
+            for (const float inverse : {plan.farthest, plan.nearest}) {
+                const float u = corner.a + inverse * corner.du, v = corner.b + inverse * corner.dv;
+                left = std::min(left, u), right = std::max(right, u);
+                top = std::min(top, v), bottom = std::max(bottom, v);
+            }
+        const auto tile = [](float pixel, int size, int count) {
+            return static_cast<int>(
+                std::clamp(pixel / static_cast<float>(size), 0.0f, static_cast<float>(count - 1)));
+        };
+        const int fromX = tile(left - 1, kLateTileWidth, mAcross),
+                  toX = tile(right + 1, kLateTileWidth, mAcross);
+        const int fromY = tile(top - 1, kLateTileHeight, mDown),
+                  toY = tile(bottom + 1, kLateTileHeight, mDown);
+        float farthest = 1e30f, nearest = 0;
+        jump = 0;
+        for (int y = fromY; y <= toY; ++y)
+            for (int x = fromX; x <= toX; ++x) {
+                const LateTile& seen = mTiles[static_cast<std::size_t>(y * mAcross + x)];
+                farthest = std::min(farthest, seen.farthest);
+                nearest = std::max(nearest, seen.nearest);
+                jump = std::max(jump, seen.jump);
+            }
+        nearest = std::min(nearest, nearestSeen);
+        const bool narrower = farthest > plan.farthest || nearest < plan.nearest;
+        plan.farthest = std::min(farthest, nearest);
+        plan.nearest = nearest;
+        if (!narrower) break;
+    }
+    const float way = (plan.nearest - plan.farthest) * length;
+    if (way < kNothing) plan.steps = -1;
+    if (jump * length < kSmooth || way < kLittle) return plan;
+    plan.steps = static_cast<int>(std::clamp(std::ceil(way), 1.0f, static_cast<float>(kMostLateSteps)));
+    return plan;
+}
+
+void LateEye::warp(const Plane<PackedColor>& color, const EyeView& to, Plane<PackedColor>& image,
+                   Plane<std::uint8_t>* uncovered, bool parallel) const {
+    image.resize(to.width, to.height);
+    if (uncovered) uncovered->resize(to.width, to.height);
+    if (!mReady || image.empty()) return;
+    const LateMove move = lateMove(mView, to);
+    const LateKernels& kernels = kernelsFor(mSimd);
+    const LateSource source{mInverse.width(),  mInverse.height(), mInverse.row(0),
+                            mInverse.stride(), color.row(0),      color.stride()};
+    // What is nearer than the near plane is not seen any more.
+    const double near = to.nearDepth + static_cast<double>(move.shift[2]);
+    const float nearestSeen = near > 0 ? static_cast<float>(1 / near) : 1e30f;
+    const int across = tilesFor(to.width, kLateTileWidth), down = tilesFor(to.height, kLateTileHeight);
+    const auto band = [&](int tileRow) {
+        const int top = tileRow * kLateTileHeight, rows = std::min(kLateTileHeight, to.height - top);
+        std::vector<LatePlan> plans(static_cast<std::size_t>(across));
+        for (int tile = 0; tile < across; ++tile)
+            plans[static_cast<std::size_t>(tile)] =
+                planOf(move, tile * kLateTileWidth, top, std::min(to.width, (tile + 1) * kLateTileWidth),
+                       top + rows, nearestSeen);
+        LateBand all{&source, &move,          plans.data(),   to.width, top,
+                     rows,    image.row(top), image.stride(), nullptr,  0};
+        if (uncovered) {
+            all.uncovered = uncovered->row(top);
+            all.uncoveredStride = uncovered->stride();
+        }
+        kernels.warp(all);
+    };
+    if (parallel) return parallelFor(down, band);
+    for (int tileRow = 0; tileRow < down; ++tileRow) band(tileRow);
+}
+
+}  // namespace stereonav

@@ -1,0 +1,48 @@
+// A picture that was cast a moment ago, as it is seen from where the eye is now: rotation exact, translation
+// by depth. What was not seen then is stretched from the farther side and marked. For the window, which shows
+// a new picture at each refresh whatever a frame costs; files and pictures at rest are cast.
+//
+// Backwards, pixel by pixel of the new picture: late_kernel.cpp. Plain form: late_oracle.h.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/camera/eye_view.h"
+#include "engine/image/eye_image.h"
+#include "engine/late/late_row.h"
+#include "engine/simd/simd_target.h"
+
+namespace stereonav {
+
+// The place of a pixel of `to` in the picture of `from`.
+LateMove lateMove(const EyeView& from, const EyeView& to);
+
+// What is worked out once for each picture that was cast.
+class LateEye {
+public:
+    // depth: metres along the viewing axis; infinite is the sky; what is 0 or no number is not known.
+    void prepare(const Plane<float>& depth, const EyeView& view, SimdTarget simd = SimdTarget::Auto);
+    // Nothing is there any more; the memory stays.
+    void forget() { mReady = false; }
+    bool ready() const { return mReady; }
+    const EyeView& view() const { return mView; }
+
+    // The picture `color`, of the prepared size, as `to` sees it, in as many pixels as `to` has. uncovered:
+    // 255 where nothing was seen before, or null. On this thread alone: with parallel, on all.
+    void warp(const Plane<PackedColor>& color, const EyeView& to, Plane<PackedColor>& image,
+              Plane<std::uint8_t>* uncovered = nullptr, bool parallel = false) const;
+
+private:
+    LatePlan planOf(const LateMove& move, int x0, int y0, int x1, int y1, float nearestSeen) const;
+
+    bool mReady = false;
+    SimdTarget mSimd = SimdTarget::Auto;
+    EyeView mView;
+    Plane<float> mInverse;
+    std::vector<LateTile> mTiles;
+    int mAcross = 0, mDown = 0;  // tiles
+    float mFarthest = 0, mNearest = 0;
+};
+
+}  // namespace stereonav

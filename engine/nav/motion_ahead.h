@@ -1,0 +1,22 @@
+// Where the eyes will be in a moment, from how they move: for pictures that take a moment to make.
+#pragma once
+
+#include "engine/camera/pose.h"
+
+namespace stereonav {
+
+class MotionAhead {
+public:
+    static constexpr double kFarthest = 0.15;  // seconds: what a hand does next nobody knows
+
+    // The eyes went from one pose to another in dt seconds.
+    void step(const Pose& before, const Pose& after, double dt);
+    // seconds later, at most kFarthest. free: metres to what is around; half of them are used at most.
+    Pose from(const Pose& now, double seconds, double free) const;
+
+private:
+    glm::dvec3 mVelocity{0.0};  // metres a second
+    glm::dvec3 mTurning{0.0};   // axis times radians a second, world
+};
+
+}  // namespace stereonav

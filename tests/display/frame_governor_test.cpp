@@ -1,0 +1,122 @@
+// What frames cost is recorded or made up here, and time passes as they say: no window and no clock.
+#include "app/view/frame_governor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+namespace stereonav {
+namespace {
+
+constexpr double kGovernedTarget = 33;
+
+// Milliseconds of a frame in full size, by its number; fixed: the share that no size changes.
+struct GovernedFlight {
+    std::function<double(int)> full_ms;
+    double fixed = 0;
+    std::vector<double> scales, ms;
+
+    void fly(FrameGovernor& governor, int from, int to) {
+        for (int n = from; n < to; ++n) {
+            const double scale = governor.scale();
+            const double cost = full_ms(n) * (fixed + (1 - fixed) * scale * scale);
+            scales.push_back(scale);
+            ms.push_back(cost);
+            governor.took(scale, cost);
+        }
+    }
+    int changes(std::size_t from, std::size_t to) const {
+        int count = 0;
+        for (std::size_t n = std::max<std::size_t>(from, 1); n < to; ++n) count += scales[n] != scales[n - 1];
+        return count;
+    }
+};
+
+TEST(FrameGovernor, StaysWhereFramesAreFast) {
+    FrameGovernor governor(kGovernedTarget);
+    GovernedFlight flight{[](int) { return 20.0; }, 0, {}, {}};
+    flight.fly(governor, 0, 50);
+    EXPECT_EQ(governor.scale(), 1);
+    EXPECT_EQ(flight.changes(0, 50), 0);
+}
+
+TEST(FrameGovernor, SettlesWithinFiveFramesOfAStep) {
+    for (const double fixed : {0.0, 0.2, 0.5})
+        for (const double slow : {40.0, 60.0, 90.0, 150.0, 250.0}) {
+            SCOPED_TRACE(testing::Message() << fixed << " " << slow);
+            FrameGovernor governor(kGovernedTarget);
+            GovernedFlight flight{[&](int n) { return n < 20 || n >= 60 ? 25.0 : slow; }, fixed, {}, {}};
+            flight.fly(governor, 0, 100);
+            EXPECT_EQ(flight.changes(0, 20), 0);
+            EXPECT_EQ(flight.changes(26, 60), 0) << "it has settled";
+            const double least =
+                slow * (fixed + (1 - fixed) * FrameGovernor::kScales.back() * FrameGovernor::kScales.back());
+            EXPECT_LE(flight.ms[26], std::max(1.15 * kGovernedTarget, least + 1e-9));
+            if (least < 0.6 * kGovernedTarget) {
+                EXPECT_GT(flight.ms[40], 0.55 * kGovernedTarget) << "no smaller than it has to be";
+            }
+            EXPECT_EQ(flight.changes(66, 100), 0) << "and back";
+            EXPECT_EQ(flight.scales.back(), 1);
+        }
+}
+
+// As where a flight comes near to the ground.
+TEST(FrameGovernor, FollowsARamp) {
+    FrameGovernor governor(kGovernedTarget);
+    GovernedFlight flight{[](int n) { return n < 100 ? 20 + 1.0 * n : 220 - 1.0 * n; }, 0.15, {}, {}};
+    flight.fly(governor, 0, 200);
+    int late = 0, turns = 0;
+    for (std::size_t n = 1; n < 200; ++n) {
+        late += flight.ms[n] > 1.3 * kGovernedTarget;
+        // Smaller on the way up, larger on the way back, and nothing else.
+        turns += n < 100 ? flight.scales[n] > flight.scales[n - 1] : flight.scales[n] < flight.scales[n - 1];
+    }
+    EXPECT_EQ(late, 0);
+    EXPECT_EQ(turns, 0);
+    EXPECT_EQ(flight.scales.back(), 1);
+}
+
+// Frames of which some are half as long again, as beside another program.
+TEST(FrameGovernor, DoesNotPumpWithNoise) {
+    for (const double full : {25.0, 38.0, 50.0, 70.0, 100.0})
+        for (unsigned seed = 1; seed <= 5; ++seed) {
+            SCOPED_TRACE(testing::Message() << full << " " << seed);
+            std::mt19937 random(seed);
+            std::uniform_real_distribution<double> noise(0.85, 1.15), chance(0, 1);
+            FrameGovernor governor(kGovernedTarget);
+            GovernedFlight flight{
+                [&](int) { return full * noise(random) * (chance(random) < 0.08 ? 1.5 : 1.0); }, 0.1, {}, {}};
+            flight.fly(governor, 0, 600);
+            EXPECT_LE(flight.changes(60, 600), 6) << "in eighteen seconds";
+        }
+}
+
+// A second process comes every now and then and doubles what frames cost.
+TEST(FrameGovernor, WaitsLongerWhereItDidNotLast) {
+    FrameGovernor governor(kGovernedTarget);
+    GovernedFlight flight{[](int n) { return n / 12 % 2 ? 56.0 : 28.0; }, 0, {}, {}};
+    flight.fly(governor, 0, 600);
+    EXPECT_GE(flight.changes(0, 24), 1);
+    EXPECT_LE(flight.changes(300, 600), 8) << "25 times another load";
+}
+
+TEST(FrameGovernor, TakesNoFrameForAnother) {
+    FrameGovernor governor(kGovernedTarget);
+    EXPECT_EQ(governor.predicted_ms(), 0);
+    for (int n = 0; n < 10; ++n) governor.took(1, 120);
+    const double scale = governor.scale();
+    EXPECT_LT(scale, 0.7);
+    for (int n = 0; n < 10; ++n) governor.took(1, 500);  // full ones, at rest
+    governor.took(scale, std::nan(""));
+    governor.took(scale, 0);
+    EXPECT_EQ(governor.scale(), scale);
+    governor.forget();
+    EXPECT_EQ(governor.scale(), scale);
+    EXPECT_EQ(governor.predicted_ms(), 0);
+}
+
+}  // namespace
+}  // namespace stereonav
