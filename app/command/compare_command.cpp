@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/command/comparison_report.h"
@@ -51,13 +52,15 @@ struct Shown {
 
 // The pictures of one frame: each eye by itself, and of each method what it made, its holes in red and its
 // difference from the eye by itself.
-void writePictures(const ComparedFrame& frame, const fs::path& folder) {
+void writePictures(const ComparedFrame& frame, int truthRays, const fs::path& folder) {
     const bool rightAlone = !frame.truth.empty();
     const int factor = rightAlone ? 5 : 20;  // as in fig. 6e of Wan et al. 2004; media differ by less
     if (rightAlone) {
         writeColorImage(folder / "left.png", frame.left.color);
         writeColorImage(folder / "full_right.png", frame.right.color);
-        writeColorImage(folder / "truth_16_rays.png", frame.truth);
+        const std::string rays = fmt::format("truth_{}_rays.png", truthRays);
+        writeColorImage(folder / rays, frame.truth);
+        writeColorImage(folder / ("left_" + rays), frame.leftTruth);
     }
     for (const MethodPicture& picture : frame.pictures) {
         const std::string name(picture.method);
@@ -88,12 +91,13 @@ std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const 
     ComparisonSetting setting;
     setting.eyes = eyes;
     setting.repeats = options.repeats;
+    setting.truthFactor = static_cast<int>(std::lround(std::sqrt(options.truthRays)));
     setting.methods = methodsOf(options, scene);
     const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
     const auto listener = [&](const ComparedFrame& frame) {
         if (options.images.empty() || frame.index != shown) return;
         makeOutputFolder(options.images);
-        writePictures(frame, options.images);
+        writePictures(frame, options.truthRays, options.images);
     };
     return compareMethods(scene.frames(), poses, scene.lens, scene.stereo, setting, progress, listener);
 }
@@ -117,6 +121,7 @@ ComparisonReport describe(const CompareOptions& options, const Scene& scene, int
     report.threads = threadCount();
     report.frames = frames;
     report.repeats = options.repeats;
+    report.truthRays = options.truthRays;
     report.stereo = scene.stereo;
     report.least = scene.stereo.separation;
     return report;

@@ -26,12 +26,13 @@ double rmsFromPsnr(double psnr_db) {
 }
 
 using F = const MethodFigures&;
-constexpr std::array<Field, 16> kFields{{
+constexpr std::array<Field, 18> kFields{{
     {"left_ms", [](F f) { return f.left_ms; }, 2},
     {"warp_ms", [](F f) { return f.warp_ms; }, 2},
     {"fill_ms", [](F f) { return f.fill_ms; }, 2},
     {"right_ms", [](F f) { return f.right_ms; }, 2},
     {"full_right_ms", [](F f) { return f.full_right_ms; }, 2},
+    {"pair_ms", [](F f) { return f.pair_ms; }, 2},
     {"hole_percent", [](F f) { return f.hole_percent; }, 2},
     {"psnr_db", [](F f) { return f.difference.psnr_db; }, 2},
     {"rms_levels", [](F f) { return rmsFromPsnr(f.difference.psnr_db); }, 3},
@@ -41,6 +42,7 @@ constexpr std::array<Field, 16> kFields{{
     {"rgb_max", [](F f) { return f.difference.rgb_max; }, 0},
     {"edge_psnr_db", [](F f) { return f.difference.edge_psnr_db; }, 2},
     {"true_psnr_db", [](F f) { return f.true_psnr_db; }, 2},
+    {"left_true_psnr_db", [](F f) { return f.left_true_psnr_db; }, 2},
     {"holes_of_warped_percent", [](F f) { return f.holesOfWarped_percent; }, 2},
     {"surface_psnr_db", [](F f) { return f.surface_psnr_db; }, 2},
 }};
@@ -97,6 +99,7 @@ std::string jsonOf(const ComparisonReport& report) {
     json["path"] = report.path;
     json["frames"] = report.frames;
     json["repeats"] = report.repeats;
+    json["truth_rays"] = report.truthRays;
     json["separation_m"] = report.stereo.separation;
     json["least_separation_m"] = report.least;
     json["zero_parallax_m"] = report.stereo.zeroParallax;
@@ -131,7 +134,7 @@ Plane<PackedColor> plotOf(const ComparisonReport& report) {
                      "RMS error in 8-bit levels",
                      {}};
     PlotPanel manyRays = oneRay;
-    manyRays.title = "against a right cast of 16 rays a pixel";
+    manyRays.title = fmt::format("against a right cast of {} rays a pixel", report.truthRays);
     for (const MethodFigures& method : report.methods) {
         oneRay.points.push_back({method.name, method.right_ms, rmsFromPsnr(method.difference.psnr_db)});
         manyRays.points.push_back({method.name, method.right_ms, rmsFromPsnr(method.true_psnr_db)});

@@ -63,15 +63,13 @@ public:
             run(mExact, views, time, repeat == 0);
             for (Runner& runner : mRunners) run(runner, views, time, repeat == 0);
         }
-        Plane<PackedColor> truth;
-        if (mRightFromLeft)
-            truth = renderSupersampled(mFrames, views.right, time, mSetting.truthFactor, progress);
+        if (mRightFromLeft) castTruths(views, time, progress);
         const Plane<std::uint8_t> edges = edgesOf(views, time);
         std::vector<MethodFigures> figures;
-        ComparedFrame frame{index, mExact.frame.left, mExact.frame.right, truth, {}};
+        ComparedFrame frame{index, mExact.frame.left, mExact.frame.right, mTruth.right, mTruth.left, {}};
         for (const std::string_view method : mSetting.methods) {
             const Runner& runner = *runnerOf(method);
-            figures.push_back(figuresOf(runner, truth, edges));
+            figures.push_back(figuresOf(runner, edges));
             const EyeImage& left = mRightFromLeft ? mExact.frame.left : runner.frame.left;
             frame.pictures.push_back({method, left, runner.frame.right, runner.holeMask});
         }
@@ -80,6 +78,20 @@ public:
     }
 
 private:
+    struct Truths {
+        Plane<PackedColor> left, right;
+    };
+
+    void castTruths(const StereoViews& views, double time, Progress& progress) {
+        const auto cast = [&](const EyeView& view, double from) {
+            Progress part(
+                [&](double share, const std::string& what) { progress.report(from + 0.5 * share, what); });
+            return renderSupersampled(mFrames, view, time, mSetting.truthFactor, part);
+        };
+        mTruth.left = cast(views.left, 0);
+        mTruth.right = cast(views.right, 0.5);
+    }
+
     void run(Runner& runner, const StereoViews& views, double time, bool first) {
         EyePair& frame = runner.frame;
         if (mRightFromLeft && &runner != &mExact) {
@@ -128,8 +140,7 @@ private:
                             oneAboveTheOther(made.left.color, made.right.color), edges);
     }
 
-    MethodFigures figuresOf(const Runner& runner, const Plane<PackedColor>& truth,
-                            const Plane<std::uint8_t>& edges) const {
+    MethodFigures figuresOf(const Runner& runner, const Plane<std::uint8_t>& edges) const {
         constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
         const EyeImage& right = runner.frame.right;
         const RightEyeTimings warped = runner.best.warped.value_or(RightEyeTimings{});
@@ -141,12 +152,15 @@ private:
             runner.best.right_ms > 0 ? runner.best.right_ms : runner.best.both_ms - figures.left_ms;
         figures.fill_ms = figures.right_ms - figures.warp_ms;
         figures.full_right_ms = mExact.best.right_ms;
+        figures.pair_ms = mRightFromLeft ? figures.left_ms + figures.right_ms : runner.best.both_ms;
         figures.hole_percent = 100.0 * static_cast<double>(warped.holePixels) /
                                (static_cast<double>(right.width()) * right.height());
         figures.difference = differenceTo(runner.frame, edges);
-        figures.true_psnr_db = figures.holesOfWarped_percent = figures.surface_psnr_db = kNone;
+        figures.true_psnr_db = figures.left_true_psnr_db = kNone;
+        figures.holesOfWarped_percent = figures.surface_psnr_db = kNone;
         if (!mRightFromLeft) return figures;
-        figures.true_psnr_db = psnrOf(truth, right.color);
+        figures.true_psnr_db = psnrOf(mTruth.right, right.color);
+        figures.left_true_psnr_db = psnrOf(mTruth.left, mExact.frame.left.color);
         const SurfaceDifference surface =
             surfaceDifference(mExact.frame.right, right, runner.holeMask, runner.leavesHoles);
         figures.holesOfWarped_percent = surface.holesOfWarped_percent;
@@ -158,6 +172,7 @@ private:
     RightFromLeft* const mRightFromLeft;  // null: methods make both eyes
     const ComparisonSetting& mSetting;
     Runner mExact, mDefault{""};
+    Truths mTruth;  // of the frame at hand; empty: there is no finer one
     std::vector<Runner> mRunners;
 };
 
@@ -187,6 +202,7 @@ MethodFigures medianOf(const std::vector<MethodFigures>& frames) {
     result.fill_ms = field([](F f) { return f.fill_ms; });
     result.right_ms = field([](F f) { return f.right_ms; });
     result.full_right_ms = field([](F f) { return f.full_right_ms; });
+    result.pair_ms = field([](F f) { return f.pair_ms; });
     result.hole_percent = field([](F f) { return f.hole_percent; });
     result.difference.psnr_db = field([](F f) { return f.difference.psnr_db; });
     result.difference.ssim = field([](F f) { return f.difference.ssim; });
@@ -195,6 +211,7 @@ MethodFigures medianOf(const std::vector<MethodFigures>& frames) {
     result.difference.rgb_max = field([](F f) { return f.difference.rgb_max; });
     result.difference.edge_psnr_db = field([](F f) { return f.difference.edge_psnr_db; });
     result.true_psnr_db = field([](F f) { return f.true_psnr_db; });
+    result.left_true_psnr_db = field([](F f) { return f.left_true_psnr_db; });
     result.holesOfWarped_percent = field([](F f) { return f.holesOfWarped_percent; });
     result.surface_psnr_db = field([](F f) { return f.surface_psnr_db; });
     return result;

@@ -18,7 +18,7 @@ namespace stereonav {
 struct ComparisonSetting {
     std::vector<std::string_view> methods;  // of FrameMaker::methods()
     int repeats = 3;                        // timed runs of a frame, >= 1; the fastest counts
-    int truthFactor = 4;                    // the finer truth has truthFactor^2 rays a pixel
+    int truthFactor = 8;                    // finer truths have truthFactor^2 rays a pixel
     int edgeRadius = 2;                     // pixels by which the edge mask is grown
     std::vector<StereoSetting> eyes;        // one a pose; empty: the same at all
 };
@@ -33,9 +33,12 @@ struct MethodFigures {
     // What the other costs on top of it: the warp, or splat of depths, and what is cast or swept after it.
     double warp_ms = 0, fill_ms = 0, right_ms = 0;
     double full_right_ms = 0;    // the right eye by itself, in the same run
+    double pair_ms = 0;          // both eyes, from the first ray to the last pixel
     double hole_percent = 0;     // pixels cast again, or swept without a known start, of all
     ImageDifference difference;  // from each eye by itself
-    double true_psnr_db = 0;     // from the truth with many rays a pixel; NaN: there is none
+    // Of the right eye and of the left one, as the method uses it, from truths with many rays a pixel; NaN:
+    // there are none.
+    double true_psnr_db = 0, left_true_psnr_db = 0;
     // As Wan et al. 2004 count (surface_difference.h); NaN where no pixel that shows the scene was warped, or
     // made; or where nothing is warped at all.
     double holesOfWarped_percent = 0;
@@ -51,8 +54,9 @@ struct MethodPicture {
 };
 struct ComparedFrame {
     int index = 0;
-    const EyeImage &left, &right;     // each by itself
-    const Plane<PackedColor>& truth;  // of the right eye by many rays a pixel; empty: there is none
+    const EyeImage &left, &right;  // each by itself
+    const Plane<PackedColor>&truth,
+        &leftTruth;  // of the right and left eye by many rays a pixel; empty: none
     std::vector<MethodPicture> pictures;
 };
 using ComparedFrameListener = std::function<void(const ComparedFrame&)>;

@@ -175,8 +175,8 @@ TEST_F(Commands, CompareGivesEveryFieldForEveryMethod) {
         names.insert(name);
         for (const char* field :
              {"left_ms", "warp_ms", "fill_ms", "right_ms", "full_right_ms", "hole_percent", "psnr_db", "ssim",
-              "rgb_mean", "rgb_p99", "rgb_max", "edge_psnr_db", "true_psnr_db", "holes_of_warped_percent",
-              "surface_psnr_db"}) {
+              "rgb_mean", "rgb_p99", "rgb_max", "edge_psnr_db", "true_psnr_db", "left_true_psnr_db",
+              "pair_ms", "holes_of_warped_percent", "surface_psnr_db"}) {
             if (name == "full" && std::string(field) == "holes_of_warped_percent") {
                 EXPECT_TRUE(method.at(field).is_null()) << "a full cast warps nothing";
                 continue;
@@ -186,6 +186,8 @@ TEST_F(Commands, CompareGivesEveryFieldForEveryMethod) {
         }
         for (const std::string end : {".png", "_holes.png", "_difference_x5.png"})
             EXPECT_TRUE(fs::exists(place() / "pictures" / (name + end))) << name << end;
+        EXPECT_EQ(method.at("left_true_psnr_db"), json.at("methods")[0].at("left_true_psnr_db"))
+            << "one left eye for all";
         EXPECT_NE(outcome.out.find("\n" + name + " "), std::string::npos) << "not in the table";
         if (name == "full") {
             EXPECT_EQ(method.at("psnr_db"), 100.0);
@@ -193,6 +195,9 @@ TEST_F(Commands, CompareGivesEveryFieldForEveryMethod) {
         }
     }
     for (const std::string& name : wanted) EXPECT_EQ(names.count(name), 1u) << name;
+    EXPECT_EQ(json.at("truth_rays"), 64);
+    for (const char* name : {"truth_64_rays.png", "left_truth_64_rays.png"})
+        EXPECT_TRUE(fs::exists(place() / "pictures" / name)) << name;
     const std::string csv = contentOf(place() / "a.csv");
     EXPECT_EQ(linesIn(csv), static_cast<long>(names.size()) + 1);
     EXPECT_TRUE(fs::exists(place() / "plot.png"));

@@ -48,6 +48,8 @@ TEST(MethodComparison, FullIsExactAndOpenHolesCost) {
     EXPECT_EQ(figures[1].difference.rgb_max, 0.0);
     EXPECT_EQ(figures[1].hole_percent, 100.0);
     EXPECT_LT(figures[1].true_psnr_db, kIdenticalPsnr_db) << "one ray a pixel misses something";
+    EXPECT_LT(figures[1].left_true_psnr_db, kIdenticalPsnr_db);
+    EXPECT_NEAR(figures[1].left_true_psnr_db, figures[1].true_psnr_db, 3.0) << "eyes of one kind";
     EXPECT_GT(figures[0].difference.psnr_db, figures[2].difference.psnr_db + 3.0);
     EXPECT_LT(figures[2].difference.edge_psnr_db, figures[2].difference.psnr_db);
     EXPECT_GT(figures[0].hole_percent, 0.0);
@@ -56,6 +58,8 @@ TEST(MethodComparison, FullIsExactAndOpenHolesCost) {
         EXPECT_GT(method.left_ms, 0.0) << method.name;
         EXPECT_DOUBLE_EQ(method.full_right_ms, figures[1].full_right_ms) << method.name;
         EXPECT_GT(method.right_ms, 0.0) << method.name;
+        EXPECT_GT(method.pair_ms, method.left_ms) << method.name;
+        EXPECT_EQ(method.left_true_psnr_db, figures[1].left_true_psnr_db) << "all share the left eye";
         EXPECT_LE(method.difference.rgb_mean, method.difference.rgb_max) << method.name;
     }
 }
@@ -79,6 +83,7 @@ TEST(MethodComparison, ShowsEveryFrameWithEveryMethod) {
                            EXPECT_EQ(picture.holeMask.height(), 80);
                        }
                        EXPECT_EQ(frame.truth.width(), 120);
+                       EXPECT_EQ(frame.leftTruth.width(), 120);
                    });
     EXPECT_EQ(indices, (std::vector<int>{0, 1}));
     EXPECT_DOUBLE_EQ(last, 1.0);
@@ -164,10 +169,13 @@ TEST(MethodComparison, MethodsThatMakeBothEyesAreMeasuredByBoth) {
     EXPECT_EQ(figures[0].right_ms, 1) << "what the other eye costs on top of one by itself";
     EXPECT_EQ(figures[1].right_ms, 9);
     EXPECT_EQ(figures[2].full_right_ms, 9);
+    EXPECT_EQ(figures[0].pair_ms, 12);
+    EXPECT_EQ(figures[1].pair_ms, 20);
     EXPECT_EQ(figures[0].difference.psnr_db, kIdenticalPsnr_db);
     EXPECT_LT(figures[2].difference.psnr_db, 30) << "the left eye counts";
     for (const MethodFigures& method : figures) {
         EXPECT_TRUE(std::isnan(method.true_psnr_db));
+        EXPECT_TRUE(std::isnan(method.left_true_psnr_db));
         EXPECT_TRUE(std::isnan(method.surface_psnr_db));
         EXPECT_EQ(method.hole_percent, 0);
     }
@@ -189,10 +197,14 @@ TEST(MethodComparison, MediansAreOfEachFieldByItself) {
         frames[k].name = "x";
         frames[k].left_ms = left[k];
         frames[k].true_psnr_db = truth[k];
+        frames[k].left_true_psnr_db = 2 * truth[k];
+        frames[k].pair_ms = 10 * left[k];
         frames[k].difference.rgb_max = k == 2 ? 9 : 1;
     }
     EXPECT_EQ(medianOf(frames).left_ms, 2.5);
     EXPECT_EQ(medianOf(frames).true_psnr_db, 25.0);
+    EXPECT_EQ(medianOf(frames).left_true_psnr_db, 50.0);
+    EXPECT_EQ(medianOf(frames).pair_ms, 25.0);
     EXPECT_EQ(medianOf(frames).difference.rgb_max, 1.0);
     frames.resize(3);
     EXPECT_EQ(medianOf(frames).left_ms, 3.0);
