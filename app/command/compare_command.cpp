@@ -87,9 +87,11 @@ std::vector<StereoSetting> eyesAt(const Scene& scene, const std::vector<TimedPos
 
 std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const Scene& scene,
                                            const std::vector<TimedPose>& poses,
+                                           const std::vector<TimedPose>& beside,
                                            const std::vector<StereoSetting>& eyes, Progress& progress) {
     ComparisonSetting setting;
     setting.eyes = eyes;
+    setting.beside = beside;
     setting.repeats = options.repeats;
     setting.truthFactor = static_cast<int>(std::lround(std::sqrt(options.truthRays)));
     setting.methods = methodsOf(options, scene);
@@ -142,14 +144,17 @@ int runCompare(const CompareOptions& options) {
     checkNotRead({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});
     if (options.relativeSeparation > 0.0)
         scene.stereo.separation = scene.stereo.zeroParallax * options.relativeSeparation;
-    const std::vector<TimedPose> poses = timedFrames(flightOf(scene, path, options.path), options.frames);
+    constexpr double kNextFrame = 1.0 / 30;  // seconds
+    const RecordedPath& flight = flightOf(scene, path, options.path);
+    const std::vector<TimedPose> poses = timedFrames(flight, options.frames);
     // What is asked for is what is measured.
     const std::vector<StereoSetting> eyes = options.relativeSeparation > 0.0
                                                 ? std::vector<StereoSetting>(poses.size(), scene.stereo)
                                                 : eyesAt(scene, poses);
     ComparisonReport report = describe(options, scene, options.frames);
     for (const StereoSetting& eye : eyes) report.least = std::min(report.least, eye.separation);
-    report.methods = comparedMethods(options, scene, poses, eyes, bar.progress());
+    report.methods =
+        comparedMethods(options, scene, poses, timedBeside(flight, poses, kNextFrame), eyes, bar.progress());
     writeResults(options, report);
     bar.clear();
     const bool otherwise =

@@ -26,7 +26,7 @@ double rmsFromPsnr(double psnr_db) {
 }
 
 using F = const MethodFigures&;
-constexpr std::array<Field, 18> kFields{{
+constexpr std::array<Field, 21> kFields{{
     {"left_ms", [](F f) { return f.left_ms; }, 2},
     {"warp_ms", [](F f) { return f.warp_ms; }, 2},
     {"fill_ms", [](F f) { return f.fill_ms; }, 2},
@@ -45,6 +45,9 @@ constexpr std::array<Field, 18> kFields{{
     {"left_true_psnr_db", [](F f) { return f.left_true_psnr_db; }, 2},
     {"holes_of_warped_percent", [](F f) { return f.holesOfWarped_percent; }, 2},
     {"surface_psnr_db", [](F f) { return f.surface_psnr_db; }, 2},
+    {"flicker_db", [](F f) { return f.flicker_db; }, 2},
+    {"rivalry_db", [](F f) { return f.rivalry_db; }, 2},
+    {"edge_rivalry_db", [](F f) { return f.edge_rivalry_db; }, 2},
 }};
 
 // Of its column in the table.

@@ -1,6 +1,6 @@
 // Plays poses through the ways that one FrameMaker has of making two eyes and measures each: its time, and
 // its error against each eye by itself (FrameMaker::exactMethod), one ray a pixel, and against many rays a
-// pixel.
+// pixel; how it flickers from frame to frame, and what it shows both eyes differently.
 #pragma once
 
 #include <functional>
@@ -21,6 +21,8 @@ struct ComparisonSetting {
     int truthFactor = 8;                    // finer truths have truthFactor^2 rays a pixel
     int edgeRadius = 2;                     // pixels by which the edge mask is grown
     std::vector<StereoSetting> eyes;        // one a pose; empty: the same at all
+    // Of each pose its neighbour in the flight (timedBeside), for flicker; empty: there is no such figure.
+    std::vector<TimedPose> beside;
 };
 
 // Of a FrameMaker whose methods differ in the right eye alone (FrameMaker::rightFromLeft) the left one is
@@ -43,6 +45,10 @@ struct MethodFigures {
     // made; or where nothing is warped at all.
     double holesOfWarped_percent = 0;
     double surface_psnr_db = 0;
+    // From the finer truths, or, where there are none, from each eye by itself: change from frame to frame
+    // (flicker.h), NaN without neighbours; and between the eyes, in the whole and in the edge mask
+    // (rivalry.h).
+    double flicker_db = 0, rivalry_db = 0, edge_rivalry_db = 0;
 };
 
 // What one method made of one frame. The edge mask of every method is that of the default method's

@@ -176,7 +176,8 @@ TEST_F(Commands, CompareGivesEveryFieldForEveryMethod) {
         for (const char* field :
              {"left_ms", "warp_ms", "fill_ms", "right_ms", "full_right_ms", "hole_percent", "psnr_db", "ssim",
               "rgb_mean", "rgb_p99", "rgb_max", "edge_psnr_db", "true_psnr_db", "left_true_psnr_db",
-              "pair_ms", "holes_of_warped_percent", "surface_psnr_db"}) {
+              "pair_ms", "holes_of_warped_percent", "surface_psnr_db",
+              "flicker_db", "rivalry_db", "edge_rivalry_db"}) {
             if (name == "full" && std::string(field) == "holes_of_warped_percent") {
                 EXPECT_TRUE(method.at(field).is_null()) << "a full cast warps nothing";
                 continue;
