@@ -71,6 +71,8 @@ void writePictures(const ComparedFrame& frame, int truthRays, const fs::path& fo
             writeColorImage(folder / fmt::format("{}{}_difference_x{}.png", name, eye.name, factor),
                             differenceTimes(eye.exact.color, eye.made.color, factor));
         }
+        if (!picture.butteraugli.empty())
+            writeColorImage(folder / (name + "_butteraugli.png"), pictureOf(picture.butteraugli));
         if (!picture.holeMask.empty())
             writeColorImage(folder / (name + "_holes.png"),
                             holesInRed(picture.right.color, picture.holeMask));
@@ -92,6 +94,7 @@ std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const 
     ComparisonSetting setting;
     setting.eyes = eyes;
     setting.beside = beside;
+    setting.butteraugli = options.butteraugli;
     setting.repeats = options.repeats;
     setting.truthFactor = static_cast<int>(std::lround(std::sqrt(options.truthRays)));
     setting.methods = methodsOf(options, scene);

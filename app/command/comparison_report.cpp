@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "engine/metrics/error_plot.h"
@@ -26,7 +27,7 @@ double rmsFromPsnr(double psnr_db) {
 }
 
 using F = const MethodFigures&;
-constexpr std::array<Field, 21> kFields{{
+constexpr std::array<Field, 25> kFields{{
     {"left_ms", [](F f) { return f.left_ms; }, 2},
     {"warp_ms", [](F f) { return f.warp_ms; }, 2},
     {"fill_ms", [](F f) { return f.fill_ms; }, 2},
@@ -48,6 +49,10 @@ constexpr std::array<Field, 21> kFields{{
     {"flicker_db", [](F f) { return f.flicker_db; }, 2},
     {"rivalry_db", [](F f) { return f.rivalry_db; }, 2},
     {"edge_rivalry_db", [](F f) { return f.edge_rivalry_db; }, 2},
+    {"butteraugli", [](F f) { return f.butteraugli; }, 3},
+    {"butteraugli_max", [](F f) { return f.butteraugli_max; }, 2},
+    {"edge_butteraugli", [](F f) { return f.edge_butteraugli; }, 3},
+    {"flat_butteraugli", [](F f) { return f.flat_butteraugli; }, 3},
 }};
 
 // Of its column in the table.
@@ -80,10 +85,14 @@ std::string tableOf(const ComparisonReport& report) {
                         ? fmt::format(", {:.4g} m where narrow", report.least)
                         : "");
     table += fmt::format("{:<10}", "method");
-    for (const Field& field : kFields) table += fmt::format(" {:>{}}", field.name, widthOf(field));
+    std::vector<Field> fields;  // that any method has
+    std::copy_if(kFields.begin(), kFields.end(), std::back_inserter(fields), [&](const Field& field) {
+        return std::ranges::any_of(report.methods, [&](F f) { return !std::isnan(field.value(f)); });
+    });
+    for (const Field& field : fields) table += fmt::format(" {:>{}}", field.name, widthOf(field));
     for (const MethodFigures& method : report.methods) {
         table += fmt::format("\n{:<10}", method.name);
-        for (const Field& field : kFields) {
+        for (const Field& field : fields) {
             const double value = field.value(method);
             table += std::isnan(value) ? fmt::format(" {:>{}}", "-", widthOf(field))
                                        : fmt::format(" {:>{}.{}f}", value, widthOf(field), field.decimals);

@@ -27,6 +27,7 @@ struct Runner {
     Plane<std::uint8_t> holeMask;  // empty: nothing is warped
     bool leavesHoles = false;
     Plane<PackedColor> beside;  // what was judged of the neighbouring frame
+    Plane<float> butteraugli;
 
     explicit Runner(std::string_view m) : method(m) {}
 
@@ -90,10 +91,10 @@ public:
         std::vector<MethodFigures> figures;
         ComparedFrame frame{index, mExact.frame.left, mExact.frame.right, mTruth.right, mTruth.left, {}};
         for (const std::string_view method : mSetting.methods) {
-            const Runner& runner = *runnerOf(method);
+            Runner& runner = *runnerOf(method);
             figures.push_back(figuresOf(runner, edges));
             const EyeImage& left = mRightFromLeft ? mExact.frame.left : runner.frame.left;
-            frame.pictures.push_back({method, left, runner.frame.right, runner.holeMask});
+            frame.pictures.push_back({method, left, runner.frame.right, runner.holeMask, runner.butteraugli});
         }
         if (listener) listener(frame);
         return figures;
@@ -146,9 +147,9 @@ private:
     }
 
     // Null where it is not among those that are compared.
-    const Runner* runnerOf(std::string_view method) const {
+    Runner* runnerOf(std::string_view method) {
         if (method == mExact.method) return &mExact;
-        for (const Runner& runner : mRunners)
+        for (Runner& runner : mRunners)
             if (runner.method == method) return &runner;
         return nullptr;
     }
@@ -171,7 +172,7 @@ private:
     }
 
     // What a viewer feels.
-    void addFelt(const Runner& runner, const Plane<std::uint8_t>& edges, MethodFigures& figures) const {
+    void addFelt(Runner& runner, const Plane<std::uint8_t>& edges, MethodFigures& figures) const {
         const EyePair& exact = mExact.frame;
         const Plane<PackedColor> truth = mRightFromLeft ? mTruth.right : judged(exact);
         figures.flicker_db =
@@ -183,9 +184,19 @@ private:
                                                            eyes, lowerHalf(edges));
         figures.rivalry_db = rivalry.psnr_db;
         figures.edge_rivalry_db = rivalry.edge_psnr_db;
+        figures.butteraugli = figures.butteraugli_max = kNone;
+        figures.edge_butteraugli = figures.flat_butteraugli = kNone;
+        if (!mSetting.butteraugli) return;
+        ButteraugliMap map = butteraugliOf(truth, judged(runner.frame));
+        const ButteraugliParts parts = partsOf(map.distances, edges);
+        figures.butteraugli = map.norm3;
+        figures.butteraugli_max = map.max;
+        figures.edge_butteraugli = parts.inside;
+        figures.flat_butteraugli = parts.outside;
+        runner.butteraugli = std::move(map.distances);
     }
 
-    MethodFigures figuresOf(const Runner& runner, const Plane<std::uint8_t>& edges) const {
+    MethodFigures figuresOf(Runner& runner, const Plane<std::uint8_t>& edges) const {
         const EyeImage& right = runner.frame.right;
         const RightEyeTimings warped = runner.best.warped.value_or(RightEyeTimings{});
         MethodFigures figures;
@@ -265,6 +276,10 @@ MethodFigures medianOf(const std::vector<MethodFigures>& frames) {
     result.flicker_db = field([](F f) { return f.flicker_db; });
     result.rivalry_db = field([](F f) { return f.rivalry_db; });
     result.edge_rivalry_db = field([](F f) { return f.edge_rivalry_db; });
+    result.butteraugli = field([](F f) { return f.butteraugli; });
+    result.butteraugli_max = field([](F f) { return f.butteraugli_max; });
+    result.edge_butteraugli = field([](F f) { return f.edge_butteraugli; });
+    result.flat_butteraugli = field([](F f) { return f.flat_butteraugli; });
     return result;
 }
 

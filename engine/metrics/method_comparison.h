@@ -11,6 +11,7 @@
 #include "engine/base/progress.h"
 #include "engine/camera/timed_poses.h"
 #include "engine/frame/frame_maker.h"
+#include "engine/metrics/butteraugli.h"
 #include "engine/metrics/image_difference.h"
 
 namespace stereonav {
@@ -23,6 +24,7 @@ struct ComparisonSetting {
     std::vector<StereoSetting> eyes;        // one a pose; empty: the same at all
     // Of each pose its neighbour in the flight (timedBeside), for flicker; empty: there is no such figure.
     std::vector<TimedPose> beside;
+    bool butteraugli = false;  // too, which takes longer than most methods
 };
 
 // Of a FrameMaker whose methods differ in the right eye alone (FrameMaker::rightFromLeft) the left one is
@@ -49,6 +51,9 @@ struct MethodFigures {
     // (flicker.h), NaN without neighbours; and between the eyes, in the whole and in the edge mask
     // (rivalry.h).
     double flicker_db = 0, rivalry_db = 0, edge_rivalry_db = 0;
+    // From the same truths (butteraugli.h), inside the edge mask and outside it; NaN where it was not asked
+    // for.
+    double butteraugli = 0, butteraugli_max = 0, edge_butteraugli = 0, flat_butteraugli = 0;
 };
 
 // What one method made of one frame. The edge mask of every method is that of the default method's
@@ -57,6 +62,8 @@ struct MethodPicture {
     std::string_view method;
     const EyeImage &left, &right;         // left: the same for all where they differ in the right one alone
     const Plane<std::uint8_t>& holeMask;  // empty: nothing is warped
+    const Plane<float>&
+        butteraugli;  // of what errors are counted in: the right eye, or the left one over it; or empty
 };
 struct ComparedFrame {
     int index = 0;

@@ -240,6 +240,9 @@ TEST_F(MediumCommands, CompareListsTheFourWaysToTwoEyes) {
     runSmall({"compare", "wax", "--frames", "1", "--repeats", "1", "--methods", "depthsplat,sweep", "--json",
               "b.json"});
     EXPECT_EQ(Json::parse(contentOf(place() / "b.json")).at("methods")[0].at("name"), "depthsplat");
+}
+
+TEST_F(MediumCommands, CompareHasNoFinerTruthOfThem) {
     expectRefused({"compare", "cloud", "--truth-rays", "16"}, {"--truth-rays", "medium"});
 }
 
