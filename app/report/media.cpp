@@ -72,6 +72,7 @@ public:
 
     // All ways one after another in each repeat, so that the machine's moods meet all alike.
     std::vector<WayPoint> pointsOf(const std::vector<PairWay>& ways, int repeats) {
+        mFirst.clear();
         std::vector<std::vector<double>> ms(ways.size(),
                                             std::vector<double>(static_cast<std::size_t>(repeats), 0.0));
         std::vector<WayPoint> points(ways.size());
@@ -81,6 +82,7 @@ public:
                 for (std::size_t k = 0; k < ways.size(); ++k) {
                     ms[k][r] += sweep(ways[k].sweep, ways[k].method, mViews[n], 0, mFrame) / frames;
                     if (r == 0) addErrors(n, points[k]);
+                    if (r == 0 && n == 0) mFirst.push_back({mFrame.left.color, mFrame.right.color});
                 }
         for (std::size_t k = 0; k < ways.size(); ++k) {
             points[k].way = {ways[k].name, spreadOf(ms[k]), std::sqrt(points[k].way.error / (2 * frames)),
@@ -90,22 +92,21 @@ public:
         return points;
     }
 
-    // Of the first frame and the one that follows it.
+    // Of the first frame, as pointsOf() made it last, and the one that follows it.
     std::vector<FeltErrors> feltErrors(const std::vector<PairWay>& ways) {
         const StereoViews &views = mViews[0],
                           next = mScene.viewsAt(mScene.path.at(mScene.path.startTime() + kNextFrame_s));
         EyePair nextFrame;
-        sweep(mFinest, kTwoSweepsMethod, next, kNextFrame_s, nextFrame);
+        with(mFinest, [&] { mScene.frames().makeOne(next.right, kNextFrame_s, nextFrame); });
         const EyePair& exact = mTruths[0];
         const Plane<std::uint8_t> none(views.left.width, views.left.height);
-        const FeltTruth truth{exact.left.color, exact.right.color, nextFrame.right.color,
+        const FeltTruth truth{exact.left.color, exact.right.color, nextFrame.left.color,
                               columnsInRightEye(views, exact.left.viewDepth, exact.right.viewDepth),
                               edgeMask(none, exact.right.viewDepth, views.parallaxScale, 2)};
         std::vector<FeltErrors> errors(ways.size());
         for (std::size_t k = 0; k < ways.size(); ++k) {
-            sweep(ways[k].sweep, ways[k].method, views, 0, mFrame);
             sweep(ways[k].sweep, ways[k].method, next, kNextFrame_s, nextFrame);
-            errors[k].add(truth, {mFrame.left.color, mFrame.right.color}, nextFrame.right.color);
+            errors[k].add(truth, {mFirst[k].left, mFirst[k].right}, nextFrame.right.color);
         }
         return errors;
     }
@@ -130,6 +131,17 @@ public:
 
 private:
     using Eye = EyeImage EyePair::*;
+    struct Pictures {
+        Plane<PackedColor> left, right;
+    };
+
+    template <typename Make>
+    void with(const SweepSetting& setting, const Make& make) {
+        mRun.tell("volume light in stereo, " + mTitle);
+        mScene.offered<MediumScene>()->sweep = setting;
+        make();
+        mScene.offered<MediumScene>()->sweep = mOwn;
+    }
 
     // Squares are summed up in the point's error.
     void addErrors(std::size_t frame, WayPoint& point) const {
@@ -142,10 +154,7 @@ private:
 
     double sweep(const SweepSetting& setting, std::string_view method, const StereoViews& views, double time,
                  EyePair& frame) {
-        mRun.tell("volume light in stereo, " + mTitle);
-        mScene.offered<MediumScene>()->sweep = setting;
-        mScene.frames().make(views, time, {method, {}}, frame);
-        mScene.offered<MediumScene>()->sweep = mOwn;
+        with(setting, [&] { mScene.frames().make(views, time, {method, {}}, frame); });
         return frame.timings.both_ms;
     }
 
@@ -156,6 +165,7 @@ private:
     std::vector<StereoViews> mViews;
     std::vector<EyePair> mTruths;
     EyePair mFrame;
+    std::vector<Pictures> mFirst;  // of the first frame, by ways
 };
 
 WayChart emptyChart(const PairTrial& trial) {
@@ -222,7 +232,7 @@ void reportPairs(ReportRun& run, ReportSection& section) {
     for (ReportScene& scene : run.media()) {
         run.checkTime();
         PairTrial trial(run, scene, run.pick(1, 3), kShare);
-        addWaysCharts(run, section, scene, trial, run.pick(2, 4));
+        addWaysCharts(run, section, scene, trial, run.pick(2, 3));
         section.blocks.emplace_back(trial.pictures());
         addChart(run.report(), section, separationsChart(run, scene));
     }
