@@ -10,6 +10,8 @@ find_package(ZLIB REQUIRED)
 find_package(embree 3.13 CONFIG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavformat>=59 libavcodec>=59 libavutil>=57)
+pkg_check_modules(JXL REQUIRED IMPORTED_TARGET libjxl>=0.7)
+find_path(JXL_BUTTERAUGLI jxl/butteraugli.h REQUIRED)  # later versions have no such header
 if(STEREONAV_TERRAIN)
   find_package(GDAL CONFIG REQUIRED)
   find_package(toml11 CONFIG REQUIRED)

@@ -169,6 +169,8 @@ struct CompareOptions {
     double relativeSeparation = 0;     // separation as a share of the zero-parallax distance; 0: the scene's
     std::string json, csv, images, plot;  // "": not written
     int repeats = 3;                      // timed runs of a frame, the fastest counts
+    int truthRays = 64;                   // a pixel of the finer truths: a square number, 1 to 256
+    bool butteraugli = false;
 };
 int runCompare(const CompareOptions& options);
 

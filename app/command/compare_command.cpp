@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/command/comparison_report.h"
@@ -51,13 +52,15 @@ struct Shown {
 
 // The pictures of one frame: each eye by itself, and of each method what it made, its holes in red and its
 // difference from the eye by itself.
-void writePictures(const ComparedFrame& frame, const fs::path& folder) {
+void writePictures(const ComparedFrame& frame, int truthRays, const fs::path& folder) {
     const bool rightAlone = !frame.truth.empty();
     const int factor = rightAlone ? 5 : 20;  // as in fig. 6e of Wan et al. 2004; media differ by less
     if (rightAlone) {
         writeColorImage(folder / "left.png", frame.left.color);
         writeColorImage(folder / "full_right.png", frame.right.color);
-        writeColorImage(folder / "truth_16_rays.png", frame.truth);
+        const std::string rays = fmt::format("truth_{}_rays.png", truthRays);
+        writeColorImage(folder / rays, frame.truth);
+        writeColorImage(folder / ("left_" + rays), frame.leftTruth);
     }
     for (const MethodPicture& picture : frame.pictures) {
         const std::string name(picture.method);
@@ -68,6 +71,8 @@ void writePictures(const ComparedFrame& frame, const fs::path& folder) {
             writeColorImage(folder / fmt::format("{}{}_difference_x{}.png", name, eye.name, factor),
                             differenceTimes(eye.exact.color, eye.made.color, factor));
         }
+        if (!picture.butteraugli.empty())
+            writeColorImage(folder / (name + "_butteraugli.png"), pictureOf(picture.butteraugli));
         if (!picture.holeMask.empty())
             writeColorImage(folder / (name + "_holes.png"),
                             holesInRed(picture.right.color, picture.holeMask));
@@ -84,16 +89,20 @@ std::vector<StereoSetting> eyesAt(const Scene& scene, const std::vector<TimedPos
 
 std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const Scene& scene,
                                            const std::vector<TimedPose>& poses,
+                                           const std::vector<TimedPose>& beside,
                                            const std::vector<StereoSetting>& eyes, Progress& progress) {
     ComparisonSetting setting;
     setting.eyes = eyes;
+    setting.beside = beside;
+    setting.butteraugli = options.butteraugli;
     setting.repeats = options.repeats;
+    setting.truthFactor = static_cast<int>(std::lround(std::sqrt(options.truthRays)));
     setting.methods = methodsOf(options, scene);
     const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
     const auto listener = [&](const ComparedFrame& frame) {
         if (options.images.empty() || frame.index != shown) return;
         makeOutputFolder(options.images);
-        writePictures(frame, options.images);
+        writePictures(frame, options.truthRays, options.images);
     };
     return compareMethods(scene.frames(), poses, scene.lens, scene.stereo, setting, progress, listener);
 }
@@ -117,6 +126,7 @@ ComparisonReport describe(const CompareOptions& options, const Scene& scene, int
     report.threads = threadCount();
     report.frames = frames;
     report.repeats = options.repeats;
+    report.truthRays = options.truthRays;
     report.stereo = scene.stereo;
     report.least = scene.stereo.separation;
     return report;
@@ -137,14 +147,17 @@ int runCompare(const CompareOptions& options) {
     checkNotRead({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});
     if (options.relativeSeparation > 0.0)
         scene.stereo.separation = scene.stereo.zeroParallax * options.relativeSeparation;
-    const std::vector<TimedPose> poses = timedFrames(flightOf(scene, path, options.path), options.frames);
+    constexpr double kNextFrame = 1.0 / 30;  // seconds
+    const RecordedPath& flight = flightOf(scene, path, options.path);
+    const std::vector<TimedPose> poses = timedFrames(flight, options.frames);
     // What is asked for is what is measured.
     const std::vector<StereoSetting> eyes = options.relativeSeparation > 0.0
                                                 ? std::vector<StereoSetting>(poses.size(), scene.stereo)
                                                 : eyesAt(scene, poses);
     ComparisonReport report = describe(options, scene, options.frames);
     for (const StereoSetting& eye : eyes) report.least = std::min(report.least, eye.separation);
-    report.methods = comparedMethods(options, scene, poses, eyes, bar.progress());
+    report.methods =
+        comparedMethods(options, scene, poses, timedBeside(flight, poses, kNextFrame), eyes, bar.progress());
     writeResults(options, report);
     bar.clear();
     const bool otherwise =

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "engine/metrics/error_plot.h"
@@ -26,12 +27,13 @@ double rmsFromPsnr(double psnr_db) {
 }
 
 using F = const MethodFigures&;
-constexpr std::array<Field, 16> kFields{{
+constexpr std::array<Field, 25> kFields{{
     {"left_ms", [](F f) { return f.left_ms; }, 2},
     {"warp_ms", [](F f) { return f.warp_ms; }, 2},
     {"fill_ms", [](F f) { return f.fill_ms; }, 2},
     {"right_ms", [](F f) { return f.right_ms; }, 2},
     {"full_right_ms", [](F f) { return f.full_right_ms; }, 2},
+    {"pair_ms", [](F f) { return f.pair_ms; }, 2},
     {"hole_percent", [](F f) { return f.hole_percent; }, 2},
     {"psnr_db", [](F f) { return f.difference.psnr_db; }, 2},
     {"rms_levels", [](F f) { return rmsFromPsnr(f.difference.psnr_db); }, 3},
@@ -41,8 +43,16 @@ constexpr std::array<Field, 16> kFields{{
     {"rgb_max", [](F f) { return f.difference.rgb_max; }, 0},
     {"edge_psnr_db", [](F f) { return f.difference.edge_psnr_db; }, 2},
     {"true_psnr_db", [](F f) { return f.true_psnr_db; }, 2},
+    {"left_true_psnr_db", [](F f) { return f.left_true_psnr_db; }, 2},
     {"holes_of_warped_percent", [](F f) { return f.holesOfWarped_percent; }, 2},
     {"surface_psnr_db", [](F f) { return f.surface_psnr_db; }, 2},
+    {"flicker_db", [](F f) { return f.flicker_db; }, 2},
+    {"rivalry_db", [](F f) { return f.rivalry_db; }, 2},
+    {"edge_rivalry_db", [](F f) { return f.edge_rivalry_db; }, 2},
+    {"butteraugli", [](F f) { return f.butteraugli; }, 3},
+    {"butteraugli_max", [](F f) { return f.butteraugli_max; }, 2},
+    {"edge_butteraugli", [](F f) { return f.edge_butteraugli; }, 3},
+    {"flat_butteraugli", [](F f) { return f.flat_butteraugli; }, 3},
 }};
 
 // Of its column in the table.
@@ -75,10 +85,14 @@ std::string tableOf(const ComparisonReport& report) {
                         ? fmt::format(", {:.4g} m where narrow", report.least)
                         : "");
     table += fmt::format("{:<10}", "method");
-    for (const Field& field : kFields) table += fmt::format(" {:>{}}", field.name, widthOf(field));
+    std::vector<Field> fields;  // that any method has
+    std::copy_if(kFields.begin(), kFields.end(), std::back_inserter(fields), [&](const Field& field) {
+        return std::ranges::any_of(report.methods, [&](F f) { return !std::isnan(field.value(f)); });
+    });
+    for (const Field& field : fields) table += fmt::format(" {:>{}}", field.name, widthOf(field));
     for (const MethodFigures& method : report.methods) {
         table += fmt::format("\n{:<10}", method.name);
-        for (const Field& field : kFields) {
+        for (const Field& field : fields) {
             const double value = field.value(method);
             table += std::isnan(value) ? fmt::format(" {:>{}}", "-", widthOf(field))
                                        : fmt::format(" {:>{}.{}f}", value, widthOf(field), field.decimals);
@@ -97,6 +111,7 @@ std::string jsonOf(const ComparisonReport& report) {
     json["path"] = report.path;
     json["frames"] = report.frames;
     json["repeats"] = report.repeats;
+    json["truth_rays"] = report.truthRays;
     json["separation_m"] = report.stereo.separation;
     json["least_separation_m"] = report.least;
     json["zero_parallax_m"] = report.stereo.zeroParallax;
@@ -131,7 +146,7 @@ Plane<PackedColor> plotOf(const ComparisonReport& report) {
                      "RMS error in 8-bit levels",
                      {}};
     PlotPanel manyRays = oneRay;
-    manyRays.title = "against a right cast of 16 rays a pixel";
+    manyRays.title = fmt::format("against a right cast of {} rays a pixel", report.truthRays);
     for (const MethodFigures& method : report.methods) {
         oneRay.points.push_back({method.name, method.right_ms, rmsFromPsnr(method.difference.psnr_db)});
         manyRays.points.push_back({method.name, method.right_ms, rmsFromPsnr(method.true_psnr_db)});

@@ -14,6 +14,7 @@ struct ComparisonReport {
     std::string scene, path, machine, simd;
     int width = 0, height = 0;  // pixels of one eye
     int threads = 0, frames = 0, repeats = 0;
+    int truthRays = 0;  // a pixel of the finer truths
     StereoSetting stereo;
     double least = 0;  // separation among the frames, metres: eyes come together where a lumen is narrow
     std::vector<MethodFigures> methods;  // medians over the frames

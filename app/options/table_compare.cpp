@@ -147,6 +147,23 @@ std::vector<Option> compareOptions() {
          .commands = kCompare,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.compare->repeats = static_cast<int>(value.whole); }},
+        {.key = "butteraugli",
+         .value = flagValue(),
+         .help =
+             "how much of the error a person would notice, and a map of it among the pictures of --images",
+         .commands = kCompare,
+         .take = [](OptionTargets& to, const OptionValue&) { to.compare->butteraugli = true; }},
+        {.key = "truth-rays",
+         .value = wordValue({"4", "16", "64", "256"}),
+         .help = "rays a pixel of the finer truths",
+         .advice = "fewer take less time",
+         .fallback = "64",
+         .commands = kCompare,
+         .scenes = scene_type::kCast,
+         .elsewhere = {nullptr, "does not go with a medium, which has no finer truth",
+                       "leave it out: errors are those from two sweeps"},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.compare->truthRays = std::stoi(value.text); }},
     };
 }
 

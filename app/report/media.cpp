@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/felt_errors.h"
 #include "app/report/run.h"
 #include "engine/image/image_file.h"
 #include "engine/medium/sweep/swept_frames.h"
@@ -64,12 +65,14 @@ public:
         finest.shadingWidth = 0;
         finest.slices = run.pick(512, 2048);
         mTruths.resize(mViews.size());
-        for (std::size_t n = 0; n < mViews.size(); ++n) sweep(finest, kTwoSweepsMethod, n, mTruths[n]);
-        mTruthSlices = finest.slices;
+        for (std::size_t n = 0; n < mViews.size(); ++n)
+            sweep(finest, kTwoSweepsMethod, mViews[n], 0, mTruths[n]);
+        mFinest = finest;
     }
 
     // All ways one after another in each repeat, so that the machine's moods meet all alike.
     std::vector<WayPoint> pointsOf(const std::vector<PairWay>& ways, int repeats) {
+        mFirst.clear();
         std::vector<std::vector<double>> ms(ways.size(),
                                             std::vector<double>(static_cast<std::size_t>(repeats), 0.0));
         std::vector<WayPoint> points(ways.size());
@@ -77,8 +80,9 @@ public:
         for (std::size_t n = 0; n < mViews.size(); ++n)
             for (std::size_t r = 0; r < static_cast<std::size_t>(repeats); ++r)
                 for (std::size_t k = 0; k < ways.size(); ++k) {
-                    ms[k][r] += sweep(ways[k].sweep, ways[k].method, n, mFrame) / frames;
+                    ms[k][r] += sweep(ways[k].sweep, ways[k].method, mViews[n], 0, mFrame) / frames;
                     if (r == 0) addErrors(n, points[k]);
+                    if (r == 0 && n == 0) mFirst.push_back({mFrame.left.color, mFrame.right.color});
                 }
         for (std::size_t k = 0; k < ways.size(); ++k) {
             points[k].way = {ways[k].name, spreadOf(ms[k]), std::sqrt(points[k].way.error / (2 * frames)),
@@ -88,14 +92,33 @@ public:
         return points;
     }
 
+    // Of the first frame, as pointsOf() made it last, and the one that follows it.
+    std::vector<FeltErrors> feltErrors(const std::vector<PairWay>& ways) {
+        const StereoViews &views = mViews[0],
+                          next = mScene.viewsAt(mScene.path.at(mScene.path.startTime() + kNextFrame_s));
+        EyePair nextFrame;
+        with(mFinest, [&] { mScene.frames().makeOne(next.right, kNextFrame_s, nextFrame); });
+        const EyePair& exact = mTruths[0];
+        const Plane<std::uint8_t> none(views.left.width, views.left.height);
+        const FeltTruth truth{exact.left.color, exact.right.color, nextFrame.left.color,
+                              columnsInRightEye(views, exact.left.viewDepth, exact.right.viewDepth),
+                              edgeMask(none, exact.right.viewDepth, views.parallaxScale, 2)};
+        std::vector<FeltErrors> errors(ways.size());
+        for (std::size_t k = 0; k < ways.size(); ++k) {
+            sweep(ways[k].sweep, ways[k].method, next, kNextFrame_s, nextFrame);
+            errors[k].add(truth, {mFirst[k].left, mFirst[k].right}, nextFrame.right.color);
+        }
+        return errors;
+    }
+
     // Of the right eye in the first frame, its truth, and the left eye.
     ReportPictures pictures() {
-        sweep(mOwn, kSweepMethod, 0, mFrame);
+        sweep(mOwn, kSweepMethod, mViews[0], 0, mFrame);
         return {"Pictures, " + mTitle,
                 "The first frame of the flight.",
                 {{"left eye", encodeColorImage(mFrame.left.color, ".png")},
                  {"right eye, in the same sweep", encodeColorImage(mFrame.right.color, ".png")},
-                 {fmt::format("right eye, a sweep of its own in {} slices", mTruthSlices),
+                 {fmt::format("right eye, a sweep of its own in {} slices", mFinest.slices),
                   encodeColorImage(mTruths[0].right.color, ".png")}}};
     }
 
@@ -103,11 +126,22 @@ public:
         return fmt::format("{}, {} frames", mRun.settingOf(mScene.lens.width, mScene.lens.height),
                            mViews.size());
     }
-    int truthSlices() const { return mTruthSlices; }
+    int truthSlices() const { return mFinest.slices; }
     const SweepSetting& own() const { return mOwn; }
 
 private:
     using Eye = EyeImage EyePair::*;
+    struct Pictures {
+        Plane<PackedColor> left, right;
+    };
+
+    template <typename Make>
+    void with(const SweepSetting& setting, const Make& make) {
+        mRun.tell("volume light in stereo, " + mTitle);
+        mScene.offered<MediumScene>()->sweep = setting;
+        make();
+        mScene.offered<MediumScene>()->sweep = mOwn;
+    }
 
     // Squares are summed up in the point's error.
     void addErrors(std::size_t frame, WayPoint& point) const {
@@ -118,22 +152,20 @@ private:
         }
     }
 
-    double sweep(const SweepSetting& setting, std::string_view method, std::size_t index, EyePair& frame) {
-        mRun.tell("volume light in stereo, " + mTitle);
-        mScene.offered<MediumScene>()->sweep = setting;
-        mScene.frames().make(mViews[index], 0, {method, {}}, frame);
-        mScene.offered<MediumScene>()->sweep = mOwn;
+    double sweep(const SweepSetting& setting, std::string_view method, const StereoViews& views, double time,
+                 EyePair& frame) {
+        with(setting, [&] { mScene.frames().make(views, time, {method, {}}, frame); });
         return frame.timings.both_ms;
     }
 
     ReportRun& mRun;
     Scene& mScene;
     std::string mTitle;
-    SweepSetting mOwn;
+    SweepSetting mOwn, mFinest;  // mFinest: of truths
     std::vector<StereoViews> mViews;
     std::vector<EyePair> mTruths;
     EyePair mFrame;
-    int mTruthSlices = 0;
+    std::vector<Pictures> mFirst;  // of the first frame, by ways
 };
 
 WayChart emptyChart(const PairTrial& trial) {
@@ -146,7 +178,9 @@ WayChart emptyChart(const PairTrial& trial) {
     return chart;
 }
 
-WayChart waysChart(ReportRun& run, const ReportScene& scene, PairTrial& trial, int repeats) {
+void addWaysCharts(ReportRun& run, ReportSection& section, const ReportScene& scene, PairTrial& trial,
+                   int repeats) {
+    const std::vector<PairWay> ways = waysOf(run, trial.own());
     WayChart chart = emptyChart(trial);
     chart.id = "pair/" + scene.id;
     chart.title = "Both eyes, " + scene.title;
@@ -157,8 +191,18 @@ WayChart waysChart(ReportRun& run, const ReportScene& scene, PairTrial& trial, i
     chart.why =
         "The numbers of slices and of the buffer's texels are one choice for all media "
         "(docs/volume_light.md).";
-    chart.points = trial.pointsOf(waysOf(run, trial.own()), repeats);
-    return chart;
+    chart.points = trial.pointsOf(ways, repeats);
+    WayChart felt = chart;
+    felt.points.clear();
+    felt.title = scene.title;
+    felt.text = fmt::format(
+        "Of the flight's first frame and the next one, against a sweep of {} slices for each eye; times are "
+        "those "
+        "of the chart of both eyes. What the measures are stands in the part on what a viewer feels.",
+        trial.truthSlices());
+    const std::vector<WayPoint> points = chart.points;
+    addChart(run.report(), section, std::move(chart));
+    addFeltCharts(run, section, scene.id, felt, points, trial.feltErrors(ways));
 }
 
 WayChart separationsChart(ReportRun& run, ReportScene& scene) {
@@ -188,7 +232,7 @@ void reportPairs(ReportRun& run, ReportSection& section) {
     for (ReportScene& scene : run.media()) {
         run.checkTime();
         PairTrial trial(run, scene, run.pick(1, 3), kShare);
-        addChart(run.report(), section, waysChart(run, scene, trial, run.pick(2, 4)));
+        addWaysCharts(run, section, scene, trial, run.pick(2, 3));
         section.blocks.emplace_back(trial.pictures());
         addChart(run.report(), section, separationsChart(run, scene));
     }

@@ -66,7 +66,7 @@ std::vector<Variant> variantsOf(ReportRun& run, const std::vector<NamedWarp>& wa
 WayChart dialChart(ReportRun& run, const ReportScene& scene, double seconds) {
     const std::vector<NamedWarp> warps = warpsWorthTrying(rendererOf(scene.loaded()));
     const MeasuredWarps known = measured(run, scene, warps);
-    RightEyeTrial trial(scene, stereoOf(scene.loaded()), variantsOf(run, warps, known), false);
+    RightEyeTrial trial(scene, stereoOf(scene.loaded()), variantsOf(run, warps, known));
     trial.run(run, "quality, " + scene.title, run.pick(2, 10), seconds);
     WayChart chart;
     chart.id = "quality/" + scene.id;

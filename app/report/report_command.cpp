@@ -33,6 +33,7 @@ struct Part {
     bool papers = false;   // of --papers, which load what they need themselves
 };
 constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0},
+                           {"felt", reportFelt, 1.5},
                            {"quality", reportQuality, 1.5},
                            {"casting", reportCasting, 1.0},
                            {"light", reportLight, 1.0, false},

@@ -13,30 +13,6 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSeparationShare = 1.0 / 30;  // of the zero-parallax distance: the eyes' separation
-
-std::vector<Variant> variantsOf(const Scene& scene) {
-    std::vector<Variant> variants;
-    for (const RightEyeMethod method : methodsFor(rendererOf(scene))) {
-        variants.push_back(methodVariant(method));
-        variants.back().isDefault = method == defaultMethodFor(rendererOf(scene));
-    }
-    const bool glass = rendererOf(scene).translucent();
-    if (glass)
-        for (const float spread : {0.2f, 0.4f, 1.0f, 1.5f, 3.0f})
-            variants.push_back(tuned(RightEyeMethod::Selective, &WarpSetting::mostSpread,
-                                     "largest shift of depths", spread));
-    else
-        for (const float stretch : {1.05f, 1.1f, 1.2f, 1.8f, 2.5f})
-            variants.push_back(
-                tuned(RightEyeMethod::Linear, &WarpSetting::maxStretch, "largest stretch", stretch));
-    if (!glass)
-        for (const float weight : {0.25f, 0.75f})
-            variants.push_back(
-                tuned(RightEyeMethod::Paper, &WarpSetting::weightThreshold, "least weight", weight));
-    return variants;
-}
-
 WayChart chartOf(ReportRun& run, const ReportScene& scene, const RightEyeTrial& trial) {
     WayChart chart;
     chart.id = "right_eye/" + scene.id;
@@ -47,9 +23,8 @@ WayChart chartOf(ReportRun& run, const ReportScene& scene, const RightEyeTrial& 
     chart.text = fmt::format(
         "Eyes 1/30 of the zero-parallax distance apart; the mean frame of the scene's flight, {} repeats. "
         "Error "
-        "against the full right cast of one ray a pixel, which is exact by definition; the table has the "
-        "error "
-        "against 16 rays too. A number after a way's name is a setting other than its own.",
+        "against the full right cast of one ray a pixel, which is exact by definition. A number after a "
+        "way's name is a setting other than its own.",
         trial.repeats());
     chart.why =
         "The default's thresholds are one choice for all scenes. A lower one casts more pixels again (holes "
@@ -99,7 +74,7 @@ WayChart separationsOf(ReportRun& run, const ReportScene& scene, double seconds)
         v.name = fmt::format("1/{}", part);
         v.detail = fmt::format("eyes 1/{} of the zero-parallax distance apart", part);
         v.isDefault = part == 30;
-        RightEyeTrial trial(scene, stereo, {v}, false);
+        RightEyeTrial trial(scene, stereo, {v});
         trial.run(run, "separations, " + scene.title, run.pick(2, 6),
                   seconds / static_cast<double>(parts.size()));
         chart.points.push_back(trial.points().front());
@@ -131,12 +106,11 @@ void reportRightEye(ReportRun& run, double seconds) {
     const Stopwatch watch;
     for (const ReportScene& scene : run.scenes()) {
         run.checkTime();
-        StereoSetting stereo = scene.loaded().stereo;
-        stereo.separation = stereo.zeroParallax * kSeparationShare;
+        const StereoSetting stereo = chartedEyes(scene.loaded());
         const std::string what = "right eye, " + scene.title;
         const auto scenesLeft = static_cast<double>(run.scenes().data() + run.scenes().size() - &scene);
         const double each = std::max(0.0, seconds - watch.elapsed_ms() / 1000) / scenesLeft;
-        RightEyeTrial trial(scene, stereo, variantsOf(scene.loaded()), !run.brief());
+        RightEyeTrial trial(scene, stereo, rightEyeVariants(scene.loaded()));
         trial.run(run, what, run.pick(3, 12), 0.65 * each);
         addChart(run.report(), section, chartOf(run, scene, trial));
         addChart(run.report(), section, separationsOf(run, scene, 0.3 * each));

@@ -6,13 +6,11 @@
 #include <cmath>
 
 #include "engine/metrics/image_difference.h"
-#include "engine/metrics/supersampled_picture.h"
 
 namespace stereonav {
 namespace {
 
 constexpr int kLeastRepeats = 3, kMostRepeats = 9;
-constexpr int kTruthFactor = 4;  // 16 rays a pixel
 
 }  // namespace
 
@@ -30,14 +28,42 @@ Variant tuned(RightEyeMethod method, float WarpSetting::*what, const char* name,
     return v;
 }
 
+std::vector<Variant> rightEyeVariants(const Scene& scene) {
+    std::vector<Variant> variants;
+    for (const RightEyeMethod method : methodsFor(rendererOf(scene))) {
+        variants.push_back(methodVariant(method));
+        variants.back().isDefault = method == defaultMethodFor(rendererOf(scene));
+    }
+    const bool glass = rendererOf(scene).translucent();
+    if (glass)
+        for (const float spread : {0.2f, 0.4f, 1.0f, 1.5f, 3.0f})
+            variants.push_back(tuned(RightEyeMethod::Selective, &WarpSetting::mostSpread,
+                                     "largest shift of depths", spread));
+    else
+        for (const float stretch : {1.05f, 1.1f, 1.2f, 1.8f, 2.5f})
+            variants.push_back(
+                tuned(RightEyeMethod::Linear, &WarpSetting::maxStretch, "largest stretch", stretch));
+    if (!glass)
+        for (const float weight : {0.25f, 0.75f})
+            variants.push_back(
+                tuned(RightEyeMethod::Paper, &WarpSetting::weightThreshold, "least weight", weight));
+    return variants;
+}
+
+StereoSetting chartedEyes(const Scene& scene) {
+    constexpr double kSeparationShare = 1.0 / 30;  // of the zero-parallax distance
+    StereoSetting stereo = scene.stereo;
+    stereo.separation = stereo.zeroParallax * kSeparationShare;
+    return stereo;
+}
+
 double rmsOfPsnr(double psnr_db) {
     return psnr_db >= kIdenticalPsnr_db ? 0.0 : 255 * std::pow(10.0, -psnr_db / 20);
 }
 
 RightEyeTrial::RightEyeTrial(const ReportScene& scene, const StereoSetting& stereo,
-                             std::vector<Variant> variants, bool truths)
-    : mTruths(truths),
-      mScene(scene.loaded()),
+                             std::vector<Variant> variants)
+    : mScene(scene.loaded()),
       mMaker(scene.frames()),
       mRightMaker(scene.rightFromLeft()),
       mStereo(stereo),
@@ -72,7 +98,7 @@ std::vector<Pose> RightEyeTrial::posesOf(int frames) const {
     return mScene.path.samples().empty() ? std::vector<Pose>{mScene.startPose} : mScene.path.frames(frames);
 }
 
-// From the first frame, which ran kLeastRepeats times: half of that is truths.
+// From the first frame, which ran kLeastRepeats times.
 void RightEyeTrial::chooseRepeats(double first_ms, std::size_t frames, double seconds) {
     const double perRepeat_ms = mTimed_ms / kLeastRepeats,
                  fixed_ms = std::max(0.0, first_ms - mTimed_ms) * static_cast<double>(frames);
@@ -86,10 +112,7 @@ void RightEyeTrial::chooseRepeats(double first_ms, std::size_t frames, double se
 void RightEyeTrial::frame(ReportRun& run, const StereoViews& views, const std::string& what) {
     mViews = views;
     mMaker.make(views, 0, {mMaker.exactMethod(), {}}, mFull);
-    Progress quiet([&](double, const std::string&) { run.tell(what); });
-    const Plane<PackedColor> truth =
-        mTruths ? renderSupersampled(mMaker, views.right, 0, kTruthFactor, quiet) : Plane<PackedColor>();
-    for (std::size_t n = 0; n < mVariants.size(); ++n) measureError(n, truth);
+    for (std::size_t n = 0; n < mVariants.size(); ++n) measureError(n);
     mFastest.assign(mVariants.size(), 1e300);
     const Stopwatch watch;
     for (int r = 0; r < mRepeats; ++r) {
@@ -99,16 +122,14 @@ void RightEyeTrial::frame(ReportRun& run, const StereoViews& views, const std::s
     mTimed_ms = watch.elapsed_ms();
 }
 
-void RightEyeTrial::measureError(std::size_t n, const Plane<PackedColor>& truth) {
+void RightEyeTrial::measureError(std::size_t n) {
     const RightEyeTimings timings =
         mRightMaker.makeRight(mViews, mFull.left, wayOf(mVariants[n].setting), mRight);
     Plane<std::uint8_t> nothing(mRight.width(), mRight.height());
     const ImageDifference difference = differenceOf(mFull.right.color, mRight.color, nothing);
-    const double rms = rmsOfPsnr(difference.psnr_db),
-                 trueRms = mTruths ? rmsOfPsnr(psnrOf(truth, mRight.color)) : 0;
+    const double rms = rmsOfPsnr(difference.psnr_db);
     Sums& sums = mSums[n];
     sums.squares += rms * rms;
-    sums.trueSquares += trueRms * trueRms;
     sums.worst = std::max(sums.worst, rms);
     sums.ssim += difference.ssim;
     sums.kept += difference.psnr_db >= timings.boundPsnr_db;
@@ -151,7 +172,6 @@ WayPoint RightEyeTrial::pointOf(const Variant& v, const Sums& sums) const {
         point.others.emplace_back("bound dB", sums.bound_db / count);
         point.others.emplace_back("frames within it %", 100 * sums.kept / count);
     }
-    if (mTruths) point.others.emplace_back("RMS against 16 rays", std::sqrt(sums.trueSquares / count));
     return point;
 }
 

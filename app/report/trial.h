@@ -21,15 +21,18 @@ Variant methodVariant(RightEyeMethod method);
 // The same way with one setting changed.
 Variant tuned(RightEyeMethod method, float WarpSetting::*what, const char* name, float value);
 
+// What the charts of a scene's right eyes compare: its methods, and one with other thresholds.
+std::vector<Variant> rightEyeVariants(const Scene& scene);
+// The scene's eyes as those charts have them: 1/30 of the zero-parallax distance apart.
+StereoSetting chartedEyes(const Scene& scene);
+
 // Root mean square error in 8-bit levels.
 double rmsOfPsnr(double psnr_db);
 
 // Runs variants over frames, one after another in each repeat, so that the machine's moods meet all alike.
 class RightEyeTrial {
 public:
-    // truths: also against 16 rays a pixel, which takes as long as 16 frames.
-    RightEyeTrial(const ReportScene& scene, const StereoSetting& stereo, std::vector<Variant> variants,
-                  bool truths);
+    RightEyeTrial(const ReportScene& scene, const StereoSetting& stereo, std::vector<Variant> variants);
 
     // As many of the frames as `seconds` allow, at least one.
     void run(ReportRun& run, const std::string& what, int frames, double seconds);
@@ -44,17 +47,17 @@ private:
     struct Sums {
         std::vector<double> right_ms, warp_ms, fill_ms;  // by repeat, over frames
         double least_ms = 0;                             // of each frame the fastest repeat, over frames
-        double squares = 0, trueSquares = 0, worst = 0, ssim = 0, holes = 0, kept = 0, bound_db = 0;
+        double squares = 0, worst = 0, ssim = 0, holes = 0, kept = 0, bound_db = 0;
     };
 
     std::vector<Pose> posesOf(int frames) const;
     void chooseRepeats(double first_ms, std::size_t frames, double seconds);
     void frame(ReportRun& run, const StereoViews& views, const std::string& what);
-    void measureError(std::size_t n, const Plane<PackedColor>& truth);
+    void measureError(std::size_t n);
     void repeat(int r);
     WayPoint pointOf(const Variant& v, const Sums& sums) const;
 
-    bool mTruths, mBounds = false;
+    bool mBounds = false;
     const Scene& mScene;
     FrameMaker& mMaker;
     RightFromLeft& mRightMaker;

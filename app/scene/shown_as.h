@@ -19,14 +19,15 @@ struct SceneType;  // app/scene/scene_type.h
 // Bytes that a command holds for each pixel of one eye beside the scene, measured at 1500x1500 and rounded
 // up: both eyes and the composed picture while it is encoded (as WebP, which takes most) or refined; the
 // same for a video without what its codec holds (app/output/video_file.h), and its libraries; every method
-// with its truths and the SSIM's intermediate pictures; eyes that are measured and not composed; a window's
-// frames, its software renderer's textures and a picture that is saved (measured at 320x240, 1200x700 and
-// 2400x1400; shaders of all modes take 40 MB, of which half is the 20 MB that every program has).
+// with its truths and the intermediate pictures of SSIM and Butteraugli; eyes that are measured and not
+// composed; a window's frames, its software renderer's textures and a picture that is saved (measured at
+// 320x240, 1200x700 and 2400x1400; shaders of all modes take 40 MB, of which half is the 20 MB that every
+// program has).
 struct PixelBytes {
     double cast = 0, swept = 0;  // of scenes whose rays are cast; of media
     double beside = 0;           // bytes, of pictures of any size
 };
-constexpr PixelBytes kRenderBytes{88, 176}, kVideoBytes{64, 160, 24e6}, kCompareBytes{320, 608},
+constexpr PixelBytes kRenderBytes{88, 176}, kVideoBytes{64, 160, 24e6}, kCompareBytes{400, 736},
     kInfoBytes{48, 128}, kViewBytes{108, 160, 24e6}, kNoPicture{};
 
 struct ShownAs {

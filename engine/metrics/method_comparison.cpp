@@ -6,13 +6,18 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include "engine/base/error.h"
+#include "engine/metrics/flicker.h"
+#include "engine/metrics/rivalry.h"
 #include "engine/metrics/supersampled_picture.h"
 #include "engine/metrics/surface_difference.h"
 
 namespace stereonav {
 namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // One method's pictures and the fastest of its runs of the frame at hand.
 struct Runner {
@@ -21,6 +26,8 @@ struct Runner {
     FrameTimings best;
     Plane<std::uint8_t> holeMask;  // empty: nothing is warped
     bool leavesHoles = false;
+    Plane<PackedColor> beside;  // what was judged of the neighbouring frame
+    Plane<float> butteraugli;
 
     explicit Runner(std::string_view m) : method(m) {}
 
@@ -45,6 +52,18 @@ Plane<T> oneAboveTheOther(const Plane<T>& top, const Plane<T>& bottom) {
     return both;
 }
 
+Plane<std::uint8_t> lowerHalf(const Plane<std::uint8_t>& plane) {
+    Plane<std::uint8_t> half(plane.width(), plane.height() / 2);
+    for (int y = 0; y < half.height(); ++y)
+        std::memcpy(half.row(y), plane.row(half.height() + y), static_cast<std::size_t>(half.width()));
+    return half;
+}
+
+struct Shot {
+    StereoViews views;
+    double time = 0;
+};
+
 class Comparison {
 public:
     Comparison(FrameMaker& frames, const ComparisonSetting& setting)
@@ -56,30 +75,61 @@ public:
             if (method != mExact.method) mRunners.emplace_back(method);
     }
 
-    // The figures in the order of setting.methods.
-    std::vector<MethodFigures> measure(const StereoViews& views, double time, int index, Progress& progress,
+    // The figures in the order of setting.methods. beside: the neighbouring frame, null without one.
+    std::vector<MethodFigures> measure(const Shot& shot, const Shot* beside, int index, Progress& progress,
                                        const ComparedFrameListener& listener) {
+        const auto& [views, time] = shot;
+        mFlickers = beside != nullptr;
+        if (beside) lookBeside(*beside, progress);
         for (int repeat = 0; repeat < mSetting.repeats; ++repeat) {
             run(mExact, views, time, repeat == 0);
             for (Runner& runner : mRunners) run(runner, views, time, repeat == 0);
         }
-        Plane<PackedColor> truth;
-        if (mRightFromLeft)
-            truth = renderSupersampled(mFrames, views.right, time, mSetting.truthFactor, progress);
+        if (mRightFromLeft) castTruths(views, time, progress);
         const Plane<std::uint8_t> edges = edgesOf(views, time);
+        mColumns = columnsInRightEye(views, mExact.frame.left.viewDepth, mExact.frame.right.viewDepth);
         std::vector<MethodFigures> figures;
-        ComparedFrame frame{index, mExact.frame.left, mExact.frame.right, truth, {}};
+        ComparedFrame frame{index, mExact.frame.left, mExact.frame.right, mTruth.right, mTruth.left, {}};
         for (const std::string_view method : mSetting.methods) {
-            const Runner& runner = *runnerOf(method);
-            figures.push_back(figuresOf(runner, truth, edges));
+            Runner& runner = *runnerOf(method);
+            figures.push_back(figuresOf(runner, edges));
             const EyeImage& left = mRightFromLeft ? mExact.frame.left : runner.frame.left;
-            frame.pictures.push_back({method, left, runner.frame.right, runner.holeMask});
+            frame.pictures.push_back({method, left, runner.frame.right, runner.holeMask, runner.butteraugli});
         }
         if (listener) listener(frame);
         return figures;
     }
 
 private:
+    struct Truths {
+        Plane<PackedColor> left, right;
+    };
+
+    // The third of a frame's truths that begins at `from`.
+    Plane<PackedColor> castTruth(const EyeView& view, double time, double from, Progress& progress) {
+        Progress part(
+            [&](double share, const std::string& what) { progress.report(from + share / 3, what); });
+        return renderSupersampled(mFrames, view, time, mSetting.truthFactor, part);
+    }
+
+    void castTruths(const StereoViews& views, double time, Progress& progress) {
+        mTruth.left = castTruth(views.left, time, 1.0 / 3, progress);
+        mTruth.right = castTruth(views.right, time, 2.0 / 3, progress);
+    }
+
+    // What errors are counted in: the right eye, or both.
+    Plane<PackedColor> judged(const EyePair& frame) const {
+        return mRightFromLeft ? frame.right.color : oneAboveTheOther(frame.left.color, frame.right.color);
+    }
+
+    void lookBeside(const Shot& shot, Progress& progress) {
+        run(mExact, shot.views, shot.time, true);
+        for (Runner& runner : mRunners) run(runner, shot.views, shot.time, true);
+        mExact.beside = judged(mExact.frame);
+        for (Runner& runner : mRunners) runner.beside = judged(runner.frame);
+        mBesideTruth = mRightFromLeft ? castTruth(shot.views.right, shot.time, 0, progress) : mExact.beside;
+    }
+
     void run(Runner& runner, const StereoViews& views, double time, bool first) {
         EyePair& frame = runner.frame;
         if (mRightFromLeft && &runner != &mExact) {
@@ -97,9 +147,9 @@ private:
     }
 
     // Null where it is not among those that are compared.
-    const Runner* runnerOf(std::string_view method) const {
+    Runner* runnerOf(std::string_view method) {
         if (method == mExact.method) return &mExact;
-        for (const Runner& runner : mRunners)
+        for (Runner& runner : mRunners)
             if (runner.method == method) return &runner;
         return nullptr;
     }
@@ -121,16 +171,32 @@ private:
         return mDefault.holeMask;
     }
 
-    ImageDifference differenceTo(const EyePair& made, const Plane<std::uint8_t>& edges) const {
+    // What a viewer feels.
+    void addFelt(Runner& runner, const Plane<std::uint8_t>& edges, MethodFigures& figures) const {
         const EyePair& exact = mExact.frame;
-        if (mRightFromLeft) return differenceOf(exact.right.color, made.right.color, edges);
-        return differenceOf(oneAboveTheOther(exact.left.color, exact.right.color),
-                            oneAboveTheOther(made.left.color, made.right.color), edges);
+        const Plane<PackedColor> truth = mRightFromLeft ? mTruth.right : judged(exact);
+        figures.flicker_db =
+            mFlickers ? flickerPsnr({mBesideTruth, truth}, {runner.beside, judged(runner.frame)}) : kNone;
+        const TwoEyes eyes{mRightFromLeft ? exact.left.color : runner.frame.left.color,
+                           runner.frame.right.color};
+        const Rivalry rivalry = mRightFromLeft ? rivalryOf(mColumns, {mTruth.left, mTruth.right}, eyes, edges)
+                                               : rivalryOf(mColumns, {exact.left.color, exact.right.color},
+                                                           eyes, lowerHalf(edges));
+        figures.rivalry_db = rivalry.psnr_db;
+        figures.edge_rivalry_db = rivalry.edge_psnr_db;
+        figures.butteraugli = figures.butteraugli_max = kNone;
+        figures.edge_butteraugli = figures.flat_butteraugli = kNone;
+        if (!mSetting.butteraugli) return;
+        ButteraugliMap map = butteraugliOf(truth, judged(runner.frame));
+        const ButteraugliParts parts = partsOf(map.distances, edges);
+        figures.butteraugli = map.norm3;
+        figures.butteraugli_max = map.max;
+        figures.edge_butteraugli = parts.inside;
+        figures.flat_butteraugli = parts.outside;
+        runner.butteraugli = std::move(map.distances);
     }
 
-    MethodFigures figuresOf(const Runner& runner, const Plane<PackedColor>& truth,
-                            const Plane<std::uint8_t>& edges) const {
-        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    MethodFigures figuresOf(Runner& runner, const Plane<std::uint8_t>& edges) const {
         const EyeImage& right = runner.frame.right;
         const RightEyeTimings warped = runner.best.warped.value_or(RightEyeTimings{});
         MethodFigures figures;
@@ -141,12 +207,16 @@ private:
             runner.best.right_ms > 0 ? runner.best.right_ms : runner.best.both_ms - figures.left_ms;
         figures.fill_ms = figures.right_ms - figures.warp_ms;
         figures.full_right_ms = mExact.best.right_ms;
+        figures.pair_ms = mRightFromLeft ? figures.left_ms + figures.right_ms : runner.best.both_ms;
         figures.hole_percent = 100.0 * static_cast<double>(warped.holePixels) /
                                (static_cast<double>(right.width()) * right.height());
-        figures.difference = differenceTo(runner.frame, edges);
-        figures.true_psnr_db = figures.holesOfWarped_percent = figures.surface_psnr_db = kNone;
+        figures.difference = differenceOf(judged(mExact.frame), judged(runner.frame), edges);
+        addFelt(runner, edges, figures);
+        figures.true_psnr_db = figures.left_true_psnr_db = kNone;
+        figures.holesOfWarped_percent = figures.surface_psnr_db = kNone;
         if (!mRightFromLeft) return figures;
-        figures.true_psnr_db = psnrOf(truth, right.color);
+        figures.true_psnr_db = psnrOf(mTruth.right, right.color);
+        figures.left_true_psnr_db = psnrOf(mTruth.left, mExact.frame.left.color);
         const SurfaceDifference surface =
             surfaceDifference(mExact.frame.right, right, runner.holeMask, runner.leavesHoles);
         figures.holesOfWarped_percent = surface.holesOfWarped_percent;
@@ -158,6 +228,10 @@ private:
     RightFromLeft* const mRightFromLeft;  // null: methods make both eyes
     const ComparisonSetting& mSetting;
     Runner mExact, mDefault{""};
+    Truths mTruth;  // of the frame at hand; empty: there is no finer one
+    bool mFlickers = false;
+    Plane<PackedColor> mBesideTruth;  // of what is judged
+    Plane<float> mColumns;            // columnsInRightEye
     std::vector<Runner> mRunners;
 };
 
@@ -187,6 +261,7 @@ MethodFigures medianOf(const std::vector<MethodFigures>& frames) {
     result.fill_ms = field([](F f) { return f.fill_ms; });
     result.right_ms = field([](F f) { return f.right_ms; });
     result.full_right_ms = field([](F f) { return f.full_right_ms; });
+    result.pair_ms = field([](F f) { return f.pair_ms; });
     result.hole_percent = field([](F f) { return f.hole_percent; });
     result.difference.psnr_db = field([](F f) { return f.difference.psnr_db; });
     result.difference.ssim = field([](F f) { return f.difference.ssim; });
@@ -195,8 +270,16 @@ MethodFigures medianOf(const std::vector<MethodFigures>& frames) {
     result.difference.rgb_max = field([](F f) { return f.difference.rgb_max; });
     result.difference.edge_psnr_db = field([](F f) { return f.difference.edge_psnr_db; });
     result.true_psnr_db = field([](F f) { return f.true_psnr_db; });
+    result.left_true_psnr_db = field([](F f) { return f.left_true_psnr_db; });
     result.holesOfWarped_percent = field([](F f) { return f.holesOfWarped_percent; });
     result.surface_psnr_db = field([](F f) { return f.surface_psnr_db; });
+    result.flicker_db = field([](F f) { return f.flicker_db; });
+    result.rivalry_db = field([](F f) { return f.rivalry_db; });
+    result.edge_rivalry_db = field([](F f) { return f.edge_rivalry_db; });
+    result.butteraugli = field([](F f) { return f.butteraugli; });
+    result.butteraugli_max = field([](F f) { return f.butteraugli_max; });
+    result.edge_butteraugli = field([](F f) { return f.edge_butteraugli; });
+    result.flat_butteraugli = field([](F f) { return f.flat_butteraugli; });
     return result;
 }
 
@@ -215,9 +298,14 @@ std::vector<MethodFigures> compareMethods(FrameMaker& frames, const std::vector<
             progress.report((static_cast<double>(n) + share) / static_cast<double>(count), what);
         });
         ofFrame.report(0, fmt::format("frame {} of {}", n + 1, count));
-        const StereoViews views =
-            makeStereoViews(poses[n].pose, lens, setting.eyes.empty() ? stereo : setting.eyes[n]);
-        const auto figures = comparison.measure(views, poses[n].time, static_cast<int>(n), ofFrame, listener);
+        const auto shotAt = [&](const TimedPose& at) {
+            return Shot{makeStereoViews(at.pose, lens, setting.eyes.empty() ? stereo : setting.eyes[n]),
+                        at.time};
+        };
+        std::optional<Shot> beside;
+        if (!setting.beside.empty()) beside = shotAt(setting.beside[n]);
+        const auto figures = comparison.measure(shotAt(poses[n]), beside ? &*beside : nullptr,
+                                                static_cast<int>(n), ofFrame, listener);
         for (std::size_t k = 0; k < figures.size(); ++k) byMethod[k].push_back(figures[k]);
     }
     std::vector<MethodFigures> result;

@@ -1,6 +1,6 @@
 // Plays poses through the ways that one FrameMaker has of making two eyes and measures each: its time, and
 // its error against each eye by itself (FrameMaker::exactMethod), one ray a pixel, and against many rays a
-// pixel.
+// pixel; how it flickers from frame to frame, and what it shows both eyes differently.
 #pragma once
 
 #include <functional>
@@ -11,6 +11,7 @@
 #include "engine/base/progress.h"
 #include "engine/camera/timed_poses.h"
 #include "engine/frame/frame_maker.h"
+#include "engine/metrics/butteraugli.h"
 #include "engine/metrics/image_difference.h"
 
 namespace stereonav {
@@ -18,9 +19,12 @@ namespace stereonav {
 struct ComparisonSetting {
     std::vector<std::string_view> methods;  // of FrameMaker::methods()
     int repeats = 3;                        // timed runs of a frame, >= 1; the fastest counts
-    int truthFactor = 4;                    // the finer truth has truthFactor^2 rays a pixel
+    int truthFactor = 8;                    // finer truths have truthFactor^2 rays a pixel
     int edgeRadius = 2;                     // pixels by which the edge mask is grown
     std::vector<StereoSetting> eyes;        // one a pose; empty: the same at all
+    // Of each pose its neighbour in the flight (timedBeside), for flicker; empty: there is no such figure.
+    std::vector<TimedPose> beside;
+    bool butteraugli = false;  // too, which takes longer than most methods
 };
 
 // Of a FrameMaker whose methods differ in the right eye alone (FrameMaker::rightFromLeft) the left one is
@@ -33,13 +37,23 @@ struct MethodFigures {
     // What the other costs on top of it: the warp, or splat of depths, and what is cast or swept after it.
     double warp_ms = 0, fill_ms = 0, right_ms = 0;
     double full_right_ms = 0;    // the right eye by itself, in the same run
+    double pair_ms = 0;          // both eyes, from the first ray to the last pixel
     double hole_percent = 0;     // pixels cast again, or swept without a known start, of all
     ImageDifference difference;  // from each eye by itself
-    double true_psnr_db = 0;     // from the truth with many rays a pixel; NaN: there is none
+    // Of the right eye and of the left one, as the method uses it, from truths with many rays a pixel; NaN:
+    // there are none.
+    double true_psnr_db = 0, left_true_psnr_db = 0;
     // As Wan et al. 2004 count (surface_difference.h); NaN where no pixel that shows the scene was warped, or
     // made; or where nothing is warped at all.
     double holesOfWarped_percent = 0;
     double surface_psnr_db = 0;
+    // From the finer truths, or, where there are none, from each eye by itself: change from frame to frame
+    // (flicker.h), NaN without neighbours; and between the eyes, in the whole and in the edge mask
+    // (rivalry.h).
+    double flicker_db = 0, rivalry_db = 0, edge_rivalry_db = 0;
+    // From the same truths (butteraugli.h), inside the edge mask and outside it; NaN where it was not asked
+    // for.
+    double butteraugli = 0, butteraugli_max = 0, edge_butteraugli = 0, flat_butteraugli = 0;
 };
 
 // What one method made of one frame. The edge mask of every method is that of the default method's
@@ -48,11 +62,14 @@ struct MethodPicture {
     std::string_view method;
     const EyeImage &left, &right;         // left: the same for all where they differ in the right one alone
     const Plane<std::uint8_t>& holeMask;  // empty: nothing is warped
+    const Plane<float>&
+        butteraugli;  // of what errors are counted in: the right eye, or the left one over it; or empty
 };
 struct ComparedFrame {
     int index = 0;
-    const EyeImage &left, &right;     // each by itself
-    const Plane<PackedColor>& truth;  // of the right eye by many rays a pixel; empty: there is none
+    const EyeImage &left, &right;  // each by itself
+    const Plane<PackedColor>&truth,
+        &leftTruth;  // of the right and left eye by many rays a pixel; empty: none
     std::vector<MethodPicture> pictures;
 };
 using ComparedFrameListener = std::function<void(const ComparedFrame&)>;

@@ -110,6 +110,9 @@ STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const
     const F ambient = mulAdd(F(light.ambient), up, F(light.ambient));
     const F diffuse = mulAdd(F(light.diffuse), max(cosine, F(0.0f)) * lit, ambient) * reaches;
     if (!(light.specular > 0)) return {diffuse, F(0.0f)};
+    // Most of a wall that is seen along a tube: highlight_bound.h.
+    const M shines = (cosine > F(0.0f)) & (mulAdd(F(view.lampAway), inverse, cosine) >= F(light.faintCosine));
+    if (!any(shines)) return {diffuse, F(0.0f)};
     const F toEye = F(0.0f) - r.perMetre;
     const V3 half{mulAdd(lamp.x, inverse, way.x * toEye), mulAdd(lamp.y, inverse, way.y * toEye),
                   mulAdd(lamp.z, inverse, way.z * toEye)};
@@ -119,7 +122,7 @@ STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const
     const F bounded = clamp(aligned, F(1e-30f), F(1.0f));
     const F power = light.wholeHalf > 0 ? wholePower(bounded, light.wholeHalf)
                                         : exp2(log2(bounded) * F(0.5f * light.shininess));
-    return {diffuse, select(cosine > F(0.0f), power * F(light.specular) * reaches * lit, F(0.0f))};
+    return {diffuse, select(shines, power * F(light.specular) * reaches * lit, F(0.0f))};
 }
 
 // Linear light in one channel to a packed channel.

@@ -61,6 +61,7 @@ struct LightData {
     float albedo[3] = {}, background[3] = {};
     float ambient = 0, diffuse = 0, specular = 0, shininess = 1;
     int wholeHalf = 0;                // half the shininess where that is a whole number: cheaper; else 0
+    float faintCosine = 0;            // highlight_bound.h
     float inverseFalloffSquared = 0;  // 1 / metres^2, at most kMostFalloff
     bool shadows = false;
     float largestSpacing = 0;                  // metres
@@ -95,6 +96,7 @@ struct VolumeView {
     float forward[3] = {}, right[3] = {}, up[3] = {};  // world
     float xMin = 0, yMax = 0, pixelWidth = 0, pixelHeight = 0;  // window at unit depth
     float head[3] = {};                                         // world, from the eye: where the lamp is
+    float lampAway = 0;                                         // metres, its length
     // The lamp where it casts shadows: as base and eye.
     std::int32_t lampBase[3] = {};
     float lampEye[3] = {};

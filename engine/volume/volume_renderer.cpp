@@ -12,6 +12,7 @@
 
 #include "engine/base/error.h"
 #include "engine/volume/baked_data.h"
+#include "engine/volume/highlight_bound.h"
 #include "engine/volume/volume_kernel_types.h"
 
 namespace stereonav {
@@ -71,6 +72,8 @@ LightData lightDataOf(const VolumeLook& look, const VolumeFrame& frame) {
     d.diffuse = look.diffuse;
     d.specular = look.specular;
     d.shininess = look.shininess;
+    // less for what the kernels' square roots are off
+    d.faintCosine = static_cast<float>(0.998 * faintHighlightCosine(look));
     const float half = 0.5f * look.shininess;
     d.wholeHalf = half >= 1 && half <= 1024 && half == std::floor(half) ? static_cast<int>(half) : 0;
     d.shadows = look.shadows && look.lampAt;
@@ -134,6 +137,7 @@ VolumeView makeVolumeView(const EyeView& view, const VolumeScene& scene) {
         v.head[k] = static_cast<float>(head[k]);
         v.inside = v.inside && eye[k] >= 0 && eye[k] <= frame.size[k] - 1;
     }
+    v.lampAway = static_cast<float>(glm::length(head));
     v.xMin = static_cast<float>(view.xMin);
     v.yMax = static_cast<float>(view.yMax);
     v.pixelWidth = static_cast<float>(view.pixelWidth());

@@ -159,6 +159,7 @@ TEST_F(Commands, CompareGivesEveryFieldForEveryMethod) {
                                      "a.json",
                                      "--csv",
                                      "a.csv",
+                                     "--butteraugli",
                                      "--plot",
                                      "plot.png",
                                      "--images",
@@ -174,9 +175,12 @@ TEST_F(Commands, CompareGivesEveryFieldForEveryMethod) {
         const std::string name = method.at("name");
         names.insert(name);
         for (const char* field :
-             {"left_ms", "warp_ms", "fill_ms", "right_ms", "full_right_ms", "hole_percent", "psnr_db", "ssim",
-              "rgb_mean", "rgb_p99", "rgb_max", "edge_psnr_db", "true_psnr_db", "holes_of_warped_percent",
-              "surface_psnr_db"}) {
+             {"left_ms",         "warp_ms",           "fill_ms",          "right_ms",
+              "full_right_ms",   "hole_percent",      "psnr_db",          "ssim",
+              "rgb_mean",        "rgb_p99",           "rgb_max",          "edge_psnr_db",
+              "true_psnr_db",    "left_true_psnr_db", "pair_ms",          "holes_of_warped_percent",
+              "surface_psnr_db", "flicker_db",        "rivalry_db",       "edge_rivalry_db",
+              "butteraugli",     "butteraugli_max",   "edge_butteraugli", "flat_butteraugli"}) {
             if (name == "full" && std::string(field) == "holes_of_warped_percent") {
                 EXPECT_TRUE(method.at(field).is_null()) << "a full cast warps nothing";
                 continue;
@@ -184,8 +188,10 @@ TEST_F(Commands, CompareGivesEveryFieldForEveryMethod) {
             ASSERT_TRUE(method.at(field).is_number()) << name << " " << field;
             EXPECT_GE(method.at(field).get<double>(), 0.0) << name << " " << field;
         }
-        for (const std::string end : {".png", "_holes.png", "_difference_x5.png"})
+        for (const std::string end : {".png", "_holes.png", "_difference_x5.png", "_butteraugli.png"})
             EXPECT_TRUE(fs::exists(place() / "pictures" / (name + end))) << name << end;
+        EXPECT_EQ(method.at("left_true_psnr_db"), json.at("methods")[0].at("left_true_psnr_db"))
+            << "one left eye for all";
         EXPECT_NE(outcome.out.find("\n" + name + " "), std::string::npos) << "not in the table";
         if (name == "full") {
             EXPECT_EQ(method.at("psnr_db"), 100.0);
@@ -193,6 +199,9 @@ TEST_F(Commands, CompareGivesEveryFieldForEveryMethod) {
         }
     }
     for (const std::string& name : wanted) EXPECT_EQ(names.count(name), 1u) << name;
+    EXPECT_EQ(json.at("truth_rays"), 64);
+    for (const char* name : {"truth_64_rays.png", "left_truth_64_rays.png"})
+        EXPECT_TRUE(fs::exists(place() / "pictures" / name)) << name;
     const std::string csv = contentOf(place() / "a.csv");
     EXPECT_EQ(linesIn(csv), static_cast<long>(names.size()) + 1);
     EXPECT_TRUE(fs::exists(place() / "plot.png"));
@@ -200,11 +209,13 @@ TEST_F(Commands, CompareGivesEveryFieldForEveryMethod) {
 }
 
 TEST_F(Commands, CompareTakesSomeMethodsInTheirOrder) {
-    runWell({"compare", "--size", "32x24", "--frames", "1", "--repeats", "1", "--json", "a.json", "--methods",
-             "linear,full,linear", hills()});
+    const Outcome outcome = runWell({"compare", "--size", "32x24", "--frames", "1", "--repeats", "1",
+                                     "--json", "a.json", "--methods", "linear,full,linear", hills()});
     const Json methods = Json::parse(contentOf(place() / "a.json")).at("methods");
     ASSERT_EQ(methods.size(), 2u);
     EXPECT_EQ(methods[0].at("name"), "linear");
+    EXPECT_TRUE(methods[0].at("butteraugli").is_null()) << "not asked for";
+    EXPECT_EQ(outcome.out.find("butteraugli"), std::string::npos) << "a column of nothing";
     EXPECT_EQ(methods[1].at("name"), "full");
 }
 

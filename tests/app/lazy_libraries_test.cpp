@@ -96,7 +96,11 @@ TEST_F(LazyLibraries, ComparingMeasuresWithOpenCvButReadsNoFiles) {
     const auto files = loadedBy({"compare", "--size", "48x36", "--frames", "1", "--methods", "linear"});
     EXPECT_THAT(files, Contains(HasSubstr("libopencv_quality")));
     EXPECT_THAT(files, Each(Not(HasSubstr("libopencv_imgcodecs"))));
+    EXPECT_THAT(files, Each(Not(HasSubstr("libjxl")))) << "not asked for";
     expectNoneBig(files, "libopencv");
+    EXPECT_THAT(
+        loadedBy({"compare", "--size", "48x36", "--frames", "1", "--methods", "linear", "--butteraugli"}),
+        Contains(HasSubstr("libjxl")));
 }
 
 TEST_F(LazyLibraries, InfoListsWhatTheLoaderLoaded) {

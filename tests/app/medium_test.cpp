@@ -223,10 +223,16 @@ TEST_F(MediumCommands, CompareListsTheFourWaysToTwoEyes) {
         EXPECT_LT(method.at("rms_levels").get<double>(), 1.0) << names[n] << ": within one grey level";
         EXPECT_GT(method.at("left_ms").get<double>(), 0.0) << names[n];
         EXPECT_GT(method.at("full_right_ms").get<double>(), 0.0) << names[n];
-        EXPECT_TRUE(method.at("true_psnr_db").is_null()) << "there is no finer truth";
+        for (const char* none : {"true_psnr_db", "left_true_psnr_db"})
+            EXPECT_TRUE(method.at(none).is_null()) << "there is no finer truth";
+        for (const char* felt : {"flicker_db", "rivalry_db", "edge_rivalry_db"})
+            EXPECT_GT(method.at(felt).get<double>(), 40.0) << names[n] << " " << felt;
+        EXPECT_GT(method.at("pair_ms").get<double>(), method.at("left_ms").get<double>()) << names[n];
         for (const char* end : {"_left.png", "_right.png", "_right_difference_x20.png"})
             EXPECT_TRUE(fs::exists(place() / "pictures" / (names[n] + end))) << names[n] << end;
     }
+    EXPECT_EQ(methods[2].at("flicker_db"), 100.0);
+    EXPECT_EQ(methods[2].at("rivalry_db"), 100.0);
     EXPECT_EQ(methods[2].at("psnr_db"), 100.0) << "it is what the others are measured against";
     EXPECT_GT(methods[3].at("warp_ms").get<double>(), 0.0);
     EXPECT_EQ(linesIn(contentOf(place() / "a.csv")), 5);
@@ -234,6 +240,10 @@ TEST_F(MediumCommands, CompareListsTheFourWaysToTwoEyes) {
     runSmall({"compare", "wax", "--frames", "1", "--repeats", "1", "--methods", "depthsplat,sweep", "--json",
               "b.json"});
     EXPECT_EQ(Json::parse(contentOf(place() / "b.json")).at("methods")[0].at("name"), "depthsplat");
+}
+
+TEST_F(MediumCommands, CompareHasNoFinerTruthOfThem) {
+    expectRefused({"compare", "cloud", "--truth-rays", "16"}, {"--truth-rays", "medium"});
 }
 
 TEST_F(MediumCommands, InfoTellsWhatIsSwept) {

@@ -23,8 +23,9 @@ protected:
 
     std::map<std::string, Json> compare(std::vector<std::string> scene, const std::string& size) const {
         scene.insert(scene.begin(), "compare");
-        scene.insert(scene.end(), {"--size", size, "--frames", "3", "--repeats", "1", "--relative-separation",
-                                   "1/30", "--methods", "full,paper,cubic", "--json", "a.json"});
+        scene.insert(scene.end(),
+                     {"--size", size, "--frames", "3", "--repeats", "1", "--relative-separation", "1/30",
+                      "--methods", "full,paper,cubic", "--truth-rays", "16", "--json", "a.json"});
         const Outcome outcome = run(scene);
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         std::map<std::string, Json> byName;

@@ -31,13 +31,14 @@ protected:
 };
 
 TEST_F(Report, LeavesAPageAndItsFigures) {
-    const Outcome outcome = report({"--parts", "right-eye,stability", "--out", "page"});
+    const Outcome outcome = report({"--parts", "right-eye,felt,stability", "--out", "page"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(left(), (std::set<std::string>{"page/index.html", "page/report.csv", "page/report.json"}));
     const std::string page = contentOf(place() / "page/index.html");
     EXPECT_EQ(xmlProblem(page), "");
     for (const char* words :
-         {"Right eye, terrain", "Right eye, colon", "Right eye, colon, translucent", "On the Pareto front",
+         {"Right eye, terrain", "Right eye, colon", "Flicker, terrain", "Rivalry of the eyes, colon",
+          "Butteraugli, colon, translucent", "Right eye, colon, translucent", "On the Pareto front",
           "The default, linear", "The default, selective", "data:image/png;base64,", "<svg"})
         EXPECT_NE(page.find(words), std::string::npos) << words;
 
@@ -49,8 +50,9 @@ TEST_F(Report, LeavesAPageAndItsFigures) {
         EXPECT_LE(figure.at("median").get<double>(), figure.at("high").get<double>()) << figure.at("id");
         EXPECT_GE(figure.at("low").get<double>(), 0) << figure.at("id");
     }
-    for (const char* id :
-         {"right_eye/terrain/linear/time", "right_eye/colon/full/error", "machine/mood/time"})
+    for (const char* id : {"right_eye/terrain/linear/time", "right_eye/colon/full/error", "machine/mood/time",
+                           "flicker/terrain/linear/error", "flicker/terrain/linear/left eye's",
+                           "rivalry/colon/full/error", "butteraugli/colon translucent/selective/time"})
         EXPECT_TRUE(ids.contains(id)) << id;
     for (const char* fact :
          {"commit", "compiler", "libraries", "processor", "threads", "load at the start", "date", "seed"})
@@ -103,7 +105,8 @@ TEST_F(Report, MeasuresANamedMediumInStereoAndABuiltInSceneOnce) {
     for (const Json& figure : json.at("figures")) ids.insert(figure.at("id").get<std::string>());
     for (const char* id :
          {"pair/wax/sweep/time", "pair/wax/own-samples/error", "pair/wax/two-sweeps/error",
-          "pair/wax/depthsplat/error", "pair-separation/wax/1/8/error", "scene/terrain/loading"})
+          "pair/wax/depthsplat/error", "flicker/wax/sweep/error", "rivalry/wax/depthsplat/error",
+          "butteraugli/wax/two-sweeps/error", "pair-separation/wax/1/8/error", "scene/terrain/loading"})
         EXPECT_TRUE(ids.contains(id)) << id;
     for (const char* id : {"medium/wax/shading width/0/error", "medium/wax/shading width/1/time"})
         EXPECT_TRUE(ids.contains(id)) << id;

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "engine/base/error.h"
+#include "engine/camera/timed_poses.h"
 #include "tests/camera/temporary_folder.h"
 
 namespace stereonav {
@@ -189,6 +190,20 @@ TEST(OsgPath, BadLinesAreNamed) {
                 HasSubstr(":2: expected a number, got \"zero\""));
     EXPECT_THAT(readMessage(folder, good + "1 0 0 1.5x 0 0 0 1\n"), HasSubstr("got \"1.5x\""));
     EXPECT_THAT(readMessage(folder, std::string("\0\1\2\3 garbage", 12)), HasSubstr(":1: expected a number"));
+}
+
+// From 5 s to 9 s along x, a metre a second.
+TEST(TimedPoses, NeighboursAreLaterOnThePathAndEarlierAtItsEnd) {
+    const RecordedPath path(
+        {{5, poseFromAngles({0, 0, 0}, 0, 0, 0)}, {9, poseFromAngles({4, 0, 0}, 0, 0, 0)}}, "");
+    const std::vector<TimedPose> frames = timedFrames(path, 3), beside = timedBeside(path, frames, 0.25);
+    ASSERT_EQ(beside.size(), 3u);
+    const double expected[] = {0.25, 2.25, 3.75};
+    for (std::size_t n = 0; n < 3; ++n) {
+        EXPECT_NEAR(beside[n].time, expected[n], 1e-12);
+        EXPECT_NEAR(beside[n].pose.position.x, expected[n], 1e-12);
+    }
+    EXPECT_TRUE(timedBeside(path, frames, 4.5).empty()) << "longer than the flight";
 }
 
 TEST(OsgPath, BadFilesAreNamedOnOneLine) {

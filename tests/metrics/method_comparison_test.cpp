@@ -48,6 +48,8 @@ TEST(MethodComparison, FullIsExactAndOpenHolesCost) {
     EXPECT_EQ(figures[1].difference.rgb_max, 0.0);
     EXPECT_EQ(figures[1].hole_percent, 100.0);
     EXPECT_LT(figures[1].true_psnr_db, kIdenticalPsnr_db) << "one ray a pixel misses something";
+    EXPECT_LT(figures[1].left_true_psnr_db, kIdenticalPsnr_db);
+    EXPECT_NEAR(figures[1].left_true_psnr_db, figures[1].true_psnr_db, 3.0) << "eyes of one kind";
     EXPECT_GT(figures[0].difference.psnr_db, figures[2].difference.psnr_db + 3.0);
     EXPECT_LT(figures[2].difference.edge_psnr_db, figures[2].difference.psnr_db);
     EXPECT_GT(figures[0].hole_percent, 0.0);
@@ -56,6 +58,8 @@ TEST(MethodComparison, FullIsExactAndOpenHolesCost) {
         EXPECT_GT(method.left_ms, 0.0) << method.name;
         EXPECT_DOUBLE_EQ(method.full_right_ms, figures[1].full_right_ms) << method.name;
         EXPECT_GT(method.right_ms, 0.0) << method.name;
+        EXPECT_GT(method.pair_ms, method.left_ms) << method.name;
+        EXPECT_EQ(method.left_true_psnr_db, figures[1].left_true_psnr_db) << "all share the left eye";
         EXPECT_LE(method.difference.rgb_mean, method.difference.rgb_max) << method.name;
     }
 }
@@ -79,6 +83,7 @@ TEST(MethodComparison, ShowsEveryFrameWithEveryMethod) {
                            EXPECT_EQ(picture.holeMask.height(), 80);
                        }
                        EXPECT_EQ(frame.truth.width(), 120);
+                       EXPECT_EQ(frame.leftTruth.width(), 120);
                    });
     EXPECT_EQ(indices, (std::vector<int>{0, 1}));
     EXPECT_DOUBLE_EQ(last, 1.0);
@@ -164,13 +169,78 @@ TEST(MethodComparison, MethodsThatMakeBothEyesAreMeasuredByBoth) {
     EXPECT_EQ(figures[0].right_ms, 1) << "what the other eye costs on top of one by itself";
     EXPECT_EQ(figures[1].right_ms, 9);
     EXPECT_EQ(figures[2].full_right_ms, 9);
+    EXPECT_EQ(figures[0].pair_ms, 12);
+    EXPECT_EQ(figures[1].pair_ms, 20);
     EXPECT_EQ(figures[0].difference.psnr_db, kIdenticalPsnr_db);
     EXPECT_LT(figures[2].difference.psnr_db, 30) << "the left eye counts";
     for (const MethodFigures& method : figures) {
         EXPECT_TRUE(std::isnan(method.true_psnr_db));
+        EXPECT_TRUE(std::isnan(method.left_true_psnr_db));
         EXPECT_TRUE(std::isnan(method.surface_psnr_db));
         EXPECT_EQ(method.hole_percent, 0);
     }
+}
+
+// A pair whose left eye is right at even seconds alone: it comes and goes, and the eyes disagree then.
+class FlickeringPairs final : public FrameMaker {
+public:
+    std::span<const std::string_view> methods() const override { return kNames; }
+    std::string_view defaultMethod() const override { return "always"; }
+    std::string_view exactMethod() const override { return "each"; }
+    std::string_view whatMethodsMake() const override { return "both eyes"; }
+    void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) override {
+        const bool wrong = way.method == "always" || (way.method == "odd" && std::fmod(time, 2.0) == 1);
+        for (EyeImage* const eye : {&frame.left, &frame.right}) {
+            eye->resize(views.left.width, views.left.height);
+            for (int y = 0; y < eye->height(); ++y)
+                for (int x = 0; x < eye->width(); ++x) {
+                    eye->color.at(x, y) = packColor(glm::vec3(wrong && eye == &frame.left ? 0.25f : 0.2f));
+                    eye->viewDepth.at(x, y) = 10;
+                }
+        }
+        frame.timings = {};
+        frame.timings.both_ms = 2;
+        frame.timings.left_ms = frame.timings.right_ms = 1;
+    }
+    void makeOne(const EyeView&, double, EyePair&) override { ADD_FAILURE() << "there is no finer truth"; }
+
+private:
+    static constexpr std::array<std::string_view, 3> kNames{"each", "always", "odd"};
+};
+
+TEST(MethodComparison, WhatComesAndGoesFlickersAndEyesThatDisagreeAreRivals) {
+    FlickeringPairs frames;
+    Progress progress;
+    ComparisonSetting setting = settingOf(frames.compared());
+    const auto still = compareMethods(frames, twoPoses(), kLens, kStereo, setting, progress, {});
+    for (const MethodFigures& method : still) EXPECT_TRUE(std::isnan(method.flicker_db)) << method.name;
+    setting.beside = {{twoPoses()[0].pose, 1}, {twoPoses()[1].pose, 3}};
+    const auto figures = compareMethods(frames, twoPoses(), kLens, kStereo, setting, progress, {});
+    ASSERT_EQ(figures.size(), 3u);
+    EXPECT_EQ(figures[0].flicker_db, kIdenticalPsnr_db);
+    EXPECT_EQ(figures[0].rivalry_db, kIdenticalPsnr_db);
+    EXPECT_EQ(figures[1].flicker_db, kIdenticalPsnr_db) << "its error stays";
+    EXPECT_LT(figures[1].rivalry_db, 30) << "one eye is brighter";
+    EXPECT_LT(figures[2].flicker_db, 30);
+    EXPECT_EQ(figures[2].rivalry_db, kIdenticalPsnr_db) << "both are right at even seconds";
+    EXPECT_EQ(figures[2].difference.psnr_db, kIdenticalPsnr_db) << "the neighbour is for flicker alone";
+}
+
+TEST(MethodComparison, WarpedScenesHaveThemFromTheFinerTruths) {
+    const auto scene = ballBeforeWall();
+    CastFrames frames(scene);
+    Progress progress;
+    ComparisonSetting setting = settingOf({"full", "cubic", "nofill"});
+    setting.beside = {{poseFromAngles({0.1, 0, 0}, 0, 0, 0), 1},
+                      {poseFromAngles({0.6, 0, 0.2}, 0.05, 0, 0), 3}};
+    const auto figures = compareMethods(frames, twoPoses(), kLens, kStereo, setting, progress, {});
+    for (const MethodFigures& method : figures) {
+        EXPECT_LT(method.flicker_db, 70) << method.name << ": one ray a pixel flickers";
+        EXPECT_LT(method.rivalry_db, 70) << method.name;
+        EXPECT_LT(method.edge_rivalry_db, method.rivalry_db) << method.name;
+    }
+    EXPECT_GT(figures[0].flicker_db, figures[2].flicker_db + 3) << "black holes flicker";
+    EXPECT_GT(figures[1].flicker_db, figures[2].flicker_db + 3);
 }
 
 TEST(MethodComparison, NeedsPosesAndMethods) {
@@ -189,10 +259,20 @@ TEST(MethodComparison, MediansAreOfEachFieldByItself) {
         frames[k].name = "x";
         frames[k].left_ms = left[k];
         frames[k].true_psnr_db = truth[k];
+        frames[k].left_true_psnr_db = 2 * truth[k];
+        frames[k].pair_ms = 10 * left[k];
+        frames[k].flicker_db = truth[k];
+        frames[k].rivalry_db = truth[k] + 1;
+        frames[k].edge_rivalry_db = truth[k] + 2;
         frames[k].difference.rgb_max = k == 2 ? 9 : 1;
     }
     EXPECT_EQ(medianOf(frames).left_ms, 2.5);
     EXPECT_EQ(medianOf(frames).true_psnr_db, 25.0);
+    EXPECT_EQ(medianOf(frames).left_true_psnr_db, 50.0);
+    EXPECT_EQ(medianOf(frames).pair_ms, 25.0);
+    EXPECT_EQ(medianOf(frames).flicker_db, 25.0);
+    EXPECT_EQ(medianOf(frames).rivalry_db, 26.0);
+    EXPECT_EQ(medianOf(frames).edge_rivalry_db, 27.0);
     EXPECT_EQ(medianOf(frames).difference.rgb_max, 1.0);
     frames.resize(3);
     EXPECT_EQ(medianOf(frames).left_ms, 3.0);

@@ -1,0 +1,55 @@
+// What a viewer feels of one way of making two eyes: flicker, rivalry between the eyes, and what Butteraugli
+// says. Of the report's charts; of the right eye, but for rivalry.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/report/run.h"
+#include "engine/metrics/rivalry.h"
+
+namespace stereonav {
+
+// Of a frame, and of the right eye in the next one: a 30th of a second later.
+struct FeltTruth {
+    Plane<PackedColor> left, right, rightNext;
+    Plane<float> columns;       // columnsInRightEye
+    Plane<std::uint8_t> edges;  // edgeMask of the right eye
+};
+constexpr double kNextFrame_s = 1.0 / 30;
+
+// Sums over frames.
+class FeltErrors {
+public:
+    // eyes: what the way made; rightNext: the right eye that it made of the next frame.
+    void add(const FeltTruth& truth, const TwoEyes& eyes, const Plane<PackedColor>& rightNext);
+
+    // Root mean squares in sRGB levels, over all frames.
+    double flicker() const { return rms(mFlicker); }
+    double rivalry() const { return rms(mRivalry); }
+    double butteraugli() const { return mButteraugli / mFrames; }  // the mean frame's
+    // What charts have no axis for.
+    std::vector<std::pair<std::string, double>> others() const;
+
+private:
+    // Of frames that have such pixels.
+    struct Squares {
+        double sum = 0;
+        int frames = 0;
+        void add(double psnr_db);
+    };
+    static double rms(const Squares& squares);
+
+    int mFrames = 0;
+    Squares mFlicker, mRivalry, mEdgeRivalry, mRight, mLeft;
+    double mButteraugli = 0, mMost = 0, mEdges = 0, mFlat = 0;
+    int mWithEdges = 0, mWithFlat = 0;
+};
+
+// Three charts of one scene: each way's time against its flicker, its rivalry and Butteraugli's distance.
+// points: times, names and defaults.
+void addFeltCharts(ReportRun& run, ReportSection& section, const std::string& scene, const WayChart& frame,
+                   const std::vector<WayPoint>& points, const std::vector<FeltErrors>& errors);
+
+}  // namespace stereonav

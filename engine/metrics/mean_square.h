@@ -1,0 +1,42 @@
+// Squared differences summed up over pixels, row by row, so that sums do not depend on threads.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <vector>
+
+#include "engine/metrics/image_difference.h"
+
+namespace stereonav {
+
+struct MeanSquare {
+    double sum = 0;  // over the three channels
+    long long pixels = 0;
+
+    void add(const glm::vec3& levels) {
+        sum += glm::dot(levels, levels);
+        ++pixels;
+    }
+    void add(const MeanSquare& other) {
+        sum += other.sum;
+        pixels += other.pixels;
+    }
+    // kIdenticalPsnr_db at most; NaN of no pixels.
+    double psnr_db() const {
+        if (pixels == 0) return std::numeric_limits<double>::quiet_NaN();
+        const double mean = sum / (3.0 * static_cast<double>(pixels));
+        return mean > 0 ? std::min(kIdenticalPsnr_db, 10 * std::log10(255.0 * 255.0 / mean))
+                        : kIdenticalPsnr_db;
+    }
+};
+
+inline MeanSquare sumOf(const std::vector<MeanSquare>& rows) {
+    MeanSquare all;
+    for (const MeanSquare& row : rows) all.add(row);
+    return all;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,19 @@
+// 8-bit sRGB levels of packed channels without the rounding to whole ones, which would be a large part of
+// what differences of differences measure.
+#pragma once
+
+#include <array>
+
+#include "engine/image/packed_color.h"
+
+namespace stereonav {
+
+// Of a packed channel (0..1023): 0 to 255.
+const std::array<float, 1024>& srgbLevelFromPacked();
+
+inline glm::vec3 srgbLevels(PackedColor color) {
+    const auto& level = srgbLevelFromPacked();
+    return {level[color & 1023], level[color >> 10 & 1023], level[color >> 20 & 1023]};
+}
+
+}  // namespace stereonav
