@@ -204,6 +204,7 @@ struct ViewOptions {
     bool startPage = false;                 // over the scene, at first
     std::string fullScreen;                 // "": a window; auto, a monitor's number, or part of its name
     std::optional<double> screenWidth_mm, viewingDistance_mm;  // none: as the monitor tells, and usual
+    bool refine = true;                                        // a picture that rests
     bool lateWarp = true;             // the newest picture is shown from where the eyes are now
     std::optional<double> target_ms;  // that a frame may take while something moves; none: by the monitor
     bool bench = false;               // flies the flight, rests, measures what was shown, and closes

@@ -98,6 +98,7 @@ std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const 
     setting.repeats = options.repeats;
     setting.truthFactor = static_cast<int>(std::lround(std::sqrt(options.truthRays)));
     setting.methods = methodsOf(options, scene);
+    setting.edges.rays = options.scene.quality.edges.value_or(0);
     const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
     const auto listener = [&](const ComparedFrame& frame) {
         if (options.images.empty() || frame.index != shown) return;
@@ -125,6 +126,7 @@ ComparisonReport describe(const CompareOptions& options, const Scene& scene, int
     report.height = options.size.height;
     report.threads = threadCount();
     report.frames = frames;
+    report.edgeRays = options.scene.quality.edges.value_or(0);
     report.repeats = options.repeats;
     report.truthRays = options.truthRays;
     report.stereo = scene.stereo;

@@ -112,6 +112,7 @@ std::string jsonOf(const ComparisonReport& report) {
     json["frames"] = report.frames;
     json["repeats"] = report.repeats;
     json["truth_rays"] = report.truthRays;
+    json["edge_rays"] = report.edgeRays;
     json["separation_m"] = report.stereo.separation;
     json["least_separation_m"] = report.least;
     json["zero_parallax_m"] = report.stereo.zeroParallax;

@@ -15,6 +15,7 @@ struct ComparisonReport {
     int width = 0, height = 0;  // pixels of one eye
     int threads = 0, frames = 0, repeats = 0;
     int truthRays = 0;  // a pixel of the finer truths
+    int edgeRays = 0;   // added at the edges of both eyes
     StereoSetting stereo;
     double least = 0;  // separation among the frames, metres: eyes come together where a lumen is narrow
     std::vector<MethodFigures> methods;  // medians over the frames

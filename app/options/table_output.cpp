@@ -1,9 +1,12 @@
 // Options: how big, in which way, from where, and into what.
+#include <fmt/format.h>
+
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "engine/base/file.h"
+#include "engine/frame/refined_frames.h"
 #include "engine/image/stereo_picture_file.h"
 
 namespace stereonav {
@@ -184,6 +187,14 @@ std::vector<Option> viewOptions() {
          .fallback = "on",
          .commands = kView,
          .take = [](OptionTargets& to, const OptionValue& value) { to.view->lateWarp = value.text == "on"; }},
+        {.key = "refine",
+         .value = wordValue({"on", "off"}),
+         .help = fmt::format(
+             "while nothing moves: both eyes cast in full again and again, {} rays a pixel at most",
+             kMostRaysAtRest),
+         .fallback = "on",
+         .commands = kView,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.view->refine = value.text == "on"; }},
         {.key = "target-ms",
          .value = numberValue(within(1e-3, 1e6, "ms")),
          .help =

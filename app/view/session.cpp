@@ -458,6 +458,9 @@ ComposeSetting ViewSession::compose() const {
 }
 
 std::string ViewSession::measuredText(const ViewFrame& frame) const {
+    if (frame.rays > 1)
+        return fmt::format("{} rays a pixel, {:.0f} dB or more expected against very many", frame.rays,
+                           frame.expected_db);
     const bool known =
         mMeasured.version == frame.request.version && mMeasured.version > 0 && mMeasured.note.empty();
     return known ? truthText(mMeasured) : "";

@@ -10,7 +10,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSettled = 2;  // seconds at rest before the flight: eyes that follow have arrived
+constexpr double kSettling = 2;  // seconds at rest before the flight: eyes that follow have arrived
 constexpr int kTruthSide = 8;   // 64 rays a pixel
 constexpr double kMs = 1000;
 
@@ -95,7 +95,7 @@ ViewBench::Wish ViewBench::step(double now, bool ready, bool flying, double dura
         case Stage::Wait:
             if (!ready) mReadySince = -1;
             if (ready && mReadySince < 0) mReadySince = now;
-            if (!ready || now - mReadySince < kSettled) return Wish::None;
+            if (!ready || now - mReadySince < kSettling) return Wish::None;
             mStage = Stage::Fly;
             mStarted = now;
             mDuration = std::min(duration, kLongestFlight);

@@ -15,6 +15,7 @@ void Viewer::askFor() {
     const double ahead = late ? mLead.seconds() : 0;
     FrameRequest request = mSession->requestFor(all.x, all.y, ahead, scale);
     request.late = mOptions.lateWarp;
+    request.refines = mOptions.refine;
     request.asked_s = request.version == mPresent.version ? mPresent.asked_s : Window::now();
     request.ahead_s = ahead;
     if (request.version != mAsked) mWorker->request(request);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/view/rest_refiner.h"
 #include "engine/base/stopwatch.h"
 #include "engine/base/thread_priority.h"
 #include "engine/stereo/comfort.h"
@@ -68,6 +69,8 @@ void takeTruth(TruthMaker::Shown shown, ViewFrame& frame) {
 
 void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& truth, ViewFrame& frame) {
     frame.request = request;
+    frame.rays = 1;
+    frame.expected_db = 0;
     if (auto* const light = scene.offered<TurningLight>()) light->turnTo(request.sun);
     if (auto* const models = scene.offered<LightModels>()) models->choose(request.model);
     EyeView view = makeEyeView(request.pose, request.lens);
@@ -120,6 +123,7 @@ ViewWorker::ViewWorker(Load load, std::function<void()> wake)
     : mWake(std::move(wake)),
       mPool(std::make_shared<FramePool>()),
       mLoad(std::move(load)),
+      mRefiner(std::make_unique<RestRefiner>()),
       mLoader([this] { loadScenes(); }),
       mRenderer([this] { renderFrames(); }) {}
 
@@ -290,6 +294,7 @@ void ViewWorker::draw(const Job& job, Drawn& drawn) {
     // A difference is measured already.
     if (!shared->truthError) drawn.frame = shared;
     drawn.since = std::chrono::steady_clock::now();
+    mRefiner->start(shared);
     {
         const std::lock_guard lock(mMutex);
         if (shared->truthError) mTruth = FrameTruth{shared->request.version, *shared->truthError, 0, ""};
@@ -304,19 +309,24 @@ std::optional<ViewWorker::Job> ViewWorker::nextJob(Drawn& drawn) {
     const auto asked = [this] { return mStop || ((mRequest || !mTasks.empty()) && mScene); };
     const auto* const light = drawn.job ? drawn.job->scene->scene->offered<SeenLight>() : nullptr;
     while (!asked()) {
-        const bool measures = mMeasures && drawn.frame;
+        const bool measures = mMeasures && drawn.frame, refines = mRefiner->wantsMore();
         const auto now = std::chrono::steady_clock::now(), rested = drawn.since + kRest;
-        if (measures && now >= rested) {
+        if (light && drawn.job->scene == mScene && light->changes() != drawn.lightChanges &&
+            now >= drawn.since + kLookAtLight)
+            return drawn.job;
+        if ((measures || refines) && now >= rested) {
             mInterrupt = false;
             lock.unlock();
-            measure(drawn);
+            if (measures)
+                measure(drawn);
+            else
+                refine(drawn);
             lock.lock();
         } else if (light) {
-            const auto until = measures ? std::min(now + kLookAtLight, rested) : now + kLookAtLight;
-            if (!mAsked.wait_until(lock, until, asked) && drawn.job->scene == mScene &&
-                light->changes() != drawn.lightChanges)
-                return drawn.job;
-        } else if (measures) {
+            const auto until =
+                measures || refines ? std::min(now + kLookAtLight, rested) : now + kLookAtLight;
+            mAsked.wait_until(lock, until, asked);
+        } else if (measures || refines) {
             mAsked.wait_until(lock, rested);
         } else {
             mAsked.wait(lock);
@@ -348,6 +358,24 @@ void ViewWorker::measure(Drawn& drawn) {
     {
         const std::lock_guard lock(mMutex);
         mTruth = std::move(truth);
+    }
+    mWake();
+}
+
+void ViewWorker::refine(const Drawn& drawn) {
+    auto frame = mPool->take();
+    bool shows = false;
+    try {
+        shows = mRefiner->step(*drawn.job->scene->scene, *frame);
+    } catch (const std::exception&) {
+        // The picture is there all the same; of one that was refused memory no more is asked.
+    }
+    std::shared_ptr<const ViewFrame> shared = mPool->share(std::move(frame));
+    if (!shows) return;
+    {
+        const std::lock_guard lock(mMutex);
+        if (mRequest) return;  // it would be shown after the first step of what moves now
+        mNewest.swap(shared);
     }
     mWake();
 }

@@ -60,6 +60,7 @@ struct FrameRequest {
     TruthView truth = TruthView::None;  // in the place of the right eye
     double scale = 1;                   // of the eyes' full size: less while something moves
     bool late = false;                  // it will be seen from elsewhere too (ViewFrame::late)
+    bool refines = false;               // while it rests (rest_refiner.h)
 };
 
 struct ViewFrame : EyePair {
@@ -75,8 +76,14 @@ struct ViewFrame : EyePair {
     std::string truthNote;
     std::optional<PictureError> truthError;  // of the right eye as made, where the difference is shown
     double made_ms = 0;                      // all that the frame took
-    std::array<LateEye, 2> late;             // to be warped; not ready where nobody asked for that
+    // A picture that rested: rays a pixel of each eye, and the PSNR against very many that is expected; 0 of
+    // one.
+    int rays = 1;
+    double expected_db = 0;
+    std::array<LateEye, 2> late;  // to be warped; not ready where nobody asked for that
 };
+
+class RestRefiner;
 
 class ViewWorker {
 public:
@@ -142,6 +149,7 @@ private:
     std::optional<Job> nextJob(Drawn& drawn);
     void draw(const Job& job, Drawn& drawn);
     void measure(Drawn& drawn);
+    void refine(const Drawn& drawn);
     void fail(std::exception_ptr failure);
 
     std::function<void()> mWake;
@@ -162,8 +170,9 @@ private:
     bool mMeasures = true;
     bool mStop = false;
     std::atomic<bool> mInterrupt = false;  // what is measured: there is something else to do
-    TruthMaker mTruthMaker;                // the frame maker's thread's own
-    std::thread mLoader, mRenderer;        // last: they start when all else is there
+    TruthMaker mTruthMaker;                // the frame maker's thread's own, as is
+    std::unique_ptr<RestRefiner> mRefiner;
+    std::thread mLoader, mRenderer;  // last: they start when all else is there
 };
 
 }  // namespace stereonav

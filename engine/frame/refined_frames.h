@@ -7,7 +7,8 @@
 
 namespace stereonav {
 
-constexpr int kMostRays = 256;  // a pixel, where there is a limit
+constexpr int kMostRays = 256;       // a pixel, where there is a limit
+constexpr int kMostRaysAtRest = 64;  // in the window
 
 class RefinedFrames {
 public:

@@ -89,11 +89,11 @@ public:
         const Plane<std::uint8_t> edges = edgesOf(views, time);
         mColumns = columnsInRightEye(views, mExact.frame.left.viewDepth, mExact.frame.right.viewDepth);
         std::vector<MethodFigures> figures;
-        ComparedFrame frame{index, mExact.frame.left, mExact.frame.right, mTruth.right, mTruth.left, {}};
+        ComparedFrame frame{index, exactLeft(), mExact.frame.right, mTruth.right, mTruth.left, {}};
         for (const std::string_view method : mSetting.methods) {
             Runner& runner = *runnerOf(method);
             figures.push_back(figuresOf(runner, edges));
-            const EyeImage& left = mRightFromLeft ? mExact.frame.left : runner.frame.left;
+            const EyeImage& left = mRightFromLeft ? exactLeft() : runner.frame.left;
             frame.pictures.push_back({method, left, runner.frame.right, runner.holeMask, runner.butteraugli});
         }
         if (listener) listener(frame);
@@ -140,10 +140,29 @@ private:
         } else {
             mFrames.make(views, time, {runner.method, {}}, frame);
         }
+        if (mRightFromLeft) {
+            runner.holeMask = mRightFromLeft->holes().mask;
+            runner.leavesHoles = mRightFromLeft->holes().open;
+            if (mSetting.edges.rays > 0) smooth(runner, views);
+        }
         runner.keepTimes(first);
-        if (!mRightFromLeft) return;
-        runner.holeMask = mRightFromLeft->holes().mask;
-        runner.leavesHoles = mRightFromLeft->holes().open;
+    }
+
+    // Each eye's edges; the left eye is kept as it was too, for the warps.
+    void smooth(Runner& runner, const StereoViews& views) {
+        const FrameWay way{runner.method, {}, mSetting.edges};
+        FrameTimings& timings = runner.frame.timings;
+        if (&runner == &mExact) {
+            mSmoothLeft = runner.frame.left;
+            timings.left_ms += mRightFromLeft->smoothEdges(views.left, way, mSmoothLeft).ms;
+        }
+        if (!runner.leavesHoles)
+            timings.right_ms += mRightFromLeft->smoothEdges(views.right, way, runner.frame.right).ms;
+        timings.both_ms = timings.left_ms + timings.right_ms;
+    }
+    // That of all methods where they differ in the right one alone.
+    const EyeImage& exactLeft() const {
+        return mRightFromLeft && mSetting.edges.rays > 0 ? mSmoothLeft : mExact.frame.left;
     }
 
     // Null where it is not among those that are compared.
@@ -177,7 +196,7 @@ private:
         const Plane<PackedColor> truth = mRightFromLeft ? mTruth.right : judged(exact);
         figures.flicker_db =
             mFlickers ? flickerPsnr({mBesideTruth, truth}, {runner.beside, judged(runner.frame)}) : kNone;
-        const TwoEyes eyes{mRightFromLeft ? exact.left.color : runner.frame.left.color,
+        const TwoEyes eyes{mRightFromLeft ? exactLeft().color : runner.frame.left.color,
                            runner.frame.right.color};
         const Rivalry rivalry = mRightFromLeft ? rivalryOf(mColumns, {mTruth.left, mTruth.right}, eyes, edges)
                                                : rivalryOf(mColumns, {exact.left.color, exact.right.color},
@@ -216,7 +235,7 @@ private:
         figures.holesOfWarped_percent = figures.surface_psnr_db = kNone;
         if (!mRightFromLeft) return figures;
         figures.true_psnr_db = psnrOf(mTruth.right, right.color);
-        figures.left_true_psnr_db = psnrOf(mTruth.left, mExact.frame.left.color);
+        figures.left_true_psnr_db = psnrOf(mTruth.left, exactLeft().color);
         const SurfaceDifference surface =
             surfaceDifference(mExact.frame.right, right, runner.holeMask, runner.leavesHoles);
         figures.holesOfWarped_percent = surface.holesOfWarped_percent;
@@ -228,7 +247,8 @@ private:
     RightFromLeft* const mRightFromLeft;  // null: methods make both eyes
     const ComparisonSetting& mSetting;
     Runner mExact, mDefault{""};
-    Truths mTruth;  // of the frame at hand; empty: there is no finer one
+    EyeImage mSmoothLeft;  // of mExact, where edges have rays
+    Truths mTruth;         // of the frame at hand; empty: there is no finer one
     bool mFlickers = false;
     Plane<PackedColor> mBesideTruth;  // of what is judged
     Plane<float> mColumns;            // columnsInRightEye

@@ -24,6 +24,7 @@ struct ComparisonSetting {
     std::vector<StereoSetting> eyes;        // one a pose; empty: the same at all
     // Of each pose its neighbour in the flight (timedBeside), for flicker; empty: there is no such figure.
     std::vector<TimedPose> beside;
+    EdgeSetting edges;         // of both eyes, by every method, where rays are cast; times are with them
     bool butteraugli = false;  // too, which takes longer than most methods
 };
 
@@ -60,7 +61,8 @@ struct MethodFigures {
 // holes and the truth's depth edges, so that their edge figures compare.
 struct MethodPicture {
     std::string_view method;
-    const EyeImage &left, &right;         // left: the same for all where they differ in the right one alone
+    const EyeImage &left,
+        &right;  // with rays at their edges; left: the same for all where they differ in the right one alone
     const Plane<std::uint8_t>& holeMask;  // empty: nothing is warped
     const Plane<float>&
         butteraugli;  // of what errors are counted in: the right eye, or the left one over it; or empty

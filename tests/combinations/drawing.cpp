@@ -50,7 +50,7 @@ Drawing::Drawing(const RenderOptions& options, SimdTarget set)
 Eyes Drawing::eyes(const std::string& method) {
     Progress progress;
     StereoFrame frame(*mScene, method.empty() ? mOptions.method : method);
-    if (method.empty()) frame.refine(mOptions.scene, progress);
+    if (method.empty()) frame.refine(mOptions.scene, {}, progress);
     frame.render(mScene->startPose);
     if (auto* const lit = mScene->offered<SeenLight>(); lit && lit->beginsDark()) {
         for (int look = 0; look < 2; ++look)  // at some pixels, then at all

@@ -108,8 +108,11 @@ float drawStatusBar(PanelHost& host, float left, float right) {
         row.text(costText(*frame), frameText(*frame, rate));
         if (frame->request.twoEyes && row.room(comfortMeterWidth())) drawComfortMeter(host, *frame);
         if (const std::string measured = session->measuredText(*frame); !measured.empty())
-            row.text(measured.substr(0, measured.find(',')),
-                     measured + "\nThe right eye against a full cast, measured while the picture rests.");
+            row.text(
+                measured.substr(0, measured.find(',')),
+                measured + (frame->rays > 1
+                                ? "\nBoth eyes are cast in full, again and again, while the picture rests."
+                                : "\nThe right eye against a full cast, measured while the picture rests."));
         if (session->playing())
             row.text(
                 fmt::format("playing {:.1f} of {:.1f} s", session->playTime(), session->path().duration()));
