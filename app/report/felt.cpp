@@ -7,6 +7,8 @@
 
 #include "app/report/felt_errors.h"
 #include "app/report/trial.h"
+#include "engine/image/image_file.h"
+#include "engine/metrics/butteraugli.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/metrics/supersampled_picture.h"
 
@@ -39,6 +41,7 @@ public:
     }
 
     const std::vector<FeltErrors>& errors() const { return mErrors; }
+    const std::vector<ReportPicture>& pictures() const { return mPictures; }
     int frames() const { return mFrames; }
     int rays() const { return mFactor * mFactor; }
 
@@ -78,7 +81,12 @@ private:
             mRun.tell(mWhat);
             mRightMaker.makeRight(views, exact.left, wayOf(mVariants[k].setting), right);
             mRightMaker.makeRight(next, exactNext.left, wayOf(mVariants[k].setting), rightNext);
-            mErrors[k].add(truth, {exact.left.color, right.color}, rightNext.color);
+            const Plane<float> map = mErrors[k].add(truth, {exact.left.color, right.color}, rightNext.color);
+            if (n > 0 || !mVariants[k].isDefault) continue;
+            mPictures = {
+                {"right eye, the default way", encodeColorImage(right.color, ".png")},
+                {"the truth", encodeColorImage(truth.right, ".png")},
+                {"Butteraugli: black 0, grey 1, white 2 and more", encodeColorImage(pictureOf(map), ".png")}};
         }
     }
 
@@ -89,6 +97,7 @@ private:
     std::string mWhat;
     const std::vector<Variant>& mVariants;
     std::vector<FeltErrors> mErrors;
+    std::vector<ReportPicture> mPictures;  // of the first frame, by the default way
     int mFactor, mFrames = 0;
 };
 
@@ -116,6 +125,8 @@ void chart(ReportRun& run, ReportSection& section, const ReportScene& scene, dou
     frame.timeLabel = "right eye, ms a frame";
     frame.timeUnit = "ms";
     addFeltCharts(run, section, scene.id, frame, times.points(), felt.errors());
+    section.blocks.emplace_back(ReportPictures{"What would be noticed, " + scene.title,
+                                               "From the middle of the flight.", felt.pictures()});
 }
 
 }  // namespace

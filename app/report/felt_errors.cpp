@@ -21,7 +21,8 @@ double FeltErrors::rms(const Squares& squares) {
     return squares.frames > 0 ? std::sqrt(squares.sum / squares.frames) : 0;
 }
 
-void FeltErrors::add(const FeltTruth& truth, const TwoEyes& eyes, const Plane<PackedColor>& rightNext) {
+Plane<float> FeltErrors::add(const FeltTruth& truth, const TwoEyes& eyes,
+                             const Plane<PackedColor>& rightNext) {
     ++mFrames;
     mRight.add(psnrOf(truth.right, eyes.right));
     mLeft.add(psnrOf(truth.left, eyes.left));
@@ -29,12 +30,13 @@ void FeltErrors::add(const FeltTruth& truth, const TwoEyes& eyes, const Plane<Pa
     const Rivalry rivalry = rivalryOf(truth.columns, {truth.left, truth.right}, eyes, truth.edges);
     mRivalry.add(rivalry.psnr_db);
     mEdgeRivalry.add(rivalry.edge_psnr_db);
-    const ButteraugliMap map = butteraugliOf(truth.right, eyes.right);
+    ButteraugliMap map = butteraugliOf(truth.right, eyes.right);
     mButteraugli += map.norm3;
     mMost = std::max(mMost, map.max);
     const ButteraugliParts parts = partsOf(map.distances, truth.edges);
     if (!std::isnan(parts.inside)) mEdges += parts.inside, ++mWithEdges;
     if (!std::isnan(parts.outside)) mFlat += parts.outside, ++mWithFlat;
+    return std::move(map.distances);
 }
 
 std::vector<std::pair<std::string, double>> FeltErrors::others() const {

@@ -22,8 +22,9 @@ constexpr double kNextFrame_s = 1.0 / 30;
 // Sums over frames.
 class FeltErrors {
 public:
-    // eyes: what the way made; rightNext: the right eye that it made of the next frame.
-    void add(const FeltTruth& truth, const TwoEyes& eyes, const Plane<PackedColor>& rightNext);
+    // eyes: what the way made; rightNext: the right eye that it made of the next frame. Gives Butteraugli's
+    // map of the right eye.
+    Plane<float> add(const FeltTruth& truth, const TwoEyes& eyes, const Plane<PackedColor>& rightNext);
 
     // Root mean squares in sRGB levels, over all frames.
     double flicker() const { return rms(mFlicker); }

@@ -64,14 +64,14 @@ struct MethodPicture {
     const EyeImage &left,
         &right;  // with rays at their edges; left: the same for all where they differ in the right one alone
     const Plane<std::uint8_t>& holeMask;  // empty: nothing is warped
-    const Plane<float>&
-        butteraugli;  // of what errors are counted in: the right eye, or the left one over it; or empty
+    // Of what errors are counted in: the right eye, or the left one over it; empty: not asked for.
+    const Plane<float>& butteraugli;
 };
 struct ComparedFrame {
     int index = 0;
     const EyeImage &left, &right;  // each by itself
-    const Plane<PackedColor>&truth,
-        &leftTruth;  // of the right and left eye by many rays a pixel; empty: none
+    // Of the right and the left eye by many rays a pixel; empty: there are none.
+    const Plane<PackedColor>&truth, &leftTruth;
     std::vector<MethodPicture> pictures;
 };
 using ComparedFrameListener = std::function<void(const ComparedFrame&)>;

@@ -31,7 +31,7 @@ Plane<PackedColor> supersampled(const EyeView& view, int factor, Progress& progr
                                 const CastStrip& castStrip) {
     if (factor < 1 || factor > 16)
         throw Error("", "", "expected 1 to 16 rays a side of a pixel, got " + std::to_string(factor),
-                    "use 4 for 16 rays a pixel");
+                    "use 8 for 64 rays a pixel");
     constexpr long long kStripRays = 4'000'000;  // 16 bytes each with view-dependent planes
     const long long raysPerColumn = static_cast<long long>(view.height) * factor * factor;
     const int stripWidth = static_cast<int>(std::clamp<long long>(kStripRays / raysPerColumn, 1, view.width));

@@ -38,8 +38,9 @@ TEST_F(Report, LeavesAPageAndItsFigures) {
     EXPECT_EQ(xmlProblem(page), "");
     for (const char* words :
          {"Right eye, terrain", "Right eye, colon", "Flicker, terrain", "Rivalry of the eyes, colon",
-          "Butteraugli, colon, translucent", "Right eye, colon, translucent", "On the Pareto front",
-          "The default, linear", "The default, selective", "data:image/png;base64,", "<svg"})
+          "Butteraugli, colon, translucent", "What would be noticed, terrain",
+          "Right eye, colon, translucent", "On the Pareto front", "The default, linear",
+          "The default, selective", "data:image/png;base64,", "<svg"})
         EXPECT_NE(page.find(words), std::string::npos) << words;
 
     const Json json = Json::parse(contentOf(place() / "page/report.json"));
