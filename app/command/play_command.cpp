@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "app/command/quality.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -30,11 +31,11 @@ std::pair<int, int> frameSize(const PlayOptions& options) {
 
 // A video's codec holds frames as they are composed, in most modes with both eyes in them.
 PixelBytes bytesOf(const PlayOptions& options) {
-    if (options.video.empty()) return kRenderBytes;
+    if (options.video.empty()) return withRays(kRenderBytes, options.rays);
     const auto [width, height] = frameSize(options);
     const double eyes = 1.0 * width * height / (1.0 * options.size.width * options.size.height);
     const double codec = eyes * videoBytesAPixel(videoKindOf(options.video));
-    return {kVideoBytes.cast + codec, kVideoBytes.swept + codec, kVideoBytes.beside};
+    return withRays({kVideoBytes.cast + codec, kVideoBytes.swept + codec, kVideoBytes.beside}, options.rays);
 }
 
 void checkOptions(const PlayOptions& options) {

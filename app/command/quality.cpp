@@ -23,6 +23,11 @@ EdgeSetting edgesOf(const SceneOptions& options, const Scene& scene, const RayOp
     return edges;
 }
 
+PixelBytes withRays(PixelBytes each, const RayOptions& rays) {
+    if (!rays.many()) return each;
+    return {each.cast + kManyRaysBytes.cast, each.swept + kManyRaysBytes.swept, each.beside};
+}
+
 std::vector<StereoViews> calibrationViews(const Scene& scene) {
     std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};
     if (!scene.path.samples().empty())

@@ -8,6 +8,7 @@
 
 #include "app/command/commands.h"
 #include "app/scene/scene_loading.h"
+#include "app/scene/shown_as.h"
 #include "engine/base/progress.h"
 #include "engine/sampling/edge_rays.h"
 #include "engine/stereo/quality_plan.h"
@@ -24,6 +25,9 @@ std::optional<QualityPlan> qualityOf(const SceneOptions& options, const Scene& s
 // Rays at edges, as asked for, or as they are by default: kDefaultEdgeRays where rays are cast and the
 // picture is not to have more of them everywhere, or light traced for each pixel.
 EdgeSetting edgesOf(const SceneOptions& options, const Scene& scene, const RayOptions& rays = {});
+
+// What a picture of so many rays takes, of what one of one ray does.
+PixelBytes withRays(PixelBytes each, const RayOptions& rays);
 
 // The frames that a scene is measured on: its start pose and some of its flight.
 std::vector<StereoViews> calibrationViews(const Scene& scene);

@@ -1,6 +1,7 @@
 // `stereonav render`: one pose of a scene into a picture.
 #include <fmt/format.h>
 
+#include "app/command/quality.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -70,11 +71,12 @@ int runRender(const RenderOptions& options) {
     checkStereoPicture("--out", options.out);
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     CommandResult result("render", options.telling, {{"--out", options.out}});
-    checkSize(options.size, options.scene);
+    const PixelBytes bytes = withRays(kRenderBytes, options.rays);
+    checkSize(options.size, options.scene, bytes);
     const std::string method = methodUnderLight(options.scene, options.method);
     checkMethod(options.scene, method);
     ProgressBar bar(!options.telling.quiet);
-    const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress());
+    const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress(), bytes);
     const Scene& scene = *loaded;
     checkNotRead({{"--out", options.out}});
     StereoFrame frame(scene, method);
