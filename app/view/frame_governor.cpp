@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kTooSlow = 1.15;    // of the target: the size goes down
 constexpr double kFarTooSlow = 1.5;  // two frames are enough then
+constexpr double kHopeless = 8;      // one is
 constexpr double kRoom = 0.95;       // of the target: what a larger size may cost
 constexpr std::size_t kLooked = 3;   // frames that are looked at
 constexpr int kFirstHold = 2;        // frames before it goes up
@@ -21,15 +22,15 @@ double middleOf(std::deque<double> values) {
     return values[values.size() / 2];
 }
 
-double shareOf(double scale) {
-    return scale * scale;
-}
-
 }  // namespace
 
+double FrameGovernor::shareOf(std::size_t step) const {
+    return kScales[step] * kScales[step] * (mEfforts ? kEfforts[step] : 1);
+}
+
 double FrameGovernor::predicted(std::size_t step) const {
-    const double here = mFixed + (1 - mFixed) * shareOf(kScales[mStep]);
-    const double there = mFixed + (1 - mFixed) * shareOf(kScales[step]);
+    const double here = mFixed + (1 - mFixed) * shareOf(mStep);
+    const double there = mFixed + (1 - mFixed) * shareOf(step);
     return middleOf(mLast) * there / here;
 }
 
@@ -48,7 +49,7 @@ void FrameGovernor::learn(double share, double ms) {
 
 void FrameGovernor::step(std::size_t to) {
     mWentUp = to < mStep;
-    mShareBefore = shareOf(kScales[mStep]);
+    mShareBefore = shareOf(mStep);
     mBefore = middleOf(mLast);
     mStep = to;
     mSinceStep = 0;
@@ -61,12 +62,13 @@ void FrameGovernor::took(double scale, double ms) {
     mLast.push_back(ms);
     if (mLast.size() > kLooked) mLast.pop_front();
     ++mSinceStep;
-    if (mSinceStep == 1) learn(shareOf(scale), ms);
+    if (mSinceStep == 1) learn(shareOf(mStep), ms);
     if (mWentUp && mSinceStep > kSteadyFrames) mBackOff = 1;
     const auto least = [&](std::size_t count) {  // of the newest frames
         return *std::min_element(mLast.end() - static_cast<std::ptrdiff_t>(count), mLast.end());
     };
-    const bool slow = (mLast.size() >= 2 && least(2) > kFarTooSlow * mTarget) ||
+    const bool slow = least(1) > kHopeless * mTarget ||
+                      (mLast.size() >= 2 && least(2) > kFarTooSlow * mTarget) ||
                       (mLast.size() == kLooked && least(kLooked) > kTooSlow * mTarget);
     if (slow && mStep + 1 < kScales.size()) {
         std::size_t to = mStep + 1;

@@ -26,7 +26,8 @@ void Viewer::stepBench() {
     const RecordedPath& path = mSession->path();
     const bool animated = mSession->open().scene->offered<Animation>() != nullptr;
     const bool rests = animated || !mSession->moving();
-    const bool ready = mFrame && rests && !mWorker->loading().busy && mFrame->request.version > mSessionSince;
+    const bool ready =
+        mFrame && rests && !mWorker->loading().busy && (animated || mFrame->request.version == mAsked);
     if (ready && path.samples().size() < 2)
         throw Error("--bench", "", "this scene has no flight of its own", "give --path FILE");
     const double duration = path.samples().size() < 2 ? 0 : path.duration();
