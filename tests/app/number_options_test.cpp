@@ -15,13 +15,13 @@ namespace {
 
 // Files, names and words; some hold numbers beside a word, and are checked where they are read.
 const std::set<std::string> kWords{
-    "SCENE",        "--simd",  "--series",   "--series-pictures", "--up",        "--image",
-    "--sky",        "--light", "--transfer", "--shading",         "--modulate",  "--ambient-method",
-    "--medium",     "--model", "--phase",    "--noise",           "--method",    "--mode",
-    "--out",        "--path",  "--video",    "--methods",         "--json",      "--csv",
-    "--images",     "--plot",  "--scene",    "--compare",         "--stability", "--parts",
-    "--data",       "--probe", "--what",     "--sweep",           "--shots",     "--set",
-    "--full-screen"};
+    "SCENE",         "--simd",     "--series",   "--series-pictures", "--up",        "--image",
+    "--sky",         "--light",    "--transfer", "--shading",         "--modulate",  "--ambient-method",
+    "--medium",      "--model",    "--phase",    "--noise",           "--method",    "--mode",
+    "--out",         "--path",     "--video",    "--methods",         "--json",      "--csv",
+    "--images",      "--plot",     "--scene",    "--compare",         "--stability", "--parts",
+    "--data",        "--probe",    "--what",     "--sweep",           "--shots",     "--set",
+    "--full-screen", "--late-warp"};
 // Lists for which "1,5" is right.
 const std::set<std::string> kPairs{"--sun", "--light-from", "--mist", "--isovalues"};
 
