@@ -11,7 +11,7 @@ namespace stereonav {
 namespace {
 
 constexpr double kSettled = 2;            // seconds at rest before the flight: eyes that follow have arrived
-constexpr std::size_t kSweptSamples = 3;  // one of so many is judged: a pair takes seconds
+constexpr std::size_t kSweptSamples = 6;  // one of so many is judged: a pair takes seconds
 constexpr int kTruthSide = 8;             // 64 rays a pixel
 constexpr double kMs = 1000;
 
@@ -172,15 +172,16 @@ void ViewBench::judge(const Scene& scene, Progress& progress) {
     mMovingPsnr = moving.psnr();
     mNowPsnr = present.psnr();
     mTruthRays = fine ? kTruthSide * kTruthSide : 1;
-    const auto judgeRest = [&](const std::optional<ShownPicture>& picture, ErrorMean& error) {
-        if (!picture) return;
-        if (fine)
-            addFine(scene, *picture, progress, error);
+    if (fine) {
+        if (mAfterOne) addFine(scene, *mAfterOne, progress, one);
+        if (mAfterTen) addFine(scene, *mAfterTen, progress, ten);
+    } else if (mAfterOne && mAfterTen) {
+        addExact(scene, mAfterTen->of, *mAfterTen, pair, ten);
+        if (sameMoment(mAfterOne->of, mAfterTen->of))
+            addPair(pair, *mAfterOne, one);
         else
-            addExact(scene, picture->of, *picture, pair, error);
-    };
-    judgeRest(mAfterOne, one);
-    judgeRest(mAfterTen, ten);
+            addExact(scene, mAfterOne->of, *mAfterOne, pair, one);
+    }
     mOnePsnr = one.psnr();
     mTenPsnr = ten.psnr();
 }
