@@ -8,10 +8,11 @@ namespace {
 
 constexpr double kTooSlow = 1.15;    // of the target: the size goes down
 constexpr double kFarTooSlow = 1.5;  // two frames are enough then
-constexpr double kHopeless = 8;      // one is
-constexpr double kRoom = 0.95;       // of the target: what a larger size may cost
-constexpr std::size_t kLooked = 3;   // frames that are looked at
-constexpr int kFirstHold = 2;        // frames before it goes up
+constexpr double kHopeless = 8;      // one is; of a medium, whose next one would take seconds too, sooner
+constexpr double kSlowMedium = 2.5;
+constexpr double kRoom = 0.95;      // of the target: what a larger size may cost
+constexpr std::size_t kLooked = 3;  // frames that are looked at
+constexpr int kFirstHold = 2;       // frames before it goes up
 constexpr int kMostBackOff = 64;
 constexpr int kSteadyFrames = 120;  // that a step up has to last, so that failed ones are forgotten
 constexpr double kMostFixed = 0.8;
@@ -67,7 +68,7 @@ void FrameGovernor::took(double scale, double ms) {
     const auto least = [&](std::size_t count) {  // of the newest frames
         return *std::min_element(mLast.end() - static_cast<std::ptrdiff_t>(count), mLast.end());
     };
-    const bool slow = least(1) > kHopeless * mTarget ||
+    const bool slow = least(1) > (mEfforts ? kSlowMedium : kHopeless) * mTarget ||
                       (mLast.size() >= 2 && least(2) > kFarTooSlow * mTarget) ||
                       (mLast.size() == kLooked && least(kLooked) > kTooSlow * mTarget);
     if (slow && mStep + 1 < kScales.size()) {
