@@ -44,7 +44,7 @@ private:
     double mTarget;
     std::size_t mStep = 0;
     std::deque<double> mLast;              // milliseconds at this size, newest last
-    double mFixed = 0;           // share of a full frame's cost that no size changes
+    double mFixed = 0;                     // share of a full frame's cost that no size changes
     double mShareBefore = 0, mBefore = 0;  // the size before this one, and its cost
     int mSinceStep = 0, mHold = 0;         // frames
     bool mWentUp = false, mEfforts = false;
