@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <utility>
 
 #include "app/command/commands.h"
@@ -12,6 +13,7 @@
 #include "app/options/option_table.h"
 #include "app/options/pages.h"
 #include "app/options/parsed_options.h"
+#include "app/scene/scene_type.h"
 #include "engine/base/error.h"
 #include "engine/text/similar.h"
 
@@ -130,18 +132,22 @@ void addCommands(CLI::App& app, ParsedOptions& parsed) {
     addPages(app, parsed);
 }
 
-// `view --json` alone is `--json=-`: of the window alone it may name a file, which ends with .json, or is any
-// word beside --bench.
+// `view --json` alone is `--json=-`: of the window alone it may name a file, which is any word that is no
+// scene and no option; beside --bench any that is no option.
 void nameJsonFile(std::vector<std::string>& words) {
     if (words.empty() || words.front() != "view") return;
     const bool bench = std::find(words.begin(), words.end(), "--bench") != words.end();
+    const auto isFile = [&](const std::string& word) {
+        if (word == "-" || word.ends_with(".json")) return true;
+        if (word.empty() || word.starts_with("-")) return false;
+        std::error_code code;
+        return bench || !(isBuiltIn(word) || std::filesystem::exists(word, code));
+    };
     for (std::size_t n = 1; n < words.size(); ++n) {
         if (words[n] != "--json") continue;
-        const std::string next = n + 1 < words.size() ? words[n + 1] : "";
-        const bool isFile =
-            next == "-" || next.ends_with(".json") || (bench && !next.empty() && !next.starts_with("-"));
-        words[n] += "=" + (isFile ? next : "-");
-        if (isFile) words.erase(words.begin() + static_cast<std::ptrdiff_t>(n) + 1);
+        const bool named = n + 1 < words.size() && isFile(words[n + 1]);
+        words[n] += "=" + (named ? words[n + 1] : "-");
+        if (named) words.erase(words.begin() + static_cast<std::ptrdiff_t>(n) + 1);
     }
 }
 

@@ -38,6 +38,15 @@ private:
     const SweptFrames& mFrames;
 };
 
+class ShownMedium::Effort final : public FrameEffort {
+public:
+    explicit Effort(SweptFrames& frames) : mFrames(frames) {}
+    void setEffort(double share) override { mFrames.setEffort(share); }
+
+private:
+    SweptFrames& mFrames;
+};
+
 class ShownMedium::Sun final : public TurningLight {
 public:
     explicit Sun(MediumScene& medium) : mMedium(medium) {}
@@ -69,6 +78,8 @@ void ShownMedium::begin(SimdTarget target) {
     offer<LightModels>(*mModels);
     mPlace = std::make_unique<Place>(*mFrames);
     offer<SweepPlace>(*mPlace);
+    mEffort = std::make_unique<Effort>(*mFrames);
+    offer<FrameEffort>(*mEffort);
     if (mMedium->animated()) offer(mAnimation);
     if (mMedium->look.light.kind == MediumLight::Kind::Parallel) {
         mSun = std::make_unique<Sun>(*mMedium);

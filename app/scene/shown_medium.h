@@ -14,8 +14,8 @@
 
 namespace stereonav {
 
-// Offers MediumScene, SweptFrames, LightModels, SweepPlace; as they are there, Animation, TurningLight; and
-// what alsoOffer() was told.
+// Offers MediumScene, SweptFrames, LightModels, SweepPlace, FrameEffort; as they are there, Animation,
+// TurningLight; and what alsoOffer() was told.
 class ShownMedium final : public Scene {
 public:
     using MakeFlight = std::function<std::unique_ptr<Flight>()>;
@@ -57,6 +57,7 @@ public:
 private:
     class Models;
     class Place;
+    class Effort;
     class Sun;
 
     std::vector<std::shared_ptr<void>> mHeld;  // first: the rest refers to it
@@ -64,6 +65,7 @@ private:
     std::unique_ptr<SweptFrames> mFrames;
     std::unique_ptr<LightModels> mModels;
     std::unique_ptr<SweepPlace> mPlace;
+    std::unique_ptr<FrameEffort> mEffort;
     std::unique_ptr<TurningLight> mSun;  // of parallel light; else null
     TurningLight* mOtherLight = nullptr;
     Animation mAnimation;

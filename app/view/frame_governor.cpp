@@ -8,9 +8,11 @@ namespace {
 
 constexpr double kTooSlow = 1.15;    // of the target: the size goes down
 constexpr double kFarTooSlow = 1.5;  // two frames are enough then
-constexpr double kRoom = 0.95;       // of the target: what a larger size may cost
-constexpr std::size_t kLooked = 3;   // frames that are looked at
-constexpr int kFirstHold = 2;        // frames before it goes up
+constexpr double kHopeless = 8;      // one is; of a medium, whose next one would take seconds too, sooner
+constexpr double kSlowMedium = 2.5;
+constexpr double kRoom = 0.95;      // of the target: what a larger size may cost
+constexpr std::size_t kLooked = 3;  // frames that are looked at
+constexpr int kFirstHold = 2;       // frames before it goes up
 constexpr int kMostBackOff = 64;
 constexpr int kSteadyFrames = 120;  // that a step up has to last, so that failed ones are forgotten
 constexpr double kMostFixed = 0.8;
@@ -21,15 +23,15 @@ double middleOf(std::deque<double> values) {
     return values[values.size() / 2];
 }
 
-double shareOf(double scale) {
-    return scale * scale;
-}
-
 }  // namespace
 
+double FrameGovernor::shareOf(std::size_t step) const {
+    return kScales[step] * kScales[step] * (mEfforts ? kEfforts[step] : 1);
+}
+
 double FrameGovernor::predicted(std::size_t step) const {
-    const double here = mFixed + (1 - mFixed) * shareOf(kScales[mStep]);
-    const double there = mFixed + (1 - mFixed) * shareOf(kScales[step]);
+    const double here = mFixed + (1 - mFixed) * shareOf(mStep);
+    const double there = mFixed + (1 - mFixed) * shareOf(step);
     return middleOf(mLast) * there / here;
 }
 
@@ -48,7 +50,7 @@ void FrameGovernor::learn(double share, double ms) {
 
 void FrameGovernor::step(std::size_t to) {
     mWentUp = to < mStep;
-    mShareBefore = shareOf(kScales[mStep]);
+    mShareBefore = shareOf(mStep);
     mBefore = middleOf(mLast);
     mStep = to;
     mSinceStep = 0;
@@ -61,12 +63,13 @@ void FrameGovernor::took(double scale, double ms) {
     mLast.push_back(ms);
     if (mLast.size() > kLooked) mLast.pop_front();
     ++mSinceStep;
-    if (mSinceStep == 1) learn(shareOf(scale), ms);
+    if (mSinceStep == 1) learn(shareOf(mStep), ms);
     if (mWentUp && mSinceStep > kSteadyFrames) mBackOff = 1;
     const auto least = [&](std::size_t count) {  // of the newest frames
         return *std::min_element(mLast.end() - static_cast<std::ptrdiff_t>(count), mLast.end());
     };
-    const bool slow = (mLast.size() >= 2 && least(2) > kFarTooSlow * mTarget) ||
+    const bool slow = least(1) > (mEfforts ? kSlowMedium : kHopeless) * mTarget ||
+                      (mLast.size() >= 2 && least(2) > kFarTooSlow * mTarget) ||
                       (mLast.size() == kLooked && least(kLooked) > kTooSlow * mTarget);
     if (slow && mStep + 1 < kScales.size()) {
         std::size_t to = mStep + 1;

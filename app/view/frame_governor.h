@@ -16,6 +16,9 @@ public:
     // Of the full width and height; shares of the pixels go down by a quarter to a third each.
     static constexpr std::array<double, 9> kScales{1, 0.86, 0.74, 0.64, 0.55, 0.47, 0.4, 0.34, 0.29};
 
+    // Of media: of the work of a picture in that size (FrameEffort), whose slices cost as the pixels do.
+    static constexpr std::array<double, 9> kEfforts{1, 1, 1, 0.8, 0.65, 0.5, 0.4, 0.32, 0.25};
+
     explicit FrameGovernor(double target_ms = 33) : mTarget(target_ms) {}
     void setTarget(double ms) { mTarget = ms; }
     double target_ms() const { return mTarget; }
@@ -25,6 +28,8 @@ public:
     void took(double scale, double ms);
     // Of the next frame while something moves.
     double scale() const { return kScales[mStep]; }
+    double effort() const { return mEfforts ? kEfforts[mStep] : 1; }
+    void useEfforts(bool use) { mEfforts = use; }
     // Another scene, method or window: what was learned holds no longer; the size stays.
     void forget();
     // Of a frame in full size, as the last ones tell; 0: nothing is known.
@@ -32,6 +37,7 @@ public:
 
 private:
     double predicted(std::size_t step) const;
+    double shareOf(std::size_t step) const;  // of a full frame's work
     void learn(double share, double ms);
     void step(std::size_t to);
 
@@ -41,7 +47,7 @@ private:
     double mFixed = 0;                     // share of a full frame's cost that no size changes
     double mShareBefore = 0, mBefore = 0;  // the size before this one, and its cost
     int mSinceStep = 0, mHold = 0;         // frames
-    bool mWentUp = false;
+    bool mWentUp = false, mEfforts = false;
     int mBackOff = 1;
 };
 

@@ -8,10 +8,10 @@
 namespace stereonav {
 namespace {
 
-constexpr int kFewThreads = 3;     // with so few the casting has them all: the window's own thread warps
-constexpr double kShare = 0.6;     // of the time that goes into showing pictures, at most
-constexpr double kSlowest = 0.03;  // seconds between pictures: slower ones are seen one by one
-constexpr double kWeight = 0.1;    // of the newest cost in the mean
+constexpr int kFewThreads = 3;      // with so few the casting has them all: the window's own thread warps
+constexpr double kShare = 0.7;      // of the time that goes into showing pictures, at most
+constexpr double kSlowest = 0.026;  // seconds between pictures: slower ones are seen one by one
+constexpr double kWeight = 0.1;     // of the newest cost in the mean
 
 }  // namespace
 

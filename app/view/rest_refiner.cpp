@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "engine/base/memory.h"
+
 namespace stereonav {
 namespace {
 
@@ -10,6 +12,14 @@ constexpr int kFirstShown = 8;
 
 bool isShown(int rays) {
     return rays >= kFirstShown && (rays & (rays - 1)) == 0;
+}
+
+// Whether there is room for what is gathered: a picture that rests is there without it.
+bool fits(const FrameRequest& request) {
+    constexpr double kBytes =
+        140;  // a pixel of one eye: sums of both, their mean, the frame added, the one shown
+    const double bytes = kBytes * request.lens.width * request.lens.height;
+    return availableMemoryFor(bytes) >= bytes;
 }
 
 }  // namespace
@@ -24,6 +34,7 @@ void RestRefiner::start(std::shared_ptr<const ViewFrame> drawn) {
 bool RestRefiner::step(const Scene& scene, ViewFrame& shown) {
     const std::shared_ptr<const ViewFrame> drawn = std::exchange(mDrawn, nullptr);  // where anything throws
     const FrameRequest& request = drawn->request;
+    if (mRefined.count() == 0 && !fits(request)) return false;
     FrameMaker& frames = scene.frames();
     const FrameWay way{frames.exactMethod(), request.way.warp};
     if (request.twoEyes)

@@ -349,8 +349,9 @@ void ViewSession::step(const FlightInput& input, double dt) {
     }
     if (animated && dt > 0) mTime = mPlaying ? mPlayTime : mTime + dt;
     if (mNoticeLeft > 0 && (mNoticeLeft -= dt) <= 0) mNotice.clear();
-    mMoving = mPlaying || mGoal || recording() || animated || mStereo.moving() || asksForMotion(input) ||
-              looked || !samePose(poseBefore, pose());
+    mFlying =
+        mPlaying || mGoal || animated || asksForMotion(input) || looked || !samePose(poseBefore, pose());
+    mMoving = mFlying || recording() || mStereo.moving();
     mAhead.step(poseBefore, pose(), dt);
 }
 
@@ -414,7 +415,7 @@ bool ViewSession::hasOtherShape(int width, int height) const {
 }
 
 Pose ViewSession::poseAhead(double seconds) const {
-    if (!(seconds > 0) || !mMoving) return pose();
+    if (!(seconds > 0) || !mFlying) return pose();
     if (mPlaying) return mPath.at(mPath.startTime() + std::min(mPlayTime + seconds, mPath.duration()));
     return mAhead.from(pose(), seconds, mFlight->clearanceNow());
 }

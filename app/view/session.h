@@ -202,6 +202,9 @@ public:
 
     bool quit() const { return mQuit; }
     bool moving() const { return mMoving; }  // things change by themselves: do not sleep
+    // Where one is or looks to changes, or what is seen: eyes that only draw together or apart are no flight,
+    // and follow what whole pictures show.
+    bool flying() const { return mFlying; }
     bool mouseCaptured() const { return mCaptured; }
     // True once after each Screenshot.
     bool takeScreenshotWish();
@@ -307,7 +310,7 @@ private:
     std::optional<double> mFov;  // radians; none: the scene's
     double mTime = 0;            // seconds, of what moves by itself
     bool mStereoOn = true, mSwapped = false, mLinear = false, mQuit = false, mCaptured = false;
-    bool mMoving = false, mScreenshot = false;
+    bool mMoving = false, mFlying = false, mScreenshot = false;
     bool mResting = false, mLooked = false, mFresh = true;
     double mSpeed = 1;  // by the wheel
     double mPace = 1;   // by the distance ahead

@@ -10,8 +10,9 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSettling = 2;  // seconds at rest before the flight: eyes that follow have arrived
-constexpr int kTruthSide = 8;   // 64 rays a pixel
+constexpr double kSettling = 2;           // seconds at rest before the flight: eyes that follow have arrived
+constexpr std::size_t kSweptSamples = 6;  // one of so many is judged: a pair takes seconds
+constexpr int kTruthSide = 8;             // 64 rays a pixel
 constexpr double kMs = 1000;
 
 // The smallest value that so large a share of them does not exceed; none of nothing.
@@ -59,7 +60,13 @@ StereoViews viewsAt(const FrameRequest& request, const ShownPicture& picture) {
 
 void setLight(const Scene& scene, const FrameRequest& request) {
     if (auto* const light = scene.offered<TurningLight>()) light->turnTo(request.sun);
+    if (auto* const effort = scene.offered<FrameEffort>()) effort->setEffort(1);
     if (auto* const models = scene.offered<LightModels>()) models->choose(request.model);
+}
+
+void addPair(const EyePair& pair, const ShownPicture& picture, ErrorMean& error) {
+    error.add(pair.left.color, picture.left);
+    if (picture.of.twoEyes) error.add(pair.right.color, picture.right);
 }
 
 // Each eye by itself, as the scene's exact method makes it.
@@ -71,8 +78,7 @@ void addExact(const Scene& scene, const FrameRequest& request, const ShownPictur
         scene.frames().make(views, request.time, {scene.frames().exactMethod(), {}}, pair);
     else
         scene.frames().makeOne(views.left, request.time, pair);
-    error.add(pair.left.color, picture.left);
-    if (request.twoEyes) error.add(pair.right.color, picture.right);
+    addPair(pair, picture, error);
 }
 
 void addFine(const Scene& scene, const ShownPicture& picture, Progress& progress, ErrorMean& error) {
@@ -153,24 +159,29 @@ void ViewBench::keepSample(const ShownPicture& picture, const FrameRequest& now,
 void ViewBench::judge(const Scene& scene, Progress& progress) {
     ErrorMean moving, present, one, ten;
     EyePair pair;
-    for (const Kept& kept : mSamples) {
+    const bool fine = scene.offered<RayCast>() != nullptr;
+    for (std::size_t n = 0; n < mSamples.size(); n += fine ? 1 : kSweptSamples) {
+        const Kept& kept = mSamples[n];
         progress.report(0, "judging");
         addExact(scene, kept.picture.of, kept.picture, pair, moving);
-        addExact(scene, kept.now, kept.picture, pair, present);
+        if (sameMoment(kept.now, kept.picture.of))
+            addPair(pair, kept.picture, present);
+        else
+            addExact(scene, kept.now, kept.picture, pair, present);
     }
     mMovingPsnr = moving.psnr();
     mNowPsnr = present.psnr();
-    const bool fine = scene.offered<RayCast>() != nullptr;
     mTruthRays = fine ? kTruthSide * kTruthSide : 1;
-    const auto judgeRest = [&](const std::optional<ShownPicture>& picture, ErrorMean& error) {
-        if (!picture) return;
-        if (fine)
-            addFine(scene, *picture, progress, error);
+    if (fine) {
+        if (mAfterOne) addFine(scene, *mAfterOne, progress, one);
+        if (mAfterTen) addFine(scene, *mAfterTen, progress, ten);
+    } else if (mAfterOne && mAfterTen) {
+        addExact(scene, mAfterTen->of, *mAfterTen, pair, ten);
+        if (sameMoment(mAfterOne->of, mAfterTen->of))
+            addPair(pair, *mAfterOne, one);
         else
-            addExact(scene, picture->of, *picture, pair, error);
-    };
-    judgeRest(mAfterOne, one);
-    judgeRest(mAfterTen, ten);
+            addExact(scene, mAfterOne->of, *mAfterOne, pair, one);
+    }
     mOnePsnr = one.psnr();
     mTenPsnr = ten.psnr();
 }

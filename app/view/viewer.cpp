@@ -18,6 +18,7 @@ namespace stereonav {
 namespace {
 
 constexpr double kActiveWait = 1.0 / 120;  // seconds between looks at the keys while something moves
+constexpr double kShortestWait = 0.0005;   // seconds, between pictures that are warped
 constexpr double kIdleWait = 0.1;          // seconds; events and frames end the wait at once
 constexpr double kFiguresWait = 0.1;       // seconds that figures and notices may be old in flight
 constexpr std::size_t kKeptCosts = 240;    // frames
@@ -111,8 +112,8 @@ double Viewer::waitSeconds() const {
     if (!mActsOfPanels.empty()) return 0;
     if (mWindow.minimised() && !mControls) return kIdleWait;
     if (const auto turn = mDisplay.wait()) return *turn;
-    if (mSession && warps() && mSession->moving())
-        return std::clamp(mLateShown + latePeriod() - Window::now(), 0.0, kActiveWait);
+    if (mSession && warps() && mSession->flying())
+        return std::clamp(mLateShown + latePeriod() - Window::now(), kShortestWait, kActiveWait);
     const bool flows = mSession && (mSession->moving() || mWindow.gamepad().present ||
                                     mSpaceMouse.state().moved() || mScreenshots.waiting());
     return flows || panelled().active() || mPanels.startShown() ? kActiveWait : kIdleWait;

@@ -46,6 +46,7 @@ public:
     ViewSession* session() override { return mSession ? &*mSession : nullptr; }
     const ViewFrame* frame() const override { return mFrame.get(); }
     double framesPerSecond() const override { return mRate.value(); }
+    std::string ageText() const override;
     const std::deque<FrameCost>& costs() const override { return mCosts; }
     std::string sceneName() const override;
     const SettingTexts& settings() const override;

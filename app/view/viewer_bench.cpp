@@ -15,6 +15,7 @@ namespace stereonav {
 struct Viewer::BenchJudgement {
     Progress progress;
     std::atomic<bool> done = false;
+    Facts times;  // without what is judged, where the window is closed meanwhile
 };
 
 void Viewer::stepBench() {
@@ -26,7 +27,8 @@ void Viewer::stepBench() {
     const RecordedPath& path = mSession->path();
     const bool animated = mSession->open().scene->offered<Animation>() != nullptr;
     const bool rests = animated || !mSession->moving();
-    const bool ready = mFrame && rests && !mWorker->loading().busy && mFrame->request.version > mSessionSince;
+    const bool ready =
+        mFrame && rests && !mWorker->loading().busy && (animated || mFrame->request.version == mAsked);
     if (ready && path.samples().size() < 2)
         throw Error("--bench", "", "this scene has no flight of its own", "give --path FILE");
     const double duration = path.samples().size() < 2 ? 0 : path.duration();
@@ -37,6 +39,7 @@ void Viewer::stepBench() {
             break;
         case ViewBench::Wish::Judge:
             mJudgement = std::make_shared<BenchJudgement>();
+            mJudgement->times = mBench->facts();
             mWorker->ask([bench = mBench, judgement = mJudgement](const OpenScene& open) {
                 try {
                     bench->judge(*open.scene, judgement->progress);
@@ -59,10 +62,8 @@ void Viewer::noteShown() {
 
 void Viewer::endBench() {
     if (!mBench) return;
-    if (mJudgement && !mJudgement->done) {  // closed meanwhile
-        mJudgement->progress.cancel();
-        return;
-    }
+    const bool judged = !mJudgement || mJudgement->done;
+    if (!judged) mJudgement->progress.cancel();
     const SizeOption eye = pictureSize();
     mResult.add("size", FactIntegers{eye.width, eye.height});
     mResult.add("mode", std::string(infoOf(shownMode()).shortName));
@@ -70,7 +71,7 @@ void Viewer::endBench() {
     mResult.add("simd", std::string(nameOf(availableTarget(SimdTarget::Auto))));
     const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     mResult.add("renderer", std::string(renderer ? renderer : ""));
-    for (Fact& fact : mBench->facts()) {
+    for (Fact& fact : judged ? mBench->facts() : mJudgement->times) {
         if (const auto* number = std::get_if<double>(&fact.value); number && std::isfinite(*number))
             mResult.say(fmt::format("{:17} {:8.2f}\n", fact.key, *number));
         mResult.add(fact.key, std::move(fact.value));

@@ -1,4 +1,6 @@
 // The viewer's part that asks for frames and shows the newest one as it is seen now.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/view/viewer.h"
@@ -11,11 +13,13 @@ void Viewer::askFor() {
     if (mWindow.minimised()) return;
     const bool screenshot = mSession->takeScreenshotWish();
     const double scale = scaleNow(screenshot);
-    const bool late = mOptions.lateWarp && mSession->moving() && !screenshot && !mScreenshots.waiting();
+    const bool late = mOptions.lateWarp && mSession->flying() && !screenshot && !mScreenshots.waiting();
     const double ahead = late ? mLead.seconds() : 0;
     FrameRequest request = mSession->requestFor(all.x, all.y, ahead, scale);
     request.late = mOptions.lateWarp;
     request.refines = mOptions.refine;
+    request.flying = late;
+    request.effort = scale < 1 ? mGovernor.effort() : 1;
     request.asked_s = request.version == mPresent.version ? mPresent.asked_s : Window::now();
     request.ahead_s = ahead;
     if (request.version != mAsked) mWorker->request(request);
@@ -29,18 +33,19 @@ void Viewer::askFor() {
     mPresent.lens.width = width;
     mPresent.lens.height = height;
     mPresent.ahead_s = 0;
-    mPresent.scale = 1;
+    mPresent.scale = mPresent.effort = 1;
 }
 
 // Of the frames that are asked for now. Truths and pictures that are saved are whole.
 double Viewer::scaleNow(bool screenshot) {
     constexpr double kMost = 40;   // milliseconds: what is seen for longer lags behind
     constexpr double kMedium = 4;  // times: a smaller picture of a medium saves less
-    const bool swept = mSession->open().scene->offered<RayCast>() == nullptr;
+    const bool swept = mSession->open().scene->offered<FrameEffort>() != nullptr;
+    mGovernor.useEfforts(swept);
     const double usual = std::min(2000 * mDisplay.refreshPeriod(), kMost) * (swept ? kMedium : 1);
     mGovernor.setTarget(mOptions.target_ms.value_or(usual));
     const bool whole = screenshot || mScreenshots.waiting() || mSession->truth() != TruthView::None;
-    return mOptions.lateWarp && mSession->moving() && !whole ? mGovernor.scale() : 1;
+    return mOptions.lateWarp && mSession->flying() && !whole ? mGovernor.scale() : 1;
 }
 
 // Whether the newest frame is not of this moment, and can be seen from where the eyes are now.
@@ -51,9 +56,15 @@ bool Viewer::warps() const {
 
 bool Viewer::lateDue() const {
     constexpr double kEarly = 0.0005;  // seconds: a turn is not worth waiting so little for
-    if (!warps() || (sameView(mPicture.of, mPresent) && mPicture.cast.version == mFrame->request.version))
-        return false;
+    const bool shown = sameView(mPicture.of, mPresent) && mPicture.cast.version == mFrame->request.version;
+    if (!warps() || (mPicture.left && shown)) return false;
     return Window::now() >= mLateShown + latePeriod() - kEarly;
+}
+
+std::string Viewer::ageText() const {
+    if (!mPicture.warped || mPicture.cast.asked_s <= 0) return "";
+    return fmt::format("{:3.0f} ms old{}", 1000 * (Window::now() - mPicture.cast.asked_s),
+                       mPicture.cast.scale < 1 ? fmt::format(", {:.0f} %", 100 * mPicture.cast.scale) : "");
 }
 
 double Viewer::latePeriod() const {

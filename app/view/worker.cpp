@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/view/rest_refiner.h"
+#include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/base/thread_priority.h"
 #include "engine/stereo/comfort.h"
@@ -51,15 +52,18 @@ StereoViews makeEyes(const Scene& scene, const FrameWay& way, ViewFrame& frame) 
     }
 }
 
-void prepareLate(SimdTarget simd, ViewFrame& frame) {
+void prepareLate(const Scene& scene, ViewFrame& frame) {
+    const SimdTarget simd = scene.simd;
+    const bool soft = scene.offered<FrameEffort>() != nullptr;  // media
     for (LateEye& eye : frame.late) eye.forget();
     const FrameRequest& request = frame.request;
     if (!request.late || request.truth != TruthView::None) return;
     if (!request.twoEyes)
-        return frame.late[0].prepare(frame.left.viewDepth, makeEyeView(request.pose, request.lens), simd);
+        return frame.late[0].prepare(frame.left.viewDepth, makeEyeView(request.pose, request.lens), simd,
+                                     soft);
     const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
-    frame.late[0].prepare(frame.left.viewDepth, views.left, simd);
-    frame.late[1].prepare(frame.right.viewDepth, views.right, simd);
+    frame.late[0].prepare(frame.left.viewDepth, views.left, simd, soft);
+    frame.late[1].prepare(frame.right.viewDepth, views.right, simd, soft);
 }
 
 void takeTruth(TruthMaker::Shown shown, ViewFrame& frame) {
@@ -73,6 +77,7 @@ void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& tr
     frame.expected_db = 0;
     if (auto* const light = scene.offered<TurningLight>()) light->turnTo(request.sun);
     if (auto* const models = scene.offered<LightModels>()) models->choose(request.model);
+    if (auto* const effort = scene.offered<FrameEffort>()) effort->setEffort(request.effort);
     EyeView view = makeEyeView(request.pose, request.lens);
     if (request.twoEyes) {
         const FrameWay way = TruthMaker::wayOf(request.truth, request.way, scene.frames());
@@ -87,7 +92,7 @@ void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& tr
         lookAround(nullptr, frame);
         takeTruth(truth.showOfOneEye(request.truth), frame);
     }
-    prepareLate(scene.simd, frame);
+    prepareLate(scene, frame);
     // Not between the eyes, which are to be lit alike.
     if (auto* const light = scene.offered<SeenLight>()) light->seen(view, frame.left);
     const auto* const place = scene.offered<SweepPlace>();
@@ -131,7 +136,7 @@ ViewWorker::~ViewWorker() {
     {
         const std::lock_guard lock(mMutex);
         mStop = true;
-        mInterrupt = true;
+        mInterrupt = mDrop = true;
         if (mProgress) mProgress->cancel();
     }
     mAsked.notify_all();
@@ -280,6 +285,28 @@ void ViewWorker::renderFrames() {
     }
 }
 
+// A whole picture of what takes long to make is dropped when something begins to move: the first small one is
+// to be there soon.
+bool ViewWorker::renderUnlessDropped(const Job& job, ViewFrame& frame) {
+    const Scene& scene = *job.scene->scene;
+    if (job.request.flying || !scene.offered<FrameEffort>()) {
+        renderFrame(scene, job.request, mTruthMaker, frame);
+        return true;
+    }
+    interruptLoopsBy(&mDrop);
+    bool made = true;
+    try {
+        renderFrame(scene, job.request, mTruthMaker, frame);
+    } catch (const Cancelled&) {
+        made = false;
+    } catch (...) {
+        interruptLoopsBy(nullptr);
+        throw;
+    }
+    interruptLoopsBy(nullptr);
+    return made;
+}
+
 void ViewWorker::draw(const Job& job, Drawn& drawn) {
     drawn.job = job;
     drawn.frame.reset();
@@ -287,7 +314,7 @@ void ViewWorker::draw(const Job& job, Drawn& drawn) {
     if (light) drawn.lightChanges = light->changes();
     auto frame = mPool->take();
     const Stopwatch watch;
-    renderFrame(*job.scene->scene, job.request, mTruthMaker, *frame);
+    if (!renderUnlessDropped(job, *frame)) return;
     frame->made_ms = watch.elapsed_ms();
     std::shared_ptr<const ViewFrame> shared = mPool->share(std::move(frame));
     if (job.request.fitEyes) drawn.job->request = shared->request;  // drawn again, it stays as it is
@@ -338,6 +365,7 @@ std::optional<ViewWorker::Job> ViewWorker::nextJob(Drawn& drawn) {
         mTasks.pop_front();
         return Job{{}, mScene, std::move(task)};
     }
+    mDrop = false;
     return Job{*std::exchange(mRequest, std::nullopt), mScene};
 }
 
@@ -365,11 +393,13 @@ void ViewWorker::measure(Drawn& drawn) {
 void ViewWorker::refine(const Drawn& drawn) {
     auto frame = mPool->take();
     bool shows = false;
+    interruptLoopsBy(&mInterrupt);
     try {
         shows = mRefiner->step(*drawn.job->scene->scene, *frame);
     } catch (const std::exception&) {
-        // The picture is there all the same; of one that was refused memory no more is asked.
+        // The picture is there all the same; something new is asked for, or no more can be had.
     }
+    interruptLoopsBy(nullptr);
     std::shared_ptr<const ViewFrame> shared = mPool->share(std::move(frame));
     if (!shows) return;
     {
@@ -399,6 +429,7 @@ void ViewWorker::request(const FrameRequest& request) {
         const std::lock_guard lock(mMutex);
         mRequest = request;
         mInterrupt = true;
+        if (request.flying) mDrop = true;
     }
     mAsked.notify_all();
 }

@@ -59,6 +59,8 @@ struct FrameRequest {
     bool fitEyes = false;
     TruthView truth = TruthView::None;  // in the place of the right eye
     double scale = 1;                   // of the eyes' full size: less while something moves
+    double effort = 1;                  // FrameEffort, where it is offered
+    bool flying = false;                // something moves: a newer one comes soon
     bool late = false;                  // it will be seen from elsewhere too (ViewFrame::late)
     bool refines = false;               // while it rests (rest_refiner.h)
 };
@@ -148,6 +150,7 @@ private:
     // None at the end. Where nothing is asked for, measures what was drawn.
     std::optional<Job> nextJob(Drawn& drawn);
     void draw(const Job& job, Drawn& drawn);
+    bool renderUnlessDropped(const Job& job, ViewFrame& frame);  // false: it was dropped
     void measure(Drawn& drawn);
     void refine(const Drawn& drawn);
     void fail(std::exception_ptr failure);
@@ -169,6 +172,7 @@ private:
     std::optional<FrameTruth> mTruth;
     bool mMeasures = true;
     bool mStop = false;
+    std::atomic<bool> mDrop = false;       // the whole picture that is being made
     std::atomic<bool> mInterrupt = false;  // what is measured: there is something else to do
     TruthMaker mTruthMaker;                // the frame maker's thread's own, as is
     std::unique_ptr<RestRefiner> mRefiner;

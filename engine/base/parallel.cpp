@@ -110,13 +110,23 @@ void LoopSteps::next() {
     if (mOutermost) ++Arena::instance().done;
 }
 
+namespace {
+thread_local const std::atomic<bool>* interruptOfThisThread = nullptr;
+}
+
+void interruptLoopsBy(const std::atomic<bool>* stop) {
+    interruptOfThisThread = stop;
+}
+
 void parallelFor(int count, const std::function<void(int)>& work, Schedule schedule) {
     if (count <= 0) return;
     const bool mayStop = isFirstThread();
     Arena& shared = Arena::instance();
     LoopSteps steps(shared.look ? count : 0);
-    const auto body = [&work, &shared, &steps, mayStop](int i) {
+    const std::atomic<bool>* const interrupt = interruptOfThisThread;
+    const auto body = [&work, &shared, &steps, mayStop, interrupt](int i) {
         if (mayStop) throwIfStopped();
+        if (interrupt && *interrupt) throw Cancelled();
         if (shared.look && isFirstThread())
             shared.look(std::min(1.0, static_cast<double>(shared.done) / shared.pieces));
         work(i);

@@ -2,6 +2,7 @@
 // thread count; callers write disjoint outputs per index.
 #pragma once
 
+#include <atomic>
 #include <functional>
 
 namespace stereonav {
@@ -20,6 +21,10 @@ int threadCount();
 // Calls body(i) for every i in [0, count). The first exception thrown by a body is rethrown here. Started by
 // the program's first thread it throws Cancelled once a stop is wished (stop.h).
 void parallelFor(int count, const std::function<void(int)>& body, Schedule schedule = Schedule::Dynamic);
+
+// Loops that this thread starts from now on throw Cancelled once the flag is set, until null is given: for
+// work that is not worth its time any more. The flag outlives that.
+void interruptLoopsBy(const std::atomic<bool>* stop);
 
 // A module (module.h) has this code a second time: it takes over the program's threads before its first loop.
 void* loopsOfThisProgram();

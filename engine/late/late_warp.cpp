@@ -29,6 +29,57 @@ int tilesFor(int pixels, int tile) {
     return (pixels + tile - 1) / tile;
 }
 
+// The mean of what is known in each tile, spread to where nothing is, smoothed, and bilinear between tiles.
+void smoothDepths(const Plane<float>& depth, Plane<float>& smooth) {
+    constexpr int kSpread = 64, kSmoothings = 2;  // rounds over the tiles
+    const int across = tilesFor(depth.width(), kLateTileWidth),
+              down = tilesFor(depth.height(), kLateTileHeight);
+    Plane<float> mean(across, down), next(across, down);
+    for (int ty = 0; ty < down; ++ty)
+        for (int tx = 0; tx < across; ++tx) {
+            float sum = 0, count = 0;
+            for (int y = ty * kLateTileHeight; y < std::min(depth.height(), (ty + 1) * kLateTileHeight); ++y)
+                for (int x = tx * kLateTileWidth; x < std::min(depth.width(), (tx + 1) * kLateTileWidth); ++x)
+                    if (const float z = depth.at(x, y); z > 0 && std::isfinite(z)) sum += 1 / z, ++count;
+            mean.at(tx, ty) = count > 0 ? sum / count : 0;
+        }
+    // all: known tiles are averaged too.
+    const auto average = [&](bool all) {
+        bool missing = false;
+        for (int y = 0; y < down; ++y)
+            for (int x = 0; x < across; ++x) {
+                float sum = 0, count = 0;
+                for (int v = std::max(y - 1, 0); v <= std::min(y + 1, down - 1); ++v)
+                    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, across - 1); ++u)
+                        if (mean.at(u, v) > 0) sum += mean.at(u, v), ++count;
+                const bool keeps = mean.at(x, y) > 0 && !all;
+                next.at(x, y) = keeps ? mean.at(x, y) : count > 0 ? sum / count : 0;
+                missing = missing || !(next.at(x, y) > 0);
+            }
+        std::swap(mean, next);
+        return missing;
+    };
+    for (int n = 0; n < kSpread && average(false); ++n) {
+    }
+    for (int n = 0; n < kSmoothings; ++n) average(true);
+    smooth.resize(depth.width(), depth.height());
+    for (int y = 0; y < depth.height(); ++y) {
+        const float v = std::clamp((static_cast<float>(y) + 0.5f) / kLateTileHeight - 0.5f, 0.0f,
+                                   static_cast<float>(down - 1));
+        const int v0 = static_cast<int>(v), v1 = std::min(v0 + 1, down - 1);
+        const float lower = v - static_cast<float>(v0);
+        for (int x = 0; x < depth.width(); ++x) {
+            const float u = std::clamp((static_cast<float>(x) + 0.5f) / kLateTileWidth - 0.5f, 0.0f,
+                                       static_cast<float>(across - 1));
+            const int u0 = static_cast<int>(u), u1 = std::min(u0 + 1, across - 1);
+            const float right = u - static_cast<float>(u0);
+            const float up = mean.at(u0, v0) * (1 - right) + mean.at(u1, v0) * right;
+            const float low = mean.at(u0, v1) * (1 - right) + mean.at(u1, v1) * right;
+            smooth.at(x, y) = 1 / (up * (1 - lower) + low * lower);  // infinite where nothing is at all
+        }
+    }
+}
+
 struct Corner {
     float a = 0, b = 0, du = 0, dv = 0;
 };
@@ -56,7 +107,7 @@ LateMove lateMove(const EyeView& from, const EyeView& to) {
     return move;
 }
 
-void LateEye::prepare(const Plane<float>& depth, const EyeView& view, SimdTarget simd) {
+void LateEye::prepare(const Plane<float>& depth, const EyeView& view, SimdTarget simd, bool soft) {
     mView = view;
     mSimd = simd;
     mInverse.resize(depth.width(), depth.height());
@@ -65,7 +116,14 @@ void LateEye::prepare(const Plane<float>& depth, const EyeView& view, SimdTarget
     mTiles.resize(static_cast<std::size_t>(mAcross) * static_cast<std::size_t>(mDown));
     mReady = !depth.empty();
     if (!mReady) return;
-    const LateKernels& kernels = kernelsFor(simd);
+    if (!soft) return measure(depth);
+    Plane<float> smooth;
+    smoothDepths(depth, smooth);
+    measure(smooth);
+}
+
+void LateEye::measure(const Plane<float>& depth) {
+    const LateKernels& kernels = kernelsFor(mSimd);
     const LateDepths depths{depth.row(0),  depth.stride(), mInverse.row(0), mInverse.stride(),
                             depth.width(), depth.height(), mTiles.data()};
     parallelFor(mDown, [&](int tile) {

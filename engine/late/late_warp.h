@@ -22,7 +22,10 @@ LateMove lateMove(const EyeView& from, const EyeView& to);
 class LateEye {
 public:
     // depth: metres along the viewing axis; infinite is the sky; what is 0 or no number is not known.
-    void prepare(const Plane<float>& depth, const EyeView& view, SimdTarget simd = SimdTarget::Auto);
+    // soft: of what is seen through, whose colours have more than one depth: depths without edges, and what
+    // is infinitely far beside them goes with them, so that nothing tears.
+    void prepare(const Plane<float>& depth, const EyeView& view, SimdTarget simd = SimdTarget::Auto,
+                 bool soft = false);
     // Nothing is there any more; the memory stays.
     void forget() { mReady = false; }
     bool ready() const { return mReady; }
@@ -34,6 +37,7 @@ public:
               Plane<std::uint8_t>* uncovered = nullptr, bool parallel = false) const;
 
 private:
+    void measure(const Plane<float>& depth);
     LatePlan planOf(const LateMove& move, int x0, int y0, int x1, int y1, float nearestSeen) const;
 
     bool mReady = false;

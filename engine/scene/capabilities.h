@@ -93,6 +93,14 @@ public:
 // It moves by itself, by the time that frames are made at.
 struct Animation {};
 
+// Frames that may be made with less work, and less exactly, while something moves.
+class FrameEffort {
+public:
+    virtual ~FrameEffort() = default;
+    // Of the next frames: 1 is all of it, more than 0.
+    virtual void setEffort(double share) = 0;
+};
+
 // A room whose walls the eyes come near: eyes that suit it.
 class RoomAround {
 public:

@@ -20,9 +20,10 @@ hold() {
     xdotool keyup "$1"
 }
 
-# start_window ARGUMENT ...: of the program. Waits for its window.
+# start_window ARGUMENT ...: of the program. Waits for its window. A picture that rests stays as it was made, so that two
+# of one place are the same.
 start_window() {
-    "$program" view "$@" --shots "$shots" >"$out/log.txt" 2>&1 &
+    "$program" view "$@" --refine off --shots "$shots" >"$out/log.txt" 2>&1 &
     pid=$!
     window=
     for _ in $(seq 1200); do

@@ -103,6 +103,17 @@ TEST(FrameGovernor, WaitsLongerWhereItDidNotLast) {
     EXPECT_LE(flight.changes(300, 600), 8) << "25 times another load";
 }
 
+// A medium's first frame in full size takes seconds: one is enough to know.
+TEST(FrameGovernor, LearnsFromOneHopelessFrame) {
+    FrameGovernor governor(130);
+    governor.useEfforts(true);
+    governor.took(1, 2500);
+    EXPECT_LT(governor.scale(), 0.6);
+    EXPECT_LT(governor.effort(), 1);
+    governor.useEfforts(false);
+    EXPECT_EQ(governor.effort(), 1);
+}
+
 TEST(FrameGovernor, TakesNoFrameForAnother) {
     FrameGovernor governor(kGovernedTarget);
     EXPECT_EQ(governor.predicted_ms(), 0);

@@ -261,6 +261,34 @@ TEST(LateWarp, LeavesNoGhosts) {
     }
 }
 
+// Of what is seen through nothing tears, and where it ends goes with it.
+TEST(LateWarp, SoftDepthsDoNotTear) {
+    EyeView from = lateView({0, 0, 0}, 0, 0, 200, 120);
+    EyeImage seen;
+    seen.resize(200, 120);
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 200; ++x) {
+            const bool isCloud = std::hypot(x - 100, y - 60) < 40;
+            seen.color.at(x, y) = isCloud ? packColor({0.8f, 0.8f, 0.8f}) : packColor({0.1f, 0.2f, 0.5f});
+            seen.viewDepth.at(x, y) = isCloud ? 5.0f : std::numeric_limits<float>::infinity();
+        }
+    LateEye late;
+    late.prepare(seen.viewDepth, from, SimdTarget::Auto, true);
+    EyeView to = from;
+    to.eye.x += 10 * 5 * from.pixelWidth();  // ten pixels of the cloud's depth
+    Plane<PackedColor> image;
+    Plane<std::uint8_t> uncovered;
+    late.warp(seen.color, to, image, &uncovered);
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 180; ++x)
+            ASSERT_LE(apartOf(image.at(x, y), seen.color.at(x + 10, y)), 2) << x << " " << y;
+    EXPECT_LT(shareOf(uncovered), 0.06) << "its right border alone";
+    seen.viewDepth = Plane<float>(200, 120);  // nothing is known at all
+    late.prepare(seen.viewDepth, from, SimdTarget::Auto, true);
+    late.warp(seen.color, to, image);
+    EXPECT_LE(apartOf(image.at(100, 60), seen.color.at(100, 60)), 1);
+}
+
 // Depths that are no numbers, all sky, one pixel, a view behind: whatever comes is a picture.
 TEST(LateWarp, TakesAnything) {
     const LateScene scene;

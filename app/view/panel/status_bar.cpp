@@ -105,6 +105,10 @@ float drawStatusBar(PanelHost& host, float left, float right) {
         const double rate = host.framesPerSecond();
         row.text(rate > 0 ? fmt::format("{:5.1f} /s", rate) : "  rest ",
                  "frames a second, while something moves");
+        if (const std::string age = host.ageText(); !age.empty())
+            row.text(age,
+                     "since the picture was asked for that is shown, warped to where the eyes are now; and "
+                     "how much of the width and height it was cast in");
         row.text(costText(*frame), frameText(*frame, rate));
         if (frame->request.twoEyes && row.room(comfortMeterWidth())) drawComfortMeter(host, *frame);
         if (const std::string measured = session->measuredText(*frame); !measured.empty())

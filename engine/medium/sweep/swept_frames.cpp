@@ -105,6 +105,14 @@ void SweptFrames::sweepEyes(std::span<const EyeView> eyes, double time, std::spa
     MediumSweep& sweep = this->sweep();
     SweepSetting setting = mScene.sweep;
     if (!shares) setting.sharedWidth = 0;
+    if (mEffort < 1) {
+        constexpr int kFewestSlices = 16, kFewestTexels = 32;
+        const auto less = [](int all, double share, int fewest) {
+            return std::max(std::min(all, fewest), static_cast<int>(share * all));
+        };
+        setting.slices = less(setting.slices, mEffort, kFewestSlices);
+        setting.lightSize = less(setting.lightSize, std::sqrt(mEffort), kFewestTexels);
+    }
     const glm::dvec3& head = eyes[0].head;
     const std::span<MediumPicture> pictures(mPictures.data(), eyes.size());
     const auto cpu = [&] { sweep.render(mScene.look, setting, eyes, head, time, pictures, starts); };

@@ -59,6 +59,9 @@ public:
     void setSweep(SweepChooser chooser) { mChooser = std::move(chooser); }
     bool sweptElsewhere() const { return mElsewhere; }  // the last one
 
+    // Of the slices, and with the root of it of the light's texels a side: 1 is what the scene asks for.
+    void setEffort(double share) { mEffort = share; }
+
     SimdTarget target() const { return mSweep.target(); }
 
 private:
@@ -85,6 +88,7 @@ private:
     std::unique_ptr<Surface> mSurface;  // made when it is first shown
     RightEye mSplat;
     std::vector<MediumPicture> mPictures;
+    double mEffort = 1;
     bool mHere = false, mElsewhere = false;  // the chooser is not asked; it swept elsewhere
     SweepChooser mChooser;                   // last: it ends before the media that it was asked for
 };
