@@ -94,6 +94,48 @@ std::shared_ptr<const ViewFrame> nextFrame(ViewWorker& worker) {
     return frame;
 }
 
+// A picture that rests is cast again until that changes nothing more, and only where that was asked for.
+TEST(ViewWorker, RefinesWhatRests) {
+    ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
+    FrameRequest request = requestAt(1, 7);
+    for (const bool refines : {true, false}) {
+        SCOPED_TRACE(refines);
+        request.refines = refines;
+        ++request.version;
+        worker.request(request);
+        const auto drawn = nextFrame(worker);
+        ASSERT_NE(drawn, nullptr);
+        EXPECT_EQ(drawn->rays, 1);
+        std::shared_ptr<const ViewFrame> refined;
+        within(refines ? 10s : 600ms, [&] { return (refined = worker.takeFrame()) != nullptr; });
+        ASSERT_EQ(refined != nullptr, refines);
+        if (!refines) continue;
+        EXPECT_EQ(refined->rays, 8) << "a wall of one colour";
+        EXPECT_GT(refined->expected_db, 60);
+        EXPECT_EQ(refined->request.version, request.version);
+        EXPECT_EQ(refined->left.viewDepth.at(5, 5), drawn->left.viewDepth.at(5, 5));
+        for (int x = 0; x < 40; ++x) {
+            ASSERT_EQ(refined->left.color.at(x, 9), 7u);
+            ASSERT_EQ(refined->right.color.at(x, 9), 7u);
+        }
+        EXPECT_FALSE(within(500ms, [&] { return worker.takeFrame() != nullptr; })) << "that was enough";
+    }
+    // Of one eye too; not of a picture that is made smaller, and not of a truth.
+    request.refines = true;
+    for (int kind = 0; kind < 3; ++kind) {
+        SCOPED_TRACE(kind);
+        ++request.version;
+        request.twoEyes = kind != 0;
+        request.scale = kind == 1 ? 0.5 : 1;
+        request.truth = kind == 2 ? TruthView::FullCast : TruthView::None;
+        worker.request(request);
+        ASSERT_NE(nextFrame(worker), nullptr);
+        std::shared_ptr<const ViewFrame> refined;
+        within(kind == 0 ? 10s : 600ms, [&] { return (refined = worker.takeFrame()) != nullptr; });
+        EXPECT_EQ(refined != nullptr, kind == 0);
+    }
+}
+
 TEST(ViewWorker, LoadsAndRendersBothEyes) {
     std::atomic<int> woken = 0;
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [&] { ++woken; });
