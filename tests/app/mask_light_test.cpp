@@ -49,7 +49,10 @@ protected:
             std::vector<std::string> all = options;
             all.insert(all.end(),
                        {"--light", traced ? "traced" : "lazy", "--out", traced ? "b.png" : "a.png"});
-            if (traced) all.insert(all.end(), {"--samples", "256", "--bounces", "1"});
+            if (traced)
+                all.insert(all.end(), {"--samples", "256", "--bounces", "1"});
+            else
+                all.insert(all.end(), {"--edges", "0"});  // paths go through the centres of pixels
             const Outcome outcome = run(all);
             EXPECT_EQ(outcome.status, 0) << outcome.err;
             pictures[traced] = readColorImage(place() / (traced ? "b.png" : "a.png"));

@@ -119,9 +119,9 @@ TEST_F(Memory, OfPicturesIsCheckedBesideTheScene) {
     allow("1.2e8");  // the ground takes 105 MB while it is read, then 60 MB
     const Outcome small = render("32x24");
     EXPECT_EQ(small.status, 0) << small.err;
-    const Outcome both = render("1000x1000");  // 88 MB
+    const Outcome both = render("1000x1000");  // 96 MB
     EXPECT_EQ(both.status, 1);
-    EXPECT_NE(both.err.find("--size: 1000x1000 needs 88 MB"), std::string::npos) << both.err;
+    EXPECT_NE(both.err.find("--size: 1000x1000 needs 96 MB"), std::string::npos) << both.err;
     allow("2e8");
     EXPECT_EQ(render("1000x1000").status, 0);
 }

@@ -72,7 +72,7 @@ TEST_F(VolumeLight, EachModelIsWhatItsFormulaSays) {
     const std::string scene = ball();
     const glm::vec3 albedo(0.62f, 0.57f, 0.48f), background(0.012f, 0.014f, 0.018f);
     const auto model = [&](const char* name) {
-        return shown(scene, {"--shading", name, "--pose", "-0.001,-0.15,-0.001,0,0,0"});
+        return shown(scene, {"--shading", name, "--edges", "0", "--pose", "-0.001,-0.15,-0.001,0,0,0"});
     };
     const Shown lambert = model("lambert"), phong = model("phong"), varying = model("varying"),
                 fog = model("fog");
