@@ -48,25 +48,21 @@ float startInColumn(const CasterView& v, PixelRect bounds, const Plane<float>& v
     return 0.0f;
 }
 
-}  // namespace
-
-float startInFront(const CasterView& v, const GroundData& ground, PixelRect bounds,
-                   const Plane<float>& viewDepth, PixelIndex p) {
-    // Through a hole in the ground a lower ray goes below it, and says nothing of a higher one.
-    if (!v.coherent || !std::isfinite(ground.maxSlope)) return 0.0f;
-    if (v.verticalColumns) return startInColumn(v, bounds, viewDepth, p);
-    const int a = (p.x - v.firstX) * v.laneX + (p.y - v.firstY) * v.laneY;
-    const int q = (p.x - v.firstX) * v.stepX + (p.y - v.firstY) * v.stepY;
+// Where the ray at (lane a, step q) of the view, whole numbers at the centres of its pixels, may start by the
+// depths of pixels towards lower rays; 0: nothing is known.
+float startAbove(const CasterView& v, const GroundData& ground, PixelRect bounds,
+                 const Plane<float>& viewDepth, double a, double q) {
     const double lowQ = v.lowQ - q * v.lowW;
     if (!(lowQ < 0)) return 0.0f;
     const double drift = (v.lowA - a * v.lowW) / -lowQ;
     const Heading ray = headingOf(v, ground, a, q);
     int tries = kProofs;
-    for (int back = 1; back <= std::min(q, kLookBack) && tries > 0; ++back) {
-        const double at = drift * back, nearest = std::floor(at + 0.5);
+    const int first = static_cast<int>(std::ceil(q)) - 1;  // the next lower row
+    for (int step = first; step >= std::max(0, first + 1 - kLookBack) && tries > 0; --step) {
+        const double back = q - step, at = a + drift * back, nearest = std::floor(at + 0.5);
         // Too far aside to be proven, most likely.
         if (std::abs(at - nearest) * ground.maxSlope > back) continue;
-        const int lane = a + static_cast<int>(nearest), step = q - back;
+        const int lane = static_cast<int>(nearest);
         const float depth = depthInside(viewDepth, bounds, v.firstX + lane * v.laneX + step * v.stepX,
                                         v.firstY + lane * v.laneY + step * v.stepY);
         if (depth < 0.0f) return 0.0f;
@@ -76,6 +72,17 @@ float startInFront(const CasterView& v, const GroundData& ground, PixelRect boun
             return start;
     }
     return 0.0f;
+}
+
+}  // namespace
+
+float startInFront(const CasterView& v, const GroundData& ground, PixelRect bounds,
+                   const Plane<float>& viewDepth, PixelIndex p) {
+    // Through a hole in the ground a lower ray goes below it, and says nothing of a higher one.
+    if (!v.coherent || !std::isfinite(ground.maxSlope)) return 0.0f;
+    if (v.verticalColumns) return startInColumn(v, bounds, viewDepth, p);
+    return startAbove(v, ground, bounds, viewDepth, (p.x - v.firstX) * v.laneX + (p.y - v.firstY) * v.laneY,
+                      (p.x - v.firstX) * v.stepX + (p.y - v.firstY) * v.stepY);
 }
 
 StartBeside::StartBeside(const CasterView& view, const CasterView& known, const GroundData& ground,
@@ -102,26 +109,7 @@ float StartBeside::of(PixelIndex p) const {
     const CasterView& v = mKnown;
     const double a = (p.x - v.firstX) * v.laneX + (p.y - v.firstY) * v.laneY + mLane;
     const double q = (p.x - v.firstX) * v.stepX + (p.y - v.firstY) * v.stepY + mStep;
-    const double lowQ = v.lowQ - q * v.lowW;
-    if (!(lowQ < 0)) return 0.0f;
-    const double drift = (v.lowA - a * v.lowW) / -lowQ;
-    const Heading ray = headingOf(v, mGround, a, q);
-    const PixelRect all{0, 0, mDepth.width(), mDepth.height()};
-    int tries = kProofs;
-    const int first = static_cast<int>(std::ceil(q)) - 1;  // the next lower row
-    for (int step = first; step >= std::max(0, first - kLookBack) && tries > 0; --step) {
-        const double back = q - step, lane = std::floor(a + drift * back + 0.5);
-        if (std::abs(a + drift * back - lane) * mGround.maxSlope > back) continue;
-        const int x = static_cast<int>(lane);
-        const float depth = depthInside(mDepth, all, v.firstX + x * v.laneX + step * v.stepX,
-                                        v.firstY + x * v.laneY + step * v.stepY);
-        if (depth < 0.0f) return 0.0f;
-        if (depth == 0.0f || !std::isfinite(depth)) continue;
-        --tries;
-        if (const float start = provenStart(ray, headingOf(v, mGround, lane, step), depth, mGround))
-            return start;
-    }
-    return 0.0f;
+    return startAbove(v, mGround, {0, 0, mDepth.width(), mDepth.height()}, mDepth, a, q);
 }
 
 void HoleSort::sort(const CasterView& view, PixelRect bounds, std::span<const PixelIndex> pixels) {
