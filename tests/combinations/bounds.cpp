@@ -71,6 +71,10 @@ Nearness besideEachSample(const Row& row) {
     if (levelOf(row, Factor::Model) == "surface") return {60, 0.02, 6.5};
     return {8, 0.02, 1.0};
 }
+// Only where rays begin differs.
+Nearness besidePlainEdges(const Row& row) {
+    return {2, 0.005, mean(row, 0.05)};
+}
 bool isSeenOtherwiseByOracle(const Row& row) {
     return isColon(row) && (given(row, Factor::Opacity) || levelOf(row, Factor::Size) == "64x1");
 }

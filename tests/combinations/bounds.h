@@ -21,6 +21,9 @@ Nearness besideEachSample(const Row& row);
 // is that of 64x1 pixels, 178 degrees across, whose near plane cuts the wall.
 bool isSeenOtherwiseByOracle(const Row& row);
 
+// Rays at edges, beside whole pictures cast through the same places.
+Nearness besidePlainEdges(const Row& row);
+
 // Right eyes beside one cast in full, by the same instruction set; nothing where the method is to be wrong.
 std::optional<Range> rangeOfRight(const Row& row);
 std::optional<Nearness> nearnessOfRight(const Row& row);

@@ -106,8 +106,14 @@ public:
                 expectNear(full.left, plain.left, betweenSets(mRow), name + ", left eye beside plain");
                 expectNear(full.right, plain.right, betweenSets(mRow), name + ", right eye beside plain");
             }
-            if (!isTimed(mRow)) expect(differentBits(drawn.left, full.left), name + ", left eyes");
-            checkRight(drawn.right, full.right, name);
+            Eyes smooth;
+            if (drawing.edges().rays > 0) {
+                smooth = drawing.inFullAndSmooth();
+                checkSmooth(smooth, drawing.smoothedPlainly(full), name);
+            }
+            const Eyes& exact = drawing.edges().rays > 0 ? smooth : full;
+            if (!isTimed(mRow)) expect(differentBits(drawn.left, exact.left), name + ", left eyes");
+            checkRight(drawn.right, exact.right, name);
             if (!isTimed(mRow)) checkThreads(drawing, drawn, name);
         }
     }
@@ -167,6 +173,13 @@ private:
             for (OraclePicture& eye : sweptByOracle(drawing.scene(), sweep)) eyes.push_back(std::move(eye));
         expectNear(full.left, eyes.at(0), "left eye beside the oracle");
         expectNear(full.right, eyes.at(1), "right eye beside the oracle");
+    }
+
+    void checkSmooth(const Eyes& smooth, const Eyes& plainly, const std::string& name) {
+        expect(wrongNumbers(smooth.left), name + ", left eye with rays at edges");
+        expect(wrongNumbers(smooth.right), name + ", right eye with rays at edges");
+        expectNear(smooth.left, plainly.left, besidePlainEdges(mRow), name + ", edges of the left eye");
+        expectNear(smooth.right, plainly.right, besidePlainEdges(mRow), name + ", edges of the right eye");
     }
 
     void checkRight(const EyeImage& right, const EyeImage& full, const std::string& name) {

@@ -8,6 +8,7 @@
 #include "app/command/narrowed_eyes.h"
 #include "app/scene/scene_loading.h"
 #include "engine/image/eye_image.h"
+#include "engine/sampling/edge_rays.h"
 
 namespace stereonav::test {
 
@@ -22,12 +23,18 @@ public:
     Drawing(const Drawing&) = delete;
     Drawing& operator=(const Drawing&) = delete;
 
-    // At the scene's start pose; method: a name, "" for the one that the options say. Light that is worked
-    // out for what is seen is there.
-    Eyes eyes(const std::string& method = "");
-    // Each pixel of the right eye cast; of a medium each eye swept with samples of its own, by the slices
-    // that the method has: one sweep for both eyes leans between them.
+    // At the scene's start pose, as the options say.
+    Eyes eyes();
+    // What rays are added to pixels at edges, of both eyes of eyes().
+    const EdgeSetting& edges() const { return mEdges; }
+    // Each pixel of the right eye cast, by one ray; of a medium each eye swept with samples of its own, by
+    // the slices that the method has: one sweep for both eyes leans between them.
     Eyes inFull();
+    // As inFull(), with the rays at edges.
+    Eyes inFullAndSmooth();
+    // As inFullAndSmooth(), worked out the plain way, from inFull(): the whole picture cast through each
+    // place of a pixel that has a ray, the mean of which is taken at the edges.
+    Eyes smoothedPlainly(const Eyes& full);
 
     // Of a medium: whether the method has one sweep for both eyes.
     bool sweepsTogether() const;
@@ -42,7 +49,11 @@ public:
     }
 
 private:
+    // method: a name, "" for what the options say. Light that is worked out for what is seen is there.
+    Eyes frame(const std::string& method, const EdgeSetting& edges);
+
     RenderOptions mOptions;
+    EdgeSetting mEdges;
     long long mNotFinite = 0;
     std::unique_ptr<Scene> mScene;
 };

@@ -274,6 +274,13 @@ void addMethods(std::vector<Rule>& all) {
                        {{is(Factor::Light, {"traced"}), is(Factor::Scene, kOutside + kColons),
                          isLeftOut(Factor::Medium), given}}});
     }
+    const Clause::Part edges = isGiven(Factor::Edges);
+    all.push_back({"nothing is cast", "--edges", {{isGiven(Factor::Medium), edges}}});
+    all.push_back({"nothing is cast", "--edges", {{is(Factor::Scene, kBuiltInMedia), edges}}});
+    all.push_back({"each pixel is traced",
+                   "--edges",
+                   {{is(Factor::Light, {"traced"}), is(Factor::Scene, kOutside + kColons),
+                     isLeftOut(Factor::Medium), edges}}});
     all.push_back({"opacity to modulate",
                    "--modulate",
                    {{is(Factor::Scene, kOutside), isLeftOut(Factor::Medium), isGiven(Factor::Modulation),
@@ -320,6 +327,7 @@ const std::vector<FactorLevels>& factorTable() {
          {"auto", "full", "paper", "linear", "cubic", "mcmillan", "nofill", "selective", "depthsplat",
           "sweep", "own-samples", "two-sweeps"}},
         {Factor::Quality, "quality", {"none", "share", "psnr", "time"}},
+        {Factor::Edges, "edges", {"as they are", "jagged", "by two"}},
         {Factor::Mode, "mode", {"sbsl", "ml", "mr", "tb2r", "irl", "icr", "chl", "arcd"}},
         {Factor::Size, "size", {"61x47", "17x64", "1x1", "64x1"}},
         {Factor::Threads, "threads", {"all", "1", "3"}},

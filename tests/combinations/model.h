@@ -39,6 +39,7 @@ enum class Factor {
     Lens,
     Method,
     Quality,
+    Edges,
     Mode,
     Size,
     Threads
