@@ -183,23 +183,33 @@ STEREONAV_INLINE Falling fallingOn(const VolumeData& data, const VolumeView& vie
     return {{both(baked.red), both(baked.green), both(baked.blue)}, share * lamp.highlight};
 }
 
-// lampAt: as above, of a view depth.
-template <typename Lamp>
-STEREONAV_INLINE I surfaceColor(const VolumeData& data, const VolumeView& view, const Rays& r, F depth, M hit,
-                                const Lamp& lampAt) {
-    const LightData& light = data.light;
-    const F t = select(hit, depth, F(1.0f));
-    const Falling falling = fallingOn(data, view, r, t, hit, 1.0f, [&] { return lampAt(t); });
+// As shown where nothing is met.
+STEREONAV_INLINE I packedBackground(const LightData& light) {
+    return packLight(backgroundOf(light));
+}
+
+// What the surface sends to the eye, through the fog; behind: packedBackground. t: finite, of all lanes.
+STEREONAV_INLINE I sentColor(const LightData& light, const Rays& r, F t, M hit, const Falling& falling,
+                             I behind) {
     Light sent{mulAdd(falling.diffuse.red, F(light.albedo[0]), falling.highlight),
                mulAdd(falling.diffuse.green, F(light.albedo[1]), falling.highlight),
                mulAdd(falling.diffuse.blue, F(light.albedo[2]), falling.highlight)};
-    const Light behind = backgroundOf(light);
     if (light.inverseFog > 0) {
+        const Light far = backgroundOf(light);
         const F through = exp2(t * approxReciprocal(r.perMetre) * F(-1.44269504f * light.inverseFog));
-        sent = {lerp(behind.red, sent.red, through), lerp(behind.green, sent.green, through),
-                lerp(behind.blue, sent.blue, through)};
+        sent = {lerp(far.red, sent.red, through), lerp(far.green, sent.green, through),
+                lerp(far.blue, sent.blue, through)};
     }
-    return select(hit, packLight(sent), packLight(behind));
+    return select(hit, packLight(sent), behind);
+}
+
+// lampAt: as above, of a view depth.
+template <typename Lamp>
+STEREONAV_INLINE I surfaceColor(const VolumeData& data, const VolumeView& view, const Rays& r, F depth, M hit,
+                                I behind, const Lamp& lampAt) {
+    const F t = select(hit, depth, F(1.0f));
+    const Falling falling = fallingOn(data, view, r, t, hit, 1.0f, [&] { return lampAt(t); });
+    return sentColor(data.light, r, t, hit, falling, behind);
 }
 
 }  // namespace stereonav::STEREONAV_ISA

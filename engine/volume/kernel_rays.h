@@ -49,7 +49,14 @@ STEREONAV_INLINE void setDirection(Rays& r, const V3& direction, const float* ey
                   plane(direction.z, r.inverse.z, eye[2])};
 }
 
-// x, y: pixels, whose centres the rays go through.
+// Where rays cross the window, which is all that light of a lamp asks for. x, y: pixels, whose centres the
+// rays go through.
+STEREONAV_INLINE void setWindow(Rays& r, const VolumeView& view, F x, F y) {
+    r.windowX = mulAdd(x + F(0.5f), F(view.pixelWidth), F(view.xMin));
+    r.windowY = mulAdd(y + F(0.5f), F(-view.pixelHeight), F(view.yMax));
+    r.perMetre = approxRsqrt(mulAdd(r.windowX, r.windowX, mulAdd(r.windowY, r.windowY, F(1.0f))));
+}
+
 STEREONAV_INLINE Rays makeRays(const VolumeView& view, F x, F y) {
     Rays r;
     const auto along = [&](int k) {
@@ -58,9 +65,7 @@ STEREONAV_INLINE Rays makeRays(const VolumeView& view, F x, F y) {
                    mulAdd(y, F(static_cast<float>(view.perY[k])), F(static_cast<float>(view.direction[k])))));
     };
     setDirection(r, {along(0), along(1), along(2)}, view.eye);
-    r.windowX = mulAdd(x + F(0.5f), F(view.pixelWidth), F(view.xMin));
-    r.windowY = mulAdd(y + F(0.5f), F(-view.pixelHeight), F(view.yMax));
-    r.perMetre = approxRsqrt(mulAdd(r.windowX, r.windowX, mulAdd(r.windowY, r.windowY, F(1.0f))));
+    setWindow(r, view, x, y);
     return r;
 }
 

@@ -69,8 +69,10 @@ struct Packet {
     const VolumeData& data;
     const VolumeView& view;
     Grid grid;
+    I behind;
 
-    STEREONAV_INLINE Packet(const VolumeData& d, const VolumeView& v) : data(d), view(v), grid(d.cells, v) {}
+    STEREONAV_INLINE Packet(const VolumeData& d, const VolumeView& v)
+        : data(d), view(v), grid(d.cells, v), behind(packedBackground(d.light)) {}
 
     // Depths, colours and, where wanted, packed normals of one packet of rays.
     struct Result {
@@ -134,7 +136,7 @@ struct Packet {
     // Normals that nothing asked for are left at none: whoever shades again will not ask either.
     STEREONAV_INLINE Result shaded(const Rays& r, const Hits& hits, bool wantNormal) const {
         Channels n = openChannels(I(kNoNormal));
-        const I color = surfaceColor(data, view, r, hits.t, hits.hit, [&](F t) {
+        const I color = surfaceColor(data, view, r, hits.t, hits.hit, behind, [&](F t) {
             n = mixCorners(grid.data.records + 4, hits.word, hits.local, hits.hit);
             return litBy(data, view, r, t, directionOf(n), litShare(r, hits));
         });
@@ -383,22 +385,44 @@ void castPixels(const VolumeData& data, const VolumeView& view, const VolumePixe
     PixelCaster(data, view, target, pixels, count).cast();
 }
 
-void shadeRow(const VolumeData& data, const VolumeView& view, int y, int x0, int x1,
-              const VolumeTarget& target) {
+// Data and view by value: what is stored can not change them, so that they stay in registers.
+// kPlaces: light is looked up where the surface is.
+template <bool kPlaces>
+STEREONAV_INLINE void shadeBlocks(const VolumeData data, const VolumeView view, int y, int x0, int x1,
+                                  const VolumeTarget& target) {
     const float* depth = target.depth + y * target.depthStride;
     std::uint32_t* color = target.color + y * target.colorStride;
     const std::uint32_t* normal = target.normal + y * target.normalStride;
+    const I behind = packedBackground(data.light);
+    const F row(static_cast<float>(y));
     for (int x = x0; x < x1; x += kLanes) {
-        const Rays r = makeRays(view, laneIndexF() + F(static_cast<float>(x)), F(static_cast<float>(y)));
-        const F t = loadF(depth + x);
-        const M lanes = firstLanes(x1 - x) & (t > F(0.0f));
-        const M hit = lanes & (t < F(__builtin_inff()));
-        const I shown = surfaceColor(data, view, r, t, hit, [&](F hitDepth) {
-            const V3 n = directionOf(openChannels(loadI(normal + x)));
-            return litBy(data, view, r, hitDepth, n, F(1.0f));
-        });
-        store(color + x, shown, lanes);
+        const F column = laneIndexF() + F(static_cast<float>(x));
+        const F met = loadF(depth + x);
+        const M lanes = firstLanes(x1 - x) & (met > F(0.0f));
+        const M hit = lanes & (met < F(__builtin_inff()));
+        const auto lampAt = [&](const Rays& r, F t) {
+            return litBy(data, view, r, t, directionOf(openChannels(loadI(normal + x))), F(1.0f));
+        };
+        if constexpr (kPlaces) {
+            const Rays r = makeRays(view, column, row);
+            const I shown = surfaceColor(data, view, r, met, hit, behind, [&](F t) { return lampAt(r, t); });
+            store(color + x, shown, lanes);
+        } else {
+            Rays r;
+            setWindow(r, view, column, row);
+            const F t = select(hit, met, F(1.0f));
+            const Falling falling = ofLamp(lampAt(r, t), F(1.0f));
+            store(color + x, sentColor(data.light, r, t, hit, falling, behind), lanes);
+        }
     }
+}
+
+void shadeRow(const VolumeData& data, const VolumeView& view, int y, int x0, int x1,
+              const VolumeTarget& target) {
+    if (data.baked.texels || data.occlusion.openness.values)
+        shadeBlocks<true>(data, view, y, x0, x1, target);
+    else
+        shadeBlocks<false>(data, view, y, x0, x1, target);
 }
 
 }  // namespace
