@@ -1,13 +1,12 @@
 // The report's part on the quality dial: what it picks for a wish among the ways of warping, whether the wish
-// is met on frames that were not measured, and what a smaller picture saves.
+// is met on frames that were not measured, what a smaller picture saves, and what more rays at edges give.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/report/trial.h"
+#include "app/report/both_eyes.h"
 #include "engine/image/enlarge.h"
-#include "engine/metrics/image_difference.h"
 #include "engine/stereo/quality_plan.h"
 
 namespace stereonav {
@@ -89,12 +88,6 @@ WayChart dialChart(ReportRun& run, const ReportScene& scene, double seconds) {
 }
 
 // Both eyes made in a share of the sides and enlarged.
-struct SizeWay {
-    double scale = 1;
-    std::vector<double> ms = {};  // by repeat, mean frame
-    double squares = 0, worst = 0;
-};
-
 double makeEyes(const ReportScene& from, const Pose& pose, double scale, EyePair& eyes) {
     const Scene& scene = from.loaded();
     Lens lens = scene.lens;
@@ -109,23 +102,14 @@ double makeEyes(const ReportScene& from, const Pose& pose, double scale, EyePair
     return watch.elapsed_ms();
 }
 
-void addErrors(const EyePair& truth, const EyePair& eyes, double count, SizeWay& way) {
-    for (EyeImage EyePair::*const eye : {&EyePair::left, &EyePair::right}) {
-        const double rms = rmsOfPsnr(psnrOf((truth.*eye).color, (eyes.*eye).color));
-        way.squares += rms * rms / (2 * count);
-        way.worst = std::max(way.worst, rms);
-    }
-}
-
 WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
     const int repeats = run.pick(2, 4);
     const std::vector<Pose> poses = posesOf(scene.loaded(), run.pick(1, 4));
     const auto count = static_cast<double>(poses.size());
-    std::vector<SizeWay> ways;
-    for (const double scale : run.brief()
-                                  ? std::vector<double>{1, 0.5}
-                                  : std::vector<double>{1, std::sqrt(0.5), 0.5, std::sqrt(0.125), 0.25})
-        ways.push_back({scale, std::vector<double>(static_cast<std::size_t>(repeats), 0.0)});
+    const std::vector<double> scales =
+        run.brief() ? std::vector<double>{1, 0.5}
+                    : std::vector<double>{1, std::sqrt(0.5), 0.5, std::sqrt(0.125), 0.25};
+    std::vector<BothEyes> ways(scales.size(), {static_cast<std::size_t>(repeats), count});
     FrameMaker& frames = scene.frames();
     EyePair truth, eyes;
     for (const Pose& pose : poses) {
@@ -133,9 +117,9 @@ WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
         frames.make(makeStereoViews(pose, scene.loaded().lens, stereoOf(scene.loaded())), 0,
                     {frames.exactMethod(), {}}, truth);
         for (std::size_t r = 0; r < static_cast<std::size_t>(repeats); ++r)
-            for (SizeWay& way : ways) {
-                way.ms[r] += makeEyes(scene, pose, way.scale, eyes) / count;
-                if (r == 0) addErrors(truth, eyes, count, way);
+            for (std::size_t n = 0; n < ways.size(); ++n) {
+                ways[n].addTime(r, makeEyes(scene, pose, scales[n], eyes));
+                if (r == 0) ways[n].addError(truth.left.color, truth.right.color, eyes);
             }
     }
     WayChart chart;
@@ -151,24 +135,22 @@ WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
     chart.timeUnit = "ms";
     chart.errorLabel = "RMS error, 8-bit levels";
     chart.errorUnit = "levels";
-    for (const SizeWay& way : ways) {
-        WayPoint point;
-        point.way = {fmt::format("{:.2g}", way.scale), spreadOf(way.ms), std::sqrt(way.squares),
-                     way.scale == 1};
-        point.worstError = way.worst;
-        point.detail = fmt::format("{:.0f} % of the pixels", 100 * way.scale * way.scale);
-        chart.points.push_back(std::move(point));
-    }
+    for (std::size_t n = 0; n < ways.size(); ++n)
+        chart.points.push_back(ways[n].point(
+            fmt::format("{:.2g}", scales[n]),
+            fmt::format("{:.0f} % of the pixels", 100 * scales[n] * scales[n]), scales[n] == 1));
     return chart;
 }
 
 }  // namespace
 
 void reportQuality(ReportRun& run, double seconds) {
-    ReportSection section{"quality",
-                          "Quality by wish",
-                          "What the quality dial makes of a wish, and what a smaller picture saves.",
-                          {}};
+    ReportSection section{
+        "quality",
+        "Quality by wish",
+        "What the quality dial makes of a wish, what a smaller picture saves, and what more rays at edges "
+        "give.",
+        {}};
     const Stopwatch watch;
     for (const ReportScene& scene : run.scenes()) {
         run.checkTime();
@@ -176,6 +158,8 @@ void reportQuality(ReportRun& run, double seconds) {
         const double each = std::max(0.0, seconds - watch.elapsed_ms() / 1000) / left;
         addChart(run.report(), section, dialChart(run, scene, 0.6 * each));
         addChart(run.report(), section, sizeChart(run, scene));
+        run.checkTime();
+        addChart(run.report(), section, edgeChart(run, scene));
     }
     run.report().sections.push_back(std::move(section));
 }

@@ -34,7 +34,7 @@ struct Part {
 };
 constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0},
                            {"felt", reportFelt, 1.5},
-                           {"quality", reportQuality, 1.5},
+                           {"quality", reportQuality, 2.0},
                            {"casting", reportCasting, 1.0},
                            {"light", reportLight, 1.0, false},
                            {"occlusion", reportOcclusion, 0.3, false},

@@ -108,10 +108,11 @@ void reportPlan(ReportRun& run, double seconds);
 void reportStages(ReportRun& run, double seconds);
 void reportScenes(ReportRun& run, double seconds);
 void reportStability(ReportRun& run, double seconds);
-// Charts that stand in sections of others: of casting, and of volume light.
+// Charts that stand in sections of others: of casting, of volume light, and of quality by wish.
 WayChart filteringChart(ReportRun& run, const ReportScene& terrain);
 WayChart normalsChart(ReportRun& run);
 WayChart shadingWidthChart(ReportRun& run);
+WayChart edgeChart(ReportRun& run, const ReportScene& scene);
 void reportPairs(ReportRun& run, ReportSection& section);
 
 }  // namespace stereonav

@@ -73,6 +73,12 @@ TEST_F(Report, ChartsTheDialSmallerPicturesAndFilters) {
         EXPECT_LT(of.at("quality/" + scene + "/50 dB/error"), 0.81) << scene;
         EXPECT_GT(of.at("resolution/" + scene + "/0.5/error"), of.at("resolution/" + scene + "/1/error"))
             << scene;
+        const double jagged = of.at("edges/" + scene + "/edges 0/error");
+        const double smooth = of.at("edges/" + scene + "/edges 4/error");
+        if (scene == "colon translucent")  // whose edges are soft
+            EXPECT_LE(smooth, jagged) << scene;
+        else
+            EXPECT_LT(smooth, 0.7 * jagged) << scene;
     }
     EXPECT_GT(of.at("filtering/terrain/bilinear alone/error"),
               of.at("filtering/terrain/bilinear, 4 rays/error"));

@@ -1,0 +1,42 @@
+// A way of making both eyes: what its frames take and how wrong they are. Of the report's charts.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/report/trial.h"
+#include "engine/metrics/image_difference.h"
+
+namespace stereonav {
+
+class BothEyes {
+public:
+    BothEyes(std::size_t repeats, double frames) : mMs(repeats, 0.0), mFrames(frames) {}
+
+    // Of a frame in one repeat.
+    void addTime(std::size_t repeat, double ms) { mMs[repeat] += ms / mFrames; }
+    // Of a frame, once.
+    void addError(const Plane<PackedColor>& left, const Plane<PackedColor>& right, const EyePair& made) {
+        for (const double psnr_db : {psnrOf(left, made.left.color), psnrOf(right, made.right.color)}) {
+            const double rms = rmsOfPsnr(psnr_db);
+            mSquares += rms * rms / (2 * mFrames);
+            mWorst = std::max(mWorst, rms);
+        }
+    }
+    WayPoint point(const std::string& name, const std::string& detail, bool isDefault) const {
+        WayPoint point;
+        point.way = {name, spreadOf(mMs), std::sqrt(mSquares), isDefault};
+        point.worstError = mWorst;
+        point.detail = detail;
+        return point;
+    }
+
+private:
+    std::vector<double> mMs;  // by repeat, of the mean frame
+    double mFrames;
+    double mSquares = 0, mWorst = 0;  // RMS, 8-bit levels
+};
+
+}  // namespace stereonav
