@@ -131,7 +131,9 @@ void loadColor(const SceneFile& file, LoadedGround& loaded, TerrainScene& scene,
         color = {ColorTexture(texels, glm::dvec2(0.0), cells / glm::dvec2(texels.width(), texels.height())),
                  "generated, lit", true};
     } else {
-        color = tintedGround(scene.ground, look, tintPlaceOf(file, scene), progress);
+        const TintPlace place = tintPlaceOf(file, scene);
+        color = tintedGround(scene.ground, look, place, progress);
+        if (!litLater(file)) scene.tint = place;
     }
     scene.color = std::move(color.texture);
     scene.report.colorSource = std::move(color.source);
