@@ -14,6 +14,7 @@ namespace stereonav {
 struct LightChoice {
     enum class Kind : std::uint8_t {
         Own,           // nothing was said
+        Plain,         // of a terrain: none is worked out behind the window
         File,          // a bake
         Auto,          // of a terrain: the bake in the cache
         Lazy,          // of a volume: worked out while one looks

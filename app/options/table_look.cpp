@@ -66,6 +66,10 @@ std::vector<OptionRule> lightRules() {
          "leave out --turn, --tilt, --transfer, --opacity and --shading"},
         {[](const Asked& asked) { return isLazy(asked) && asked.shows(kTerrains); },
          "{light} expects the surface of a CT study or of the built-in colon", kLeaveItOut},
+        {[](const Asked& asked) { return asked.is("light", "plain") && !asked.runs(kView); },
+         "plain is expected with view: other commands work out no light by themselves", kLeaveItOut},
+        {[](const Asked& asked) { return asked.is("light", "plain") && !asked.shows(kTerrains); },
+         "plain expects an elevation model, whose light is worked out behind the window", kLeaveItOut},
         {[](const Asked& asked) { return asked.is("light", "auto") && !asked.shows(kTerrains); },
          "auto is the bake of a terrain, which lies in the cache", "name the bake's file"},
         {[](const Asked& asked) { return isLazy(asked) && asked.shows(kMedia); },
@@ -130,9 +134,10 @@ std::vector<Option> lookOptions() {
          .panel = OptionPanel::Light,
          .take = [](OptionTargets& to, const OptionValue& value) { takeSky(to, value); }},
         {.key = "light",
-         .value = fileOrWordValue({"auto", "lazy", "lazy-transfer", "traced"}),
-         .help = "baked light: its file; auto: a terrain's in the cache; lazy, lazy-transfer: a volume's, "
-                 "where one looks; traced: paths from every pixel",
+         .value = fileOrWordValue({"auto", "plain", "lazy", "lazy-transfer", "traced"}),
+         .help =
+             "baked light: its file; auto: a terrain's in the cache; plain: none is worked out behind the "
+             "window; lazy, lazy-transfer: a volume's, where one looks; traced: paths from every pixel",
          .commands = kShowing,
          .scenes = kNoMesh,
          .rules = lightRules(),

@@ -40,6 +40,7 @@ LampsAsked lampsOf(const OptionValue& value) {
 
 LightChoice lightChoiceOf(const OptionValue& value) {
     using Kind = LightChoice::Kind;
+    if (value.text == "plain") return {Kind::Plain, ""};
     if (value.text == "auto") return {Kind::Auto, ""};
     if (value.text == "lazy") return {Kind::Lazy, ""};
     if (value.text == "lazy-transfer") return {Kind::LazyTransfer, ""};

@@ -5,8 +5,10 @@
 #include <numbers>
 
 #include "app/command/scene_facts.h"
+#include "app/scene/terrain_daylight.h"
 #include "engine/nav/navigator.h"
 #include "terrain/scene/ground_map.h"
+#include "terrain/scene/landmark.h"
 #include "terrain/scene/terrain_illumination.h"
 #include "terrain/scene/terrain_loader.h"
 
@@ -93,7 +95,45 @@ private:
     TerrainRenderer& mRenderer;
 };
 
-ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target)
+// Over ground whose light is worked out meanwhile. All is called between frames but changes().
+class ShownTerrain::Daylight final : public TurningLight, public SeenLight {
+public:
+    Daylight(TerrainScene& terrain, TerrainRenderer& renderer)
+        : mTerrain(terrain), mRenderer(renderer), mBaker(terrain, renderer.target()) {}
+
+    SunPlace place() const override { return {mTerrain.look.sunAzimuth, mTerrain.look.sunElevation}; }
+    void turnTo(const SunPlace& to) override {
+        std::unique_ptr<LitGround> better = mBaker.take();
+        const bool turned = to != place();
+        if (turned) {
+            mTerrain.look.sunAzimuth = to.azimuth;
+            mTerrain.look.sunElevation = to.elevation;
+            if (mTerrain.landmarks) mTerrain.landmarks->setLook(mTerrain.look);
+        }
+        LitGround* const shown = better ? better.get() : mShown.get();
+        if (!shown) {  // the plain sun's light until then
+            if (turned) mRenderer.sunMoved();
+            return;
+        }
+        const bool stale = shown->sunAzimuth != to.azimuth || shown->sunElevation != to.elevation;
+        if (stale) shown->lightAgain(mTerrain.look);
+        if (!better && !stale) return;
+        mRenderer.showLight(*shown->light, shown->color);
+        if (better) mShown = std::move(better);  // the one before goes when it is not shown any more
+        mTerrain.report.lightSource = mShown->source();
+    }
+
+    void seen(const EyeView&, const EyeImage&) override { mBaker.begin(); }
+    std::uint64_t changes() const override { return mBaker.count(); }
+
+private:
+    TerrainScene& mTerrain;
+    TerrainRenderer& mRenderer;
+    std::unique_ptr<LitGround> mShown;
+    TerrainDaylight mBaker;
+};
+
+ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsItself)
     : mTerrain(std::move(terrain)), mSurvey(mTerrain), mRenderer(mTerrain, target), mFrames(mRenderer) {
     setViews(mTerrain, *this);
     simd = mRenderer.target();
@@ -102,17 +142,25 @@ ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target)
     offer<const TerrainScene>(mTerrain);
     offer<const TerrainRenderer>(mRenderer);
     mSurvey.offerAll([this](auto& capability) { offer(capability); });
+    if (lightsItself && mTerrain.tint) {
+        mDaylight = std::make_unique<Daylight>(mTerrain, mRenderer);
+        offer<TurningLight>(*mDaylight);
+        offer<SeenLight>(*mDaylight);
+    }
     if (!mTerrain.illumination) return;
     mSun = std::make_unique<Sun>(mTerrain, mRenderer);
     offer<TurningLight>(*mSun);
 }
+
+ShownTerrain::~ShownTerrain() = default;
 
 Facts ShownTerrain::describe() const {
     return {factForJson("terrain", factsOfTerrain(*this))};
 }
 
 std::string ShownTerrain::whyLightStays() const {
-    return mSun ? "" : "the sun stands still in this ground's colours: --light gives one that moves";
+    return mSun || mDaylight ? ""
+                             : "the sun stands still in this ground's colours: --light gives one that moves";
 }
 
 }  // namespace stereonav

@@ -41,10 +41,14 @@ private:
 };
 
 // Offers RayCast, const TerrainScene, MapFromAbove, SceneBox; as they are there, OnEarth and, with baked
-// light, a TurningLight.
+// light, a TurningLight. A tinted ground under the plain sun also offers light that is worked out while one
+// looks (terrain_daylight.h), and that turns: a TurningLight and a SeenLight.
 class ShownTerrain final : public Scene {
 public:
-    ShownTerrain(TerrainScene terrain, SimdTarget target);
+    // lightsItself: sky light and shadows may be worked out, from the first frame on that somebody shows to
+    // its SeenLight.
+    ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsItself = false);
+    ~ShownTerrain() override;
 
     FrameMaker& frames() const override { return mFrames; }
     std::unique_ptr<Flight> makeFlight() const override { return flightOver(mTerrain); }
@@ -53,6 +57,7 @@ public:
 
 private:
     class Sun;
+    class Daylight;
 
     TerrainScene mTerrain;
     TerrainSurvey mSurvey;
@@ -60,6 +65,7 @@ private:
     RayCast mRays;
     mutable CastFrames mFrames;
     std::unique_ptr<TurningLight> mSun;  // null: it stands in the colours
+    std::unique_ptr<Daylight> mDaylight;
 };
 
 }  // namespace stereonav

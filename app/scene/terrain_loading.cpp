@@ -20,6 +20,9 @@ void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
     if (options.openHoles && scene.builtIn)
         throw Error("--open-holes", "", "the built-in terrain has no holes",
                     "leave it out, or name an elevation model");
+    if (options.light.kind == LightChoice::Kind::Plain && (scene.builtIn || !scene.image.empty()))
+        throw Error("--light plain", "", "no other light is worked out for this ground",
+                    "leave it out, or name an elevation model without a picture");
     if (options.shadeImage && scene.image.empty())
         throw Error("--shade-image", "", "there is no picture to light",
                     "name one with --image, or leave it out");
@@ -73,7 +76,7 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
 }
 
 std::unique_ptr<Scene> loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    return std::make_unique<ShownTerrain>(terrainOf(options, progress), simd);
+    return std::make_unique<ShownTerrain>(terrainOf(options, progress), simd, !options.light.given());
 }
 
 }  // namespace stereonav

@@ -14,6 +14,7 @@
 #include <mutex>
 #include <utility>
 
+#include "engine/base/lone_loops.h"
 #include "engine/base/loop_watch.h"
 #include "engine/base/stop.h"
 
@@ -112,6 +113,11 @@ void LoopSteps::next() {
 
 namespace {
 thread_local const std::atomic<bool>* interruptOfThisThread = nullptr;
+thread_local bool thisThreadAlone = false;
+}  // namespace
+
+void loopOnThisThreadAlone() {
+    thisThreadAlone = true;
 }
 
 void interruptLoopsBy(const std::atomic<bool>* stop) {
@@ -134,7 +140,7 @@ void parallelFor(int count, const std::function<void(int)>& work, Schedule sched
     };
     const auto arena = Arena::instance().get();
     const int threads = arena->max_concurrency();
-    if (threads == 1 || count == 1) {
+    if (threads == 1 || count == 1 || thisThreadAlone) {
         for (int i = 0; i < count; ++i) body(i);
         return;
     }

@@ -87,9 +87,9 @@ std::vector<PixelIndex> pixelsOf(const CasterView& view, const CasterBand& band)
 }
 
 // The highlights of a scene under the light that it has now.
-Specular specularOf(const TerrainScene& terrain) {
-    if (!terrain.illumination) return Specular(terrain.look);
-    return Specular(terrain.look, terrain.illumination->highlightLight());
+Specular specularOf(const TerrainScene& terrain, const TerrainIllumination* light) {
+    if (!light) return Specular(terrain.look);
+    return Specular(terrain.look, light->highlightLight());
 }
 
 }  // namespace
@@ -102,12 +102,16 @@ struct TerrainRenderer::State {
     Specular specular;
     Fog fog;
     SimdTarget target;
+    GroundFilter filter;
+    const TerrainIllumination* light;  // null: the plain sun's
 
-    State(const TerrainScene& terrain, SimdTarget wanted, const GroundFilter& filter)
+    State(const TerrainScene& terrain, SimdTarget wanted, const GroundFilter& read)
         : pyramid(terrain.ground),
-          specular(specularOf(terrain)),
+          specular(specularOf(terrain, terrain.illumination.get())),
           fog(terrain.look),
-          target(availableTarget(wanted)) {
+          target(availableTarget(wanted)),
+          filter(read),
+          light(terrain.illumination.get()) {
         kernels = &kernelsFor(target);
         changeFog = kernelsOf<FogRowFunction>(target, plain::changeFog, avx2::changeFog, avx512::changeFog);
         scene.ground = groundData(terrain.ground, pyramid);
@@ -203,8 +207,8 @@ void TerrainRenderer::shadeAgain(const EyeView& view, int y, int x0, int x1, Eye
 }
 
 float TerrainRenderer::sunShownAt(const glm::dvec3& place) const {
-    if (!mScene.illumination) return 1;
-    return mScene.illumination->sunShownAt(mScene.ground.gridFromWorld(glm::dvec2(place)));
+    if (!mState->light) return 1;
+    return mState->light->sunShownAt(mScene.ground.gridFromWorld(glm::dvec2(place)));
 }
 
 void TerrainRenderer::shadeRows(const EyeView& view, int y0, int y1, EyeImage& image) const {
@@ -240,8 +244,15 @@ void TerrainRenderer::changeAir(const EyeView& from, const EyeView& view, int y,
     mState->changeFog(row);
 }
 void TerrainRenderer::sunMoved() {
-    mState->specular = specularOf(mScene);
+    mState->specular = specularOf(mScene, mState->light);
 }
+
+void TerrainRenderer::showLight(const TerrainIllumination& light, const ColorTexture& lit) {
+    mState->light = &light;
+    mState->scene.texture = mState->clear.texture = textureData(lit, mScene.ground.spacing(), mState->filter);
+    sunMoved();
+}
+
 SimdTarget TerrainRenderer::target() const {
     return mState->target;
 }

@@ -47,6 +47,10 @@ public:
 
     // The scene's look has changed (moveSun()): highlights follow. Not while a picture is cast.
     void sunMoved();
+    // Casts the ground in these colours, under this light, in place of the scene's own from now on. Both must
+    // live until others are shown; the colours have size and place of the scene's. Not while a picture is
+    // cast.
+    void showLight(const TerrainIllumination& light, const ColorTexture& lit);
 
     SimdTarget target() const;  // what Auto became
     const TerrainScene& scene() const { return mScene; }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -18,6 +17,7 @@
 #include "engine/base/parallel.h"
 #include "terrain/light/sun_and_sky.h"
 #include "terrain/read/raster_file.h"
+#include "terrain/scene/ground_tint.h"
 
 namespace stereonav {
 namespace {
@@ -28,19 +28,6 @@ constexpr double kPictureBytes = 4 + 1 + 4 * 2;    // a pixel of a picture, and 
 constexpr double kTextureBytes = 4 + 4 * 4.0 / 3;  // a texel: the picture, and with its mip levels
 constexpr double kLitDensity = 2.0;                // texels a sample where light is baked in
 constexpr const char* kAdvice = "give a JPEG, PNG or TIFF picture of the ground";
-
-// Valleys green, then grass, scree and rock, snow on top; t: height as a share of the ground's range.
-glm::vec3 heightTint(float t) {
-    static constexpr std::array<glm::vec3, 6> kRamp{{{0.045f, 0.095f, 0.030f},
-                                                     {0.100f, 0.145f, 0.045f},
-                                                     {0.210f, 0.180f, 0.080f},
-                                                     {0.190f, 0.140f, 0.090f},
-                                                     {0.260f, 0.240f, 0.220f},
-                                                     {0.740f, 0.760f, 0.800f}}};
-    const float x = std::clamp(t, 0.0f, 1.0f) * (kRamp.size() - 1);
-    const int k = std::min(static_cast<int>(x), static_cast<int>(kRamp.size()) - 2);
-    return glm::mix(kRamp[k], kRamp[k + 1], x - static_cast<float>(k));
-}
 
 // The height at a grid position; beside a hole that of the known samples around, NaN inside one.
 double knownHeightAt(const Heightfield& ground, const glm::dvec2& grid) {
@@ -58,28 +45,22 @@ double knownHeightAt(const Heightfield& ground, const glm::dvec2& grid) {
     return known ? sum / known : std::numeric_limits<double>::quiet_NaN();
 }
 
+// The ground's tint under the sun.
 class Tint {
 public:
-    Tint(const Heightfield& ground, const TerrainLook& look) : mGround(ground), mLight(look) {
-        const double range = double(ground.maxHeight()) - ground.minHeight();
-        mPerMetre = range > 0 ? 1 / range : 0.0;
-    }
+    Tint(const Heightfield& ground, const TerrainLook& look, const TintPlace& place)
+        : mGround(ground), mLight(look), mTint(ground, place) {}
 
     // Linear colour of the ground at a grid position, lit.
     glm::vec3 at(const glm::dvec2& grid) const {
-        const glm::dvec3 normal = mGround.normalAt(mGround.worldFromGrid(grid));
-        const double height = knownHeightAt(mGround, grid);
-        const double share = std::isfinite(height) ? (height - mGround.minHeight()) * mPerMetre : 0.0;
-        constexpr float kRockFrom = 0.82f, kRockFull = 0.57f;  // cosines of 35 and 55 degrees
-        const float steep = 1 - glm::smoothstep(kRockFull, kRockFrom, static_cast<float>(normal.z));
-        const glm::vec3 rock(0.160f, 0.148f, 0.135f);
-        return mLight.at(normal) * glm::mix(heightTint(static_cast<float>(share)), rock, 0.7f * steep);
+        const GroundTint::Site site = mTint.siteAt(grid);
+        return mLight.at(site.normal()) * mTint.at(grid, knownHeightAt(mGround, grid), site);
     }
 
 private:
     const Heightfield& mGround;
     GroundLight mLight;
-    double mPerMetre = 0;
+    GroundTint mTint;
 };
 
 // The texture over the extent of the samples' own squares: half a sample beyond the outer ones.
@@ -202,18 +183,21 @@ float GroundLight::at(const glm::dvec3& unitNormal) const {
 }
 
 double bytesOfTint(double samples) {
-    return kTextureBytes * std::min(kMostTexels, kLitDensity * kLitDensity * samples);
+    return kTextureBytes * std::min(kMostTexels, kLitDensity * kLitDensity * samples) +
+           GroundTint::kBytesPerSample * samples;
 }
 
-GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Progress& progress) {
-    const Tint tint(ground, look);
+GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, const TintPlace& place,
+                         Progress& progress) {
+    const Tint tint(ground, look, place);
     const TextureSize size = textureSize(ground, glm::dvec2(kLitDensity));
     const auto color = [&](int, int, const glm::dvec2& grid) { return tint.at(grid); };
-    return {bake(ground, size.width, size.height, color, progress), "tint by height, lit", look.ambient < 1};
+    return {bake(ground, size.width, size.height, color, progress), "tint by height and slope, lit",
+            look.ambient < 1};
 }
 
 GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& dem, const Heightfield& ground,
-                            const TerrainLook& look, Progress& progress) {
+                            const TerrainLook& look, const TintPlace& tinted, Progress& progress) {
     const auto opened = openRasterPicture(file, "a picture", kAdvice);
     const ImagePlace image = placeOf(*opened, dem);
     if (!overlap(dem.grid, image.place, file)) throwNoOverlap(file);
@@ -239,7 +223,7 @@ GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& de
                                                                pixels(window.yMin, window.yMax, shrink.y),
                 "give a smaller picture of the ground");
     const GroundPicture picture = opened->read(window, shrink);
-    const Tint tint(ground, look);
+    const Tint tint(ground, look, tinted);
     const GroundLight light(look);
     std::atomic<bool> lit{look.shadeImage};
     const auto color = [&](int column, int row, const glm::dvec2& grid) {

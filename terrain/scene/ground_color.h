@@ -11,6 +11,7 @@
 #include "terrain/ground/heightfield.h"
 #include "terrain/read/dem_reader.h"
 #include "terrain/read/scene_file.h"
+#include "terrain/scene/ground_tint.h"
 
 namespace stereonav {
 
@@ -35,8 +36,9 @@ private:
 // Bytes that tintedGround() holds at once for ground of so many samples.
 double bytesOfTint(double samples);
 
-// Colour by relative height, rock on steep slopes, lit; two texels a sample each way.
-GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Progress& progress);
+// Tints by height, place and slope (ground_tint.h), lit; two texels a sample each way.
+GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, const TintPlace& place,
+                         Progress& progress);
 
 // An image with a georeference (its own, or a world file's beside it, then in the elevation model's
 // system) is laid where it belongs; one without covers the extent of the elevation file, whatever
@@ -44,6 +46,6 @@ GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, Pro
 // as sRGB; texels as fine as the image's pixels, 2^26 of them at most. dem: without its heights.
 // Throws Error named by the image, among others where it does not overlap.
 GroundColor groundFromImage(const std::filesystem::path& image, const DemGrid& dem, const Heightfield& ground,
-                            const TerrainLook& look, Progress& progress);
+                            const TerrainLook& look, const TintPlace& tinted, Progress& progress);
 
 }  // namespace stereonav

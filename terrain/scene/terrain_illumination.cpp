@@ -1,5 +1,7 @@
 #include "terrain/scene/terrain_illumination.h"
 
+#include <algorithm>
+
 #include "terrain/scene/landmark.h"
 #include "terrain/scene/terrain_scene.h"
 
@@ -15,6 +17,24 @@ void TerrainIllumination::apply(const TerrainLook& look, ColorTexture& lit) {
     mRelight.relight(now, mBrightness, look.specular > 0);
     mHighlightLight = exposureOf(now) * now.sunThroughAir;
     mRelight.lightTexture(mAlbedo, mBrightness, {exposureOf(now), mShare}, lit);
+}
+
+void TerrainIllumination::applyOver(const TerrainLook& look, const ColorTexture& plain,
+                                    const std::vector<float>& plainLight, ColorTexture& lit) {
+    const SunAndSky now = sunAndSky(look, mSky);
+    mRelight.relight(now, mBrightness, look.specular > 0);
+    mHighlightLight = exposureOf(now) * now.sunThroughAir;
+    // A quotient beyond these is that of two dark places, or of the sun's edge at one sample alone.
+    constexpr float kDarkest = 0.05f, kLargest = 2.5f;
+    GroundBrightness quotient = mBrightness;
+    const float exposure = exposureOf(now);
+    const std::size_t count = quotient.planeSize();
+    for (int c = 0; c < 3; ++c)
+        for (std::size_t k = 0; k < count; ++k) {
+            float& q = quotient.planes[c * count + k];
+            q = std::min(exposure * q / std::max(plainLight[k], kDarkest), kLargest);
+        }
+    mRelight.lightTexture(plain, quotient, {1.0f, mShare}, lit);
 }
 
 std::size_t TerrainIllumination::byteCount() const {

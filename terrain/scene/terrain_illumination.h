@@ -1,6 +1,8 @@
 // A terrain under baked light: what its scene keeps beside the lit texture so that the sun can move.
 #pragma once
 
+#include <vector>
+
 #include "terrain/light/terrain_relight.h"
 
 namespace stereonav {
@@ -19,6 +21,13 @@ public:
 
     // Writes the colours under the look's sun into `lit`, which is of albedo's size.
     void apply(const TerrainLook& look, ColorTexture& lit);
+
+    // The same from light that was baked at some samples alone, for colours `plain` that are lit by a plain
+    // light already, which is known at all of them: what is baked is laid over it as the quotient of both at
+    // the baked samples, so that what lies between them keeps its shades. plainLight: of the baked samples,
+    // of what lies around each.
+    void applyOver(const TerrainLook& look, const ColorTexture& plain, const std::vector<float>& plainLight,
+                   ColorTexture& lit);
 
     // Of the last apply(): what the sun's highlights have of their strength, by colour, as the ground's own
     // light is shown: 1 with the sun 45 degrees high. It does not know of shadows.

@@ -98,19 +98,42 @@ LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progr
     return {std::move(dem), std::nullopt};
 }
 
+// The latitudes along the ground's middle.
+TintPlace tintPlaceOf(const SceneFile& file, const TerrainScene& scene) {
+    TintPlace place;
+    place.verticalScale = file.verticalScale;
+    if (!scene.earth) return place;
+    constexpr int kPlaces = 9;
+    const Heightfield& ground = scene.ground;
+    for (int k = 0; k < kPlaces; ++k) {
+        const glm::dvec2 share(0.5, k / (kPlaces - 1.0));
+        const auto at = scene.earth->placeAt(
+            ground.worldFromGrid(share * glm::dvec2(ground.width() - 1, ground.height() - 1)));
+        if (!at || !std::isfinite(at->latitude)) {
+            place.latitudes.clear();
+            break;
+        }
+        place.latitudes.push_back(at->latitude);
+    }
+    return place;
+}
+
 void loadColor(const SceneFile& file, LoadedGround& loaded, TerrainScene& scene, Progress& progress) {
     GroundColor color;
     TerrainLook look = file.look;
     if (litLater(file)) look.ambient = 1;
     if (!file.image.empty()) {
-        color = groundFromImage(file.image, loaded.place, scene.ground, look, progress);
+        color =
+            groundFromImage(file.image, loaded.place, scene.ground, look, tintPlaceOf(file, scene), progress);
     } else if (loaded.ownColor) {
         const Plane<PackedColor>& texels = *loaded.ownColor;
         const glm::dvec2 cells(scene.ground.width() - 1, scene.ground.height() - 1);
         color = {ColorTexture(texels, glm::dvec2(0.0), cells / glm::dvec2(texels.width(), texels.height())),
                  "generated, lit", true};
     } else {
-        color = tintedGround(scene.ground, look, progress);
+        const TintPlace place = tintPlaceOf(file, scene);
+        color = tintedGround(scene.ground, look, place, progress);
+        if (!litLater(file)) scene.tint = place;
     }
     scene.color = std::move(color.texture);
     scene.report.colorSource = std::move(color.source);

@@ -44,7 +44,7 @@ TEST(TerrainLoader, ChoosesWhatTheSceneDoesNotSay) {
     EXPECT_EQ(scene.report.driver, "GeoTIFF");
     EXPECT_EQ(scene.report.sourceCrs, "WGS 84 / UTM zone 33N");
     EXPECT_EQ(scene.report.missingSamples, 0);
-    EXPECT_EQ(scene.report.colorSource, "tint by height, lit");
+    EXPECT_EQ(scene.report.colorSource, "tint by height and slope, lit");
     EXPECT_EQ(scene.report.skySource, "built-in gradient");
     EXPECT_EQ(scene.landmarks, nullptr);
     EXPECT_EQ(scene.clearance, 7.5);

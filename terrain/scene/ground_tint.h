@@ -1,0 +1,82 @@
+// The ground's own colour where no picture is laid over it: tints by height, environment and slope.
+//
+// Taken from Patterson and Jenny 2011 (The Development and Rationale of Cross-blended Hypsometric Tints,
+// Cartographic Perspectives 69): their four scales (arid, warm humid, cold humid, polar) by height, whose
+// lowlands have the colours of their environment and whose highlands are alike, blended into one another
+// from region to region; after Imhof (Kartographische Geländedarstellung, 1965), higher is lighter, and
+// steep ground has the colour of rock. What differs:
+// - The environment follows the latitude alone (dry belts about 25 degrees, cold from 30 to 50, ice beyond
+//   65), as no map of climates is at hand. A wet mountain in a dry belt gets the belt's tint.
+// - The scales' metres are stretched so that grass ends at the tree line and grey at the snow line of the
+//   latitude (Hermes 1955 in Körner, Alpine Plant Life, 2003, rounded; regions are up to 1,000 m off), and
+//   wider where the model's own heights span little of them.
+// - Colours are darker and warmer than print on paper, as ground is that light falls on.
+// - Hollows have the tint of lower ground, ridges of higher; noise breaks up what would look like contours.
+// - Snow above the snow line alone: lower in hollows and on slopes that face the pole, not on walls.
+// Heights without a place on the Earth may be anything: they get the humid scales over their own range, and
+// no snow.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "terrain/built_in/noise.h"
+#include "terrain/ground/heightfield.h"
+
+namespace stereonav {
+
+// What is known of where the ground lies.
+struct TintPlace {
+    double verticalScale = 1;       // of the ground's heights
+    std::vector<double> latitudes;  // radians, evenly from the southern edge to the northern; empty: unknown
+};
+
+// Treeline and snow line of a latitude (radians), metres above the sea; 0 <= tree <= snow.
+struct GrowthLines {
+    double tree = 0, snow = 0;
+};
+GrowthLines growthLines(double latitude);
+
+class GroundTint {
+public:
+    // ground must outlive it.
+    GroundTint(const Heightfield& ground, const TintPlace& place);
+
+    // What is kept at the samples and bilinear between them; beyond the edge it counts on.
+    struct Site {
+        glm::vec2 gradient{0.0f};  // metres a metre, as Heightfield::normalAt() has it
+        float hollow = 0;          // -1 on ridges to 1 in hollows
+        float broad = 0;           // noise, -1 to 1
+        glm::dvec3 normal() const;
+    };
+    Site siteAt(const glm::dvec2& grid) const;
+
+    // Linear colour without light. height: metres as the ground has them, NaN in holes; site: of the place.
+    glm::vec3 at(const glm::dvec2& grid, double height, const Site& site) const;
+
+    static constexpr double kBytesPerSample = sizeof(Site);
+
+private:
+    // What follows from a latitude.
+    struct Zone {
+        GrowthLines lines;
+        double poleward = 0;            // y of the direction to the nearer pole: 1, -1, near the equator 0
+        std::vector<glm::vec3> colors;  // by height on the scale
+    };
+    double scaleHeight(const GrowthLines& lines, double metres) const;
+    bool seaAt(const glm::dvec2& grid) const;
+
+    const Heightfield& mGround;
+    double mUnscale = 1;        // metres above the sea for one of the ground's
+    double mMetresPerStep = 1;  // the wider spacing
+    bool mPlaced = false, mSeaFloor = false;
+    double mLow = 0, mPerMetre = 0;                // of heights without a place: the range they span
+    double mStretch = 1, mMiddle = 0, mShift = 0;  // of the scales: wider about a middle
+    float mRockFrom = 0.6f, mRockFull = 1.2f;      // slopes, metres a metre
+    std::vector<Zone> mZones;                      // evenly from south to north
+    std::vector<Site> mSites;
+    Noise mFine;
+};
+
+}  // namespace stereonav
