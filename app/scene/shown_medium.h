@@ -14,7 +14,7 @@
 
 namespace stereonav {
 
-// Offers MediumScene, SweptFrames, LightModels, SweepPlace, FrameEffort; as they are there, Animation,
+// Offers MediumScene, SweptFrames, LightModels, SweepPlace; as they are there, FrameEffort, Animation,
 // TurningLight; and what alsoOffer() was told.
 class ShownMedium final : public Scene {
 public:

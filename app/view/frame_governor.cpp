@@ -30,13 +30,18 @@ double FrameGovernor::shareOf(std::size_t step) const {
 }
 
 double FrameGovernor::predicted(std::size_t step) const {
-    const double here = mFixed + (1 - mFixed) * shareOf(mStep);
+    const double known = mLast.empty() ? mBefore : middleOf(mLast);
+    const double here = mFixed + (1 - mFixed) * (mLast.empty() ? mShareBefore : shareOf(mStep));
     const double there = mFixed + (1 - mFixed) * shareOf(step);
-    return middleOf(mLast) * there / here;
+    return known * there / here;
 }
 
 double FrameGovernor::predicted_ms() const {
     return mLast.empty() ? 0 : predicted(0);
+}
+
+double FrameGovernor::usual_ms() const {
+    return mLast.empty() && !(mBefore > 0) ? 0 : predicted(mStep);
 }
 
 // Two sizes tell what no size changes: cost = full * (fixed + (1 - fixed) * share).
@@ -58,8 +63,25 @@ void FrameGovernor::step(std::size_t to) {
     mLast.clear();
 }
 
-void FrameGovernor::took(double scale, double ms) {
-    if (!(ms > 0) || std::abs(scale - kScales[mStep]) > kSameScale) return;
+void FrameGovernor::setMedium(bool medium, bool efforts) {
+    if (medium == mMedium && efforts == mEfforts) return;
+    mMedium = medium;
+    mEfforts = efforts;
+    forget();
+    mStep = medium ? steps() - 1 : std::min(mStep, steps() - 1);
+}
+
+FrameGovernor::Size FrameGovernor::sizeWithin(double ms) const {
+    const bool known = !mLast.empty() || mBefore > 0;
+    std::size_t at = 0;
+    while (at + 1 < steps() && (!known || predicted(at) > ms)) ++at;
+    return {kScales[at], mEfforts ? kEfforts[at] : 1};
+}
+
+void FrameGovernor::took(const Size& size, double ms) {
+    if (!(ms > 0) || std::abs(size.scale - scale()) > kSameScale ||
+        (mEfforts && std::abs(size.effort - effort()) > kSameScale))
+        return;
     mLast.push_back(ms);
     if (mLast.size() > kLooked) mLast.pop_front();
     ++mSinceStep;
@@ -68,12 +90,12 @@ void FrameGovernor::took(double scale, double ms) {
     const auto least = [&](std::size_t count) {  // of the newest frames
         return *std::min_element(mLast.end() - static_cast<std::ptrdiff_t>(count), mLast.end());
     };
-    const bool slow = least(1) > (mEfforts ? kSlowMedium : kHopeless) * mTarget ||
+    const bool slow = least(1) > (mMedium ? kSlowMedium : kHopeless) * mTarget ||
                       (mLast.size() >= 2 && least(2) > kFarTooSlow * mTarget) ||
                       (mLast.size() == kLooked && least(kLooked) > kTooSlow * mTarget);
-    if (slow && mStep + 1 < kScales.size()) {
+    if (slow && mStep + 1 < steps()) {
         std::size_t to = mStep + 1;
-        while (to + 1 < kScales.size() && predicted(to) > mTarget) ++to;
+        while (to + 1 < steps() && predicted(to) > mTarget) ++to;
         if (mWentUp) mBackOff = std::min(2 * mBackOff, kMostBackOff);
         return step(to);
     }

@@ -43,14 +43,19 @@ std::shared_ptr<const LateView::Eyes> LateView::warp(const ViewFrame& frame, con
     return *free;
 }
 
+void LateLead::begin(double expected) {
+    if (!(expected > 0)) return;
+    mDelay = mBetween = expected;
+    mLast = -1;
+}
+
 void LateLead::came(double asked, double now) {
     constexpr double kNewest = 0.3;  // of the newest in the mean
-    constexpr double kLongest = 1;   // seconds: a rest, or a load
-    const double delay = now - asked, between = mLast < 0 ? kLongest : now - mLast;
+    constexpr double kLongest = 2;   // seconds: a rest, or a load
+    const double delay = now - asked, between = now - mLast;
+    if (mLast >= 0 && between <= kLongest) mBetween += kNewest * (between - mBetween);
+    if (delay <= kLongest) mDelay += kNewest * (delay - mDelay);
     mLast = now;
-    if (delay > kLongest || between > kLongest) return;
-    mDelay += kNewest * (delay - mDelay);
-    mBetween += kNewest * (between - mBetween);
 }
 
 double LatePace::period(double refresh, double wanted) const {

@@ -31,6 +31,8 @@ private:
 // How long after it was asked for a picture is looked at, in the mean. Seconds.
 class LateLead {
 public:
+    // Something begins to move, and a picture is expected to take so long: what was learned is older.
+    void begin(double expected);
     // A picture that was asked for then is there now.
     void came(double asked, double now);
     double seconds() const { return mDelay + 0.5 * mBetween; }

@@ -337,7 +337,7 @@ void ViewSession::fly(const FlightInput& input, double dt) {
 }
 
 void ViewSession::step(const FlightInput& input, double dt) {
-    const bool animated = offered<Animation>() != nullptr;
+    const bool animated = offered<Animation>() != nullptr, drifts = animated && mDriftsAtRest;
     mStereo.step(mFlight->clearanceNow(), mDepthAhead, dt);
     stepPace(dt);
     const Pose poseBefore = pose();
@@ -347,10 +347,12 @@ void ViewSession::step(const FlightInput& input, double dt) {
     } else {
         fly(input, dt);
     }
-    if (animated && dt > 0) mTime = mPlaying ? mPlayTime : mTime + dt;
+    if (animated && mPlaying && dt > 0)
+        mTime = mPlayTime;
+    else if (animated && (drifts || mFlying))
+        mTime += std::max(dt, 0.0);
     if (mNoticeLeft > 0 && (mNoticeLeft -= dt) <= 0) mNotice.clear();
-    mFlying =
-        mPlaying || mGoal || animated || asksForMotion(input) || looked || !samePose(poseBefore, pose());
+    mFlying = mPlaying || mGoal || drifts || asksForMotion(input) || looked || !samePose(poseBefore, pose());
     mMoving = mFlying || recording() || mStereo.moving();
     mAhead.step(poseBefore, pose(), dt);
 }
@@ -433,6 +435,7 @@ const FrameRequest& ViewSession::requestFor(int width, int height, double ahead,
     };
     wanted.lens.width = scaled(eyeWidth);
     wanted.lens.height = scaled(eyeHeight);
+    wanted.whole = {eyeWidth, eyeHeight};
     wanted.scale = scale;
     wanted.stereo = mStereo.now();
     wanted.way = {mMethod, mScene->way.warp, mScene->way.edges};

@@ -198,6 +198,9 @@ public:
     // than half of the way there.
     Pose poseAhead(double seconds) const;
     double time() const { return mTime; }  // seconds, of what moves by itself
+    // Whether what moves by itself does so too while nothing else moves, or stands still then, so that the
+    // picture can become the truth.
+    void driftAtRest(bool drifts) { mDriftsAtRest = drifts; }
     ComposeSetting compose() const;
 
     bool quit() const { return mQuit; }
@@ -309,6 +312,7 @@ private:
     double mShape = 0;           // width to height of the eyes' pictures that were asked for last
     std::optional<double> mFov;  // radians; none: the scene's
     double mTime = 0;            // seconds, of what moves by itself
+    bool mDriftsAtRest = true;
     bool mStereoOn = true, mSwapped = false, mLinear = false, mQuit = false, mCaptured = false;
     bool mMoving = false, mFlying = false, mScreenshot = false;
     bool mResting = false, mLooked = false, mFresh = true;

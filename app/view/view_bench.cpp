@@ -11,7 +11,7 @@ namespace stereonav {
 namespace {
 
 constexpr double kSettling = 2;           // seconds at rest before the flight: eyes that follow have arrived
-constexpr std::size_t kSweptSamples = 6;  // one of so many is judged: a pair takes seconds
+constexpr std::size_t kSweptSamples = 2;  // of media one of so many is judged: a pair takes seconds
 constexpr int kTruthSide = 8;             // 64 rays a pixel
 constexpr double kMs = 1000;
 
@@ -163,6 +163,7 @@ void ViewBench::judge(const Scene& scene, Progress& progress) {
     for (std::size_t n = 0; n < mSamples.size(); n += fine ? 1 : kSweptSamples) {
         const Kept& kept = mSamples[n];
         progress.report(0, "judging");
+        ++mJudged;
         addExact(scene, kept.picture.of, kept.picture, pair, moving);
         if (sameMoment(kept.now, kept.picture.of))
             addPair(pair, kept.picture, present);
@@ -201,6 +202,7 @@ Facts ViewBench::facts() const {
     list.json("pose_age_p95_ms", quantile(mShownAge, 0.95));
     list.json("cast_p50_ms", quantile(mCast, 0.5));
     list.json("cast_p95_ms", quantile(mCast, 0.95));
+    list.json("judged", static_cast<std::int64_t>(mJudged));
     list.json("psnr_moving_db", valueOf(mMovingPsnr));
     list.json("psnr_now_db", valueOf(mNowPsnr));
     list.json("psnr_1s_db", valueOf(mOnePsnr));

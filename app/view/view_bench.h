@@ -64,7 +64,7 @@ private:
     std::vector<Kept> mSamples;
     std::optional<ShownPicture> mNewest;
     std::optional<ShownPicture> mAfterOne, mAfterTen;  // what was shown a second and ten after the stop
-    int mWarped = 0;
+    int mWarped = 0, mJudged = 0;                      // mJudged: moments in motion
     std::optional<double> mMovingPsnr, mNowPsnr, mOnePsnr, mTenPsnr;
     int mTruthRays = 0;  // a pixel, of those at rest
 };

@@ -163,6 +163,7 @@ void Viewer::beginSession() {
     mStudyFailed = false;
     mCosts.clear();
     mGovernor.forget();
+    mRestSize.reset();
     mWindow.setTitle(titleOf(mOptions.scene));
     mSettings.reset();
     mHistory.start(settings());
@@ -316,7 +317,7 @@ void Viewer::takeFrame() {
     if (frame) {
         mFrame = std::move(frame);
         mLead.came(mFrame->request.asked_s, Window::now());
-        mGovernor.took(mFrame->request.scale, mFrame->made_ms);
+        mGovernor.took({mFrame->request.scale, mFrame->request.effort}, mFrame->made_ms);
         mSession->observe(*mFrame);
         if (!mSession->slicesShown() && !warps()) showFrame();
         if (mBench) mBench->cast(*mFrame);

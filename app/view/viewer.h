@@ -150,7 +150,7 @@ private:
     bool warps() const;
     bool lateDue() const;
     void showLate();
-    double scaleNow(bool screenshot);
+    FrameGovernor::Size sizeNow(bool screenshot);
     double latePeriod() const;  // seconds between pictures that are warped
     void stepBench();
     void noteShown();
@@ -214,6 +214,7 @@ private:
     LateView mLate;
     LateLead mLead;
     FrameGovernor mGovernor;
+    std::optional<FrameGovernor::Size> mRestSize;  // of the first picture at rest
     LatePace mLatePace;
     double mLateShown = 0;  // when the last picture came: seconds
     std::shared_ptr<ViewBench> mBench;

@@ -25,7 +25,7 @@ void Viewer::stepBench() {
         return;
     }
     const RecordedPath& path = mSession->path();
-    const bool animated = mSession->open().scene->offered<Animation>() != nullptr;
+    const bool animated = mSession->open().scene->offered<Animation>() != nullptr && !mOptions.refine;
     const bool rests = animated || !mSession->moving();
     const bool ready =
         mFrame && rests && !mWorker->loading().busy && (animated || mFrame->request.version == mAsked);

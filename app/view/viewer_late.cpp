@@ -12,14 +12,16 @@ void Viewer::askFor() {
     const glm::ivec2 all = composedAt(mode, placeFor(mode));
     if (mWindow.minimised()) return;
     const bool screenshot = mSession->takeScreenshotWish();
-    const double scale = scaleNow(screenshot);
+    mSession->driftAtRest(!mOptions.refine);
+    const auto [scale, effort] = sizeNow(screenshot);
     const bool late = mOptions.lateWarp && mSession->flying() && !screenshot && !mScreenshots.waiting();
+    if (late && !mPresent.flying) mLead.begin(mGovernor.usual_ms() / 1000);
     const double ahead = late ? mLead.seconds() : 0;
     FrameRequest request = mSession->requestFor(all.x, all.y, ahead, scale);
     request.late = mOptions.lateWarp;
     request.refines = mOptions.refine;
     request.flying = late;
-    request.effort = scale < 1 ? mGovernor.effort() : 1;
+    request.effort = effort;
     request.asked_s = request.version == mPresent.version ? mPresent.asked_s : Window::now();
     request.ahead_s = ahead;
     if (request.version != mAsked) mWorker->request(request);
@@ -37,15 +39,23 @@ void Viewer::askFor() {
 }
 
 // Of the frames that are asked for now. Truths and pictures that are saved are whole.
-double Viewer::scaleNow(bool screenshot) {
+FrameGovernor::Size Viewer::sizeNow(bool screenshot) {
     constexpr double kMost = 40;   // milliseconds: what is seen for longer lags behind
     constexpr double kMedium = 4;  // times: a smaller picture of a medium saves less
-    const bool swept = mSession->open().scene->offered<FrameEffort>() != nullptr;
-    mGovernor.useEfforts(swept);
+    constexpr double kFirst =
+        800;  // at rest, as frames take in flight, beside the warp: those of more wait for a smaller one
+    const Scene& scene = *mSession->open().scene;
+    const bool swept = scene.offered<SweepPlace>() != nullptr;
+    mGovernor.setMedium(swept, scene.offered<FrameEffort>() != nullptr);
     const double usual = std::min(2000 * mDisplay.refreshPeriod(), kMost) * (swept ? kMedium : 1);
     mGovernor.setTarget(mOptions.target_ms.value_or(usual));
     const bool whole = screenshot || mScreenshots.waiting() || mSession->truth() != TruthView::None;
-    return mOptions.lateWarp && mSession->flying() && !whole ? mGovernor.scale() : 1;
+    if (mSession->flying()) mRestSize.reset();
+    if (!mOptions.lateWarp || whole) return {};
+    if (mSession->flying()) return {mGovernor.scale(), mGovernor.effort()};
+    if (!swept) return {};
+    if (!mRestSize) mRestSize = mGovernor.sizeWithin(kFirst);  // until something moves again
+    return *mRestSize;
 }
 
 // Whether the newest frame is not of this moment, and can be seen from where the eyes are now.

@@ -20,6 +20,18 @@ constexpr int kAheadStep = 4;  // every fourth pixel of every fourth row tells w
 constexpr int kMostFits = 3;   // pictures until eyes fit: those apart see a little more than those together
 constexpr double kFitting = 1e-6;  // relative change of the eyes that is none
 
+bool isWhole(const FrameRequest& request) {
+    return request.whole.x < 1 || (request.scale == 1 && request.effort == 1);
+}
+
+// The same picture with nothing left out.
+FrameRequest inFull(FrameRequest request) {
+    request.scale = request.effort = 1;
+    request.lens.width = request.whole.x;
+    request.lens.height = request.whole.y;
+    return request;
+}
+
 // What the frame's left eye tells of the room around it.
 void lookAround(const StereoViews* views, ViewFrame& frame) {
     frame.depthAhead = depthAhead(frame.left.viewDepth, kAheadStep);
@@ -54,7 +66,7 @@ StereoViews makeEyes(const Scene& scene, const FrameWay& way, ViewFrame& frame) 
 
 void prepareLate(const Scene& scene, ViewFrame& frame) {
     const SimdTarget simd = scene.simd;
-    const bool soft = scene.offered<FrameEffort>() != nullptr;  // media
+    const bool soft = scene.offered<FrameEffort>() != nullptr;  // media but layers over a ground
     for (LateEye& eye : frame.late) eye.forget();
     const FrameRequest& request = frame.request;
     if (!request.late || request.truth != TruthView::None) return;
@@ -267,6 +279,7 @@ std::shared_ptr<const OpenScene> ViewWorker::scene() const {
 struct ViewWorker::Drawn {
     std::optional<Job> job;                  // none yet
     std::shared_ptr<const ViewFrame> frame;  // null once it was measured, or where it is not to be
+    bool whole = true;                       // not smaller than it is to be at rest, or something moves
     std::uint64_t lightChanges = 0;          // that it was drawn after
     std::chrono::steady_clock::time_point since;
 };
@@ -285,15 +298,22 @@ void ViewWorker::renderFrames() {
     }
 }
 
-// A whole picture of what takes long to make is dropped when something begins to move: the first small one is
-// to be there soon.
+// A picture of what takes long to make is dropped when something begins to move: the first small one is to be
+// there soon; and one in flight when those that are asked for by now are much smaller. That happens where
+// frames become slow all at once: the next large one is begun before anybody knows what the last one took.
+bool ViewWorker::drops(const FrameRequest& request) const {
+    constexpr double kMuchSmaller = 0.7;
+    const auto work = [](const FrameRequest& of) { return of.scale * of.scale * of.effort; };
+    return request.flying && (!mAtWork.flying || work(request) < kMuchSmaller * work(mAtWork));
+}
+
 bool ViewWorker::renderUnlessDropped(const Job& job, ViewFrame& frame) {
     const Scene& scene = *job.scene->scene;
-    if (job.request.flying || !scene.offered<FrameEffort>()) {
+    if (!scene.offered<SweepPlace>()) {
         renderFrame(scene, job.request, mTruthMaker, frame);
         return true;
     }
-    interruptLoopsBy(&mDrop);
+    interruptLoopsBy(job.again ? &mInterrupt : &mDrop);
     bool made = true;
     try {
         renderFrame(scene, job.request, mTruthMaker, frame);
@@ -308,18 +328,23 @@ bool ViewWorker::renderUnlessDropped(const Job& job, ViewFrame& frame) {
 }
 
 void ViewWorker::draw(const Job& job, Drawn& drawn) {
-    drawn.job = job;
+    if (!job.again) drawn.job = job;
     drawn.frame.reset();
     const auto* const light = job.scene->scene->offered<SeenLight>();
     if (light) drawn.lightChanges = light->changes();
     auto frame = mPool->take();
     const Stopwatch watch;
-    if (!renderUnlessDropped(job, *frame)) return;
+    if (!renderUnlessDropped(job, *frame)) {
+        if (!job.again) drawn.whole = true;  // something newer is asked for
+        return;
+    }
     frame->made_ms = watch.elapsed_ms();
     std::shared_ptr<const ViewFrame> shared = mPool->share(std::move(frame));
-    if (job.request.fitEyes) drawn.job->request = shared->request;  // drawn again, it stays as it is
+    if (job.request.fitEyes && !job.again)
+        drawn.job->request = shared->request;  // drawn again, it stays as it is
+    drawn.whole = isWhole(job.request) || job.request.flying;
     // A difference is measured already.
-    if (!shared->truthError) drawn.frame = shared;
+    if (!shared->truthError && drawn.whole) drawn.frame = shared;
     drawn.since = std::chrono::steady_clock::now();
     mRefiner->start(shared);
     {
@@ -336,6 +361,10 @@ std::optional<ViewWorker::Job> ViewWorker::nextJob(Drawn& drawn) {
     const auto asked = [this] { return mStop || ((mRequest || !mTasks.empty()) && mScene); };
     const auto* const light = drawn.job ? drawn.job->scene->scene->offered<SeenLight>() : nullptr;
     while (!asked()) {
+        if (!drawn.whole && drawn.job->scene == mScene) {
+            mInterrupt = false;
+            return Job{inFull(drawn.job->request), drawn.job->scene, nullptr, true};
+        }
         const bool measures = mMeasures && drawn.frame, refines = mRefiner->wantsMore();
         const auto now = std::chrono::steady_clock::now(), rested = drawn.since + kRest;
         if (light && drawn.job->scene == mScene && light->changes() != drawn.lightChanges &&
@@ -366,6 +395,7 @@ std::optional<ViewWorker::Job> ViewWorker::nextJob(Drawn& drawn) {
         return Job{{}, mScene, std::move(task)};
     }
     mDrop = false;
+    mAtWork = *mRequest;
     return Job{*std::exchange(mRequest, std::nullopt), mScene};
 }
 
@@ -429,7 +459,7 @@ void ViewWorker::request(const FrameRequest& request) {
         const std::lock_guard lock(mMutex);
         mRequest = request;
         mInterrupt = true;
-        if (request.flying) mDrop = true;
+        if (drops(request)) mDrop = true;
     }
     mAsked.notify_all();
 }

@@ -10,6 +10,7 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -59,6 +60,7 @@ struct FrameRequest {
     bool fitEyes = false;
     TruthView truth = TruthView::None;  // in the place of the right eye
     double scale = 1;                   // of the eyes' full size: less while something moves
+    glm::ivec2 whole{0};                // that size; 0: the lens's
     double effort = 1;                  // FrameEffort, where it is offered
     bool flying = false;                // something moves: a newer one comes soon
     bool late = false;                  // it will be seen from elsewhere too (ViewFrame::late)
@@ -140,6 +142,7 @@ private:
         FrameRequest request;
         std::shared_ptr<const OpenScene> scene;
         Task task = nullptr;  // instead of a frame
+        bool again = false;   // what rests, in full: any newer wish goes first
     };
     void loadScenes();
     std::optional<Load> nextLoad();
@@ -151,6 +154,7 @@ private:
     std::optional<Job> nextJob(Drawn& drawn);
     void draw(const Job& job, Drawn& drawn);
     bool renderUnlessDropped(const Job& job, ViewFrame& frame);  // false: it was dropped
+    bool drops(const FrameRequest& request) const;               // the frame that is being made, for this
     void measure(Drawn& drawn);
     void refine(const Drawn& drawn);
     void fail(std::exception_ptr failure);
@@ -172,7 +176,8 @@ private:
     std::optional<FrameTruth> mTruth;
     bool mMeasures = true;
     bool mStop = false;
-    std::atomic<bool> mDrop = false;       // the whole picture that is being made
+    FrameRequest mAtWork;                  // the newest that was begun
+    std::atomic<bool> mDrop = false;       // the picture that is being made
     std::atomic<bool> mInterrupt = false;  // what is measured: there is something else to do
     TruthMaker mTruthMaker;                // the frame maker's thread's own, as is
     std::unique_ptr<RestRefiner> mRefiner;

@@ -39,6 +39,7 @@ struct FakeParts {
     int model = 0;
     std::function<void(int)> setModel;
     bool animated = false;
+    bool swept = false;
     std::function<void(const EyeView&, const EyeImage&)> seen;
     std::function<std::uint64_t()> lightChanges;
     std::function<PlaceOnLine(const glm::dvec3&)> placeOnLine;
@@ -51,10 +52,11 @@ class FakeScene final : public Scene,
                         LightModels,
                         SeenLight,
                         LineThrough,
-                        SliceSource {
+                        SliceSource,
+                        SweepPlace {
 public:
     explicit FakeScene(const FakeParts& parts) : mParts(parts) {
-        name = parts.name;
+        Scene::name = parts.name;
         lens = parts.lens;
         stereo = parts.stereo;
         path = parts.path;
@@ -67,6 +69,7 @@ public:
         if (parts.moveSun) offer<TurningLight>(*this);
         if (!parts.models.empty()) offer<LightModels>(*this);
         if (parts.animated) offer(mAnimation);
+        if (parts.swept) offer<SweepPlace>(*this);
         if (parts.seen) offer<SeenLight>(*this);
         if (parts.placeOnLine) offer<LineThrough>(*this);
         if (parts.readSlices) offer<SliceSource>(*this);
@@ -88,6 +91,8 @@ private:
     SunPlace place() const override { return mParts.sun; }
     bool isSky() const override { return mParts.turnsSky; }
     void turnTo(const SunPlace& to) override { mParts.moveSun(to); }
+
+    std::string name() const override { return kCpuSweep; }
 
     const std::vector<std::string>& names() const override { return mParts.models; }
     int now() const override { return mParts.model; }

@@ -103,15 +103,54 @@ TEST(FrameGovernor, WaitsLongerWhereItDidNotLast) {
     EXPECT_LE(flight.changes(300, 600), 8) << "25 times another load";
 }
 
-// A medium's first frame in full size takes seconds: one is enough to know.
-TEST(FrameGovernor, LearnsFromOneHopelessFrame) {
-    FrameGovernor governor(130);
-    governor.useEfforts(true);
-    governor.took(1, 2500);
+// A medium's frame in full size takes seconds: it begins small, and goes up to what its target has room for.
+TEST(FrameGovernor, BeginsAMediumWithTheLeastWork) {
+    constexpr double kTarget = 130, kLight = 0.1;  // share of the work that the size does not change
+    for (const bool efforts : {true, false})
+        for (const double full : {60.0, 400.0, 1200.0, 6000.0}) {
+            SCOPED_TRACE(testing::Message() << efforts << " " << full);
+            FrameGovernor governor(kTarget);
+            governor.setMedium(true, efforts);
+            EXPECT_EQ(governor.scale(), FrameGovernor::kScales.back());
+            EXPECT_EQ(governor.effort(), efforts ? FrameGovernor::kEfforts.back() : 1);
+            const FrameGovernor::Size none = governor.sizeWithin(450);
+            EXPECT_EQ(none.scale, governor.scale()) << "nothing is known";
+            std::vector<double> ms;
+            for (int n = 0; n < 40; ++n) {
+                const FrameGovernor::Size size{governor.scale(), governor.effort()};
+                ms.push_back(full * size.effort * (kLight + (1 - kLight) * size.scale * size.scale));
+                governor.took(size, ms.back());
+            }
+            const double least = ms.front();
+            for (const double frame : ms) EXPECT_LE(frame, std::max(1.15 * kTarget, least));
+            EXPECT_EQ(ms[39], ms[20]) << "it has settled";
+            if (full < 2000) {
+                EXPECT_GT(ms[39], std::min(0.5 * kTarget, 0.99 * full));
+            }
+            // A picture that rests has more time.
+            const FrameGovernor::Size rests = governor.sizeWithin(4 * kTarget);
+            EXPECT_GE(rests.scale * rests.scale * rests.effort,
+                      governor.scale() * governor.scale() * governor.effort());
+            governor.setMedium(false, false);
+            EXPECT_EQ(governor.effort(), 1);
+        }
+}
+
+// Efforts go down only where the size is the smallest one, and one frame that takes far too long is enough.
+TEST(FrameGovernor, LeavesOutAMediumsSlicesLast) {
+    FrameGovernor governor(1e6);
+    governor.setMedium(true, true);
+    while (governor.scale() < 1) governor.took({governor.scale(), governor.effort()}, 1);
+    governor.setTarget(130);
+    governor.took(1, 1000);
     EXPECT_LT(governor.scale(), 0.6);
-    EXPECT_LT(governor.effort(), 1);
-    governor.useEfforts(false);
     EXPECT_EQ(governor.effort(), 1);
+    const FrameGovernor::Size before{governor.scale(), governor.effort()};
+    governor.took({before.scale, 0.5}, 4000);
+    EXPECT_EQ(governor.scale(), before.scale) << "a frame of another effort";
+    governor.took(before, 4000);
+    EXPECT_EQ(governor.scale(), FrameGovernor::kScales.back());
+    EXPECT_LT(governor.effort(), 1);
 }
 
 TEST(FrameGovernor, TakesNoFrameForAnother) {

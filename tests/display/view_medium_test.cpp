@@ -140,6 +140,31 @@ TEST(ViewMedium, OnlyWhatMovesByItselfHasAClock) {
     EXPECT_NEAR(s.requestFor(80, 40).time, 0.25, 1e-12);
 }
 
+// So that its picture can become the truth.
+TEST(ViewMedium, WhatMovesByItselfMayStandStillAtRest) {
+    FakeParts scene = fogScene();
+    scene.animated = true;
+    ViewSession s = sessionOf(scene);
+    s.driftAtRest(false);
+    for (int n = 0; n < 5; ++n) s.step({}, 0.1);
+    EXPECT_EQ(s.requestFor(80, 40).time, 0.0);
+    EXPECT_FALSE(s.moving());
+    FlightInput forward;
+    forward.forward = 1;
+    for (int n = 0; n < 5; ++n) s.step(forward, 0.1);
+    EXPECT_TRUE(s.moving());
+    const double flown = s.requestFor(80, 40).time;
+    EXPECT_GT(flown, 0.3);
+    for (int n = 0; n < 200 && s.moving(); ++n) s.step({}, 0.1);
+    EXPECT_FALSE(s.moving());
+    const double stopped = s.requestFor(80, 40).time;
+    s.step({}, 0.1);
+    EXPECT_EQ(s.requestFor(80, 40).time, stopped);
+    s.driftAtRest(true);
+    s.step({}, 0.1);
+    EXPECT_NEAR(s.requestFor(80, 40).time, stopped + 0.1, 1e-12);
+}
+
 TEST(ViewMedium, TheWorkerMakesBothEyesTogether) {
     ViewWorker worker([](Progress&) { return openOf(fogScene()); }, [] {});
     ViewSession s = sessionOf(fogScene());

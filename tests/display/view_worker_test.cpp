@@ -11,6 +11,7 @@
 
 #include "app/view/worker.h"
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/frame/cast_frames.h"
 #include "tests/display/fake_scene.h"
@@ -92,6 +93,100 @@ std::shared_ptr<const ViewFrame> nextFrame(ViewWorker& worker) {
     std::shared_ptr<const ViewFrame> frame;
     within(10s, [&] { return (frame = worker.takeFrame()) != nullptr; });
     return frame;
+}
+
+// Pictures of so many rows and more take for ever, until they are dropped.
+class SlowMedium final : public FrameMaker {
+public:
+    explicit SlowMedium(int endless) : mEndless(endless) {}
+    std::span<const std::string_view> methods() const override { return kMethods; }
+    std::string_view defaultMethod() const override { return kMethods[0]; }
+    std::string_view exactMethod() const override { return kMethods[0]; }
+    std::string_view whatMethodsMake() const override { return "both eyes"; }
+    void make(const StereoViews& views, double time, const FrameWay&, EyePair& frame) override {
+        makeOne(views.left, time, frame);
+        frame.right = frame.left;
+    }
+    void makeOne(const EyeView& view, double, EyePair& frame) override {
+        if (view.height >= mEndless) parallelFor(1'000'000, [](int) { std::this_thread::sleep_for(1ms); });
+        frame.left.resize(view.width, view.height);
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x) {
+                frame.left.color.at(x, y) = static_cast<PackedColor>(view.height);
+                frame.left.viewDepth.at(x, y) = 50;
+            }
+    }
+
+private:
+    static constexpr std::array<std::string_view, 1> kMethods{"slow"};
+    int mEndless;
+};
+
+OpenScene mediumOf(int endless) {
+    FakeParts parts;
+    auto frames = std::make_shared<SlowMedium>(endless);
+    parts.frames = frames.get();
+    parts.owner = std::move(frames);
+    parts.swept = true;
+    return openOf(parts);
+}
+
+FrameRequest mediumRequest(long long version, double scale, bool flying) {
+    FrameRequest request = requestAt(version, 7);
+    request.way.method = "slow";
+    request.whole = {40, 20};
+    request.scale = scale;
+    request.lens.width = static_cast<int>(std::lround(40 * scale));
+    request.lens.height = static_cast<int>(std::lround(20 * scale));
+    request.flying = flying;
+    return request;
+}
+
+// A medium that rests is shown small first, where that is asked for, and then in full.
+TEST(ViewWorker, MakesAMediumInFullOnceItRests) {
+    ViewWorker worker([](Progress&) { return mediumOf(1000); }, [] {});
+    worker.request(mediumRequest(1, 0.5, true));
+    auto frame = nextFrame(worker);
+    ASSERT_NE(frame, nullptr);
+    EXPECT_FALSE(within(200ms, [&] { return worker.takeFrame() != nullptr; })) << "it moves";
+    worker.request(mediumRequest(2, 0.5, false));
+    ASSERT_TRUE(within(10s, [&] {
+        if (auto next = worker.takeFrame()) frame = next;
+        return frame->request.version == 2 && frame->left.width() == 40;
+    }));
+    EXPECT_EQ(frame->request.scale, 1);
+    EXPECT_EQ(frame->request.lens.height, 20);
+    EXPECT_EQ(frame->right.color.at(3, 3), 20u);
+    EXPECT_FALSE(within(200ms, [&] { return worker.takeFrame() != nullptr; })) << "once";
+}
+
+// In flight, where the next large one was begun before anybody knew how long they take; and at rest, when
+// something moves again.
+TEST(ViewWorker, DropsWhatTakesTooLongOfAMedium) {
+    for (const bool flying : {true, false}) {
+        SCOPED_TRACE(flying);
+        ViewWorker worker([](Progress&) { return mediumOf(20); }, [] {});
+        worker.request(mediumRequest(1, 1, flying));
+        EXPECT_FALSE(within(100ms, [&] { return worker.takeFrame() != nullptr; }));
+        if (flying) worker.request(mediumRequest(2, 0.9, true));  // not for so little
+        worker.request(mediumRequest(3, 0.5, true));
+        const auto frame = nextFrame(worker);
+        ASSERT_NE(frame, nullptr);
+        EXPECT_EQ(frame->request.version, 3);
+        EXPECT_EQ(frame->left.width(), 20);
+    }
+    // The full one that follows a small one at rest.
+    ViewWorker worker([](Progress&) { return mediumOf(20); }, [] {});
+    worker.request(mediumRequest(1, 0.5, false));
+    ASSERT_NE(nextFrame(worker), nullptr);
+    EXPECT_FALSE(within(100ms, [&] { return worker.takeFrame() != nullptr; }));
+    std::atomic<bool> ran = false;
+    worker.ask([&](const OpenScene&) { ran = true; });
+    EXPECT_TRUE(within(10s, [&] { return ran.load(); })) << "what is asked for goes first";
+    worker.request(mediumRequest(2, 0.5, false));
+    const auto frame = nextFrame(worker);
+    ASSERT_NE(frame, nullptr);
+    EXPECT_EQ(frame->request.version, 2);
 }
 
 // A picture that rests is cast again until that changes nothing more, and only where that was asked for.
