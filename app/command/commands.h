@@ -109,8 +109,17 @@ struct SceneOptions {
     MediumOptions medium;
     std::optional<TracedOptions> traced;  // none: of commands that trace no pictures
     GivenOptions given;                   // which of these and of the command's own were given
+    // Of a terrain's shading below its samples: on where pictures are shown, off where they are measured.
+    bool groundDetail = false;
     bool skyTurns = false;  // set by a window: keep what turning the sky over baked transfer takes
 };
+
+// What commands that show pictures begin with.
+inline SceneOptions shownSceneOptions() {
+    SceneOptions options;
+    options.groundDetail = true;
+    return options;
+}
 
 // How a command tells what it has done: in words, as one JSON document, or not at all.
 struct Telling {
@@ -132,7 +141,7 @@ struct InfoOptions {
 int runInfo(const InfoOptions& options);
 
 struct RenderOptions {
-    SceneOptions scene;
+    SceneOptions scene = shownSceneOptions();
     Telling telling;
     SizeOption size;
     std::optional<Pose> pose;     // none: the start pose
@@ -144,7 +153,7 @@ struct RenderOptions {
 int runRender(const RenderOptions& options);
 
 struct PlayOptions {
-    SceneOptions scene;
+    SceneOptions scene = shownSceneOptions();
     Telling telling;
     SizeOption size;
     std::string path;             // "": the scene's own
@@ -193,7 +202,7 @@ struct ReportOptions {
 int runReport(const ReportOptions& options);
 
 struct ViewOptions {
-    SceneOptions scene;
+    SceneOptions scene = shownSceneOptions();
     Telling telling;
     SizeOption size;
     std::string method = "auto";  // auto: the frame plan's choice

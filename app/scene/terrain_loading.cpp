@@ -72,6 +72,7 @@ std::vector<NamedPlace> filesOfTerrain(const std::string& toml) {
 TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
     TerrainScene terrain = loadTerrain(describeTerrain(options), progress);
     refuseSunWithoutEffect(options, terrain);
+    terrain.detail = options.groundDetail && !shownAs(options).swept;
     return terrain;
 }
 

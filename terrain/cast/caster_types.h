@@ -36,8 +36,29 @@ struct FogData {
     float linear[3] = {};  // its colour
 };
 
+// Detail of the ground's shading below the sample spacing: terrain/cast/ground_detail.h.
+constexpr int kDetailSide = 64,
+              kDetailPitch = kDetailSide + 1;  // of the lattice's values, the first of a row again
+constexpr int kDetailOctaves = 7;
+constexpr float kDetailPixels = 1.5f;  // a cell of an octave that is gone; twice as many: it is all there
+constexpr float kDarkestDetail = -0.65f, kBrightestDetail = 0.8f;  // shares of the light
+
+struct DetailOctave {
+    int a = 1, b = 0;              // its lattice: (a + b i) (x + y i)
+    float cell = 1;                // of it, in cells of the ground
+    float lightX = 0, lightY = 0;  // for a gradient of 1 along the lattice
+};
+struct DetailData {
+    const float* values = nullptr;  // of the lattice
+    const float* rough = nullptr;   // at the ground's samples
+    int octaves = 0;                // 0: no detail
+    float perMetre = 1;             // cells of the ground
+    DetailOctave octave[kDetailOctaves];
+};
+
 struct CasterScene {
     GroundData ground;
+    DetailData detail;
     TextureData texture;
     SkyData sky;
     FogData fog;

@@ -74,6 +74,62 @@ STEREONAV_INLINE ColorHalves fogged(const FogData& fog, ColorHalves c, F through
     return {red | shiftLeft<16>(blue), green};
 }
 
+// The longer side of a pixel's footprint on the ground, metres.
+STEREONAV_INLINE F longerSide(const CasterView& view, F length, F t, F approach) {
+    const F along = F(view.pixelHeight) * length * approxReciprocal(max(abs(approach), F(1e-6f)));
+    return t * max(along, F(view.pixelWidth));
+}
+
+// detailAt() of ground_detail.h, for the lanes m.
+STEREONAV_INLINE F detailOf(const DetailData& detail, const GroundData& ground, const Hits& hits, F footprint,
+                            M m) {
+    const F inverse = approxReciprocal(max(footprint * F(detail.perMetre), F(1e-9f)));
+    F light(0.0f);
+    for (int k = 0; k < detail.octaves; ++k) {
+        const DetailOctave& o = detail.octave[k];
+        const F weight = clamp(F(o.cell / kDetailPixels) * inverse - F(1.0f), F(0.0f), F(1.0f));
+        const M on = m & (weight > F(0.0f));
+        if (!any(on)) break;
+        const F a(static_cast<float>(o.a)), b(static_cast<float>(o.b));
+        const F x = a * hits.u - b * hits.v, y = b * hits.u + a * hits.v;
+        const I wholeX = floorToInt(x), wholeY = floorToInt(y);
+        const F p = x - toFloat(wholeX), q = y - toFloat(wholeY);
+        const I last(kDetailSide - 1);
+        const I column = (I(o.a) * hits.i - I(o.b) * hits.j + wholeX) & last;
+        const I row = I(o.b) * hits.i + I(o.a) * hits.j + wholeY;
+        const FPair south = gatherPair(detail.values, (row & last) * I(kDetailPitch) + column, on);
+        const FPair north = gatherPair(detail.values, ((row + I(1)) & last) * I(kDetailPitch) + column, on);
+        const auto fade = [](F t) { return t * t * t * mulAdd(t, mulAdd(t, F(6.0f), F(-15.0f)), F(10.0f)); };
+        const auto rise = [](F t) {
+            const F s = t * (F(1.0f) - t);
+            return F(30.0f) * s * s;
+        };
+        const F overSouth = south.second - south.first, overNorth = north.second - north.first;
+        const F overWest = north.first - south.first, overEast = north.second - south.second;
+        const F alongX = rise(p) * lerp(overSouth, overNorth, fade(q));
+        const F alongY = rise(q) * lerp(overWest, overEast, fade(p));
+        light = mulAdd(weight, F(o.lightX) * alongX + F(o.lightY) * alongY, light);
+    }
+    const I index = hits.j * I(ground.width) + hits.i;
+    const FPair south = gatherPair(detail.rough, index, m);
+    const FPair north = gatherPair(detail.rough + ground.width, index, m);
+    const F rough =
+        lerp(lerp(south.first, south.second, hits.u), lerp(north.first, north.second, hits.u), hits.v);
+    return clamp(rough * light, F(kDarkestDetail), F(kBrightestDetail));
+}
+
+// Linear light times 1 + brighter, in roots.
+STEREONAV_INLINE ColorHalves brightened(ColorHalves c, F brighter) {
+    constexpr float kFull = 1023.0f * 16;
+    const F scale = sqrt(F(1.0f) + brighter);
+    const auto channel = [&](I root) {
+        return truncateToInt(min(mulAdd(toFloat(root), scale, F(0.5f)), F(kFull)));
+    };
+    const I low(0xFFFF);
+    const I red = channel(c.redBlue & low), blue = channel(shiftRight<16>(c.redBlue) & low);
+    return {red | shiftLeft<16>(blue), channel(c.green & low)};
+}
+
 STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view, const Rays& rays,
                                const Hits& hits, M lanes) {
     const F x = rays.x * F(static_cast<float>(scene.ground.spacingX));
@@ -88,6 +144,15 @@ STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view,
         const F level = mipLevel(scene.texture, view, length, t, hits.approach);
         color =
             textureColor(scene.texture, toFloat(hits.i) + hits.u, toFloat(hits.j) + hits.v, level, ground);
+        if (scene.detail.octaves > 0) {
+            const F footprint = longerSide(view, length, t, hits.approach);
+            const M near = ground & (footprint * F(scene.detail.perMetre) <
+                                     F(scene.detail.octave[0].cell / kDetailPixels));
+            if (any(near)) {
+                const F brighter = detailOf(scene.detail, scene.ground, hits, footprint, near);
+                color = brightened(color, select(near, brighter, F(0.0f)));
+            }
+        }
         if (scene.fog.perMetre > 0) {
             color = fogged(scene.fog, color, expMinus(t * length * F(scene.fog.perMetre)));
         }

@@ -13,6 +13,7 @@
 #include "engine/base/error.h"
 #include "terrain/cast/caster_types.h"
 #include "terrain/cast/fog_row.h"
+#include "terrain/cast/ground_detail.h"
 #include "terrain/cast/hole_rays.h"
 #include "terrain/cast/plain_caster.h"
 #include "terrain/cast/specular.h"
@@ -103,7 +104,8 @@ struct TerrainRenderer::State {
     Fog fog;
     SimdTarget target;
     GroundFilter filter;
-    const TerrainIllumination* light;  // null: the plain sun's
+    const TerrainIllumination* light;      // null: the plain sun's
+    std::unique_ptr<GroundDetail> detail;  // null: none
 
     State(const TerrainScene& terrain, SimdTarget wanted, const GroundFilter& read)
         : pyramid(terrain.ground),
@@ -117,6 +119,10 @@ struct TerrainRenderer::State {
         scene.ground = groundData(terrain.ground, pyramid);
         scene.texture = textureData(terrain.color, terrain.ground.spacing(), filter);
         scene.sky = {terrain.sky.map().row(0), terrain.sky.map().width(), terrain.sky.map().stride()};
+        if (terrain.detail) {
+            detail = std::make_unique<GroundDetail>(terrain.ground);
+            scene.detail = detail->forKernels(terrain.look);
+        }
         clear = scene;
         const glm::vec3& color = terrain.look.fogColor;
         if (terrain.look.fogDistance > 0)
@@ -129,7 +135,7 @@ TerrainRenderer::TerrainRenderer(const TerrainScene& scene, SimdTarget target, c
 TerrainRenderer::~TerrainRenderer() = default;
 
 std::size_t TerrainRenderer::byteCount() const {
-    return mState->pyramid.byteCount();
+    return mState->pyramid.byteCount() + (mState->detail ? mState->detail->byteCount() : 0);
 }
 
 int TerrainRenderer::tileCount(const EyeView& view) const {
@@ -245,6 +251,7 @@ void TerrainRenderer::changeAir(const EyeView& from, const EyeView& view, int y,
 }
 void TerrainRenderer::sunMoved() {
     mState->specular = specularOf(mScene, mState->light);
+    if (mState->detail) mState->scene.detail = mState->clear.detail = mState->detail->forKernels(mScene.look);
 }
 
 void TerrainRenderer::showLight(const TerrainIllumination& light, const ColorTexture& lit) {

@@ -27,6 +27,7 @@ class GroundLight {
 public:
     explicit GroundLight(const TerrainLook& look);
     float at(const glm::dvec3& unitNormal) const;
+    const glm::dvec3& direct() const { return mDirect; }
 
 private:
     glm::dvec3 mDirect{0.0};  // towards the sun, scaled with its strength

@@ -52,7 +52,8 @@ struct TerrainScene {
     Heightfield ground;
     ColorTexture color;
     SkyMap sky;
-    TerrainLook look;                        // fog, specular, sun
+    bool detail = false;  // of its shading, below the sample spacing (terrain/cast/ground_detail.h)
+    TerrainLook look;     // fog, specular, sun
     std::unique_ptr<LandmarkSet> landmarks;  // null when there are none
     // Null without baked light. What is lit by it is `color`, which changes when the sun moves.
     std::unique_ptr<TerrainIllumination> illumination;

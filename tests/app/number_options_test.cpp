@@ -54,6 +54,7 @@ const std::set<std::string> kWords{"SCENE",
                                    "--shots",
                                    "--set",
                                    "--full-screen",
+                                   "--ground-detail",
                                    "--late-warp"};
 // Lists for which "1,5" is right.
 const std::set<std::string> kPairs{"--sun", "--light-from", "--mist", "--isovalues"};

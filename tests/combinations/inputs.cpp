@@ -274,6 +274,7 @@ void Inputs::addEyes(const Row& row, Arguments& line) {
     if (quality == "time") add(line, {"--target-ms", "0.05"});
     if (given(row, Factor::Edges))
         add(line, {"--edges", levelOf(row, Factor::Edges) == "jagged" ? "0" : "2"});
+    if (given(row, Factor::Detail)) add(line, {"--ground-detail", "off"});
     if (given(row, Factor::Mode)) add(line, {"--mode", levelOf(row, Factor::Mode)});
     add(line, {"--size", levelOf(row, Factor::Size)});
     if (given(row, Factor::Threads)) add(line, {"--threads", levelOf(row, Factor::Threads)});

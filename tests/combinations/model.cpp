@@ -73,8 +73,10 @@ void addKinds(std::vector<Rule>& all) {
                    {{is(Factor::Scene, kTerrains), isGiven(Factor::Photo), isGiven(Factor::Sun),
                      isLeftOut(Factor::Medium), isLeftOut(Factor::Light), isLeftOut(Factor::Landmark),
                      isLeftOut(Factor::Highlight)}}});
-    const NamedOption ofTerrains[]{
-        {Factor::Photo, "--image"}, {Factor::Holes, "--open-holes"}, {Factor::Heights, "--vertical-scale"}};
+    const NamedOption ofTerrains[]{{Factor::Photo, "--image"},
+                                   {Factor::Holes, "--open-holes"},
+                                   {Factor::Heights, "--vertical-scale"},
+                                   {Factor::Detail, "--ground-detail"}};
     for (const auto& [factor, option] : ofTerrains)
         all.push_back(
             {"volumes have none of it", option, {{isNot(Factor::Scene, kTerrains), isGiven(factor)}}});
@@ -274,6 +276,9 @@ void addMethods(std::vector<Rule>& all) {
                        {{is(Factor::Light, {"traced"}), is(Factor::Scene, kOutside + kColons),
                          isLeftOut(Factor::Medium), given}}});
     }
+    all.push_back({"a medium has no ground that is shaded",
+                   "--ground-detail",
+                   {{isGiven(Factor::Medium), is(Factor::Scene, kTerrains), isGiven(Factor::Detail)}}});
     const Clause::Part edges = isGiven(Factor::Edges);
     all.push_back({"nothing is cast", "--edges", {{isGiven(Factor::Medium), edges}}});
     all.push_back({"nothing is cast", "--edges", {{is(Factor::Scene, kBuiltInMedia), edges}}});
@@ -328,6 +333,7 @@ const std::vector<FactorLevels>& factorTable() {
           "sweep", "own-samples", "two-sweeps"}},
         {Factor::Quality, "quality", {"none", "share", "psnr", "time"}},
         {Factor::Edges, "edges", {"as they are", "jagged", "by two"}},
+        {Factor::Detail, "detail", {"as it is", "off"}},
         {Factor::Mode, "mode", {"sbsl", "ml", "mr", "tb2r", "irl", "icr", "chl", "arcd"}},
         {Factor::Size, "size", {"61x47", "17x64", "1x1", "64x1"}},
         {Factor::Threads, "threads", {"all", "1", "3"}},

@@ -40,6 +40,7 @@ enum class Factor {
     Method,
     Quality,
     Edges,
+    Detail,
     Mode,
     Size,
     Threads
