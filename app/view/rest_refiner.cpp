@@ -63,7 +63,7 @@ bool fits(const FrameRequest& request) {
 void RestRefiner::start(std::shared_ptr<const ViewFrame> drawn) {
     mRefined.restart();
     mEffort = 1;
-    mApart_levels.reset();
+    mApart_levels = mExpected_levels = 0;
     mFineEnough = false;
     mDrawn = nullptr;
     const FrameRequest& request = drawn->request;
@@ -81,9 +81,11 @@ bool RestRefiner::step(const Scene& scene, ViewFrame& shown) {
     return shows;
 }
 
-// The slices' error falls about as their number grows, so that a picture is as far from the truth as from the
-// one of half as much work, or nearer (docs/measured.md). Rays are spread over the pixel only then.
+// A picture is taken to be as far from the truth as from the one of half as much work; where that falls
+// slowly from step to step, as far as all steps to come would bring it together (docs/measured.md). Rays are
+// spread over the pixel only then.
 bool RestRefiner::stepEffort(SweptFrames& frames, const ViewFrame& drawn, ViewFrame& shown) {
+    constexpr double kSlowest = 0.9;  // share of the step before that one may still be
     const FrameRequest& request = drawn.request;
     if (mEffort == 1) mFinest = drawn;
     EyePair made;
@@ -96,15 +98,18 @@ bool RestRefiner::stepEffort(SweptFrames& frames, const ViewFrame& drawn, ViewFr
             frames.makeOne(makeEyeView(request.pose, request.lens), request.time, made);
     }
     mEffort *= 2;
-    mApart_levels = levelsApart(made, mFinest);
+    const double apart = levelsApart(made, mFinest);
+    const double falls = mApart_levels > 0 ? std::clamp(apart / mApart_levels, 0.0, kSlowest) : 0.5;
+    mApart_levels = apart;
+    mExpected_levels = apart * std::max(1.0, falls / (1 - falls));
     mFinest = std::move(made);
-    mFineEnough = *mApart_levels <= kEnoughOfMedium_levels || mEffort >= kMostEffort;
+    mFineEnough = mExpected_levels <= kEnoughOfMedium_levels || mEffort >= kMostEffort;
     mEnds = mFinest.timings.both_ms > kLongestOfMedium_ms;
     shown = drawn;
     shown.left.color = mFinest.left.color;
     shown.right.color = mFinest.right.color;
     shown.effort = mEffort;
-    shown.expected_db = decibels(*mApart_levels);
+    shown.expected_db = decibels(mExpected_levels);
     return true;
 }
 
@@ -121,7 +126,7 @@ bool RestRefiner::stepMean(const Scene& scene, const std::shared_ptr<const ViewF
         mRefined.addOne(frames, makeEyeView(request.pose, request.lens), request.time);
     const int rays = mRefined.count();
     const bool shows = isShown(rays);
-    const double levels = std::hypot(mRefined.error_levels(), mApart_levels.value_or(0));
+    const double levels = std::hypot(mRefined.error_levels(), mExpected_levels);
     if (shows) {
         shown = *drawn;
         const EyePair& mean = mRefined.mean();

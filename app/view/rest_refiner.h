@@ -4,7 +4,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "app/view/worker.h"
 #include "engine/frame/refined_frames.h"
@@ -41,8 +40,9 @@ private:
 
     std::shared_ptr<const ViewFrame> mDrawn;
     RefinedFrames mRefined;
-    double mEffort = 1;                   // of the finest frame of a medium
-    std::optional<double> mApart_levels;  // that one from the one of half as much; none yet
+    double mEffort = 1;           // of the finest frame of a medium
+    double mApart_levels = 0;     // that one from the one of half as much; 0: none yet
+    double mExpected_levels = 0;  // from the truth, by its slices
     EyePair mFinest;
     bool mFineEnough = false, mEnds = false;  // the slices; all of it, as frames take too long
 };

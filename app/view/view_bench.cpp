@@ -87,7 +87,19 @@ void addExact(const Scene& scene, const FrameRequest& request, const ShownPictur
 Plane<PackedColor> fineEye(const Scene& scene, const EyeView& view, double time, Progress& progress) {
     if (const auto* const rays = scene.offered<RayCast>())
         return renderSupersampled(*rays->renderer, view, kTruthSide, progress);
-    return renderSupersampled(scene.frames(), view, time, kSweptTruthSide, progress);
+    // In one sweep: strips would each pass all of the light.
+    EyePair fine;
+    scene.frames().makeOne(view.supersampled(kSweptTruthSide), time, fine);
+    Plane<PackedColor> mean(view.width, view.height);
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            glm::vec3 sum(0.0f);
+            for (int k = 0; k < kSweptTruthSide * kSweptTruthSide; ++k)
+                sum += unpackColor(fine.left.color.at(kSweptTruthSide * x + k % kSweptTruthSide,
+                                                      kSweptTruthSide * y + k / kSweptTruthSide));
+            mean.at(x, y) = packColor(sum / static_cast<float>(kSweptTruthSide * kSweptTruthSide));
+        }
+    return mean;
 }
 
 // other: a picture of the same moment, or null.
