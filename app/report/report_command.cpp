@@ -34,6 +34,7 @@ struct Part {
 };
 constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0},
                            {"felt", reportFelt, 1.5},
+                           {"late", reportLate, 0.4, true, true},
                            {"quality", reportQuality, 2.0},
                            {"casting", reportCasting, 1.0},
                            {"light", reportLight, 1.0, false},

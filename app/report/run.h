@@ -99,6 +99,7 @@ bool isStudy(const std::string& name);
 // The parts, in the order of the page.
 void reportRightEye(ReportRun& run, double seconds);
 void reportFelt(ReportRun& run, double seconds);
+void reportLate(ReportRun& run, double seconds);
 void reportCasting(ReportRun& run, double seconds);
 void reportLight(ReportRun& run, double seconds);
 void reportOcclusion(ReportRun& run, double seconds);

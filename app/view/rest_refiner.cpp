@@ -1,17 +1,53 @@
 #include "app/view/rest_refiner.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "app/view/frame_truth.h"
 #include "engine/base/memory.h"
+#include "engine/medium/sweep/swept_frames.h"
+#include "engine/metrics/image_difference.h"
 
 namespace stereonav {
 namespace {
 
 // Fewer rays than these are no better than one with more at edges.
 constexpr int kFirstShown = 8;
+constexpr int kMostOfMedium = 16;  // frames, each of seconds
 
 bool isShown(int rays) {
     return rays >= kFirstShown && (rays & (rays - 1)) == 0;
+}
+
+// For the frames of one step.
+class MoreEffort {
+public:
+    MoreEffort(SweptFrames* frames, double effort) : mFrames(frames) {
+        if (mFrames) mFrames->setEffort(effort);
+    }
+    ~MoreEffort() {
+        if (mFrames) mFrames->setEffort(1);
+    }
+    MoreEffort(const MoreEffort&) = delete;
+    MoreEffort& operator=(const MoreEffort&) = delete;
+
+private:
+    SweptFrames* mFrames;
+};
+
+// Root mean square over both eyes, steps of 255.
+double levelsApart(const EyePair& a, const EyePair& b) {
+    const auto square = [](const EyeImage& one, const EyeImage& other) {
+        return std::pow(10, -errorOf(one.color, other.color).psnr_db / 10);
+    };
+    double sum = square(a.left, b.left);
+    if (!a.right.color.empty()) sum = 0.5 * (sum + square(a.right, b.right));
+    return 255 * std::sqrt(sum);
+}
+
+double decibels(double levels) {
+    return levels > 0 ? std::clamp(20 * std::log10(255 / levels), 0.0, kIdenticalPsnr_db) : kIdenticalPsnr_db;
 }
 
 // Whether there is room for what is gathered: a picture that rests is there without it.
@@ -26,33 +62,84 @@ bool fits(const FrameRequest& request) {
 
 void RestRefiner::start(std::shared_ptr<const ViewFrame> drawn) {
     mRefined.restart();
+    mEffort = 1;
+    mApart_levels = mExpected_levels = 0;
+    mFineEnough = false;
     mDrawn = nullptr;
     const FrameRequest& request = drawn->request;
-    if (request.refines && request.scale == 1 && request.truth == TruthView::None) mDrawn = std::move(drawn);
+    if (request.refines && request.scale == 1 && request.effort == 1 && request.truth == TruthView::None)
+        mDrawn = std::move(drawn);
 }
 
 bool RestRefiner::step(const Scene& scene, ViewFrame& shown) {
     const std::shared_ptr<const ViewFrame> drawn = std::exchange(mDrawn, nullptr);  // where anything throws
+    if (mRefined.count() == 0 && !fits(drawn->request)) return false;
+    auto* const swept = scene.offered<SweptFrames>();
+    if (!swept || mFineEnough) return stepMean(scene, drawn, swept, shown);
+    const bool shows = stepEffort(*swept, *drawn, shown);
+    if (!mEnds) mDrawn = drawn;
+    return shows;
+}
+
+// A picture is taken to be as far from the truth as from the one of half as much work; where that falls
+// slowly from step to step, as far as all steps to come would bring it together (docs/measured.md). Rays are
+// spread over the pixel only then.
+bool RestRefiner::stepEffort(SweptFrames& frames, const ViewFrame& drawn, ViewFrame& shown) {
+    constexpr double kSlowest = 0.9;  // share of the step before that one may still be
+    const FrameRequest& request = drawn.request;
+    if (mEffort == 1) mFinest = drawn;
+    EyePair made;
+    {
+        const MoreEffort more(&frames, 2 * mEffort);
+        if (request.twoEyes)
+            frames.make(makeStereoViews(request.pose, request.lens, request.stereo), request.time,
+                        {frames.exactMethod(), request.way.warp}, made);
+        else
+            frames.makeOne(makeEyeView(request.pose, request.lens), request.time, made);
+    }
+    mEffort *= 2;
+    const double apart = levelsApart(made, mFinest);
+    const double falls = mApart_levels > 0 ? std::clamp(apart / mApart_levels, 0.0, kSlowest) : 0.5;
+    mApart_levels = apart;
+    mExpected_levels = apart * std::max(1.0, falls / (1 - falls));
+    mFinest = std::move(made);
+    mFineEnough = mExpected_levels <= kEnoughOfMedium_levels || mEffort >= kMostEffort;
+    mEnds = mFinest.timings.both_ms > kLongestOfMedium_ms;
+    shown = drawn;
+    shown.left.color = mFinest.left.color;
+    shown.right.color = mFinest.right.color;
+    shown.effort = mEffort;
+    shown.expected_db = decibels(mExpected_levels);
+    return true;
+}
+
+bool RestRefiner::stepMean(const Scene& scene, const std::shared_ptr<const ViewFrame>& drawn, bool swept,
+                           ViewFrame& shown) {
     const FrameRequest& request = drawn->request;
-    if (mRefined.count() == 0 && !fits(request)) return false;
     FrameMaker& frames = scene.frames();
     const FrameWay way{frames.exactMethod(), request.way.warp};
+    const MoreEffort more(swept ? scene.offered<SweptFrames>() : nullptr, mEffort);
+    if (swept && mRefined.count() == 0) mRefined.begin(mFinest);
     if (request.twoEyes)
         mRefined.add(frames, makeStereoViews(request.pose, request.lens, request.stereo), request.time, way);
     else
         mRefined.addOne(frames, makeEyeView(request.pose, request.lens), request.time);
     const int rays = mRefined.count();
     const bool shows = isShown(rays);
+    const double levels = std::hypot(mRefined.error_levels(), mExpected_levels);
     if (shows) {
         shown = *drawn;
         const EyePair& mean = mRefined.mean();
         shown.left.color = mean.left.color;
         shown.right.color = mean.right.color;
         shown.rays = rays;
-        shown.expected_db = mRefined.error_db();
+        shown.effort = mEffort;
+        shown.expected_db = decibels(levels);
     }
-    const bool enough = shows && mRefined.error_levels() <= kEnough_levels;
-    if (!enough && rays < kMostRaysAtRest && mRefined.timings().both_ms <= kLongest_ms) mDrawn = drawn;
+    const double wanted = swept ? kEnoughOfMedium_levels : kEnough_levels;
+    const bool enough = shows && mRefined.error_levels() <= wanted;
+    const bool stops = swept || mRefined.timings().both_ms <= kLongest_ms;
+    if (!enough && rays < (swept ? kMostOfMedium : kMostRaysAtRest) && stops) mDrawn = drawn;
     return shows;
 }
 

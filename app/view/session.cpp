@@ -462,6 +462,9 @@ ComposeSetting ViewSession::compose() const {
 }
 
 std::string ViewSession::measuredText(const ViewFrame& frame) const {
+    if (frame.effort > 1)
+        return fmt::format("{:.0f} times the slices, {} ray{} a pixel, {:.0f} dB expected", frame.effort,
+                           frame.rays, frame.rays > 1 ? "s" : "", frame.expected_db);
     if (frame.rays > 1)
         return fmt::format("{} rays a pixel, {:.0f} dB or more expected against very many", frame.rays,
                            frame.expected_db);

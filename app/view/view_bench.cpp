@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "engine/medium/sweep/swept_frames.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/metrics/supersampled_picture.h"
 
@@ -13,6 +14,8 @@ namespace {
 constexpr double kSettling = 2;           // seconds at rest before the flight: eyes that follow have arrived
 constexpr std::size_t kSweptSamples = 2;  // of media one of so many is judged: a pair takes seconds
 constexpr int kTruthSide = 8;             // 64 rays a pixel
+constexpr int kSweptTruthSide = 2;        // of media, where a frame of that many takes seconds
+constexpr double kTruthEffort = 4;        // times the slices
 constexpr double kMs = 1000;
 
 // The smallest value that so large a share of them does not exceed; none of nothing.
@@ -81,13 +84,40 @@ void addExact(const Scene& scene, const FrameRequest& request, const ShownPictur
     addPair(pair, picture, error);
 }
 
-void addFine(const Scene& scene, const ShownPicture& picture, Progress& progress, ErrorMean& error) {
+Plane<PackedColor> fineEye(const Scene& scene, const EyeView& view, double time, Progress& progress) {
+    if (const auto* const rays = scene.offered<RayCast>())
+        return renderSupersampled(*rays->renderer, view, kTruthSide, progress);
+    // In one sweep: strips would each pass all of the light.
+    EyePair fine;
+    scene.frames().makeOne(view.supersampled(kSweptTruthSide), time, fine);
+    Plane<PackedColor> mean(view.width, view.height);
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            glm::vec3 sum(0.0f);
+            for (int k = 0; k < kSweptTruthSide * kSweptTruthSide; ++k)
+                sum += unpackColor(fine.left.color.at(kSweptTruthSide * x + k % kSweptTruthSide,
+                                                      kSweptTruthSide * y + k / kSweptTruthSide));
+            mean.at(x, y) = packColor(sum / static_cast<float>(kSweptTruthSide * kSweptTruthSide));
+        }
+    return mean;
+}
+
+// other: a picture of the same moment, or null.
+void addFine(const Scene& scene, const ShownPicture& picture, ErrorMean& error, const ShownPicture* other,
+             ErrorMean& ofOther, Progress& progress) {
     setLight(scene, picture.of);
+    auto* const swept = scene.offered<SweptFrames>();
+    if (swept) swept->setEffort(kTruthEffort);
     const StereoViews views = viewsAt(picture.of, picture);
-    const EyeRenderer& renderer = *scene.offered<RayCast>()->renderer;
-    error.add(renderSupersampled(renderer, views.left, kTruthSide, progress), picture.left);
-    if (picture.of.twoEyes)
-        error.add(renderSupersampled(renderer, views.right, kTruthSide, progress), picture.right);
+    const Plane<PackedColor> left = fineEye(scene, views.left, picture.of.time, progress);
+    error.add(left, picture.left);
+    if (other) ofOther.add(left, other->left);
+    if (picture.of.twoEyes) {
+        const Plane<PackedColor> right = fineEye(scene, views.right, picture.of.time, progress);
+        error.add(right, picture.right);
+        if (other) ofOther.add(right, other->right);
+    }
+    if (swept) swept->setEffort(1);
 }
 
 FactValue valueOf(const std::optional<double>& number) {
@@ -157,7 +187,7 @@ void ViewBench::keepSample(const ShownPicture& picture, const FrameRequest& now,
 }
 
 void ViewBench::judge(const Scene& scene, Progress& progress) {
-    ErrorMean moving, present, one, ten;
+    ErrorMean moving, present;
     EyePair pair;
     const bool fine = scene.offered<RayCast>() != nullptr;
     for (std::size_t n = 0; n < mSamples.size(); n += fine ? 1 : kSweptSamples) {
@@ -172,19 +202,29 @@ void ViewBench::judge(const Scene& scene, Progress& progress) {
     }
     mMovingPsnr = moving.psnr();
     mNowPsnr = present.psnr();
-    mTruthRays = fine ? kTruthSide * kTruthSide : 1;
-    if (fine) {
-        if (mAfterOne) addFine(scene, *mAfterOne, progress, one);
-        if (mAfterTen) addFine(scene, *mAfterTen, progress, ten);
-    } else if (mAfterOne && mAfterTen) {
-        addExact(scene, mAfterTen->of, *mAfterTen, pair, ten);
-        if (sameMoment(mAfterOne->of, mAfterTen->of))
-            addPair(pair, *mAfterOne, one);
-        else
-            addExact(scene, mAfterOne->of, *mAfterOne, pair, one);
-    }
+    judgeRest(scene, progress);
+}
+
+void ViewBench::judgeRest(const Scene& scene, Progress& progress) {
+    if (!mAfterOne || !mAfterTen) return;
+    ErrorMean one, ten, oneOfPair, tenOfPair;
+    const bool swept = !scene.offered<RayCast>(), same = sameMoment(mAfterOne->of, mAfterTen->of);
+    mTruthRays = swept ? kSweptTruthSide * kSweptTruthSide : kTruthSide * kTruthSide;
+    mTruthEffort = swept ? kTruthEffort : 1;
+    // One truth for both, where nothing moved between them.
+    addFine(scene, *mAfterOne, one, same ? &*mAfterTen : nullptr, ten, progress);
+    if (!same) addFine(scene, *mAfterTen, ten, nullptr, ten, progress);
     mOnePsnr = one.psnr();
     mTenPsnr = ten.psnr();
+    if (!swept) return;
+    EyePair pair;
+    addExact(scene, mAfterOne->of, *mAfterOne, pair, oneOfPair);
+    if (same)
+        addPair(pair, *mAfterTen, tenOfPair);
+    else
+        addExact(scene, mAfterTen->of, *mAfterTen, pair, tenOfPair);
+    mOneOfPair = oneOfPair.psnr();
+    mTenOfPair = tenOfPair.psnr();
 }
 
 Facts ViewBench::facts() const {
@@ -207,6 +247,11 @@ Facts ViewBench::facts() const {
     list.json("psnr_now_db", valueOf(mNowPsnr));
     list.json("psnr_1s_db", valueOf(mOnePsnr));
     list.json("psnr_10s_db", valueOf(mTenPsnr));
+    if (mOneOfPair) {
+        list.json("psnr_1s_pair_db", valueOf(mOneOfPair));
+        list.json("psnr_10s_pair_db", valueOf(mTenOfPair));
+        list.json("rest_truth_effort", mTruthEffort);
+    }
     list.json("rest_truth_rays", static_cast<std::int64_t>(mTruthRays));
     return list.facts();
 }

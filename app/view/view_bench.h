@@ -55,6 +55,7 @@ private:
     };
     void keepSample(const ShownPicture& picture, const FrameRequest& now, double at);
     void keepRest(double now);
+    void judgeRest(const Scene& scene, Progress& progress);
 
     Stage mStage = Stage::Wait;
     double mReadySince = -1, mStarted = 0, mStopped = 0, mDuration = 0, mLast = -1;
@@ -66,7 +67,9 @@ private:
     std::optional<ShownPicture> mAfterOne, mAfterTen;  // what was shown a second and ten after the stop
     int mWarped = 0, mJudged = 0;                      // mJudged: moments in motion
     std::optional<double> mMovingPsnr, mNowPsnr, mOnePsnr, mTenPsnr;
-    int mTruthRays = 0;  // a pixel, of those at rest
+    std::optional<double> mOneOfPair, mTenOfPair;  // of media: against the exact pair as it is in flight
+    int mTruthRays = 0;                            // a pixel, of those at rest
+    double mTruthEffort = 1;                       // of media
 };
 
 }  // namespace stereonav

@@ -86,6 +86,7 @@ void takeTruth(TruthMaker::Shown shown, ViewFrame& frame) {
 void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& truth, ViewFrame& frame) {
     frame.request = request;
     frame.rays = 1;
+    frame.effort = 1;
     frame.expected_db = 0;
     if (auto* const light = scene.offered<TurningLight>()) light->turnTo(request.sun);
     if (auto* const models = scene.offered<LightModels>()) models->choose(request.model);

@@ -83,6 +83,7 @@ struct ViewFrame : EyePair {
     // A picture that rested: rays a pixel of each eye, and the PSNR against very many that is expected; 0 of
     // one.
     int rays = 1;
+    double effort = 1;  // of a medium: times the slices that the scene asks for
     double expected_db = 0;
     std::array<LateEye, 2> late;  // to be warped; not ready where nobody asked for that
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
+#include "engine/frame/turned_frames.h"
 #include "engine/sampling/pixel_samples.h"
 #include "engine/stereo/error_prediction.h"
 
@@ -74,13 +75,43 @@ double channelsOf(const EyeImage& eye) {
 
 }  // namespace
 
+namespace {
+
+// For one frame.
+class Turned {
+public:
+    Turned(FrameMaker& frames, int count) : mFrames(dynamic_cast<TurnedFrames*>(&frames)) {
+        constexpr double kGolden = 0.6180339887498949;  // its multiples cover 0 to 1 evenly
+        double whole = 0;
+        if (mFrames) mFrames->setTurn(std::modf(count * kGolden, &whole));
+    }
+    ~Turned() {
+        if (mFrames) mFrames->setTurn(0);
+    }
+    Turned(const Turned&) = delete;
+    Turned& operator=(const Turned&) = delete;
+
+private:
+    TurnedFrames* mFrames;
+};
+
+}  // namespace
+
 void RefinedFrames::add(FrameMaker& frames, const StereoViews& views, double time, const FrameWay& way) {
+    const Turned turned(frames, mCount);
     frames.make(shiftedBy(views, evenPlace(mCount)), time, way, next());
     gather();
 }
 
 void RefinedFrames::addOne(FrameMaker& frames, const EyeView& view, double time) {
+    const Turned turned(frames, mCount);
     frames.makeOne(shiftedBy(view, evenPlace(mCount)), time, next());
+    gather();
+}
+
+void RefinedFrames::begin(const EyePair& made) {
+    mCount = 0;
+    mMean = made;
     gather();
 }
 

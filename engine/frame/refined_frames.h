@@ -1,6 +1,6 @@
 // A picture that becomes the truth: frames of one pose, each with its rays at other places in the pixels,
-// averaged in linear light. Of whatever a FrameMaker makes; each frame is made as one of one ray a pixel is,
-// at its cost.
+// averaged in linear light; of a medium its slices at other places too. Of whatever a FrameMaker makes; each
+// frame is made as one of one ray a pixel is, at its cost.
 #pragma once
 
 #include "engine/frame/frame_maker.h"
@@ -20,6 +20,9 @@ public:
     void add(FrameMaker& frames, const StereoViews& views, double time, const FrameWay& way);
     // The same of one eye, by FrameMaker::makeOne.
     void addOne(FrameMaker& frames, const EyeView& view, double time);
+
+    // In place of the first frame: one that was made of these views, with its rays through the centres.
+    void begin(const EyePair& made);
 
     // Of all frames since the last restart, at least one: their colours; all other planes, and who made them
     // how, are those of the first, whose rays go through the centres of pixels. Times are those of the last.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/base/loop_watch.h"
+#include "engine/base/progress.h"
 
 namespace stereonav {
 namespace {
@@ -198,6 +199,40 @@ TEST_F(LoopWatch, SeesNothingOfOtherThreads) {
         }).join();
     });
     EXPECT_EQ(mShares, (std::vector<double>{0, 0.5}));
+}
+
+// A flag ends what this thread has started, soon, and no other thread's loops.
+TEST_P(ParallelFor, ALoopIsInterruptedByAFlag) {
+    constexpr int kEndless = 100'000'000;
+    std::atomic<bool> stop = false;
+    std::atomic<int> ran = 0;
+    interruptLoopsBy(&stop);
+    EXPECT_NO_THROW(parallelFor(
+        100, [&](int) { ++ran; }, schedule()));
+    EXPECT_EQ(ran, 100) << "not set";
+    EXPECT_THROW(parallelFor(
+                     kEndless,
+                     [&](int) {
+                         if (++ran == 500) stop = true;
+                     },
+                     schedule()),
+                 Cancelled);
+    EXPECT_LT(ran, kEndless);
+    const int before = ran;
+    EXPECT_THROW(parallelFor(
+                     100, [&](int) { ++ran; }, schedule()),
+                 Cancelled)
+        << "nor is another begun";
+    EXPECT_EQ(ran, before);
+    std::thread([&] {
+        EXPECT_NO_THROW(parallelFor(
+            100, [&](int) { ++ran; }, schedule()));
+    }).join();
+    EXPECT_EQ(ran, before + 100) << "another thread's";
+    interruptLoopsBy(nullptr);
+    EXPECT_NO_THROW(parallelFor(
+        100, [&](int) { ++ran; }, schedule()));
+    EXPECT_EQ(ran, before + 200);
 }
 
 }  // namespace

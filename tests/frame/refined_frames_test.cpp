@@ -4,11 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/frame/cast_frames.h"
+#include "engine/frame/turned_frames.h"
 #include "engine/sampling/pixel_samples.h"
 #include "tests/support/analytic_scene.h"
 
@@ -142,6 +146,75 @@ TEST(RefinedFrames, WhatFailsChangesNothing) {
     EXPECT_THROW(refined.add(frames, refinedViews(), 0, {"unheard-of"}), Error);
     EXPECT_EQ(refined.count(), 2);
     EXPECT_EQ(refined.error_levels(), before);
+}
+
+// Grey that depends on nothing but the turn; one step of the packed colour for each hundredth.
+class GreyTurned final : public FrameMaker, public TurnedFrames {
+public:
+    std::span<const std::string_view> methods() const override { return kMethods; }
+    std::string_view defaultMethod() const override { return kMethods[0]; }
+    std::string_view exactMethod() const override { return kMethods[0]; }
+    std::string_view whatMethodsMake() const override { return "both eyes"; }
+    void make(const StereoViews& views, double time, const FrameWay&, EyePair& frame) override {
+        makeOne(views.left, time, frame);
+        frame.right = frame.left;
+    }
+    void makeOne(const EyeView& view, double, EyePair& frame) override {
+        turns.push_back(mTurn);
+        if (mTurn == failsAt) throw Error("", "", "it failed", "do nothing");
+        frame.left.resize(view.width, view.height);
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x)
+                frame.left.color.at(x, y) = packColor(glm::vec3(static_cast<float>(mTurn)));
+    }
+    void setTurn(double turn) override { mTurn = turn; }
+
+    std::vector<double> turns;
+    double failsAt = -1;
+
+private:
+    static constexpr std::array<std::string_view, 1> kMethods{"turned"};
+    double mTurn = 0;
+};
+
+// What is arbitrary about a frame is another in each, evenly, and as it was afterwards.
+TEST(RefinedFrames, TurnWhatCanBeTurned) {
+    GreyTurned frames;
+    RefinedFrames refined;
+    for (int k = 0; k < 64; ++k) refined.add(frames, refinedViews(), 0, {});
+    std::vector<double> sorted = frames.turns;
+    EXPECT_EQ(sorted.front(), 0) << "the first is as it is alone";
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t k = 0; k < sorted.size(); ++k)
+        EXPECT_NEAR(sorted[k], static_cast<double>(k) / 64, 0.025) << "evenly";
+    EXPECT_NEAR(unpackColor(refined.mean().left.color.at(3, 3)).x, 0.5, 0.02);
+    EyePair alone;
+    frames.make(refinedViews(), 0, {}, alone);
+    EXPECT_EQ(frames.turns.back(), 0);
+    frames.failsAt = frames.turns[1];
+    refined.restart();
+    refined.addOne(frames, refinedViews().left, 0);
+    EXPECT_THROW(refined.addOne(frames, refinedViews().left, 0), Error);
+    frames.failsAt = -1;
+    frames.make(refinedViews(), 0, {}, alone);
+    EXPECT_EQ(frames.turns.back(), 0) << "also where it failed";
+}
+
+// The first one may be there already.
+TEST(RefinedFrames, BeginWithAFrameThatWasMade) {
+    const test::AnalyticScene scene = refinedScene();
+    CastFrames frames(scene);
+    RefinedFrames all, begun;
+    for (int k = 0; k < 3; ++k) all.add(frames, refinedViews(), 0, {"full"});
+    EyePair first;
+    frames.make(refinedViews(), 0, {"full"}, first);
+    begun.begin(first);
+    EXPECT_EQ(begun.count(), 1);
+    for (int k = 1; k < 3; ++k) begun.add(frames, refinedViews(), 0, {"full"});
+    EXPECT_EQ(begun.error_levels(), all.error_levels());
+    for (int y = 0; y < 51; ++y)
+        for (int x = 0; x < 77; ++x)
+            ASSERT_EQ(begun.mean().right.color.at(x, y), all.mean().right.color.at(x, y));
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ void checkSetting(const SweepSetting& s) {
     };
     expect(s.slices >= 1 && s.slices <= 65536, "slices",
            fmt::format("expected 1 to 65536, got {}", s.slices));
+    expect(s.turn >= 0 && s.turn < 1, "turn", fmt::format("expected 0 or more and below 1, got {}", s.turn));
     expect(s.lightSize >= 8 && s.lightSize <= 4096, "light size",
            fmt::format("expected 8 to 4096 texels, got {}", s.lightSize));
     expect(s.coneAngle >= 0 && s.coneAngle < 3.0, "cone angle",
@@ -113,47 +114,54 @@ void setAxis(SweepGeometry& g, const Lamp& lamp, const glm::dvec3& view, double 
 // Ahead of an eye inside the medium, `length` of it: slabs grow with the distance, the last being about
 // kGrowth times the first. What is near fills most of the picture there, and even slabs would show in it as
 // rings.
-std::vector<double> gradedSteps(double length, int slices) {
+std::vector<double> gradedSteps(double length, int slices, double turn) {
     constexpr double kGrowth = 64;
     std::vector<double> distances;
-    distances.reserve(static_cast<std::size_t>(slices));
+    distances.reserve(static_cast<std::size_t>(slices) + 1);
     for (int k = 1; k <= slices; ++k)
-        distances.push_back(k == slices ? length
-                                        : length * (std::pow(kGrowth, static_cast<double>(k) / slices) - 1) /
-                                              (kGrowth - 1));
+        distances.push_back(length * (std::pow(kGrowth, (static_cast<double>(k) - turn) / slices) - 1) /
+                            (kGrowth - 1));
+    if (turn > 0)
+        distances.push_back(length);
+    else
+        distances.back() = length;
     return distances;
 }
 
 // Even faces over the box, of the medium alone, so that they stand still as one flies around it; graded ones
 // ahead of an eye inside.
-std::vector<double> evenOrGraded(double low, double high, bool forward, int slices, double eye) {
+std::vector<double> evenOrGraded(double low, double high, bool forward, const SweepSetting& setting,
+                                 double eye) {
     std::vector<double> faces;
+    const int slices = setting.slices;
+    const double turn = setting.turn;
     const bool inside = eye > low && eye < high;
     if (inside && !forward) {
-        faces = gradedSteps(eye - low, slices);
+        faces = gradedSteps(eye - low, slices, turn);
         std::reverse(faces.begin(), faces.end());
         for (double& face : faces) face = eye - face;
         faces.push_back(eye);
         return faces;
     }
-    for (int k = 0; k <= slices; ++k) {
-        const double face = low + (high - low) * (static_cast<double>(k) / slices);
+    for (int k = 0; k <= slices + (turn > 0 ? 1 : 0); ++k) {
+        const double share = std::clamp((static_cast<double>(k) - turn) / slices, 0.0, 1.0);
+        const double face = low + (high - low) * share;
         if (!inside || face < eye) faces.push_back(face);
     }
     if (!inside) return faces;
     faces.push_back(eye);
-    for (const double d : gradedSteps(high - eye, slices)) faces.push_back(eye + d);
+    for (const double d : gradedSteps(high - eye, slices, turn)) faces.push_back(eye + d);
     return faces;
 }
 
 // And the planes of eyes and lamp where these lie inside: so each slab is wholly before or wholly behind
 // them.
-std::vector<double> facesOf(const WorldBox& box, const SweepGeometry& g, int slices,
+std::vector<double> facesOf(const WorldBox& box, const SweepGeometry& g, const SweepSetting& setting,
                             const std::vector<double>& planes, double eye) {
     const double middle = glm::dot(g.axis, box.center() - g.anchor);
     const double half = 0.5 * glm::dot(glm::abs(g.axis), box.high - box.low);
-    std::vector<double> faces = evenOrGraded(middle - half, middle + half, g.forward, slices, eye);
-    const double near = 1e-6 * 2 * half / slices;
+    std::vector<double> faces = evenOrGraded(middle - half, middle + half, g.forward, setting, eye);
+    const double near = 1e-6 * 2 * half / setting.slices;
     for (const double plane : planes) {
         const auto above = std::lower_bound(faces.begin(), faces.end(), plane);
         if (above == faces.begin() || above == faces.end()) continue;
@@ -337,7 +345,7 @@ SweepGeometry makeSweepGeometry(const Medium& medium, const MediumLook& look, co
     }
     if (box.empty() || eyes.empty()) return g;
     if (!lamp.parallel) planes.push_back(g.lightStart);
-    g.faces = facesOf(box, g, setting.slices, planes, g.forward ? lowEye : highEye);
+    g.faces = facesOf(box, g, setting, planes, g.forward ? lowEye : highEye);
     const bool usesLight = look.model == MediumModel::Direct || look.model == MediumModel::Indirect;
     dropUnseen(g, usesLight, lowEye, highEye);
     const double blur = look.model == MediumModel::Indirect ? blurOf(medium, setting) : 0.0;

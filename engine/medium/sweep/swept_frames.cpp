@@ -104,14 +104,16 @@ void SweptFrames::sweepEyes(std::span<const EyeView> eyes, double time, std::spa
                             bool shares) {
     MediumSweep& sweep = this->sweep();
     SweepSetting setting = mScene.sweep;
+    setting.turn = mTurn;
     if (!shares) setting.sharedWidth = 0;
-    if (mEffort < 1) {
-        constexpr int kFewestSlices = 16, kFewestTexels = 32;
-        const auto less = [](int all, double share, int fewest) {
-            return std::max(std::min(all, fewest), static_cast<int>(share * all));
+    if (mEffort != 1) {
+        constexpr int kFewestSlices = 16, kFewestTexels = 32, kMostSlices = 65536, kMostTexels = 4096;
+        const auto times = [](int all, double share, int fewest, int most) {
+            const double wanted = std::min(share * all, 1.0 * most);
+            return std::max(std::min(all, fewest), static_cast<int>(wanted));
         };
-        setting.slices = less(setting.slices, mEffort, kFewestSlices);
-        setting.lightSize = less(setting.lightSize, std::sqrt(mEffort), kFewestTexels);
+        setting.slices = times(setting.slices, mEffort, kFewestSlices, kMostSlices);
+        setting.lightSize = times(setting.lightSize, std::sqrt(mEffort), kFewestTexels, kMostTexels);
     }
     const glm::dvec3& head = eyes[0].head;
     const std::span<MediumPicture> pictures(mPictures.data(), eyes.size());

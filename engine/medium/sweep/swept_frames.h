@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/frame/frame_maker.h"
+#include "engine/frame/turned_frames.h"
 #include "engine/medium/sweep/medium_scene.h"
 #include "engine/medium/sweep/medium_sweep.h"
 #include "engine/stereo/right_eye.h"
@@ -41,7 +42,7 @@ constexpr std::string_view kDepthSplatMethod = "depthsplat";
 constexpr std::array<std::string_view, 4> kSweepMethods{kSweepMethod, kOwnSamplesMethod, kTwoSweepsMethod,
                                                         kDepthSplatMethod};
 
-class SweptFrames final : public FrameMaker {
+class SweptFrames final : public FrameMaker, public TurnedFrames {
 public:
     // scene must outlive this; its look is read at each frame.
     explicit SweptFrames(const MediumScene& scene, SimdTarget simd = SimdTarget::Auto);
@@ -59,8 +60,10 @@ public:
     void setSweep(SweepChooser chooser) { mChooser = std::move(chooser); }
     bool sweptElsewhere() const { return mElsewhere; }  // the last one
 
-    // Of the slices, and with the root of it of the light's texels a side: 1 is what the scene asks for.
+    // Times the slices, and with the root of it the light's texels a side: 1 is what the scene asks for.
     void setEffort(double share) { mEffort = share; }
+    // Of where slices lie, by a share of a slab.
+    void setTurn(double turn) override { mTurn = turn; }
 
     SimdTarget target() const { return mSweep.target(); }
 
@@ -88,7 +91,7 @@ private:
     std::unique_ptr<Surface> mSurface;  // made when it is first shown
     RightEye mSplat;
     std::vector<MediumPicture> mPictures;
-    double mEffort = 1;
+    double mEffort = 1, mTurn = 0;
     bool mHere = false, mElsewhere = false;  // the chooser is not asked; it swept elsewhere
     SweepChooser mChooser;                   // last: it ends before the media that it was asked for
 };

@@ -1,0 +1,167 @@
+// The report's part on the late warp: how far a picture that was cast a while ago, warped to the present
+// moment, is from one cast now. By its age and by how fast the scene's own flight is flown, with turning and
+// moving apart.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/report/run.h"
+#include "engine/image/image_file.h"
+#include "engine/late/late_warp.h"
+#include "engine/metrics/image_difference.h"
+
+namespace stereonav {
+namespace {
+
+constexpr std::array<double, 6> kAges_ms{16, 33, 66, 133, 266, 400};
+
+struct LateWay {
+    const char *id, *name;
+    double speed;  // times the flight's own
+    bool moves, turns;
+};
+constexpr std::array<LateWay, 5> kLateWays{{{"half", "half the speed", 0.5, true, true},
+                                            {"own", "the flight's own speed", 1, true, true},
+                                            {"twice", "twice the speed", 2, true, true},
+                                            {"moved", "own speed, moved alone", 1, true, false},
+                                            {"turned", "own speed, turned alone", 1, false, true}}};
+
+// One eye: each is warped by itself, from its own depths.
+class LateTrial {
+public:
+    LateTrial(ReportRun& run, const ReportScene& scene, bool soft)
+        : mRun(run),
+          mScene(scene.loaded()),
+          mFrames(scene.frames()),
+          mWhat("late warp, " + scene.title),
+          mSoft(soft) {}
+
+    // As many moments as `seconds` allow, one at least.
+    void run(int moments, double seconds) {
+        const Stopwatch watch;
+        for (int n = 0; n < moments; ++n) {
+            moment((0.5 + (n + moments / 2) % moments) / moments);
+            const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
+            if (n == 0) moments = std::clamp(static_cast<int>(affordable), 1, moments);
+        }
+        mMoments = moments;
+    }
+
+    int moments() const { return mMoments; }
+    // Of all moments together.
+    double psnr(std::size_t way, std::size_t age) const {
+        return -10 *
+               std::log10(std::max(mSquares[way][age] / mMoments, std::pow(10, -0.1 * kIdenticalPsnr_db)));
+    }
+    const std::vector<ReportPicture>& pictures() const { return mPictures; }
+
+private:
+    EyeView viewAt(const Pose& pose) const { return mScene.viewsAt(pose).left; }
+
+    void moment(double share) {
+        const RecordedPath& path = mScene.path;
+        const double longest = 2 * kAges_ms.back() / 1000;
+        const double time =
+            std::min(longest + share * std::max(path.duration() - longest, 0.0), path.duration());
+        const Pose now = path.at(path.startTime() + time);
+        EyePair truth, cast;
+        mRun.tell(mWhat);
+        mFrames.makeOne(viewAt(now), 0, truth);
+        for (std::size_t w = 0; w < kLateWays.size(); ++w)
+            for (std::size_t a = 0; a < kAges_ms.size(); ++a) {
+                mRun.tell(mWhat);
+                const LateWay& way = kLateWays[w];
+                const Pose then =
+                    path.at(path.startTime() + std::max(time - way.speed * kAges_ms[a] / 1000, 0.0));
+                Pose from = now;
+                if (way.moves) from.position = then.position;
+                if (way.turns) from.orientation = then.orientation;
+                mFrames.makeOne(viewAt(from), 0, cast);
+                mEye.prepare(cast.left.viewDepth, viewAt(from), mScene.simd, mSoft);
+                mEye.warp(cast.left.color, viewAt(now), mWarped, nullptr, true);
+                mSquares[w][a] += std::pow(10, -0.1 * psnrOf(truth.left.color, mWarped));
+                if (mPictures.empty() && way.speed == 1 && kAges_ms[a] == 133)
+                    mPictures = {{"cast 133 ms ago and warped to now", encodeColorImage(mWarped, ".png")},
+                                 {"cast now", encodeColorImage(truth.left.color, ".png")}};
+            }
+    }
+
+    ReportRun& mRun;
+    const Scene& mScene;
+    FrameMaker& mFrames;
+    std::string mWhat;
+    bool mSoft;
+    LateEye mEye;
+    Plane<PackedColor> mWarped;
+    std::array<std::array<double, kAges_ms.size()>, kLateWays.size()> mSquares{};
+    std::vector<ReportPicture> mPictures;
+    int mMoments = 0;
+};
+
+void chartLate(ReportRun& run, ReportSection& section, const ReportScene& scene, bool soft, double seconds) {
+    LateTrial trial(run, scene, soft);
+    trial.run(run.pick(1, 4), seconds);
+    const Lens& lens = scene.loaded().lens;
+    const std::string setting =
+        fmt::format("{}, {} moments", run.settingOf(lens.width, lens.height), trial.moments());
+    LineChart chart{{scene.title,
+                     "age of the picture, ms",
+                     "PSNR, dB",
+                     ChartScale::Kind::Logarithmic,
+                     ChartScale::Kind::Automatic,
+                     {},
+                     false},
+                    fmt::format("{}: {}.", scene.title, setting)};
+    ReportTable table{scene.title, "dB, by the age of the picture.", {"flown"}, {}};
+    for (const double age : kAges_ms) table.columns.push_back(fmt::format("{:.0f} ms", age));
+    for (std::size_t w = 0; w < kLateWays.size(); ++w) {
+        ChartSeries series{kLateWays[w].name, {}, true};
+        std::vector<std::string> row{kLateWays[w].name};
+        for (std::size_t a = 0; a < kAges_ms.size(); ++a) {
+            const double psnr = trial.psnr(w, a);
+            series.points.push_back({"", spreadOf({kAges_ms[a]}), spreadOf({psnr}), false});
+            row.push_back(fmt::format("{:.1f}", psnr));
+            addFigure(run.report(),
+                      {fmt::format("late/{}/{}/{:.0f}ms", scene.id, kLateWays[w].id, kAges_ms[a]), "dB",
+                       setting, ReportFigure::Kind::Other, spreadOf({psnr})});
+        }
+        chart.chart.series.push_back(std::move(series));
+        table.rows.push_back(std::move(row));
+    }
+    section.blocks.emplace_back(std::move(chart));
+    section.blocks.emplace_back(std::move(table));
+    section.blocks.emplace_back(ReportPictures{"An eighth of a second late, " + scene.title,
+                                               "From the middle of the flight.", trial.pictures()});
+}
+
+}  // namespace
+
+void reportLate(ReportRun& run, double seconds) {
+    ReportSection section{
+        "late",
+        "The late warp",
+        "In flight the window warps the newest picture to where the eyes are now. Here one that was "
+        "cast some time ago is held against one cast now, of one eye, in one size. Frames are cast "
+        "ahead of the moment that they are seen in, so that in the window a picture is off by less "
+        "than it is old. What moves by itself stands still.",
+        {}};
+    const Stopwatch watch;
+    std::vector<std::pair<const ReportScene*, bool>> all;
+    for (const ReportScene& scene : run.scenes()) all.emplace_back(&scene, false);
+    for (ReportScene& scene : run.media()) {
+        scene.scene->lens.width = run.pick(100, 320);
+        scene.scene->lens.height = run.pick(80, 256);
+        all.emplace_back(&scene, scene.loaded().offered<FrameEffort>() != nullptr);
+    }
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        if (all[n].first->loaded().path.samples().empty()) continue;  // nothing moves
+        run.checkTime();
+        const double left = std::max(0.0, seconds - watch.elapsed_ms() / 1000);
+        chartLate(run, section, *all[n].first, all[n].second, left / static_cast<double>(all.size() - n));
+    }
+    run.report().sections.push_back(std::move(section));
+}
+
+}  // namespace stereonav
