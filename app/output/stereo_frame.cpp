@@ -56,16 +56,18 @@ void StereoFrame::render(const Pose& head, double time) {
     mStereo = mEyes.at(head, time);
     mViews = makeStereoViews(head, mScene.lens, mStereo);
     const StereoViews views = makeStereoViews(head, mLens, mStereo);
+    EyePair& made = isSmaller() ? mSmall : mFrame;
     if (mRays.many())
-        makeMany(views, time);
+        makeMany(views, time, made);
     else
-        mScene.frames().make(views, time, mWay, mFrame);
+        mScene.frames().make(views, time, mWay, made);
     if (!isSmaller()) return;
-    for (EyeImage* eye : {&mFrame.left, &mFrame.right})
-        *eye = enlarged(*eye, mScene.lens.width, mScene.lens.height);
+    enlarge(mSmall.left, mScene.lens.width, mScene.lens.height, mFrame.left);
+    enlarge(mSmall.right, mScene.lens.width, mScene.lens.height, mFrame.right);
+    mFrame.timings = mSmall.timings;
 }
 
-void StereoFrame::makeMany(const StereoViews& views, double time) {
+void StereoFrame::makeMany(const StereoViews& views, double time, EyePair& made) {
     // Looked at now and then: it takes as long as a warp.
     const auto enough = [this] {
         const int rays = mRefined.count();
@@ -77,8 +79,8 @@ void StereoFrame::makeMany(const StereoViews& views, double time) {
         mRefined.add(mScene.frames(), views, time, mWay);
         sum = plus(sum, mRefined.timings());
     }
-    mFrame = mRefined.mean();
-    mFrame.timings = sum;
+    made = mRefined.mean();
+    made.timings = sum;
 }
 
 void StereoFrame::addTo(Hash& hash) const {

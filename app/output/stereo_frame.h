@@ -46,7 +46,7 @@ public:
     void addTo(Hash& hash) const;
 
 private:
-    void makeMany(const StereoViews& views, double time);
+    void makeMany(const StereoViews& views, double time, EyePair& made);
 
     const Scene& mScene;
     std::string mMethod, mWayName;
@@ -57,7 +57,7 @@ private:
     StereoViews mViews;  // with the size asked for
     RayOptions mRays;
     RefinedFrames mRefined;
-    EyePair mFrame;
+    EyePair mFrame, mSmall;  // mSmall: as made, where that is in fewer pixels
 };
 
 }  // namespace stereonav

@@ -87,18 +87,19 @@ WayChart dialChart(ReportRun& run, const ReportScene& scene, double seconds) {
     return chart;
 }
 
-// Both eyes made in a share of the sides and enlarged.
-double makeEyes(const ReportScene& from, const Pose& pose, double scale, EyePair& eyes) {
+// Both eyes made in a share of the sides and enlarged; small: keeps memory between frames of that share.
+double makeEyes(const ReportScene& from, const Pose& pose, double scale, EyePair& small, EyePair& eyes) {
     const Scene& scene = from.loaded();
     Lens lens = scene.lens;
     lens.width = std::max(1, static_cast<int>(std::lround(scale * lens.width)));
     lens.height = std::max(1, static_cast<int>(std::lround(scale * lens.height)));
     const StereoViews views = makeStereoViews(pose, lens, stereoOf(scene));
     const Stopwatch watch;
-    from.frames().make(views, 0, {}, eyes);
-    if (scale < 1)
-        for (EyeImage* const image : {&eyes.left, &eyes.right})
-            *image = enlarged(*image, scene.lens.width, scene.lens.height);
+    from.frames().make(views, 0, {}, scale < 1 ? small : eyes);
+    if (scale < 1) {
+        enlarge(small.left, scene.lens.width, scene.lens.height, eyes.left);
+        enlarge(small.right, scene.lens.width, scene.lens.height, eyes.right);
+    }
     return watch.elapsed_ms();
 }
 
@@ -112,13 +113,14 @@ WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
     std::vector<BothEyes> ways(scales.size(), {static_cast<std::size_t>(repeats), count});
     FrameMaker& frames = scene.frames();
     EyePair truth, eyes;
+    std::vector<EyePair> small(scales.size());
     for (const Pose& pose : poses) {
         run.tell("resolution, " + scene.title);
         frames.make(makeStereoViews(pose, scene.loaded().lens, stereoOf(scene.loaded())), 0,
                     {frames.exactMethod(), {}}, truth);
         for (std::size_t r = 0; r < static_cast<std::size_t>(repeats); ++r)
             for (std::size_t n = 0; n < ways.size(); ++n) {
-                ways[n].addTime(r, makeEyes(scene, pose, scales[n], eyes));
+                ways[n].addTime(r, makeEyes(scene, pose, scales[n], small[n], eyes));
                 if (r == 0) ways[n].addError(truth.left.color, truth.right.color, eyes);
             }
     }

@@ -29,23 +29,34 @@ std::vector<Place> placesOf(int from, int to) {
     return places;
 }
 
-PackedColor between(const PackedColor* above, const PackedColor* below, const Place& x, std::uint32_t y) {
-    PackedColor mixed = 0;
-    for (const int shift : {0, 10, 20}) {
-        const auto channel = [shift](PackedColor c) { return c >> shift & 1023u; };
-        const std::uint32_t top =
-            channel(above[x.first]) * (256 - x.weight) + channel(above[x.second]) * x.weight;
-        const std::uint32_t bottom =
-            channel(below[x.first]) * (256 - x.weight) + channel(below[x.second]) * x.weight;
-        mixed |= (top * (256 - y) + bottom * y + 32768u) >> 16 << shift;
-    }
-    return mixed;
+// A colour between two rows, times 256: red and green in the halves of one number, so that both are mixed by
+// one product. Times 256 again they still have room: 1023 * 65536 < 2^32.
+struct Mixed {
+    std::uint64_t redGreen;
+    std::uint32_t blue;
+};
+
+std::uint64_t redGreenOf(PackedColor c) {
+    return (c & 1023u) | static_cast<std::uint64_t>(c >> 10 & 1023u) << 32;
+}
+
+Mixed between(PackedColor above, PackedColor below, std::uint32_t weight) {
+    return {redGreenOf(above) * (256 - weight) + redGreenOf(below) * weight,
+            (above >> 20 & 1023u) * (256 - weight) + (below >> 20 & 1023u) * weight};
+}
+
+PackedColor between(const Mixed& left, const Mixed& right, std::uint32_t weight) {
+    constexpr std::uint64_t kHalf = 32768;
+    const std::uint64_t redGreen =
+        left.redGreen * (256 - weight) + right.redGreen * weight + (kHalf | kHalf << 32);
+    const std::uint32_t blue = left.blue * (256 - weight) + right.blue * weight + 32768u;
+    return static_cast<PackedColor>(redGreen >> 16 & 1023u) | static_cast<PackedColor>(redGreen >> 48) << 10 |
+           blue >> 16 << 20;
 }
 
 }  // namespace
 
-EyeImage enlarged(const EyeImage& image, int width, int height) {
-    EyeImage large;
+void enlarge(const EyeImage& image, int width, int height, EyeImage& large) {
     large.resize(width, height);
     const std::vector<Place> columns = placesOf(image.width(), width),
                              rows = placesOf(image.height(), height);
@@ -53,13 +64,18 @@ EyeImage enlarged(const EyeImage& image, int width, int height) {
         const Place& row = rows[static_cast<std::size_t>(y)];
         const PackedColor *above = image.color.row(row.first), *below = image.color.row(row.second);
         const float* depth = image.viewDepth.row(row.nearest);
+        thread_local std::vector<Mixed> mixed;
+        mixed.clear();
+        for (int x = 0; x < image.width(); ++x) mixed.push_back(between(above[x], below[x], row.weight));
+        PackedColor* const largeColor = large.color.row(y);
+        float* const largeDepth = large.viewDepth.row(y);
+        const Mixed* const from = mixed.data();
         for (int x = 0; x < width; ++x) {
-            const Place& column = columns[static_cast<std::size_t>(x)];
-            large.color.at(x, y) = between(above, below, column, row.weight);
-            large.viewDepth.at(x, y) = depth[column.nearest];
+            const Place column = columns[static_cast<std::size_t>(x)];
+            largeColor[x] = between(from[column.first], from[column.second], column.weight);
+            largeDepth[x] = depth[column.nearest];
         }
     });
-    return large;
 }
 
 }  // namespace stereonav

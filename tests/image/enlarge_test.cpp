@@ -3,10 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace stereonav {
 namespace {
+
+EyeImage enlarged(const EyeImage& image, int width, int height) {
+    EyeImage large;
+    enlarge(image, width, height, large);
+    return large;
+}
 
 EyeImage rampOf(int width, int height, int perColumn, int perRow) {
     EyeImage image;
@@ -43,6 +51,44 @@ TEST(Enlarged, ARampStaysARamp) {
                 EXPECT_NEAR(large.color.at(x, y) & 1023u, wanted, 0.5 + 40.0 / 512 + 60.0 / 512 + 1e-9)
                     << width << " " << x << " " << y;
             }
+    }
+}
+
+// Of every channel by itself, whatever lies beside it.
+TEST(Enlarged, EachChannelIsBilinear) {
+    constexpr int kWidth = 13, kHeight = 7;
+    EyeImage image;
+    image.resize(kWidth, kHeight);
+    std::mt19937 random(5);
+    std::uniform_int_distribution<int> anything(0, 1023), end(0, 1);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            PackedColor c = 0;
+            for (const int shift : {0, 10, 20})
+                c |= static_cast<PackedColor>(y % 2 ? anything(random) : 1023 * end(random)) << shift;
+            image.color.at(x, y) = c;
+            image.viewDepth.at(x, y) = 1;
+        }
+    for (const auto& [width, height] : {std::pair{13, 7}, {14, 8}, {29, 40}, {64, 7}}) {
+        const EyeImage large = enlarged(image, width, height);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (const int shift : {0, 10, 20}) {
+                    const double u = (x + 0.5) * kWidth / width - 0.5, v = (y + 0.5) * kHeight / height - 0.5;
+                    const int i = static_cast<int>(std::floor(u)), j = static_cast<int>(std::floor(v));
+                    // weights as they are kept: 256ths
+                    const double a = std::lround(256 * (u - i)) / 256.0,
+                                 b = std::lround(256 * (v - j)) / 256.0;
+                    const auto channel = [&](int p, int q) {
+                        return image.color.at(std::clamp(p, 0, kWidth - 1), std::clamp(q, 0, kHeight - 1)) >>
+                                   shift &
+                               1023u;
+                    };
+                    const double wanted = (1 - b) * ((1 - a) * channel(i, j) + a * channel(i + 1, j)) +
+                                          b * ((1 - a) * channel(i, j + 1) + a * channel(i + 1, j + 1));
+                    ASSERT_EQ(large.color.at(x, y) >> shift & 1023u, std::floor(wanted + 0.5))
+                        << width << "x" << height << " " << x << "," << y << " " << shift;
+                }
     }
 }
 
