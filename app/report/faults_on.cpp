@@ -40,6 +40,10 @@ public:
                           double parallaxScale) const override {
         return mSound.mayHitBeyondEdge(view, rect, column, parallaxScale);
     }
+    bool mayHitBeyondEdgeFrom(const EyeView& view, PixelRect rect, double column, double parallaxScale,
+                              double& freeDepth) const override {
+        return mSound.mayHitBeyondEdgeFrom(view, rect, column, parallaxScale, freeDepth);
+    }
     ViewDependence viewDependence() const override { return mSound.viewDependence(); }
     void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override {
         mSound.shadeAgain(view, y, x0, x1, image);

@@ -58,6 +58,14 @@ public:
     // Wan et al. 2004, fig. 2). Conservative: true may mean nothing is there.
     virtual bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
                                   double parallaxScale) const = 0;
+    // The same question, for rectangles that lie in each other. freeDepth: a view depth up to which no ray
+    // through the rectangle is known to hit anything (0: unknown), raised by what this call finds; what it is
+    // then holds in every part of the rectangle.
+    virtual bool mayHitBeyondEdgeFrom(const EyeView& view, PixelRect rect, double column,
+                                      double parallaxScale, double& freeDepth) const {
+        (void)freeDepth;
+        return mayHitBeyondEdge(view, rect, column, parallaxScale);
+    }
 
     // Whether, and from what, colours have to be evaluated again for the other eye. Images that carry
     // those planes get them written by the calls above.

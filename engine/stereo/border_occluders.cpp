@@ -33,8 +33,11 @@ int middle(int a, int b, int tile) {
     return a + ((b - a) / 2 + tile - 1) / tile * tile;
 }
 
-void searchRect(const Search& search, PixelRect rect) {
-    if (!search.renderer.mayHitBeyondEdge(search.view, rect, search.column, search.parallaxScale)) return;
+// freeDepth: up to which the rectangle is known to be free.
+void searchRect(const Search& search, PixelRect rect, double freeDepth) {
+    if (!search.renderer.mayHitBeyondEdgeFrom(search.view, rect, search.column, search.parallaxScale,
+                                              freeDepth))
+        return;
     const bool wide = rect.width() > kTileWidth, high = rect.height() > kTileHeight;
     if (!wide && !high) return markTile(search, rect);
     PixelRect first = rect, second = rect;
@@ -42,8 +45,8 @@ void searchRect(const Search& search, PixelRect rect) {
         first.x1 = second.x0 = middle(rect.x0, rect.x1, kTileWidth);
     else
         first.y1 = second.y0 = middle(rect.y0, rect.y1, kTileHeight);
-    searchRect(search, first);
-    searchRect(search, second);
+    searchRect(search, first, freeDepth);
+    searchRect(search, second, freeDepth);
 }
 
 }  // namespace
@@ -60,7 +63,7 @@ void markBorderOccluders(const EyeRenderer& renderer, const StereoViews& views, 
     const int strips = (view.height + kStripHeight - 1) / kStripHeight;
     forEachPiece(strips, Schedule::Dynamic, [&](int, int strip) {
         const int y0 = strip * kStripHeight;
-        searchRect(search, {x0, y0, view.width, std::min(y0 + kStripHeight, view.height)});
+        searchRect(search, {x0, y0, view.width, std::min(y0 + kStripHeight, view.height)}, 0);
     });
 }
 

@@ -269,9 +269,16 @@ void VolumeRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::sp
     }
 }
 
-// A beam around the rectangle, as the kernels' beams.
 bool VolumeRenderer::mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
                                       double parallaxScale) const {
+    double freeDepth = 0;
+    return mayHitBeyondEdgeFrom(view, rect, column, parallaxScale, freeDepth);
+}
+
+// A beam around the rectangle, as the kernels' beams. Up to where it ends the beams of the rectangle's parts
+// are free as well.
+bool VolumeRenderer::mayHitBeyondEdgeFrom(const EyeView& view, PixelRect rect, double column,
+                                          double parallaxScale, double& freeDepth) const {
     const double beyond = column - rect.x1;
     const double end = beyond > 0 ? parallaxScale / beyond : std::numeric_limits<double>::infinity();
     const glm::dvec3 axis = view.rayDirection(0.5 * (rect.x0 + rect.x1), 0.5 * (rect.y0 + rect.y1));
@@ -283,7 +290,8 @@ bool VolumeRenderer::mayHitBeyondEdge(const EyeView& view, PixelRect rect, doubl
     const glm::dvec3 half = 0.5 * glm::dvec3(cells.frame.size - 1);
     const double farthest =
         glm::length(view.eye - cells.frame.worldFromVoxel(half)) + glm::length(half * cells.frame.spacing);
-    double t = view.nearDepth;
+    double& t = freeDepth;
+    t = std::max(t, view.nearDepth);
     while (t < std::min(end, farthest)) {
         const double free = State::freeAt(cells, view.eye + t * axis);
         if (free < 0) return true;

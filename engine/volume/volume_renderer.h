@@ -29,6 +29,8 @@ public:
     bool startsAtKnownDepth() const override { return !translucent(); }
     bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
                           double parallaxScale) const override;
+    bool mayHitBeyondEdgeFrom(const EyeView& view, PixelRect rect, double column, double parallaxScale,
+                              double& freeDepth) const override;
     ViewDependence viewDependence() const override;
     void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override;
     bool translucent() const override;

@@ -364,10 +364,17 @@ bool reachesGround(const Heightfield& ground, const HeightPyramid& pyramid, cons
 
 bool TerrainRenderer::mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
                                        double parallaxScale) const {
+    double freeDepth = 0;
+    return mayHitBeyondEdgeFrom(view, rect, column, parallaxScale, freeDepth);
+}
+
+bool TerrainRenderer::mayHitBeyondEdgeFrom(const EyeView& view, PixelRect rect, double column,
+                                           double parallaxScale, double& freeDepth) const {
     if (rect.x1 >= column) return true;
     const double end = parallaxScale / (column - rect.x1);
     const Box corners = cornerBox(view, rect);
-    double from = view.nearDepth;
+    double& from = freeDepth;
+    from = std::max(from, view.nearDepth);
     while (from < end) {
         const double to = std::min(end, from * 2);
         const Box box = frustumBox(view.eye, corners, from, to);

@@ -23,6 +23,10 @@ public:
                           double parallaxScale) const override {
         return mInner.mayHitBeyondEdge(view, rect, column, parallaxScale);
     }
+    bool mayHitBeyondEdgeFrom(const EyeView& view, PixelRect rect, double column, double parallaxScale,
+                              double& freeDepth) const override {
+        return mInner.mayHitBeyondEdgeFrom(view, rect, column, parallaxScale, freeDepth);
+    }
     ViewDependence viewDependence() const override { return mInner.viewDependence(); }
     void shadeAgain(const EyeView& view, int y, int x0, int x1, EyeImage& image) const override {
         mInner.shadeAgain(view, y, x0, x1, image);
