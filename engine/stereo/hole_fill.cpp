@@ -73,13 +73,11 @@ long long HoleFill::list(const Plane<std::uint8_t>& mask, Schedule schedule) {
     return std::accumulate(mHoles.begin(), mHoles.end(), 0ll);
 }
 
-long long HoleFill::fill(const EyeRenderer& renderer, const EyeView& view, const Plane<std::uint8_t>& mask,
-                         Schedule schedule, EyeImage& image) {
-    const long long count = list(mask, schedule);
+void HoleFill::cast(const EyeRenderer& renderer, const EyeView& view, Schedule schedule,
+                    EyeImage& image) const {
     forEach(schedule, [&](PixelRect bounds, std::span<const PixelIndex> pixels) {
         renderer.renderPixels(view, bounds, pixels, image);
     });
-    return count;
 }
 
 }  // namespace stereonav

@@ -20,15 +20,13 @@ public:
     static constexpr int kTaskHoles = 1024;  // a band with more holes is cut
     static constexpr int kTaskRows = 128;    // into pieces of so many rows
 
-    // Casts every pixel whose mask is 255 (the others' is 0) and gives their number. image.viewDepth there
-    // is 0, or as startsAtKnownDepth() wants it. Dynamic takes the fullest bands first, one at a time.
-    long long fill(const EyeRenderer& renderer, const EyeView& view, const Plane<std::uint8_t>& mask,
-                   Schedule schedule, EyeImage& image);
-
-    // The two halves of that, for who casts its pixels otherwise. Lists the pixels and gives their number;
+    // Lists every pixel whose mask is 255 (the others' is 0) and gives their number. Dynamic takes the
+    // fullest bands first, one at a time.
     long long list(const Plane<std::uint8_t>& mask, Schedule schedule);
-    // then calls body(bounds, pixels) for each batch, as EyeRenderer::renderPixels wants them, on all
-    // threads.
+    // Casts what is listed. image.viewDepth there is 0, or as startsAtKnownDepth() wants it.
+    void cast(const EyeRenderer& renderer, const EyeView& view, Schedule schedule, EyeImage& image) const;
+    // Or, for who casts its pixels otherwise: calls body(bounds, pixels) for each batch, as
+    // EyeRenderer::renderPixels wants them, on all threads.
     template <typename Body>
     void forEach(Schedule schedule, const Body& body) const {
         forEachPiece(static_cast<int>(mTasks.size()), schedule, [&](int, int i) {

@@ -7,6 +7,7 @@
 
 #include "engine/base/progress.h"
 #include "tests/display/fake_scene.h"
+#include "tests/support/one_method_frames.h"
 
 namespace stereonav {
 namespace {
@@ -22,15 +23,10 @@ double benchNumber(const Facts& facts, const std::string& key) {
 }
 
 // Both eyes of one grey, which is the place along x.
-class GreyFrames final : public FrameMaker {
+class GreyFrames final : public test::OneMethodFrames {
 public:
-    std::span<const std::string_view> methods() const override { return kMethods; }
-    std::string_view defaultMethod() const override { return kMethods[0]; }
-    std::string_view exactMethod() const override { return kMethods[0]; }
-    std::string_view whatMethodsMake() const override { return "both eyes"; }
-    void make(const StereoViews& views, double time, const FrameWay&, EyePair& frame) override {
-        makeOne(views.left, time, frame);
-        frame.right = frame.left;
+    void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) override {
+        OneMethodFrames::make(views, time, way, frame);
         ++made;
     }
     void makeOne(const EyeView& view, double, EyePair& frame) override {
@@ -40,9 +36,6 @@ public:
                 frame.left.color.at(x, y) = packColor(glm::vec3(static_cast<float>(view.head.x)));
     }
     int made = 0;
-
-private:
-    static constexpr std::array<std::string_view, 1> kMethods{"grey"};
 };
 
 FrameRequest benchRequest(long long version, double grey, double asked, double ahead) {

@@ -15,6 +15,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/frame/cast_frames.h"
 #include "tests/display/fake_scene.h"
+#include "tests/support/one_method_frames.h"
 
 namespace stereonav {
 namespace {
@@ -96,17 +97,9 @@ std::shared_ptr<const ViewFrame> nextFrame(ViewWorker& worker) {
 }
 
 // Pictures of so many rows and more take for ever, until they are dropped.
-class SlowMedium final : public FrameMaker {
+class SlowMedium final : public test::OneMethodFrames {
 public:
     explicit SlowMedium(int endless) : mEndless(endless) {}
-    std::span<const std::string_view> methods() const override { return kMethods; }
-    std::string_view defaultMethod() const override { return kMethods[0]; }
-    std::string_view exactMethod() const override { return kMethods[0]; }
-    std::string_view whatMethodsMake() const override { return "both eyes"; }
-    void make(const StereoViews& views, double time, const FrameWay&, EyePair& frame) override {
-        makeOne(views.left, time, frame);
-        frame.right = frame.left;
-    }
     void makeOne(const EyeView& view, double, EyePair& frame) override {
         if (view.height >= mEndless) parallelFor(1'000'000, [](int) { std::this_thread::sleep_for(1ms); });
         frame.left.resize(view.width, view.height);
@@ -118,7 +111,6 @@ public:
     }
 
 private:
-    static constexpr std::array<std::string_view, 1> kMethods{"slow"};
     int mEndless;
 };
 
@@ -133,7 +125,7 @@ OpenScene mediumOf(int endless) {
 
 FrameRequest mediumRequest(long long version, double scale, bool flying) {
     FrameRequest request = requestAt(version, 7);
-    request.way.method = "slow";
+    request.way.method = "alone";
     request.whole = {40, 20};
     request.scale = scale;
     request.lens.width = static_cast<int>(std::lround(40 * scale));

@@ -15,6 +15,7 @@
 #include "engine/frame/turned_frames.h"
 #include "engine/sampling/pixel_samples.h"
 #include "tests/support/analytic_scene.h"
+#include "tests/support/one_method_frames.h"
 
 namespace stereonav {
 namespace {
@@ -149,16 +150,8 @@ TEST(RefinedFrames, WhatFailsChangesNothing) {
 }
 
 // Grey that depends on nothing but the turn; one step of the packed colour for each hundredth.
-class GreyTurned final : public FrameMaker, public TurnedFrames {
+class GreyTurned final : public test::OneMethodFrames, public TurnedFrames {
 public:
-    std::span<const std::string_view> methods() const override { return kMethods; }
-    std::string_view defaultMethod() const override { return kMethods[0]; }
-    std::string_view exactMethod() const override { return kMethods[0]; }
-    std::string_view whatMethodsMake() const override { return "both eyes"; }
-    void make(const StereoViews& views, double time, const FrameWay&, EyePair& frame) override {
-        makeOne(views.left, time, frame);
-        frame.right = frame.left;
-    }
     void makeOne(const EyeView& view, double, EyePair& frame) override {
         turns.push_back(mTurn);
         if (mTurn == failsAt) throw Error("", "", "it failed", "do nothing");
@@ -173,7 +166,6 @@ public:
     double failsAt = -1;
 
 private:
-    static constexpr std::array<std::string_view, 1> kMethods{"turned"};
     double mTurn = 0;
 };
 

@@ -425,5 +425,24 @@ TEST(Names, eachMethodIsFoundByItsName) {
     EXPECT_FALSE(rightEyeMethodFromName("fant").has_value());
 }
 
+// Where the eyes are so far apart that little of one is seen by the other, the rest is not kept.
+TEST(RightEye, isCastWholeWhereMostIsHoles) {
+    const AnalyticScene scene = ballsBeforeWall();
+    bool partly = false, whole = false;
+    for (const double separation : {0.1, 1.0, 2.0, 4.0, 8.0, 30.0}) {
+        SCOPED_TRACE(separation);
+        const Rendered r = renderMethod(scene, eyesOf(160, 120, separation, 60), RightEyeMethod::Linear);
+        const double share = static_cast<double>(r.timings.holePixels) / (160 * 120);
+        EXPECT_TRUE(share == 1 || share <= 0.6) << share;
+        RecordProperty(std::to_string(separation), std::to_string(share));
+        (share == 1 ? whole : partly) = true;
+        if (share < 1) continue;
+        EXPECT_TRUE(sameImage(r.right, r.full));
+        for (int y = 0; y < 120; ++y)
+            for (int x = 0; x < 160; ++x) ASSERT_EQ(r.holes.at(x, y), 255) << "it was cast";
+    }
+    EXPECT_TRUE(partly && whole);
+}
+
 }  // namespace
 }  // namespace stereonav
