@@ -7,20 +7,6 @@
 namespace stereonav::STEREONAV_ISA {
 namespace {
 
-STEREONAV_INLINE I apart(I a, I b) {
-    return max(a, b) - min(a, b);
-}
-
-struct Channels {
-    I r, g, b;
-    STEREONAV_INLINE explicit Channels(I color)
-        : r(color & I(1023)), g(shiftRight<10>(color) & I(1023)), b(shiftRight<20>(color) & I(1023)) {}
-};
-
-STEREONAV_INLINE I contrast(const Channels& a, const Channels& b) {
-    return max(apart(a.r, b.r), max(apart(a.g, b.g), apart(a.b, b.b)));
-}
-
 // The pixels x .. x + kLanes - 1 with those beside them.
 template <typename T>
 struct Neighbours {
@@ -35,20 +21,37 @@ STEREONAV_INLINE M known(F depth) {
 // Whether 1 / depth is bent between three pixels by more than the share of the largest. Where one of them is
 // not known nothing is bent.
 STEREONAV_INLINE M bent(F before, F at, F after, float share) {
-    const F b = F(1.0f) / before, m = F(1.0f) / at, a = F(1.0f) / after;
-    return (abs((b + a) - (m + m)) > F(share) * max(max(b, a), m)) & known(before) & known(at) & known(after);
+    return abs((before + after) - (at + at)) > F(share) * max(max(before, after), at);
+}
+
+// Whether a channel of the pixel differs from that of one of its neighbours by more than `most`. Channels are
+// compared where they lie in the colour.
+STEREONAV_INLINE M differs(const Neighbours<I>& color, int most) {
+    const auto channel = [&](int shift) {
+        const I field(1023 << shift);
+        const I left = color.left & field, right = color.right & field, above = color.above & field,
+                below = color.below & field, at = color.at & field;
+        const I largest = max(max(left, right), max(above, below));
+        const I least = min(min(left, right), min(above, below));
+        return max(largest - at, at - least) > I(most << shift);
+    };
+    return channel(0) | channel(10) | channel(20);
 }
 
 STEREONAV_INLINE M edges(const EdgeRow& r, const Neighbours<I>& color, const Neighbours<F>& depth,
                          bool inner) {
-    const Channels at(color.at);
-    const auto to = [&](I beside, F beyond) { return keep(known(beyond), contrast(at, Channels(beside))); };
-    const I difference = max(max(to(color.left, depth.left), to(color.right, depth.right)),
-                             max(to(color.above, depth.above), to(color.below, depth.below)));
-    M broken = bent(depth.left, depth.at, depth.right, r.depthBreak);
-    if (inner) broken = broken | bent(depth.above, depth.at, depth.below, r.depthBreak);
-    const M edge = (broken & (difference > I(r.contrast - 1))) | (difference > I(r.strongContrast - 1));
-    return edge & known(depth.at);
+    const Neighbours<M> there{known(depth.at), known(depth.left), known(depth.right), known(depth.above),
+                              known(depth.below)};
+    // A neighbour that is not known is as the pixel itself: it does not differ.
+    const auto beside = [&](M m, I c) { return select(m, c, color.at); };
+    const Neighbours<I> seen{color.at, beside(there.left, color.left), beside(there.right, color.right),
+                             beside(there.above, color.above), beside(there.below, color.below)};
+    const F one(1.0f), at = one / depth.at;
+    M broken = there.left & there.right & bent(one / depth.left, at, one / depth.right, r.depthBreak);
+    if (inner)
+        broken = broken |
+                 (there.above & there.below & bent(one / depth.above, at, one / depth.below, r.depthBreak));
+    return there.at & ((broken & differs(seen, r.contrast - 1)) | differs(seen, r.strongContrast - 1));
 }
 
 STEREONAV_INLINE std::int32_t apart(std::uint32_t a, std::uint32_t b, int shift) {
@@ -94,18 +97,14 @@ void findEdges(const EdgeRow& r) {
     const std::uint32_t* const below = r.below ? r.below : r.row;
     const float* const depthAbove = r.depthAbove ? r.depthAbove : r.depth;
     const float* const depthBelow = r.depthBelow ? r.depthBelow : r.depth;
-    const I least((r.contrast < r.strongContrast ? r.contrast : r.strongContrast) - 1);
+    const int least = (r.contrast < r.strongContrast ? r.contrast : r.strongContrast) - 1;
     const auto one = [&](int x) { r.edges[x] = isEdge(r, x) ? 255 : 0; };
     one(0);
     int x = 1;
     for (; x + kLanes < r.width; x += kLanes) {
         const Neighbours<I> color{loadI(r.row + x), loadI(r.row + x - 1), loadI(r.row + x + 1),
                                   loadI(above + x), loadI(below + x)};
-        const Channels at(color.at);
-        const I difference =
-            max(max(contrast(at, Channels(color.left)), contrast(at, Channels(color.right))),
-                max(contrast(at, Channels(color.above)), contrast(at, Channels(color.below))));
-        M edge = difference > least;
+        M edge = differs(color, least);
         if (any(edge)) {
             const Neighbours<F> depth{loadF(r.depth + x), loadF(r.depth + x - 1), loadF(r.depth + x + 1),
                                       loadF(depthAbove + x), loadF(depthBelow + x)};
