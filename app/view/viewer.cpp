@@ -318,7 +318,8 @@ void Viewer::takeFrame() {
     if (frame) {
         mFrame = std::move(frame);
         mLead.came(mFrame->request.asked_s, Window::now());
-        mGovernor.took({mFrame->request.scale, mFrame->request.effort}, mFrame->made_ms);
+        mGovernor.took({mFrame->request.scale, mFrame->request.effort}, mFrame->made_ms,
+                       areaOf(mFrame->request));
         mSession->observe(*mFrame);
         if (!mSession->slicesShown() && !warps()) showFrame();
         if (mBench) mBench->cast(*mFrame);
@@ -338,14 +339,6 @@ void Viewer::takeFrame() {
     reportScreenshots();
     reportSweep();
     reportDisplay();
-}
-
-void Viewer::showFrame() {
-    using Eye = StereoPresenter::SharedEye;
-    const Eye left(mFrame, &mFrame->left.color), right(mFrame, &mFrame->right.color);
-    mPresenter.show(left, right);
-    mPicture = {left, right, mFrame->request, mFrame->request, false};
-    mNewFrame = true;
 }
 
 void Viewer::takeSlice() {
