@@ -1,6 +1,7 @@
 #include "app/view/eye_marks.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 
 namespace stereonav {
 namespace {
@@ -14,10 +15,11 @@ bool isInside(const EyeView& view, const glm::dvec2& place) {
 }
 
 // NaN where the plane has no such pixel. The plane may have fewer pixels than the view.
-double depthAt(const EyeView& view, const Plane<float>& viewDepth, const glm::dvec2& place) {
-    const glm::dvec2 scale(static_cast<double>(viewDepth.width()) / view.width,
-                           static_cast<double>(viewDepth.height()) / view.height);
-    const glm::dvec2 pixel(std::floor(place.x * scale.x), std::floor(place.y * scale.y));
+double depthAt(const EyeView& view, const Plane<float>& viewDepth, const glm::ivec2& guard,
+               const glm::dvec2& place) {
+    const glm::dvec2 shown(viewDepth.width() - 2 * guard.x, viewDepth.height() - 2 * guard.y);
+    const glm::dvec2 scale = shown / glm::dvec2(view.width, view.height);
+    const glm::dvec2 pixel = glm::floor(place * scale) + glm::dvec2(guard);
     if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.x < viewDepth.width() && pixel.y < viewDepth.height()))
         return std::nan("");
     return static_cast<double>(viewDepth.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y)));
@@ -32,21 +34,22 @@ StereoViews viewsOf(const FrameRequest& request) {
     return views;
 }
 
-EyeMark markUnder(const StereoViews& views, const Plane<float>& viewDepth, const glm::dvec2& share) {
+EyeMark markUnder(const StereoViews& views, const Plane<float>& viewDepth, const glm::dvec2& share,
+                  const glm::ivec2& guard) {
     const glm::dvec2 left = share * glm::dvec2(views.left.width, views.left.height);
-    const double depth = depthAt(views.left, viewDepth, left);
+    const double depth = depthAt(views.left, viewDepth, guard, left);
     if (!(depth > 0 && std::isfinite(depth))) return {left, left};
     return {left, {views.rightColumn(left.x, depth), left.y}};
 }
 
 std::optional<PointMark> markOf(const StereoViews& views, const Plane<float>& viewDepth,
-                                const glm::dvec3& world) {
+                                const glm::dvec3& world, const glm::ivec2& guard) {
     const glm::dvec3 left = views.left.project(world), right = views.right.project(world);
     if (!(left.z >= views.left.nearDepth && std::isfinite(left.z))) return std::nullopt;
     const PointMark point{{glm::dvec2(left), glm::dvec2(right)}, left.z};
     if (!isInside(views.left, point.mark.left) || !isInside(views.right, point.mark.right))
         return std::nullopt;
-    const double seen = depthAt(views.left, viewDepth, point.mark.left);
+    const double seen = depthAt(views.left, viewDepth, guard, point.mark.left);
     if (seen > 0 && seen < left.z * (1 - kBehind)) return std::nullopt;
     return point;
 }

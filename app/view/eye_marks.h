@@ -22,7 +22,9 @@ StereoViews viewsOf(const FrameRequest& request);
 
 // A place of the left eye's picture, shares of its size, on the surface that is seen there (viewDepth: of the
 // left eye); in the plane of the screen where nothing is hit or known, or the place lies beside the picture.
-EyeMark markUnder(const StereoViews& views, const Plane<float>& viewDepth, const glm::dvec2& share);
+// guard: pixels of viewDepth at each side that lie beyond the picture.
+EyeMark markUnder(const StereoViews& views, const Plane<float>& viewDepth, const glm::dvec2& share,
+                  const glm::ivec2& guard = glm::ivec2(0));
 
 struct PointMark {
     EyeMark mark;
@@ -31,6 +33,6 @@ struct PointMark {
 // A point of the world. None where it is nearer than the eyes see or behind them, outside the picture of one
 // of them, or behind what is seen there.
 std::optional<PointMark> markOf(const StereoViews& views, const Plane<float>& viewDepth,
-                                const glm::dvec3& world);
+                                const glm::dvec3& world, const glm::ivec2& guard = glm::ivec2(0));
 
 }  // namespace stereonav

@@ -36,12 +36,17 @@ double FrameGovernor::predicted(std::size_t step) const {
     return known * there / here;
 }
 
+double FrameGovernor::partOf(double area, std::size_t step) const {
+    const double share = (1 - mFixed) * shareOf(step);
+    return (mFixed + share) / (mFixed + share * area);
+}
+
 double FrameGovernor::predicted_ms() const {
     return mLast.empty() ? 0 : predicted(0);
 }
 
 double FrameGovernor::usual_ms() const {
-    return mLast.empty() && !(mBefore > 0) ? 0 : predicted(mStep);
+    return mLast.empty() && !(mBefore > 0) ? 0 : predicted(mStep) / partOf(mArea, mStep);
 }
 
 // Two sizes tell what no size changes: cost = full * (fixed + (1 - fixed) * share).
@@ -78,10 +83,25 @@ FrameGovernor::Size FrameGovernor::sizeWithin(double ms) const {
     return {kScales[at], mEfforts ? kEfforts[at] : 1};
 }
 
-void FrameGovernor::took(const Size& size, double ms) {
+void FrameGovernor::stepDown() {
+    std::size_t to = mStep + 1;
+    while (to + 1 < steps() && predicted(to) > targetOf(to)) ++to;
+    step(to);
+}
+
+// Before frames of it come too late.
+void FrameGovernor::setArea(double area) {
+    const bool more = area > mArea;
+    mArea = area;
+    if (more && !mLast.empty() && mStep + 1 < steps() && predicted(mStep) > kTooSlow * targetOf(mStep))
+        stepDown();
+}
+
+void FrameGovernor::took(const Size& size, double ms, double area) {
     if (!(ms > 0) || std::abs(size.scale - scale()) > kSameScale ||
         (mEfforts && std::abs(size.effort - effort()) > kSameScale))
         return;
+    ms *= partOf(area, mStep);
     mLast.push_back(ms);
     if (mLast.size() > kLooked) mLast.pop_front();
     ++mSinceStep;
@@ -90,14 +110,13 @@ void FrameGovernor::took(const Size& size, double ms) {
     const auto least = [&](std::size_t count) {  // of the newest frames
         return *std::min_element(mLast.end() - static_cast<std::ptrdiff_t>(count), mLast.end());
     };
-    const bool slow = least(1) > (mMedium ? kSlowMedium : kHopeless) * mTarget ||
-                      (mLast.size() >= 2 && least(2) > kFarTooSlow * mTarget) ||
-                      (mLast.size() == kLooked && least(kLooked) > kTooSlow * mTarget);
+    const double target = targetOf(mStep);
+    const bool slow = least(1) > (mMedium ? kSlowMedium : kHopeless) * target ||
+                      (mLast.size() >= 2 && least(2) > kFarTooSlow * target) ||
+                      (mLast.size() == kLooked && least(kLooked) > kTooSlow * target);
     if (slow && mStep + 1 < steps()) {
-        std::size_t to = mStep + 1;
-        while (to + 1 < steps() && predicted(to) > mTarget) ++to;
         if (mWentUp) mBackOff = std::min(2 * mBackOff, kMostBackOff);
-        return step(to);
+        return stepDown();
     }
     // One that goes on upwards was looked at before.
     const std::size_t enough = mWentUp && mSinceStep < static_cast<int>(kLooked) ? kLooked - 1 : kLooked;
@@ -105,7 +124,7 @@ void FrameGovernor::took(const Size& size, double ms) {
     // Of the slowest of them.
     const double spread = *std::max_element(mLast.begin(), mLast.end()) / middleOf(mLast);
     std::size_t to = mStep;
-    while (to > 0 && spread * predicted(to - 1) <= kRoom * mTarget) --to;
+    while (to > 0 && spread * predicted(to - 1) <= kRoom * targetOf(to - 1)) --to;
     if (to < mStep) step(to);
 }
 

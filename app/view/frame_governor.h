@@ -30,10 +30,12 @@ public:
     explicit FrameGovernor(double target_ms = 33) : mTarget(target_ms) {}
     void setTarget(double ms) { mTarget = ms; }
     double target_ms() const { return mTarget; }
+    // Frames are cast so many times as large as their size says (engine/late/late_guard.h): the size pays.
+    void setArea(double area);
 
     // A frame of this size took so long. Those of another size than is asked for now are not counted.
     void took(double scale, double ms) { took({scale, 1}, ms); }
-    void took(const Size& size, double ms);
+    void took(const Size& size, double ms, double area = 1);
     // Of the next frame while something moves.
     double scale() const { return kScales[mStep]; }
     double effort() const { return mEfforts ? kEfforts[mStep] : 1; }
@@ -56,9 +58,15 @@ private:
     void learn(double share, double ms);
     void step(std::size_t to);
 
-    double mTarget;
+    // Of the time of a frame of that area: what one of area 1 takes.
+    double partOf(double area, std::size_t step) const;
+    // What a frame of area 1 may take, so that those of now keep to the target.
+    double targetOf(std::size_t step) const { return mTarget * partOf(mArea, step); }
+    void stepDown();
+
+    double mTarget, mArea = 1;
     std::size_t mStep = 0;
-    std::deque<double> mLast;              // milliseconds at this size, newest last
+    std::deque<double> mLast;              // milliseconds at this size and area 1, newest last
     double mFixed = 0;                     // share of a full frame's cost that no size changes
     double mShareBefore = 0, mBefore = 0;  // the size before this one, and its cost
     int mSinceStep = 0, mHold = 0;         // frames

@@ -4,6 +4,7 @@
 
 #include "app/view/eye_marks.h"
 #include "engine/base/parallel.h"
+#include "engine/late/late_guard.h"
 
 namespace stereonav {
 namespace {
@@ -19,13 +20,26 @@ bool sameView(const FrameRequest& a, const FrameRequest& b) {
     return a.pose.position == b.pose.position && a.pose.orientation == b.pose.orientation &&
            a.lens.width == b.lens.width && a.lens.height == b.lens.height &&
            a.lens.verticalFov == b.lens.verticalFov && a.stereo.separation == b.stereo.separation &&
-           a.stereo.zeroParallax == b.stereo.zeroParallax && a.twoEyes == b.twoEyes;
+           a.stereo.zeroParallax == b.stereo.zeroParallax && a.twoEyes == b.twoEyes && a.guard == b.guard;
+}
+
+double areaOf(const FrameRequest& request) {
+    const glm::dvec2 shown(request.lens.width, request.lens.height);
+    const glm::dvec2 cast = shown + 2.0 * glm::dvec2(request.guard);
+    return cast.x * cast.y / std::max(shown.x * shown.y, 1.0);
 }
 
 bool LateView::fits(const ViewFrame& frame, const FrameRequest& now) {
     return frame.late[0].ready() && (!now.twoEyes || frame.late[1].ready()) &&
            now.twoEyes == frame.request.twoEyes && now.truth == TruthView::None &&
            frame.request.truth == TruthView::None;
+}
+
+glm::dvec2 LateView::seenBeyond(const ViewFrame& frame, const FrameRequest& now) {
+    const StereoViews views = viewsOf(now);
+    const glm::dvec2 left = stereonav::seenBeyond(frame.late[0], frame.request.guard, views.left);
+    if (!now.twoEyes) return left;
+    return glm::max(left, stereonav::seenBeyond(frame.late[1], frame.request.guard, views.right));
 }
 
 std::shared_ptr<const LateView::Eyes> LateView::warp(const ViewFrame& frame, const FrameRequest& now) {

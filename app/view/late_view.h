@@ -14,6 +14,9 @@ namespace stereonav {
 // Whether a frame that was made for `a` is what `b` asks for, as far as where it is seen from goes.
 bool sameView(const FrameRequest& a, const FrameRequest& b);
 
+// That is cast, of what is shown.
+double areaOf(const FrameRequest& request);
+
 class LateView {
 public:
     using Eyes = std::array<Plane<PackedColor>, 2>;  // the second is empty of one eye
@@ -21,6 +24,8 @@ public:
     // Whether the frame can be seen from where `now` is: its depths are known, and it has the eyes that are
     // asked for. Truths (TruthView) are shown as they are.
     static bool fits(const ViewFrame& frame, const FrameRequest& now);
+    // How far the eyes see beyond what was to be shown of the frame (engine/late/late_guard.h). fits() holds.
+    static glm::dvec2 seenBeyond(const ViewFrame& frame, const FrameRequest& now);
     // Warped. fits() holds.
     std::shared_ptr<const Eyes> warp(const ViewFrame& frame, const FrameRequest& now);
 

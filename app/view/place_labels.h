@@ -24,6 +24,6 @@ using TextSize = std::function<glm::dvec2(const std::string&)>;
 // stand far before the screen have none: one is nearly there. margin: pixels kept around texts.
 std::vector<PlaceLabel> labelsInView(const FrameRequest& request, const Plane<float>& viewDepth,
                                      const std::vector<Bookmark>& places, const TextSize& sizeOf,
-                                     double margin);
+                                     double margin, const glm::ivec2& guard = glm::ivec2(0));
 
 }  // namespace stereonav

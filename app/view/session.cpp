@@ -40,7 +40,7 @@ bool sameFrame(const FrameRequest& a, const FrameRequest& b) {
            a.lens.verticalFov == b.lens.verticalFov && a.stereo.separation == b.stereo.separation &&
            a.stereo.zeroParallax == b.stereo.zeroParallax && a.way.method == b.way.method &&
            a.model == b.model && a.time == b.time && a.twoEyes == b.twoEyes && a.mode == b.mode &&
-           a.sun == b.sun && a.fitEyes == b.fitEyes && a.truth == b.truth;
+           a.sun == b.sun && a.fitEyes == b.fitEyes && a.truth == b.truth && a.guard == b.guard;
 }
 
 bool mixesEyes(OutputLayout layout) {
@@ -422,7 +422,8 @@ Pose ViewSession::poseAhead(double seconds) const {
     return mAhead.from(pose(), seconds, mFlight->clearanceNow());
 }
 
-const FrameRequest& ViewSession::requestFor(int width, int height, double ahead, double scale) {
+const FrameRequest& ViewSession::requestFor(int width, int height, double ahead, double scale,
+                                            const glm::dvec2& guard) {
     const auto [eyeWidth, eyeHeight] = eyeSizeFor(compose().mode, width, height);
     const bool otherShape = hasOtherShape(eyeWidth, eyeHeight);
     if (otherShape) mStereo.refit(shown());
@@ -437,6 +438,7 @@ const FrameRequest& ViewSession::requestFor(int width, int height, double ahead,
     wanted.lens.height = scaled(eyeHeight);
     wanted.whole = {eyeWidth, eyeHeight};
     wanted.scale = scale;
+    wanted.guard = glm::ivec2(glm::round(guard * glm::dvec2(wanted.lens.width, wanted.lens.height)));
     wanted.stereo = mStereo.now();
     wanted.way = {mMethod, mScene->way.warp, mScene->way.edges};
     wanted.model = mModel;

@@ -192,8 +192,10 @@ public:
     }
     // What to render for a composed picture of this size; the version grows with every difference. ahead:
     // seconds until the picture is there, while something moves: it is of where the eyes will be then. scale:
-    // the frame has only so much of the width and height.
-    const FrameRequest& requestFor(int width, int height, double ahead = 0, double scale = 1);
+    // the frame has only so much of the width and height. guard: shares of them that are cast beyond each
+    // side.
+    const FrameRequest& requestFor(int width, int height, double ahead = 0, double scale = 1,
+                                   const glm::dvec2& guard = glm::dvec2(0.0));
     // Where the eyes will be: on a path as it goes, in flight as they move now. Not nearer to what is around
     // than half of the way there.
     Pose poseAhead(double seconds) const;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
+#include "app/view/late_view.h"
 #include "engine/medium/sweep/swept_frames.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/metrics/supersampled_picture.h"
@@ -12,8 +14,9 @@ namespace stereonav {
 namespace {
 
 constexpr double kSettling = 2;           // seconds at rest before the flight: eyes that follow have arrived
-constexpr std::size_t kSweptSamples = 2;  // of media one of so many is judged: a pair takes seconds
+constexpr std::size_t kSweptSamples = 4;  // of media one of so many is judged: a pair takes seconds
 constexpr int kTruthSide = 8;             // 64 rays a pixel
+constexpr int kMovingTruthSide = 4;       // 16, of pictures in motion
 constexpr int kSweptTruthSide = 2;        // of media, where a frame of that many takes seconds
 constexpr double kTruthEffort = 4;        // times the slices
 constexpr double kMs = 1000;
@@ -24,6 +27,11 @@ double quantile(std::vector<double> values, double share) {
     std::sort(values.begin(), values.end());
     const double rank = std::ceil(share * static_cast<double>(values.size()));
     return values[static_cast<std::size_t>(std::max(rank - 1, 0.0))];
+}
+
+double meanOf(const std::vector<double>& values) {
+    if (values.empty()) return std::nan("");
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 bool sameMoment(const FrameRequest& a, const FrameRequest& b) {
@@ -84,9 +92,10 @@ void addExact(const Scene& scene, const FrameRequest& request, const ShownPictur
     addPair(pair, picture, error);
 }
 
-Plane<PackedColor> fineEye(const Scene& scene, const EyeView& view, double time, Progress& progress) {
+Plane<PackedColor> fineEye(const Scene& scene, const EyeView& view, double time, Progress& progress,
+                           int side = kTruthSide) {
     if (const auto* const rays = scene.offered<RayCast>())
-        return renderSupersampled(*rays->renderer, view, kTruthSide, progress);
+        return renderSupersampled(*rays->renderer, view, side, progress);
     // In one sweep: strips would each pass all of the light.
     EyePair fine;
     scene.frames().makeOne(view.supersampled(kSweptTruthSide), time, fine);
@@ -118,6 +127,15 @@ void addFine(const Scene& scene, const ShownPicture& picture, ErrorMean& error, 
         if (other) ofOther.add(right, other->right);
     }
     if (swept) swept->setEffort(1);
+}
+
+// Of rays: against more of them in each pixel than one, which no way of making a pair casts.
+void addMovingTruth(const Scene& scene, const ShownPicture& picture, ErrorMean& error, Progress& progress) {
+    setLight(scene, picture.of);
+    const StereoViews views = viewsAt(picture.of, picture);
+    error.add(fineEye(scene, views.left, picture.of.time, progress, kMovingTruthSide), picture.left);
+    if (picture.of.twoEyes)
+        error.add(fineEye(scene, views.right, picture.of.time, progress, kMovingTruthSide), picture.right);
 }
 
 FactValue valueOf(const std::optional<double>& number) {
@@ -159,6 +177,10 @@ void ViewBench::keepRest(double now) {
 
 void ViewBench::cast(const ViewFrame& frame) {
     if (mStage != Stage::Fly) return;
+    const double scale = frame.request.scale * frame.request.effort;
+    mSizeChanges += !mScale.empty() && mScale.back() != scale;
+    mScale.push_back(scale);
+    mGuard.push_back(areaOf(frame.request) - 1);
     mCast.push_back(frame.timings.both_ms);
 }
 
@@ -187,7 +209,7 @@ void ViewBench::keepSample(const ShownPicture& picture, const FrameRequest& now,
 }
 
 void ViewBench::judge(const Scene& scene, Progress& progress) {
-    ErrorMean moving, present;
+    ErrorMean moving, movingTrue, present;
     EyePair pair;
     const bool fine = scene.offered<RayCast>() != nullptr;
     for (std::size_t n = 0; n < mSamples.size(); n += fine ? 1 : kSweptSamples) {
@@ -195,12 +217,14 @@ void ViewBench::judge(const Scene& scene, Progress& progress) {
         progress.report(0, "judging");
         ++mJudged;
         addExact(scene, kept.picture.of, kept.picture, pair, moving);
+        if (fine) addMovingTruth(scene, kept.picture, movingTrue, progress);
         if (sameMoment(kept.now, kept.picture.of))
             addPair(pair, kept.picture, present);
         else
             addExact(scene, kept.now, kept.picture, pair, present);
     }
     mMovingPsnr = moving.psnr();
+    mMovingTruePsnr = movingTrue.psnr();
     mNowPsnr = present.psnr();
     judgeRest(scene, progress);
 }
@@ -242,8 +266,12 @@ Facts ViewBench::facts() const {
     list.json("pose_age_p95_ms", quantile(mShownAge, 0.95));
     list.json("cast_p50_ms", quantile(mCast, 0.5));
     list.json("cast_p95_ms", quantile(mCast, 0.95));
+    list.json("scale_mean", meanOf(mScale));
+    list.json("size_changes", static_cast<std::int64_t>(mSizeChanges));
+    list.json("guard_mean", meanOf(mGuard));
     list.json("judged", static_cast<std::int64_t>(mJudged));
     list.json("psnr_moving_db", valueOf(mMovingPsnr));
+    if (mMovingTruePsnr) list.json("psnr_moving_true_db", *mMovingTruePsnr);
     list.json("psnr_now_db", valueOf(mNowPsnr));
     list.json("psnr_1s_db", valueOf(mOnePsnr));
     list.json("psnr_10s_db", valueOf(mTenPsnr));

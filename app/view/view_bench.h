@@ -28,7 +28,7 @@ class ViewBench {
 public:
     // Of the flight, seconds; a longer one is broken off.
     static constexpr double kLongestFlight = 20, kRest = 10.2;
-    static constexpr int kSamples = 12;  // pictures in motion that are held against their truth
+    static constexpr int kSamples = 24;  // pictures in motion that are held against their truth
 
     enum class Wish { None, Fly, Stop, Judge };
     // What the window is to do now; each once. ready: a picture is there and rests; flying: the flight goes
@@ -61,12 +61,13 @@ private:
     double mReadySince = -1, mStarted = 0, mStopped = 0, mDuration = 0, mLast = -1;
     std::vector<double> mBetween, mAge, mDelay, mShownAge;  // milliseconds
     std::vector<double> mCast;                              // milliseconds a cast picture took
-    std::vector<double> mShare;                             // of a full picture's pixels
+    std::vector<double> mScale, mGuard;  // of cast pictures; the second: share of pixels beyond what is shown
+    int mSizeChanges = 0;
     std::vector<Kept> mSamples;
     std::optional<ShownPicture> mNewest;
     std::optional<ShownPicture> mAfterOne, mAfterTen;  // what was shown a second and ten after the stop
     int mWarped = 0, mJudged = 0;                      // mJudged: moments in motion
-    std::optional<double> mMovingPsnr, mNowPsnr, mOnePsnr, mTenPsnr;
+    std::optional<double> mMovingPsnr, mMovingTruePsnr, mNowPsnr, mOnePsnr, mTenPsnr;
     std::optional<double> mOneOfPair, mTenOfPair;  // of media: against the exact pair as it is in flight
     int mTruthRays = 0;                            // a pixel, of those at rest
     double mTruthEffort = 1;                       // of media

@@ -100,8 +100,9 @@ ScreenTold ViewDisplay::told() const {
 double ViewDisplay::pictureWidthOf(const ViewFrame& frame, const ScreenTold& on) const {
     const int window = mWindow.place().width, pixels = mWindow.framebufferSize().x;
     // Of the monitor's size, which is in the window's units.
-    const double width =
-        pixels > 0 ? frame.left.width() / frame.request.scale * (static_cast<double>(window) / pixels) : 0;
+    const double width = pixels > 0 ? (frame.left.width() - 2 * frame.request.guard.x) / frame.request.scale *
+                                          (static_cast<double>(window) / pixels)
+                                    : 0;
     const ScreenSize size = mSizes.of(on);
     return pictureWidth({size.width_mm / 1000, size.distance_mm / 1000}, width,
                         on.pixelsWide > 0 ? on.pixelsWide : window);

@@ -21,6 +21,7 @@ constexpr double kActiveWait = 1.0 / 120;  // seconds between looks at the keys 
 constexpr double kShortestWait = 0.0005;   // seconds, between pictures that are warped
 constexpr double kIdleWait = 0.1;          // seconds; events and frames end the wait at once
 constexpr double kFiguresWait = 0.1;       // seconds that figures and notices may be old in flight
+constexpr double kMostFiguresWait = 0.3;   // where no new picture comes
 constexpr std::size_t kKeptCosts = 240;    // frames
 
 std::string titleOf(const SceneOptions& scene) {
@@ -317,7 +318,8 @@ void Viewer::takeFrame() {
     if (frame) {
         mFrame = std::move(frame);
         mLead.came(mFrame->request.asked_s, Window::now());
-        mGovernor.took({mFrame->request.scale, mFrame->request.effort}, mFrame->made_ms);
+        mGovernor.took({mFrame->request.scale, mFrame->request.effort}, mFrame->made_ms,
+                       areaOf(mFrame->request));
         mSession->observe(*mFrame);
         if (!mSession->slicesShown() && !warps()) showFrame();
         if (mBench) mBench->cast(*mFrame);
@@ -337,14 +339,6 @@ void Viewer::takeFrame() {
     reportScreenshots();
     reportSweep();
     reportDisplay();
-}
-
-void Viewer::showFrame() {
-    using Eye = StereoPresenter::SharedEye;
-    const Eye left(mFrame, &mFrame->left.color), right(mFrame, &mFrame->right.color);
-    mPresenter.show(left, right);
-    mPicture = {left, right, mFrame->request, mFrame->request, false};
-    mNewFrame = true;
 }
 
 void Viewer::takeSlice() {
@@ -438,11 +432,13 @@ ComposeSetting Viewer::shownSetting() const {
 }
 
 // In flight each picture has other figures, which nobody reads as fast: the interface is laid out for what
-// the user does, and else ten times a second.
+// the user does, and else ten times a second, together with a new picture: a window that is drawn for its
+// figures alone would make the next picture late.
 bool Viewer::layOut(const InterfacePlaces& places, double dt) {
     mSinceLayout += dt;
     const bool flying = mSession && mSession->moving() && mWorker->loading().busy == mLaidOutBusy;
-    if (flying && !mLayoutDue && mSinceLayout < kFiguresWait && !mInterface.waits(places)) return false;
+    const bool due = mNewFrame ? mSinceLayout >= kFiguresWait : mSinceLayout >= kMostFiguresWait;
+    if (flying && !mLayoutDue && !due && !mInterface.waits(places)) return false;
     mLaidOutBusy = mWorker->loading().busy;
     mLayoutDue = false;
     return mInterface.layOut(places, std::exchange(mSinceLayout, 0), [this] {

@@ -32,6 +32,7 @@
 #include "engine/display/interface.h"
 #include "engine/display/stereo_presenter.h"
 #include "engine/display/window.h"
+#include "engine/late/late_guard.h"
 
 namespace stereonav {
 
@@ -214,6 +215,7 @@ private:
     LateView mLate;
     LateLead mLead;
     FrameGovernor mGovernor;
+    GuardBand mGuard;
     std::optional<FrameGovernor::Size> mRestSize;  // of the first picture at rest
     LatePace mLatePace;
     double mLateShown = 0;  // when the last picture came: seconds

@@ -17,7 +17,8 @@ void Viewer::askFor() {
     const bool late = mOptions.lateWarp && mSession->flying() && !screenshot && !mScreenshots.waiting();
     if (late && !mPresent.flying) mLead.begin(mGovernor.usual_ms() / 1000);
     const double ahead = late ? mLead.seconds() : 0;
-    FrameRequest request = mSession->requestFor(all.x, all.y, ahead, scale);
+    if (!late) mGuard.forget();
+    FrameRequest request = mSession->requestFor(all.x, all.y, ahead, scale, mGuard.shares());
     request.late = mOptions.lateWarp;
     request.refines = mOptions.refine;
     request.flying = late;
@@ -35,6 +36,7 @@ void Viewer::askFor() {
     mPresent.lens.width = width;
     mPresent.lens.height = height;
     mPresent.ahead_s = 0;
+    mPresent.guard = {0, 0};
     mPresent.scale = mPresent.effort = 1;
 }
 
@@ -49,6 +51,8 @@ FrameGovernor::Size Viewer::sizeNow(bool screenshot) {
     mGovernor.setMedium(swept, scene.offered<FrameEffort>() != nullptr);
     const double usual = std::min(2000 * mDisplay.refreshPeriod(), kMost) * (swept ? kMedium : 1);
     mGovernor.setTarget(mOptions.target_ms.value_or(usual));
+    const glm::dvec2 wide = 1.0 + 2.0 * mGuard.shares();
+    mGovernor.setArea(mSession->flying() ? wide.x * wide.y : 1);
     const bool whole = screenshot || mScreenshots.waiting() || mSession->truth() != TruthView::None;
     if (mSession->flying()) mRestSize.reset();
     if (!mOptions.lateWarp || whole) return {};
@@ -81,6 +85,14 @@ double Viewer::latePeriod() const {
     return mLatePace.period(mDisplay.refreshPeriod(), 0);
 }
 
+void Viewer::showFrame() {
+    using Eye = StereoPresenter::SharedEye;
+    const Eye left(mFrame, &mFrame->left.color), right(mFrame, &mFrame->right.color);
+    mPresenter.show(left, right);
+    mPicture = {left, right, mFrame->request, mFrame->request, false};
+    mNewFrame = true;
+}
+
 void Viewer::showLate() {
     const double now = Window::now();
     // Even where a turn came late now and then.
@@ -90,6 +102,7 @@ void Viewer::showLate() {
     const Eye left(eyes, &(*eyes)[0]), right(eyes, &(*eyes)[1]);
     mPresenter.show(left, right);
     mPicture = {left, right, mPresent, mFrame->request, true};
+    if (mSession->flying()) mGuard.saw(LateView::seenBeyond(*mFrame, mPresent), now);
     mRate.count(mSession->moving());
     mNewFrame = true;
 }

@@ -15,10 +15,12 @@ std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
     std::vector<OverlayMark> marks;
     if (!mSession || !mFrame || !mPicture.left || mSession->slicesShown()) return marks;
     const Plane<float>& depth = mFrame->left.viewDepth;
+    const glm::ivec2& guard = mFrame->request.guard;
     if (mLabels && mPlaces && !mPanels.hidden() && !mPanels.startShown()) {
         const auto sizeOf = [this](const std::string& text) { return glm::dvec2(mInterface.textSize(text)); };
         const double margin = 0.3 * sizeOf("0").y;
-        for (const PlaceLabel& label : labelsInView(mPicture.of, depth, mPlaces->list(), sizeOf, margin))
+        for (const PlaceLabel& label :
+             labelsInView(mPicture.of, depth, mPlaces->list(), sizeOf, margin, guard))
             marks.push_back({glm::vec2(label.mark.left), glm::vec2(label.mark.right), label.text,
                              glm::vec2(label.textAt)});
     }
@@ -26,7 +28,7 @@ std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
     if (!drawsPointer(mode) || !mInterface.pointerOverPicture(share)) return marks;
     const PicturePlace place = placeFor(mode);
     share = (share * glm::dvec2(place.part) - glm::dvec2(place.corner)) / glm::dvec2(place.size);
-    const EyeMark under = markUnder(viewsOf(mPicture.of), depth, share);
+    const EyeMark under = markUnder(viewsOf(mPicture.of), depth, share, guard);
     marks.push_back({glm::vec2(under.left), glm::vec2(under.right), "", {}});
     return marks;
 }

@@ -11,6 +11,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/base/thread_priority.h"
+#include "engine/late/late_guard.h"
 #include "engine/stereo/comfort.h"
 
 namespace stereonav {
@@ -24,9 +25,14 @@ bool isWhole(const FrameRequest& request) {
     return request.whole.x < 1 || (request.scale == 1 && request.effort == 1);
 }
 
+Lens castLens(const FrameRequest& request) {
+    return guarded(request.lens, request.guard);
+}
+
 // The same picture with nothing left out.
 FrameRequest inFull(FrameRequest request) {
     request.scale = request.effort = 1;
+    request.guard = {0, 0};
     request.lens.width = request.whole.x;
     request.lens.height = request.whole.y;
     return request;
@@ -53,12 +59,13 @@ bool sameEyes(const StereoSetting& a, const StereoSetting& b) {
 StereoViews makeEyes(const Scene& scene, const FrameWay& way, ViewFrame& frame) {
     FrameRequest& request = frame.request;
     for (int fit = 0;; ++fit) {
-        const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
+        const StereoViews shown = makeStereoViews(request.pose, request.lens, request.stereo);
+        const StereoViews views = makeStereoViews(request.pose, castLens(request), request.stereo);
         scene.frames().make(views, request.time, way, frame);
-        lookAround(&views, frame);
+        lookAround(&shown, frame);
         if (!request.fitEyes || fit == kMostFits) return views;
         const StereoSetting fitting = comfortableEyes(request.stereo, {frame.nearParallax, frame.farParallax},
-                                                      views.shiftAtInfinity / views.left.width);
+                                                      shown.shiftAtInfinity / shown.left.width);
         if (sameEyes(fitting, request.stereo)) return views;
         request.stereo = fitting;
     }
@@ -71,9 +78,9 @@ void prepareLate(const Scene& scene, ViewFrame& frame) {
     const FrameRequest& request = frame.request;
     if (!request.late || request.truth != TruthView::None) return;
     if (!request.twoEyes)
-        return frame.late[0].prepare(frame.left.viewDepth, makeEyeView(request.pose, request.lens), simd,
+        return frame.late[0].prepare(frame.left.viewDepth, makeEyeView(request.pose, castLens(request)), simd,
                                      soft);
-    const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
+    const StereoViews views = makeStereoViews(request.pose, castLens(request), request.stereo);
     frame.late[0].prepare(frame.left.viewDepth, views.left, simd, soft);
     frame.late[1].prepare(frame.right.viewDepth, views.right, simd, soft);
 }
@@ -91,7 +98,7 @@ void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& tr
     if (auto* const light = scene.offered<TurningLight>()) light->turnTo(request.sun);
     if (auto* const models = scene.offered<LightModels>()) models->choose(request.model);
     if (auto* const effort = scene.offered<FrameEffort>()) effort->setEffort(request.effort);
-    EyeView view = makeEyeView(request.pose, request.lens);
+    EyeView view = makeEyeView(request.pose, castLens(request));
     if (request.twoEyes) {
         const FrameWay way = TruthMaker::wayOf(request.truth, request.way, scene.frames());
         const StereoViews views = makeEyes(scene, way, frame);

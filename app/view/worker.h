@@ -60,6 +60,7 @@ struct FrameRequest {
     bool fitEyes = false;
     TruthView truth = TruthView::None;  // in the place of the right eye
     double scale = 1;                   // of the eyes' full size: less while something moves
+    glm::ivec2 guard{0};                // pixels that are cast beyond the lens's, at each side
     glm::ivec2 whole{0};                // that size; 0: the lens's
     double effort = 1;                  // FrameEffort, where it is offered
     bool flying = false;                // something moves: a newer one comes soon

@@ -63,9 +63,11 @@ double LumenRoom::freeAt(const glm::dvec3& point, double upTo) const {
 }
 
 double LumenRoom::free(const glm::dvec3& head, const glm::dvec3& right, double upTo) const {
+    if (head == mLastFree.head && right == mLastFree.right && upTo == mLastFree.upTo) return mLastFree.room;
     double nearest = freeAt(head, upTo);
     for (const double side : {-mHalf, mHalf})
         if (mHalf > 0) nearest = std::min(nearest, freeAt(head + side * right, upTo));
+    mLastFree = {head, right, upTo, nearest};
     return nearest;
 }
 

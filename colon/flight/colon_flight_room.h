@@ -66,7 +66,7 @@ private:
     double mClearance, mHalf;
     // The last answers and the last ball found free of wall: they save looking again and change no result
     // beyond the tolerance of the distances. Hence one thread.
-    mutable Answer mLast;
+    mutable Answer mLast, mLastFree;
     mutable Direction mLastAway;
     mutable glm::dvec3 mKnownPoint{0.0};
     mutable double mKnownFree = 0;

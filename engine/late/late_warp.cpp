@@ -139,6 +139,14 @@ void LateEye::measure(const Plane<float>& depth) {
     }
 }
 
+const LateTile& LateEye::tileAt(double x, double y) const {
+    const auto tile = [](double pixel, int size, int count) {
+        return static_cast<int>(std::clamp(pixel / size, 0.0, static_cast<double>(count - 1)));
+    };
+    return mTiles[static_cast<std::size_t>(tile(y, kLateTileHeight, mDown) * mAcross +
+                                           tile(x, kLateTileWidth, mAcross))];
+}
+
 LatePlan LateEye::planOf(const LateMove& move, int x0, int y0, int x1, int y1, float nearestSeen) const {
     std::array<Corner, 4> corners;
     float length = 0;

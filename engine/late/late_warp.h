@@ -30,6 +30,8 @@ public:
     void forget() { mReady = false; }
     bool ready() const { return mReady; }
     const EyeView& view() const { return mView; }
+    // What depths lie around a place of the picture, or of its border where that is beside it. ready() holds.
+    const LateTile& tileAt(double x, double y) const;
 
     // The picture `color`, of the prepared size, as `to` sees it, in as many pixels as `to` has. uncovered:
     // 255 where nothing was seen before, or null. On this thread alone: with parallel, on all.

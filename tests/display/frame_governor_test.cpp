@@ -153,6 +153,37 @@ TEST(FrameGovernor, LeavesOutAMediumsSlicesLast) {
     EXPECT_LT(governor.effort(), 1);
 }
 
+// Frames that are cast wider than shown (LateGuard) are made smaller before one of them comes late, and the
+// size comes back with the guard gone. Some frames of the area before come after the change.
+TEST(FrameGovernor, TheSizePaysForAWiderFrame) {
+    for (const double fixed : {0.0, 0.2})
+        for (const double full : {15.0, 30.0, 80.0})
+            for (const double area : {1.2, 1.5}) {
+                SCOPED_TRACE(testing::Message() << fixed << " " << full << " " << area);
+                FrameGovernor governor(kGovernedTarget);
+                double cast = 1;
+                FrameGovernor::Size size;
+                int late = 0, changes = 0, settled = 0;
+                for (int n = 0; n < 120; ++n) {
+                    const double wanted = n >= 40 && n < 80 ? area : 1;
+                    governor.setArea(wanted);
+                    // The frame that is made now was asked for one before.
+                    const double ms = full * (fixed + (1 - fixed) * size.scale * size.scale * cast);
+                    governor.took(size, ms, cast);
+                    if (n >= 40) {
+                        late += ms > 1.15 * kGovernedTarget;
+                        changes += size.scale != governor.scale();
+                        settled += size.scale != governor.scale() && (n % 40) > 8;
+                    }
+                    size = {governor.scale(), 1};
+                    cast = wanted;
+                }
+                EXPECT_LE(late, 1);
+                EXPECT_LE(changes, full < 20 ? 0 : 6);
+                EXPECT_EQ(settled, 0);
+            }
+}
+
 TEST(FrameGovernor, TakesNoFrameForAnother) {
     FrameGovernor governor(kGovernedTarget);
     EXPECT_EQ(governor.predicted_ms(), 0);

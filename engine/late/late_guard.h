@@ -1,0 +1,43 @@
+// Pictures that will be seen from elsewhere are cast somewhat wider than they are shown, so that what comes
+// into view is there. No clock.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <glm/vec2.hpp>
+
+#include "engine/camera/stereo_rig.h"
+#include "engine/late/late_warp.h"
+
+namespace stereonav {
+
+// The same pixels, and `guard` more of them at each side: what lies in the middle of either eye stays there.
+Lens guarded(const Lens& lens, const glm::ivec2& guard);
+
+// How far `to` sees beyond what was to be shown of a picture, as shares of its width and height: by the
+// depths at its borders, at most 1. guard: that the picture was cast with.
+glm::dvec2 seenBeyond(const LateEye& eye, const glm::ivec2& guard, const EyeView& to);
+
+// The width of the guard, from what the last pictures saw beyond theirs. It grows at once and shrinks slowly,
+// and it goes by steps: frames of one size use memory again.
+class GuardBand {
+public:
+    static constexpr double kStep = 0.02, kMost = 0.12;  // of the width or the height, at each side
+    static constexpr double kRemembered_s = 1;
+
+    // A picture was shown: seenBeyond() of it.
+    void saw(const glm::dvec2& beyond, double now_s);
+    // Nothing moves any more.
+    void forget();
+    glm::dvec2 shares() const { return glm::dvec2(mSteps) * kStep; }
+
+private:
+    struct Seen {
+        double at = 0;
+        glm::dvec2 beyond{0.0};
+    };
+    std::deque<Seen> mSeen;
+    glm::ivec2 mSteps{0};
+};
+
+}  // namespace stereonav
