@@ -96,6 +96,8 @@ struct SceneOptions {
     double verticalScale = 0;  // 0: as the scene says
     bool openHoles = false;
     std::string image, sky;             // pictures; "": as the scene says
+    bool physicalSky = false;           // by scattering in the air
+    double visibility_m = 0;            // of it; 0: as usual
     std::optional<glm::vec3> skyColor;  // of traced light, in the place of a picture
     bool shadeImage = false;            // the picture is lit by the sun too
     LightChoice light;

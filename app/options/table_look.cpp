@@ -12,6 +12,9 @@ namespace {
 using namespace command;
 using namespace scene_type;
 
+constexpr const char* kPhysicalSky = "physical";
+constexpr NumberRange kVisibilityRange = within(0.01, 1e4, "km");
+
 bool isLazy(const Asked& asked) {
     return asked.is("light", "lazy") || asked.is("light", "lazy-transfer");
 }
@@ -24,13 +27,18 @@ bool isTranslucent(const Asked& asked) {
 bool turnsSky(const Asked& asked) {
     return asked.given.number("turn") != 0 || asked.given.number("tilt") != 0;
 }
+bool isPhysicalSky(const Asked& asked) {
+    return asked.is("sky", kPhysicalSky);
+}
 bool isGround(const Asked& asked) {
     return asked.is("medium", "ground");
 }
 
-// A picture; of traced light also a colour.
+// A picture; of traced light also a colour; of a terrain also scattering.
 void takeSky(OptionTargets& to, const OptionValue& value) {
-    if (numbersFromText(value.text).empty())
+    if (value.text == kPhysicalSky)
+        to.scene->physicalSky = true;
+    else if (numbersFromText(value.text).empty())
         to.scene->sky = value.text;
     else
         to.scene->skyColor =
@@ -45,6 +53,21 @@ std::optional<ValueProblem> problemOfSky(const std::string& text) {
         return ValueProblem{"expected " + listText(skyNumbers()) + " or a picture, got " + shownText(text),
                             skyNumbers().advice};
     }
+}
+
+std::vector<OptionRule> skyRules() {
+    return {
+        {[](const Asked& asked) {
+             return !isTraced(asked) && !numbersFromText(asked.given.text("sky")).empty();
+         },
+         "a colour is expected with --light traced", "name a picture"},
+        {[](const Asked& asked) { return isPhysicalSky(asked) && !asked.shows(kTerrains); },
+         "physical expects a terrain, whose air it is", "name a picture"},
+        {[](const Asked& asked) { return isPhysicalSky(asked) && asked.shows(kTerrainMedium); },
+         "physical does not go with a terrain shown as a medium, which has no air", kLeaveOneOut},
+        {[](const Asked& asked) { return asked.shows(kVolumes) && !asked.has("light"); },
+         "expected with light that was baked for a CT study", "name it with --light, or leave it out"},
+    };
 }
 
 constexpr const char* kGroundAdvice = "leave it out, or choose --medium ground";
@@ -120,19 +143,26 @@ std::vector<Option> lookOptions() {
          .panel = OptionPanel::Material,
          .take = [](OptionTargets& to, const OptionValue&) { to.scene->shadeImage = true; }},
         {.key = "sky",
-         .value = fileOrWordValue({}).checked(problemOfSky),
-         .help = "a panorama or a light probe (.hdr); with --light traced also a colour",
+         .value = fileOrWordValue({kPhysicalSky}).checked(problemOfSky),
+         .help = "a panorama or a light probe (.hdr); physical: a terrain's sky and its air by scattering of "
+                 "sunlight, in the place of fog; with --light traced also a colour",
          .commands = kShowing,
          .scenes = kTerrains | kVolumes,
-         .rules = {{[](const Asked& asked) {
-                        return !isTraced(asked) && !numbersFromText(asked.given.text("sky")).empty();
-                    },
-                    "a colour is expected with --light traced", "name a picture"},
-                   {[](const Asked& asked) { return asked.shows(kVolumes) && !asked.has("light"); },
-                    "expected with light that was baked for a CT study",
-                    "name it with --light, or leave it out"}},
+         .rules = skyRules(),
          .panel = OptionPanel::Light,
          .take = [](OptionTargets& to, const OptionValue& value) { takeSky(to, value); }},
+        {.key = "visibility",
+         .value = numberValue(kVisibilityRange),
+         .help = "how far one sees at the sea through the air of --sky physical (meteorological range)",
+         .advice = "5 is haze, 60 a clear day, 250 the cleanest air",
+         .fallback = "60",
+         .commands = kShowing,
+         .scenes = kTerrains,
+         .rules = {{[](const Asked& asked) { return !isPhysicalSky(asked); }, "expected with --sky physical",
+                    "add --sky physical, or leave it out"}},
+         .panel = OptionPanel::Light,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->visibility_m = 1e3 * value.number(); }},
         {.key = "light",
          .value = fileOrWordValue({"auto", "plain", "lazy", "lazy-transfer", "traced"}),
          .help =

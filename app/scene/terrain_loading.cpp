@@ -36,6 +36,8 @@ SceneFile describeTerrain(const SceneOptions& options) {
     if (!options.image.empty()) scene.image = options.image;
     if (options.shadeImage) scene.look.shadeImage = true;
     if (!options.sky.empty()) scene.sky = options.sky;
+    if (options.physicalSky) scene.look.physicalSky = true;
+    if (options.visibility_m > 0) scene.look.visibility = options.visibility_m;
     if (options.light.kind == LightChoice::Kind::Auto) scene.light = "auto";
     if (options.light.kind == LightChoice::Kind::File) scene.light = options.light.file;
     if (options.sun) scene.look.sunAzimuth = options.sun->azimuth;
@@ -51,9 +53,10 @@ SceneFile describeTerrain(const SceneOptions& options) {
 // What can only be told once the colours are there.
 void refuseSunWithoutEffect(const SceneOptions& options, const TerrainScene& terrain) {
     if (!options.sun || shownAs(options).swept || terrain.illumination || terrain.landmarks) return;
-    if (terrain.report.colorHoldsSun || terrain.look.specular > 0) return;
+    if (terrain.report.colorHoldsSun || terrain.look.specular > 0 || terrain.look.physicalSky) return;
     throw Error("--sun", "", "turns nothing: the ground's picture holds the light of its own day",
-                "add --shade-image, or leave it out; in pictures also --light auto, once bake has baked this "
+                "add --shade-image or --sky physical, or leave it out; in pictures also --light auto, once "
+                "bake has baked this "
                 "ground's light");
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/image/texture_data.h"
 #include "engine/simd/kernel_sets.h"
+#include "terrain/light/air_data.h"
 
 namespace stereonav {
 
@@ -62,6 +63,7 @@ struct CasterScene {
     TextureData texture;
     SkyData sky;
     FogData fog;
+    AirData air;  // of a physical sky; then there is no fog
 };
 
 // A view turned so that `step` leads from steeper to higher rays (rows from bottom to top in an upright
@@ -79,6 +81,7 @@ struct CasterView {
     bool coherent = false;         // a lower ray's free length may be used for a higher one at all
     float nearDepth = 0;
     float pixelWidth = 0, pixelHeight = 0;  // at unit view depth
+    AirEye air;                             // of a physical sky
 };
 
 // The pixels of a tile: lanes from ceil(left) to ceil(right), each line a + slope * step, and steps

@@ -6,6 +6,7 @@
 #include "engine/simd/simd.h"
 #include "terrain/cast/caster_types.h"
 #include "terrain/cast/kernel_cast.h"
+#include "terrain/light/air_formula.h"
 
 namespace stereonav::STEREONAV_ISA {
 
@@ -71,6 +72,50 @@ STEREONAV_INLINE ColorHalves fogged(const FogData& fog, ColorHalves c, F through
     const I red = fogChannel(c.redBlue & low, fog.linear[0], through);
     const I green = fogChannel(c.green & low, fog.linear[1], through);
     const I blue = fogChannel(shiftRight<16>(c.redBlue) & low, fog.linear[2], through);
+    return {red | shiftLeft<16>(blue), green};
+}
+
+// What air_formula.h asks of numbers. e^-x within 3e-7, for x from -12 to 80; beyond as there.
+STEREONAV_INLINE F airExp(F x) {
+    const F y = clamp(x, F(-12.0f), F(80.0f)) * F(-1.44269504f);
+    const I whole = floorToInt(y + F(0.5f));
+    const F f = y - toFloat(whole);
+    F p = mulAdd(f, F(1.5353362e-4f), F(1.3398874e-3f));
+    p = mulAdd(f, p, F(9.6184374e-3f));
+    p = mulAdd(f, p, F(5.5503325e-2f));
+    p = mulAdd(f, p, F(2.4022648e-1f));
+    p = mulAdd(f, p, F(6.9314720e-1f));
+    p = mulAdd(f, p, F(1.0f));
+    return p * asFloat(shiftLeft<23>(whole + I(127)));
+}
+STEREONAV_INLINE F airReciprocal(F x) {
+    return approxReciprocal(x);
+}
+STEREONAV_INLINE F airLog(F x) {
+    return approxLog2(x) * F(0.69314718f);
+}
+STEREONAV_INLINE F airSqrt(F x) {
+    return x * approxRsqrt(x);
+}
+
+// One channel (14-bit square root of linear light) behind air.
+STEREONAV_INLINE I airChannel(I root, F through, F light) {
+    constexpr float kFull = 1023.0f * 16;
+    const F value = toFloat(root) * F(1 / kFull);
+    const F linear = mulAdd(value * value, through, light);
+    return truncateToInt(mulAdd(sqrt(clamp(linear, F(0.0f), F(1.0f))), F(kFull), F(0.5f)));
+}
+
+// Through the air of a physical sky: of a ray in metres with that length, of which t go to the ground.
+STEREONAV_INLINE ColorHalves aired(const AirData& air, const AirEye& eye, ColorHalves c, F x, F y, F z,
+                                   F length, F t) {
+    const F perMetre = approxReciprocal(length);
+    const F cosSun = mulAdd(x, F(air.toSun[0]), mulAdd(y, F(air.toSun[1]), z * F(air.toSun[2]))) * perMetre;
+    const AirAlong<F> along = airAlong(air, eye, t * length, z * perMetre, cosSun);
+    const I low(0xFFFF);
+    const I red = airChannel(c.redBlue & low, along.through[0], along.light[0]);
+    const I green = airChannel(c.green & low, along.through[1], along.light[1]);
+    const I blue = airChannel(shiftRight<16>(c.redBlue) & low, along.through[2], along.light[2]);
     return {red | shiftLeft<16>(blue), green};
 }
 
@@ -156,6 +201,7 @@ STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view,
         if (scene.fog.perMetre > 0) {
             color = fogged(scene.fog, color, expMinus(t * length * F(scene.fog.perMetre)));
         }
+        if (scene.air.any) color = aired(scene.air, view.air, color, x, y, rays.z, length, t);
     }
     I packed = closeColor(color);
     if (any(sky)) packed = select(sky, closeColor(skyColor(scene.sky, x, y, rays.z, sky)), packed);

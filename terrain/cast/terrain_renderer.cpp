@@ -102,6 +102,7 @@ struct TerrainRenderer::State {
     FogRowFunction changeFog;
     Specular specular;
     Fog fog;
+    SkyMap sky;  // of a physical sky whose sun has moved
     SimdTarget target;
     GroundFilter filter;
     const TerrainIllumination* light;      // null: the plain sun's
@@ -125,8 +126,25 @@ struct TerrainRenderer::State {
         }
         clear = scene;
         const glm::vec3& color = terrain.look.fogColor;
-        if (terrain.look.fogDistance > 0)
+        if (fog.air())
+            scene.air = fog.air()->data();
+        else if (terrain.look.fogDistance > 0)
             scene.fog = {static_cast<float>(1 / terrain.look.fogDistance), {color.x, color.y, color.z}};
+    }
+
+    void sunMoved(const TerrainLook& look) {
+        if (detail) scene.detail = clear.detail = detail->forKernels(look);
+        if (!fog.air()) return;
+        fog = Fog(look);
+        scene.air = fog.air()->data();
+        sky = skyMapOf(*fog.air());
+        scene.sky = clear.sky = {sky.map().row(0), sky.map().width(), sky.map().stride()};
+    }
+
+    CasterView viewOf(const EyeView& view, const Heightfield& ground) const {
+        CasterView caster = makeCasterView(view, ground);
+        if (fog.air()) caster.air = fog.air()->eyeAt(view.eye.z);
+        return caster;
     }
 };
 
@@ -139,11 +157,11 @@ std::size_t TerrainRenderer::byteCount() const {
 }
 
 int TerrainRenderer::tileCount(const EyeView& view) const {
-    return bandCount(makeCasterView(view, mScene.ground));
+    return bandCount(mState->viewOf(view, mScene.ground));
 }
 
 void TerrainRenderer::renderTile(const EyeView& view, int tile, EyeImage& image) const {
-    const CasterView caster = makeCasterView(view, mScene.ground);
+    const CasterView caster = mState->viewOf(view, mScene.ground);
     const CasterBand band = bandOf(caster, tile);
     thread_local std::vector<float> scratch;
     scratch.resize(8 * (static_cast<std::size_t>(caster.lanes) + 128));
@@ -208,7 +226,8 @@ void TerrainRenderer::shadeAgain(const EyeView& view, int y, int x0, int x1, Eye
         } else {
             highlight *= sunShownAt(view.eye + depth * ray);
         }
-        image.color.at(x, y) = packColor(mState->fog.seen(unpackColor(base) + highlight, depth * length));
+        image.color.at(x, y) =
+            packColor(mState->fog.seen(unpackColor(base) + highlight, view.eye, ray, depth));
     }
 }
 
@@ -218,7 +237,7 @@ float TerrainRenderer::sunShownAt(const glm::dvec3& place) const {
 }
 
 void TerrainRenderer::shadeRows(const EyeView& view, int y0, int y1, EyeImage& image) const {
-    const CasterView caster = makeCasterView(view, mScene.ground);
+    const CasterView caster = mState->viewOf(view, mScene.ground);
     for (int y = y0; y < y1; ++y) mState->kernels->shadeRow(mState->scene, caster, y, targetOf(image));
 }
 
@@ -251,7 +270,7 @@ void TerrainRenderer::changeAir(const EyeView& from, const EyeView& view, int y,
 }
 void TerrainRenderer::sunMoved() {
     mState->specular = specularOf(mScene, mState->light);
-    if (mState->detail) mState->scene.detail = mState->clear.detail = mState->detail->forKernels(mScene.look);
+    mState->sunMoved(mScene.look);
 }
 
 void TerrainRenderer::showLight(const TerrainIllumination& light, const ColorTexture& lit) {
@@ -266,7 +285,7 @@ SimdTarget TerrainRenderer::target() const {
 
 void TerrainRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
                                    EyeImage& image) const {
-    const CasterView caster = makeCasterView(view, mScene.ground);
+    const CasterView caster = mState->viewOf(view, mScene.ground);
     thread_local HoleSort holes;
     holes.sort(caster, bounds, pixels);
     const CasterTarget target = targetOf(image);
@@ -307,8 +326,8 @@ void TerrainRenderer::castSparse(const EyeView& view, const CasterView& caster,
 
 void TerrainRenderer::renderMoreRays(const EyeView& view, const EyeView& known, const Plane<float>& depths,
                                      PixelRect, std::span<const PixelIndex> pixels, EyeImage& image) const {
-    const CasterView caster = makeCasterView(view, mScene.ground),
-                     cast = makeCasterView(known, mScene.ground);
+    const CasterView caster = mState->viewOf(view, mScene.ground),
+                     cast = mState->viewOf(known, mScene.ground);
     const StartBeside starts(caster, cast, mState->scene.ground, depths);
     castSparse(
         view, caster, pixels, [&](PixelIndex p) { return starts.of(p); }, image);

@@ -14,6 +14,8 @@ namespace stereonav {
 
 constexpr int kBuiltInSizeMin = 17, kBuiltInSizeMax = 2049;  // samples a side of the generated terrain
 
+constexpr double kUsualVisibility = 60e3;  // metres; of a physical sky
+
 struct TerrainLook {
     double sunAzimuth = 5.5;     // radians clockwise from north; the default shines from the north-west
     double sunElevation = 0.79;  // radians above the horizon
@@ -23,6 +25,10 @@ struct TerrainLook {
     float specular = 0.0f;    // strength of the view-dependent highlight, 0: none (nothing is stored)
     float shininess = 32.0f;  // Blinn-Phong exponent
     bool shadeImage = false;  // light the colour image too (images mostly hold light already)
+    // Sky and air by scattering (terrain/light/atmosphere.h), in the place of a picture and of fog.
+    bool physicalSky = false;
+    double visibility = kUsualVisibility;  // metres: meteorological range at the sea
+    double seaLevel = 0, skySeenFrom = 0;  // world heights; the loader sets them
 };
 
 struct LandmarkFile {

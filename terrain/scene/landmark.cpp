@@ -96,11 +96,11 @@ struct LandmarkSet::State {
     MeshLight light;
     Fog fog;
 
-    PackedColor seen(const MeshHit& hit, const glm::dvec3& direction, double pixelSize,
+    PackedColor seen(const MeshHit& hit, const glm::dvec3& eye, const glm::dvec3& direction, double pixelSize,
                      bool throughFog) const {
         const glm::vec3 color = colorOf(caster.mesh(), hit, direction, pixelSize, light);
         if (!throughFog || !fog.any()) return packColor(color);
-        return packColor(fog.seen(glm::clamp(color, 0.0f, 1.0f), hit.t * glm::length(direction)));
+        return packColor(fog.seen(glm::clamp(color, 0.0f, 1.0f), eye, direction, hit.t));
     }
 };
 
@@ -123,7 +123,8 @@ void LandmarkSet::cast(const EyeView& view, int count, const glm::dvec3* directi
         for (int k = 0; k < lanes; ++k) {
             if (hits[k].triangle == MeshHit::kNone) continue;
             viewDepth[first + k] = static_cast<float>(hits[k].t);
-            color[first + k] = mState->seen(hits[k], direction[first + k], view.pixelHeight(), throughFog);
+            color[first + k] =
+                mState->seen(hits[k], view.eye, direction[first + k], view.pixelHeight(), throughFog);
         }
     }
 }

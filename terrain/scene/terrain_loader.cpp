@@ -13,6 +13,7 @@
 #include "engine/base/error.h"
 #include "terrain/built_in/built_in_terrain.h"
 #include "terrain/ground/nodata.h"
+#include "terrain/light/atmosphere.h"
 #include "terrain/light/sky_source.h"
 #include "terrain/read/dem_reader.h"
 #include "terrain/read/height_limits.h"
@@ -173,6 +174,22 @@ Pose startPoseOf(const SceneFile& file, const TerrainScene& scene) {
     return poseFromAngles(position, file.startHeading, file.startPitch, file.startRoll);
 }
 
+// A physical sky counts heights from the sea where the ground is on the Earth or generated, else from the
+// lowest sample.
+void loadSky(const SceneFile& file, TerrainScene& scene) {
+    if (!file.look.physicalSky) {
+        SkySource sky = readSky(file.sky);
+        scene.sky = std::move(sky.map);
+        scene.report.skySource = std::move(sky.source);
+        return;
+    }
+    scene.look.seaLevel = scene.earth || file.builtIn ? 0.0 : scene.ground.minHeight();
+    scene.look.skySeenFrom = scene.startPose.position.z;
+    scene.sky = skyMapOf(Atmosphere(scene.look));
+    scene.report.skySource =
+        fmt::format("scattering in the air, visibility {:g} km", 1e-3 * file.look.visibility);
+}
+
 // Distance along the view axis to the ground; nullopt where it meets none within the ground's extent.
 std::optional<double> distanceToGround(const Heightfield& ground, const Pose& pose) {
     const glm::dvec3 d = pose.forward();
@@ -225,18 +242,16 @@ TerrainScene loadTerrain(const SceneFile& file, Progress& progress) {
     LoadedGround loaded = file.builtIn ? loadBuiltIn(file, scene, progress) : loadDem(file, scene, progress);
     scene.look = file.look;
     loadColor(file, loaded, scene, progress);
-    SkySource sky = readSky(file.sky);
-    scene.sky = std::move(sky.map);
-    scene.report.skySource = std::move(sky.source);
-    if (!file.light.empty()) loadLight(file, scene, progress);
-    if (!file.landmarks.empty())
-        scene.landmarks = std::make_unique<LandmarkSet>(file.landmarks, scene.ground, file.look);
     const glm::dvec2 spacing = scene.ground.spacing();
     scene.clearance =
         file.clearance > 0 ? file.clearance : kClearancePerSpacing * std::max(spacing.x, spacing.y);
     scene.lens.verticalFov = file.verticalFov;
     scene.lens.nearDepth = std::min(kNearPerSpacing * std::min(spacing.x, spacing.y), 0.25 * scene.clearance);
     scene.startPose = startPoseOf(file, scene);
+    loadSky(file, scene);
+    if (!file.light.empty()) loadLight(file, scene, progress);
+    if (!file.landmarks.empty())
+        scene.landmarks = std::make_unique<LandmarkSet>(file.landmarks, scene.ground, scene.look);
     scene.path = pathOf(file, scene);
     scene.stereo = stereoOf(file, scene);
     scene.eyesGiven = file.separation || file.zeroParallax;

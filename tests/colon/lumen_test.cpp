@@ -104,6 +104,85 @@ TEST(LumenFromMask, ASphereKeepsItsVoxelsAndItsPlaceInSpace) {
     EXPECT_NEAR(lumen.segments[0].volume, 4.18879 * 0.012 * 0.012 * 0.012, 1e-7);
 }
 
+// Of a wall whose distance is known: how far it lies off, and its normals (of the field's differences over a
+// voxel either way) on average.
+struct WallErrors {
+    double rms_voxels = 0, mean_deg = 0;
+};
+WallErrors wallErrors(const std::function<double(glm::dvec3)>& distance) {
+    constexpr int kSide = 56, kLeft = 14;  // what the volume's faces change is left out
+    const VolumeFrame frame = frameOf(glm::ivec3(kSide));
+    const LumenField lumen = lumenOf(maskWhere(frame, [&](glm::dvec3 p) {
+        const glm::dvec3 v = p / 0.001;
+        const bool within = glm::all(glm::greaterThan(v, glm::dvec3(2.5))) &&
+                            glm::all(glm::lessThan(v, glm::dvec3(kSide - 3.5)));
+        return within && distance(v) < 0;
+    }));
+    const GreyVolume& field = lumen.field;
+    const auto voxelAt = [&](int i, int j, int k) {
+        return frame.voxelFromWorld(field.frame.worldFromVoxel({i, j, k}));
+    };
+    const auto gradient = [&](glm::ivec3 at) {
+        return glm::dvec3(field.at(at.x + 1, at.y, at.z) - field.at(at.x - 1, at.y, at.z),
+                          field.at(at.x, at.y + 1, at.z) - field.at(at.x, at.y - 1, at.z),
+                          field.at(at.x, at.y, at.z + 1) - field.at(at.x, at.y, at.z - 1));
+    };
+    WallErrors errors;
+    int count = 0;
+    for (int k = 1; k + 1 < field.frame.size.z; ++k)
+        for (int j = 1; j + 1 < field.frame.size.y; ++j)
+            for (int i = 1; i + 1 < field.frame.size.x; ++i)
+                for (int axis = 0; axis < 3; ++axis) {
+                    glm::ivec3 next(i, j, k);
+                    ++next[axis];
+                    const double a = field.at(i, j, k) - lumen.isovalue,
+                                 b = field.at(next.x, next.y, next.z) - lumen.isovalue;
+                    if ((a < 0) == (b < 0)) continue;
+                    const double share = a / (a - b);
+                    const glm::dvec3 hit = glm::mix(voxelAt(i, j, k), voxelAt(next.x, next.y, next.z), share);
+                    if (glm::any(glm::lessThan(hit, glm::dvec3(kLeft))) ||
+                        glm::any(glm::greaterThan(hit, glm::dvec3(kSide - kLeft))) ||
+                        glm::any(glm::greaterThanEqual(next, field.frame.size - 1)))
+                        continue;
+                    const glm::dvec3 normal =
+                        glm::normalize(glm::mix(gradient({i, j, k}), gradient(next), share));
+                    glm::dvec3 truth(0.0);
+                    for (int c = 0; c < 3; ++c) {
+                        glm::dvec3 step(0.0);
+                        step[c] = 1e-4;
+                        truth[c] = distance(hit + step) - distance(hit - step);
+                    }
+                    errors.rms_voxels += distance(hit) * distance(hit);
+                    errors.mean_deg +=
+                        std::acos(std::min(1.0, glm::dot(normal, glm::normalize(truth)))) * 57.29578;
+                    ++count;
+                }
+    EXPECT_GT(count, 500);
+    errors.rms_voxels = std::sqrt(errors.rms_voxels / count);
+    errors.mean_deg /= count;
+    return errors;
+}
+
+// The voxel centres of a mask leave half a voxel open to either side; in it the wall is as smooth as its
+// shape. With a plain Gaussian of 1.5 voxels normals were off by 2.3, 2.9 and 4.9 degrees.
+TEST(LumenFromMask, WallsShowNoStairs) {
+    const glm::dvec3 middle(27.7, 28.2, 28.4);
+    const WallErrors sphere = wallErrors([&](glm::dvec3 p) { return glm::distance(p, middle) - 12; });
+    EXPECT_LT(sphere.rms_voxels, 0.2);
+    EXPECT_LT(sphere.mean_deg, 2.2);
+    const glm::dvec3 along = glm::normalize(glm::dvec3(1, 0.12, 0.07));
+    const WallErrors tube = wallErrors([&](glm::dvec3 p) {
+        p -= middle;
+        return glm::length(p - along * glm::dot(along, p)) - 8;
+    });
+    EXPECT_LT(tube.rms_voxels, 0.18);
+    EXPECT_LT(tube.mean_deg, 2.5);
+    const glm::dvec3 up = glm::normalize(glm::dvec3(-1, -0.31, 8));
+    const WallErrors plane = wallErrors([&](glm::dvec3 p) { return glm::dot(up, p - middle); });
+    EXPECT_LT(plane.rms_voxels, 0.1);
+    EXPECT_LT(plane.mean_deg, 3.4);
+}
+
 TEST(LumenFromMask, ThinWallsAndThinNecksStay) {
     const MaskVolume mask = maskWhere(frameOf({40, 30, 30}), [](glm::dvec3 p) {
         const glm::ivec3 v(glm::floor(p * 1000.0 + 0.5));
