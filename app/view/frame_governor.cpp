@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace stereonav {
 namespace {
@@ -12,7 +13,13 @@ constexpr double kHopeless = 8;      // one is; of a medium, whose next one woul
 constexpr double kSlowMedium = 2.5;
 constexpr double kRoom = 0.95;      // of the target: what a larger size may cost
 constexpr std::size_t kLooked = 3;  // frames that are looked at
-constexpr int kFirstHold = 2;       // frames before it goes up
+// Of noise, such as another program's share of the processor: less of it changes nothing, and this much of it
+// is one more frame to look at before the size goes down or up.
+constexpr double kQuiet = 0.15, kMoreDown = 0.06, kMoreUp = 0.015;
+constexpr std::size_t kMostMoreDown = 5, kMostMoreUp = 27;
+constexpr double kNewestNoise = 0.06;  // of the newest difference in the mean
+constexpr double kFits = 0.85;         // share of the frames that have to have room in the larger size
+constexpr int kFirstHold = 2;          // frames before it goes up
 constexpr int kMostBackOff = 64;
 constexpr int kSteadyFrames = 120;  // that a step up has to last, so that failed ones are forgotten
 constexpr double kMostFixed = 0.8;
@@ -29,8 +36,17 @@ double FrameGovernor::shareOf(std::size_t step) const {
     return kScales[step] * kScales[step] * (mEfforts ? kEfforts[step] : 1);
 }
 
+std::size_t FrameGovernor::moreLooks(double each, std::size_t most) const {
+    return std::min(most, static_cast<std::size_t>(std::max(0.0, mNoise - kQuiet) / each));
+}
+
+double FrameGovernor::known_ms() const {
+    const std::size_t count = std::min(mLast.size(), kLooked + moreLooks(kMoreDown, kMostMoreDown));
+    return middleOf({mLast.end() - static_cast<std::ptrdiff_t>(count), mLast.end()});
+}
+
 double FrameGovernor::predicted(std::size_t step) const {
-    const double known = mLast.empty() ? mBefore : middleOf(mLast);
+    const double known = mLast.empty() ? mBefore : known_ms();
     const double here = mFixed + (1 - mFixed) * (mLast.empty() ? mShareBefore : shareOf(mStep));
     const double there = mFixed + (1 - mFixed) * shareOf(step);
     return known * there / here;
@@ -61,7 +77,7 @@ void FrameGovernor::learn(double share, double ms) {
 void FrameGovernor::step(std::size_t to) {
     mWentUp = to < mStep;
     mShareBefore = shareOf(mStep);
-    mBefore = middleOf(mLast);
+    mBefore = known_ms();
     mStep = to;
     mSinceStep = 0;
     mHold = kFirstHold * mBackOff;
@@ -102,8 +118,10 @@ void FrameGovernor::took(const Size& size, double ms, double area) {
         (mEfforts && std::abs(size.effort - effort()) > kSameScale))
         return;
     ms *= partOf(area, mStep);
+    if (!mLast.empty())
+        mNoise += kNewestNoise * (std::abs(ms - mLast.back()) / std::max(ms, mLast.back()) - mNoise);
     mLast.push_back(ms);
-    if (mLast.size() > kLooked) mLast.pop_front();
+    if (mLast.size() > kLooked + kMostMoreUp) mLast.pop_front();
     ++mSinceStep;
     if (mSinceStep == 1) learn(shareOf(mStep), ms);
     if (mWentUp && mSinceStep > kSteadyFrames) mBackOff = 1;
@@ -111,18 +129,24 @@ void FrameGovernor::took(const Size& size, double ms, double area) {
         return *std::min_element(mLast.end() - static_cast<std::ptrdiff_t>(count), mLast.end());
     };
     const double target = targetOf(mStep);
+    const std::size_t more = moreLooks(kMoreDown, kMostMoreDown);
     const bool slow = least(1) > (mMedium ? kSlowMedium : kHopeless) * target ||
-                      (mLast.size() >= 2 && least(2) > kFarTooSlow * target) ||
-                      (mLast.size() == kLooked && least(kLooked) > kTooSlow * target);
+                      (mLast.size() >= 2 + more && least(2 + more) > kFarTooSlow * target) ||
+                      (mLast.size() >= kLooked + more && known_ms() > kTooSlow * target &&
+                       least(kLooked) > kTooSlow * target);
     if (slow && mStep + 1 < steps()) {
         if (mWentUp) mBackOff = std::min(2 * mBackOff, kMostBackOff);
         return stepDown();
     }
     // One that goes on upwards was looked at before.
-    const std::size_t enough = mWentUp && mSinceStep < static_cast<int>(kLooked) ? kLooked - 1 : kLooked;
+    const std::size_t first = mWentUp && mSinceStep < static_cast<int>(kLooked) ? kLooked - 1 : kLooked;
+    const std::size_t enough = first + moreLooks(kMoreUp, kMostMoreUp);
     if (mLast.size() < enough || mSinceStep < mHold || mStep == 0) return;
-    // Of the slowest of them.
-    const double spread = *std::max_element(mLast.begin(), mLast.end()) / middleOf(mLast);
+    // Of the slowest of them, but for a few.
+    std::vector<double> looked(mLast.end() - static_cast<std::ptrdiff_t>(enough), mLast.end());
+    std::sort(looked.begin(), looked.end());
+    const double rank = std::ceil(kFits * static_cast<double>(enough));
+    const double spread = looked[static_cast<std::size_t>(rank) - 1] / known_ms();
     std::size_t to = mStep;
     while (to > 0 && spread * predicted(to - 1) <= kRoom * targetOf(to - 1)) --to;
     if (to < mStep) step(to);
@@ -130,6 +154,7 @@ void FrameGovernor::took(const Size& size, double ms, double area) {
 
 void FrameGovernor::forget() {
     mLast.clear();
+    mNoise = 0;
     mBefore = mFixed = 0;
     mSinceStep = mHold = 0;
     mBackOff = 1;

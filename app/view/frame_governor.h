@@ -63,10 +63,14 @@ private:
     // What a frame of area 1 may take, so that those of now keep to the target.
     double targetOf(std::size_t step) const { return mTarget * partOf(mArea, step); }
     void stepDown();
+    // More frames than usual that are looked at, where they cost now this and now that.
+    std::size_t moreLooks(double each, std::size_t most) const;
+    double known_ms() const;  // of a frame in this size
 
     double mTarget, mArea = 1;
     std::size_t mStep = 0;
     std::deque<double> mLast;              // milliseconds at this size and area 1, newest last
+    double mNoise = 0;                     // mean difference of neighbours in it, of the larger one
     double mFixed = 0;                     // share of a full frame's cost that no size changes
     double mShareBefore = 0, mBefore = 0;  // the size before this one, and its cost
     int mSinceStep = 0, mHold = 0;         // frames

@@ -3,9 +3,6 @@
 
 #include <epoxy/gl.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
 #include <map>
 #include <utility>
 
@@ -79,15 +76,6 @@ private:
 };
 
 }  // namespace
-
-bool drawsInSoftware(std::string_view renderer) {
-    std::string name(renderer);
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    constexpr std::array kSoftware{"llvmpipe", "softpipe", "swrast", "swiftshader", "software"};
-    return std::any_of(kSoftware.begin(), kSoftware.end(),
-                       [&](const char* known) { return name.find(known) != std::string::npos; });
-}
 
 SweepChooser gpuSweep(HiddenContext* context, SweepChoice choice,
                       std::function<void(const std::string&)> tell) {

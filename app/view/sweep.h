@@ -9,15 +9,13 @@
 #include <string_view>
 
 #include "app/options/option_types.h"
+#include "engine/display/renderer_name.h"
 #include "engine/medium/sweep/swept_frames.h"
 
 namespace stereonav {
 
 class HiddenContext;
 class Scene;
-
-// Whether this GL_RENDERER draws on the processor, by its name.
-bool drawsInSoftware(std::string_view renderer);
 
 // Sweeps one scene's media in `context`, or in what is current where that is null, and goes on with the
 // processor for good where it can not, telling why.

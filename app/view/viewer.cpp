@@ -73,6 +73,7 @@ Viewer::~Viewer() {
     cancelJob();  // ends while the rest does
     mControls.reset();
     mWindow.use();
+    mLateGpu.reset();
     mPanels.forget();
 }
 
@@ -350,6 +351,7 @@ void Viewer::takeSlice() {
     mSliceVersion = mSession->sliceVersion();
     mPresenter.upload(picture, {});
     mPicture = {};
+    mOnGpu = false;
     mNewFrame = true;
 }
 

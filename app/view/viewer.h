@@ -30,6 +30,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/display/eye_overlay.h"
 #include "engine/display/interface.h"
+#include "engine/display/late_warp_gpu.h"
 #include "engine/display/stereo_presenter.h"
 #include "engine/display/window.h"
 #include "engine/late/late_guard.h"
@@ -151,6 +152,8 @@ private:
     bool warps() const;
     bool lateDue() const;
     void showLate();
+    bool showLateOnGpu();  // false: there is none that can
+    bool drawsLateOnGpu();
     FrameGovernor::Size sizeNow(bool screenshot);
     double latePeriod() const;  // seconds between pictures that are warped
     void stepBench();
@@ -216,6 +219,11 @@ private:
     LateLead mLead;
     FrameGovernor mGovernor;
     GuardBand mGuard;
+    // Where a graphics card draws; null else.
+    std::unique_ptr<LateWarpGpu> mLateGpu;
+    bool mLateGpuDecided = false;
+    bool mOnGpu = false;  // what is shown was warped there: mPicture's eyes are those that were cast
+    std::shared_ptr<const ViewFrame> mLateGpuHas;
     std::optional<FrameGovernor::Size> mRestSize;  // of the first picture at rest
     LatePace mLatePace;
     double mLateShown = 0;  // when the last picture came: seconds

@@ -1,9 +1,15 @@
 // The viewer's part that asks for frames and shows the newest one as it is seen now.
+#include <epoxy/gl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <string_view>
+#include <utility>
 
+#include "app/view/eye_marks.h"
 #include "app/view/viewer.h"
+#include "engine/display/renderer_name.h"
 
 namespace stereonav {
 
@@ -89,19 +95,60 @@ void Viewer::showFrame() {
     using Eye = StereoPresenter::SharedEye;
     const Eye left(mFrame, &mFrame->left.color), right(mFrame, &mFrame->right.color);
     mPresenter.show(left, right);
+    mOnGpu = false;
     mPicture = {left, right, mFrame->request, mFrame->request, false};
     mNewFrame = true;
+}
+
+// STEREONAV_LATE_WARP=gpu or cpu says it for tests.
+bool Viewer::drawsLateOnGpu() {
+    if (std::exchange(mLateGpuDecided, true)) return mLateGpu != nullptr;
+    const char* const said = std::getenv("STEREONAV_LATE_WARP");
+    const auto* const renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const bool wanted = said ? std::string_view(said) == "gpu" : renderer && !drawsInSoftware(renderer);
+    if (!wanted) return false;
+    auto gpu = std::make_unique<LateWarpGpu>();
+    if (gpu->works()) mLateGpu = std::move(gpu);
+    return mLateGpu != nullptr;
+}
+
+bool Viewer::showLateOnGpu() {
+    mWindow.use();
+    if (!drawsLateOnGpu()) return false;
+    const StereoViews views = viewsOf(mPresent);
+    const std::size_t eyes = mPresent.twoEyes ? 2 : 1;
+    std::array<GLuint, 2> drawn{};
+    for (std::size_t n = 0; n < eyes; ++n) {
+        const EyeImage& eye = n == 0 ? mFrame->left : mFrame->right;
+        if (mLateGpuHas != mFrame) mLateGpu->take(n, mFrame->late[n], eye.color);
+        drawn[n] = mLateGpu->warp(n, mFrame->late[n], n == 0 ? views.left : views.right);
+    }
+    mLateGpuHas = mFrame;
+    mPresenter.showTextures(drawn[0], drawn[1], mPresent.lens.width, mPresent.lens.height);
+    using Eye = StereoPresenter::SharedEye;
+    mPicture = {Eye(mFrame, &mFrame->left.color), Eye(mFrame, &mFrame->right.color), mPresent,
+                mFrame->request, true};
+    if (!mBench) return true;
+    // It is held against truths later.
+    const auto read = std::make_shared<LateView::Eyes>();
+    for (std::size_t n = 0; n < eyes; ++n) mLateGpu->read(n, (*read)[n]);
+    mPicture.left = Eye(read, &(*read)[0]);
+    mPicture.right = Eye(read, &(*read)[1]);
+    return true;
 }
 
 void Viewer::showLate() {
     const double now = Window::now();
     // Even where a turn came late now and then.
     mLateShown = std::max(mLateShown + latePeriod(), now - latePeriod() / 2);
-    const std::shared_ptr<const LateView::Eyes> eyes = mLate.warp(*mFrame, mPresent);
-    using Eye = StereoPresenter::SharedEye;
-    const Eye left(eyes, &(*eyes)[0]), right(eyes, &(*eyes)[1]);
-    mPresenter.show(left, right);
-    mPicture = {left, right, mPresent, mFrame->request, true};
+    mOnGpu = showLateOnGpu();
+    if (!mOnGpu) {
+        const std::shared_ptr<const LateView::Eyes> eyes = mLate.warp(*mFrame, mPresent);
+        using Eye = StereoPresenter::SharedEye;
+        const Eye left(eyes, &(*eyes)[0]), right(eyes, &(*eyes)[1]);
+        mPresenter.show(left, right);
+        mPicture = {left, right, mPresent, mFrame->request, true};
+    }
     if (mSession->flying()) mGuard.saw(LateView::seenBeyond(*mFrame, mPresent), now);
     mRate.count(mSession->moving());
     mNewFrame = true;

@@ -34,8 +34,9 @@ std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
 }
 
 bool Viewer::drawOverlay(const OutputModeInfo& mode) {
-    const glm::ivec2 size =
-        mPicture.left ? glm::ivec2(mPicture.left->width(), mPicture.left->height()) : glm::ivec2(0);
+    const glm::ivec2 size = mOnGpu          ? glm::ivec2(mPicture.of.lens.width, mPicture.of.lens.height)
+                            : mPicture.left ? glm::ivec2(mPicture.left->width(), mPicture.left->height())
+                                            : glm::ivec2(0);
     const bool changed = mOverlay.draw(mInterface, size, marks(mode));
     mPresenter.setLayers(mOverlay.layers());
     return changed;

@@ -84,7 +84,19 @@ void StereoPresenter::show(SharedEye left, SharedEye right) {
     mHeight = left->height();
     mEyes[0].picture = std::move(left);
     mEyes[1].picture = std::move(right);
-    for (Eye& eye : mEyes) eye.uploaded = eye.plain = false;
+    for (Eye& eye : mEyes) {
+        eye.uploaded = eye.plain = false;
+        eye.given = 0;
+    }
+}
+
+void StereoPresenter::showTextures(GLuint left, GLuint right, int width, int height) {
+    mOneEye = right == 0;
+    mWidth = width;
+    mHeight = height;
+    mEyes[0].given = left;
+    mEyes[1].given = right;
+    for (Eye& eye : mEyes) eye.picture = nullptr;
 }
 
 void StereoPresenter::upload(const Plane<PackedColor>& left, const Plane<PackedColor>& right) {
@@ -93,7 +105,7 @@ void StereoPresenter::upload(const Plane<PackedColor>& left, const Plane<PackedC
 
 void StereoPresenter::uploadEye(std::size_t which) const {
     Eye& eye = mEyes[which];
-    if (std::exchange(eye.uploaded, true)) return;
+    if (eye.given != 0 || std::exchange(eye.uploaded, true)) return;
     glBindTexture(GL_TEXTURE_2D, eye.texture.name());
     if (eye.width != mWidth || eye.height != mHeight) {
         glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB10_A2, mWidth, mHeight, 0, GL_RGBA,
@@ -114,6 +126,7 @@ void StereoPresenter::uploadEye(std::size_t which) const {
 
 bool StereoPresenter::copyEye(std::size_t which, const Viewport& viewport) const {
     Eye& eye = mEyes[which];
+    if (eye.given != 0) return false;  // drawn by the shader
     glActiveTexture(GL_TEXTURE0);
     if (!std::exchange(eye.plain, true)) mPlain.upload(which, *eye.picture);
     if (!mPlain.copy(which, viewport.x, viewport.y)) return false;
@@ -185,9 +198,9 @@ void StereoPresenter::drawPass(Pass pass, int first, int second, const Viewport&
         glBindTexture(GL_TEXTURE_2D, (*mLayers)[static_cast<std::size_t>(first)].texture);
     }
     glActiveTexture(GL_TEXTURE1);
-    glBindTexture(GL_TEXTURE_2D, mEyes[static_cast<std::size_t>(second)].texture.name());
+    glBindTexture(GL_TEXTURE_2D, mEyes[static_cast<std::size_t>(second)].name());
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, mEyes[static_cast<std::size_t>(first)].texture.name());
+    glBindTexture(GL_TEXTURE_2D, mEyes[static_cast<std::size_t>(first)].name());
     glUniform2i(program.location("uEyeSize"), mWidth, mHeight);
     glUniform4i(program.location("uViewport"), viewport.x, viewport.y, viewport.width, viewport.height);
     glUniform2f(program.location("uScale"),

@@ -46,6 +46,10 @@ public:
     // uploaded when they are drawn, as what is drawn needs them. Throws Error where the sizes differ or
     // exceed the driver's textures.
     void show(SharedEye left, SharedEye right);
+    // Eyes that lie on the graphics processor already (engine/display/late_warp_gpu.h): textures of this
+    // size, row 0 on top, which stay as they are until they were drawn. right 0: the left eye stands for
+    // both.
+    void showTextures(GLuint left, GLuint right, int width, int height);
     // Copies of them.
     void upload(const Plane<PackedColor>& left, const Plane<PackedColor>& right);
     bool hasPicture() const { return mWidth > 0; }
@@ -82,6 +86,8 @@ private:
         GlTexture texture;
         int width = 0, height = 0;  // of the texture
         bool uploaded = false, plain = false;
+        GLuint given = 0;  // in the place of the texture
+        GLuint name() const { return given != 0 ? given : texture.name(); }
     };
     mutable std::array<Eye, 2> mEyes;
     mutable PlainEyes mPlain;

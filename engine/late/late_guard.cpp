@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace stereonav {
@@ -70,15 +71,22 @@ void GuardBand::saw(const glm::dvec2& beyond, double now_s) {
         std::vector<double> values;
         for (const Seen& seen : mSeen) values.push_back(seen.beyond[axis]);
         const int wanted = static_cast<int>(std::ceil(std::min(mostOf(values), kMost) / kStep - 1e-9));
-        // The past alone says that less is enough.
-        const bool known = now_s - mSeen.front().at > 0.9 * kRemembered_s;
-        if (wanted > mSteps[axis] || known) mSteps[axis] = wanted;
+        if (wanted >= mSteps[axis]) {
+            mSteps[axis] = wanted;
+            mLower[axis] = 0;
+            mLowerSince[axis] = now_s;
+            continue;
+        }
+        mLower[axis] = std::max(mLower[axis], wanted);
+        if (now_s - mLowerSince[axis] < kHold_s) continue;
+        mSteps[axis] = std::exchange(mLower[axis], 0);
+        mLowerSince[axis] = now_s;
     }
 }
 
 void GuardBand::forget() {
     mSeen.clear();
-    mSteps = glm::ivec2(0);
+    mSteps = mLower = glm::ivec2(0);
 }
 
 }  // namespace stereonav

@@ -22,8 +22,9 @@ glm::dvec2 seenBeyond(const LateEye& eye, const glm::ivec2& guard, const EyeView
 // and it goes by steps: frames of one size use memory again.
 class GuardBand {
 public:
-    static constexpr double kStep = 0.02, kMost = 0.12;  // of the width or the height, at each side
-    static constexpr double kRemembered_s = 1;
+    static constexpr double kStep = 0.03, kMost = 0.12;  // of the width or the height, at each side
+    static constexpr double kRemembered_s = 1;           // of what was seen
+    static constexpr double kHold_s = 2;                 // less has been enough for so long before it shrinks
 
     // A picture was shown: seenBeyond() of it.
     void saw(const glm::dvec2& beyond, double now_s);
@@ -37,7 +38,8 @@ private:
         glm::dvec2 beyond{0.0};
     };
     std::deque<Seen> mSeen;
-    glm::ivec2 mSteps{0};
+    glm::ivec2 mSteps{0}, mLower{0};  // the second: that would have been enough since then
+    glm::dvec2 mLowerSince{0.0};
 };
 
 }  // namespace stereonav

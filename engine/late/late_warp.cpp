@@ -203,6 +203,25 @@ LatePlan LateEye::planOf(const LateMove& move, int x0, int y0, int x1, int y1, f
     return plan;
 }
 
+void LateEye::planRow(const LateMove& move, const EyeView& to, int tileRow, LatePlan* plans) const {
+    // What is nearer than the near plane is not seen any more.
+    const double near = to.nearDepth + static_cast<double>(move.shift[2]);
+    const float nearestSeen = near > 0 ? static_cast<float>(1 / near) : 1e30f;
+    const int across = tilesFor(to.width, kLateTileWidth), top = tileRow * kLateTileHeight;
+    for (int tile = 0; tile < across; ++tile)
+        plans[tile] =
+            planOf(move, tile * kLateTileWidth, top, std::min(to.width, (tile + 1) * kLateTileWidth),
+                   std::min(to.height, top + kLateTileHeight), nearestSeen);
+}
+
+LateMove LateEye::planAll(const EyeView& to, std::vector<LatePlan>& plans) const {
+    const LateMove move = lateMove(mView, to);
+    const int across = tilesFor(to.width, kLateTileWidth), down = tilesFor(to.height, kLateTileHeight);
+    plans.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+    for (int row = 0; row < down; ++row) planRow(move, to, row, plans.data() + row * across);
+    return move;
+}
+
 void LateEye::warp(const Plane<PackedColor>& color, const EyeView& to, Plane<PackedColor>& image,
                    Plane<std::uint8_t>* uncovered, bool parallel) const {
     image.resize(to.width, to.height);
@@ -212,17 +231,11 @@ void LateEye::warp(const Plane<PackedColor>& color, const EyeView& to, Plane<Pac
     const LateKernels& kernels = kernelsFor(mSimd);
     const LateSource source{mInverse.width(),  mInverse.height(), mInverse.row(0),
                             mInverse.stride(), color.row(0),      color.stride()};
-    // What is nearer than the near plane is not seen any more.
-    const double near = to.nearDepth + static_cast<double>(move.shift[2]);
-    const float nearestSeen = near > 0 ? static_cast<float>(1 / near) : 1e30f;
     const int across = tilesFor(to.width, kLateTileWidth), down = tilesFor(to.height, kLateTileHeight);
     const auto band = [&](int tileRow) {
         const int top = tileRow * kLateTileHeight, rows = std::min(kLateTileHeight, to.height - top);
         std::vector<LatePlan> plans(static_cast<std::size_t>(across));
-        for (int tile = 0; tile < across; ++tile)
-            plans[static_cast<std::size_t>(tile)] =
-                planOf(move, tile * kLateTileWidth, top, std::min(to.width, (tile + 1) * kLateTileWidth),
-                       top + rows, nearestSeen);
+        planRow(move, to, tileRow, plans.data());
         LateBand all{&source, &move,          plans.data(),   to.width, top,
                      rows,    image.row(top), image.stride(), nullptr,  0};
         if (uncovered) {

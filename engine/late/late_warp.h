@@ -38,8 +38,14 @@ public:
     void warp(const Plane<PackedColor>& color, const EyeView& to, Plane<PackedColor>& image,
               Plane<std::uint8_t>* uncovered = nullptr, bool parallel = false) const;
 
+    // For who warps it elsewhere: inverse depths, and how each tile of the new picture is to be looked up,
+    // row by row. ready() holds.
+    const Plane<float>& inverse() const { return mInverse; }
+    LateMove planAll(const EyeView& to, std::vector<LatePlan>& plans) const;
+
 private:
     void measure(const Plane<float>& depth);
+    void planRow(const LateMove& move, const EyeView& to, int tileRow, LatePlan* plans) const;
     LatePlan planOf(const LateMove& move, int x0, int y0, int x1, int y1, float nearestSeen) const;
 
     bool mReady = false;

@@ -1,0 +1,49 @@
+// The late warp (engine/late) by a fragment shader: from pictures that lie on the graphics processor to
+// pictures that stay there.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "engine/display/gl_object.h"
+#include "engine/display/shader_program.h"
+#include "engine/late/late_warp.h"
+
+namespace stereonav {
+
+// Needs a current OpenGL 3.3 core context, the same for all calls; one thread.
+class LateWarpGpu {
+public:
+    LateWarpGpu();
+    // False where the driver can not draw into eyes of ten bits; nothing else works then.
+    bool works() const { return mWorks; }
+
+    // An eye that was cast and prepared, from now on; uploads it.
+    void take(std::size_t eye, const LateEye& late, const Plane<PackedColor>& color);
+    // It as `to` sees it. The texture holds it until the next call for this eye: RGB10_A2, row 0 on top,
+    // alpha where nothing was seen before. take() came first, and `late` is the same.
+    GLuint warp(std::size_t eye, const LateEye& late, const EyeView& to);
+
+    // The last one, and where it is uncovered (255) or null. For tests and what is looked at later.
+    void read(std::size_t eye, Plane<PackedColor>& image, Plane<std::uint8_t>* uncovered = nullptr) const;
+
+private:
+    struct Eye {
+        GlTexture color, inverse, plans, image;
+        GlFramebuffer framebuffer;
+        int width = 0, height = 0;            // of the picture that was cast
+        int across = 0, down = 0;             // of the plans
+        int shownWidth = 0, shownHeight = 0;  // of the new picture
+    };
+    void sizeImage(Eye& eye, int width, int height);
+
+    ShaderProgram mProgram;
+    GlVertexArray mVertices;
+    std::array<Eye, 2> mEyes;
+    std::vector<LatePlan> mPlans;
+    std::vector<float> mTexels;
+    bool mWorks = true;
+};
+
+}  // namespace stereonav
