@@ -111,7 +111,7 @@ STEREONAV_AIR_INLINE AirAlong<N> airAlong(const AirData& air, const AirEye& eye,
     // The parting point by its share of the haze, which says how high it lies.
     const N share = airHalf(
         mulAdd(N(kGreenOfRed), point[2].redSun - point[0].redSun, point[2].greySun - point[0].greySun));
-    const N haze1 = mulAdd(share, haze2 - haze0, haze0);
+    const N haze1 = max(mulAdd(share, haze2 - haze0, haze0), N(1e-30f));
     const auto level = abs(fallHaze) < N(0.01f);
     const N place = select(
         level, share, airLog(haze0 * airReciprocal(haze1)) * airReciprocal(select(level, N(1.0f), fallHaze)));
