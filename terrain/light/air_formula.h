@@ -147,7 +147,7 @@ STEREONAV_AIR_INLINE AirAlong<N> airAlong(const AirData& air, const AirEye& eye,
                     N(air.ambient[c]) * again *
                         (from.dense * airPower(c, from.thin) - to.dense * airPower(c, to.thin));
         }
-        along.light[c] = light;
+        along.light[c] = max(light, N(0.0f));  // differences are rounded
         along.through[c] = point[2].dense * airPower(c, point[2].thin);
     }
     return along;
