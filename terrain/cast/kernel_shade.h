@@ -94,8 +94,8 @@ STEREONAV_INLINE F airReciprocal(F x) {
 STEREONAV_INLINE F airLog(F x) {
     return approxLog2(x) * F(0.69314718f);
 }
-STEREONAV_INLINE F airSqrt(F x) {
-    return x * approxRsqrt(x);
+STEREONAV_INLINE F airRsqrt(F x) {
+    return approxRsqrt(x);
 }
 
 // One channel (14-bit square root of linear light) behind air.

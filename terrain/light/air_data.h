@@ -28,6 +28,7 @@ struct AirEye {
     float height = 0;  // above the sea, at most kTopOfAir
     float above = 0;   // metres of the eye above that
     float density[2] = {};
+    float share[3] = {};                      // of molecules in the extinction there
     float sunDepth[2] = {}, sunLeft[2] = {};  // towards the sun: red of molecules, haze; and e^- of it
 };
 

@@ -9,7 +9,7 @@
 // both. tests/terrain/atmosphere_test.cpp holds it against the plain integral (Atmosphere::plainAlong).
 //
 // A template for vectors of kernels and for double: N has the operators of numbers, min, max, select, mulAdd,
-// abs, and airExp(x) = e^-x, airLog (rough: within 0.01), airReciprocal, airSqrt.
+// abs, and airExp(x) = e^-x, airLog (rough: within 0.01), airReciprocal, airRsqrt.
 #pragma once
 
 #include "terrain/light/air_data.h"
@@ -76,7 +76,7 @@ STEREONAV_AIR_INLINE N airShareOfFirst(N a, N b) {
 template <class N>
 STEREONAV_AIR_INLINE N airAside(N k) {
     const N square = mulAdd(k * k, N(4.0f), N(144.0f));
-    return N(0.0f) - k * airReciprocal(airSqrt(square));
+    return N(0.0f) - k * airRsqrt(square);
 }
 
 // The share of e^-kx over x from 0 to 1 that holds half of it, within 0.02: where a ray is parted.
@@ -111,7 +111,7 @@ STEREONAV_AIR_INLINE AirAlong<N> airAlong(const AirData& air, const AirEye& eye,
     // The parting point by its share of the haze, which says how high it lies.
     const N share = airHalf(
         mulAdd(N(kGreenOfRed), point[2].redSun - point[0].redSun, point[2].greySun - point[0].greySun));
-    const N haze1 = mulAdd(share, haze2 - haze0, haze0);
+    const N haze1 = max(mulAdd(share, haze2 - haze0, haze0), N(1e-30f));
     const auto level = abs(fallHaze) < N(0.01f);
     const N place = select(
         level, share, airLog(haze0 * airReciprocal(haze1)) * airReciprocal(select(level, N(1.0f), fallHaze)));
@@ -122,30 +122,32 @@ STEREONAV_AIR_INLINE AirAlong<N> airAlong(const AirData& air, const AirEye& eye,
     const N square = mulAdd(cosSun, cosSun, N(1.0f));
     const N below = max(mulAdd(N(0.0f) - N(air.hazePerCosine), cosSun, N(air.hazeTop)), N(1e-6f));
     const N byMolecules = square * N(air.phaseMolecules);
-    const N byHaze = square * N(air.phaseHaze) * N(air.hazeScatters) * airReciprocal(below * airSqrt(below));
+    const N perRoot = airRsqrt(below);
+    const N byHaze = square * N(air.phaseHaze * air.hazeScatters) * (perRoot * perRoot * perRoot);
 
     AirAlong<N> along;
     for (int c = 0; c < 3; ++c) {
         const N power(c == 0 ? 1.0f : c == 1 ? kGreenOfRed : kBlueOfRed);
+        const N shares[3] = {N(eye.share[c]), airShareOfFirst(power * point[1].molecules, point[1].haze),
+                             airShareOfFirst(power * point[2].molecules, point[2].haze)};
         N light(0.0f);
         for (int k = 0; k < 2; ++k) {
             const AirPoint<N>&from = point[k], &to = point[k + 1];
             const N ownGrey = max(to.grey - from.grey, N(0.0f));
             const N own = power * max(to.red - from.red, N(0.0f)), depth = own + ownGrey;
             const N lit = mulAdd(power, to.redSun - from.redSun, to.greySun - from.greySun);
-            const N ownMore = airShareOfFirst(power * to.molecules, to.haze) -
-                              airShareOfFirst(power * from.molecules, from.haze);
             const N scattered = mulAdd(own, byMolecules, ownGrey * byHaze) +
-                                ownMore * (byMolecules - byHaze) * depth * airAside(lit);
-            const N again = mulAdd(ownGrey, N(air.hazeScatters), own);
+                                (shares[k + 1] - shares[k]) * (byMolecules - byHaze) * depth * airAside(lit);
+            const N again =
+                mulAdd(N(0.5f - 0.5f * air.hazeScatters), shares[k] + shares[k + 1], N(air.hazeScatters));
             light = light +
                     N(air.sunlight[c]) * max(scattered, N(0.0f)) *
                         airMean(from.denseLit * airPower(c, from.thinLit),
                                 to.denseLit * airPower(c, to.thinLit), lit) +
                     N(air.ambient[c]) * again *
-                        airMean(from.dense * airPower(c, from.thin), to.dense * airPower(c, to.thin), depth);
+                        (from.dense * airPower(c, from.thin) - to.dense * airPower(c, to.thin));
         }
-        along.light[c] = light;
+        along.light[c] = max(light, N(0.0f));  // differences are rounded
         along.through[c] = point[2].dense * airPower(c, point[2].thin);
     }
     return along;

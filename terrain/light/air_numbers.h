@@ -39,8 +39,8 @@ inline AirNumber select(bool yes, AirNumber a, AirNumber b) {
 inline AirNumber airReciprocal(AirNumber a) {
     return AirNumber(1 / a.v);
 }
-inline AirNumber airSqrt(AirNumber a) {
-    return AirNumber(std::sqrt(a.v));
+inline AirNumber airRsqrt(AirNumber a) {
+    return AirNumber(1 / std::sqrt(a.v));
 }
 inline AirNumber airLog(AirNumber a) {
     return AirNumber(std::log(a.v));

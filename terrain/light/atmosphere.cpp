@@ -222,6 +222,10 @@ AirEye Atmosphere::eyeAt(double worldHeight) const {
     eye.above = static_cast<float>(height - inside);
     const glm::dvec2 density = densityAt(inside);
     for (int k = 0; k < 2; ++k) eye.density[k] = static_cast<float>(density[k]);
+    for (int c = 0; c < 3; ++c) {
+        const double own = kPowers[c] * mAir.molecules * density.x;
+        eye.share[c] = static_cast<float>(own / std::max(own + mAir.haze * density.y, 1e-30));
+    }
     for (int k = 0; k < 2; ++k) {
         eye.sunDepth[k] = static_cast<float>(mAir.sunDepth[k] * density[k]);
         eye.sunLeft[k] = std::exp(-eye.sunDepth[k]);

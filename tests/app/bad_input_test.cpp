@@ -61,6 +61,11 @@ TEST_F(BadInput, AnImageOrSkyThatIsNoPicture) {
     expectRefused({"render", hills(), "--image", input("text.png", "no picture"), "--out", "out.png"},
                   {"text.png"});
     expectRefused({"render", hills(), "--sky", "nothing.hdr", "--out", "out.png"}, {"nothing.hdr"});
+    expectRefused({"render", hills(), "--visibility", "20", "--out", "out.png"},
+                  {"--visibility", "expected with --sky physical"});
+    expectRefused({"render", hills(), "--sky", "physical", "--medium", "snow", "--out", "out.png"},
+                  {"--sky", "has no air"});
+    expectRefused({"render", "colon", "--sky", "physical", "--out", "out.png"}, {"--sky", "a terrain"});
 }
 
 TEST_F(BadInput, PathsThatCanNotBeFlown) {
