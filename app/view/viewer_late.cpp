@@ -103,6 +103,7 @@ void Viewer::showFrame() {
 // STEREONAV_LATE_WARP=gpu or cpu says it for tests.
 bool Viewer::drawsLateOnGpu() {
     if (std::exchange(mLateGpuDecided, true)) return mLateGpu != nullptr;
+    mWindow.use();
     const char* const said = std::getenv("STEREONAV_LATE_WARP");
     const auto* const renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     const bool wanted = said ? std::string_view(said) == "gpu" : renderer && !drawsInSoftware(renderer);
@@ -113,8 +114,8 @@ bool Viewer::drawsLateOnGpu() {
 }
 
 bool Viewer::showLateOnGpu() {
-    mWindow.use();
     if (!drawsLateOnGpu()) return false;
+    mWindow.use();
     const StereoViews views = viewsOf(mPresent);
     const std::size_t eyes = mPresent.twoEyes ? 2 : 1;
     std::array<GLuint, 2> drawn{};
