@@ -18,11 +18,14 @@ STEREONAV_INLINE M known(F depth) {
     return depth > F(0.0f);
 }
 
-// Whether 1 / depth is bent between three pixels by more than the share of the largest. Where one of them is
-// not known nothing is bent.
-STEREONAV_INLINE M bent(F before, F at, F after, float share) {
-    return abs((before + after) - (at + at)) > F(share) * max(max(before, after), at);
-}
+// By how much 1 / depth is bent between three pixels, and the largest of them. Where one of them is not known
+// it is any number.
+struct Bend {
+    F by, largest;
+    STEREONAV_INLINE Bend(F before, F at, F after)
+        : by(abs((before + after) - (at + at))), largest(max(max(before, after), at)) {}
+    STEREONAV_INLINE M beyond(float share) const { return by > F(share) * largest; }
+};
 
 // Whether a channel of the pixel differs from that of one of its neighbours by more than `most`. Channels are
 // compared where they lie in the colour.
@@ -47,11 +50,16 @@ STEREONAV_INLINE M edges(const EdgeRow& r, const Neighbours<I>& color, const Nei
     const Neighbours<I> seen{color.at, beside(there.left, color.left), beside(there.right, color.right),
                              beside(there.above, color.above), beside(there.below, color.below)};
     const F one(1.0f), at = one / depth.at;
-    M broken = there.left & there.right & bent(one / depth.left, at, one / depth.right, r.depthBreak);
-    if (inner)
-        broken = broken |
-                 (there.above & there.below & bent(one / depth.above, at, one / depth.below, r.depthBreak));
-    return there.at & ((broken & differs(seen, r.contrast - 1)) | differs(seen, r.strongContrast - 1));
+    const Bend across(one / depth.left, at, one / depth.right),
+        down(one / depth.above, at, one / depth.below);
+    const M row = there.left & there.right;
+    const M column = inner ? there.above & there.below : firstLanes(0);
+    const auto bent = [&](float share) {
+        return (row & across.beyond(share)) | (column & down.beyond(share));
+    };
+    return there.at &
+           ((bent(r.depthBreak) & differs(seen, r.contrast - 1)) |
+            (bent(r.depthJump) & differs(seen, r.jumpContrast - 1)) | differs(seen, r.strongContrast - 1));
 }
 
 STEREONAV_INLINE std::int32_t apart(std::uint32_t a, std::uint32_t b, int shift) {
@@ -80,13 +88,15 @@ inline bool isEdge(const EdgeRow& r, int x) {
         }
     }
     const float at = 1 / r.depth[x];
-    const auto bentBetween = [&](float b, float a) {
+    const auto bent = [&](float b, float a, float share) {
         const float second = (b + a) - (at + at), largest = b > a ? b : a;
-        return b >= 0 && a >= 0 &&
-               (second < 0 ? -second : second) > r.depthBreak * (largest > at ? largest : at);
+        return b >= 0 && a >= 0 && (second < 0 ? -second : second) > share * (largest > at ? largest : at);
     };
-    const bool broken = bentBetween(near[0], near[1]) || bentBetween(near[2], near[3]);
-    return (broken && difference >= r.contrast) || difference >= r.strongContrast;
+    const auto isBent = [&](float share) {
+        return bent(near[0], near[1], share) || bent(near[2], near[3], share);
+    };
+    return (difference >= r.contrast && isBent(r.depthBreak)) ||
+           (difference >= r.jumpContrast && isBent(r.depthJump)) || difference >= r.strongContrast;
 }
 
 }  // namespace
@@ -97,7 +107,8 @@ void findEdges(const EdgeRow& r) {
     const std::uint32_t* const below = r.below ? r.below : r.row;
     const float* const depthAbove = r.depthAbove ? r.depthAbove : r.depth;
     const float* const depthBelow = r.depthBelow ? r.depthBelow : r.depth;
-    const int least = (r.contrast < r.strongContrast ? r.contrast : r.strongContrast) - 1;
+    const int weaker = r.contrast < r.jumpContrast ? r.contrast : r.jumpContrast;
+    const int least = (weaker < r.strongContrast ? weaker : r.strongContrast) - 1;
     const auto one = [&](int x) { r.edges[x] = isEdge(r, x) ? 255 : 0; };
     one(0);
     int x = 1;

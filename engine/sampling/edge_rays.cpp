@@ -38,8 +38,8 @@ void findEdges(const EyeImage& image, const EdgeSetting& setting, Plane<std::uin
         for (int y = task * kRowsOfTask; y < std::min((task + 1) * kRowsOfTask, height); ++y)
             find({row(image.color, y - 1), image.color.row(y), row(image.color, y + 1),
                   row(image.viewDepth, y - 1), image.viewDepth.row(y), row(image.viewDepth, y + 1),
-                  edges.row(y), width, setting.contrast, setting.strongContrast,
-                  static_cast<float>(setting.depthBreak)});
+                  edges.row(y), width, setting.contrast, setting.jumpContrast, setting.strongContrast,
+                  static_cast<float>(setting.depthBreak), static_cast<float>(setting.depthJump)});
     });
 }
 

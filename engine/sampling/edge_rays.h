@@ -19,6 +19,9 @@ struct EdgeSetting {
     int contrast = 90;
     int strongContrast = 256;
     double depthBreak = 0.003;  // share of 1 / depth by which it is bent
+    // Where it is bent by so much one thing stands before another, and a faint edge, too, is a line of steps.
+    int jumpContrast = 25;
+    double depthJump = 0.3;
 };
 constexpr int kMostEdgeRays = 64, kDefaultEdgeRays = 4;
 

@@ -17,10 +17,11 @@ struct EdgeRow {
     int width;            // >= 1
     // A pixel is an edge where a channel (of 1023) differs from one of its four known neighbours by contrast
     // or more and 1 / depth is bent there, between two known neighbours, by more than depthBreak of its
-    // largest value; or by strongContrast or more, whatever the depths. On a plane 1 / depth is linear over
-    // the picture, however steeply one looks at it.
-    std::int32_t contrast, strongContrast;  // 1 to 1023
-    float depthBreak;
+    // largest value; or by jumpContrast or more where it is bent by more than depthJump of it; or by
+    // strongContrast or more, whatever the depths. On a plane 1 / depth is linear over the picture, however
+    // steeply one looks at it.
+    std::int32_t contrast, jumpContrast, strongContrast;  // 1 to 1023
+    float depthBreak, depthJump;
 };
 
 using EdgeFunction = void (*)(const EdgeRow& row);

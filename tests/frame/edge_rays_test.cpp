@@ -36,7 +36,7 @@ bool plainEdge(const EyeImage& image, const EdgeSetting& setting, int x, int y) 
     };
     if (!(depth(x, y) > 0)) return false;
     int difference = 0;
-    bool broken = false;
+    bool broken = false, jumps = false;
     for (const auto& [i, j] : {std::pair{1, 0}, {0, 1}}) {
         for (const int side : {-1, 1})
             if (depth(x + side * i, y + side * j) > 0)
@@ -46,10 +46,14 @@ bool plainEdge(const EyeImage& image, const EdgeSetting& setting, int x, int y) 
         const float before = depth(x - i, y - j), after = depth(x + i, y + j);
         if (!(before > 0 && after > 0)) continue;
         const float b = 1 / before, at = 1 / depth(x, y), a = 1 / after;
-        broken = broken || std::abs((b + a) - (at + at)) >
-                               static_cast<float>(setting.depthBreak) * std::max({b, at, a});
+        const auto bentBeyond = [&](double share) {
+            return std::abs((b + a) - (at + at)) > static_cast<float>(share) * std::max({b, at, a});
+        };
+        broken = broken || bentBeyond(setting.depthBreak);
+        jumps = jumps || bentBeyond(setting.depthJump);
     }
-    return (broken && difference >= setting.contrast) || difference >= setting.strongContrast;
+    return (broken && difference >= setting.contrast) || (jumps && difference >= setting.jumpContrast) ||
+           difference >= setting.strongContrast;
 }
 
 // Surfaces, sky, unknown pixels, depths of every size, NaN.
@@ -76,6 +80,7 @@ EyeImage anyPicture(int width, int height, unsigned seed) {
 TEST(EdgeRays, FindWhatAPlainSearchFinds) {
     EdgeSetting setting;
     setting.contrast = 40;
+    setting.jumpContrast = 20;
     setting.strongContrast = 90;
     for (const auto& [width, height] :
          {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 2}, {3, 3}, {15, 4}, {16, 5}, {17, 6}, {18, 33}, {131, 47}}) {
@@ -90,8 +95,8 @@ TEST(EdgeRays, FindWhatAPlainSearchFinds) {
             for (int y = 0; y < height; ++y) {
                 find({row(image.color, y - 1), image.color.row(y), row(image.color, y + 1),
                       row(image.viewDepth, y - 1), image.viewDepth.row(y), row(image.viewDepth, y + 1),
-                      edges.row(y), width, setting.contrast, setting.strongContrast,
-                      static_cast<float>(setting.depthBreak)});
+                      edges.row(y), width, setting.contrast, setting.jumpContrast, setting.strongContrast,
+                      static_cast<float>(setting.depthBreak), static_cast<float>(setting.depthJump)});
                 for (int x = 0; x < width; ++x) {
                     ASSERT_EQ(edges.at(x, y) != 0, plainEdge(image, setting, x, y))
                         << x << ' ' << y << ' ' << width;
