@@ -13,6 +13,7 @@ namespace {
 constexpr double kStep = 0.25;     // pixels
 constexpr double kJump = 1.5;      // pixels between two steps: more is no surface
 constexpr double kSurface = 0.03;  // relative: inverse depths of one surface beside each other
+constexpr double kFront = 1.1;     // of a neighbour's depth: farther pixels beside it move with it
 constexpr int kMostSteps = 20'000;
 
 struct Seen {
@@ -21,15 +22,27 @@ struct Seen {
     double nearest = 0;
 };
 
+double inverseWithFront(const Plane<float>& depth, int x, int y) {
+    constexpr int kBeside[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    const double here = depth.at(x, y);
+    double front = here;
+    for (const auto& [dx, dy] : kBeside) {
+        const int u = x + dx, v = y + dy;
+        if (u < 0 || v < 0 || u >= depth.width() || v >= depth.height()) continue;
+        if (depth.at(u, v) > 0) front = std::min(front, static_cast<double>(depth.at(u, v)));
+    }
+    return 1 / (here > front * kFront ? front : here);
+}
+
 double knownInverse(const Plane<float>& depth, int x, int y) {
     const auto known = [&](int at) { return depth.at(at, y) > 0; };
-    if (known(x)) return 1 / static_cast<double>(depth.at(x, y));
+    if (known(x)) return inverseWithFront(depth, x, y);
     int left = x, right = x;
     while (left >= 0 && !known(left)) --left;
     while (right < depth.width() && !known(right)) ++right;
     double inverse = 1e300;
-    if (left >= 0) inverse = std::min(inverse, 1 / static_cast<double>(depth.at(left, y)));
-    if (right < depth.width()) inverse = std::min(inverse, 1 / static_cast<double>(depth.at(right, y)));
+    if (left >= 0) inverse = std::min(inverse, inverseWithFront(depth, left, y));
+    if (right < depth.width()) inverse = std::min(inverse, inverseWithFront(depth, right, y));
     return inverse < 1e300 ? inverse : 0;
 }
 

@@ -21,7 +21,8 @@ LateMove lateMove(const EyeView& from, const EyeView& to);
 // What is worked out once for each picture that was cast.
 class LateEye {
 public:
-    // depth: metres along the viewing axis; infinite is the sky; what is 0 or no number is not known.
+    // depth: metres along the viewing axis; infinite is the sky; what is 0 or no number is not known. Pixels
+    // beside much nearer ones are taken for as near: smooth edges have colours of both.
     // soft: of what is seen through, whose colours have more than one depth: depths without edges, and what
     // is infinitely far beside them goes with them, so that nothing tears.
     void prepare(const Plane<float>& depth, const EyeView& view, SimdTarget simd = SimdTarget::Auto,

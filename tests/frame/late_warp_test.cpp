@@ -227,16 +227,18 @@ TEST(LateWarp, EnlargesSmallerPictures) {
     }
 }
 
-// What stood before an uncovered place leaves nothing of its colour there.
+// What stood before an uncovered place leaves nothing of its colour there, nor does the smooth edge of it: a
+// pixel of the wall's depth that is half pole.
 TEST(LateWarp, LeavesNoGhosts) {
     EyeView from = lateView({0, 0, 0}, 0, 0, 200, 120);
     EyeImage seen;
     seen.resize(200, 120);
-    const PackedColor wall = packColor({0.1f, 0.1f, 0.1f}), pole = packColor({0.9f, 0.9f, 0.9f});
+    const PackedColor wall = packColor({0.1f, 0.1f, 0.1f}), pole = packColor({0.9f, 0.9f, 0.9f}),
+                      half = packColor({0.5f, 0.5f, 0.5f});
     for (int y = 0; y < 120; ++y)
         for (int x = 0; x < 200; ++x) {
             const bool isPole = x >= 90 && x < 110;
-            seen.color.at(x, y) = isPole ? pole : wall;
+            seen.color.at(x, y) = isPole ? pole : x == 89 || x == 110 ? half : wall;
             seen.viewDepth.at(x, y) = isPole ? 2.0f : 20.0f;
         }
     EyeView to = from;
