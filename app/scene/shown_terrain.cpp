@@ -1,5 +1,7 @@
 #include "app/scene/shown_terrain.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +10,7 @@
 #include "app/scene/terrain_daylight.h"
 #include "engine/nav/navigator.h"
 #include "terrain/scene/ground_map.h"
+#include "terrain/scene/ground_place.h"
 #include "terrain/scene/landmark.h"
 #include "terrain/scene/terrain_illumination.h"
 #include "terrain/scene/terrain_loader.h"
@@ -76,6 +79,31 @@ double TerrainSurvey::northAt(const glm::dvec3& world) const {
     if (!north || !south) return 0;
     const glm::dvec2 way = *north - *south;
     return std::atan2(way.x, way.y);
+}
+
+Facts TerrainSurvey::readPlace(const glm::dvec3& world) const {
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    const std::optional<GroundPlace> place = groundPlaceAt(mTerrain, glm::dvec2(world));
+    if (!place) return {};
+    FactList list;
+    if (place->earth) {
+        const double north = place->earth->latitude * kDegrees, east = place->earth->longitude * kDegrees;
+        list.both("latitude_longitude", FactNumbers{north, east}, "latitude and longitude",
+                  fmt::format("{:.5f} {} {:.5f} {}", std::abs(north), north < 0 ? 'S' : 'N', std::abs(east),
+                              east < 0 ? 'W' : 'E'));
+    }
+    if (place->reference)
+        list.both("reference", FactNumbers{place->reference->x, place->reference->y},
+                  "east and north, " + mTerrain.report.sourceCrs,
+                  fmt::format("{:.1f} {:.1f}", place->reference->x, place->reference->y));
+    list.both("height_m", place->height, "height", fmt::format("{:.1f} m", place->height), "m");
+    list.both("slope_degrees", place->slope * kDegrees, "slope",
+              fmt::format("slope {:.1f}\u00b0", place->slope * kDegrees));
+    if (place->aspect)
+        list.both("aspect_degrees", *place->aspect * kDegrees,
+                  "where it falls, clockwise from the grid's north",
+                  fmt::format("to {:.0f}\u00b0", *place->aspect * kDegrees));
+    return std::move(list.facts());
 }
 
 // Over baked light.

@@ -5,6 +5,7 @@
 
 #include "engine/frame/cast_frames.h"
 #include "engine/scene/capabilities.h"
+#include "engine/scene/place_reader.h"
 #include "engine/scene/scene.h"
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/scene/terrain_scene.h"
@@ -16,9 +17,9 @@ std::unique_ptr<Flight> flightOver(const TerrainScene& terrain);
 // What a terrain says of lens, eyes, start and flight.
 void setViews(const TerrainScene& terrain, Scene& scene);
 
-// What a terrain has however its frames are made: a map, a box, its place on the Earth. terrain: lives as
-// long, and does not move.
-class TerrainSurvey final : public MapFromAbove, public OnEarth {
+// What a terrain has however its frames are made: a map, a box, its place on the Earth, and what is to be
+// said of a place of it. terrain: lives as long, and does not move.
+class TerrainSurvey final : public MapFromAbove, public OnEarth, public PlaceReader {
 public:
     explicit TerrainSurvey(const TerrainScene& terrain);
     // Calls offer(capability) for each that it has.
@@ -26,6 +27,7 @@ public:
     void offerAll(const Offer& offer) const {
         offer(static_cast<const MapFromAbove&>(*this));
         offer(mBox);
+        offer(static_cast<const PlaceReader&>(*this));
         if (mTerrain.earth) offer(static_cast<const OnEarth&>(*this));
     }
 
@@ -34,15 +36,16 @@ public:
     std::optional<PlaceOnEarth> placeAt(const glm::dvec3& world) const override;
     std::optional<glm::dvec2> worldAt(const PlaceOnEarth& place) const override;
     double northAt(const glm::dvec3& world) const override;
+    Facts readPlace(const glm::dvec3& world) const override;
 
 private:
     const TerrainScene& mTerrain;
     SceneBox mBox;
 };
 
-// Offers RayCast, const TerrainScene, MapFromAbove, SceneBox; as they are there, OnEarth and, with baked
-// light, a TurningLight. A tinted ground under the plain sun also offers light that is worked out while one
-// looks (terrain_daylight.h), and that turns: a TurningLight and a SeenLight.
+// Offers RayCast, const TerrainScene, MapFromAbove, SceneBox, PlaceReader; as they are there, OnEarth and,
+// with baked light, a TurningLight. A tinted ground under the plain sun also offers light that is worked out
+// while one looks (terrain_daylight.h), and that turns: a TurningLight and a SeenLight.
 class ShownTerrain final : public Scene {
 public:
     // lightsItself: sky light and shadows may be worked out, from the first frame on that somebody shows to

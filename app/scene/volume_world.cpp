@@ -52,6 +52,15 @@ GreyVolume greyOf(const MaskVolume& mask) {
     return grey;
 }
 
+// "L 12.3  P 4.5  S 100.2 mm": towards the patient's left (or right), back (or front) and head (or feet).
+std::string patientText(const glm::dvec3& world) {
+    const auto part = [](double metres, char towards, char away) {
+        return fmt::format("{} {:.1f}", metres < 0 ? away : towards, std::abs(1000 * metres));
+    };
+    return fmt::format("{}  {}  {} mm", part(world.x, 'L', 'R'), part(world.y, 'P', 'A'),
+                       part(world.z, 'S', 'I'));
+}
+
 }  // namespace
 
 VolumeWorld::VolumeWorld(ColonScene colon, const SceneOptions& options)
@@ -114,6 +123,25 @@ std::shared_ptr<const SliceStudy> VolumeWorld::readSlices(Progress& progress) co
     slices->windowWidth = ct ? kCtWidth : std::max(range.highest - range.lowest, 1e-9);
     slices->windowLevel = ct ? kCtLevel : 0.5 * (range.highest + range.lowest);
     return slices;
+}
+
+Facts VolumeWorld::readPlace(const glm::dvec3& world) const {
+    FactList list;
+    const glm::dvec3 mm = 1000.0 * world;
+    const FactNumbers numbers{mm.x, mm.y, mm.z};
+    if (mOptions.up)
+        list.both("place_mm", numbers, "place in the turned volume",
+                  fmt::format("{:.1f} {:.1f} {:.1f} mm", mm.x, mm.y, mm.z), "mm");
+    else
+        list.both("place_mm", numbers,
+                  "place in the study: left or right, posterior or anterior, superior or inferior",
+                  patientText(world), "mm");
+    if (const ColonInterior* const interior = mSide->interior()) {
+        const PlaceOnLine place = interior->placeOnLine(world);
+        list.both("along_mm", 1000 * place.along, "along the line, from its start",
+                  fmt::format("{:.0f} mm along", 1000 * place.along), "mm");
+    }
+    return std::move(list.facts());
 }
 
 }  // namespace stereonav

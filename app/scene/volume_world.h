@@ -12,13 +12,14 @@
 #include "colon/scene/colon_scene.h"
 #include "engine/nav/flight.h"
 #include "engine/scene/capabilities.h"
+#include "engine/scene/place_reader.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/slices.h"
 #include "engine/volume/volume_renderer.h"
 
 namespace stereonav {
 
-class VolumeWorld final : public RoomAround, public SliceSource {
+class VolumeWorld final : public RoomAround, public SliceSource, public PlaceReader {
 public:
     // options: that it was loaded with.
     VolumeWorld(ColonScene colon, const SceneOptions& options);
@@ -38,6 +39,7 @@ public:
         offer(static_cast<SliceSource&>(*this));
         offer(std::as_const(mColon));
         offer(std::as_const(mBox));
+        offer(static_cast<const PlaceReader&>(*this));
         const ColonInterior* const interior = mSide->interior();
         if (!interior) return;
         offer(*interior);
@@ -59,6 +61,7 @@ public:
     std::shared_ptr<const SliceStudy> readSlices(Progress& progress) const override;
     const MaskVolume* lumen() const override { return mSide->region(); }
     const std::vector<glm::dvec3>& seeds() const override { return mOptions.segmentation.seeds; }
+    Facts readPlace(const glm::dvec3& world) const override;
 
 private:
     ColonScene mColon;

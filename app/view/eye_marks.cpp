@@ -14,15 +14,26 @@ bool isInside(const EyeView& view, const glm::dvec2& place) {
     return place.x >= 0 && place.y >= 0 && place.x < view.width && place.y < view.height;
 }
 
-// NaN where the plane has no such pixel. The plane may have fewer pixels than the view.
-double depthAt(const EyeView& view, const Plane<float>& viewDepth, const glm::ivec2& guard,
-               const glm::dvec2& place) {
+// A pixel of a plane of depths, which may have fewer of them than the view, and its middle in pixels of the
+// view.
+struct DepthPixel {
+    double depth = std::nan("");  // NaN where the plane has no such pixel
+    glm::dvec2 middle{0.0};
+};
+DepthPixel pixelAt(const EyeView& view, const Plane<float>& viewDepth, const glm::ivec2& guard,
+                   const glm::dvec2& place) {
     const glm::dvec2 shown(viewDepth.width() - 2 * guard.x, viewDepth.height() - 2 * guard.y);
     const glm::dvec2 scale = shown / glm::dvec2(view.width, view.height);
     const glm::dvec2 pixel = glm::floor(place * scale) + glm::dvec2(guard);
     if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.x < viewDepth.width() && pixel.y < viewDepth.height()))
-        return std::nan("");
-    return static_cast<double>(viewDepth.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y)));
+        return {};
+    return {static_cast<double>(viewDepth.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y))),
+            (pixel - glm::dvec2(guard) + 0.5) / scale};
+}
+
+double depthAt(const EyeView& view, const Plane<float>& viewDepth, const glm::ivec2& guard,
+               const glm::dvec2& place) {
+    return pixelAt(view, viewDepth, guard, place).depth;
 }
 
 }  // namespace
@@ -40,6 +51,16 @@ EyeMark markUnder(const StereoViews& views, const Plane<float>& viewDepth, const
     const double depth = depthAt(views.left, viewDepth, guard, left);
     if (!(depth > 0 && std::isfinite(depth))) return {left, left};
     return {left, {views.rightColumn(left.x, depth), left.y}};
+}
+
+std::optional<glm::dvec3> worldUnder(const StereoViews& views, const Plane<float>& viewDepth,
+                                     const glm::dvec2& share, const glm::ivec2& guard) {
+    const EyeView& view = views.left;
+    const glm::dvec2 place = share * glm::dvec2(view.width, view.height);
+    if (!isInside(view, place)) return std::nullopt;
+    const DepthPixel pixel = pixelAt(view, viewDepth, guard, place);
+    if (!(pixel.depth > 0 && std::isfinite(pixel.depth))) return std::nullopt;
+    return view.eye + pixel.depth * view.rayDirection(pixel.middle.x, pixel.middle.y);
 }
 
 std::optional<PointMark> markOf(const StereoViews& views, const Plane<float>& viewDepth,

@@ -26,6 +26,11 @@ StereoViews viewsOf(const FrameRequest& request);
 EyeMark markUnder(const StereoViews& views, const Plane<float>& viewDepth, const glm::dvec2& share,
                   const glm::ivec2& guard = glm::ivec2(0));
 
+// The point of the surface that markUnder() finds: that of the middle of viewDepth's pixel there. None where
+// nothing is hit or known, or the place lies beside the picture.
+std::optional<glm::dvec3> worldUnder(const StereoViews& views, const Plane<float>& viewDepth,
+                                     const glm::dvec2& share, const glm::ivec2& guard = glm::ivec2(0));
+
 struct PointMark {
     EyeMark mark;
     double depth = 0;  // of the view, metres

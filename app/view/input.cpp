@@ -184,6 +184,8 @@ std::optional<ViewAction> actionWithControl(const KeyPress& press) {
             return ViewAction{ViewCommand::StartPage};
         case 'b':
             return ViewAction{ViewCommand::AddPlace};
+        case 'c':
+            return ViewAction{ViewCommand::CopyPlace};
         case 's':
             return ViewAction{ViewCommand::SaveScene};
         case 'p':
@@ -271,6 +273,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"Ctrl+N", "start page", does(StartPage)},
         {"Ctrl+S", "save the scene", does(SaveScene)},
         {"Ctrl+B", "keep this place", does(AddPlace)},
+        {"Ctrl+C", "copy what is told of the place under the pointer", does(CopyPlace)},
         {"Ctrl+Z", "undo; of keyframes first, while they are on the map", does(Undo)},
         {"Ctrl+Y", "redo", does(Redo)},
         {"Del", "remove the chosen keyframe; in slices the last seed"},

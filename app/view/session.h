@@ -35,6 +35,7 @@ enum class ViewCommand {
     Undo,
     Redo,
     AddPlace,
+    CopyPlace,
     OpenPath,
     FullScreen,
     QuitAtOnce,

@@ -16,7 +16,7 @@ int runView(const ViewOptions& options) {
     ViewOptions shown = options;
     shown.scene.skyTurns = !shownAs(options.scene).swept;  // a medium's keys turn its own light
     // What is measured does not depend on how far light is that is worked out meanwhile.
-    if (options.bench && !shown.scene.light.given()) shown.scene.light.kind = LightChoice::Kind::Plain;
+    if (options.bench) shown.scene.lightLater = false;
     if (options.bench && !shown.scene.given.has("ground-detail")) shown.scene.groundDetail = false;
     Viewer(shown).run();
     return 0;

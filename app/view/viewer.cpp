@@ -206,6 +206,9 @@ bool Viewer::actOnInterface(const ViewAction& action) {
         case ViewCommand::AddPlace:
             addPlace();
             return true;
+        case ViewCommand::CopyPlace:
+            copyPlace();
+            return true;
         case ViewCommand::OpenPath:
             if (mSession) mPanels.openPaths();
             return true;

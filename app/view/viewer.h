@@ -49,6 +49,7 @@ public:
     const ViewFrame* frame() const override { return mFrame.get(); }
     double framesPerSecond() const override { return mRate.value(); }
     std::string ageText() const override;
+    Facts pointedFacts() const override;
     const std::deque<FrameCost>& costs() const override { return mCosts; }
     std::string sceneName() const override;
     const SettingTexts& settings() const override;
@@ -174,6 +175,9 @@ private:
     void show(const ComposeSetting& setting);
     bool drawsPointer(const OutputModeInfo& mode) const;
     std::vector<OverlayMark> marks(const OutputModeInfo& mode) const;
+    // Where the pointer is over the picture: shares of an eye's size.
+    std::optional<glm::dvec2> pointedShare(const OutputModeInfo& mode) const;
+    void copyPlace();
     bool drawOverlay(const OutputModeInfo& mode);
 
     CommandResult mResult;

@@ -1,6 +1,8 @@
-// The viewer's part that is drawn over the picture in depth: the pointer, and names of kept places.
+// The viewer's part that is drawn over the picture in depth: the pointer, and names of kept places. And what
+// lies under the pointer.
 #include "app/view/eye_marks.h"
 #include "app/view/place_labels.h"
+#include "app/view/pointed_place.h"
 #include "app/view/viewer.h"
 
 namespace stereonav {
@@ -9,6 +11,34 @@ namespace stereonav {
 bool Viewer::drawsPointer(const OutputModeInfo& mode) const {
     return mSession && mFrame && mPicture.left && mPicture.of.twoEyes && !mSession->slicesShown() &&
            !mWindow.captured() && mode.layout != OutputLayout::OneEye;
+}
+
+std::optional<glm::dvec2> Viewer::pointedShare(const OutputModeInfo& mode) const {
+    glm::dvec2 share;
+    if (!mInterface.pointerOverPicture(share)) return std::nullopt;
+    const PicturePlace place = placeFor(mode);
+    return (share * glm::dvec2(place.part) - glm::dvec2(place.corner)) / glm::dvec2(place.size);
+}
+
+// A picture that was warped has the depths of another moment: figures wait until it stands still.
+Facts Viewer::pointedFacts() const {
+    if (!mSession || !mFrame || !mPicture.left || mPicture.warped || mSession->slicesShown() ||
+        mWindow.captured())
+        return {};
+    const OutputMode mode = shownMode();
+    if (mode == OutputMode::Right) return {};
+    const std::optional<glm::dvec2> share = pointedShare(infoOf(mode));
+    if (!share) return {};
+    const StereoViews views = viewsOf(mPicture.of);
+    const auto world = worldUnder(views, mFrame->left.viewDepth, *share, mFrame->request.guard);
+    if (!world) return {};
+    return factsOfPlace(*mSession->open().scene, mSession->study().get(), *world, views.left.head);
+}
+
+void Viewer::copyPlace() {
+    const Facts facts = pointedFacts();
+    if (!facts.empty()) return copy(linesOf(facts));
+    if (mSession) mSession->notify("nothing is under the pointer");
 }
 
 std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
@@ -24,11 +54,9 @@ std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
             marks.push_back({glm::vec2(label.mark.left), glm::vec2(label.mark.right), label.text,
                              glm::vec2(label.textAt)});
     }
-    glm::dvec2 share;
-    if (!drawsPointer(mode) || !mInterface.pointerOverPicture(share)) return marks;
-    const PicturePlace place = placeFor(mode);
-    share = (share * glm::dvec2(place.part) - glm::dvec2(place.corner)) / glm::dvec2(place.size);
-    const EyeMark under = markUnder(viewsOf(mPicture.of), depth, share, guard);
+    const std::optional<glm::dvec2> share = drawsPointer(mode) ? pointedShare(mode) : std::nullopt;
+    if (!share) return marks;
+    const EyeMark under = markUnder(viewsOf(mPicture.of), depth, *share, guard);
     marks.push_back({glm::vec2(under.left), glm::vec2(under.right), "", {}});
     return marks;
 }

@@ -22,6 +22,7 @@ struct DemGrid {
     std::string crs;               // name of the source's reference system, "" when it has none
     std::string projection;        // how it was brought to metres
     glm::dvec2 sourceOffset{0.0};  // reference x, y of the grid's middle
+    double sourceUnit = 0;         // metres of a unit of these; 0: they are not in the source's own system
     long long sourceMissing = 0;   // missing samples of the file itself, before any resampling
     long long outside = 0;         // samples of the grid that lie beyond the file's own: missing too
 

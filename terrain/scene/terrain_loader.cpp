@@ -83,6 +83,7 @@ LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progr
     report.sourceCrs = dem.crs;
     report.projection = dem.projection;
     report.sourceOffset = dem.sourceOffset;
+    report.sourceUnit = dem.sourceUnit;
     report.placedBy = dem.source.placedBy;
     report.band = dem.band;
     report.heightUnit = dem.heightUnit;
@@ -240,6 +241,7 @@ TerrainScene loadTerrain(const SceneFile& file, Progress& progress) {
                     fmt::format("expected a number above 0, got {:g}", file.verticalScale), "");
     TerrainScene scene;
     LoadedGround loaded = file.builtIn ? loadBuiltIn(file, scene, progress) : loadDem(file, scene, progress);
+    scene.verticalScale = file.verticalScale;
     scene.look = file.look;
     loadColor(file, loaded, scene, progress);
     const glm::dvec2 spacing = scene.ground.spacing();

@@ -37,6 +37,7 @@ struct TerrainReport {
     long long filledSamples = 0;   // of the ground's, filled: missing ones as resampled, and those beyond
     long long openSamples = 0;     // of the ground's, left open
     glm::dvec2 sourceOffset{0.0};  // source x, y of the world's origin (metres in the local projection)
+    double sourceUnit = 0;         // metres of a unit of these; 0: they are not in the source's own system
     std::string colorSource;       // "image winter.jpg 457x499", "hypsometric tint", ...
     bool colorHoldsSun = false;    // some of the colours hold the light of the look's sun
     std::string skySource;
@@ -50,6 +51,7 @@ struct TerrainScene {
     TerrainScene& operator=(TerrainScene&&) noexcept;
 
     Heightfield ground;
+    double verticalScale = 1;  // of its heights: so many times those of the file
     ColorTexture color;
     SkyMap sky;
     bool detail = false;  // of its shading, below the sample spacing (terrain/cast/ground_detail.h)

@@ -10,6 +10,7 @@
 #include "app/scene/scene_loading.h"
 #include "app/scene/terrain_loading.h"
 #include "engine/scene/capabilities.h"
+#include "engine/scene/place_reader.h"
 #include "tests/camera/temporary_folder.h"
 #include "tests/support/own_cache.h"
 
@@ -105,6 +106,62 @@ TEST(TerrainSurvey, AMediumOfATerrainHasItsMap) {
     EXPECT_EQ(scene->offered<MapFromAbove>()->makeMap(10, progress).picture.width(), 10);
     EXPECT_TRUE(scene->offered<OnEarth>());
     EXPECT_TRUE(scene->offered<SceneBox>());
+}
+
+double placeNumber(const Facts& facts, const std::string& key, std::size_t part = 0) {
+    for (const Fact& fact : facts)
+        if (fact.key == key) {
+            if (const auto* const numbers = std::get_if<FactNumbers>(&fact.value)) return numbers->at(part);
+            return std::get<double>(fact.value);
+        }
+    return std::nan("");
+}
+
+// Heights fall by 10 m a sample to the north and by 1 m to the west.
+TEST(TerrainSurvey, TellsOfAPlaceWhatTheFileSays) {
+    const TemporaryFolder folder;
+    for (const double scale : {1.0, 3.0}) {
+        SceneOptions options;
+        options.scene = slope(folder, 600000, 5000000, true).string();
+        options.verticalScale = scale;
+        Progress progress;
+        const auto scene = loadTerrainScene(options, SimdTarget::Auto, progress);
+        const PlaceReader* const reader = scene->offered<PlaceReader>();
+        ASSERT_TRUE(reader);
+        const Facts facts = reader->readPlace({90, -60, 0});
+        EXPECT_NEAR(placeNumber(facts, "reference", 0), 600690, 1e-6);
+        EXPECT_NEAR(placeNumber(facts, "reference", 1), 5000540, 1e-6);
+        EXPECT_NEAR(placeNumber(facts, "height_m"), 10 * 21.5 + 22.5, 1e-3) << scale;
+        EXPECT_NEAR(placeNumber(facts, "slope_degrees"), std::atan(std::sqrt(101.0) / 30) * kToDegrees, 1e-4);
+        EXPECT_NEAR(placeNumber(facts, "aspect_degrees"), 360 - std::atan(0.1) * kToDegrees, 1e-3);
+        const auto earth = scene->offered<OnEarth>()->placeAt({90, -60, 0});
+        EXPECT_EQ(placeNumber(facts, "latitude_longitude", 0), earth->latitude * kToDegrees);
+        EXPECT_EQ(placeNumber(facts, "latitude_longitude", 1), earth->longitude * kToDegrees);
+        EXPECT_TRUE(reader->readPlace({1e4, 0, 0}).empty()) << "beside the ground";
+    }
+    const TemporaryFolder other;
+    const auto nowhere = terrainFrom(slope(other, 0, 0, false));
+    const Facts facts = nowhere->offered<PlaceReader>()->readPlace({0, 0, 0});
+    EXPECT_TRUE(std::isnan(placeNumber(facts, "latitude_longitude"))) << "it says no place on the Earth";
+    EXPECT_NEAR(placeNumber(facts, "height_m"), 10 * 19.5 + 19.5, 1e-3);
+}
+
+// Of level ground nothing falls anywhere, and a hole has no height.
+TEST(TerrainSurvey, LevelGroundHasNoAspect) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder / "level.asc";
+    std::ofstream(file) << "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 30\nNODATA_value -9999\n"
+                           "5 5 5\n5 5 5\n5 5 -9999\n";
+    SceneOptions options;
+    options.scene = file.string();
+    options.openHoles = true;
+    Progress progress;
+    const auto scene = loadTerrainScene(options, SimdTarget::Auto, progress);
+    const Facts level = scene->offered<PlaceReader>()->readPlace({-20, 20, 5});
+    EXPECT_EQ(placeNumber(level, "height_m"), 5);
+    EXPECT_EQ(placeNumber(level, "slope_degrees"), 0);
+    EXPECT_TRUE(std::isnan(placeNumber(level, "aspect_degrees")));
+    EXPECT_TRUE(scene->offered<PlaceReader>()->readPlace({20, -20, 5}).empty());
 }
 
 }  // namespace

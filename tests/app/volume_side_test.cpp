@@ -1,6 +1,7 @@
 // What is made of the side that a volume is seen from: of two that are put together by hand, and of scenes.
 #include "app/scene/volume_side.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <glm/vector_relational.hpp>
@@ -8,6 +9,7 @@
 #include "app/scene/colon_loading.h"
 #include "app/scene/light_loading.h"
 #include "app/scene/volume_inside.h"
+#include "app/view/pointed_place.h"
 #include "engine/base/error.h"
 #include "tests/app/volume_input.h"
 
@@ -97,6 +99,32 @@ TEST(VolumeSide, AColonAloneHasALineAndARegion) {
     outside->addUsualLight("--light", setup, notes);
     EXPECT_EQ(setup.sky, glm::vec3(1));
     EXPECT_TRUE(setup.lights.empty());
+}
+
+std::string textOf(const Facts& facts, const std::string& key) {
+    for (const Fact& fact : facts)
+        if (fact.key == key) return fact.text;
+    return "";
+}
+
+// Of a wall: where in the patient, how far along the line, and once slices are read the value there.
+TEST_F(VolumeSideOfScenes, APlaceIsToldInThePatientsDirections) {
+    SceneOptions options;
+    options.scene = maskedTube();
+    options.volume.cache = false;
+    Progress progress;
+    const auto colon = loadColonScene(options, SimdTarget::Auto, progress);
+    const glm::dvec3 at = colon->startPose.position;
+    const Facts facts = factsOfPlace(*colon, nullptr, at, at + glm::dvec3(0, 0, 0.02));
+    EXPECT_EQ(textOf(facts, "distance_m"), "20.0 mm away");
+    EXPECT_EQ(textOf(facts, "along_mm"),
+              fmt::format("{:.0f} mm along", 1000 * colon->offered<LineThrough>()->placeOnLine(at).along));
+    EXPECT_EQ(textOf(facts, "value"), "");
+    const auto study = colon->offered<SliceSource>()->readSlices(progress);
+    EXPECT_EQ(textOf(factsOfPlace(*colon, study.get(), at, at), "value"), "value 1") << "of the mask";
+    EXPECT_EQ(textOf(factsOfPlace(*colon, study.get(), at + 10.0, at), "value"), "") << "beside the study";
+    const Facts signs = factsOfPlace(*colon, nullptr, {-0.001, 0.002, -0.0035}, at);
+    EXPECT_EQ(textOf(signs, "place_mm"), "R 1.0  P 2.0  I 3.5 mm");
 }
 
 TEST_F(VolumeSideOfScenes, IsWhatTheyOffer) {

@@ -63,6 +63,34 @@ TEST(EyeMarks, LieWhereBothEyesSeeThePoint) {
     }
 }
 
+// A point of the surface, that of the depth's own pixel: half of a larger one away at most.
+TEST(EyeMarks, ThePointUnderAPlaceIsOnTheSurface) {
+    const StereoViews views = viewsOf(request());
+    const Plane<float> fine = everywhere(40);
+    Plane<float> small(kMarkedAcross / 4 + 6, kMarkedDown / 4 + 4);  // with a guard of 3 and 2 pixels
+    for (int y = 0; y < small.height(); ++y)
+        for (int x = 0; x < small.width(); ++x) small.at(x, y) = static_cast<float>(10 + x);
+    for (const glm::dvec2& at : {glm::dvec2(0.3, 0.6), glm::dvec2(0, 0), glm::dvec2(0.999, 0.999)}) {
+        const auto point = worldUnder(views, fine, at);
+        ASSERT_TRUE(point);
+        const glm::dvec3 seen = views.left.project(*point);
+        EXPECT_NEAR(seen.x, std::floor(at.x * kMarkedAcross) + 0.5, 1e-9);
+        EXPECT_NEAR(seen.y, std::floor(at.y * kMarkedDown) + 0.5, 1e-9);
+        EXPECT_NEAR(seen.z, 40, 1e-9);
+        const auto coarse = worldUnder(views, small, at, {3, 2});
+        ASSERT_TRUE(coarse);
+        const glm::dvec3 near = views.left.project(*coarse);
+        EXPECT_LE(std::abs(near.x - at.x * kMarkedAcross), 2 + 1e-9);
+        EXPECT_LE(std::abs(near.y - at.y * kMarkedDown), 2 + 1e-9);
+        EXPECT_NEAR(near.z, 13 + std::floor(at.x * kMarkedAcross / 4), 1e-5);
+    }
+    for (const glm::dvec2& beside : {glm::dvec2(-0.1, 0.5), glm::dvec2(0.5, 1), glm::dvec2(std::nan(""), 0)})
+        EXPECT_FALSE(worldUnder(views, fine, beside));
+    for (const float depth : {kMarkedSky, 0.0f, std::nanf("")})
+        EXPECT_FALSE(worldUnder(views, everywhere(depth), {0.5, 0.5}));
+    EXPECT_FALSE(worldUnder(views, {}, {0.5, 0.5}));
+}
+
 TEST(EyeMarks, OverWhatHasNoDepthTheyLieInTheScreen) {
     const StereoViews views = viewsOf(request());
     for (const float depth : {kMarkedSky, 0.0f, -3.0f, std::nanf("")}) {

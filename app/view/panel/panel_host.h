@@ -53,6 +53,8 @@ public:
     virtual const ViewFrame* frame() const = 0;         // null until the first one
     virtual double framesPerSecond() const = 0;         // 0: not known
     virtual std::string ageText() const { return ""; }  // of a picture that was warped; "": cast as it is
+    // Of the place under the pointer; none while it is over no surface, or the picture moves.
+    virtual Facts pointedFacts() const { return {}; }
     virtual const std::deque<FrameCost>& costs() const = 0;  // newest last
     virtual std::string sceneName() const = 0;
     virtual const SettingTexts& settings() const = 0;  // given and live; until something is set

@@ -62,6 +62,12 @@ std::string placeText(ViewSession& session) {
     return text;
 }
 
+// Of the place under the pointer, a piece for each fact.
+void placePieces(PanelHost& host, Row& row) {
+    for (const Fact& fact : host.pointedFacts())
+        row.text(fact.text, fact.label.value_or("") + ", under the pointer");
+}
+
 // Asked once for a monitor, and only of who sees with two eyes.
 bool asksForScreen(PanelHost& host) {
     ViewSession* const session = host.session();
@@ -109,6 +115,7 @@ float drawStatusBar(PanelHost& host, float left, float right) {
             row.text(age,
                      "since the picture was asked for that is shown, warped to where the eyes are now; and "
                      "how much of the width and height it was cast in");
+        placePieces(host, row);
         row.text(costText(*frame), frameText(*frame, rate));
         if (frame->request.twoEyes && row.room(comfortMeterWidth())) drawComfortMeter(host, *frame);
         if (const std::string measured = session->measuredText(*frame); !measured.empty())

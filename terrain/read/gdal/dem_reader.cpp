@@ -244,6 +244,7 @@ void placeInMetres(const std::filesystem::path& file, const Placement& placement
         dem.projection += plane.stretch;
     }
     if (!given.empty()) dem.projection = given;
+    if (dem.georeferenced && (placement.asTheyAre || plane.stays)) dem.sourceUnit = unit;
     dem.spacing = glm::dvec2(dem.grid.transform[1], -dem.grid.transform[5]) * unit;
 }
 

@@ -1,0 +1,20 @@
+// What a scene says of a place on its surface, for the line under the pointer.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "engine/scene/facts.h"
+
+namespace stereonav {
+
+// A capability (capabilities.h).
+class PlaceReader {
+public:
+    virtual ~PlaceReader() = default;
+    // Of a world place at or near the surface: facts with a label each, and texts that are short enough for
+    // one line together. None where nothing is there. From any thread; quick enough for each motion of a
+    // pointer.
+    virtual Facts readPlace(const glm::dvec3& world) const = 0;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,29 @@
+// What an elevation model says of one place.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+
+#include "terrain/raster/earth_places.h"
+
+namespace stereonav {
+
+struct TerrainScene;
+
+struct GroundPlace {
+    // In the file's own reference system and unit; none where the ground is not in its plane.
+    std::optional<glm::dvec2> reference;
+    std::optional<EarthPlace> earth;
+    double height = 0;  // metres, as in the file: without the vertical scale
+    double slope = 0;   // radians from the level, 0 to pi / 2, of the file's heights
+    // Where it falls, radians clockwise from the grid's north (the world's y), 0 to 2 pi; none of level
+    // ground.
+    std::optional<double> aspect;
+};
+
+// Slope and aspect are those of the normals that the ground is shaded with: central differences at the
+// samples (Zevenbergen and Thorne 1987), bilinear between them. world: x, y, metres. None beside the ground
+// and in holes.
+std::optional<GroundPlace> groundPlaceAt(const TerrainScene& terrain, const glm::dvec2& world);
+
+}  // namespace stereonav
