@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -231,6 +232,59 @@ struct MeshOptions {
     double error_m = -1;  // largest vertical error; < 0: half a sample spacing
 };
 int runMesh(const MeshOptions& options);
+
+// A place on the ground: x, y as the elevation model's reference system has them, metres above the ground.
+struct SurveyPlace {
+    glm::dvec2 reference{0.0};
+    std::optional<double> height_m;
+};
+
+struct ViewshedOptions {
+    SceneOptions scene;
+    Telling telling;
+    SurveyPlace from;
+    std::optional<SurveyPlace> to;  // a line of sight
+    double targetHeight_m = 0;      // of what is looked at, over the samples
+    double reach_m = 0;             // 0: all of the ground
+    bool curvature = false;
+    std::optional<double> refraction;  // share of the curvature; none: the usual one
+    std::string out;                   // GeoTIFF; "": not written
+};
+int runViewshed(const ViewshedOptions& options);
+
+// A line over the ground: one of the three.
+struct SurveyLine {
+    std::vector<glm::dvec2> places;  // x, y as of SurveyPlace; empty: not given
+    std::string track, path;         // a GPX or GeoJSON file; a recorded flight
+};
+
+struct MeasureOptions {
+    SceneOptions scene;
+    Telling telling;
+    SurveyLine line;
+    std::vector<glm::dvec2> area;   // corners, as places of the line
+    std::optional<double> plane_m;  // that volumes lie over and under; none: of the area's lowest corner
+    std::string csv, geojson;       // "": not written
+};
+int runMeasure(const MeasureOptions& options);
+
+struct ProfileOptions {
+    SceneOptions scene;
+    Telling telling;
+    SurveyLine line;
+    std::string csv, svg;  // "": not written
+};
+int runProfile(const ProfileOptions& options);
+
+struct SunOptions {
+    SceneOptions scene;
+    Telling telling;
+    std::string at;        // "2026-06-21T19:30": UTC
+    double step_min = 20;  // of the hours of sun
+    std::string out;       // GeoTIFF of them, "": not written
+    std::string picture;   // of them
+};
+int runSun(const SunOptions& options);
 
 struct CentrelineOptions {
     SceneOptions scene;

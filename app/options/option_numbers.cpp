@@ -80,4 +80,11 @@ const NumberList& pointLightNumbers() {
     return list;
 }
 
+const NumberList& groundPlaceNumbers() {
+    static const NumberList list{"x,y,height above the ground",
+                                 {{"", {kPlaceRange, kPlaceRange, within(0, 1e6, "metres")}, 2}},
+                                 "as in 394268,3798272,20; the height may be left out"};
+    return list;
+}
+
 }  // namespace stereonav

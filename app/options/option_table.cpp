@@ -7,7 +7,7 @@
 namespace stereonav {
 namespace {
 
-constexpr std::array<CommandFacts, 9> kCommands{{
+constexpr std::array<CommandFacts, 13> kCommands{{
     {command::kInfo, "info", "print what was read and the frame plan", scene_type::kAll},
     {command::kRender, "render", "one pose into a picture", scene_type::kAll},
     {command::kPlay, "play", "a flight into pictures, a video, or a hash", scene_type::kAll},
@@ -15,6 +15,13 @@ constexpr std::array<CommandFacts, 9> kCommands{{
     {command::kReport, "report",
      "a page of error against time for every shortcut the program takes; up to 10 minutes", 0},
     {command::kMesh, "mesh", "the ground with its colour as a glTF mesh", scene_type::kTerrains},
+    {command::kViewshed, "viewshed",
+     "what of the ground is seen from a place, and whether two places see each other", scene_type::kTerrains},
+    {command::kMeasure, "measure", "lengths, areas and volumes on the ground, each with its error",
+     scene_type::kTerrains},
+    {command::kProfile, "profile", "the ground along a line, a track or a flight", scene_type::kTerrains},
+    {command::kSun, "sun", "where the sun stands at a time, and how long it shines on the ground",
+     scene_type::kTerrains},
     {command::kCentreline, "centreline", "the way through a colon, with its radii, as a file",
      scene_type::kVolumes},
     {command::kBake, "bake",
@@ -31,7 +38,7 @@ std::vector<Option> setOption() {
          .value = textValue(),
          .help =
              "KEY=VALUE: another option by the key that it has in a scene file; may be given several times",
-         .commands = kShowing | kMesh | kCentreline | kBake,
+         .commands = kShowing | kMesh | kSurveying | kCentreline | kBake,
          .repeated = true,
          .take = [](OptionTargets&, const OptionValue&) {}}};
 }
@@ -40,7 +47,7 @@ struct Part {
     std::vector<Option> (*options)();
     bool inFile;  // whether scene files may say them
 };
-constexpr std::array<Part, 15> kParts{{{sourceOptions, true},
+constexpr std::array<Part, 16> kParts{{{sourceOptions, true},
                                        {studyOptions, true},
                                        {lookOptions, true},
                                        {volumeLookOptions, true},
@@ -50,6 +57,7 @@ constexpr std::array<Part, 15> kParts{{{sourceOptions, true},
                                        {viewOptions, true},
                                        {pictureOptions, false},
                                        {meshAndLineOptions, false},
+                                       {surveyOptions, false},
                                        {compareOptions, false},
                                        {reportOptions, false},
                                        {bakeOptions, false},

@@ -17,7 +17,9 @@ namespace stereonav {
 
 namespace command {
 constexpr CommandSet kInfo = 1, kRender = 2, kPlay = 4, kCompare = 8, kReport = 16, kMesh = 32,
-                     kCentreline = 64, kBake = 128, kView = 256;
+                     kCentreline = 64, kBake = 128, kView = 256, kViewshed = 1 << 12, kMeasure = 1 << 13,
+                     kProfile = 1 << 14, kSun = 1 << 15;
+constexpr CommandSet kSurveying = kViewshed | kMeasure | kProfile | kSun;    // of the ground
 constexpr CommandSet kShowing = kInfo | kRender | kPlay | kCompare | kView;  // any scene, as it looks
 }  // namespace command
 
@@ -44,6 +46,10 @@ struct OptionTargets {
     CompareOptions* compare = nullptr;
     ReportOptions* report = nullptr;
     MeshOptions* mesh = nullptr;
+    ViewshedOptions* viewshed = nullptr;
+    MeasureOptions* measure = nullptr;
+    ProfileOptions* profile = nullptr;
+    SunOptions* sun = nullptr;
     BakeOptions* bake = nullptr;
     ViewOptions* view = nullptr;
 };
@@ -116,6 +122,7 @@ std::vector<Option> viewOptions();
 std::vector<Option> pictureOptions();
 std::vector<Option> tellingOptions();
 std::vector<Option> meshAndLineOptions();
+std::vector<Option> surveyOptions();
 std::vector<Option> compareOptions();
 std::vector<Option> reportOptions();
 std::vector<Option> bakeOptions();

@@ -124,6 +124,27 @@ void chooseCommand(CommandSet which, ParsedOptions& parsed) {
             tells(parsed.mesh.telling);
             parsed.run = [&parsed] { return runMesh(parsed.mesh); };
             break;
+        case command::kViewshed:
+            to.scene = &parsed.viewshed.scene, to.viewshed = &parsed.viewshed, to.out = &parsed.viewshed.out;
+            tells(parsed.viewshed.telling);
+            parsed.run = [&parsed] { return runViewshed(parsed.viewshed); };
+            break;
+        case command::kMeasure:
+            to.scene = &parsed.measure.scene, to.measure = &parsed.measure;
+            tells(parsed.measure.telling);
+            parsed.run = [&parsed] { return runMeasure(parsed.measure); };
+            break;
+        case command::kProfile:
+            to.scene = &parsed.profile.scene, to.profile = &parsed.profile,
+            to.path = &parsed.profile.line.path;
+            tells(parsed.profile.telling);
+            parsed.run = [&parsed] { return runProfile(parsed.profile); };
+            break;
+        case command::kSun:
+            to.scene = &parsed.sun.scene, to.sun = &parsed.sun, to.out = &parsed.sun.out;
+            tells(parsed.sun.telling);
+            parsed.run = [&parsed] { return runSun(parsed.sun); };
+            break;
         case command::kCentreline:
             to.scene = &parsed.centreline.scene, to.out = &parsed.centreline.out;
             tells(parsed.centreline.telling);

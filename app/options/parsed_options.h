@@ -21,6 +21,10 @@ struct ParsedOptions {
     CompareOptions compare;
     ReportOptions report;
     MeshOptions mesh;
+    ViewshedOptions viewshed;
+    MeasureOptions measure;
+    ProfileOptions profile;
+    SunOptions sun;
     CentrelineOptions centreline;
     BakeOptions bake;
     ViewOptions view;

@@ -30,4 +30,20 @@ int runMesh(const MeshOptions&) {
     without();
 }
 
+int runViewshed(const ViewshedOptions&) {
+    without();
+}
+
+int runMeasure(const MeasureOptions&) {
+    without();
+}
+
+int runProfile(const ProfileOptions&) {
+    without();
+}
+
+int runSun(const SunOptions&) {
+    without();
+}
+
 }  // namespace stereonav

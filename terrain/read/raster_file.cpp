@@ -41,4 +41,17 @@ std::unique_ptr<EarthPlaces> earthPlaces(const Georeference& grid, const glm::dv
     return gdal().earthPlaces(grid, spacing);
 }
 
+std::unique_ptr<ReferencePlaces> referencePlaces(const Georeference& source, const Georeference& grid,
+                                                 const glm::dvec2& spacing) {
+    return gdal().referencePlaces(source, grid, spacing);
+}
+
+void writeGeoTiff(const std::filesystem::path& file, const Georeference& grid, const WrittenRaster& raster) {
+    gdal().writeGeoTiff(file, grid, raster);
+}
+
+std::vector<TrackLine> readTracks(const std::filesystem::path& file) {
+    return gdal().readTracks(file);
+}
+
 }  // namespace stereonav

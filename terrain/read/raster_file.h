@@ -10,6 +10,9 @@
 #include "terrain/raster/earth_places.h"
 #include "terrain/raster/georeference.h"
 #include "terrain/raster/ground_picture.h"
+#include "terrain/raster/reference_places.h"
+#include "terrain/raster/track_line.h"
+#include "terrain/raster/written_raster.h"
 #include "terrain/read/dem_reader.h"
 
 namespace stereonav {
@@ -38,6 +41,17 @@ bool overlap(const Georeference& a, const Georeference& b, const std::filesystem
 // origin is the grid's middle. Null where its reference system does not say, or is of another body.
 std::unique_ptr<EarthPlaces> earthPlaces(const Georeference& grid, const glm::dvec2& spacing);
 
+// The same places in the reference system of the file, `source`, that the grid was made of. Null where there
+// is no way between the two systems.
+std::unique_ptr<ReferencePlaces> referencePlaces(const Georeference& source, const Georeference& grid,
+                                                 const glm::dvec2& spacing);
+
+// A GeoTIFF over the grid's samples; the file is made anew. Throws Error.
+void writeGeoTiff(const std::filesystem::path& file, const Georeference& grid, const WrittenRaster& raster);
+
+// The lines and areas of a GPX or GeoJSON file, one or more; areas without their holes. Throws Error.
+std::vector<TrackLine> readTracks(const std::filesystem::path& file);
+
 // The module's table.
 struct RasterFunctions {
     decltype(&stereonav::readDem) readDem;
@@ -46,6 +60,9 @@ struct RasterFunctions {
     decltype(&stereonav::mapPixels) mapPixels;
     decltype(&stereonav::overlap) overlap;
     decltype(&stereonav::earthPlaces) earthPlaces;
+    decltype(&stereonav::referencePlaces) referencePlaces;
+    decltype(&stereonav::writeGeoTiff) writeGeoTiff;
+    decltype(&stereonav::readTracks) readTracks;
 };
 
 }  // namespace stereonav

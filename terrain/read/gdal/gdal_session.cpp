@@ -53,7 +53,9 @@ void registerDriversOnce() {
     });
 }
 
-void checkFile(const std::filesystem::path& file, const std::string& advice) {
+}  // namespace
+
+void checkFileForGdal(const std::filesystem::path& file, const std::string& advice) {
     if (namesNetwork(file))
         throw Error(file.string(), "", "expected a file on this machine, found an address",
                     "fetch it first and name the copy");
@@ -69,8 +71,6 @@ void checkFile(const std::filesystem::path& file, const std::string& advice) {
     const auto size = std::filesystem::file_size(file, code);
     if (!code && size == 0) throw Error(file.string(), "", "the file is empty", advice);
 }
-
-}  // namespace
 
 GdalMessages::GdalMessages() {
     CPLPushErrorHandlerEx(&GdalMessages::keep, this);
@@ -108,7 +108,7 @@ std::string GdalMessages::reason(const std::filesystem::path& file) const {
 
 GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& messages,
                        const std::string& expected, const std::string& advice) {
-    checkFile(file, advice);
+    checkFileForGdal(file, advice);
     checkVirtualRaster(file);
     GdalDataset dataset(GDALDataset::Open(
         file.string().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, rasterDrivers()));

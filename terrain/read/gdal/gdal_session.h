@@ -39,6 +39,9 @@ struct CloseDataset {
 };
 using GdalDataset = std::unique_ptr<GDALDataset, CloseDataset>;
 
+// Throws Error unless it is a file with content on this machine.
+void checkFileForGdal(const std::filesystem::path& file, const std::string& advice);
+
 // A raster this program can read, checked to be a file with content. `expected` completes the
 // sentence "expected ..." and `advice` says what to give instead. Throws Error.
 GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& messages,

@@ -5,8 +5,8 @@
 namespace stereonav {
 namespace {
 
-constexpr RasterFunctions kFunctions = {readDem,   glanceAtDem, openRasterPicture,
-                                        mapPixels, overlap,     earthPlaces};
+constexpr RasterFunctions kFunctions = {readDem,     glanceAtDem,     openRasterPicture, mapPixels, overlap,
+                                        earthPlaces, referencePlaces, writeGeoTiff,      readTracks};
 
 }  // namespace
 

@@ -1,0 +1,176 @@
+// `stereonav sun`: where the sun stands over a ground at a time, and how long it shines on it that day.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "app/options/utc_text.h"
+#include "app/output/command_result.h"
+#include "app/output/output_place.h"
+#include "app/output/progress_bar.h"
+#include "app/scene/scene_loading.h"
+#include "app/scene/survey_ground.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/stopwatch.h"
+#include "engine/image/image_file.h"
+#include "engine/light/skies/sun_position.h"
+#include "terrain/survey/sun_hours.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180, kDay = 86400;
+
+void checkSunOptions(const SunOptions& options) {
+    if (!options.out.empty() && !options.out.ends_with(".tif") && !options.out.ends_with(".tiff"))
+        throw Error("--out", "", "expected a file named .tif, got \"" + options.out + "\"",
+                    "name it sun.tif");
+    if (!options.picture.empty()) checkOutputPicture("--picture", options.picture);
+    for (const NamedPlace& output :
+         {NamedPlace{"--out", options.out}, NamedPlace{"--picture", options.picture}}) {
+        if (output.place.empty()) continue;
+        checkNoInput(output, inputsOf(options.scene));
+        checkOutputFile(output.option, output.place);
+    }
+}
+
+// "2026-06-21 19:30" of seconds since 1970.
+std::string utcText(double seconds) {
+    const std::chrono::sys_seconds time{std::chrono::seconds(std::llround(seconds))};
+    const auto day = std::chrono::floor<std::chrono::days>(time);
+    const std::chrono::year_month_day date(day);
+    const std::chrono::hh_mm_ss clock(time - day);
+    return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}", int(date.year()), unsigned(date.month()),
+                       unsigned(date.day()), clock.hours().count(), clock.minutes().count());
+}
+
+// The middle of the ground, and the azimuth of true north there in its world.
+struct SunPlaceOnGround {
+    EarthPlace earth;
+    double north = 0;
+};
+
+SunPlaceOnGround placeOf(const SurveyGround& survey) {
+    const auto fail = [&](const char* problem) {
+        throw Error(survey.name, "", problem, "name an elevation model that says where it lies");
+    };
+    if (!survey.earth) fail("does not say where it lies on the Earth, and the sun goes by that");
+    const glm::dvec2 middle(0.0);
+    const auto here = survey.earth->placeAt(middle);
+    if (!here) fail("its middle has no longitude and latitude");
+    SunPlaceOnGround place{*here, 0};
+    // A step of a hundredth of a degree, towards the pole that is farther away.
+    EarthPlace beside = *here;
+    const double step = (here->latitude > 0 ? -1 : 1) * 0.01 * kDegree;
+    beside.latitude += step;
+    if (const auto world = survey.earth->worldAt(beside)) {
+        const glm::dvec2 way = (*world - middle) * (step > 0 ? 1.0 : -1.0);
+        place.north = std::atan2(way.x, way.y);
+    }
+    return place;
+}
+
+// The sun's places in the day that holds the time, from midnight to midnight of mean solar time at the place.
+std::vector<SunOverGround> sunsOfDay(const SunPlaceOnGround& place, double time, double step) {
+    const double offset = place.earth.longitude / (2 * std::numbers::pi) * kDay;
+    const double midnight = std::floor((time + offset) / kDay) * kDay - offset;
+    const int count = std::max(1, static_cast<int>(std::lround(kDay / step)));
+    std::vector<SunOverGround> suns;
+    for (int k = 0; k < count; ++k) {
+        const SunSeen seen =
+            sunSeenAt(midnight + (k + 0.5) * kDay / count, place.earth.latitude, place.earth.longitude);
+        suns.push_back({seen.azimuth + place.north, seen.elevation});
+    }
+    return suns;
+}
+
+// From black, no sun, to white, as much as anywhere; no ground is red.
+void writePicture(const std::string& file, const Plane<float>& hours, double most) {
+    Plane<PackedColor> picture(hours.width(), hours.height());
+    for (int y = 0; y < hours.height(); ++y)
+        for (int x = 0; x < hours.width(); ++x) {
+            const float value = hours.row(hours.height() - 1 - y)[x];
+            const float share = most > 0 ? static_cast<float>(value / most) : 0.0f;
+            const glm::vec3 color = std::isfinite(value) ? glm::vec3(share * share) : glm::vec3(0.5f, 0, 0);
+            picture.at(x, y) = packColor(color);
+        }
+    writeColorImage(file, picture);
+}
+
+void writeHours(const SunOptions& options, const SurveyGround& survey, const SunPlaceOnGround& place,
+                double time, Progress& progress, CommandResult& result) {
+    const HeightPyramid maxima(survey.ground);
+    const SightLines lines(survey.ground, maxima, 0);
+    const Stopwatch watch;
+    const Plane<float> hours = hoursOfSun(lines, sunsOfDay(place, time, 60 * options.step_min), 24, progress);
+    const double time_ms = watch.elapsed_ms();
+    double least = 24, most = 0, sum = 0;
+    long long count = 0;
+    for (int j = 0; j < hours.height(); ++j)
+        for (int i = 0; i < hours.width(); ++i) {
+            const double value = hours.row(j)[i];
+            if (!std::isfinite(value)) continue;
+            least = std::min(least, value), most = std::max(most, value), sum += value, ++count;
+        }
+    if (!options.out.empty()) {
+        WrittenRaster raster;
+        raster.floats = &hours;
+        raster.missing = std::nan("");
+        raster.description = "hours of sun";
+        raster.unit = "h";
+        writeFileAtomically(
+            options.out, [&](const std::filesystem::path& file) { writeGeoTiff(file, survey.grid, raster); });
+        result.addFile("hours", options.out);
+    }
+    if (!options.picture.empty()) {
+        writePicture(options.picture, hours, most);
+        result.addFile("picture", options.picture);
+    }
+    const double mean = count > 0 ? sum / count : 0;
+    result.say(fmt::format("hours of sun: {:.2f} to {:.2f}, mean {:.2f}; {:.3g} s\n", least, most, mean,
+                           1e-3 * time_ms));
+    result.add("least_hours", least);
+    result.add("most_hours", most);
+    result.add("mean_hours", mean);
+    result.add("step_min", options.step_min);
+    result.add("time_ms", time_ms);
+}
+
+}  // namespace
+
+int runSun(const SunOptions& options) {
+    checkSunOptions(options);
+    CommandResult result("sun", options.telling, {});
+    ProgressBar bar(!options.telling.quiet);
+    const SurveyGround survey = loadSurveyGround(options.scene, bar.progress());
+    checkNotRead({{"--out", options.out}, {"--picture", options.picture}});
+    const double time = secondsFromText(options.at).value_or(0);
+    const SunPlaceOnGround place = placeOf(survey);
+    const double latitude = place.earth.latitude, longitude = place.earth.longitude;
+    const SunSeen seen = sunSeenAt(time, latitude, longitude);
+    const auto rise = nextSunrise(time, latitude, longitude), set = nextSunset(time, latitude, longitude);
+    result.add("scene", survey.name);
+    result.add("utc", utcText(time));
+    result.add("place_deg", FactNumbers{latitude / kDegree, longitude / kDegree});
+    result.add("azimuth_deg", seen.azimuth / kDegree);
+    result.add("elevation_deg", seen.elevation / kDegree);
+    result.add("error_deg", 0.02);
+    result.add("next_sunrise_utc", rise ? FactValue(utcText(*rise)) : FactValue(std::monostate()));
+    result.add("next_sunset_utc", set ? FactValue(utcText(*set)) : FactValue(std::monostate()));
+    if (!options.out.empty() || !options.picture.empty())
+        writeHours(options, survey, place, time, bar.progress(), result);
+    bar.clear();
+    result.answer(
+        fmt::format("{} UTC at {:.4f}, {:.4f}: the sun stands at azimuth {:.2f}, elevation {:.2f} degrees; "
+                    "next sunrise {}, next sunset {}\n",
+                    utcText(time), latitude / kDegree, longitude / kDegree, seen.azimuth / kDegree,
+                    seen.elevation / kDegree, rise ? utcText(*rise) : "none within a day",
+                    set ? utcText(*set) : "none within a day"));
+    result.finish();
+    return 0;
+}
+
+}  // namespace stereonav

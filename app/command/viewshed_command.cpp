@@ -1,0 +1,117 @@
+// `stereonav viewshed`: what of the ground is seen from a place, and lines of sight between two.
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "app/output/command_result.h"
+#include "app/output/length_text.h"
+#include "app/output/output_place.h"
+#include "app/output/progress_bar.h"
+#include "app/scene/scene_loading.h"
+#include "app/scene/survey_ground.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/stopwatch.h"
+#include "terrain/survey/viewshed.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kUsualEye = 1.7;  // metres: of a person who stands
+
+void checkViewshedOptions(const ViewshedOptions& options) {
+    if (options.out.empty() && !options.to)
+        throw Error("--out", "", "is required, or --to", "give a file, shed.tif, or a second place");
+    if (options.out.empty()) return;
+    if (!options.out.ends_with(".tif") && !options.out.ends_with(".tiff"))
+        throw Error("--out", "", "expected a file named .tif, got \"" + options.out + "\"",
+                    "name it shed.tif");
+    checkNoInput({"--out", options.out}, inputsOf(options.scene));
+    checkOutputFile("--out", options.out);
+}
+
+double fallOf(const ViewshedOptions& options) {
+    return options.curvature ? curvatureFall(options.refraction.value_or(kUsualRefraction)) : 0;
+}
+
+void addPlace(CommandResult& result, const std::string& key, const SurveyPlace& place, double ground,
+              double height) {
+    result.add(key, FactNumbers{place.reference.x, place.reference.y});
+    result.add(key + "_ground_m", ground);
+    result.add(key + "_height_m", height);
+}
+
+void tellSight(const ViewshedOptions& options, const SurveyGround& survey, const glm::dvec3& eye,
+               CommandResult& result) {
+    const glm::dvec2 place = survey.gridAt(options.to->reference, "--to");
+    const double ground = survey.heightAt(place, "--to"), height = options.to->height_m.value_or(0);
+    const HeightPyramid maxima(survey.ground);
+    const SightLines lines(survey.ground, maxima, fallOf(options));
+    const Sight sight = lines.measure(eye, {place, ground + height});
+    const double distance = glm::length((place - glm::dvec2(eye)) * survey.ground.spacing());
+    result.answer(fmt::format("{}: {} of distance, the line passes {} {} the ground at {} from the eye\n",
+                              sight.seen ? "they see each other" : "they do not see each other",
+                              lengthText(distance), lengthText(std::abs(sight.clearance)),
+                              sight.clearance < 0 ? "under" : "over", lengthText(sight.at)));
+    addPlace(result, "to", *options.to, ground, height);
+    result.add("sees", sight.seen);
+    result.add("distance_m", distance);
+    result.add("clearance_m", sight.clearance);
+    result.add("clearance_at_m", sight.at);
+}
+
+void writeShed(const ViewshedOptions& options, const SurveyGround& survey, const glm::dvec3& eye,
+               double height, Progress& progress, CommandResult& result) {
+    ViewshedSetting setting;
+    setting.eye = eye;
+    setting.eyeHeight = height;
+    setting.targetHeight = options.targetHeight_m;
+    setting.reach = options.reach_m;
+    setting.fall = fallOf(options);
+    const Stopwatch watch;
+    const Viewshed shed = viewshedOf(survey.ground, setting, progress);
+    const double time_ms = watch.elapsed_ms();
+    WrittenRaster raster;
+    raster.bytes = &shed.seen;
+    raster.missing = static_cast<double>(Seen::NoGround);
+    raster.description = "seen";
+    writeFileAtomically(options.out,
+                        [&](const std::filesystem::path& file) { writeGeoTiff(file, survey.grid, raster); });
+    const double share = shed.samples > 0 ? 100.0 * shed.visible / shed.samples : 0;
+    const double area = shed.visible * survey.ground.spacing().x * survey.ground.spacing().y;
+    result.say(fmt::format("{}: {} of {} samples seen ({:.2f} %, {:.4g} km2), {:.3g} ms\n", options.out,
+                           shed.visible, shed.samples, share, area * 1e-6, time_ms));
+    result.addFile("viewshed", options.out);
+    result.add("samples", static_cast<std::int64_t>(shed.samples));
+    result.add("seen_samples", static_cast<std::int64_t>(shed.visible));
+    result.add("seen_percent", share);
+    result.add("seen_m2", area);
+    result.add("time_ms", time_ms);
+}
+
+}  // namespace
+
+int runViewshed(const ViewshedOptions& options) {
+    checkViewshedOptions(options);
+    CommandResult result("viewshed", options.telling, {});
+    ProgressBar bar(!options.telling.quiet);
+    const SurveyGround survey = loadSurveyGround(options.scene, bar.progress());
+    if (!options.out.empty()) checkNotRead({{"--out", options.out}});
+    const glm::dvec2 place = survey.gridAt(options.from.reference, "--from");
+    const double ground = survey.heightAt(place, "--from"),
+                 height = options.from.height_m.value_or(kUsualEye);
+    const glm::dvec3 eye(place, ground + height);
+    result.add("scene", survey.name);
+    result.add("crs", survey.crs);
+    addPlace(result, "from", options.from, ground, height);
+    result.add("curvature", options.curvature);
+    result.add("refraction", options.curvature ? FactValue(options.refraction.value_or(kUsualRefraction))
+                                               : FactValue(std::monostate()));
+    if (!options.out.empty()) writeShed(options, survey, eye, height, bar.progress(), result);
+    bar.clear();
+    if (options.to) tellSight(options, survey, eye, result);
+    result.finish();
+    return 0;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,33 @@
+// Ground for instruments: heights and where they lie, without colours, light or a flight.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/command/commands.h"
+#include "engine/base/progress.h"
+#include "terrain/ground/heightfield.h"
+#include "terrain/read/raster_file.h"
+
+namespace stereonav {
+
+struct SurveyGround {
+    std::string name;  // as the user gave it
+    Heightfield ground;
+    Georeference grid;  // of its samples; without a reference system its coordinates are the world's
+    // Between the world and what users write and read. Never null.
+    std::unique_ptr<ReferencePlaces> reference;
+    std::unique_ptr<EarthPlaces> earth;  // null where the file does not say where it lies
+    std::string crs;                     // name of the file's system, "" for none
+
+    // A place that a user gave, in the grid's units. Throws Error, naming the option, where it is not on the
+    // ground.
+    glm::dvec2 gridAt(const glm::dvec2& reference, const char* option) const;
+    // Metres; of a place that gridAt() gave. Throws Error where there is a hole.
+    double heightAt(const glm::dvec2& grid, const char* option) const;
+};
+
+// Missing ground is filled, unless it is to stay open. Sets the thread count. Throws Error, Cancelled.
+SurveyGround loadSurveyGround(const SceneOptions& options, Progress& progress);
+
+}  // namespace stereonav

@@ -1,0 +1,20 @@
+// A raster as it is written: one band over a terrain's samples.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "engine/image/plane.h"
+
+namespace stereonav {
+
+// Of one of the two planes, row 0 southernmost.
+struct WrittenRaster {
+    const Plane<std::uint8_t>* bytes = nullptr;
+    const Plane<float>* floats = nullptr;
+    double missing = 0;       // value of samples that are not known
+    std::string description;  // of the band
+    std::string unit;
+};
+
+}  // namespace stereonav

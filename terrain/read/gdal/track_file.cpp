@@ -1,0 +1,101 @@
+// Tracks and drawn lines through OGR: GPX and GeoJSON.
+#include <ogrsf_frmts.h>
+
+#include <mutex>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "terrain/read/gdal/gdal_session.h"
+#include "terrain/read/raster_file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr const char* kTrackFormats = "a GPX or GeoJSON file";
+constexpr const char* const kTrackDrivers[] = {"GPX", "GeoJSON", nullptr};
+
+void registerTrackDrivers() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        RegisterOGRGPX();
+        RegisterOGRGeoJSON();
+    });
+}
+
+void addLine(const OGRSimpleCurve& curve, const std::string& name, bool closed,
+             std::vector<TrackLine>& lines) {
+    TrackLine line{name, closed, {}};
+    for (int n = 0; n < curve.getNumPoints(); ++n) line.degrees.emplace_back(curve.getX(n), curve.getY(n));
+    if (closed && line.degrees.size() > 1 && line.degrees.front() == line.degrees.back())
+        line.degrees.pop_back();
+    lines.push_back(std::move(line));
+}
+
+// Lines and outer borders, whatever they lie in. A collection of collections that goes on and on is cut off.
+void addLines(const OGRGeometry& geometry, const std::string& name, int depth,
+              std::vector<TrackLine>& lines) {
+    constexpr int kDeepest = 8;
+    switch (wkbFlatten(geometry.getGeometryType())) {
+        case wkbLineString:
+            addLine(*geometry.toLineString(), name, false, lines);
+            break;
+        case wkbPolygon:
+            if (const OGRLinearRing* ring = geometry.toPolygon()->getExteriorRing())
+                addLine(*ring, name, true, lines);
+            break;
+        case wkbMultiLineString:
+        case wkbMultiPolygon:
+        case wkbGeometryCollection:
+            if (depth < kDeepest)
+                for (const OGRGeometry* part : geometry.toGeometryCollection())
+                    addLines(*part, name, depth + 1, lines);
+            break;
+        default:
+            break;  // places have no length
+    }
+}
+
+// The layer's places to longitude and latitude; false where there is no way.
+bool toDegrees(OGRGeometry& geometry) {
+    const OGRSpatialReference* own = geometry.getSpatialReference();
+    OGRSpatialReference earth;
+    if (!own || earth.SetWellKnownGeogCS("WGS84") != OGRERR_NONE) return own == nullptr;
+    earth.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return own->IsSame(&earth) || geometry.transformTo(&earth) == OGRERR_NONE;
+}
+
+}  // namespace
+
+std::vector<TrackLine> readTracks(const std::filesystem::path& file) {
+    GdalMessages messages;
+    registerTrackDrivers();
+    checkFileForGdal(file, "name a track or a drawn line");
+    GdalDataset dataset(GDALDataset::Open(
+        file.string().c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kTrackDrivers));
+    if (!dataset)
+        throw Error(file.string(), "", std::string("expected ") + kTrackFormats + ", found something else",
+                    "tracks end in .gpx, drawn lines in .geojson or .json");
+    std::vector<TrackLine> lines;
+    for (OGRLayer* layer : dataset->GetLayers()) {
+        // GPX has each track once as a line and once as its points.
+        for (const auto& feature : *layer) {
+            const OGRGeometry* geometry = feature->GetGeometryRef();
+            if (!geometry) continue;
+            const int field = feature->GetFieldIndex("name");
+            const std::string name = field >= 0 ? feature->GetFieldAsString(field) : "";
+            const std::unique_ptr<OGRGeometry> own(geometry->clone());
+            if (!toDegrees(*own))
+                throw Error(file.string(), layer->GetName(), "lies in a system that has no longitudes",
+                            "write it in WGS 84");
+            addLines(*own, name, 0, lines);
+        }
+    }
+    if (messages.hasError())
+        throw Error(file.string(), "", "is damaged" + messages.reason(file), "write it again");
+    if (lines.empty())
+        throw Error(file.string(), "", "expected a track, a line or an area, found none",
+                    "single places have no length");
+    return lines;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,85 @@
+// Bounds of a fan's bins, and what they tell of samples. Compiled once for each instruction set.
+#include <limits>
+
+#include "engine/simd/simd.h"
+#include "terrain/survey/fan_rows.h"
+
+namespace stereonav::STEREONAV_ISA {
+namespace {
+
+STEREONAV_INLINE F lanesFrom(int first) {
+    return laneIndexF() + F(static_cast<float>(first));
+}
+
+// Height of the surface at a row of the column.
+STEREONAV_INLINE F heightOnLine(const float* height, F row, int rows, M lanes) {
+    const I below = min(floorToInt(row), I(rows - 2));
+    const FPair ends = gatherPair(height, below, lanes);
+    return mulAdd(row - toFloat(below), ends.second - ends.first, ends.first);
+}
+
+}  // namespace
+
+void raiseLow(const LowRow& row) {
+    const FanBins& bins = row.bins;
+    const F top(static_cast<float>(row.rows - 1));
+    for (int b = 0; b < bins.count; b += kLanes) {
+        const M lanes = firstLanes(bins.count - b);
+        const F edge = lanesFrom(b), next = edge + F(1.0f);
+        const F y0 = clamp(mulAdd(edge, F(bins.rowStep), F(bins.row)), F(0.0f), top);
+        const F y1 = clamp(mulAdd(next, F(bins.rowStep), F(bins.row)), F(0.0f), top);
+        const F h0 = heightOnLine(row.height, y0, row.rows, lanes),
+                h1 = heightOnLine(row.height, y1, row.rows, lanes);
+        const I inside = floorToInt(y1);
+        const F between = gather(row.height, inside, lanes & (y0 < toFloat(inside)), h0);
+        const F t0 = mulAdd(edge, F(bins.tangentStep), F(bins.tangent)), t1 = t0 + F(bins.tangentStep);
+        const F fall = mulAdd(max(t0 * t0, t1 * t1), F(bins.fallAcross), F(bins.fallAlong));
+        const F slope = (min(min(h0, h1), between) - F(bins.slack)) * F(row.inverse) - fall;
+        // What is not known raises nothing: it makes the sum no number.
+        const M known = (h0 + h1) + between <= F(std::numeric_limits<float>::max());
+        const F low = loadF(row.low + b);
+        store(row.low + b, slope, lanes & known & (low < slope));
+    }
+}
+
+void raiseHigh(const HighRow& row) {
+    const FanBins& bins = row.bins;
+    const F top(static_cast<float>(row.rows - 1));
+    for (int b = 0; b < bins.count; b += kLanes) {
+        const M lanes = firstLanes(bins.count - b);
+        const F edge = lanesFrom(b), next = edge + F(1.0f);
+        const F far0 = mulAdd(edge, F(bins.rowStep), F(bins.row)),
+                near0 = mulAdd(edge, F(row.nearRowStep), F(row.nearRow));
+        const F far1 = mulAdd(next, F(bins.rowStep), F(bins.row)),
+                near1 = mulAdd(next, F(row.nearRowStep), F(row.nearRow));
+        const I first = floorToInt(clamp(min(far0, near0), F(0.0f), top));
+        const I last = floorToInt(clamp(max(far1, near1) + F(1.0f), F(0.0f), top));
+        const F over = max(gather(row.tallest, first, lanes, F(0.0f)),
+                           gather(row.tallest, max(first, last - I(2)), lanes, F(0.0f))) +
+                       F(bins.slack);
+        const F t0 = mulAdd(edge, F(bins.tangentStep), F(bins.tangent)), t1 = t0 + F(bins.tangentStep);
+        const F least = select(t0 * t1 <= F(0.0f), F(0.0f), min(t0 * t0, t1 * t1));
+        const F fall = mulAdd(least, F(bins.fallAcross), F(bins.fallAlong));
+        const F slope = over * select(over < F(0.0f), F(row.inverseFar), F(row.inverseNear)) - fall;
+        store(row.high + b, max(loadF(row.high + b), slope), lanes);
+    }
+}
+
+void tellSamples(const SampleRow& row) {
+    for (int k = 0; k < row.count; k += kLanes) {
+        const M lanes = firstLanes(row.count - k);
+        const F at = lanesFrom(k), t = mulAdd(at, F(row.tangentStep), F(row.tangent));
+        const I bin = max(I(0), min(floorToInt(mulAdd(at, F(row.binStep), F(row.bin))), I(row.bins - 1)));
+        const F low = gather(row.low, bin, lanes, F(0.0f)), high = gather(row.high, bin, lanes, F(0.0f));
+        const F fall = mulAdd(t * t, F(row.fallAcross), F(row.fallAlong));
+        const F height = loadF(row.height + k) + F(row.targetHeight), slack(row.slack);
+        const M hidden = (height + slack) * F(row.inverse) - fall < low;
+        const M above = high < (height - slack) * F(row.inverse) - fall;
+        const int word = k / 16, shift = k % 16;
+        if (shift == 0) row.open[word] = row.above[word] = 0;
+        row.open[word] = static_cast<std::uint16_t>(row.open[word] | bits(andNot(lanes, hidden)) << shift);
+        row.above[word] = static_cast<std::uint16_t>(row.above[word] | bits(lanes & above) << shift);
+    }
+}
+
+}  // namespace stereonav::STEREONAV_ISA

@@ -1,0 +1,268 @@
+#include "terrain/survey/fan_sweep.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "terrain/survey/viewshed.h"
+
+namespace stereonav {
+namespace {
+
+constexpr float kBelowAll = std::numeric_limits<float>::lowest();
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+// Neither more than a float holds nor beyond it.
+float floatOf(double value) {
+    return static_cast<float>(value);
+}
+
+}  // namespace
+
+FanSweep::FanSweep(const FanTask& task, int axis, int sign, int part)
+    : mTask(task),
+      mHeights(task.lines.ground()),
+      mGround(mHeights, glm::dvec2(task.eye), task.lines.fall(), axis, sign) {
+    mFrom = -1 + 2.0 * part / kParts, mTo = -1 + 2.0 * (part + 1) / kParts;
+    mOpenFrom = axis == 1 && part == 0;
+    mClosedTo = axis == 0 && part == kParts - 1;
+    mLow.assign(1 + FanBins::kPadding, kBelowAll);
+    mHigh = mLow;
+    const double range = double(mHeights.maxHeight()) - mHeights.minHeight();
+    const glm::dvec2 spacing = mHeights.spacing();
+    mSteepest = std::min(range, mHeights.maxSlope() * std::max(spacing.x, spacing.y));
+    mTallest =
+        std::max(std::abs(mHeights.maxHeight() - task.eye.z), std::abs(mHeights.minHeight() - task.eye.z)) +
+        task.targetHeight;
+}
+
+FanCounts FanSweep::run() {
+    const double reach = mTask.reach > 0 ? mTask.reach : std::numeric_limits<double>::infinity();
+    const int first = mGround.first();
+    if (first > 0 && mGround.columns() > 0) samplesNear(0);
+    for (int at = first; at < mGround.columns(); ++at) {
+        const double x = mGround.distance(at);
+        if (x * mGround.step() > reach) break;
+        // All of the part lies on one side of the eye's row: it does not come back.
+        if (mGround.middle() + x * mFrom > mGround.rows() - 1 || mGround.middle() + x * mTo < 0) break;
+        while (width() * x > 1) split();
+        constexpr int kKept = kLag + 2;
+        Column& column = mColumns[static_cast<std::size_t>(at % kKept)];
+        read(at, column);
+        samplesAt(at, column);
+        raiseLowAt(at, column);
+        if (at - first >= kLag)
+            raiseHighAt(at - kLag + 1, mColumns[static_cast<std::size_t>((at - kLag) % kKept)],
+                        mColumns[static_cast<std::size_t>((at - kLag + 1) % kKept)]);
+    }
+    return mCounts;
+}
+
+// Each bin into two, which inherit what held for it.
+void FanSweep::split() {
+    std::vector<std::vector<float>*> all{&mLow, &mHigh};
+    if (!mBlocks.empty()) all.push_back(&mBlocks.back());
+    for (std::vector<float>* bounds : all) {
+        std::vector<float> finer(static_cast<std::size_t>(2 * mBins) + FanBins::kPadding, kBelowAll);
+        for (int b = 0; b < 2 * mBins; ++b)
+            finer[static_cast<std::size_t>(b)] = (*bounds)[static_cast<std::size_t>(b / 2)];
+        bounds->swap(finer);
+    }
+    mBins *= 2;
+}
+
+void FanSweep::read(int at, Column& column) const {
+    // A row more on each side than the wedge has, and what the column before it may ask for.
+    const double x = mGround.distance(at);
+    const auto inside = [&](double row) {
+        return static_cast<int>(std::clamp(row, 0.0, mGround.rows() - 1.0));
+    };
+    column.start = inside(std::floor(mGround.middle() + x * mFrom) - 2);
+    const int end = inside(std::ceil(mGround.middle() + x * mTo) + 2);
+    column.start = std::min(column.start, std::max(0, end - 1));
+    column.rows = std::min(end, mGround.rows() - 1) - column.start + 1;
+    const std::size_t size = static_cast<std::size_t>(column.rows) + FanBins::kPadding;
+    if (column.height.size() < size) column.height.resize(size);
+    for (int k = 0; k < column.rows; ++k)
+        column.height[static_cast<std::size_t>(k)] =
+            floatOf(mGround.height(at, column.start + k) - mTask.eye.z);
+    if (!mHeights.hasHoles()) return;
+    column.firm.assign(size, kUnknown);
+    column.known.assign(size, kBelowAll);
+    for (int k = 0; k < column.rows; ++k) {
+        const std::size_t r = static_cast<std::size_t>(k);
+        if (std::isfinite(column.height[r])) column.known[r] = column.height[r];
+        if (mGround.firm(at, column.start + k)) column.firm[r] = column.height[r];
+    }
+}
+
+glm::ivec2 FanSweep::binsOver(double x) const {
+    const double low = (-mGround.middle() / x - mFrom) / width(),
+                 high = ((mGround.rows() - 1 - mGround.middle()) / x - mFrom) / width();
+    const auto bin = [&](double b) { return static_cast<int>(std::clamp(b, 0.0, double(mBins))); };
+    return {bin(std::floor(low) - 1), bin(std::ceil(high) + 1)};
+}
+
+// Rows are rounded to floats of less than 2^24 of their range, heights and what curvature takes likewise.
+float FanSweep::slackOf(int rows) const {
+    constexpr double kRounding = 0x1p-22;
+    const glm::dvec2 extent = glm::dvec2(mHeights.width(), mHeights.height()) * mHeights.spacing();
+    const double fall = mGround.fall() * (extent.x * extent.x + extent.y * extent.y);
+    return floatOf(kRounding * (4 * mTallest + 4 * fall + mSteepest * (rows + 8)) + 2 * mTask.grazing);
+}
+
+FanBins FanSweep::binsAt(double x, double fallAt, const glm::ivec2& range, int start, float slack) const {
+    FanBins row;
+    row.count = range.y - range.x;
+    const double tangent = mFrom + range.x * width();
+    row.row = floatOf(mGround.middle() + x * tangent - start);
+    row.rowStep = floatOf(x * width());
+    row.tangent = floatOf(tangent);
+    row.tangentStep = floatOf(width());
+    row.fallAlong = floatOf(mGround.fall() * fallAt * mGround.stretch(0));
+    row.fallAcross = floatOf(mGround.fall() * fallAt * mGround.across() * mGround.across());
+    row.slack = slack;
+    return row;
+}
+
+// Whatever is in a bin, its rays have met the ground of this column.
+void FanSweep::raiseLowAt(int at, const Column& column) {
+    const double x = mGround.distance(at);
+    const glm::ivec2 range = binsOver(x);
+    if (range.y <= range.x) return;
+    LowRow row;
+    row.bins = binsAt(x, x, range, column.start, slackOf(column.rows));
+    row.height = mHeights.hasHoles() ? column.firm.data() : column.height.data();
+    row.rows = column.rows;
+    row.inverse = floatOf(1 / x);
+    row.low = mLow.data() + range.x;
+    mTask.kernels.raiseLow(row);
+}
+
+// No ground between two columns lies higher than their samples beside the bin.
+void FanSweep::raiseHighAt(int at, const Column& near, const Column& far) {
+    const double x0 = mGround.distance(at - 1), x1 = mGround.distance(at);
+    if ((at - mGround.first() - 1) % kBlock == 0) mBlocks.emplace_back(mLow.size(), kBelowAll);
+    const glm::ivec2 range = binsOver(x0);
+    if (range.y <= range.x) return;
+    const bool holes = mHeights.hasHoles();
+    // Rows of both; where one has none the bins beside do not need them.
+    const int start = std::min(near.start, far.start),
+              end = std::max(near.start + near.rows, far.start + far.rows), rows = end - start;
+    mThree.assign(static_cast<std::size_t>(rows) + 2 + FanBins::kPadding, kBelowAll);
+    for (const Column* column : {&near, &far}) {
+        const std::vector<float>& heights = holes ? column->known : column->height;
+        float* const out = mThree.data() + (column->start - start);
+        for (int k = 0; k < column->rows; ++k)
+            out[k] = std::max(out[k], heights[static_cast<std::size_t>(k)]);
+    }
+    for (int k = 0; k < rows; ++k)
+        mThree[static_cast<std::size_t>(k)] =
+            std::max({mThree[static_cast<std::size_t>(k)], mThree[static_cast<std::size_t>(k + 1)],
+                      mThree[static_cast<std::size_t>(k + 2)]});
+    HighRow row;
+    row.bins = binsAt(x1, x0, range, start, slackOf(rows));
+    const FanBins before = binsAt(x0, x0, range, start, 0);
+    row.nearRow = before.row, row.nearRowStep = before.rowStep;
+    row.tallest = mThree.data();
+    row.rows = rows;
+    row.inverseNear = floatOf(1 / x0), row.inverseFar = floatOf(1 / x1);
+    row.high = mBlocks.back().data() + range.x;
+    mTask.kernels.raiseHigh(row);
+    for (int b = range.x; b < range.y; ++b) {
+        const std::size_t bin = static_cast<std::size_t>(b);
+        mHigh[bin] = std::max(mHigh[bin], mBlocks.back()[bin]);
+    }
+}
+
+glm::ivec2 FanSweep::ownRows(double x) const {
+    const double middle = mGround.middle(), low = x * mFrom, high = x * mTo;
+    const auto after = [&](int r) { return mOpenFrom ? r - middle > low : r - middle >= low; };
+    const auto before = [&](int r) { return mClosedTo ? r - middle <= high : r - middle < high; };
+    int first = static_cast<int>(std::clamp(std::ceil(middle + low) - 1, 0.0, double(mGround.rows())));
+    int last = static_cast<int>(std::clamp(std::floor(middle + high) + 1, -1.0, mGround.rows() - 1.0));
+    while (first <= last && !after(first)) ++first;
+    while (last >= first && !before(last)) --last;
+    return {first, last};
+}
+
+// Those of a column too near for bounds.
+void FanSweep::samplesNear(int at) {
+    const glm::ivec2 rows = ownRows(mGround.distance(at));
+    for (int r = rows.x; r <= rows.y; ++r) sample(at, r, false);
+}
+
+void FanSweep::samplesAt(int at, const Column& column) {
+    const double x = mGround.distance(at);
+    const glm::ivec2 rows = ownRows(x);
+    if (rows.y < rows.x) return;
+    SampleRow row;
+    row.height = column.height.data() + (rows.x - column.start);
+    row.count = rows.y - rows.x + 1;
+    row.inverse = floatOf(1 / x);
+    row.binStep = floatOf(1 / (x * width()));
+    row.tangentStep = row.inverse;
+    const double y = rows.x - mGround.middle();
+    row.bin = floatOf((y - x * mFrom) / (x * width()));
+    row.tangent = floatOf(y / x);
+    row.fallAlong = floatOf(mGround.fall() * x * mGround.stretch(0));
+    row.fallAcross = floatOf(mGround.fall() * x * mGround.across() * mGround.across());
+    row.slack = slackOf(column.rows);
+    row.targetHeight = floatOf(mTask.targetHeight);
+    row.bins = mBins;
+    row.low = mLow.data(), row.high = mHigh.data();
+    const std::size_t words = static_cast<std::size_t>(row.count + 15) / 16;
+    if (mOpen.size() < words) mOpen.resize(words), mAbove.resize(words);
+    row.open = mOpen.data(), row.above = mAbove.data();
+    mTask.kernels.tellSamples(row);
+    for (std::size_t w = 0; w < words; ++w)
+        for (unsigned open = mOpen[w]; open != 0; open &= open - 1) {
+            const int bit = std::countr_zero(open);
+            sample(at, rows.x + static_cast<int>(16 * w) + bit, mAbove[w] >> bit & 1);
+        }
+}
+
+void FanSweep::sample(int at, int row, bool aboveHigh) {
+    const double ground = mGround.height(at, row), x = mGround.distance(at);
+    const glm::ivec2 place = mGround.sample(at, row);
+    std::uint8_t& out = mTask.seen.row(place.y)[place.x];
+    if (!std::isfinite(ground)) {
+        out = static_cast<std::uint8_t>(Seen::NoGround);
+        return;
+    }
+    const double tangent = (row - mGround.middle()) / x;
+    if (mTask.reach > 0 && x * x * mGround.stretch(tangent) > mTask.reach * mTask.reach) return;
+    if (!isClear(at, row, ground + mTask.targetHeight, aboveHigh)) return;
+    out = static_cast<std::uint8_t>(Seen::Visible);
+    ++mCounts.visible;
+}
+
+bool FanSweep::isClear(int at, int row, double height, bool aboveHigh) {
+    const int first = mGround.first();
+    const double eye = mTask.eye.z, grazing = mTask.grazing;
+    if (at - first <= kLag + 1) return mGround.clear(eye, height, at, row, -1, at, grazing);
+    if (!mGround.clear(eye, height, at, row, at - kLag, at, grazing)) return false;
+    const double x = mGround.distance(at), tangent = (row - mGround.middle()) / x;
+    const double slope = (height - eye) / x - mGround.fall() * x * mGround.stretch(tangent);
+    // Curvature only lowers the ground beside the eye: without it the bound holds, too.
+    if (slope <= mBeside && !mGround.clear(eye, height, at, row, -1, first, grazing)) return false;
+    ++(aboveHigh ? mCounts.near : mCounts.all);
+    return aboveHigh || isClearOverBlocks(at, row, height, tangent, slope - mWidest / x);
+}
+
+// Of the blocks those are walked that reach up to the line; the last one, which is the likeliest, first.
+bool FanSweep::isClearOverBlocks(int at, int row, double height, double tangent, double slope) {
+    const double share = (tangent - mFrom) / (mTo - mFrom);
+    for (int block = static_cast<int>(mBlocks.size()) - 1; block >= 0; --block) {
+        const std::vector<float>& bounds = mBlocks[static_cast<std::size_t>(block)];
+        const int bins = static_cast<int>(bounds.size()) - FanBins::kPadding;
+        const int bin = std::clamp(static_cast<int>(share * bins), 0, bins - 1);
+        if (bounds[static_cast<std::size_t>(bin)] < slope) continue;
+        const int from = mGround.first() + block * kBlock, to = std::min(from + kBlock, at - kLag);
+        if (!mGround.clear(mTask.eye.z, height, at, row, from, to, mTask.grazing)) return false;
+    }
+    return true;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,90 @@
+// A part of a fan around an eye, swept outward column by column: bounds of its bins, and what of its samples
+// is seen (terrain/survey/viewshed.h says how).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/image/plane.h"
+#include "terrain/survey/fan_ground.h"
+#include "terrain/survey/fan_rows.h"
+#include "terrain/survey/sight_line.h"
+
+namespace stereonav {
+
+struct FanKernels {
+    decltype(&plain::raiseLow) raiseLow;
+    decltype(&plain::raiseHigh) raiseHigh;
+    decltype(&plain::tellSamples) tellSamples;
+};
+
+// What all parts of all fans look at.
+struct FanTask {
+    const SightLines& lines;
+    const FanKernels& kernels;
+    glm::dvec3 eye;  // x, y in the grid's units, z in metres
+    double targetHeight, reach;
+    double grazing;             // metres that a line may lie under the ground by
+    Plane<std::uint8_t>& seen;  // Seen
+};
+
+struct FanCounts {
+    long long visible = 0, near = 0, all = 0;  // seen; walked over the last columns; walked from the eye
+};
+
+class FanSweep {
+public:
+    static constexpr int kParts = 16;  // of a fan: tasks for threads
+
+    FanSweep(const FanTask& task, int axis, int sign, int part);
+    FanCounts run();
+
+private:
+    static constexpr int kLag = 2;     // columns behind the samples that the upper bounds end at
+    static constexpr int kBlock = 16;  // columns of which upper bounds are kept together
+
+    // Rows of a column that the part may ask for, over the eye: with what low bounds, and what high ones
+    // need.
+    struct Column {
+        int start = 0, rows = 0;
+        std::vector<float> height, firm, known;  // firm, known: where there are holes
+    };
+
+    int bins() const { return mBins; }
+    double width() const { return (mTo - mFrom) / mBins; }
+    void split();
+    void read(int at, Column& column) const;
+    // The bins over a column that lie on the ground, in part at least: first and one past the last.
+    glm::ivec2 binsOver(double x) const;
+    FanBins binsAt(double x, double fallAt, const glm::ivec2& range, int start, float slack) const;
+    float slackOf(int rows) const;  // of rows in a buffer
+    void raiseLowAt(int at, const Column& column);
+    void raiseHighAt(int at, const Column& near, const Column& far);
+    double slopeBeside() const;
+    void samplesNear(int at);
+    void samplesAt(int at, const Column& column);
+    // First and last row of a column whose samples are this part's.
+    glm::ivec2 ownRows(double x) const;
+    void sample(int at, int row, bool aboveHigh);
+    bool isClear(int at, int row, double height, bool aboveHigh);
+    bool isClearOverBlocks(int at, int row, double height, double tangent, double slope);
+
+    const FanTask& mTask;
+    const Heightfield& mHeights;
+    const FanGround mGround;
+    double mFrom, mTo;           // tangents
+    bool mOpenFrom, mClosedTo;   // which of two fans, or parts, a ray between them belongs to
+    double mSteepest, mTallest;  // metres between neighbours, from the eye
+    float mWidest = 0;           // slack of any column
+    double mBeside;              // no slope up to the first column is above it
+    int mBins = 1;
+    std::vector<float> mLow, mHigh, mThree;
+    std::vector<std::uint16_t> mOpen, mAbove;
+    // Upper bounds of kBlock columns each, in the bins that there were; the last is not full yet.
+    std::vector<std::vector<float>> mBlocks;
+    std::array<Column, kLag + 2> mColumns;
+    FanCounts mCounts;
+};
+
+}  // namespace stereonav

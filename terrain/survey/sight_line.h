@@ -1,0 +1,57 @@
+// Whether one place sees another over the ground: exact on the bilinear surface that pictures are cast
+// against, cell by cell, with leaps over blocks that lie below the line (terrain/ground/height_pyramid.h).
+// Every cell's height along the line is a quadratic, so its largest value is known in closed form.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "terrain/ground/height_pyramid.h"
+#include "terrain/ground/heightfield.h"
+
+namespace stereonav {
+
+constexpr double kEarthRadius = 6371008.8;  // metres: the mean one of WGS 84 (IUGG)
+constexpr double kUsualRefraction = 0.13;   // of the curvature: Gauss's coefficient
+
+// What the ground sinks by at a distance d: fall * d^2, metres.
+// refraction: the share of the curvature that light follows, 0 to below 1. A parabola in the place of the
+// sphere: 100 km away the two are 8 cm apart.
+constexpr double curvatureFall(double refraction) {
+    return (1 - refraction) / (2 * kEarthRadius);
+}
+
+// A line of sight. Distances are metres over the plan.
+struct Sight {
+    bool seen = false;
+    double clearance = 0;  // metres from ground to line where it is least; below 0: hidden by so much
+    double at = 0;         // distance from the eye of that place
+};
+
+class SightLines {
+public:
+    // ground and maxima live as long. fall: of curvatureFall(), 0 for level ground.
+    SightLines(const Heightfield& ground, const HeightPyramid& maxima, double fall);
+
+    const Heightfield& ground() const { return mGround; }
+    double fall() const { return mFall; }
+
+    // x, y in the grid's units, z in metres: a place on the grid, or above it.
+    // Grazing counts as seen: a line may lie below the ground by what rounding makes of heights. Ground that
+    // is missing hides nothing.
+    bool sees(const glm::dvec3& eye, const glm::dvec3& target) const { return clear(eye, target, 0, 1); }
+    // The same for the part of the line from share `from` to share `to` of it.
+    bool clear(const glm::dvec3& eye, const glm::dvec3& target, double from, double to) const;
+    // The whole line, its ends among it, with where it is closest to the ground.
+    Sight measure(const glm::dvec3& eye, const glm::dvec3& target) const;
+
+    // No less than a line from there to any sample may lie under the ground by, metres.
+    double grazing(const glm::dvec2& eye, double eyeHeight, double targetHeight) const;
+
+private:
+    const Heightfield& mGround;
+    const HeightPyramid& mMaxima;
+    double mFall, mTallest;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,84 @@
+#include "terrain/survey/viewshed.h"
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "engine/simd/simd_target.h"
+#include "terrain/survey/fan_sweep.h"
+
+namespace stereonav {
+namespace {
+
+const FanKernels& fanKernels() {
+    static const FanKernels plainSet{plain::raiseLow, plain::raiseHigh, plain::tellSamples},
+        avx2Set{avx2::raiseLow, avx2::raiseHigh, avx2::tellSamples},
+        avx512Set{avx512::raiseLow, avx512::raiseHigh, avx512::tellSamples};
+    return kernelsOf(SimdTarget::Auto, plainSet, avx2Set, avx512Set);
+}
+
+double checkedEye(const Heightfield& ground, const ViewshedSetting& setting) {
+    const glm::dvec2 g = setting.eye;
+    const bool inside = g.x >= 0 && g.y >= 0 && g.x <= ground.width() - 1 && g.y <= ground.height() - 1;
+    const double height = inside ? ground.heightAt(ground.worldFromGrid(g)) : 0;
+    if (!inside || !std::isfinite(height))
+        throw Error("", "the eye's place",
+                    inside ? "expected ground, found a hole in it" : "expected a place on the ground",
+                    "choose another one");
+    return height + setting.eyeHeight;
+}
+
+// Samples that are known and within reach.
+long long samplesOf(const Heightfield& ground, const ViewshedSetting& setting) {
+    if (!ground.hasHoles() && setting.reach <= 0)
+        return static_cast<long long>(ground.width()) * ground.height();
+    long long count = 0;
+    for (int j = 0; j < ground.height(); ++j)
+        for (int i = 0; i < ground.width(); ++i) {
+            const glm::dvec2 run = (glm::dvec2(i, j) - setting.eye) * ground.spacing();
+            const bool inside = setting.reach <= 0 || glm::dot(run, run) <= setting.reach * setting.reach;
+            count += inside && std::isfinite(ground.sample(i, j));
+        }
+    return count;
+}
+
+}  // namespace
+
+Viewshed viewshedOf(const Heightfield& ground, const ViewshedSetting& setting, Progress& progress) {
+    const double eye = checkedEye(ground, setting);
+    progress.report(0, "looking around");
+    const HeightPyramid maxima(ground);
+    const SightLines lines(ground, maxima, setting.fall);
+    Viewshed result;
+    result.seen.resize(ground.width(), ground.height());
+    constexpr int kParts = FanSweep::kParts;
+    const FanTask task{lines,
+                       fanKernels(),
+                       glm::dvec3(setting.eye, eye),
+                       setting.targetHeight,
+                       setting.reach,
+                       lines.grazing(setting.eye, eye, setting.targetHeight),
+                       result.seen};
+    std::vector<FanCounts> counts(4 * kParts);
+    parallelFor(4 * kParts, [&](int k) {
+        const int fan = k % 4;
+        counts[static_cast<std::size_t>(k)] = FanSweep(task, fan / 2, fan % 2 ? -1 : 1, k / 4).run();
+    });
+    for (const FanCounts& part : counts) {
+        result.visible += part.visible;
+        result.walkedNear += part.near, result.walkedAll += part.all;
+    }
+    result.samples = samplesOf(ground, setting);
+    // The sample on which the eye stands is in no fan.
+    if (setting.eye == glm::floor(setting.eye)) {
+        result.seen.row(static_cast<int>(setting.eye.y))[static_cast<int>(setting.eye.x)] =
+            static_cast<std::uint8_t>(Seen::Visible);
+        ++result.visible;
+    }
+    return result;
+}
+
+}  // namespace stereonav

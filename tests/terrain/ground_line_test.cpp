@@ -1,0 +1,212 @@
+// Lengths, areas and volumes over ground against closed forms.
+#include "terrain/survey/ground_line.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "terrain/survey/ground_area.h"
+#include "terrain/survey/sun_hours.h"
+
+namespace stereonav {
+namespace {
+
+// height: of a place in the world, in metres.
+Heightfield shaped(int width, int height, double spacing,
+                   const std::function<double(double, double)>& heightAt) {
+    std::vector<float> heights;
+    for (int j = 0; j < height; ++j)
+        for (int i = 0; i < width; ++i)
+            heights.push_back(static_cast<float>(
+                heightAt((i - 0.5 * (width - 1)) * spacing, (j - 0.5 * (height - 1)) * spacing)));
+    return Heightfield(width, height, glm::dvec2(spacing), std::move(heights), "test");
+}
+
+using Places = std::vector<glm::dvec2>;
+
+TEST(GroundLine, LengthsOnAPlaneAreThoseOfItsSlope) {
+    const Heightfield plane = shaped(41, 31, 10, [](double x, double y) { return 0.75 * x - 0.25 * y + 50; });
+    const Places line{{-150.5, -100}, {101.25, 37}, {101.25, 120}, {20, 120}};
+    const LineMeasure m = measureLine(plane, line);
+    double plan = 0, along = 0, climb = 0, descent = 0;
+    for (std::size_t n = 1; n < line.size(); ++n) {
+        const glm::dvec2 d = line[n] - line[n - 1];
+        const double run = std::hypot(d.x, d.y), rise = 0.75 * d.x - 0.25 * d.y;
+        plan += run, along += std::hypot(run, rise);
+        (rise > 0 ? climb : descent) += std::abs(rise);
+    }
+    EXPECT_NEAR(m.plan, plan, 1e-9);
+    EXPECT_NEAR(m.along, along, 2e-5);  // heights are floats
+    EXPECT_NEAR(m.straight, along, 2e-5);
+    EXPECT_NEAR(m.climb, climb, 1e-4);
+    EXPECT_NEAR(m.descent, descent, 1e-4);
+    EXPECT_NEAR(m.rise, climb - descent, 1e-4);
+    const LineMeasure errors = errorsOfLine(plane, line);
+    EXPECT_EQ(errors.plan, 0);
+    EXPECT_LT(errors.along, 1e-4);
+    EXPECT_LT(errors.rise, 1e-4);
+}
+
+// One cell whose height along its diagonal is 2 s (1 - s) times its edges': a parabola.
+TEST(GroundLine, AParabolaHasItsLengthAndItsTop) {
+    const Heightfield cell = shaped(2, 2, 1, [](double x, double y) { return x * y < 0 ? 1.0 : 0.0; });
+    const LineMeasure m = measureLine(cell, {{-0.5, -0.5}, {0.5, 0.5}});
+    // Over a plan of sqrt(2) slopes go from sqrt(2) to -sqrt(2).
+    const double root = std::sqrt(2.0), half = 0.5 * (root * std::sqrt(3.0) + std::asinh(root));
+    EXPECT_NEAR(m.along, half, 1e-12);
+    EXPECT_NEAR(m.highest, 0.5, 1e-12);
+    EXPECT_NEAR(m.lowest, 0, 1e-12);
+    EXPECT_NEAR(m.climb, 0.5, 1e-12);
+    EXPECT_NEAR(m.descent, 0.5, 1e-12);
+    EXPECT_NEAR(m.straight, root, 1e-12);
+}
+
+TEST(GroundLine, PointsLieOnTheSurfaceAndEverWhereItBends) {
+    const Heightfield hills =
+        shaped(40, 30, 25, [](double x, double y) { return 60 * std::sin(x / 90) * std::cos(y / 70); });
+    const Places line{{-301.7, -222.2}, {333.3, 250.1}, {-40, 100}};
+    const std::vector<LinePoint> points = groundLine(hills, line);
+    ASSERT_GT(points.size(), 60u);
+    double polyline = 0;
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        EXPECT_NEAR(points[n].height, hills.heightAt(points[n].world), 1e-9);
+        if (n == 0) continue;
+        ASSERT_GT(points[n].distance, points[n - 1].distance);
+        polyline +=
+            std::hypot(points[n].distance - points[n - 1].distance, points[n].height - points[n - 1].height);
+    }
+    const LineMeasure m = measureLine(hills, line);
+    EXPECT_NEAR(points.back().distance, m.plan, 1e-9);
+    EXPECT_NEAR(points.back().along, m.along, 1e-9);
+    EXPECT_GE(m.along, polyline);  // chords are shorter than arcs
+    EXPECT_LT(m.along, polyline * 1.01);
+    EXPECT_GE(m.along, m.straight);
+    EXPECT_NEAR(m.climb - m.descent, m.rise, 1e-9);
+}
+
+// The meridian of a sphere: an arc whose length is its radius times its angle. The error that is told holds.
+TEST(GroundLine, AnArcIsWithinItsError) {
+    constexpr double kRadius = 1000;
+    for (const double spacing : {20.0, 40.0, 80.0}) {
+        const int side = static_cast<int>(1200 / spacing) + 1;
+        const Heightfield sphere = shaped(side, side, spacing, [](double x, double y) {
+            return std::sqrt(kRadius * kRadius - x * x - y * y);
+        });
+        const Places line{{-500, 0}, {500, 0}};
+        const double truth = kRadius * 2 * std::asin(0.5);
+        const double error = std::abs(measureLine(sphere, line).along - truth);
+        const double told = errorsOfLine(sphere, line).along;
+        EXPECT_LE(error, told) << spacing;
+        EXPECT_LT(told, 0.02 * truth);
+        EXPECT_GT(told, 0);
+    }
+}
+
+TEST(GroundLine, HolesLeaveWhatGoesThroughThemOpen) {
+    const Heightfield holed = shaped(20, 20, 10, [](double x, double y) {
+        return std::abs(x) < 20 && std::abs(y) < 20 ? std::nan("") : 5.0;
+    });
+    const LineMeasure through = measureLine(holed, {{-90, 0}, {90, 0}}),
+                      beside = measureLine(holed, {{-90, 80}, {90, 80}});
+    EXPECT_NEAR(through.plan, 180, 1e-9);
+    EXPECT_TRUE(std::isnan(through.along));
+    EXPECT_NEAR(through.rise, 0, 1e-9);
+    EXPECT_NEAR(beside.along, 180, 1e-9);
+}
+
+TEST(GroundArea, APlaneSlopesByItsCosineAndVolumesAreWedges) {
+    const Heightfield plane = shaped(41, 41, 10, [](double x, double) { return 0.5 * x; });
+    // From x = -100 to 60: 0.5 x over and under 0.
+    const Places area{{-100, -80}, {60, -80}, {60, 55.5}, {-100, 55.5}};
+    for (const bool turned : {false, true}) {
+        Places corners = area;
+        if (turned) std::reverse(corners.begin(), corners.end());
+        const AreaMeasure m = measureArea(plane, corners, 0);
+        EXPECT_NEAR(m.plan, 160 * 135.5, 1e-6);
+        EXPECT_NEAR(m.along, 160 * 135.5 * std::sqrt(1.25), 1e-2);
+        EXPECT_NEAR(m.above, 0.25 * 60 * 60 * 135.5, 1e-3);
+        EXPECT_NEAR(m.below, 0.25 * 100 * 100 * 135.5, 1e-3);
+        EXPECT_NEAR(m.perimeter, 2 * (160 + 135.5), 1e-9);
+        EXPECT_NEAR(m.lowest, -50, 1e-4);
+        EXPECT_NEAR(m.highest, 30, 1e-4);
+        const AreaMeasure errors = errorsOfArea(plane, corners, 0);
+        EXPECT_LT(errors.along, 1e-2);
+        EXPECT_LT(errors.above, 1);
+    }
+}
+
+// An L, which has a dent, and a star: by the shoelace formula.
+TEST(GroundArea, DentsAndManyCornersAreCutRight) {
+    const Heightfield level = shaped(60, 60, 3, [](double, double) { return 7.0; });
+    const Places ell{{-50, -50}, {40, -50}, {40, -10}, {-5, -10}, {-5, 44}, {-50, 44}};
+    const AreaMeasure m = measureArea(level, ell, 5);
+    const double truth = 90 * 40 + 45 * 54;
+    EXPECT_NEAR(m.plan, truth, 1e-6);
+    EXPECT_NEAR(m.along, truth, 1e-6);
+    EXPECT_NEAR(m.above, 2 * truth, 1e-6);
+    EXPECT_EQ(m.below, 0);
+    Places star;
+    for (int k = 0; k < 24; ++k) {
+        const double r = k % 2 ? 30.3 : 80.7, a = k * std::numbers::pi / 12;
+        star.emplace_back(r * std::cos(a), r * std::sin(a));
+    }
+    double shoelace = 0;
+    for (std::size_t n = 0; n < star.size(); ++n) {
+        const glm::dvec2 &a = star[n], &b = star[(n + 1) % star.size()];
+        shoelace += 0.5 * (a.x * b.y - a.y * b.x);
+    }
+    EXPECT_NEAR(measureArea(level, star, 0).plan, shoelace, 1e-6);
+}
+
+// The cap of a sphere over a level plane: its volume and its area, within the errors that are told.
+TEST(GroundArea, ACapIsWithinItsErrors) {
+    constexpr double kRadius = 1000, kLevel = 900, kTall = kRadius - kLevel;
+    const Heightfield sphere =
+        shaped(61, 61, 20, [](double x, double y) { return std::sqrt(kRadius * kRadius - x * x - y * y); });
+    const Places square{{-560, -560}, {560, -560}, {560, 560}, {-560, 560}};
+    const AreaMeasure m = measureArea(sphere, square, kLevel), errors = errorsOfArea(sphere, square, kLevel);
+    const double volume = std::numbers::pi * kTall * kTall * (3 * kRadius - kTall) / 3;
+    EXPECT_NEAR(m.above, volume, errors.above);
+    EXPECT_LT(errors.above, 0.02 * volume);
+    // The sphere over a disc of radius r: 2 pi R (R - sqrt(R^2 - r^2)).
+    Places disc;
+    for (int k = 0; k < 720; ++k) {
+        const double a = k * std::numbers::pi / 360;
+        disc.emplace_back(500 * std::cos(a), 500 * std::sin(a));
+    }
+    const double cap = 2 * std::numbers::pi * kRadius * (kRadius - std::sqrt(kRadius * kRadius - 500 * 500));
+    const AreaMeasure round = measureArea(sphere, disc, 0), roundErrors = errorsOfArea(sphere, disc, 0);
+    // 720 corners leave 1.3e-5 of the disc out.
+    EXPECT_NEAR(round.along, cap, roundErrors.along + 2e-5 * cap);
+    EXPECT_LT(roundErrors.along, 0.01 * cap);
+}
+
+// A wall from west to east: south of it the shadow of a low sun in the north is its height over the tangent.
+TEST(SunHours, AWallThrowsAShadowOfItsLength) {
+    const Heightfield wall =
+        shaped(9, 60, 10, [](double, double y) { return std::abs(y - 95) < 1 ? 40.0 : 0.0; });
+    const HeightPyramid maxima(wall);
+    const SightLines lines(wall, maxima, 0);
+    const double elevation = std::atan(40.0 / 155);  // 155 m long
+    for (int j = 0; j < 60; ++j) {
+        const double y = (j - 29.5) * 10;
+        const bool shadow = y < 95 && 95 - y < 155;
+        ASSERT_EQ(sunShinesOn(lines, 4, j, {0, elevation}), !shadow) << y;
+        ASSERT_EQ(sunShinesOn(lines, 4, j, {std::numbers::pi, elevation}), y <= 95 || y - 95 > 155) << y;
+        ASSERT_TRUE(sunShinesOn(lines, 4, j, {std::numbers::pi / 2, 0}));
+        ASSERT_FALSE(sunShinesOn(lines, 4, j, {0, -0.01}));
+    }
+    Progress progress;
+    const Plane<float> hours =
+        hoursOfSun(lines, {{0, elevation}, {std::numbers::pi, elevation}, {0, -0.5}, {0, 0.6}}, 24, progress);
+    EXPECT_EQ(hours.row(0)[4], 18);  // far south: three of four
+    EXPECT_EQ(hours.row(38)[4], 6);  // 10 m to the wall's south: when the sun is there
+}
+
+}  // namespace
+}  // namespace stereonav
