@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/command/colon_commands.h"
 #include "app/command/commands.h"
 #include "app/options/given_options.h"
 #include "app/options/option_value.h"
@@ -18,6 +19,9 @@ namespace stereonav {
 namespace command {
 constexpr CommandSet kInfo = 1, kRender = 2, kPlay = 4, kCompare = 8, kReport = 16, kMesh = 32,
                      kCentreline = 64, kBake = 128, kView = 256;
+// Instruments of colons: app/command/colon_commands.h.
+constexpr CommandSet kCoverage = 1 << 16;
+constexpr CommandSet kColonInstruments = kCoverage;
 constexpr CommandSet kShowing = kInfo | kRender | kPlay | kCompare | kView;  // any scene, as it looks
 }  // namespace command
 
@@ -45,6 +49,7 @@ struct OptionTargets {
     ReportOptions* report = nullptr;
     MeshOptions* mesh = nullptr;
     BakeOptions* bake = nullptr;
+    CoverageOptions* coverage = nullptr;
     ViewOptions* view = nullptr;
 };
 
@@ -119,5 +124,6 @@ std::vector<Option> meshAndLineOptions();
 std::vector<Option> compareOptions();
 std::vector<Option> reportOptions();
 std::vector<Option> bakeOptions();
+std::vector<Option> colonInstrumentOptions();
 
 }  // namespace stereonav

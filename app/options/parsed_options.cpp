@@ -129,6 +129,13 @@ void chooseCommand(CommandSet which, ParsedOptions& parsed) {
             tells(parsed.centreline.telling);
             parsed.run = [&parsed] { return runCentreline(parsed.centreline); };
             break;
+        case command::kCoverage:
+            shows(parsed.coverage);
+            to.coverage = &parsed.coverage;
+            to.path = &parsed.coverage.path, to.out = &parsed.coverage.out;
+            tells(parsed.coverage.telling);
+            parsed.run = [&parsed] { return runCoverage(parsed.coverage); };
+            break;
         case command::kBake:
             to.scene = &parsed.bake.scene, to.bake = &parsed.bake;
             tells(parsed.bake.telling);

@@ -23,6 +23,7 @@ struct ParsedOptions {
     MeshOptions mesh;
     CentrelineOptions centreline;
     BakeOptions bake;
+    CoverageOptions coverage;
     ViewOptions view;
     GivenOptions given;
     OptionTargets to;

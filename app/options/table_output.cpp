@@ -297,7 +297,7 @@ std::vector<Option> tellingOptions() {
         {.key = "json",
          .value = flagValue(),
          .help = "tells what was done, or found, as one JSON document on standard output",
-         .commands = kInfo | kRender | kPlay | kReport | kMesh | kCentreline | kBake,
+         .commands = kInfo | kRender | kPlay | kReport | kMesh | kCentreline | kColonInstruments | kBake,
          .take = [](OptionTargets& to, const OptionValue&) { *to.json = true; }},
         {.key = "json",
          .value = fileValue(),
@@ -314,7 +314,7 @@ std::vector<Option> tellingOptions() {
         {.key = "quiet",
          .value = flagValue(),
          .help = "neither progress nor notes: only what was asked for, and errors",
-         .commands = kShowing | kReport | kMesh | kCentreline | kBake,
+         .commands = kShowing | kReport | kMesh | kCentreline | kColonInstruments | kBake,
          .take = [](OptionTargets& to, const OptionValue&) { *to.quiet = true; }},
     };
 }

@@ -34,6 +34,7 @@ protected:
                 {comparing(), "--plot", "a.png"},
                 {{"mesh", hills()}, "--out", "a.glb"},
                 {{"centreline", maskedTube(), "--no-cache"}, "--out", "a.txt"},
+                {{"coverage", maskedTube(), "--no-cache"}, "--out", "a.csv"},
                 {{"bake", hills(), "--what", "openness", "--resolution", "1"}, "--out", "a.light"},
                 {{"bake", maskedTube(), "--no-cache", "--samples", "1", "--resolution", "0.2"},
                  "--out",

@@ -38,6 +38,9 @@ protected:
                 {"mesh", {{ground, "--out", "a.glb"}, {"mesh", "triangles", "largest_error_m"}}},
                 {"centreline",
                  {{"colon", "--out", "line.txt"}, {"centreline", "points", "length_mm", "segments"}}},
+                {"coverage",
+                 {{maskedTube(), "--no-cache", "--out", "patches.csv"},
+                  {"one_way_percent", "two_way_percent", "after_patches_percent", "patches", "table"}}},
                 {"bake",
                  {{ground, "--what", "openness", "--resolution", "0.25", "--out", "a.light"},
                   {"light", "what", "baked_before", "samples"}}}};

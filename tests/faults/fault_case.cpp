@@ -97,6 +97,7 @@ std::vector<FaultCase> FaultTest::cases() const {
         {"mesh gltf", {"mesh", scene, "--out", "a.gltf"}, "a.gltf"},
         {"centreline vtp", {"centreline", study, "--no-cache", "--out", "a.vtp"}, "a.vtp"},
         {"centreline txt", {"centreline", study, "--no-cache", "--out", "a.txt"}, "a.txt"},
+        {"coverage", {"coverage", study, "--no-cache", "--out", "a.csv"}, "a.csv"},
         {"bake terrain", {"bake", scene, "--what", "openness", "--resolution", "1", "--out", "a.light"}, ""},
         {"bake volume",
          {"bake", study, "--no-cache", "--samples", "1", "--resolution", "0.2", "--out", "a.bake"},

@@ -53,6 +53,10 @@ TEST_F(Faults, OfMeshesAndCentrelines) {
     tryAll("centreline", kSample);
 }
 
+TEST_F(Faults, OfInstrumentsOfColons) {
+    tryAll("coverage", kSample);
+}
+
 TEST_F(Faults, OfBakes) {
     tryAll("bake", kSample);
 }
