@@ -1,7 +1,10 @@
 // The instruments of colons as plain options and one function each, as commands.h has the other commands.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/command/commands.h"
 
@@ -19,5 +22,37 @@ struct CoverageOptions {
     std::string out;            // .csv of the patches, or -; "": not written
 };
 int runCoverage(const CoverageOptions& options);
+
+struct FindingsOptions {
+    SceneOptions scene;
+    Telling telling;
+    bool atTruth = false;                                    // of the built-in colon: where its polyps are
+    std::vector<glm::dvec3> at;                              // LPS, metres
+    std::vector<std::pair<glm::dvec3, glm::dvec3>> between;  // LPS, metres: places whose distance is asked
+    bool candidates = false;  // places that look like polyps, too
+    std::string comment;                                     // of the one place in `at`
+    std::string file;                                        // .json that findings are kept in; "": none
+    std::string csv, page;                                   // .csv, .html, or -; "": not written
+};
+int runFindings(const FindingsOptions& options);
+
+struct RegisterOptions {
+    SceneOptions scene;
+    Telling telling;
+    std::string with;            // the other study, or colon
+    double bend_mm = 0;          // of the other one where it is the built-in colon
+    double inflate = 1;          //
+    std::vector<glm::dvec3> at;  // LPS, metres, in the first study
+    std::string out;             // .csv, or -; "": not written
+};
+int runRegister(const RegisterOptions& options);
+
+struct UnfoldOptions {
+    SceneOptions scene;
+    Telling telling;
+    std::string out, map;   // pictures; map "": not written
+    double pixel_mm = 0.5;  // of the wall, > 0
+};
+int runUnfold(const UnfoldOptions& options);
 
 }  // namespace stereonav

@@ -7,7 +7,7 @@
 namespace stereonav {
 namespace {
 
-constexpr std::array<CommandFacts, 10> kCommands{{
+constexpr std::array<CommandFacts, 13> kCommands{{
     {command::kInfo, "info", "print what was read and the frame plan", scene_type::kAll},
     {command::kRender, "render", "one pose into a picture", scene_type::kAll},
     {command::kPlay, "play", "a flight into pictures, a video, or a hash", scene_type::kAll},
@@ -22,6 +22,10 @@ constexpr std::array<CommandFacts, 10> kCommands{{
      scene_type::kTerrains | scene_type::kVolumes},
     {command::kCoverage, "coverage", "what of a colon's wall a flight shows, and what it misses",
      scene_type::kVolumes},
+    {command::kFindings, "findings", "polyps measured at places of a colon, as a list, a file and a page",
+     scene_type::kVolumes},
+    {command::kRegister, "register", "places of a colon in another study of it", scene_type::kVolumes},
+    {command::kUnfold, "unfold", "a colon's wall laid flat, as a picture", scene_type::kVolumes},
     {command::kView, "view", "fly through the scene in a window", scene_type::kAll},
 }};
 

@@ -20,8 +20,8 @@ namespace command {
 constexpr CommandSet kInfo = 1, kRender = 2, kPlay = 4, kCompare = 8, kReport = 16, kMesh = 32,
                      kCentreline = 64, kBake = 128, kView = 256;
 // Instruments of colons: app/command/colon_commands.h.
-constexpr CommandSet kCoverage = 1 << 16;
-constexpr CommandSet kColonInstruments = kCoverage;
+constexpr CommandSet kCoverage = 1 << 16, kFindings = 1 << 17, kRegister = 1 << 18, kUnfold = 1 << 19;
+constexpr CommandSet kColonInstruments = kCoverage | kFindings | kRegister | kUnfold;
 constexpr CommandSet kShowing = kInfo | kRender | kPlay | kCompare | kView;  // any scene, as it looks
 }  // namespace command
 
@@ -50,6 +50,9 @@ struct OptionTargets {
     MeshOptions* mesh = nullptr;
     BakeOptions* bake = nullptr;
     CoverageOptions* coverage = nullptr;
+    FindingsOptions* findings = nullptr;
+    RegisterOptions* registration = nullptr;
+    UnfoldOptions* unfold = nullptr;
     ViewOptions* view = nullptr;
 };
 

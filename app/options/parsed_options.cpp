@@ -136,6 +136,22 @@ void chooseCommand(CommandSet which, ParsedOptions& parsed) {
             tells(parsed.coverage.telling);
             parsed.run = [&parsed] { return runCoverage(parsed.coverage); };
             break;
+        case command::kFindings:
+            to.scene = &parsed.findings.scene, to.findings = &parsed.findings;
+            tells(parsed.findings.telling);
+            parsed.run = [&parsed] { return runFindings(parsed.findings); };
+            break;
+        case command::kRegister:
+            to.scene = &parsed.registration.scene, to.registration = &parsed.registration;
+            to.out = &parsed.registration.out;
+            tells(parsed.registration.telling);
+            parsed.run = [&parsed] { return runRegister(parsed.registration); };
+            break;
+        case command::kUnfold:
+            to.scene = &parsed.unfold.scene, to.unfold = &parsed.unfold, to.out = &parsed.unfold.out;
+            tells(parsed.unfold.telling);
+            parsed.run = [&parsed] { return runUnfold(parsed.unfold); };
+            break;
         case command::kBake:
             to.scene = &parsed.bake.scene, to.bake = &parsed.bake;
             tells(parsed.bake.telling);

@@ -24,6 +24,9 @@ struct ParsedOptions {
     CentrelineOptions centreline;
     BakeOptions bake;
     CoverageOptions coverage;
+    FindingsOptions findings;
+    RegisterOptions registration;
+    UnfoldOptions unfold;
     ViewOptions view;
     GivenOptions given;
     OptionTargets to;

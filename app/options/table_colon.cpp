@@ -73,11 +73,134 @@ std::vector<Option> coverageOptions() {
     };
 }
 
+glm::dvec3 placeFrom(const OptionValue& value, int first) {
+    return glm::dvec3(value.numbers[first], value.numbers[first + 1], value.numbers[first + 2]) / 1000.0;
+}
+
+std::vector<Option> findingsOptions() {
+    using command::kFindings;
+    return {
+        {.key = "at",
+         .value = numbersValue(seedNumbers()),
+         .help =
+             "a polyp: a place on or in it, left, back, head (of RAS turn the first two signs); several are "
+             "taken",
+         .commands = kFindings,
+         .repeated = true,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.findings->at.push_back(placeFrom(value, 0)); }},
+        {.key = "comment",
+         .value = textValue(),
+         .help = "on the finding of --at",
+         .commands = kFindings,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.findings->comment = value.text; }},
+        {.key = "at-truth",
+         .value = flagValue(),
+         .help = "the polyps of the built-in colon where they are, each measured size beside the true one",
+         .commands = kFindings,
+         .take = [](OptionTargets& to, const OptionValue&) { to.findings->atTruth = true; }},
+        {.key = "candidates",
+         .value = flagValue(),
+         .help = "places that look like polyps by their shape, the most likely first: to be looked at",
+         .commands = kFindings,
+         .take = [](OptionTargets& to, const OptionValue&) { to.findings->candidates = true; }},
+        {.key = "between",
+         .value = numbersValue(betweenNumbers()),
+         .help = "two places: their distance; several are taken",
+         .commands = kFindings,
+         .repeated = true,
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.findings->between.emplace_back(placeFrom(value, 0), placeFrom(value, 3));
+             }},
+        {.key = "file",
+         .value = fileValue(),
+         .help = "where findings are kept, .json: those in it are measured again, new ones are added",
+         .commands = kFindings,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.findings->file = value.text; }},
+        {.key = "csv",
+         .value = fileValue(),
+         .help = "the findings as a table, .csv or -",
+         .commands = kFindings,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.findings->csv = value.text; }},
+        {.key = "page",
+         .value = fileValue(),
+         .help = "one .html page with pictures of each, or -",
+         .commands = kFindings,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.findings->page = value.text; }},
+    };
+}
+
+std::vector<Option> registerOptions() {
+    using command::kRegister;
+    return {
+        {.key = "with",
+         .value = fileValue(),
+         .help = "the other study, or colon for the built-in one",
+         .commands = kRegister,
+         .required = true,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.registration->with = value.text; }},
+        {.key = "at",
+         .value = numbersValue(seedNumbers()),
+         .help = "a place of the first study that is looked for in the other; several are taken",
+         .commands = kRegister,
+         .repeated = true,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.registration->at.push_back(placeFrom(value, 0)); }},
+        {.key = "bend",
+         .value = numberValue(within(0, 30, "mm")),
+         .help = "of --with colon: its loops lie elsewhere, by this much at most",
+         .advice = "10 is a patient who has turned round",
+         .fallback = "0",
+         .commands = kRegister,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.registration->bend_mm = value.number(); }},
+        {.key = "inflate",
+         .value = numberValue(within(0.7, 1.4)),
+         .help = "of --with colon: a factor on its radii",
+         .advice = "1.2 is more gas",
+         .fallback = "1",
+         .commands = kRegister,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.registration->inflate = value.number(); }},
+        {.key = "out",
+         .value = fileValue(),
+         .help = "places of both every 5 mm as a table, .csv or -",
+         .commands = kRegister,
+         .take = [](OptionTargets& to, const OptionValue& value) { *to.out = value.text; }},
+    };
+}
+
+std::vector<Option> unfoldOptions() {
+    using command::kUnfold;
+    return {
+        {.key = "out",
+         .value = fileValue(),
+         .help = "the picture's file; - is PNG",
+         .commands = kUnfold,
+         .required = true,
+         .take = [](OptionTargets& to, const OptionValue& value) { *to.out = value.text; }},
+        {.key = "map",
+         .value = fileValue(),
+         .help = "a picture of how true areas are: grey as they are, red drawn twice as large, blue half",
+         .commands = kUnfold,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.unfold->map = value.text; }},
+        {.key = "pixel",
+         .value = numberValue(within(0.1, 10, "mm")),
+         .help = "of the wall, the side of a pixel",
+         .advice = "0.5 is about a voxel of a CT",
+         .fallback = "0.5",
+         .commands = kUnfold,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.unfold->pixel_mm = value.number(); }},
+    };
+}
+
 }  // namespace
 
 std::vector<Option> colonInstrumentOptions() {
     std::vector<Option> all;
-    for (std::vector<Option> part : {coverageOptions()})
+    for (std::vector<Option> part :
+         {coverageOptions(), findingsOptions(), registerOptions(), unfoldOptions()})
         for (Option& option : part) all.push_back(std::move(option));
     return all;
 }

@@ -14,7 +14,7 @@
 namespace stereonav::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kCoveragePi = std::numbers::pi;
 constexpr double kRadius = 0.01, kFrom = -0.03, kTo = 0.03;
 
 const LumenWall& tube() {
@@ -40,8 +40,8 @@ Coverage::FreeDistance freeIn(const LumenWall& wall) {
 // point at this angle about the axis is on screen from a depth of radius * max(|cos|, |sin|) / tan(fov / 2)
 // on.
 double sideSeen(double fov, double upTo) {
-    const double onScreen = kRadius / std::tan(fov / 2) * std::sin(kPi / 4) / (kPi / 4);
-    return 2 * kPi * kRadius * (upTo - onScreen);
+    const double onScreen = kRadius / std::tan(fov / 2) * std::sin(kCoveragePi / 4) / (kCoveragePi / 4);
+    return 2 * kCoveragePi * kRadius * (upTo - onScreen);
 }
 
 double seenArea(const LumenWall& wall, const Coverage& coverage) {
@@ -57,15 +57,15 @@ TEST(Coverage, OfATubeFromItsAxisIsKnown) {
     Progress progress;
     for (const double degrees : {60.0, 90.0, 120.0}) {
         CoverageSetting setting;
-        setting.verticalFov = degrees * kPi / 180;
+        setting.verticalFov = degrees * kCoveragePi / 180;
         setting.within = 0.03;
-        setting.angle = kPi / 2;
+        setting.angle = kCoveragePi / 2;
         Coverage byDistance(tube().mesh, sight, setting);
         byDistance.look({&eye, 1}, progress);
         const double reach = std::sqrt(setting.within * setting.within - kRadius * kRadius);
         EXPECT_NEAR(seenArea(tube(), byDistance) / sideSeen(setting.verticalFov, reach), 1, 0.01) << degrees;
         setting.within = 1;
-        setting.angle = 70 * kPi / 180;
+        setting.angle = 70 * kCoveragePi / 180;
         Coverage byAngle(tube().mesh, sight, setting);
         byAngle.look({&eye, 1}, progress);
         const double slant = kRadius * std::tan(setting.angle);
@@ -101,7 +101,7 @@ TEST(Coverage, HidesWhatIsBehindAFold) {
     Progress progress;
     CoverageSetting setting;
     setting.within = 1;
-    setting.angle = kPi / 2;
+    setting.angle = kCoveragePi / 2;
     Coverage coverage(wall.mesh, sight, setting);
     coverage.look({&eye, 1}, progress);
     int asked = 0, differ = 0, hidden = 0;
@@ -193,7 +193,7 @@ TEST(Coverage, RefusesSettingsOutOfRange) {
         change(setting);
         EXPECT_THROW(Coverage(tube().mesh, sight, setting), Error);
     };
-    refused([](CoverageSetting& s) { s.verticalFov = kPi; });
+    refused([](CoverageSetting& s) { s.verticalFov = kCoveragePi; });
     refused([](CoverageSetting& s) { s.verticalFov = std::nan(""); });
     refused([](CoverageSetting& s) { s.aspect = 0; });
     refused([](CoverageSetting& s) { s.within = 0; });

@@ -15,7 +15,7 @@
 namespace stereonav::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kWallPi = std::numbers::pi;
 
 LumenWall ball(double radius, double spacing) {
     return {[=](const glm::dvec3& p) {
@@ -25,7 +25,7 @@ LumenWall ball(double radius, double spacing) {
 }
 
 TEST(WallMesh, HasTheAreaOfABall) {
-    const double radius = 0.012, area = 4 * kPi * radius * radius;
+    const double radius = 0.012, area = 4 * kWallPi * radius * radius;
     const LumenWall fine = ball(radius, 0.0008), coarse = ball(radius, 0.0016);
     const double offFine = 1 - fine.mesh.area() / area, offCoarse = 1 - coarse.mesh.area() / area;
     EXPECT_NEAR(offFine, 0, 0.003);
@@ -37,7 +37,7 @@ TEST(WallMesh, HasTheAreaOfATube) {
     const double radius = 0.01, from = -0.02, to = 0.02;
     const LumenWall tube([=](const glm::dvec3& p) { return toTube(p, radius, from, to); },
                          {-0.013, -0.013, -0.023}, {0.013, 0.013, 0.023}, 0.0007);
-    const double area = 2 * kPi * radius * (to - from) + 2 * kPi * radius * radius;
+    const double area = 2 * kWallPi * radius * (to - from) + 2 * kWallPi * radius * radius;
     EXPECT_NEAR(tube.mesh.area() / area, 1, 0.02) << "edges are rounded off";
 }
 
