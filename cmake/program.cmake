@@ -38,7 +38,8 @@ stereonav_part(colon OPTION STEREONAV_COLON LINK colon
   SOURCES scene/colon_loading.cpp scene/volume_*.cpp scene/glance_volume.cpp scene/shown_volume.cpp scene/seen_volume_light.cpp
     scene/medium_of_volume.cpp scene/volume_type.cpp scene/light_loading.cpp scene/lazy_light.cpp
     scene/traced_light.cpp command/bake_volume.cpp command/bake_peers_*.cpp command/info_colon.cpp
-    command/info_series.cpp command/centreline_command.cpp)
+    command/info_series.cpp command/centreline_command.cpp command/coverage_command.cpp command/colon_of.cpp
+    command/findings_*.cpp command/register_command.cpp)
 stereonav_part(medium OPTION STEREONAV_MEDIUM LINK engine_medium
   SOURCES scene/medium_*.cpp scene/shown_medium.cpp command/info_medium.cpp view/sweep.cpp)
 stereonav_part(display OPTION STEREONAV_DISPLAY LINK engine_display

@@ -115,7 +115,7 @@ struct SceneOptions {
     // Of a terrain's shading below its samples: on where pictures are shown, off where they are measured.
     bool groundDetail = false;
     bool lightLater = true;  // a window works out sky light of ground that has none (ShownTerrain)
-    bool skyTurns = false;  // set by a window: keep what turning the sky over baked transfer takes
+    bool skyTurns = false;   // set by a window: keep what turning the sky over baked transfer takes
 };
 
 // What commands that show pictures begin with.

@@ -66,6 +66,14 @@ const NumberList& seedNumbers() {
     return list;
 }
 
+const NumberList& betweenNumbers() {
+    static const NumberRange place = within(-1e6, 1e6, "millimetres");
+    static const NumberList list{"x,y,z,x,y,z, LPS",
+                                 {{"", {place, place, place, place, place, place}}},
+                                 "give two places, as in 12.5,-40,310,14,-38,305"};
+    return list;
+}
+
 const NumberList& isovaluesNumbers() {
     static const NumberList list{"LOW,HIGH", {{"", {kValueRange, kValueRange}}}, "as in 80,150"};
     return list;

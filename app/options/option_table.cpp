@@ -7,7 +7,7 @@
 namespace stereonav {
 namespace {
 
-constexpr std::array<CommandFacts, 13> kCommands{{
+constexpr std::array<CommandFacts, 16> kCommands{{
     {command::kInfo, "info", "print what was read and the frame plan", scene_type::kAll},
     {command::kRender, "render", "one pose into a picture", scene_type::kAll},
     {command::kPlay, "play", "a flight into pictures, a video, or a hash", scene_type::kAll},
@@ -27,6 +27,11 @@ constexpr std::array<CommandFacts, 13> kCommands{{
     {command::kBake, "bake",
      "light worked out before, with bounces and soft shadows; Ctrl-C keeps what is done",
      scene_type::kTerrains | scene_type::kVolumes},
+    {command::kCoverage, "coverage", "what of a colon's wall a flight shows, and what it misses",
+     scene_type::kVolumes},
+    {command::kFindings, "findings", "polyps measured at places of a colon, as a list, a file and a page",
+     scene_type::kVolumes},
+    {command::kRegister, "register", "places of a colon in another study of it", scene_type::kVolumes},
     {command::kView, "view", "fly through the scene in a window", scene_type::kAll},
 }};
 
@@ -38,7 +43,7 @@ std::vector<Option> setOption() {
          .value = textValue(),
          .help =
              "KEY=VALUE: another option by the key that it has in a scene file; may be given several times",
-         .commands = kShowing | kMesh | kSurveying | kCentreline | kBake,
+         .commands = kShowing | kMesh | kSurveying | kColonInstruments | kCentreline | kBake,
          .repeated = true,
          .take = [](OptionTargets&, const OptionValue&) {}}};
 }
@@ -47,7 +52,7 @@ struct Part {
     std::vector<Option> (*options)();
     bool inFile;  // whether scene files may say them
 };
-constexpr std::array<Part, 16> kParts{{{sourceOptions, true},
+constexpr std::array<Part, 17> kParts{{{sourceOptions, true},
                                        {studyOptions, true},
                                        {lookOptions, true},
                                        {volumeLookOptions, true},
@@ -61,6 +66,7 @@ constexpr std::array<Part, 16> kParts{{{sourceOptions, true},
                                        {compareOptions, false},
                                        {reportOptions, false},
                                        {bakeOptions, false},
+                                       {colonInstrumentOptions, false},
                                        {setOption, false},
                                        {tellingOptions, false}}};
 

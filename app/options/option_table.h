@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/command/colon_commands.h"
 #include "app/command/commands.h"
 #include "app/options/given_options.h"
 #include "app/options/option_value.h"
@@ -19,7 +20,10 @@ namespace command {
 constexpr CommandSet kInfo = 1, kRender = 2, kPlay = 4, kCompare = 8, kReport = 16, kMesh = 32,
                      kCentreline = 64, kBake = 128, kView = 256, kViewshed = 1 << 12, kMeasure = 1 << 13,
                      kProfile = 1 << 14, kSun = 1 << 15;
-constexpr CommandSet kSurveying = kViewshed | kMeasure | kProfile | kSun;    // of the ground
+constexpr CommandSet kSurveying = kViewshed | kMeasure | kProfile | kSun;  // of the ground
+// Instruments of colons: app/command/colon_commands.h.
+constexpr CommandSet kCoverage = 1 << 16, kFindings = 1 << 17, kRegister = 1 << 18;
+constexpr CommandSet kColonInstruments = kCoverage | kFindings | kRegister;
 constexpr CommandSet kShowing = kInfo | kRender | kPlay | kCompare | kView;  // any scene, as it looks
 }  // namespace command
 
@@ -51,6 +55,9 @@ struct OptionTargets {
     ProfileOptions* profile = nullptr;
     SunOptions* sun = nullptr;
     BakeOptions* bake = nullptr;
+    CoverageOptions* coverage = nullptr;
+    FindingsOptions* findings = nullptr;
+    RegisterOptions* registration = nullptr;
     ViewOptions* view = nullptr;
 };
 
@@ -126,5 +133,6 @@ std::vector<Option> surveyOptions();
 std::vector<Option> compareOptions();
 std::vector<Option> reportOptions();
 std::vector<Option> bakeOptions();
+std::vector<Option> colonInstrumentOptions();
 
 }  // namespace stereonav

@@ -150,6 +150,24 @@ void chooseCommand(CommandSet which, ParsedOptions& parsed) {
             tells(parsed.centreline.telling);
             parsed.run = [&parsed] { return runCentreline(parsed.centreline); };
             break;
+        case command::kCoverage:
+            shows(parsed.coverage);
+            to.coverage = &parsed.coverage;
+            to.path = &parsed.coverage.path, to.out = &parsed.coverage.out;
+            tells(parsed.coverage.telling);
+            parsed.run = [&parsed] { return runCoverage(parsed.coverage); };
+            break;
+        case command::kFindings:
+            to.scene = &parsed.findings.scene, to.findings = &parsed.findings;
+            tells(parsed.findings.telling);
+            parsed.run = [&parsed] { return runFindings(parsed.findings); };
+            break;
+        case command::kRegister:
+            to.scene = &parsed.registration.scene, to.registration = &parsed.registration;
+            to.out = &parsed.registration.out;
+            tells(parsed.registration.telling);
+            parsed.run = [&parsed] { return runRegister(parsed.registration); };
+            break;
         case command::kBake:
             to.scene = &parsed.bake.scene, to.bake = &parsed.bake;
             tells(parsed.bake.telling);

@@ -27,6 +27,9 @@ struct ParsedOptions {
     SunOptions sun;
     CentrelineOptions centreline;
     BakeOptions bake;
+    CoverageOptions coverage;
+    FindingsOptions findings;
+    RegisterOptions registration;
     ViewOptions view;
     GivenOptions given;
     OptionTargets to;

@@ -297,7 +297,8 @@ std::vector<Option> tellingOptions() {
         {.key = "json",
          .value = flagValue(),
          .help = "tells what was done, or found, as one JSON document on standard output",
-         .commands = kInfo | kRender | kPlay | kReport | kMesh | kSurveying | kCentreline | kBake,
+         .commands =
+             kInfo | kRender | kPlay | kReport | kMesh | kSurveying | kColonInstruments | kCentreline | kBake,
          .take = [](OptionTargets& to, const OptionValue&) { *to.json = true; }},
         {.key = "json",
          .value = fileValue(),
@@ -314,7 +315,7 @@ std::vector<Option> tellingOptions() {
         {.key = "quiet",
          .value = flagValue(),
          .help = "neither progress nor notes: only what was asked for, and errors",
-         .commands = kShowing | kReport | kMesh | kSurveying | kCentreline | kBake,
+         .commands = kShowing | kReport | kMesh | kSurveying | kColonInstruments | kCentreline | kBake,
          .take = [](OptionTargets& to, const OptionValue&) { *to.quiet = true; }},
     };
 }

@@ -17,7 +17,7 @@ OptionRule unlessColonIsLookedFor() {
 std::vector<Option> studyOptions() {
     using namespace command;
     using namespace scene_type;
-    constexpr CommandSet kReading = kShowing | kCentreline | kBake;
+    constexpr CommandSet kReading = kShowing | kCentreline | kColonInstruments | kBake;
     return {
         {.key = "series",
          .value = textValue(),

@@ -1,6 +1,7 @@
 // Stands in for CT studies and the colon where the program is built without them: everything that needs it
 // says so.
 
+#include "app/command/colon_commands.h"
 #include "app/command/info_series.h"
 #include "app/options/built_without.h"
 #include "app/scene/colon_loading.h"
@@ -42,6 +43,18 @@ void applyChange(const SurfaceChange&, const SceneOptions&, SceneOptions&) {
 }
 
 int runCentreline(const CentrelineOptions&) {
+    without();
+}
+
+int runCoverage(const CoverageOptions&) {
+    without();
+}
+
+int runFindings(const FindingsOptions&) {
+    without();
+}
+
+int runRegister(const RegisterOptions&) {
     without();
 }
 

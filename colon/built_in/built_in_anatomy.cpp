@@ -16,6 +16,7 @@ namespace {
 struct Control {
     glm::dvec3 place;
     double radius;
+    double turn = 0;  // of a line that was made of them: which place of the spline it is
 };
 constexpr Control kControls[] = {
     {{0, 70, -138}, 15},   {{0, 80, -118}, 22},  {{0, 80, -98}, 22},     {{0, 66, -80}, 18},
@@ -69,7 +70,7 @@ Control splineAt(const std::vector<Control>& c, double u) {
     const double t = u - i, s = 1 - t;
     const double w[4] = {s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6,
                          (3 * s * s * s - 6 * s * s + 4) / 6, t * t * t / 6};
-    Control sum{{0, 0, 0}, 0};
+    Control sum{{0, 0, 0}, 0, u};
     for (int k = 0; k < 4; ++k) {
         sum.place += w[k] * c[i + k].place;
         sum.radius += w[k] * c[i + k].radius;
@@ -110,7 +111,8 @@ std::vector<Control> evenlySpaced(const std::vector<Control>& line) {
         while (step > 0 && static_cast<double>(even.size()) <= walked + step) {
             const double t = (static_cast<double>(even.size()) - walked) / step;
             even.push_back({glm::mix(line[n - 1].place, line[n].place, t),
-                            line[n - 1].radius + t * (line[n].radius - line[n - 1].radius)});
+                            line[n - 1].radius + t * (line[n].radius - line[n - 1].radius),
+                            line[n - 1].turn + t * (line[n].turn - line[n - 1].turn)});
         }
         walked += step;
     }
@@ -122,7 +124,7 @@ std::vector<Control> smoothed(const std::vector<Control>& line, int sigma) {
     const int count = static_cast<int>(line.size());
     std::vector<Control> smooth(line.size());
     for (int n = 0; n < count; ++n) {
-        Control sum{{0, 0, 0}, 0};
+        Control sum{{0, 0, 0}, 0, line[n].turn};
         double weights = 0;
         for (int k = -3 * sigma; k <= 3 * sigma; ++k) {
             const int at = n + k, end = std::clamp(at, 0, count - 1);
@@ -134,36 +136,79 @@ std::vector<Control> smoothed(const std::vector<Control>& line, int sigma) {
             sum.radius += w * line[mirrored].radius;
             weights += w;
         }
-        smooth[n] = {sum.place / weights, sum.radius / weights};
+        smooth[n] = {sum.place / weights, sum.radius / weights, line[n].turn};
     }
     return smooth;
 }
+
+std::vector<Control> axisThrough(const std::vector<Control>& controls) {
+    const int steps = (static_cast<int>(controls.size()) - 3) * 200;
+    std::vector<Control> line(steps + 1);
+    for (int n = 0; n <= steps; ++n) line[n] = windingAt(controls, n / 200.0);
+    return evenlySpaced(smoothed(evenlySpaced(line), 12));
+}
+
+// Loops that lie elsewhere: the whole of them by slow waves through space and along the line.
+void bendLoops(std::vector<Control>& controls, std::uint64_t seed, double bend) {
+    for (std::size_t n = 0; n < controls.size(); ++n)
+        for (int axis = 0; axis < 3; ++axis) {
+            const double phase = 2 * kPi * unitNumber(seed, 30, axis), slow = static_cast<double>(n) / 3.1;
+            controls[n].place[axis] += bend / std::sqrt(3.0) * std::sin(slow + phase + 0.9 * axis);
+        }
+}
+
+// Millimetres along a line at which a place of the spline lies.
+double indexOfTurn(const std::vector<Control>& line, double turn) {
+    const auto after = std::ranges::lower_bound(line, turn, {}, &Control::turn);
+    if (after == line.begin()) return 0;
+    if (after == line.end()) return static_cast<double>(line.size() - 1);
+    const Control &low = *(after - 1), &high = *after;
+    return static_cast<double>(after - line.begin()) - (high.turn - turn) / (high.turn - low.turn);
+}
+
+// Of each millimetre of a line: where that place of the spline is on another.
+std::vector<double> matchOf(const std::vector<Control>& from, const std::vector<Control>& to) {
+    std::vector<double> match;
+    for (std::size_t n = 0; n < from.size(); ++n)
+        match.push_back(&from == &to ? static_cast<double>(n) : indexOfTurn(to, from[n].turn));
+    return match;
+}
 }  // namespace
 
-BuiltInAnatomy::BuiltInAnatomy(std::uint64_t seed, double gap) {
-    makeAxis(seed);
+BuiltInAnatomy::BuiltInAnatomy(std::uint64_t seed, double gap, double bend, double inflation) {
+    makeAxis(seed, bend, inflation);
     makeFrames();
     makeRoom(gap);
     makeFolds(seed);
     makePolyps(seed);
 }
 
-void BuiltInAnatomy::makeAxis(std::uint64_t seed) {
-    const std::vector<Control> controls = wobbledControls(seed);
-    const int steps = (static_cast<int>(controls.size()) - 3) * 200;
-    std::vector<Control> line(steps + 1);
-    for (int n = 0; n <= steps; ++n) line[n] = windingAt(controls, n / 200.0);
-    line = evenlySpaced(smoothed(evenlySpaced(line), 12));
+void BuiltInAnatomy::makeAxis(std::uint64_t seed, double bend, double inflation) {
+    std::vector<Control> controls = wobbledControls(seed);
+    const std::vector<Control> unbent = axisThrough(controls);
+    bendLoops(controls, seed, bend);
+    const std::vector<Control> line = bend == 0 ? unbent : axisThrough(controls);
+    mBent = matchOf(unbent, line);
+    std::vector<double> before(line.size());  // of each place: where it is on the unbent line
+    for (std::size_t n = 0; n < line.size(); ++n)
+        before[n] = bend == 0 ? static_cast<double>(n) : indexOfTurn(unbent, line[n].turn);
     for (std::size_t n = 0; n < line.size(); ++n) {
-        const double along = static_cast<double>(n);
+        const double along = before[n];
         const double slow = 1 + 0.07 * std::sin(along / 23 + 6 * unitNumber(seed, 2, 0)) +
                             0.05 * std::sin(along / 9.7 + 6 * unitNumber(seed, 2, 1));
         AxisPoint point;
         point.place = line[n].place;
-        point.radius = std::clamp(line[n].radius * slow, 12.0, 30.0);
+        point.radius = inflation * std::clamp(line[n].radius * slow, 12.0, 30.0);
         mAxis.push_back(point);
     }
     makeFluid();
+}
+
+// Where a place of the unbent axis is on this one, mm along both.
+double BuiltInAnatomy::bentAlong(double along) const {
+    const double at = std::clamp(along, 0.0, static_cast<double>(mBent.size() - 1));
+    const auto n = std::min(static_cast<std::size_t>(at), mBent.size() - 2);
+    return mBent[n] + (at - static_cast<double>(n)) * (mBent[n + 1] - mBent[n]);
 }
 
 // In the descending part, which sags to the back and rises above the level at both ends.
@@ -264,14 +309,15 @@ double BuiltInAnatomy::roomAt(const Fold& fold) const {
 void BuiltInAnatomy::makeFolds(std::uint64_t seed) {
     for (int sector = 0; sector < 3; ++sector) {
         double along = between(8, 20, unitNumber(seed, 3, sector));
-        for (int n = 0; along < length() - 12; ++n) {
+        for (int n = 0; along < unbentLength() - 12; ++n) {
             const auto number = [&](int which) { return unitNumber(seed, 4 + which, 3 * n + sector); };
             Fold fold;
-            fold.along = along;
+            fold.along = bentAlong(along);
+            fold.unbent = along;
             const double angle = sector * 2 * kPi / 3 + between(-0.15, 0.15, number(0)) + along / 400;
             fold.cosine = std::cos(angle);
             fold.sine = std::sin(angle);
-            const double radius = mAxis[static_cast<int>(along)].radius;
+            const double radius = mAxis[static_cast<int>(fold.along)].radius;
             // The rectum has but few low folds (Houston's valves), the rest high ones.
             const double share = along < 60 ? 0.30 : between(0.34, 0.55, number(1));
             fold.height = share * radius * roomAt(fold);
@@ -455,17 +501,17 @@ void BuiltInAnatomy::makePolyps(std::uint64_t seed) {
                    {0.76, 8, Pedunculated}, {0.86, 12, Flat},         {0.95, 10, Sessile}};
     int n = 0;
     for (const auto& wanted : kPolyps) {
-        double along = (wanted.share + between(-0.01, 0.01, unitNumber(seed, 20, n))) * length();
+        double along = (wanted.share + between(-0.01, 0.01, unitNumber(seed, 20, n))) * unbentLength();
         const double angle = 2 * kPi * unitNumber(seed, 21, n);
         // Away from the crests of folds, so that it sits on the wall.
         for (int tries = 0; tries < 24; ++tries, along += 1) {
             bool clear = true;
             for (const Fold& fold : mFolds)
-                clear = clear && (std::abs(fold.along - along) > 3 + 0.5 * wanted.diameter ||
+                clear = clear && (std::abs(fold.unbent - along) > 3 + 0.5 * wanted.diameter ||
                                   std::cos(angle) * fold.cosine + std::sin(angle) * fold.sine < 0.35);
             if (clear) break;
         }
-        addPolyp(std::clamp(along, 10.0, length() - 5), angle, wanted.shape, wanted.diameter);
+        addPolyp(std::clamp(bentAlong(along), 10.0, length() - 5), angle, wanted.shape, wanted.diameter);
         ++n;
     }
 }

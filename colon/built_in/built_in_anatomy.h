@@ -26,6 +26,7 @@ struct AxisPoint {
 // A crescent in one of three sectors between the taeniae.
 struct Fold {
     double along = 0;      // mm along the axis
+    double unbent = 0;     // the same where the axis is not bent
     double cosine = 1;     // of the sector's middle, in the axis' frame
     double sine = 0;       //
     double height = 0;     // of the crest's middle over the wall, mm
@@ -50,7 +51,8 @@ struct FluidLevel {
 class BuiltInAnatomy {
 public:
     // gap: mm that walls between neighbouring loops are thick at least.
-    BuiltInAnatomy(std::uint64_t seed, double gap);
+    // bend, inflation: as of BuiltInColonSetting, bend in mm.
+    BuiltInAnatomy(std::uint64_t seed, double gap, double bend = 0, double inflation = 1);
 
     const std::vector<AxisPoint>& axis() const { return mAxis; }
     const std::vector<BuiltInPolyp>& polyps() const { return mPolyps; }
@@ -66,7 +68,9 @@ public:
     Place placeOf(const glm::dvec3& p) const;  // among all
 
 private:
-    void makeAxis(std::uint64_t seed);
+    void makeAxis(std::uint64_t seed, double bend, double inflation);
+    double unbentLength() const { return static_cast<double>(mBent.size() - 1); }
+    double bentAlong(double along) const;
     void makeRoom(double gap);
     void smoothRadii();
     void makeFluid();
@@ -83,6 +87,8 @@ private:
     double footOf(const glm::dvec3& p, int nearest) const;
 
     std::vector<AxisPoint> mAxis;
+    // Of each millimetre of the axis as it is unbent: where that place is on this one.
+    std::vector<double> mBent;
     std::vector<Fold> mFolds;               // by `along`
     std::vector<std::array<int, 2>> mNear;  // of each axis point: its folds, from and to
     std::vector<BuiltInPolyp> mPolyps;

@@ -170,6 +170,14 @@ void checkSize(const glm::ivec3& size) {
                     "512 x 512 x 411 is a good size");
 }
 
+void checkBend(double bend, double inflation) {
+    if (!(bend >= 0 && bend <= 0.03 && inflation >= 0.7 && inflation <= 1.4))
+        throw Error("built-in colon", "bend",
+                    fmt::format("expected 0 to 0.03 m and an inflation of 0.7 to 1.4, got {:g} and {:g}",
+                                bend, inflation),
+                    "0 and 1 leave it as it is");
+}
+
 Centreline axisLine(const BuiltInAnatomy& anatomy) {
     Centreline line;
     for (const AxisPoint& point : anatomy.axis())
@@ -181,12 +189,13 @@ Centreline axisLine(const BuiltInAnatomy& anatomy) {
 
 BuiltInColon builtInColon(const BuiltInColonSetting& setting, Progress& progress) {
     checkSize(setting.size);
+    checkBend(setting.bend, setting.inflation);
     BuiltInColon colon;
     colon.grey = GreyVolume(frameOf(setting.size));
     const glm::dvec3 spacing = colon.grey.frame.spacing * 1000.0;
     // Walls of two and a half voxels at least, or loops would join on coarse grids.
     const double gap = std::max(4.0, 2.5 * std::max({spacing.x, spacing.y, spacing.z}));
-    const BuiltInAnatomy anatomy(setting.seed, gap);
+    const BuiltInAnatomy anatomy(setting.seed, gap, 1000 * setting.bend, setting.inflation);
     Sampler sampler(anatomy, colon.grey, setting.seed);
     const int slabs = (setting.size.z + kBlock - 1) / kBlock;
     std::atomic<int> done = 0;

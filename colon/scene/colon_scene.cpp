@@ -30,6 +30,7 @@ std::uint64_t builtInKey(const BuiltInColonSetting& setting) {
     Hash hash;
     hash.add("the built-in colon 2").add(static_cast<std::int64_t>(setting.seed));
     for (int axis = 0; axis < 3; ++axis) hash.add(static_cast<std::int64_t>(setting.size[axis]));
+    if (setting.bend != 0 || setting.inflation != 1) hash.add(setting.bend).add(setting.inflation);
     return hash.value();
 }
 

@@ -41,6 +41,7 @@ protected:
              "a.json"},
             {"mesh", {"mesh", scene, "--error", "0", "--out", "a.glb"}, "a.glb"},
             {"centreline", {"centreline", "colon", "--no-cache", "--out", "a.vtp"}, "a.vtp"},
+            {"coverage", {"coverage", "colon", "--no-cache", "--out", "a.csv"}, "a.csv"},
             {"bake terrain",
              {"bake", scene, "--samples", "4096", "--resolution", "1", "--out", "a.light"},
              ""},

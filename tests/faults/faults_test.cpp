@@ -53,6 +53,10 @@ TEST_F(Faults, OfMeshesAndCentrelines) {
     tryAll("centreline", kSample);
 }
 
+TEST_F(Faults, OfInstrumentsOfColons) {
+    for (const char* command : {"coverage", "findings", "register"}) tryAll(command, kSample);
+}
+
 TEST_F(Faults, OfBakes) {
     tryAll("bake", kSample);
 }

@@ -1,0 +1,32 @@
+#include "app/command/colon_of.h"
+
+#include <fmt/format.h>
+
+#include "app/scene/scene_type.h"
+#include "engine/base/error.h"
+
+namespace stereonav {
+
+void expectColonName(const std::string& scene) {
+    const SceneType& type = sceneTypeNamed(scene);
+    if (type.hasLine) return;
+    const std::string found = !type.hasGround      ? "a " + std::string(type.noun)
+                              : scene.empty()      ? "nothing, which is the built-in terrain"
+                              : scene == "terrain" ? "the built-in terrain"
+                                                   : "a terrain or another kind of file";
+    throw Error(scene.empty() ? "SCENE" : scene, "", "expected a CT study, found " + found,
+                "name a study, or colon for the built-in one");
+}
+
+const ColonScene& colonOf(const Scene& scene, const SceneOptions& options) {
+    const auto* const colon = scene.offered<const ColonScene>();
+    if (!colon || !colon->isColon())
+        throw Error(options.scene, "", "no colon was found", "give --seed x,y,z inside it");
+    return *colon;
+}
+
+std::string placeText(const glm::dvec3& world) {
+    return fmt::format("{:.1f}, {:.1f}, {:.1f}", 1e3 * world.x, 1e3 * world.y, 1e3 * world.z);
+}
+
+}  // namespace stereonav

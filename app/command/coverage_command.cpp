@@ -1,0 +1,163 @@
+// `stereonav coverage`: which part of a colon's wall a flight shows one way, there and back, and after
+// looking at what is left.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/command/colon_commands.h"
+#include "app/command/colon_of.h"
+#include "app/output/command_result.h"
+#include "app/output/output_place.h"
+#include "app/output/progress_bar.h"
+#include "app/scene/scene_loading.h"
+#include "app/scene/volume_inside.h"
+#include "colon/flight/colon_flight.h"
+#include "colon/instruments/coverage.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/camera/recorded_path.h"
+
+namespace stereonav {
+namespace {
+
+void checkCoverageOptions(const CoverageOptions& options) {
+    expectColonName(options.scene.scene);
+    if (options.out.empty()) return;
+    if (!isStandardOutput(options.out) && !options.out.ends_with(".csv"))
+        throw Error("--out", "", "expected a file named .csv, got \"" + options.out + "\"",
+                    "name it patches.csv");
+    checkNoInput({"--out", options.out}, inputsOf(options.scene));
+    checkOutputFile("--out", options.out);
+}
+
+// Places of a flight that are about `step` metres apart.
+std::vector<Pose> posesAlong(const RecordedPath& path, double step) {
+    double length = 0;
+    const std::vector<PathSample>& samples = path.samples();
+    for (std::size_t n = 1; n < samples.size(); ++n)
+        length += glm::length(samples[n].pose.position - samples[n - 1].pose.position);
+    constexpr double kMost = 1e6;
+    return path.frames(static_cast<int>(std::min(std::ceil(length / step), kMost)) + 1);
+}
+
+// Flown back, looking where it came from.
+std::vector<Pose> backAlong(std::vector<Pose> poses) {
+    std::reverse(poses.begin(), poses.end());
+    for (Pose& pose : poses)
+        pose.orientation = pose.orientation * glm::angleAxis(std::numbers::pi, glm::dvec3(0, 1, 0));
+    return poses;
+}
+
+struct Flights {
+    std::vector<Pose> there, back;
+};
+
+Flights flightsOf(const ColonScene& colon, const CoverageOptions& options,
+                  const Coverage::FreeDistance& freeDistance, const ColonInterior& inside) {
+    const double step = 1e-3 * options.step_mm;
+    if (!options.path.empty()) {
+        const RecordedPath path = readPath(options.path);
+        inside.check(path, options.path);
+        const std::vector<Pose> poses = posesAlong(path, step);
+        return {poses, backAlong(poses)};
+    }
+    ColonFlightSetting setting;
+    setting.clearance = colon.clearance;
+    setting.largestSeparation = colon.stereo.separation;
+    return {posesAlong(colon.path, step),
+            posesAlong(centrelineFlight(freeDistance, colon.centreline, setting, true), step)};
+}
+
+Facts factsOfPatch(const UnseenPatch& patch, double along) {
+    Facts facts{
+        factForJson("area_mm2", 1e6 * patch.area),
+        factForJson("place_mm", FactNumbers{1e3 * patch.place.x, 1e3 * patch.place.y, 1e3 * patch.place.z}),
+        factForJson("along_mm", 1e3 * along)};
+    if (!patch.view) return facts;
+    const PoseAngles angles = anglesOf(*patch.view);
+    const glm::dvec3& p = patch.view->position;
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    facts.push_back(factForJson("view_pose", FactNumbers{p.x, p.y, p.z, angles.heading * kDegrees,
+                                                         angles.pitch * kDegrees, angles.roll * kDegrees}));
+    return facts;
+}
+
+std::string csvOf(const std::vector<UnseenPatch>& patches, const std::vector<double>& along) {
+    std::string text = "area_mm2,left_mm,back_mm,head_mm,along_mm\n";
+    for (std::size_t n = 0; n < patches.size(); ++n)
+        text += fmt::format("{:.1f},{:.2f},{:.2f},{:.2f},{:.1f}\n", 1e6 * patches[n].area,
+                            1e3 * patches[n].place.x, 1e3 * patches[n].place.y, 1e3 * patches[n].place.z,
+                            1e3 * along[n]);
+    return text;
+}
+
+void tell(CommandResult& result, const CoverageOptions& options, const std::vector<UnseenPatch>& patches,
+          const std::vector<double>& along) {
+    std::vector<Facts> list;
+    for (std::size_t n = 0; n < patches.size(); ++n) {
+        list.push_back(factsOfPatch(patches[n], along[n]));
+        result.say(fmt::format("  {:7.0f} mm^2  {:6.0f} mm along, at {}\n", 1e6 * patches[n].area,
+                               1e3 * along[n], placeText(patches[n].place)));
+    }
+    result.add("patches", std::move(list));
+    if (!options.out.empty()) writeTextFile(options.out, csvOf(patches, along));
+}
+
+}  // namespace
+
+int runCoverage(const CoverageOptions& options) {
+    checkCoverageOptions(options);
+    CommandResult result("coverage", options.telling, {{"--out", options.out}});
+    ProgressBar bar(!options.telling.quiet);
+    const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress(), kNoPicture);
+    checkNotRead({{"--out", options.out}});
+    const ColonScene& colon = colonOf(*scene, options.scene);
+    const ColonInterior& inside = *scene->offered<const ColonInterior>();
+    const auto freeDistance = [&](const glm::dvec3& place, double upTo) {
+        return colon.freeDistanceAt(place, upTo);
+    };
+    const Flights flights = flightsOf(colon, options, freeDistance, inside);
+    const WallMesh wall = wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, bar.progress());
+    const LineOfSight sight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue);
+    CoverageSetting setting;
+    setting.verticalFov = scene->lens.verticalFov;
+    setting.aspect = static_cast<double>(options.size.width) / options.size.height;
+    setting.within = 1e-3 * options.within_mm;
+    setting.angle = options.angle_deg * std::numbers::pi / 180;
+    setting.smallestPatch = 1e-6 * options.patch_mm2;
+    Coverage coverage(wall, sight, setting);
+    coverage.look(flights.there, bar.progress());
+    const double oneWay = coverage.percent();
+    coverage.look(flights.back, bar.progress());
+    const double twoWay = coverage.percent();
+    const std::vector<UnseenPatch> patches = coverage.patches(freeDistance, colon.clearance);
+    std::vector<double> along;
+    for (const UnseenPatch& patch : patches) along.push_back(inside.placeOnLine(patch.place).along);
+    const int views = coverage.visit(patches, freeDistance, colon.clearance, bar.progress());
+    const double after = coverage.percent();
+    bar.clear();
+    result.say(
+        fmt::format("{}: {:.1f} % of {:.0f} cm^2 of wall seen one way, {:.1f} % there and back, {:.1f} % "
+                    "after {} views of {} "
+                    "patches of at least {:g} mm^2; {}\n",
+                    scene->name, oneWay, 1e4 * wall.area(), twoWay, after, views, patches.size(),
+                    options.patch_mm2, kNoMedicalDevice));
+    result.add("scene", scene->name);
+    result.add("fov_deg", setting.verticalFov * 180 / std::numbers::pi);
+    result.add("within_mm", options.within_mm);
+    result.add("angle_deg", options.angle_deg);
+    result.add("wall_mm2", 1e6 * wall.area());
+    result.add("poses", static_cast<std::int64_t>(flights.there.size() + flights.back.size()));
+    result.add("one_way_percent", oneWay);
+    result.add("two_way_percent", twoWay);
+    result.add("after_patches_percent", after);
+    result.add("views_of_patches", static_cast<std::int64_t>(views));
+    tell(result, options, patches, along);
+    if (!options.out.empty()) result.addFile("table", options.out);
+    result.finish();
+    return 0;
+}
+
+}  // namespace stereonav

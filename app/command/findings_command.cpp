@@ -1,0 +1,141 @@
+// `stereonav findings`: what places of a colon's wall measure, as a list, a table, a file to go on with, a
+// page.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "app/command/colon_commands.h"
+#include "app/command/colon_of.h"
+#include "app/command/findings_words.h"
+#include "app/output/command_result.h"
+#include "app/output/output_place.h"
+#include "app/output/progress_bar.h"
+#include "app/scene/colon_loading.h"
+#include "app/scene/scene_loading.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+
+namespace stereonav {
+namespace {
+
+void checkPlace(const char* option, const std::string& file, const char* ending,
+                const FindingsOptions& options) {
+    if (file.empty()) return;
+    if (!isStandardOutput(file) && !file.ends_with(ending))
+        throw Error(option, "", fmt::format("expected a file named {}, got \"{}\"", ending, file),
+                    fmt::format("name it findings{}", ending));
+    checkNoInput({option, file}, inputsOf(options.scene));
+    checkOutputFile(option, file);
+}
+
+void checkFindingsOptions(const FindingsOptions& options) {
+    expectColonName(options.scene.scene);
+    checkPlace("--csv", options.csv, ".csv", options);
+    checkPlace("--page", options.page, ".html", options);
+    checkPlace("--file", options.file, ".json", options);
+    if (!options.file.empty()) checkOutputToReadAgain("--file", options.file);
+    if (options.atTruth && options.scene.scene != "colon")
+        throw Error("--at-truth", "",
+                    "expected with the built-in colon, of other studies the truth is not known",
+                    "give places with --at x,y,z");
+    if (!options.candidates && !options.atTruth && options.at.empty() && options.between.empty() &&
+        options.file.empty())
+        throw Error("findings", "", "expected a place, found none", "add --at x,y,z, or --file");
+    if (!options.comment.empty() && options.at.size() != 1)
+        throw Error("--comment", "", "expected with one --at, whose it is", "give one place at a time");
+}
+
+std::vector<Finding> collect(const FindingsOptions& options, const FindingTool& tool) {
+    std::vector<Finding> findings;
+    if (!options.file.empty())
+        for (const KeptFinding& kept : readFindings(options.file)) {
+            findings.push_back(tool.at(kept.place));
+            findings.back().comment = kept.comment;
+        }
+    for (const glm::dvec3& place : options.at) {
+        findings.push_back(tool.at(place));
+        findings.back().comment = options.comment;
+    }
+    if (options.atTruth)
+        for (Finding& finding : tool.atTruth()) findings.push_back(std::move(finding));
+    if (options.candidates)
+        for (Finding& finding : tool.candidates()) findings.push_back(std::move(finding));
+    noteDoubles(findings);
+    return findings;
+}
+
+// Straight, and along the line between the places of it that are next to them.
+void tellDistances(CommandResult& result, const FindingsOptions& options, const ColonScene& colon) {
+    std::vector<Facts> list;
+    for (const auto& [from, to] : options.between) {
+        const double straight = 1e3 * glm::distance(from, to);
+        const double along =
+            1e3 * std::abs(alongLine(colon.centreline, to) - alongLine(colon.centreline, from));
+        result.say(fmt::format("  {} to {}: {:.2f} mm straight, {:.0f} mm along the colon\n", placeText(from),
+                               placeText(to), straight, along));
+        list.push_back({factForJson("from_mm", FactNumbers{1e3 * from.x, 1e3 * from.y, 1e3 * from.z}),
+                        factForJson("to_mm", FactNumbers{1e3 * to.x, 1e3 * to.y, 1e3 * to.z}),
+                        factForJson("straight_mm", straight), factForJson("along_mm", along)});
+    }
+    if (!list.empty()) result.add("distances", std::move(list));
+}
+
+void tellFindings(CommandResult& result, const std::vector<Finding>& findings) {
+    std::vector<Facts> list;
+    FactWords missed;
+    std::int64_t truths = 0, right = 0;
+    for (std::size_t n = 0; n < findings.size(); ++n) {
+        const Finding& finding = findings[n];
+        list.push_back(factsOf(finding, n + 1));
+        result.say(lineOf(finding, n + 1));
+        if (!finding.truth) continue;
+        ++truths, right += finding.right();
+        if (!finding.right())
+            missed.push_back(fmt::format("{}: {} of {:.1f} mm, measured {:.1f} mm", n + 1,
+                                         nameOf(finding.truth->shape), 1e3 * finding.truth->diameter,
+                                         1e3 * finding.diameter()));
+    }
+    result.add("findings", std::move(list));
+    result.add("crads", cradsClassOf(findings));
+    if (truths == 0) return;
+    result.say(fmt::format("{} of {} within 1 mm or 10 % of the truth\n", right, truths));
+    result.add("truths", truths);
+    result.add("within", right);
+    result.add("missed", missed);
+}
+
+}  // namespace
+
+int runFindings(const FindingsOptions& options) {
+    checkFindingsOptions(options);
+    CommandResult result("findings", options.telling,
+                         {{"--csv", options.csv}, {"--page", options.page}, {"--file", options.file}});
+    ProgressBar bar(!options.telling.quiet);
+    checkSceneOptions(options.scene);
+    ColonOptions reading = colonOptionsOf(options.scene);
+    reading.keepsStudy = true;
+    const ColonScene colon = loadColon(reading, bar.progress());
+    if (!colon.isColon())
+        throw Error(options.scene.scene, "", "no colon was found", "give --seed x,y,z inside it");
+    checkNotRead({{"--csv", options.csv}, {"--page", options.page}});
+    const FindingTool tool(colon, bar.progress());
+    const std::vector<Finding> findings = collect(options, tool);
+    bar.clear();
+    result.say(fmt::format("{}: {} findings, C-RADS {} by size and count alone; {}\n", options.scene.scene,
+                           findings.size(), cradsClassOf(findings), kNoMedicalDevice));
+    result.add("scene", options.scene.scene);
+    result.add("notice", std::string(kNoMedicalDevice));
+    tellFindings(result, findings);
+    tellDistances(result, options, colon);
+    if (!options.file.empty()) writeFindings(options.file, colon.name, findings);
+    if (!options.csv.empty()) writeTextFile(options.csv, csvOf(findings));
+    if (!options.page.empty()) writeTextFile(options.page, findingsPage(colon, findings));
+    for (const auto& [key, file] :
+         {std::pair("kept", options.file), std::pair("table", options.csv), std::pair("page", options.page)})
+        if (!file.empty()) result.addFile(key, file);
+    result.finish();
+    return 0;
+}
+
+}  // namespace stereonav

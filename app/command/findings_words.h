@@ -1,0 +1,39 @@
+// Findings as words and as files: a table, a document that is read back, a page with pictures.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "colon/instruments/finding.h"
+#include "colon/scene/colon_scene.h"
+#include "engine/scene/facts.h"
+
+namespace stereonav {
+
+// "flat", "sessile", "pedunculated"
+const char* nameOf(PolypShape shape);
+// "axial", "coronal", "sagittal" of MeasuredPolyp::sliceAxis
+const char* nameOfSlice(int axis);
+
+// One finding for a JSON document; number: from 1.
+Facts factsOf(const Finding& finding, std::size_t number);
+// A line for people.
+std::string lineOf(const Finding& finding, std::size_t number);
+std::string csvOf(const std::vector<Finding>& findings);
+
+// A place and what was said of it.
+struct KeptFinding {
+    glm::dvec3 place{0.0};  // world, metres
+    std::string comment;
+};
+// Of a document that writeFindings wrote; none where there is no such file. Throws Error where it is another.
+std::vector<KeptFinding> readFindings(const std::filesystem::path& file);
+// Whole or not at all, over an earlier one too. Throws Error.
+void writeFindings(const std::filesystem::path& file, const std::string& study,
+                   const std::vector<Finding>& findings);
+
+// One HTML file with all of its pictures: each finding from two sides, and in a slice of the study.
+std::string findingsPage(const ColonScene& colon, const std::vector<Finding>& findings);
+
+}  // namespace stereonav

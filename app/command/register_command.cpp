@@ -1,0 +1,143 @@
+// `stereonav register`: places of one study of a colon in another one of it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "app/command/colon_commands.h"
+#include "app/command/colon_of.h"
+#include "app/output/command_result.h"
+#include "app/output/output_place.h"
+#include "app/output/progress_bar.h"
+#include "app/scene/colon_loading.h"
+#include "app/scene/scene_loading.h"
+#include "colon/instruments/finding.h"
+#include "colon/instruments/registration.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kTableStep = 0.005;  // metres between rows of the table
+
+void checkRegisterOptions(const RegisterOptions& options) {
+    expectColonName(options.scene.scene);
+    expectColonName(options.with);
+    if (options.with != "colon" && (options.bend_mm != 0 || options.inflate != 1))
+        throw Error(options.bend_mm != 0 ? "--bend" : "--inflate", "",
+                    "expected with --with colon, which is made so", "leave it out");
+    if (options.out.empty()) return;
+    if (!isStandardOutput(options.out) && !options.out.ends_with(".csv"))
+        throw Error("--out", "", "expected a file named .csv, got \"" + options.out + "\"",
+                    "name it places.csv");
+    std::vector<NamedPlace> inputs = inputsOf(options.scene);
+    inputs.push_back({"--with", options.with});
+    checkNoInput({"--out", options.out}, inputs);
+    checkOutputFile("--out", options.out);
+}
+
+ColonScene colonFrom(const ColonOptions& options, const std::string& name, Progress& progress) {
+    ColonScene colon = loadColon(options, progress);
+    if (!colon.isColon()) throw Error(name, "", "no colon was found", "give a study that is one");
+    return colon;
+}
+
+// What was chosen in the first study is not of the second one.
+ColonOptions secondOptions(const RegisterOptions& options) {
+    SceneOptions second = options.scene;
+    second.scene = options.with;
+    second.volume.series.clear();
+    second.volume.label.reset();
+    second.volume.seeds.clear();
+    ColonOptions reading = colonOptionsOf(second);
+    reading.builtIn.bend = 1e-3 * options.bend_mm;
+    reading.builtIn.inflation = options.inflate;
+    return reading;
+}
+
+FactNumbers millimetres(const glm::dvec3& world) {
+    return {1e3 * world.x, 1e3 * world.y, 1e3 * world.z};
+}
+
+void tellPlaces(CommandResult& result, const RegisterOptions& options, const ColonScene& first,
+                const ColonScene& second, const LineRegistration& registration) {
+    std::vector<Facts> list;
+    for (const glm::dvec3& place : options.at) {
+        const double along = alongLine(first.centreline, place), there = registration.toSecond(along);
+        const glm::dvec3 match = placeAlong(second.centreline, there);
+        result.say(fmt::format("  {} is {:.0f} mm along; there {:.0f} mm along, at {}\n", placeText(place),
+                               1e3 * along, 1e3 * there, placeText(match)));
+        list.push_back({factForJson("place_mm", millimetres(place)), factForJson("along_mm", 1e3 * along),
+                        factForJson("other_along_mm", 1e3 * there),
+                        factForJson("other_place_mm", millimetres(match))});
+    }
+    result.add("places", std::move(list));
+}
+
+// Of two generated colons: how far along the second line each polyp's place is from the polyp.
+void tellErrors(CommandResult& result, const ColonScene& first, const ColonScene& second,
+                const LineRegistration& registration) {
+    if (first.polyps.empty() || first.polyps.size() != second.polyps.size()) return;
+    FactNumbers errors;
+    double sum = 0;
+    for (std::size_t n = 0; n < first.polyps.size(); ++n) {
+        const double along = alongLine(first.centreline, first.polyps[n].position);
+        const double truth = alongLine(second.centreline, second.polyps[n].position);
+        errors.push_back(1e3 * std::abs(registration.toSecond(along) - truth));
+        sum += errors.back();
+    }
+    const double mean = sum / static_cast<double>(errors.size()),
+                 most = *std::max_element(errors.begin(), errors.end());
+    result.say(
+        fmt::format("  polyps of one are found in the other within {:.1f} mm on average, {:.1f} mm at most\n",
+                    mean, most));
+    result.add("error_mean_mm", mean);
+    result.add("error_most_mm", most);
+    result.add("errors_mm", errors);
+}
+
+std::string tableOf(const ColonScene& first, const ColonScene& second, const LineRegistration& registration) {
+    std::string text =
+        "along_mm,left_mm,back_mm,head_mm,other_along_mm,other_left_mm,other_back_mm,other_head_mm\n";
+    for (double along = 0; along <= first.centreline.length(); along += kTableStep) {
+        const double there = registration.toSecond(along);
+        const glm::dvec3 a = 1e3 * placeAlong(first.centreline, along),
+                         b = 1e3 * placeAlong(second.centreline, there);
+        text += fmt::format("{:.1f},{:.2f},{:.2f},{:.2f},{:.1f},{:.2f},{:.2f},{:.2f}\n", 1e3 * along, a.x,
+                            a.y, a.z, 1e3 * there, b.x, b.y, b.z);
+    }
+    return text;
+}
+
+}  // namespace
+
+int runRegister(const RegisterOptions& options) {
+    checkRegisterOptions(options);
+    CommandResult result("register", options.telling, {{"--out", options.out}});
+    ProgressBar bar(!options.telling.quiet);
+    checkSceneOptions(options.scene);
+    const ColonScene first = colonFrom(colonOptionsOf(options.scene), options.scene.scene, bar.progress());
+    const ColonScene second = colonFrom(secondOptions(options), options.with, bar.progress());
+    checkNotRead({{"--out", options.out}});
+    const LineRegistration registration(first.centreline, second.centreline);
+    bar.clear();
+    result.say(fmt::format("{}, {:.0f} mm, and {}, {:.0f} mm: mean cost of a pair {:.3f}; {}\n",
+                           options.scene.scene, 1e3 * first.centreline.length(), options.with,
+                           1e3 * second.centreline.length(), registration.cost(), kNoMedicalDevice));
+    result.add("scene", options.scene.scene);
+    result.add("other", options.with);
+    result.add("length_mm", 1e3 * first.centreline.length());
+    result.add("other_length_mm", 1e3 * second.centreline.length());
+    result.add("cost", registration.cost());
+    tellPlaces(result, options, first, second, registration);
+    tellErrors(result, first, second, registration);
+    if (!options.out.empty()) {
+        writeTextFile(options.out, tableOf(first, second, registration));
+        result.addFile("table", options.out);
+    }
+    result.finish();
+    return 0;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,32 @@
+// Places of a wall that look like polyps, to be looked at by a reader: shape index and curvedness, clustered
+// (Yoshida and Naeppi, "Three-dimensional computer-aided diagnosis scheme for detection of colonic polyps",
+// IEEE Trans. Med. Imaging 20 (2001); there the clusters are told apart by a classifier that was trained,
+// here by their size and by how far they stand out).
+#pragma once
+
+#include <vector>
+
+#include "colon/instruments/polyp.h"
+
+namespace stereonav {
+
+struct CandidateSetting {
+    PolypSetting polyp;
+    double shapeIndex = 0.85;                   // at least, of a vertex that may be a tip
+    double leastCurved = 40, mostCurved = 800;  // 1/metre: its curvedness
+    double leastWide = 0.004, mostWide = 0.04;  // metres: the longest diameter
+    double leastScore = 0.0006;                 // metres
+};
+
+struct Candidate {
+    MeasuredPolyp polyp;
+    // Metres: volume over area, times three: the radius of a ball, about one and a half times the height of a
+    // flat one.
+    double score = 0;
+};
+
+// The highest scores first; of each head one. The same on any number of threads.
+std::vector<Candidate> polypCandidates(const WallMesh& mesh, const WallNeighbours& neighbours,
+                                       const CandidateSetting& setting);
+
+}  // namespace stereonav

@@ -1,0 +1,200 @@
+#include "colon/instruments/coverage.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <numbers>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+
+namespace stereonav {
+namespace {
+
+constexpr std::uint32_t kChunk = 256;   // vertices
+constexpr double kLift = 0.5;           // of the smallest spacing: how far off the wall lines of sight end
+constexpr double kFarthestView = 0.02;  // metres from a patch to the eye that looks at it
+
+void check(const CoverageSetting& setting) {
+    const auto refuseUnless = [](bool holds, const char* what, const char* expected) {
+        if (!holds) throw Error("coverage", what, expected, "correct it");
+    };
+    refuseUnless(setting.verticalFov > 0 && setting.verticalFov < std::numbers::pi, "field of view",
+                 "expected more than 0 and less than 180 degrees");
+    refuseUnless(setting.aspect > 0 && std::isfinite(setting.aspect), "aspect", "expected more than 0");
+    refuseUnless(setting.within > 0, "distance", "expected more than 0");
+    refuseUnless(setting.angle > 0 && setting.angle <= 0.5 * std::numbers::pi, "angle",
+                 "expected more than 0 and at most 90 degrees");
+    refuseUnless(setting.smallestPatch >= 0, "patch", "expected 0 or more");
+}
+
+// Looks from `eye` at `target`, as upright as it can be.
+Pose lookingAt(const glm::dvec3& eye, const glm::dvec3& target) {
+    const glm::dvec3 way = glm::normalize(target - eye);
+    return poseFromAngles(eye, std::atan2(way.x, way.y), std::asin(std::clamp(way.z, -1.0, 1.0)), 0);
+}
+
+}  // namespace
+
+Coverage::Coverage(const WallMesh& mesh, const LineOfSight& sight, const CoverageSetting& setting)
+    : mMesh(mesh), mSight(sight), mSetting(setting), mSeen(mesh.places.size(), 0) {
+    check(setting);
+    mNeighbours = neighboursOf(mesh);
+    makeChunks();
+}
+
+void Coverage::makeChunks() {
+    const auto count = static_cast<std::uint32_t>(mMesh.places.size());
+    for (std::uint32_t from = 0; from < count; from += kChunk) {
+        Chunk chunk{from, std::min(from + kChunk, count), glm::vec3(0), 0};
+        glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+        for (std::uint32_t v = chunk.from; v < chunk.to; ++v) {
+            low = glm::min(low, mMesh.places[v]);
+            high = glm::max(high, mMesh.places[v]);
+        }
+        chunk.middle = 0.5f * (low + high);
+        chunk.radius = 0.5f * glm::length(high - low);
+        mChunks.push_back(chunk);
+    }
+}
+
+// Whether anything of the chunk is near enough and not behind the eye.
+bool Coverage::reaches(const Chunk& chunk, const Pose& pose) const {
+    const glm::dvec3 to = glm::dvec3(chunk.middle) - pose.position;
+    const double r = chunk.radius + mSight.smallestSpacing();
+    return glm::length(to) - r <= mSetting.within && glm::dot(to, pose.forward()) > -r;
+}
+
+// On the wall itself every line of sight would end in it.
+glm::dvec3 Coverage::lifted(std::uint32_t vertex) const {
+    return glm::dvec3(mMesh.places[vertex]) +
+           kLift * mSight.smallestSpacing() * glm::dvec3(mMesh.normals[vertex]);
+}
+
+bool Coverage::sees(const Pose& pose, std::uint32_t vertex) const {
+    const glm::dvec3 place(mMesh.places[vertex]), to = place - pose.position;
+    const double depth = glm::dot(to, pose.forward()), away = glm::length(to);
+    if (!(depth > 0) || away > mSetting.within) return false;
+    const double tall = std::tan(0.5 * mSetting.verticalFov) * depth;
+    if (std::abs(glm::dot(to, pose.up())) > tall) return false;
+    if (std::abs(glm::dot(to, pose.right())) > tall * mSetting.aspect) return false;
+    if (-glm::dot(to, glm::dvec3(mMesh.normals[vertex])) < std::cos(mSetting.angle) * away) return false;
+    return mSight.clear(pose.position, lifted(vertex));
+}
+
+void Coverage::look(std::span<const Pose> poses, Progress& progress) {
+    std::atomic<std::size_t> done = 0;
+    // A chunk is one task: no two write the same vertex.
+    parallelFor(static_cast<int>(mChunks.size()), [&](int n) {
+        const Chunk& chunk = mChunks[n];
+        std::uint32_t left = 0;
+        for (std::uint32_t v = chunk.from; v < chunk.to; ++v) left += !mSeen[v];
+        for (std::size_t p = 0; p < poses.size() && left > 0; ++p) {
+            if (!reaches(chunk, poses[p])) continue;
+            for (std::uint32_t v = chunk.from; v < chunk.to; ++v)
+                if (!mSeen[v] && sees(poses[p], v)) mSeen[v] = 1, --left;
+        }
+        progress.report(static_cast<double>(++done) / static_cast<double>(mChunks.size()),
+                        "looking at the wall");
+    });
+}
+
+double Coverage::percent() const {
+    double seen = 0, all = 0;
+    for (std::size_t v = 0; v < mSeen.size(); ++v) {
+        all += mMesh.areas[v];
+        if (mSeen[v]) seen += mMesh.areas[v];
+    }
+    return all > 0 ? 100 * seen / all : 0;
+}
+
+// The unseen of these (ascending), parted into what hangs together; of the set size, largest first.
+std::vector<UnseenPatch> Coverage::patchesAmong(const std::vector<std::uint32_t>& vertices) const {
+    std::vector<std::uint8_t> open(mSeen.size(), 0);
+    for (const std::uint32_t v : vertices) open[v] = !mSeen[v];
+    std::vector<UnseenPatch> found;
+    for (const std::uint32_t start : vertices) {
+        if (!open[start]) continue;
+        UnseenPatch patch;
+        patch.vertices.push_back(start);
+        open[start] = 0;
+        glm::dvec3 sum(0.0);
+        for (std::size_t n = 0; n < patch.vertices.size(); ++n) {
+            const std::uint32_t v = patch.vertices[n];
+            patch.area += mMesh.areas[v];
+            sum += static_cast<double>(mMesh.areas[v]) * glm::dvec3(mMesh.places[v]);
+            for (std::uint32_t k = mNeighbours.first[v]; k < mNeighbours.first[v + 1]; ++k)
+                if (const std::uint32_t next = mNeighbours.neighbours[k]; open[next])
+                    open[next] = 0, patch.vertices.push_back(next);
+        }
+        if (!(patch.area > 0) || patch.area < mSetting.smallestPatch) continue;
+        const glm::dvec3 middle = sum / patch.area;
+        const auto nearer = [&](std::uint32_t a, std::uint32_t b) {
+            return glm::distance(glm::dvec3(mMesh.places[a]), middle) <
+                   glm::distance(glm::dvec3(mMesh.places[b]), middle);
+        };
+        std::sort(patch.vertices.begin(), patch.vertices.end());
+        patch.place = mMesh.places[*std::min_element(patch.vertices.begin(), patch.vertices.end(), nearer)];
+        found.push_back(std::move(patch));
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const UnseenPatch& a, const UnseenPatch& b) { return a.area > b.area; });
+    return found;
+}
+
+// An eye before the wall, where it keeps the clearance and sees the vertex; along the normal, as far away as
+// it goes.
+std::optional<Pose> Coverage::viewOf(std::uint32_t vertex, const FreeDistance& freeDistance,
+                                     double clearance) const {
+    const glm::dvec3 from = lifted(vertex), normal(mMesh.normals[vertex]);
+    const double room = mSight.reach(from, normal, kFarthestView);
+    for (int n = 20; n > 0; --n) {
+        const glm::dvec3 eye = from + room * n / 20.0 * normal;
+        if (freeDistance(eye, clearance) >= clearance)
+            return lookingAt(eye, glm::dvec3(mMesh.places[vertex]));
+    }
+    return std::nullopt;
+}
+
+std::vector<UnseenPatch> Coverage::patches(const FreeDistance& freeDistance, double clearance) const {
+    std::vector<std::uint32_t> all(mSeen.size());
+    for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
+    std::vector<UnseenPatch> found = patchesAmong(all);
+    for (UnseenPatch& patch : found) {
+        std::uint32_t at = patch.vertices.front();
+        for (const std::uint32_t v : patch.vertices)
+            if (glm::dvec3(mMesh.places[v]) == patch.place) at = v;
+        patch.view = viewOf(at, freeDistance, clearance);
+        // In a narrow pit another place of it may have room.
+        const std::size_t stride = std::max<std::size_t>(patch.vertices.size() / 64, 1);
+        for (std::size_t n = 0; n < patch.vertices.size() && !patch.view; n += stride)
+            patch.view = viewOf(patch.vertices[n], freeDistance, clearance);
+    }
+    return found;
+}
+
+int Coverage::visit(const std::vector<UnseenPatch>& patches, const FreeDistance& freeDistance,
+                    double clearance, Progress& progress) {
+    int views = 0;
+    for (std::size_t n = 0; n < patches.size(); ++n) {
+        std::optional<Pose> view = patches[n].view;
+        double left = patches[n].area;
+        for (int round = 0; round < kMostViews && view; ++round) {
+            Progress silent([&](double, const std::string&) { throwIfStopped(); });
+            look(std::span(&*view, 1), silent);
+            ++views;
+            const std::vector<UnseenPatch> rest = patchesAmong(patches[n].vertices);
+            if (rest.empty() || rest.front().area >= left) break;
+            left = rest.front().area;
+            view = viewOf(rest.front().vertices[rest.front().vertices.size() / 2], freeDistance, clearance);
+        }
+        progress.report(static_cast<double>(n + 1) / static_cast<double>(patches.size()),
+                        "looking at unseen patches");
+    }
+    return views;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,157 @@
+#include "colon/instruments/finding.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "colon/instruments/candidates.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kMm = 1e-3;
+constexpr double kRectum = 150 * kMm, kCaecum = 60 * kMm, kFlexure = 30 * kMm;
+
+// Distances along the line of its landmarks.
+struct Landmarks {
+    double descending = 0, splenic = 0, hepatic = 0, length = 0;
+    bool found = false;
+};
+
+// The highest point beyond `side` (1: the patient's left) of the middle, from `first` on; -1: none.
+int highest(const Centreline& line, double middle, double side, double away, std::size_t first) {
+    int best = -1;
+    for (std::size_t n = first; n < line.points.size(); ++n) {
+        const glm::dvec3& p = line.points[n].position;
+        if (side * (p.x - middle) < away) continue;
+        if (best < 0 || p.z > line.points[best].position.z) best = static_cast<int>(n);
+    }
+    return best;
+}
+
+Landmarks landmarksOf(const Centreline& line) {
+    Landmarks marks;
+    std::vector<double> along{0};
+    double left = -std::numeric_limits<double>::infinity(), right = -left;
+    for (std::size_t n = 0; n < line.points.size(); ++n) {
+        const glm::dvec3& p = line.points[n].position;
+        left = std::max(left, p.x), right = std::min(right, p.x);
+        if (n > 0) along.push_back(along.back() + glm::distance(p, line.points[n - 1].position));
+    }
+    marks.length = along.back();
+    const double middle = 0.5 * (left + right), away = 0.1 * (left - right);
+    const int splenic = highest(line, middle, 1, away, 0);
+    if (splenic < 0) return marks;
+    const int hepatic = highest(line, middle, -1, away, static_cast<std::size_t>(splenic));
+    if (hepatic < 0) return marks;
+    // Down from the flexure to where the line has risen by 3 cm again.
+    int lowest = splenic;
+    for (int n = splenic; n >= 0; --n) {
+        const double z = line.points[n].position.z;
+        if (z < line.points[lowest].position.z) lowest = n;
+        if (z > line.points[lowest].position.z + 0.03 && along[splenic] - along[lowest] > 2 * kFlexure) break;
+    }
+    marks.descending = along[lowest];
+    marks.splenic = along[splenic];
+    marks.hepatic = along[hepatic];
+    marks.found = true;
+    return marks;
+}
+
+}  // namespace
+
+bool Finding::right() const {
+    if (!truth) return true;
+    return polyp && std::abs(diameter() - truth->diameter) <= std::max(1 * kMm, 0.1 * truth->diameter);
+}
+
+FindingTool::FindingTool(const ColonScene& colon, Progress& progress)
+    : mColon(colon),
+      mWall(wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, progress)),
+      mNeighbours(neighboursOf(mWall)) {}
+
+Finding FindingTool::at(const glm::dvec3& place) const {
+    Finding finding;
+    finding.asked = place;
+    finding.polyp =
+        polypAt(mWall, mNeighbours, place, polypSettingOf(mColon.volume.field.frame), finding.problem);
+    const glm::dvec3 where = finding.polyp ? finding.polyp->middle : place;
+    finding.along = alongLine(mColon.centreline, where);
+    finding.segment = colonSegmentAt(mColon.centreline, finding.along);
+    if (!finding.polyp || mColon.study.empty()) return finding;
+    // A wall's blur reaches a millimetre into it; of flat ones nothing else is there.
+    for (const double margin : {1 * kMm, 0.5 * kMm})
+        if (!finding.flesh) finding.flesh = fleshValues(mWall, *finding.polyp, mColon.study, margin);
+    return finding;
+}
+
+std::vector<Finding> FindingTool::atTruth() const {
+    std::vector<Finding> findings;
+    for (const Polyp& polyp : mColon.polyps) {
+        findings.push_back(at(polyp.position));
+        findings.back().truth = polyp;
+    }
+    return findings;
+}
+
+std::vector<Finding> FindingTool::candidates() const {
+    std::vector<Finding> findings;
+    CandidateSetting setting;
+    setting.polyp = polypSettingOf(mColon.volume.field.frame);
+    for (const Candidate& candidate : polypCandidates(mWall, mNeighbours, setting)) {
+        findings.push_back(at(glm::dvec3(mWall.places[candidate.polyp.tip])));
+        findings.back().comment =
+            fmt::format("candidate {}, score {:.2f} mm", findings.size(), 1e3 * candidate.score);
+    }
+    return findings;
+}
+
+void noteDoubles(std::vector<Finding>& findings) {
+    for (std::size_t b = 0; b < findings.size(); ++b)
+        for (std::size_t a = 0; a < b; ++a) {
+            const auto &first = findings[a].polyp, &second = findings[b].polyp;
+            if (!first || !second || !findings[b].problem.empty()) continue;
+            if (!std::binary_search(first->vertices.begin(), first->vertices.end(), second->tip)) continue;
+            findings[b].doubled = true;
+            findings[b].problem = fmt::format("the same polyp as finding {}", a + 1);
+        }
+}
+
+double alongLine(const Centreline& line, const glm::dvec3& place) {
+    double along = 0, walked = 0, least = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < line.points.size(); ++n) {
+        const glm::dvec3& p = line.points[n].position;
+        if (n > 0) walked += glm::distance(p, line.points[n - 1].position);
+        if (const double away = glm::distance(p, place); away < least) least = away, along = walked;
+    }
+    return along;
+}
+
+std::string colonSegmentAt(const Centreline& line, double along) {
+    const Landmarks marks = landmarksOf(line);
+    if (!marks.found) return "";
+    if (along < kRectum) return "rectum";
+    if (along > marks.length - kCaecum) return "caecum";
+    if (std::abs(along - marks.splenic) < kFlexure) return "splenic flexure";
+    if (std::abs(along - marks.hepatic) < kFlexure) return "hepatic flexure";
+    if (along > marks.hepatic) return "ascending";
+    if (along > marks.splenic) return "transverse";
+    return along > marks.descending ? "descending" : "sigmoid";
+}
+
+std::string cradsClassOf(const std::vector<Finding>& findings) {
+    int middle = 0, large = 0, masses = 0;
+    for (const Finding& finding : findings) {
+        if (finding.doubled) continue;
+        const double mm = 1e3 * finding.diameter();
+        middle += mm >= 6 && mm < 10;
+        large += mm >= 10;
+        masses += mm >= 30;
+    }
+    return masses > 0 ? "C4" : large > 0 || middle >= 3 ? "C3" : middle > 0 ? "C2" : "C1";
+}
+
+}  // namespace stereonav

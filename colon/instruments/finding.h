@@ -1,0 +1,70 @@
+// Findings of a reader: what was measured at a place of a colon, where in the colon it is, and what a list of
+// them amounts to. Not a medical device.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "colon/centreline/centreline.h"
+#include "colon/instruments/polyp.h"
+#include "colon/scene/colon_scene.h"
+#include "colon/wall/wall_mesh.h"
+
+namespace stereonav {
+
+struct Finding {
+    glm::dvec3 asked{0.0};  // world, metres: where it was looked for
+    std::string comment;
+    std::optional<Polyp> truth;  // of a generated colon
+
+    std::optional<MeasuredPolyp> polyp;
+    std::string problem;               // why there is none, or a note on it; ""
+    std::optional<FleshValues> flesh;  // of a CT
+    double along = 0;                  // metres from the rectum
+    std::string segment;               // of the colon, by landmarks; "": not told
+
+    double diameter() const { return polyp ? polyp->widest.length : 0; }  // metres
+    bool doubled = false;  // of the same polyp as one before it in its list
+    // Whether the diameter is that of the truth, within 1 mm or a tenth. True without a truth.
+    bool right() const;
+};
+
+class FindingTool {
+public:
+    // colon must outlive it.
+    FindingTool(const ColonScene& colon, Progress& progress);
+
+    Finding at(const glm::dvec3& place) const;
+    // Those of a generated colon, at their true places.
+    std::vector<Finding> atTruth() const;
+    // Places that look like polyps (candidates.h), with a comment that says so.
+    std::vector<Finding> candidates() const;
+
+    const WallMesh& wall() const { return mWall; }
+
+private:
+    const ColonScene& mColon;
+    WallMesh mWall;
+    WallNeighbours mNeighbours;
+};
+
+// Notes on findings that are of one polyp: each but the first says so. Nothing is left out.
+void noteDoubles(std::vector<Finding>& findings);
+
+// Where a place of the line, metres from its start, lies: "rectum", "sigmoid", "descending", "splenic
+// flexure", "transverse", "hepatic flexure", "ascending", "caecum"; "" where the line has no two flexures. By
+// landmarks alone: the flexures are the highest places on the left and, after it, on the right; the
+// descending colon reaches down to where the line rises again; the rectum is the first 15 cm, the caecum the
+// last 6 cm.
+std::string colonSegmentAt(const Centreline& line, double along);
+
+// Distance along the line of its place next to this one, metres.
+double alongLine(const Centreline& line, const glm::dvec3& place);
+
+// C-RADS (Zalis et al., "CT colonography reporting and data system: a consensus proposal", Radiology 236
+// (2005)) by size and count alone: "C1" to "C4". C0, an inadequate study, and what is outside the colon are
+// left to the reader.
+std::string cradsClassOf(const std::vector<Finding>& findings);
+
+}  // namespace stereonav

@@ -1,0 +1,74 @@
+// A polyp on a lumen's wall: where it ends, and what it measures.
+//
+// It is the part around a place that bulges into the lumen both ways: its outline is where the smaller of the
+// wall's principal curvatures changes its sign, at the neck of a head on a stalk and at the foot of one
+// without. Folds do not bulge along their crest, and the wall between them not at all. The idea of principal
+// curvatures as the end of a polyp is that of van Wijk et al., "Detection and segmentation of colonic polyps
+// on implicit isosurfaces by second principal curvature flow", IEEE Trans. Med. Imaging 29 (2010), who move
+// the wall until none is left; here it stays, and the outline is read from it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "colon/wall/wall_curvature.h"
+#include "colon/wall/wall_mesh.h"
+#include "engine/volume/volume.h"
+
+namespace stereonav {
+
+struct PolypSetting {
+    double curvatureRadius = 0.0013;  // metres, > 0: of the wall that a curvature is fitted to
+    double fromWall = 0.02;           // metres, > 0: how far from the wall the place may be
+    double reach = 0.004;             // metres, > 0: how far from the place its tip may be
+    double largest = 0.04;            // metres, > 0: how far from the tip its outline may be
+    double flattest = 20;             // 1/metre, > 0: the tip is curved by at least this both ways
+};
+
+// With a curvatureRadius of 1.6 voxels at least, as fewer vertices tell nothing.
+PolypSetting polypSettingOf(const VolumeFrame& frame);
+
+// The longest way between two places of it.
+struct PolypWidth {
+    double length = 0;  // metres
+    glm::dvec3 from{0.0}, to{0.0};
+};
+
+struct MeasuredPolyp {
+    std::uint32_t tip = 0;                // vertex: the most curved
+    std::vector<std::uint32_t> vertices;  // of its head, ascending
+    std::vector<glm::dvec3> outline;      // world, metres: the vertices next to its head
+    glm::dvec3 middle{0.0};               // of its vertices
+    glm::dvec3 outward{0.0};              // unit: the mean normal, into the lumen
+    PolypWidth widest;                    // in space
+    PolypWidth widestInSlice;             // in a plane of voxels
+    int sliceAxis = 2;                    // of that plane: 0 sagittal, 1 coronal, 2 axial
+    double slice = 0;                     // where on that axis, metres
+    double area = 0, volume = 0;          // square and cubic metres; the volume above a lid on its outline
+};
+
+// The vertex nearest to a place. Throws Error where the mesh has none.
+std::uint32_t nearestVertex(const WallMesh& mesh, const glm::dvec3& place);
+
+// The polyp at or next to a place. Nothing where the wall does not bulge there, or it is larger than the
+// setting allows; `why` then says so in a clause.
+std::optional<MeasuredPolyp> polypAt(const WallMesh& mesh, const WallNeighbours& neighbours,
+                                     const glm::dvec3& place, const PolypSetting& setting, std::string& why);
+
+// The same from the vertex that is nearest.
+std::optional<MeasuredPolyp> polypAt(const WallMesh& mesh, const WallNeighbours& neighbours,
+                                     std::uint32_t vertex, const PolypSetting& setting, std::string& why);
+
+// Of its flesh in a study: voxels between its wall and its lid that are at least `margin` metres behind the
+// wall. None where there is no such voxel.
+struct FleshValues {
+    double mean = 0, sigma = 0;  // in the study's values: Hounsfield units
+    int voxels = 0;
+};
+std::optional<FleshValues> fleshValues(const WallMesh& mesh, const MeasuredPolyp& polyp,
+                                       const GreyVolume& study, double margin);
+
+}  // namespace stereonav

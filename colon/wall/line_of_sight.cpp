@@ -1,0 +1,69 @@
+#include "colon/wall/line_of_sight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace stereonav {
+namespace {
+
+constexpr double kStep = 0.25;  // of the smallest spacing
+
+}  // namespace
+
+LineOfSight::LineOfSight(const GreyVolume& field, const SurfaceCells& cells, double isovalue)
+    : mField(field),
+      mCells(cells),
+      mIsovalue(isovalue),
+      mSmallest(std::min({field.frame.spacing.x, field.frame.spacing.y, field.frame.spacing.z})) {}
+
+bool LineOfSight::contains(const glm::dvec3& voxel) const {
+    const glm::dvec3 last(mField.frame.size - 1);
+    return voxel.x >= 0 && voxel.y >= 0 && voxel.z >= 0 && voxel.x <= last.x && voxel.y <= last.y &&
+           voxel.z <= last.z;
+}
+
+double LineOfSight::valueIn(const glm::dvec3& voxel) const {
+    const glm::ivec3 c = glm::min(glm::ivec3(voxel), mField.frame.size - 2);
+    const glm::dvec3 f = voxel - glm::dvec3(c);
+    const std::int16_t* v = &mField.values[mField.frame.index(c)];
+    const std::size_t row = mField.frame.size.x, slice = row * mField.frame.size.y;
+    const auto along = [&](std::size_t at) { return v[at] + f.x * (v[at + 1] - v[at]); };
+    const double low = along(0) + f.y * (along(row) - along(0));
+    const double high = along(slice) + f.y * (along(slice + row) - along(slice));
+    return low + f.z * (high - low);
+}
+
+double LineOfSight::valueAt(const glm::dvec3& world) const {
+    const glm::dvec3 voxel = mField.frame.voxelFromWorld(world);
+    return contains(voxel) ? valueIn(voxel) : mIsovalue;
+}
+
+double LineOfSight::reach(const glm::dvec3& from, const glm::dvec3& direction, double upTo) const {
+    const VolumeFrame& frame = mField.frame;
+    const glm::dvec3 start = frame.voxelFromWorld(from), perMetre = frame.voxelDirection(direction);
+    const double step = kStep * mSmallest;
+    for (double way = 0;;) {
+        const glm::dvec3 voxel = start + way * perMetre;
+        if (!contains(voxel)) return way;
+        const glm::ivec3 cell = glm::min(glm::ivec3(voxel), frame.size - 2);
+        const std::uint8_t code = mCells.codes[mCells.layout.index(cell.x, cell.y, cell.z)];
+        // Leaps are known where the region is; its other cells count as active.
+        const double free = code > kCellNear ? (code - 1) * mCells.leapUnit : 0;
+        if (code == kCellActive && valueIn(voxel) >= mIsovalue) return way;
+        if (way >= upTo) return upTo;
+        way = std::min(way + std::max(free, step), upTo);
+    }
+}
+
+bool LineOfSight::clear(const glm::dvec3& from, const glm::dvec3& to) const {
+    const glm::dvec3 way = to - from;
+    const double length = glm::length(way);
+    if (!(length > 0)) return valueAt(from) < mIsovalue;
+    // Ends outside the volume or in the wall are told by their value.
+    return valueAt(from) < mIsovalue && valueAt(to) < mIsovalue &&
+           reach(from, way / length, length) >= length;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,40 @@
+// Whether two places of a lumen see each other: straight lines against the wall, one at a time.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "engine/volume/surface_cells.h"
+#include "engine/volume/volume.h"
+
+namespace stereonav {
+
+// The volume and its cells must outlive it; safe to use from many threads.
+class LineOfSight {
+public:
+    // The wall is where the trilinear value of `field` reaches `isovalue` (stored numbers); `cells` are those
+    // of that surface or of more.
+    LineOfSight(const GreyVolume& field, const SurfaceCells& cells, double isovalue);
+
+    // No wall on the way, both ends included. World, metres. Cells with wall are looked at every quarter of
+    // the smallest spacing, others are leapt over: what is thinner than that may be missed. Where either end
+    // is outside the volume, the answer is no.
+    bool clear(const glm::dvec3& from, const glm::dvec3& to) const;
+
+    // How far a line from `from` (in the lumen) gets towards `direction` (unit) before it meets wall, metres,
+    // to a quarter of the smallest spacing; `upTo` where it meets none before; 0 where it starts in the wall.
+    double reach(const glm::dvec3& from, const glm::dvec3& direction, double upTo) const;
+
+    double smallestSpacing() const { return mSmallest; }  // metres
+    // The trilinear value at a place, stored numbers; beyond the volume the isovalue, which is wall.
+    double valueAt(const glm::dvec3& world) const;
+
+private:
+    double valueIn(const glm::dvec3& voxel) const;
+    bool contains(const glm::dvec3& voxel) const;
+
+    const GreyVolume& mField;
+    const SurfaceCells& mCells;
+    double mIsovalue, mSmallest;
+};
+
+}  // namespace stereonav

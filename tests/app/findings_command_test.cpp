@@ -1,0 +1,120 @@
+// `stereonav findings` and `register` as a user runs them.
+#include <nlohmann/json.hpp>
+
+#include "engine/image/image_file.h"
+#include "tests/app/volume_input.h"
+
+namespace stereonav::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class ColonInstruments : public VolumeTest {
+protected:
+    // A tube along z, 28 mm wide, with a ball of 5 mm radius on its side at x = 2, y = 14 (mm from the
+    // middle of the axis).
+    std::string withPolyp(const char* name = "polyp.nrrd", double shift = 0) const {
+        return nrrd(name, {48, 48, 48, 1, "uchar", ""}, [shift](int i, int j, int k) {
+            const double x = i - 23.5, y = j - 23.5, z = k - 23.5 - shift;
+            const bool tube = std::hypot(x, y) < 14 && k > 2 && k < 45;
+            return tube && std::hypot(x - 2, y - 11, z) >= 5 ? 1 : 0;
+        });
+    }
+    // That ball's middle: the frame begins at -24 mm.
+    static constexpr const char* kPolyp = "1.5,10.5,-0.5";
+
+    Json documentOf(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.end(), {"--no-cache", "--json"});
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return Json::parse(outcome.out, nullptr, false);
+    }
+};
+
+TEST_F(ColonInstruments, FindingsMeasureAndAreKept) {
+    const std::string mask = withPolyp();
+    Json json = documentOf({"findings", mask, "--at", kPolyp, "--comment", "on the, \"left\"", "--file",
+                            "f.json", "--csv", "f.csv", "--page", "f.html"});
+    ASSERT_EQ(json.at("findings").size(), 1u);
+    const Json& one = json["findings"][0];
+    EXPECT_TRUE(one.at("found").get<bool>()) << one;
+    EXPECT_NEAR(one.at("diameter_mm").get<double>(), 10, 1.2);
+    EXPECT_FALSE(one.contains("hu_mean")) << "a mask has no values";
+    EXPECT_EQ(json.at("crads"), one.at("diameter_mm") >= 10 ? "C3" : "C2");
+    EXPECT_NE(contentOf(place() / "f.csv").find("\"on the, \"\"left\"\"\""), std::string::npos);
+    const std::string page = contentOf(place() / "f.html");
+    for (const char* word : {"not a medical device", "data:image/png;base64,", "on the, &quot;left"})
+        EXPECT_NE(page.find(word), std::string::npos) << word;
+    // The file is gone on with, and the same polyp again is told.
+    json = documentOf({"findings", mask, "--at", "1.5,6.5,-0.5", "--file", "f.json"});
+    ASSERT_EQ(json.at("findings").size(), 2u);
+    EXPECT_EQ(json["findings"][0].at("comment"), "on the, \"left\"");
+    EXPECT_EQ(json["findings"][1].at("note"), "the same polyp as finding 1");
+    EXPECT_EQ(Json::parse(contentOf(place() / "f.json")).at("findings").size(), 2u);
+}
+
+TEST_F(ColonInstruments, FindingsTellDistances) {
+    const Json json = documentOf({"findings", withPolyp(), "--between", "0,0,-10,3,4,-10"});
+    EXPECT_NEAR(json.at("distances")[0].at("straight_mm").get<double>(), 5, 1e-9);
+}
+
+TEST_F(ColonInstruments, FindingsAtTheTruthAreRight) {
+    const Outcome outcome = run({"findings", "colon", "--at-truth", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Json json = Json::parse(outcome.out);
+    EXPECT_EQ(json.at("findings").size(), 11u);
+    int right = 0;
+    for (const Json& one : json.at("findings")) {
+        const double truth = one.at("truth_mm"), measured = one.value("diameter_mm", 0.0);
+        right += std::abs(truth - measured) <= std::max(1.0, 0.1 * truth);
+        EXPECT_NEAR(one.at("along_mm").get<double>(), one.at("truth_along_mm").get<double>(), 25);
+        if (one.contains("hu_mean")) {
+            EXPECT_NEAR(one.at("hu_mean").get<double>(), 40, 25) << "flesh";
+        }
+    }
+    EXPECT_GE(right, 10);
+    EXPECT_EQ(json.at("within"), right);
+    EXPECT_EQ(json.at("missed").size(), 11u - right);
+}
+
+TEST_F(ColonInstruments, FindingsRefuseBadInput) {
+    const std::string mask = withPolyp();
+    expectRefused({"findings", mask}, {"expected a place", "--at"});
+    expectRefused({"findings", mask, "--at-truth"}, {"--at-truth", "built-in colon"});
+    expectRefused({"findings", mask, "--at", "1,2"}, {"--at"});
+    expectRefused({"findings", mask, "--between", "1,2,3"}, {"--between"});
+    expectRefused({"findings", mask, "--comment", "a", "--at-truth"}, {"--at-truth"});
+    expectRefused({"findings", mask, "--comment", "a", "--between", "1,2,3,4,5,6"}, {"--comment"});
+    expectRefused({"findings", mask, "--at", "1,2,3", "--page", "a.txt"}, {"--page", ".html"});
+    expectRefused({"findings", hills(), "--at", "1,2,3"}, {"hills.asc", "CT study"});
+    for (const char* text :
+         {"{", "{\"document\": 3}", "[]",
+          "{\"document\": \"stereonav findings\", \"findings\": [{\"place_mm\": [1, 2]}]}",
+          "{\"document\": \"stereonav findings\", \"findings\": [{\"place_mm\": [1, 2, \"a\"]}]}"}) {
+        const std::string file = input("bad.json", text);
+        expectRefused({"findings", mask, "--no-cache", "--file", file}, {"bad.json", "expected"});
+        EXPECT_EQ(contentOf(file), text) << "it is as it was";
+    }
+    // A place far from everything is a finding without a polyp.
+    const Json json = documentOf({"findings", mask, "--at", "900,0,0"});
+    EXPECT_FALSE(json.at("findings")[0].at("found").get<bool>());
+    EXPECT_NE(json["findings"][0].at("note").get<std::string>().find("no wall"), std::string::npos);
+}
+
+TEST_F(ColonInstruments, StudiesAreRegistered) {
+    const std::string a = withPolyp("a.nrrd"), b = withPolyp("b.nrrd", 3);
+    const Json json = documentOf({"register", a, "--with", b, "--at", "0,0,0", "--out", "table.csv"});
+    EXPECT_NEAR(json.at("length_mm").get<double>(), json.at("other_length_mm").get<double>(), 3);
+    ASSERT_EQ(json.at("places").size(), 1u);
+    EXPECT_NEAR(json["places"][0].at("other_along_mm").get<double>(),
+                json["places"][0].at("along_mm").get<double>(), 6);
+    EXPECT_GT(linesIn(contentOf(place() / "table.csv")), 4);
+    expectRefused({"register", a, "--with", hills()}, {"hills.asc", "CT study"});
+    expectRefused({"register", a}, {"--with"});
+    expectRefused({"register", a, "--with", b, "--bend", "4"}, {"--bend", "--with colon"});
+    expectRefused({"register", a, "--with", "none.nrrd"}, {"none.nrrd"});
+    expectRefused({"register", a, "--with", b, "--out", "a.txt"}, {"--out", ".csv"});
+}
+
+}  // namespace
+}  // namespace stereonav::test

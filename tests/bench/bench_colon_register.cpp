@@ -1,0 +1,67 @@
+// How well lines of generated colons are registered that were bent and inflated differently, over many seeds:
+//   bench_colon_register [SEEDS [LARGEST_SIDE]]
+// The error is that of each polyp's place, along the second line. Beside it that of the share of the length
+// alone.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "colon/instruments/finding.h"
+#include "colon/instruments/registration.h"
+#include "colon/scene/colon_scene.h"
+
+namespace {
+
+using namespace stereonav;
+
+ColonScene made(std::uint64_t seed, int side, double bend, double inflation) {
+    Progress progress;
+    ColonOptions options;
+    options.builtIn.seed = seed;
+    options.builtIn.size = {side, side, side * 411 / 512};
+    options.builtIn.bend = bend;
+    options.builtIn.inflation = inflation;
+    return loadColon(options, progress);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const int seeds = argc > 1 ? std::atoi(argv[1]) : 5, side = argc > 2 ? std::atoi(argv[2]) : 256;
+    for (const auto& [bend, inflation] :
+         {std::pair(0.0, 1.15), std::pair(0.006, 0.9), std::pair(0.012, 1.0)}) {
+        std::vector<double> errors, shares;
+        for (int seed = 1; seed <= seeds; ++seed) {
+            const auto n = static_cast<std::uint64_t>(seed);
+            const ColonScene a = made(n, side, 0, 1), b = made(n, side, bend, inflation);
+            const LineRegistration registration(a.centreline, b.centreline);
+            for (std::size_t k = 0; k < std::min(a.polyps.size(), b.polyps.size()); ++k) {
+                const double first = alongLine(a.centreline, a.polyps[k].position);
+                const double truth = alongLine(b.centreline, b.polyps[k].position);
+                errors.push_back(1e3 * std::abs(registration.toSecond(first) - truth));
+                shares.push_back(1e3 *
+                                 std::abs(first / a.centreline.length() * b.centreline.length() - truth));
+            }
+            fmt::print(
+                "seed {} bend {:g} inflation {:g}: {:.0f} mm and {:.0f} mm, {} and {} pieces, cost {:.3f}\n",
+                seed, bend, inflation, 1e3 * a.centreline.length(), 1e3 * b.centreline.length(),
+                a.lumen.segments.size(), b.lumen.segments.size(), registration.cost());
+        }
+        std::sort(errors.begin(), errors.end());
+        std::sort(shares.begin(), shares.end());
+        const auto mean = [](const std::vector<double>& all) {
+            double sum = 0;
+            for (const double one : all) sum += one / static_cast<double>(all.size());
+            return sum;
+        };
+        fmt::print(
+            "bend {:g} mm, inflation {:g}: mean {:.1f} mm, median {:.1f}, 95 of 100 {:.1f}, most {:.1f}; "
+            "by the share of the length {:.1f}, {:.1f}, {:.1f}, {:.1f}\n",
+            1e3 * bend, inflation, mean(errors), errors[errors.size() / 2], errors[errors.size() * 95 / 100],
+            errors.back(), mean(shares), shares[shares.size() / 2], shares[shares.size() * 95 / 100],
+            shares.back());
+    }
+    return 0;
+}
