@@ -93,7 +93,6 @@ std::string rowOf(const Finding& f, std::size_t number) {
                                       nameOfSlice(f.polyp->sliceAxis), mm(f.polyp->slice))
                         : "-");
     row += cell(f.polyp ? fmt::format("{:.0f}", 1e9 * f.polyp->volume) : "-");
-    row += cell(f.flesh ? fmt::format("{:.0f} \u00b1 {:.0f}", f.flesh->mean, f.flesh->sigma) : "-");
     row += cell(fmt::format("{:.0f}", 1e3 * f.along)) + cell(f.segment);
     row += cell(f.truth ? mm(f.truth->diameter) + " " + nameOf(f.truth->shape) : "");
     const std::string both = f.problem.empty() || f.comment.empty() ? "" : "; ";
@@ -113,7 +112,7 @@ std::string findingsPage(const ColonScene& colon, const std::vector<Finding>& fi
     html +=
         "<table><tr><th></th><th>left, back, head mm</th><th>longest mm</th><th>in a slice "
         "mm</th><th>mm\u00b3</th>"
-        "<th>HU</th><th>from the rectum mm</th><th>segment</th><th>truth mm</th><th>notes</th></tr>\n";
+        "<th>from the rectum mm</th><th>segment</th><th>truth mm</th><th>notes</th></tr>\n";
     for (std::size_t n = 0; n < findings.size(); ++n) html += rowOf(findings[n], n + 1);
     html += "</table>\n";
     const VolumeRenderer renderer(colon.volume);

@@ -37,10 +37,6 @@ void addPolyp(const Finding& finding, Facts& facts) {
     facts.push_back(factForJson("slice_at_mm", 1e3 * polyp.slice));
     facts.push_back(factForJson("volume_mm3", 1e9 * polyp.volume));
     facts.push_back(factForJson("area_mm2", 1e6 * polyp.area));
-    if (!finding.flesh) return;
-    facts.push_back(factForJson("hu_mean", finding.flesh->mean));
-    facts.push_back(factForJson("hu_sigma", finding.flesh->sigma));
-    facts.push_back(factForJson("hu_voxels", static_cast<std::int64_t>(finding.flesh->voxels)));
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& place, const char* expected) {
@@ -81,8 +77,6 @@ std::string lineOf(const Finding& finding, std::size_t number) {
         line += fmt::format(": {:.1f} mm, {:.1f} mm in the {} slice at {:.1f}, {:.0f} mm^3",
                             1e3 * polyp.widest.length, 1e3 * polyp.widestInSlice.length,
                             nameOfSlice(polyp.sliceAxis), 1e3 * polyp.slice, 1e9 * polyp.volume);
-        if (finding.flesh)
-            line += fmt::format(", {:.0f} +- {:.0f} HU", finding.flesh->mean, finding.flesh->sigma);
     }
     line += fmt::format(", {:.0f} mm from the rectum", 1e3 * finding.along);
     if (!finding.segment.empty()) line += ", " + finding.segment;
@@ -96,7 +90,7 @@ std::string lineOf(const Finding& finding, std::size_t number) {
 
 std::string csvOf(const std::vector<Finding>& findings) {
     std::string text =
-        "number,left_mm,back_mm,head_mm,diameter_mm,slice_diameter_mm,slice,volume_mm3,hu_mean,hu_sigma,"
+        "number,left_mm,back_mm,head_mm,diameter_mm,slice_diameter_mm,slice,volume_mm3,"
         "along_mm,segment,truth_mm,note,comment\n";
     for (std::size_t n = 0; n < findings.size(); ++n) {
         const Finding& f = findings[n];
@@ -108,7 +102,6 @@ std::string csvOf(const std::vector<Finding>& findings) {
                                 1e9 * f.polyp->volume);
         else
             text += ",,,,";
-        text += f.flesh ? fmt::format("{:.1f},{:.1f},", f.flesh->mean, f.flesh->sigma) : ",,";
         text += fmt::format("{:.1f},{},", 1e3 * f.along, f.segment);
         if (f.truth) text += fmt::format("{:.2f}", 1e3 * f.truth->diameter);
         text += "," + field(f.problem) + "," + field(f.comment) + "\n";

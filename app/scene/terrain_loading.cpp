@@ -80,7 +80,8 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
 }
 
 std::unique_ptr<Scene> loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    return std::make_unique<ShownTerrain>(terrainOf(options, progress), simd, options.lightLater && !options.light.given());
+    return std::make_unique<ShownTerrain>(terrainOf(options, progress), simd,
+                                          options.lightLater && !options.light.given());
 }
 
 }  // namespace stereonav

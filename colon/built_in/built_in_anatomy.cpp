@@ -383,21 +383,6 @@ double BuiltInAnatomy::polypsAt(const glm::dvec3& p, double along) const {
     return flesh;
 }
 
-int BuiltInAnatomy::nearest(const glm::dvec3& p, const int* candidates, int count) const {
-    int best = candidates[0];
-    double least = 1e30;
-    for (int n = 0; n < count; ++n) {
-        const AxisPoint& point = mAxis[candidates[n]];
-        const glm::dvec3 to = p - point.place;
-        const double value = std::sqrt(glm::dot(to, to)) - point.radius;
-        if (value < least) {
-            least = value;
-            best = candidates[n];
-        }
-    }
-    return best;
-}
-
 // mm: from here on the wall is so far that nothing of it is seen; its shape adds or takes 1.5 mm at most.
 constexpr double kFarAway = 6;
 
@@ -460,12 +445,6 @@ BuiltInAnatomy::Place BuiltInAnatomy::placeOf(const glm::dvec3& p, const int* ca
     wall = smoothMax(wall, -foldsAt(point, along, to, c, s, radius), 3.0);
     wall = smoothMax(wall, -polypsAt(p, along), 1.2);
     return {wall, along};
-}
-
-BuiltInAnatomy::Place BuiltInAnatomy::placeOf(const glm::dvec3& p) const {
-    std::vector<int> all(mAxis.size());
-    for (int n = 0; n < static_cast<int>(all.size()); ++n) all[n] = n;
-    return placeOf(p, all.data(), static_cast<int>(all.size()));
 }
 
 void BuiltInAnatomy::addPolyp(double along, double angle, PolypShape shape, double diameter) {

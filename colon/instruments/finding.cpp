@@ -16,6 +16,8 @@ constexpr double kMm = 1e-3;
 constexpr double kRectum = 150 * kMm, kCaecum = 60 * kMm, kFlexure = 30 * kMm;
 
 // Distances along the line of its landmarks.
+constexpr double kLeastWidth = 0.1;  // metres from side to side: what is narrower is no frame of a colon
+
 struct Landmarks {
     double descending = 0, splenic = 0, hepatic = 0, length = 0;
     bool found = false;
@@ -42,6 +44,7 @@ Landmarks landmarksOf(const Centreline& line) {
         if (n > 0) along.push_back(along.back() + glm::distance(p, line.points[n - 1].position));
     }
     marks.length = along.back();
+    if (!(left - right >= kLeastWidth)) return marks;
     const double middle = 0.5 * (left + right), away = 0.1 * (left - right);
     const int splenic = highest(line, middle, 1, away, 0);
     if (splenic < 0) return marks;
@@ -81,10 +84,6 @@ Finding FindingTool::at(const glm::dvec3& place) const {
     const glm::dvec3 where = finding.polyp ? finding.polyp->middle : place;
     finding.along = alongLine(mColon.centreline, where);
     finding.segment = colonSegmentAt(mColon.centreline, finding.along);
-    if (!finding.polyp || mColon.study.empty()) return finding;
-    // A wall's blur reaches a millimetre into it; of flat ones nothing else is there.
-    for (const double margin : {1 * kMm, 0.5 * kMm})
-        if (!finding.flesh) finding.flesh = fleshValues(mWall, *finding.polyp, mColon.study, margin);
     return finding;
 }
 

@@ -19,10 +19,9 @@ struct Finding {
     std::optional<Polyp> truth;  // of a generated colon
 
     std::optional<MeasuredPolyp> polyp;
-    std::string problem;               // why there is none, or a note on it; ""
-    std::optional<FleshValues> flesh;  // of a CT
-    double along = 0;                  // metres from the rectum
-    std::string segment;               // of the colon, by landmarks; "": not told
+    std::string problem;  // why there is none, or a note on it; ""
+    double along = 0;     // metres from the rectum
+    std::string segment;  // of the colon, by landmarks; "": not told
 
     double diameter() const { return polyp ? polyp->widest.length : 0; }  // metres
     bool doubled = false;  // of the same polyp as one before it in its list

@@ -265,38 +265,4 @@ std::optional<MeasuredPolyp> polypAt(const WallMesh& mesh, const WallNeighbours&
     return polyp;
 }
 
-std::optional<FleshValues> fleshValues(const WallMesh& mesh, const MeasuredPolyp& polyp,
-                                       const GreyVolume& study, double margin) {
-    const VolumeFrame& frame = study.frame;
-    glm::dvec3 lid(0.0), low(std::numeric_limits<double>::infinity()), high(-low);
-    for (const glm::dvec3& place : polyp.outline) lid += place / static_cast<double>(polyp.outline.size());
-    for (const std::uint32_t v : polyp.vertices) {
-        const glm::dvec3 voxel = frame.voxelFromWorld(glm::dvec3(mesh.places[v]));
-        low = glm::min(low, voxel);
-        high = glm::max(high, voxel);
-    }
-    const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(low)), 0),
-                     last = glm::min(glm::ivec3(glm::ceil(high)), frame.size - 1);
-    double sum = 0, squares = 0;
-    int count = 0;
-    for (int k = first.z; k <= last.z; ++k)
-        for (int j = first.y; j <= last.y; ++j)
-            for (int i = first.x; i <= last.x; ++i) {
-                const glm::dvec3 p = frame.worldFromVoxel(glm::dvec3(i, j, k));
-                if (glm::dot(p - lid, polyp.outward) < 0) continue;
-                double least = std::numeric_limits<double>::infinity();
-                std::uint32_t nearest = 0;
-                for (const std::uint32_t v : polyp.vertices)
-                    if (const double d = glm::distance(glm::dvec3(mesh.places[v]), p); d < least)
-                        least = d, nearest = v;
-                const glm::dvec3 to = p - glm::dvec3(mesh.places[nearest]);
-                if (least < margin || glm::dot(to, glm::dvec3(mesh.normals[nearest])) >= 0) continue;
-                const double value = study.at(i, j, k) * study.scale + study.offset;
-                sum += value, squares += value * value, ++count;
-            }
-    if (count == 0) return std::nullopt;
-    const double mean = sum / count;
-    return FleshValues{mean, std::sqrt(std::max(squares / count - mean * mean, 0.0)), count};
-}
-
 }  // namespace stereonav

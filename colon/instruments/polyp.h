@@ -62,13 +62,4 @@ std::optional<MeasuredPolyp> polypAt(const WallMesh& mesh, const WallNeighbours&
 std::optional<MeasuredPolyp> polypAt(const WallMesh& mesh, const WallNeighbours& neighbours,
                                      std::uint32_t vertex, const PolypSetting& setting, std::string& why);
 
-// Of its flesh in a study: voxels between its wall and its lid that are at least `margin` metres behind the
-// wall. None where there is no such voxel.
-struct FleshValues {
-    double mean = 0, sigma = 0;  // in the study's values: Hounsfield units
-    int voxels = 0;
-};
-std::optional<FleshValues> fleshValues(const WallMesh& mesh, const MeasuredPolyp& polyp,
-                                       const GreyVolume& study, double margin);
-
 }  // namespace stereonav

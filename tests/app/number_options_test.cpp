@@ -55,9 +55,20 @@ const std::set<std::string> kWords{"SCENE",
                                    "--set",
                                    "--full-screen",
                                    "--ground-detail",
+                                   "--line",
+                                   "--area",
+                                   "--track",
+                                   "--geojson",
+                                   "--svg",
+                                   "--at",
+                                   "--picture",
+                                   "--comment",
+                                   "--file",
+                                   "--page",
+                                   "--with",
                                    "--late-warp"};
 // Lists for which "1,5" is right.
-const std::set<std::string> kPairs{"--sun", "--light-from", "--mist", "--isovalues"};
+const std::set<std::string> kPairs{"--sun", "--light-from", "--mist", "--isovalues", "--from", "--to"};
 
 const std::vector<std::string> kNoNumbers{
     "nan", "inf",   "-inf", "NaN", "infinity", "1e300", "-1e300", std::string(309, '7'),

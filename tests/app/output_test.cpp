@@ -142,6 +142,8 @@ TEST_F(Output, AFullDiskIsOneLineAndLeavesTheOldFile) {
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
     for (const Way& way : all) {
+        // Tables of so small a tube are shorter than the line that would tell of it; tests/faults has them.
+        if (way.arguments.front() == "coverage" || way.arguments.front() == "register") continue;
         const bool baked = way.file.ends_with(".bake") || way.file.ends_with(".light");
         const std::string old = "what was there before";
         if (!baked) std::ofstream(place() / way.file) << old;
@@ -201,7 +203,10 @@ TEST_F(Output, DashIsStandardOutputAndMessagesGoElsewhere) {
             EXPECT_EQ(Json::parse(outcome.out).at("frames"), 1);
         }
         if (way.file == "a.csv") {
-            EXPECT_EQ(linesIn(outcome.out), 2);
+            // A header; then the one frame or finding, no patch of so small a tube, or places every 5 mm of
+            // it.
+            const std::string& command = way.arguments.front();
+            EXPECT_EQ(linesIn(outcome.out), command == "coverage" ? 1 : command == "register" ? 8 : 2);
         }
         if (way.file == "a.txt") {
             EXPECT_GT(linesIn(outcome.out), 10);

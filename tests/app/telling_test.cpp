@@ -23,6 +23,16 @@ protected:
         Words words;
         Words fields;
     };
+    // Near Krakow.
+    std::string placedHills() const {
+        const std::string file = input("placed.asc",
+                                       "ncols 3\nnrows 3\nxllcorner 20\nyllcorner 50\ncellsize 0.001\n"
+                                       "1 2 3\n4 5 6\n7 8 9\n");
+        input("placed.prj",
+              "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+              "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]");
+        return file;
+    }
     std::map<std::string, Small> runs(const std::string& ground) const {
         return {{"info", {{ground, "--size", "16x12"}, {"scene", "terrain", "plan"}}},
                 {"render",
@@ -36,6 +46,12 @@ protected:
                  {{"--quick", "--minutes", "0.01", "--parts", "stability", "--out", "page"},
                   {"page", "figures", "time_s"}}},
                 {"mesh", {{ground, "--out", "a.glb"}, {"mesh", "triangles", "largest_error_m"}}},
+                {"viewshed",
+                 {{ground, "--from", "20,20", "--out", "shed.tif"}, {"viewshed", "seen_samples", "crs"}}},
+                {"measure", {{ground, "--line", "20,20,60,60", "--csv", "line.csv"}, {"measures", "csv"}}},
+                {"profile",
+                 {{ground, "--line", "20,20,60,60", "--svg", "line.svg"}, {"points", "along_m", "svg"}}},
+                {"sun", {{placedHills(), "--at", "2026-06-21"}, {"azimuth_deg", "next_sunset_utc"}}},
                 {"centreline",
                  {{"colon", "--out", "line.txt"}, {"centreline", "points", "length_mm", "segments"}}},
                 {"coverage",
@@ -93,7 +109,9 @@ TEST_F(CommandTelling, QuietSaysNothing) {
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         EXPECT_EQ(outcome.err, "");
         // What is asked for is printed: facts and the table.
-        EXPECT_EQ(outcome.out.empty(), command != "info" && command != "compare") << outcome.out;
+        EXPECT_EQ(outcome.out.empty(), command != "info" && command != "compare" && command != "sun" &&
+                                           command != "measure" && command != "profile")
+            << outcome.out;
     }
     unsetenv("STEREONAV_PROGRESS_SECONDS");
     const Outcome compared = run({"compare", hills(), "--size", "16x12", "--frames", "1", "--repeats", "1",

@@ -89,24 +89,6 @@ TEST(Polyp, IsNotFoundWhereThereIsNone) {
     EXPECT_EQ(why, "what bulges there is wider than 3 mm");
 }
 
-TEST(Polyp, FleshIsThatOfTheStudy) {
-    const LumenWall wall = tubeWith([](const glm::dvec3& p) { return stalked(p, 0.004); });
-    GreyVolume study(wall.lumen.field.frame);
-    for (std::size_t n = 0; n < study.frame.count(); ++n)
-        study.values[n] = static_cast<std::int16_t>(n % 2 ? 50 : 30);
-    std::string why;
-    const auto polyp =
-        polypAt(wall.mesh, neighboursOf(wall.mesh), {0.005, 0, 0}, polypSettingOf(study.frame), why);
-    ASSERT_TRUE(polyp);
-    const auto flesh = fleshValues(wall.mesh, *polyp, study, 0.001);
-    ASSERT_TRUE(flesh);
-    EXPECT_NEAR(flesh->mean, 40, 1);
-    EXPECT_NEAR(flesh->sigma, 10, 0.5);
-    const double inner = 4.0 / 3 * kPolypPi * 27e-9 / (0.0007 * 0.0007 * 0.0007);
-    EXPECT_NEAR(flesh->voxels / inner, 0.9, 0.2);
-    EXPECT_FALSE(fleshValues(wall.mesh, *polyp, study, 0.01)) << "nothing is so far behind the wall";
-}
-
 Finding ofSize(double mm) {
     Finding finding;
     finding.polyp.emplace();

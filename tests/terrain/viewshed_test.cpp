@@ -17,7 +17,7 @@ namespace stereonav {
 namespace {
 
 Heightfield sightGround(int width, int height, glm::dvec2 spacing,
-                     const std::function<double(int, int)>& heightAt) {
+                        const std::function<double(int, int)>& heightAt) {
     std::vector<float> heights;
     for (int j = 0; j < height; ++j)
         for (int i = 0; i < width; ++i) heights.push_back(static_cast<float>(heightAt(i, j)));
