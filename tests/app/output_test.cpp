@@ -143,7 +143,9 @@ TEST_F(Output, AFullDiskIsOneLineAndLeavesTheOldFile) {
     getrlimit(RLIMIT_FSIZE, &before);
     for (const Way& way : all) {
         // Tables of so small a tube are shorter than the line that would tell of it; tests/faults has them.
-        if (way.arguments.front() == "coverage" || way.arguments.front() == "register") continue;
+        const std::string& command = way.arguments.front();
+        if (way.file == "a.csv" && (command == "coverage" || command == "register" || command == "findings"))
+            continue;
         const bool baked = way.file.ends_with(".bake") || way.file.ends_with(".light");
         const std::string old = "what was there before";
         if (!baked) std::ofstream(place() / way.file) << old;
