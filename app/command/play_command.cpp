@@ -153,6 +153,7 @@ int runPlay(const PlayOptions& options) {
         bar.progress().report(static_cast<double>(k) / static_cast<double>(poses.size()),
                               fmt::format("frame {} of {}", k + 1, poses.size()));
         frame.render(poses[k].pose, poses[k].time);
+        frame.paint();
         left_ms.push_back(frame.timings().left_ms);
         right_ms.push_back(frame.timings().right_ms);
         both_ms.push_back(frame.timings().both_ms);

@@ -98,6 +98,7 @@ int runRender(const RenderOptions& options) {
     }
     PictureLight* const traced = scene.offered<PictureLight>();
     if (traced) traced->light(frame.views(), frame.left(), frame.right(), bar.progress());
+    frame.paint();
     const std::string size = writeStereoPicture(options.out, frame, options.mode);
     bar.clear();
     result.add("scene", scene.name);

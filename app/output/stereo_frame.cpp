@@ -5,6 +5,7 @@
 
 #include "app/command/quality.h"
 #include "engine/image/enlarge.h"
+#include "engine/scene/surface_paint.h"
 
 namespace stereonav {
 namespace {
@@ -65,6 +66,10 @@ void StereoFrame::render(const Pose& head, double time) {
     enlarge(mSmall.left, mScene.lens.width, mScene.lens.height, mFrame.left);
     enlarge(mSmall.right, mScene.lens.width, mScene.lens.height, mFrame.right);
     mFrame.timings = mSmall.timings;
+}
+
+void StereoFrame::paint() {
+    paintEyes(mScene, mViews, mFrame);
 }
 
 void StereoFrame::makeMany(const StereoViews& views, double time, EyePair& made) {

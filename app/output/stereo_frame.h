@@ -21,6 +21,8 @@ public:
     // Both eyes at one pose, as far apart as suits the room there (NarrowedEyes). time: seconds, of what
     // moves by itself; no less than before.
     void render(const Pose& head, double time = 0);
+    // What the scene's surfaces are painted with (engine/scene/surface_paint.h), over the last picture; once.
+    void paint();
 
     // Those of the last picture.
     const StereoViews& views() const { return mViews; }

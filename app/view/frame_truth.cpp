@@ -10,6 +10,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/scene/capabilities.h"
+#include "engine/scene/surface_paint.h"
 
 namespace stereonav {
 namespace {
@@ -153,6 +154,7 @@ bool TruthMaker::makeTruth(const Scene& scene, const StereoViews& views, double 
     const auto* const rays = scene.offered<RayCast>();
     if (!rays) {  // an eye is made as a whole
         scene.frames().makeOne(views.right, time, mTruth);
+        paintEye(scene, views.right, mTruth.left);
         return !(stop && *stop);
     }
     const EyeRenderer& renderer = *rays->renderer;
@@ -164,6 +166,7 @@ bool TruthMaker::makeTruth(const Scene& scene, const StereoViews& views, double 
     if (stop && *stop) return false;
     // What is measured is the warp: both pictures have the same rays at their edges.
     if (RightFromLeft* const cast = scene.frames().rightFromLeft()) cast->smoothEdges(view, way, mTruth.left);
+    paintEye(scene, view, mTruth.left);
     return true;
 }
 

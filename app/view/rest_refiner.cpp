@@ -8,6 +8,7 @@
 #include "engine/base/memory.h"
 #include "engine/medium/sweep/swept_frames.h"
 #include "engine/metrics/image_difference.h"
+#include "engine/scene/surface_paint.h"
 
 namespace stereonav {
 namespace {
@@ -56,6 +57,15 @@ bool fits(const FrameRequest& request) {
         140;  // a pixel of one eye: sums of both, their mean, the frame added, the one shown
     const double bytes = kBytes * request.lens.width * request.lens.height;
     return availableMemoryFor(bytes) >= bytes;
+}
+
+// Its depths are those of the first frame, whose rays go through the centres of pixels.
+void paintRested(const Scene& scene, ViewFrame& shown) {
+    const FrameRequest& request = shown.request;
+    if (request.twoEyes)
+        paintEyes(scene, makeStereoViews(request.pose, request.lens, request.stereo), shown);
+    else
+        paintEye(scene, makeEyeView(request.pose, request.lens), shown.left);
 }
 
 }  // namespace
@@ -132,6 +142,7 @@ bool RestRefiner::stepMean(const Scene& scene, const std::shared_ptr<const ViewF
         const EyePair& mean = mRefined.mean();
         shown.left.color = mean.left.color;
         shown.right.color = mean.right.color;
+        paintRested(scene, shown);
         shown.rays = rays;
         shown.effort = mEffort;
         shown.expected_db = decibels(levels);

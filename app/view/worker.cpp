@@ -12,6 +12,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/base/thread_priority.h"
 #include "engine/late/late_guard.h"
+#include "engine/scene/surface_paint.h"
 #include "engine/stereo/comfort.h"
 
 namespace stereonav {
@@ -103,12 +104,14 @@ void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& tr
         const FrameWay way = TruthMaker::wayOf(request.truth, request.way, scene.frames());
         const StereoViews views = makeEyes(scene, way, frame);
         view = views.left;
+        paintEyes(scene, views, frame);
         takeTruth(truth.show(request.truth, scene, views, request.time, request.way, frame), frame);
         frame.request.way = way;
     } else {
         scene.frames().makeOne(view, request.time, frame);
         if (RightFromLeft* const cast = scene.frames().rightFromLeft())
             cast->smoothEdges(view, request.way, frame.left);
+        paintEye(scene, view, frame.left);
         lookAround(nullptr, frame);
         takeTruth(truth.showOfOneEye(request.truth), frame);
     }

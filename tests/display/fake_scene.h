@@ -11,6 +11,7 @@
 #include "app/view/worker.h"
 #include "engine/scene/shown_values.h"
 #include "engine/scene/slices.h"
+#include "engine/scene/surface_paint.h"
 
 namespace stereonav {
 
@@ -44,6 +45,7 @@ struct FakeParts {
     std::function<std::uint64_t()> lightChanges;
     std::function<PlaceOnLine(const glm::dvec3&)> placeOnLine;
     std::function<std::shared_ptr<const SliceStudy>(Progress&)> readSlices;
+    std::vector<std::shared_ptr<const EyePainter>> painters;
 };
 
 class FakeScene final : public Scene,
@@ -73,6 +75,8 @@ public:
         if (parts.seen) offer<SeenLight>(*this);
         if (parts.placeOnLine) offer<LineThrough>(*this);
         if (parts.readSlices) offer<SliceSource>(*this);
+        mPaint.set(parts.painters);
+        if (!mPaint.empty()) offer(mPaint);
     }
 
     FrameMaker& frames() const override { return *mParts.frames; }
@@ -114,6 +118,7 @@ private:
     FakeParts mParts;
     RayCast mRays;
     Animation mAnimation;
+    SurfacePaint mPaint;
     std::vector<glm::dvec3> mSeeds;
 };
 

@@ -1,0 +1,19 @@
+// What is painted over the surfaces of a finished picture: contour lines, what was seen before. Each eye is
+// painted by its own depths after it was made, so nothing painted is ever warped, both eyes show it at the
+// same places of the surface, and pictures without it pay nothing.
+#pragma once
+
+#include "engine/camera/eye_view.h"
+#include "engine/image/eye_image.h"
+
+namespace stereonav {
+
+class EyePainter {
+public:
+    virtual ~EyePainter() = default;
+    // Changes image.color where image.viewDepth, of this view, hits a surface. The work inside runs on all
+    // threads. Not while what it paints is being changed.
+    virtual void paint(const EyeView& view, EyeImage& image) const = 0;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,35 @@
+// What a scene's surfaces are painted with in pictures that are shown or written. Comparisons and reports
+// leave it out: it is the same for every way of making a frame.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/render/eye_painter.h"
+#include "engine/scene/scene.h"
+
+namespace stereonav {
+
+// A capability (capabilities.h). Changed by the thread that makes frames, or before it starts.
+class SurfacePaint {
+public:
+    // One over the other, in this order.
+    void set(std::vector<std::shared_ptr<const EyePainter>> painters) { mPainters = std::move(painters); }
+    void add(std::shared_ptr<const EyePainter> painter) { mPainters.push_back(std::move(painter)); }
+    bool empty() const { return mPainters.empty(); }
+    void paint(const EyeView& view, EyeImage& image) const {
+        for (const auto& painter : mPainters) painter->paint(view, image);
+    }
+
+private:
+    std::vector<std::shared_ptr<const EyePainter>> mPainters;
+};
+
+// What the scene offers of it, on an eye that is there; its time, ms: 0 where there is nothing to paint.
+double paintEye(const Scene& scene, const EyeView& view, EyeImage& image);
+
+// On both eyes; the time is added to that of the frame.
+void paintEyes(const Scene& scene, const StereoViews& views, EyePair& frame);
+
+}  // namespace stereonav
