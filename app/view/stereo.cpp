@@ -13,7 +13,9 @@ constexpr double kStereoSeconds = 0.35;      // time constant: eyes follow a slo
 constexpr double kSettled = 1e-3;            // relative difference at which a slow change ends
 constexpr double kFirstSeparation = 1e-3;    // of the zero-parallax distance: the step up from none
 constexpr double kLargestSeparation = 0.25;  // of the zero-parallax distance
-constexpr double kFollowed = 1e-5;           // relative change below which following counts as done
+// Relative change below which following counts as done: less than 0.05 pixels of 1280 at the most parallax
+// that is comfortable. What is shown at rest gets better only once the eyes stay where they are.
+constexpr double kFollowed = 1e-3;
 
 // Exponential approach in the logarithm, so that halving and doubling feel alike.
 double approach(double now, double target, double dt) {
@@ -21,8 +23,8 @@ double approach(double now, double target, double dt) {
     return target * std::pow(now / target, std::exp(-dt / kStereoSeconds));
 }
 
-bool differs(const StereoSetting& a, const StereoSetting& b) {
-    const auto apart = [](double x, double y) { return std::abs(x - y) > kFollowed * y; };
+bool differs(const StereoSetting& a, const StereoSetting& b, double share = kFollowed) {
+    const auto apart = [share](double x, double y) { return std::abs(x - y) > share * y; };
     return apart(a.separation, b.separation) || apart(a.zeroParallax, b.zeroParallax);
 }
 
@@ -32,6 +34,7 @@ ViewStereo::ViewStereo(const Scene& scene) : mGiven(scene.eyesGiven) {
     reset(scene);
     mNow = mByHand = mTarget;
     if (follows()) follow();  // from there
+    mArrives = follows();
 }
 
 void ViewStereo::look(const Scene& scene) {
@@ -66,7 +69,7 @@ void ViewStereo::takeOver() {
         mComfort.restart();
     }
     mFollower = nullptr;
-    mFits = mFitted = false;
+    mFits = mFitted = mArrives = false;
 }
 
 // The largest separation goes before the distance of the screen.
@@ -122,6 +125,7 @@ void ViewStereo::refit(const Scene& scene) {
 void ViewStereo::observe(const ViewFrame& frame, bool fitsNow) {
     const FrameRequest& request = frame.request;
     if (!request.twoEyes) return;
+    mSeen = true;
     if (mFits && request.fitEyes && fitsNow) adopt(request.stereo);
     mComfort.observe(request.stereo.separation, {frame.nearParallax, frame.farParallax});
 }
@@ -133,9 +137,28 @@ void ViewStereo::stepByHand(double dt) {
     if (mComfort.share() == 1 || differs(wanted, mNow)) mNow = wanted;
 }
 
+// Eyes that follow from the start are where they would get in time with the first picture, before anybody has
+// looked for long: a picture at rest does not get better while they move.
+void ViewStereo::arrive(double free, double depth, double dt) {
+    constexpr double kLong_s = 60;
+    constexpr int kMostSteps = 1000;  // a follower may bound each
+    constexpr double kArrived = 1e-6;
+    StereoSetting arrived = mNow;
+    for (int n = 0; n < kMostSteps; ++n) {
+        const StereoSetting next = mFollower(free, depth, kLong_s);
+        const bool there = !differs(next, arrived, kArrived);
+        arrived = next;
+        if (there) break;
+    }
+    mNow = mComfort.limited(arrived, dt);
+    mArrives = false;
+}
+
 void ViewStereo::step(double free, double depth, double dt) {
     const StereoSetting before = mNow;
-    if (mFollower) {
+    if (mFollower && mArrives && mSeen && dt > 0) {
+        arrive(free, depth, dt);
+    } else if (mFollower) {
         const StereoSetting wanted = mComfort.limited(mFollower(free, depth, dt), dt);
         if (differs(wanted, mNow)) mNow = wanted;
     } else {

@@ -1,5 +1,5 @@
 // The viewer's eyes: how far apart they are and what distance lies in the screen, by hand or following the
-// room around them; never in jumps.
+// room around them; never in jumps once the first picture was seen.
 #pragma once
 
 #include <optional>
@@ -65,6 +65,7 @@ private:
     void setTarget(const StereoSetting& target);
     void adopt(const StereoSetting& fitting);
     void stepByHand(double dt);
+    void arrive(double free, double depth, double dt);
 
     // As shown; where it slowly goes, by hand; and how far that is, before the clamp.
     StereoSetting mNow, mTarget, mByHand;
@@ -76,6 +77,7 @@ private:
     bool mFits = false, mFitted = false, mClamp = false;
     std::optional<StereoSetting> mStart;  // that fitted the first picture
     bool mMoving = false;
+    bool mArrives = false, mSeen = false;  // at once, with the first picture; one was seen
 };
 
 }  // namespace stereonav

@@ -114,6 +114,33 @@ TEST(ViewStereo, AFollowerGoesOnFromWhatFits) {
     EXPECT_DOUBLE_EQ(eyes.now().zeroParallax, 0.04);
 }
 
+TEST(ViewStereo, AFollowerArrivesWithTheFirstPictureAndIsSlowAfterIt) {
+    FakeParts parts = sceneWith({0.002, 0.06});
+    parts.makeFollower = [](const StereoSetting& from) -> StereoFollower {
+        return [now = from](double free, double depth, double dt) mutable {
+            const double share = std::exp(-std::min(dt, 1.0) / 2);  // a second at most
+            now = {share * now.separation + (1 - share) * free / 10,
+                   share * now.zeroParallax + (1 - share) * depth};
+            return now;
+        };
+    };
+    const FakeScene scene(parts);
+    ViewStereo eyes(scene);
+    eyes.step(0.1, 0, kStep);
+    EXPECT_NEAR(eyes.now().separation, 0.002, 1e-4) << "nothing was seen yet";
+    eyes.observe(firstFrame({0.002, 0.06}));
+    eyes.step(0.01, 0.05, kStep);
+    EXPECT_NEAR(eyes.now().separation, 0.001, 3e-6);
+    EXPECT_NEAR(eyes.now().zeroParallax, 0.05, 2e-4);
+    for (int n = 0; n < 3; ++n) eyes.step(0.01, 0.05, kStep);
+    EXPECT_FALSE(eyes.moving()) << "a picture may rest";
+    eyes.step(0.02, 0.05, kStep);
+    EXPECT_LT(eyes.now().separation, 0.00103) << "slowly from there";
+    eyes.follow();
+    eyes.step(0.03, 0.05, kStep);
+    EXPECT_LT(eyes.now().separation, 0.00105);
+}
+
 TEST(ViewStereo, IsSetInMetres) {
     const FakeScene scene(sceneWith(kOwn));
     ViewStereo eyes(scene);
