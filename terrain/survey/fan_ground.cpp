@@ -47,8 +47,14 @@ bool FanGround::clear(double eye, double target, int column, int row, int fromCo
     const FanLine line{eye, (target - eye) / reach, mMiddle, tangent, mFall * stretch(tangent), reach};
     // Cell (column - 1, r), which the line crosses from x0 to x1; both ends' rows are known.
     const auto passes = [&](int at, int r, double x0, double x1, double row0, double row1) {
-        const double a = height(at - 1, r), b = height(at, r), c = height(at - 1, r + 1),
-                     d = height(at, r + 1);
+        const float nearLow = height(at - 1, r), farLow = height(at, r), nearHigh = height(at - 1, r + 1),
+                    farHigh = height(at, r + 1);
+        // The surface is nowhere above its corners, nor the line below its ends by more than its bulge. Most
+        // cells need no more. One that is not known may pass here: it hides nothing.
+        const double lowest =
+            std::min(line.heightAt(x0), line.heightAt(x1)) - line.bulge * (x1 - x0) * (x1 - x0);
+        if (std::max(std::max(nearLow, farLow), std::max(nearHigh, farHigh)) <= lowest) return true;
+        const double a = nearLow, b = farLow, c = nearHigh, d = farHigh;
         const double twist = a - b - c + d, origin = distance(at - 1);
         if (!std::isfinite(twist)) return true;  // open
         const auto over = [&](double x, double y) {

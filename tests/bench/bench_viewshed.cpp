@@ -47,7 +47,7 @@ std::vector<unsigned char> gdalShed(GDALDataset& memory, int column, int row, do
     std::vector<unsigned char> seen(static_cast<std::size_t>(width) * height);
     if (!shed || GDALRasterIO(GDALGetRasterBand(shed, 1), GF_Read, 0, 0, width, height, seen.data(), width,
                               height, GDT_Byte, 0, 0) != CE_None)
-        std::abort();
+        throw Error("", "", "GDAL made no viewshed", CPLGetLastErrorMsg());
     GDALClose(shed);
     return seen;
 }
@@ -88,8 +88,15 @@ int run(int argc, char** argv) {
         const glm::dvec3 from(setting.eye, ground.sample(column, height - 1 - row) + eye);
         long long seen = 0;
         for (int j = 0; j < height; ++j)
-            for (int i = 0; i < width; ++i) seen += lines.sees(from, {i, j, ground.sample(i, j)});
-        if (seen != shed.visible) std::abort();
+            for (int i = 0; i < width; ++i) {
+                const double height_m = ground.sample(i, j);
+                seen += std::isfinite(height_m) && lines.sees(from, {i, j, height_m});
+            }
+        if (seen != shed.visible)
+            throw Error(
+                argv[1], "",
+                fmt::format("{} samples are seen by their lines, {} by the sweep", seen, shed.visible),
+                "the sweep is wrong");
     });
     // Cells that differ, by how far the line passes over the ground (below 0: under it).
     long long onlyOurs = 0, onlyTheirs = 0, within1 = 0, within5 = 0;
