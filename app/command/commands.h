@@ -91,6 +91,15 @@ struct TracedOptions {
     std::optional<double> reach_mm;
 };
 
+// What is painted on a terrain's ground in pictures that are shown.
+struct GroundPaintOptions {
+    std::optional<double> contours_m;  // between them; 0: none; none: contoursAuto
+    bool contoursAuto = false;         // by the relief
+    std::string tracks;                // a GPX or GeoJSON file that is drawn; "": none
+    std::string follow;                // ... and one that the scene's own flight goes along
+    double followHeight_m = 50;        // above the ground
+};
+
 struct SceneOptions {
     // "" or "terrain": built in; a .toml; a DEM file; "colon", "cloud", "wax": built in; a CT study
     std::string scene;
@@ -108,6 +117,8 @@ struct SceneOptions {
     int threads = 0;     // 0: all
     SimdTarget simd = SimdTarget::Auto;
     VolumeOptions volume;
+    GroundPaintOptions ground;
+    std::string paint;  // a word of --paint, as it was written (app/options/paint_words.h); "": none
     QualityOptions quality;
     MediumOptions medium;
     std::optional<TracedOptions> traced;  // none: of commands that trace no pictures

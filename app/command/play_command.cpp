@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "app/command/paint_notes.h"
 #include "app/command/quality.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
@@ -162,6 +163,7 @@ int runPlay(const PlayOptions& options) {
     }
     sink.finish();
     bar.clear();
+    tellPaintNotes(scene, result);
     tellOfFlight(result, options, poses.size(), frame.timings().left_ms == 0, left_ms, right_ms, both_ms);
     result.add("scene", scene.name);
     if (options.hash) {

@@ -1,6 +1,7 @@
 // `stereonav render`: one pose of a scene into a picture.
 #include <fmt/format.h>
 
+#include "app/command/paint_notes.h"
 #include "app/command/quality.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
@@ -101,6 +102,7 @@ int runRender(const RenderOptions& options) {
     frame.paint();
     const std::string size = writeStereoPicture(options.out, frame, options.mode);
     bar.clear();
+    tellPaintNotes(scene, result);
     result.add("scene", scene.name);
     result.addFile("picture", options.out);
     result.add("size", FactIntegers{options.size.width, options.size.height});

@@ -11,18 +11,17 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
-#include "app/scene/survey_ground.h"
+#include "app/scene/survey_sun.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
 #include "engine/image/image_file.h"
 #include "engine/light/skies/sun_position.h"
-#include "terrain/survey/sun_hours.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180, kDay = 86400;
+constexpr double kDegree = std::numbers::pi / 180;
 
 void checkSunOptions(const SunOptions& options) {
     if (!options.out.empty() && !options.out.ends_with(".tif") && !options.out.ends_with(".tiff"))
@@ -45,46 +44,6 @@ std::string utcText(double seconds) {
     const std::chrono::hh_mm_ss clock(time - day);
     return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}", int(date.year()), unsigned(date.month()),
                        unsigned(date.day()), clock.hours().count(), clock.minutes().count());
-}
-
-// The middle of the ground, and the azimuth of true north there in its world.
-struct SunPlaceOnGround {
-    EarthPlace earth;
-    double north = 0;
-};
-
-SunPlaceOnGround placeOf(const SurveyGround& survey) {
-    const auto fail = [&](const char* problem) {
-        throw Error(survey.name, "", problem, "name an elevation model that says where it lies");
-    };
-    if (!survey.earth) fail("does not say where it lies on the Earth, and the sun goes by that");
-    const glm::dvec2 middle(0.0);
-    const auto here = survey.earth->placeAt(middle);
-    if (!here) fail("its middle has no longitude and latitude");
-    SunPlaceOnGround place{*here, 0};
-    // A step of a hundredth of a degree, towards the pole that is farther away.
-    EarthPlace beside = *here;
-    const double step = (here->latitude > 0 ? -1 : 1) * 0.01 * kDegree;
-    beside.latitude += step;
-    if (const auto world = survey.earth->worldAt(beside)) {
-        const glm::dvec2 way = (*world - middle) * (step > 0 ? 1.0 : -1.0);
-        place.north = std::atan2(way.x, way.y);
-    }
-    return place;
-}
-
-// The sun's places in the day that holds the time, from midnight to midnight of mean solar time at the place.
-std::vector<SunOverGround> sunsOfDay(const SunPlaceOnGround& place, double time, double step) {
-    const double offset = place.earth.longitude / (2 * std::numbers::pi) * kDay;
-    const double midnight = std::floor((time + offset) / kDay) * kDay - offset;
-    const int count = std::max(1, static_cast<int>(std::lround(kDay / step)));
-    std::vector<SunOverGround> suns;
-    for (int k = 0; k < count; ++k) {
-        const SunSeen seen =
-            sunSeenAt(midnight + (k + 0.5) * kDay / count, place.earth.latitude, place.earth.longitude);
-        suns.push_back({seen.azimuth + place.north, seen.elevation});
-    }
-    return suns;
 }
 
 // From black, no sun, to white, as much as anywhere; no ground is red.
@@ -148,7 +107,7 @@ int runSun(const SunOptions& options) {
     const SurveyGround survey = loadSurveyGround(options.scene, bar.progress());
     checkNotRead({{"--out", options.out}, {"--picture", options.picture}});
     const double time = secondsFromText(options.at).value_or(0);
-    const SunPlaceOnGround place = placeOf(survey);
+    const SunPlaceOnGround place = sunPlaceOf(survey);
     const double latitude = place.earth.latitude, longitude = place.earth.longitude;
     const SunSeen seen = sunSeenAt(time, latitude, longitude);
     const auto rise = nextSunrise(time, latitude, longitude), set = nextSunset(time, latitude, longitude);

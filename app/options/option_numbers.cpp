@@ -95,4 +95,10 @@ const NumberList& groundPlaceNumbers() {
     return list;
 }
 
+const NumberList& contourNumbers() {
+    static const NumberList list{
+        "auto or metres", {{kAutoContours, {}}, {"", {within(0, 1e6, "metres")}}}, "as in 50; 0 draws none"};
+    return list;
+}
+
 }  // namespace stereonav

@@ -17,8 +17,10 @@ const NumberList& betweenNumbers();      // --between: two places, millimetres
 const NumberList& isovaluesNumbers();    // --isovalues: low, high
 const NumberList& pointLightNumbers();   // --light of bake, --point-light: a place, and an intensity
 const NumberList& groundPlaceNumbers();  // --from of instruments: x, y, height
+const NumberList& contourNumbers();      // --contours: "auto", or metres
 
 constexpr const char* kHeadLamp = "head";
+constexpr const char* kAutoContours = "auto";
 constexpr const char* kCentrelineLights = "centreline";
 constexpr NumberRange kValueRange = within(-1e30, 1e30);  // of a volume
 constexpr double kBrightestLight = 1e30;                  // well within floats

@@ -41,6 +41,8 @@ Reason reasonOfType(const Option& option, SceneSet type, const std::string& scen
     if (!option.elsewhere.problem.empty()) return {option.elsewhere.problem, option.elsewhere.advice};
     if (!medium && !(option.scenes & ~kMedia))
         return {"expected with a medium", "add --medium, or show cloud or wax"};
+    if (type == kTerrainMedium && option.scenes & kTerrain)
+        return {"does not go with a terrain shown as a medium", kLeaveItOut};
     if (!(option.scenes & ~(kTerrains | kMeshFile)))
         return {medium && !(option.scenes & ~kMedia) ? "expected with a terrain"
                 : type == kBuiltInMedium ? fmt::format("expected with a terrain, {} is a medium", scene)

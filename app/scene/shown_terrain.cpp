@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "app/command/scene_facts.h"
+#include "app/scene/ground_paint.h"
 #include "app/scene/terrain_daylight.h"
 #include "engine/nav/navigator.h"
 #include "terrain/scene/ground_map.h"
@@ -182,8 +183,16 @@ ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsI
 
 ShownTerrain::~ShownTerrain() = default;
 
+void ShownTerrain::paintGround(const SceneOptions& options, Progress& progress) {
+    mPaint.set(groundPainters(mTerrain, mRenderer.fog(), options, mLegend, progress));
+    if (!mPaint.empty()) offer(mPaint);
+    if (!mLegend.legends.empty()) offer<const PaintLegend>(mLegend);
+}
+
 Facts ShownTerrain::describe() const {
-    return {factForJson("terrain", factsOfTerrain(*this))};
+    Facts facts = factsOfTerrain(*this);
+    addLegend(mLegend, facts);
+    return {factForJson("terrain", std::move(facts))};
 }
 
 std::string ShownTerrain::whyLightStays() const {

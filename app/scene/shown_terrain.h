@@ -3,10 +3,13 @@
 
 #include <optional>
 
+#include "app/command/commands.h"
 #include "engine/frame/cast_frames.h"
+#include "engine/render/paint_legend.h"
 #include "engine/scene/capabilities.h"
 #include "engine/scene/place_reader.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/surface_paint.h"
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/scene/terrain_scene.h"
 
@@ -53,6 +56,10 @@ public:
     ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsItself = false);
     ~ShownTerrain() override;
 
+    // Paints the ground in pictures that are shown: before the first. Offers a SurfacePaint where there is
+    // anything to paint, and a PaintLegend where it means something. Throws Error, Cancelled.
+    void paintGround(const SceneOptions& options, Progress& progress);
+
     FrameMaker& frames() const override { return mFrames; }
     std::unique_ptr<Flight> makeFlight() const override { return flightOver(mTerrain); }
     Facts describe() const override;
@@ -67,6 +74,8 @@ private:
     TerrainRenderer mRenderer;
     RayCast mRays;
     mutable CastFrames mFrames;
+    SurfacePaint mPaint;
+    PaintLegend mLegend;
     std::unique_ptr<TurningLight> mSun;  // null: it stands in the colours
     std::unique_ptr<Daylight> mDaylight;
 };

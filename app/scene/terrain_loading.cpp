@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/scene/ground_paint.h"
+#include "app/scene/ground_paint_tracks.h"
 #include "app/scene/shown_as.h"
 #include "app/scene/shown_terrain.h"
 #include "engine/base/error.h"
@@ -23,6 +25,9 @@ void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
     if (options.light.kind == LightChoice::Kind::Plain && (scene.builtIn || !scene.image.empty()))
         throw Error("--light plain", "", "no other light is worked out for this ground",
                     "leave it out, or name an elevation model without a picture");
+    if (scene.paint != GroundPaint::None && !scene.image.empty())
+        throw Error("--paint", "", "the scene's file gives the ground a picture: both say what colour it has",
+                    "leave one of them out");
     if (options.shadeImage && scene.image.empty())
         throw Error("--shade-image", "", "there is no picture to light",
                     "name one with --image, or leave it out");
@@ -34,6 +39,7 @@ SceneFile describeTerrain(const SceneOptions& options) {
     if (options.verticalScale > 0.0) scene.verticalScale = options.verticalScale;
     if (options.openHoles) scene.openHoles = true;
     if (!options.image.empty()) scene.image = options.image;
+    scene.paint = groundPaintOf(options);
     if (options.shadeImage) scene.look.shadeImage = true;
     if (!options.sky.empty()) scene.sky = options.sky;
     if (options.physicalSky) scene.look.physicalSky = true;
@@ -75,13 +81,17 @@ std::vector<NamedPlace> filesOfTerrain(const std::string& toml) {
 TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
     TerrainScene terrain = loadTerrain(describeTerrain(options), progress);
     refuseSunWithoutEffect(options, terrain);
+    if (!options.ground.follow.empty())
+        terrain.path = followedTrack(terrain, options.ground.follow, options.ground.followHeight_m);
     terrain.detail = options.groundDetail && !shownAs(options).swept;
     return terrain;
 }
 
 std::unique_ptr<Scene> loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    return std::make_unique<ShownTerrain>(terrainOf(options, progress), simd,
-                                          options.lightLater && !options.light.given());
+    auto shown = std::make_unique<ShownTerrain>(terrainOf(options, progress), simd,
+                                                options.lightLater && !options.light.given());
+    shown->paintGround(options, progress);
+    return shown;
 }
 
 }  // namespace stereonav

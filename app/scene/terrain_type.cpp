@@ -16,7 +16,10 @@ bool isAnyFile(const std::string& file) {
 }
 
 std::vector<NamedPlace> filesOfScene(const SceneOptions& options) {
-    return options.scene.ends_with(".toml") ? filesOfTerrain(options.scene) : std::vector<NamedPlace>{};
+    auto files = options.scene.ends_with(".toml") ? filesOfTerrain(options.scene) : std::vector<NamedPlace>{};
+    files.push_back({"--tracks", options.ground.tracks});
+    files.push_back({"--follow", options.ground.follow});
+    return files;
 }
 
 }  // namespace

@@ -279,6 +279,10 @@ void TerrainRenderer::showLight(const TerrainIllumination& light, const ColorTex
     sunMoved();
 }
 
+const Fog& TerrainRenderer::fog() const {
+    return mState->fog;
+}
+
 SimdTarget TerrainRenderer::target() const {
     return mState->target;
 }

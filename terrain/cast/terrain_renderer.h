@@ -12,6 +12,8 @@
 
 namespace stereonav {
 
+class Fog;  // terrain/light/fog.h
+
 // How the ground's colour is read, for comparing; as it is by default.
 struct GroundFilter {
     bool mipLevels = true;  // else the finest alone
@@ -54,6 +56,8 @@ public:
     // cast.
     void showLight(const TerrainIllumination& light, const ColorTexture& lit);
 
+    // That the ground is seen through now; lives as long as the renderer, and changes with sunMoved().
+    const Fog& fog() const;
     SimdTarget target() const;  // what Auto became
     const TerrainScene& scene() const { return mScene; }
     std::size_t byteCount() const;  // beside the scene: the pyramid of heights

@@ -1,6 +1,7 @@
 // Everything that needs GDAL, handed on to its module.
 #include "terrain/read/raster_file.h"
 
+#include "engine/base/error.h"
 #include "engine/base/module.h"
 
 namespace stereonav {
@@ -50,8 +51,16 @@ void writeGeoTiff(const std::filesystem::path& file, const Georeference& grid, c
     gdal().writeGeoTiff(file, grid, raster);
 }
 
+TrackFile readTrackFile(const std::filesystem::path& file) {
+    return gdal().readTrackFile(file);
+}
+
 std::vector<TrackLine> readTracks(const std::filesystem::path& file) {
-    return gdal().readTracks(file);
+    TrackFile read = readTrackFile(file);
+    if (read.lines.empty())
+        throw Error(file.string(), "", "expected a track, a line or an area, found none",
+                    "single places have no length");
+    return std::move(read.lines);
 }
 
 }  // namespace stereonav

@@ -49,7 +49,10 @@ std::unique_ptr<ReferencePlaces> referencePlaces(const Georeference& source, con
 // A GeoTIFF over the grid's samples; the file is made anew. Throws Error.
 void writeGeoTiff(const std::filesystem::path& file, const Georeference& grid, const WrittenRaster& raster);
 
-// The lines and areas of a GPX or GeoJSON file, one or more; areas without their holes. Throws Error.
+// The lines, areas and places of a GPX or GeoJSON file, one or more; areas without their holes, and tracks
+// without their points. Throws Error.
+TrackFile readTrackFile(const std::filesystem::path& file);
+// Its lines and areas, one or more. Throws Error.
 std::vector<TrackLine> readTracks(const std::filesystem::path& file);
 
 // The module's table.
@@ -62,7 +65,7 @@ struct RasterFunctions {
     decltype(&stereonav::earthPlaces) earthPlaces;
     decltype(&stereonav::referencePlaces) referencePlaces;
     decltype(&stereonav::writeGeoTiff) writeGeoTiff;
-    decltype(&stereonav::readTracks) readTracks;
+    decltype(&stereonav::readTrackFile) readTrackFile;
 };
 
 }  // namespace stereonav

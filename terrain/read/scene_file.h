@@ -31,6 +31,9 @@ struct TerrainLook {
     double seaLevel = 0, skySeenFrom = 0;  // world heights; the loader sets them
 };
 
+// By what ground without a picture is coloured: its tints, or how it lies (terrain/scene/slope_color.h).
+enum class GroundPaint { None, Slope, Aspect, Hillshade };
+
 struct LandmarkFile {
     std::filesystem::path mesh;     // .gltf or .glb
     glm::dvec2 positionWorld{0.0};  // metres from the world's origin
@@ -45,12 +48,13 @@ struct SceneFile {
     std::uint64_t seed = 1;      // of the generated terrain
     int builtInSize = 513;       // its samples a side
     std::filesystem::path dem;
-    double verticalScale = 1.0;   // > 0
-    bool openHoles = false;       // leave nodata open instead of filling it
-    std::filesystem::path image;  // "" for hypsometric tint
-    std::filesystem::path sky;    // "" for the built-in gradient
-    std::filesystem::path light;  // baked light; "auto": the cache's; "" for none
-    bool colorsAlone = false;     // the ground's, without the sun's light: whoever shows it lights it
+    double verticalScale = 1.0;             // > 0
+    bool openHoles = false;                 // leave nodata open instead of filling it
+    std::filesystem::path image;            // "" for hypsometric tint
+    GroundPaint paint = GroundPaint::None;  // not with an image
+    std::filesystem::path sky;              // "" for the built-in gradient
+    std::filesystem::path light;            // baked light; "auto": the cache's; "" for none
+    bool colorsAlone = false;  // the ground's, without the sun's light: whoever shows it lights it
     TerrainLook look;
     std::vector<LandmarkFile> landmarks;
     std::optional<glm::dvec3> startPosition;  // world metres; z above the ground when startAboveGround

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -14,19 +13,16 @@
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
-#include "engine/base/parallel.h"
 #include "terrain/light/sun_and_sky.h"
 #include "terrain/read/raster_file.h"
+#include "terrain/scene/ground_texture.h"
 #include "terrain/scene/ground_tint.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kMostTexels = 1 << 26;  // 256 MiB, a third more with the mip levels
-constexpr int kMostSide = 32768;
 constexpr double kPictureBytes = 4 + 1 + 4 * 2;    // a pixel of a picture, and its bands while it is read
 constexpr double kTextureBytes = 4 + 4 * 4.0 / 3;  // a texel: the picture, and with its mip levels
-constexpr double kLitDensity = 2.0;                // texels a sample where light is baked in
 constexpr const char* kAdvice = "give a JPEG, PNG or TIFF picture of the ground";
 
 // The height at a grid position; beside a hole that of the known samples around, NaN inside one.
@@ -62,40 +58,6 @@ private:
     GroundLight mLight;
     GroundTint mTint;
 };
-
-// The texture over the extent of the samples' own squares: half a sample beyond the outer ones.
-// colorAt: linear colour from column and row (0 northernmost) and the grid position of a texel's centre.
-using ColorAt = std::function<glm::vec3(int column, int row, const glm::dvec2& grid)>;
-ColorTexture bake(const Heightfield& ground, int width, int height, const ColorAt& colorAt,
-                  Progress& progress) {
-    const glm::dvec2 origin(-0.5);
-    const glm::dvec2 perTexel = glm::dvec2(ground.width(), ground.height()) / glm::dvec2(width, height);
-    Plane<PackedColor> texels(width, height);
-    constexpr int kBand = 64;
-    for (int first = 0; first < height; first += kBand) {
-        progress.report(double(first) / height, "colouring the ground");
-        parallelFor(std::min(kBand, height - first), [&](int k) {
-            const int row = first + k;
-            for (int i = 0; i < width; ++i) {
-                const glm::dvec2 grid = origin + glm::dvec2(i + 0.5, height - row - 0.5) * perTexel;
-                texels.at(i, row) = packColor(colorAt(i, row, grid));
-            }
-        });
-    }
-    return ColorTexture(texels, origin, perTexel);
-}
-
-struct TextureSize {
-    int width, height;
-};
-
-// `density` texels a sample, less where that were too many.
-TextureSize textureSize(const Heightfield& ground, glm::dvec2 density) {
-    const double texels = ground.width() * density.x * ground.height() * density.y;
-    if (texels > kMostTexels) density *= std::sqrt(kMostTexels / texels);
-    const auto side = [](double n) { return static_cast<int>(std::clamp(n + 0.5, 1.0, double(kMostSide))); };
-    return {side(ground.width() * density.x), side(ground.height() * density.y)};
-}
 
 // Where the image lies: by its own georeference, or over the elevation file's extent.
 struct ImagePlace {
@@ -183,17 +145,16 @@ float GroundLight::at(const glm::dvec3& unitNormal) const {
 }
 
 double bytesOfTint(double samples) {
-    return kTextureBytes * std::min(kMostTexels, kLitDensity * kLitDensity * samples) +
+    return kTextureBytes * std::min(kMostGroundTexels, kLitDensity * kLitDensity * samples) +
            GroundTint::kBytesPerSample * samples;
 }
 
 GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, const TintPlace& place,
                          Progress& progress) {
     const Tint tint(ground, look, place);
-    const TextureSize size = textureSize(ground, glm::dvec2(kLitDensity));
+    const GroundTextureSize size = groundTextureSize(ground, glm::dvec2(kLitDensity));
     const auto color = [&](int, int, const glm::dvec2& grid) { return tint.at(grid); };
-    return {bake(ground, size.width, size.height, color, progress), "tint by height and slope, lit",
-            look.ambient < 1};
+    return {groundTexture(ground, size, color, progress), "tint by height and slope, lit", look.ambient < 1};
 }
 
 GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& dem, const Heightfield& ground,
@@ -203,8 +164,8 @@ GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& de
     if (!overlap(dem.grid, image.place, file)) throwNoOverlap(file);
     const glm::dvec2 density = pixelsPerTexel(mapPixels(dem.grid, image.place, file), dem.grid);
     if (!std::isfinite(density.x + density.y)) throwNoOverlap(file);
-    const TextureSize size =
-        textureSize(ground, look.shadeImage ? glm::max(density, glm::dvec2(kLitDensity)) : density);
+    const GroundTextureSize size =
+        groundTextureSize(ground, look.shadeImage ? glm::max(density, glm::dvec2(kLitDensity)) : density);
     Georeference texture = dem.grid;
     texture.width = size.width;
     texture.height = size.height;
@@ -235,7 +196,7 @@ GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& de
         lit = true;
         return glm::mix(tint.at(grid), seen, sample.cover);
     };
-    ColorTexture laid = bake(ground, size.width, size.height, color, progress);
+    ColorTexture laid = groundTexture(ground, size, color, progress);
     return {std::move(laid), describe(file, image, look.shadeImage), lit && look.ambient < 1};
 }
 

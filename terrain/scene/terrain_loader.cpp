@@ -21,6 +21,7 @@
 #include "terrain/scene/ground_color.h"
 #include "terrain/scene/landmark.h"
 #include "terrain/scene/scene_flight.h"
+#include "terrain/scene/slope_color.h"
 #include "terrain/scene/terrain_illumination.h"
 
 namespace stereonav {
@@ -127,6 +128,8 @@ void loadColor(const SceneFile& file, LoadedGround& loaded, TerrainScene& scene,
     if (!file.image.empty()) {
         color =
             groundFromImage(file.image, loaded.place, scene.ground, look, tintPlaceOf(file, scene), progress);
+    } else if (file.paint != GroundPaint::None) {
+        color = paintedGround(scene.ground, file.verticalScale, file.paint, look, progress);
     } else if (loaded.ownColor) {
         const Plane<PackedColor>& texels = *loaded.ownColor;
         const glm::dvec2 cells(scene.ground.width() - 1, scene.ground.height() - 1);

@@ -6,7 +6,7 @@ namespace stereonav {
 namespace {
 
 constexpr RasterFunctions kFunctions = {readDem,     glanceAtDem,     openRasterPicture, mapPixels, overlap,
-                                        earthPlaces, referencePlaces, writeGeoTiff,      readTracks};
+                                        earthPlaces, referencePlaces, writeGeoTiff,      readTrackFile};
 
 }  // namespace
 

@@ -31,27 +31,32 @@ void addLine(const OGRSimpleCurve& curve, const std::string& name, bool closed,
     lines.push_back(std::move(line));
 }
 
-// Lines and outer borders, whatever they lie in. A collection of collections that goes on and on is cut off.
-void addLines(const OGRGeometry& geometry, const std::string& name, int depth,
-              std::vector<TrackLine>& lines) {
+// Lines, outer borders and, where asked for, places, whatever they lie in. A collection of collections that
+// goes on and on is cut off.
+void addParts(const OGRGeometry& geometry, const std::string& name, int depth, bool places, TrackFile& read) {
     constexpr int kDeepest = 8;
     switch (wkbFlatten(geometry.getGeometryType())) {
         case wkbLineString:
-            addLine(*geometry.toLineString(), name, false, lines);
+            addLine(*geometry.toLineString(), name, false, read.lines);
             break;
         case wkbPolygon:
             if (const OGRLinearRing* ring = geometry.toPolygon()->getExteriorRing())
-                addLine(*ring, name, true, lines);
+                addLine(*ring, name, true, read.lines);
             break;
+        case wkbPoint:
+            if (const OGRPoint* point = geometry.toPoint(); places && !point->IsEmpty())
+                read.places.push_back({name, {point->getX(), point->getY()}});
+            break;
+        case wkbMultiPoint:
         case wkbMultiLineString:
         case wkbMultiPolygon:
         case wkbGeometryCollection:
             if (depth < kDeepest)
                 for (const OGRGeometry* part : geometry.toGeometryCollection())
-                    addLines(*part, name, depth + 1, lines);
+                    addParts(*part, name, depth + 1, places, read);
             break;
         default:
-            break;  // places have no length
+            break;
     }
 }
 
@@ -66,7 +71,7 @@ bool toDegrees(OGRGeometry& geometry) {
 
 }  // namespace
 
-std::vector<TrackLine> readTracks(const std::filesystem::path& file) {
+TrackFile readTrackFile(const std::filesystem::path& file) {
     GdalMessages messages;
     registerTrackDrivers();
     checkFileForGdal(file, "name a track or a drawn line");
@@ -75,9 +80,11 @@ std::vector<TrackLine> readTracks(const std::filesystem::path& file) {
     if (!dataset)
         throw Error(file.string(), "", std::string("expected ") + kTrackFormats + ", found something else",
                     "tracks end in .gpx, drawn lines in .geojson or .json");
-    std::vector<TrackLine> lines;
+    TrackFile read;
     for (OGRLayer* layer : dataset->GetLayers()) {
         // GPX has each track once as a line and once as its points.
+        const std::string called = layer->GetName();
+        const bool places = called != "track_points" && called != "route_points";
         for (const auto& feature : *layer) {
             const OGRGeometry* geometry = feature->GetGeometryRef();
             if (!geometry) continue;
@@ -87,15 +94,15 @@ std::vector<TrackLine> readTracks(const std::filesystem::path& file) {
             if (!toDegrees(*own))
                 throw Error(file.string(), layer->GetName(), "lies in a system that has no longitudes",
                             "write it in WGS 84");
-            addLines(*own, name, 0, lines);
+            addParts(*own, name, 0, places, read);
         }
     }
     if (messages.hasError())
         throw Error(file.string(), "", "is damaged" + messages.reason(file), "write it again");
-    if (lines.empty())
-        throw Error(file.string(), "", "expected a track, a line or an area, found none",
-                    "single places have no length");
-    return lines;
+    if (read.lines.empty() && read.places.empty())
+        throw Error(file.string(), "", "expected tracks, lines, areas or places, found none",
+                    "tracks end in .gpx, drawn lines in .geojson or .json");
+    return read;
 }
 
 }  // namespace stereonav

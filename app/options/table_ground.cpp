@@ -1,0 +1,53 @@
+// Options: what is drawn on the ground, and tracks over it that are flown.
+#include "app/options/option_numbers.h"
+#include "app/options/option_table.h"
+
+namespace stereonav {
+using namespace command;
+using namespace scene_type;
+
+std::vector<Option> groundPaintOptions() {
+    return {
+        {.key = "contours",
+         .value = numbersValue(contourNumbers()),
+         .help = "contour lines on the ground, so far apart in height; every fifth is wider",
+         .fallback = "none",
+         .commands = kRender | kPlay | kView,
+         .scenes = kTerrain,
+         .panel = OptionPanel::Material,
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.scene->ground.contoursAuto = value.word == kAutoContours;
+                 if (!value.numbers.empty()) to.scene->ground.contours_m = value.number();
+             }},
+        {.key = "tracks",
+         .value = fileValue(),
+         .help = "a GPX or GeoJSON file whose tracks, lines, borders and places are drawn on the ground",
+         .commands = kRender | kPlay | kView,
+         .scenes = kTerrain,
+         .panel = OptionPanel::Material,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->ground.tracks = value.text; }},
+        {.key = "follow",
+         .value = fileValue(),
+         .help = "a GPX or GeoJSON file: its one track is the flight",
+         .commands = kPlay | kView,
+         .scenes = kTerrains,
+         .excludes = {{"path"}},
+         .inFile = false,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->ground.follow = value.text; }},
+        {.key = "follow-height",
+         .value = numberValue(above(0, 1e6, "metres")),
+         .help = "of that flight above the ground",
+         .advice = "50 is low over hills",
+         .fallback = "50",
+         .commands = kPlay | kView,
+         .scenes = kTerrains,
+         .rules = {{[](const Asked& asked) { return !asked.has("follow"); },
+                    "has an effect with --follow alone", "add it, or leave this out"}},
+         .inFile = false,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->ground.followHeight_m = value.number(); }},
+    };
+}
+
+}  // namespace stereonav

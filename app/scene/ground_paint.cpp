@@ -1,0 +1,61 @@
+#include "app/scene/ground_paint.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/options/paint_words.h"
+#include "app/output/length_text.h"
+#include "app/scene/ground_paint_survey.h"
+#include "app/scene/ground_paint_tracks.h"
+#include "terrain/paint/contour_painter.h"
+#include "terrain/scene/slope_color.h"
+
+namespace stereonav {
+namespace {
+
+// 0: none.
+double contourIntervalOf(const TerrainScene& terrain, const GroundPaintOptions& options) {
+    if (!options.contoursAuto) return options.contours_m.value_or(0);
+    const Heightfield& ground = terrain.ground;
+    return contourIntervalFor((double(ground.maxHeight()) - ground.minHeight()) / terrain.verticalScale);
+}
+
+}  // namespace
+
+GroundPaint groundPaintOf(const SceneOptions& options) {
+    return groundPaintNamed(paintAskedOf(options.paint).word).value_or(GroundPaint::None);
+}
+
+std::vector<std::shared_ptr<const EyePainter>> groundPainters(const TerrainScene& terrain, const Fog& fog,
+                                                              const SceneOptions& options,
+                                                              PaintLegend& legend, Progress& progress) {
+    std::vector<std::shared_ptr<const EyePainter>> painters;
+    if (Legend colors = legendOfPaint(groundPaintOf(options)); !colors.entries.empty())
+        legend.legends.push_back(std::move(colors));
+    if (auto survey = surveyPainter(terrain, fog, options, legend, progress))
+        painters.push_back(std::move(survey));
+    if (const double interval = contourIntervalOf(terrain, options.ground); interval > 0) {
+        painters.push_back(std::make_shared<ContourPainter>(terrain.ground, fog,
+                                                            ContourSetting{interval, terrain.verticalScale}));
+        legend.legends.push_back({"contours",
+                                  {{glm::vec3(kContourInk[0], kContourInk[1], kContourInk[2]),
+                                    fmt::format("every {}", lengthText(interval))}}});
+    }
+    if (!options.ground.tracks.empty())
+        painters.push_back(trackPainter(terrain, fog, options.ground.tracks, legend));
+    return painters;
+}
+
+void addLegend(const PaintLegend& legend, Facts& facts) {
+    FactList list;
+    for (const Legend& part : legend.legends) {
+        std::string words;
+        for (const LegendEntry& entry : part.entries) words += (words.empty() ? "" : "; ") + entry.text;
+        list.text(part.title, words);
+    }
+    for (const std::string& note : legend.notes) list.text("note", note);
+    for (Fact& fact : list.facts()) facts.push_back(std::move(fact));
+}
+
+}  // namespace stereonav

@@ -1,0 +1,100 @@
+#include "app/scene/ground_paint_survey.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <utility>
+
+#include "app/options/number_text.h"
+#include "app/options/option_numbers.h"
+#include "app/options/paint_words.h"
+#include "app/options/utc_text.h"
+#include "app/scene/survey_ground.h"
+#include "app/scene/survey_sun.h"
+#include "engine/base/error.h"
+#include "engine/image/packed_color.h"
+#include "terrain/ground/height_pyramid.h"
+#include "terrain/paint/raster_painter.h"
+#include "terrain/survey/viewshed.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kUsualEyeHeight = 2;  // metres above the ground, as for the command viewshed
+constexpr double kSunStep = 20 * 60;   // seconds, as for the command sun
+constexpr float kHiddenShare = 0.62f, kHoursShare = 0.6f;
+const glm::vec3 kHiddenColor(0.02f, 0.01f, 0.06f);
+// Few hours to many: YlOrRd of ColorBrewer the other way round, six of its classes, as sRGB.
+constexpr std::array<std::array<int, 3>, 6> kHoursColors{
+    {{35, 20, 60}, {128, 0, 38}, {227, 26, 28}, {253, 141, 60}, {254, 217, 118}, {255, 255, 204}}};
+
+glm::vec3 hoursColor(std::size_t n) {
+    const auto channel = [&](std::size_t c) {
+        return linearFromSrgb(static_cast<float>(kHoursColors[n][c]) / 255.0f);
+    };
+    return {channel(0), channel(1), channel(2)};
+}
+
+std::shared_ptr<const EyePainter> viewshedPainter(const TerrainScene& terrain, const Fog& fog,
+                                                  const SurveyGround& survey, const std::string& place,
+                                                  PaintLegend& legend, Progress& progress) {
+    const std::vector<double> numbers = numbersIn("--paint", groundPlaceNumbers(), place).numbers;
+    ViewshedSetting setting;
+    setting.eye = survey.gridAt({numbers[0], numbers[1]}, "--paint");
+    survey.heightAt(setting.eye, "--paint");
+    setting.eyeHeight = numbers.size() > 2 ? numbers[2] : kUsualEyeHeight;
+    const Viewshed shed = viewshedOf(survey.ground, setting, progress);
+    Plane<float> hidden(shed.seen.width(), shed.seen.height());
+    for (int j = 0; j < hidden.height(); ++j)
+        for (int i = 0; i < hidden.width(); ++i) {
+            const auto seen = static_cast<Seen>(shed.seen.at(i, j));
+            hidden.at(i, j) = seen == Seen::NoGround ? std::nanf("") : seen == Seen::Hidden ? 1.0f : 0.0f;
+        }
+    const double percent = shed.samples > 0 ? 100.0 * shed.visible / shed.samples : 0;
+    legend.legends.push_back({fmt::format("seen from {}", place),
+                              {{kHiddenColor, fmt::format("hidden; {:.1f} % is seen", percent)}}});
+    return std::make_shared<RasterPainter>(
+        terrain.ground, fog, std::move(hidden),
+        std::vector<PaintStop>{{kHiddenColor, 0}, {kHiddenColor, kHiddenShare}});
+}
+
+std::shared_ptr<const EyePainter> hoursPainter(const TerrainScene& terrain, const Fog& fog,
+                                               const SurveyGround& survey, const std::string& day,
+                                               PaintLegend& legend, Progress& progress) {
+    const HeightPyramid maxima(survey.ground);
+    const SightLines lines(survey.ground, maxima, 0);
+    const double time = secondsFromText(day).value_or(0);
+    Plane<float> hours = hoursOfSun(lines, sunsOfDay(sunPlaceOf(survey), time, kSunStep), 24, progress);
+    float most = 0;
+    for (int j = 0; j < hours.height(); ++j)
+        for (int i = 0; i < hours.width(); ++i) most = std::fmax(most, hours.at(i, j));
+    std::vector<PaintStop> stops;
+    Legend part{"hours of sun on " + day, {}};
+    for (std::size_t n = 0; n < kHoursColors.size(); ++n) {
+        stops.push_back({hoursColor(n), kHoursShare});
+        part.entries.push_back(
+            {hoursColor(n), fmt::format("{:.1f}", most * float(n) / (kHoursColors.size() - 1))});
+    }
+    for (int j = 0; most > 0 && j < hours.height(); ++j)
+        for (int i = 0; i < hours.width(); ++i) hours.at(i, j) /= most;
+    legend.legends.push_back(std::move(part));
+    return std::make_shared<RasterPainter>(terrain.ground, fog, std::move(hours), std::move(stops));
+}
+
+}  // namespace
+
+std::shared_ptr<const EyePainter> surveyPainter(const TerrainScene& terrain, const Fog& fog,
+                                                const SceneOptions& options, PaintLegend& legend,
+                                                Progress& progress) {
+    const PaintAsked asked = paintAskedOf(options.paint);
+    const bool shed = asked.word == "viewshed";
+    if (!shed && asked.word != "hours") return nullptr;
+    const SurveyGround survey = loadSurveyGround(options, progress);
+    return shed ? viewshedPainter(terrain, fog, survey, asked.rest, legend, progress)
+                : hoursPainter(terrain, fog, survey, asked.rest, legend, progress);
+}
+
+}  // namespace stereonav

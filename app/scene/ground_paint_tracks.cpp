@@ -1,0 +1,94 @@
+#include "app/scene/ground_paint_tracks.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <optional>
+
+#include "app/output/length_text.h"
+#include "engine/base/error.h"
+#include "terrain/paint/track_painter.h"
+#include "terrain/read/raster_file.h"
+#include "terrain/scene/followed_track.h"
+
+namespace stereonav {
+namespace {
+
+// Without a place on the Earth degrees are metres, as for `profile` and `measure`.
+std::optional<glm::dvec2> worldOfTrack(const TerrainScene& terrain, const glm::dvec2& degrees) {
+    if (!terrain.earth) return degrees;
+    return terrain.earth->worldAt({degrees.y * std::numbers::pi / 180, degrees.x * std::numbers::pi / 180});
+}
+
+const char* trackAdvice(const TerrainScene& terrain) {
+    return terrain.earth ? "take a larger elevation model, or another track"
+                         : "the elevation model does not say where it lies: give metres from its middle";
+}
+
+}  // namespace
+
+std::shared_ptr<const EyePainter> trackPainter(const TerrainScene& terrain, const Fog& fog,
+                                               const std::string& file, PaintLegend& legend) {
+    const TrackFile read = readTrackFile(file);
+    std::vector<std::vector<glm::dvec2>> lines;
+    std::vector<glm::dvec2> places;
+    long long lost = 0;  // that no system has
+    for (const TrackLine& track : read.lines) {
+        std::vector<glm::dvec2> line;
+        for (const glm::dvec2& degrees : track.degrees)
+            if (const auto world = worldOfTrack(terrain, degrees))
+                line.push_back(*world);
+            else
+                ++lost;
+        if (track.closed && line.size() > 2) line.push_back(line.front());
+        lines.push_back(std::move(line));
+    }
+    long long beside = 0;
+    for (const TrackPlace& place : read.places) {
+        const auto world = worldOfTrack(terrain, place.degrees);
+        if (world && terrain.ground.contains(*world))
+            places.push_back(*world);
+        else
+            ++beside;
+    }
+    auto painter = std::make_shared<TrackPainter>(terrain.ground, fog, lines, places);
+    const double length = painter->length(), outside = painter->lengthOutside();
+    if (!(outside < length) && places.empty())
+        throw Error(file, "", "all of it lies outside the ground", trackAdvice(terrain));
+    std::string drawn;
+    if (outside < length) drawn = fmt::format("{} of tracks", lengthText(length - outside));
+    if (!places.empty())
+        drawn += fmt::format("{}{} place{}", drawn.empty() ? "" : ", ", places.size(),
+                             places.size() == 1 ? "" : "s");
+    legend.legends.push_back(
+        {"tracks", {{glm::vec3(kTrackInk[0], kTrackInk[1], kTrackInk[2]), std::move(drawn)}}});
+    // Rounding at the ground's edge is no part of a track.
+    if (outside > 1e-9 * length)
+        legend.notes.push_back(fmt::format("{}: {} of {} lie outside the ground and are not drawn", file,
+                                           lengthText(outside), lengthText(length)));
+    if (beside + lost > 0)
+        legend.notes.push_back(
+            fmt::format("{}: {} places lie outside the ground and are not drawn", file, beside + lost));
+    return painter;
+}
+
+RecordedPath followedTrack(const TerrainScene& terrain, const std::string& file, double height) {
+    const TrackFile read = readTrackFile(file);
+    if (read.lines.size() != 1)
+        throw Error(file, "", fmt::format("expected one track, found {}", read.lines.size()),
+                    "leave the others out of the file");
+    std::vector<glm::dvec2> line;
+    for (const glm::dvec2& degrees : read.lines.front().degrees) {
+        const auto world = worldOfTrack(terrain, degrees);
+        if (world && terrain.ground.contains(*world)) line.push_back(*world);
+    }
+    const std::size_t all = read.lines.front().degrees.size();
+    if (line.size() < all)
+        throw Error(file, read.lines.front().name,
+                    fmt::format("{} of {} places lie outside the ground", all - line.size(), all),
+                    trackAdvice(terrain));
+    if (read.lines.front().closed && line.size() > 2) line.push_back(line.front());
+    return followTrack(terrain.ground, line, height, file);
+}
+
+}  // namespace stereonav

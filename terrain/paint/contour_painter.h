@@ -1,0 +1,46 @@
+// Contour lines on the ground of a finished eye: as wide in pixels at any distance, in both eyes at the same
+// places of the ground.
+//
+// A pixel's distance from a line is the difference of its height from the line's, over the change of height
+// from pixel to pixel on the cell's tangent plane: exact on planes, and to the second order elsewhere. Every
+// fifth line is wider. Lines that come closer than a few pixels fade, the wider ones later, until nothing is
+// left. Level ground has no lines, whatever its height.
+#pragma once
+
+#include "engine/render/eye_painter.h"
+#include "terrain/ground/heightfield.h"
+#include "terrain/light/fog.h"
+
+namespace stereonav {
+
+struct ContourSetting {
+    double interval = 0;       // metres of the file's heights; 0: no lines
+    double verticalScale = 1;  // of the ground's heights: so many times those of the file
+};
+
+// Widths in pixels, and what lines are when they begin and end to fade: pixels between them.
+constexpr double kContourWidth = 1.2, kIndexContourWidth = 2.0;
+constexpr double kContourGone = 3.5, kContourWhole = 8;
+constexpr int kIndexContour = 5;
+// The share of ink in the middle of a line, and its colour, linear: the brown of maps.
+constexpr double kContourShare = 0.75, kIndexContourShare = 0.9;
+constexpr float kContourInk[3] = {0.055f, 0.027f, 0.012f};
+
+// A nice interval for heights over so many metres: some 25 lines; 0 of level ground.
+double contourIntervalFor(double relief);
+
+class ContourPainter final : public EyePainter {
+public:
+    // ground, fog: outlive it; the lines are seen through the fog as the ground is.
+    ContourPainter(const Heightfield& ground, const Fog& fog, const ContourSetting& setting)
+        : mGround(ground), mFog(fog), mSetting(setting) {}
+
+    void paint(const EyeView& view, EyeImage& image) const override;
+
+private:
+    const Heightfield& mGround;
+    const Fog& mFog;
+    ContourSetting mSetting;
+};
+
+}  // namespace stereonav

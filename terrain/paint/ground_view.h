@@ -1,0 +1,48 @@
+// The ground as a pixel of one eye shows it: where its ray meets the surface, and what lies beside that from
+// pixel to pixel. What is painted on the ground begins here.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/camera/eye_view.h"
+#include "terrain/ground/heightfield.h"
+
+namespace stereonav {
+
+struct GroundSeen {
+    glm::dvec3 place{0.0};      // world, metres, on the ground
+    double depth = 0;           // along the view
+    glm::dvec3 direction{0.0};  // of the ray, as EyeView::rayDirection() has it
+    glm::dvec2 gradient{0.0};   // of the bilinear surface there, metres a metre
+    // Of the place, from this pixel to the next one at the right and below, on the tangent plane.
+    glm::dvec3 perX{0.0}, perY{0.0};
+};
+
+// Both must outlive it.
+class GroundView {
+public:
+    GroundView(const Heightfield& ground, const EyeView& view);
+
+    // depth: what the eye has in its picture for pixel x, y. A warped eye's is that of a pixel beside, and
+    // any eye's is rounded, so the ray is followed on to the surface itself (Newton's steps on the cell's
+    // tangent planes). False where nothing was hit, beside the ground, in its holes, where the ray runs along
+    // the surface, and where what was hit is not the ground but stands on it: farther from it than two pixels
+    // and a thousandth of the way.
+    bool at(int x, int y, float depth, GroundSeen& seen) const;
+    // The height of what a pixel shows, whatever it is; NaN where nothing was hit and beside the picture.
+    double heightOf(int x, int y, float depth) const;
+
+private:
+    struct Cell {
+        double height;
+        glm::dvec2 gradient;
+    };
+    bool cellAt(const glm::dvec3& place, Cell& cell) const;
+
+    const Heightfield& mGround;
+    const EyeView& mView;
+    glm::dvec3 mRight, mUp;  // a pixel's width and height at view depth 1
+};
+
+}  // namespace stereonav

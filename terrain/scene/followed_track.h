@@ -1,0 +1,26 @@
+// A flight along a line of the plan, such as a walker's track.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/camera/recorded_path.h"
+#include "terrain/ground/heightfield.h"
+
+namespace stereonav {
+
+// Where looking down to the ground ahead is comfortable, radians.
+constexpr double kFollowPitch = -0.25;
+// No flight takes longer, seconds; shorter ones go their height each second.
+constexpr double kLongestFollow = 900;
+
+// At even speed over the plan, looking along the line as it goes within two seconds before and behind, twice
+// averaged, so that corners and the jitter of receivers become turns. Above the ground by `height` metres and
+// more, at its samples and between them: over the highest ground within a second's way, averaged. Holes are
+// passed at the height beside them. places: two or more that differ, world metres, on the ground. Throws
+// Error named `source` where they do not differ.
+RecordedPath followTrack(const Heightfield& ground, const std::vector<glm::dvec2>& places, double height,
+                         const std::string& source);
+
+}  // namespace stereonav
