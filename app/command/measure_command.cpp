@@ -9,53 +9,19 @@
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
+#include "app/scene/ground_figures.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/survey_line.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "terrain/survey/ground_area.h"
-#include "terrain/survey/ground_line.h"
 
 namespace stereonav {
 namespace {
 
-// A figure by its name in JSON, GeoJSON and CSV.
-struct Measured {
-    const char* key;
-    const char* label;
-    const char* unit;
-    double value, error;
-};
 struct MeasuredLine {
     WorldLine line;
-    std::vector<Measured> figures;
+    std::vector<GroundFigure> figures;
 };
-
-std::vector<Measured> figuresOfLine(const Heightfield& ground, const WorldLine& line) {
-    const LineMeasure m = measureLine(ground, line.world), e = errorsOfLine(ground, line.world);
-    return {{"plan_m", "over the plan", "m", m.plan, 0},
-            {"straight_m", "straight", "m", m.straight, e.straight},
-            {"along_m", "along the ground", "m", m.along, e.along},
-            {"rise_m", "height difference", "m", m.rise, e.rise},
-            {"climb_m", "climb", "m", m.climb, e.climb},
-            {"descent_m", "descent", "m", m.descent, e.descent},
-            {"lowest_m", "lowest", "m", m.lowest, e.lowest},
-            {"highest_m", "highest", "m", m.highest, e.highest}};
-}
-
-std::vector<Measured> figuresOfArea(const Heightfield& ground, const WorldLine& line,
-                                    const std::optional<double>& given) {
-    const double lowest = measureArea(ground, line.world, 0).lowest, plane = given.value_or(lowest);
-    const AreaMeasure m = measureArea(ground, line.world, plane), e = errorsOfArea(ground, line.world, plane);
-    return {{"area_m2", "area over the plan", "m2", m.plan, 0},
-            {"surface_m2", "area along the ground", "m2", m.along, e.along},
-            {"perimeter_m", "border over the plan", "m", m.perimeter, 0},
-            {"plane_m", "plane", "m", plane, 0},
-            {"above_m3", "volume over it", "m3", m.above, e.above},
-            {"below_m3", "volume under it", "m3", m.below, e.below},
-            {"lowest_m", "lowest", "m", m.lowest, e.lowest},
-            {"highest_m", "highest", "m", m.highest, e.highest}};
-}
 
 void checkMeasureOptions(const MeasureOptions& options) {
     if (options.line.places.empty() && options.area.empty() && options.line.track.empty())
@@ -94,7 +60,7 @@ std::string geoJsonOf(const SurveyGround& survey, const std::vector<MeasuredLine
     for (const MeasuredLine& one : all) {
         nlohmann::ordered_json properties{
             {"name", one.line.name}, {"ground", survey.name}, {"crs", survey.crs}};
-        for (const Measured& figure : one.figures) {
+        for (const GroundFigure& figure : one.figures) {
             properties[figure.key] = figure.value;
             properties[std::string(figure.key) + "_error"] = figure.error;
         }
@@ -117,7 +83,7 @@ std::string csvOf(const std::vector<MeasuredLine>& all) {
     int number = 0;
     for (const MeasuredLine& one : all) {
         ++number;
-        for (const Measured& figure : one.figures)
+        for (const GroundFigure& figure : one.figures)
             text += fmt::format("{},{},{},{:.10g},{:.3g},{}\n", number, tableText(one.line.name), figure.key,
                                 figure.value, figure.error, figure.unit);
     }
@@ -131,13 +97,11 @@ void tell(const std::vector<MeasuredLine>& all, CommandResult& result) {
                     factForJson("kind", std::string(one.line.closed ? "area" : "line")),
                     factForJson("places", static_cast<std::int64_t>(one.line.world.size()))};
         std::string words = one.line.name.empty() ? "" : one.line.name + "\n";
-        for (const Measured& figure : one.figures) {
+        for (const GroundFigure& figure : one.figures) {
             facts.push_back(factForJson(figure.key, figure.value));
             facts.push_back(factForJson(std::string(figure.key) + "_error", figure.error));
             words += fmt::format("  {:<22}{:.7g} {}{}\n", figure.label, figure.value, figure.unit,
-                                 figure.error == 0             ? ""
-                                 : std::isfinite(figure.error) ? fmt::format(" +- {:.2g}", figure.error)
-                                                               : " (error not known)");
+                                 errorText(figure));
         }
         result.answer(words);
         groups.push_back(std::move(facts));
@@ -158,8 +122,8 @@ int runMeasure(const MeasureOptions& options) {
     checkNotRead({{"--csv", options.csv}, {"--geojson", options.geojson}});
     std::vector<MeasuredLine> all;
     for (const WorldLine& line : lines)
-        all.push_back({line, line.closed ? figuresOfArea(survey.ground, line, options.plane_m)
-                                         : figuresOfLine(survey.ground, line)});
+        all.push_back({line, line.closed ? figuresOfArea(survey.ground, line.world, options.plane_m)
+                                         : figuresOfLine(survey.ground, line.world)});
     if (!options.csv.empty()) writeTextFile(options.csv, csvOf(all));
     if (!options.geojson.empty()) writeTextFile(options.geojson, geoJsonOf(survey, all));
     bar.clear();

@@ -7,6 +7,7 @@
 #include "engine/frame/cast_frames.h"
 #include "engine/render/paint_legend.h"
 #include "engine/scene/capabilities.h"
+#include "engine/scene/line_measurer.h"
 #include "engine/scene/place_reader.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/surface_paint.h"
@@ -22,7 +23,7 @@ void setViews(const TerrainScene& terrain, Scene& scene);
 
 // What a terrain has however its frames are made: a map, a box, its place on the Earth, and what is to be
 // said of a place of it. terrain: lives as long, and does not move.
-class TerrainSurvey final : public MapFromAbove, public OnEarth, public PlaceReader {
+class TerrainSurvey final : public MapFromAbove, public OnEarth, public PlaceReader, public LineMeasurer {
 public:
     explicit TerrainSurvey(const TerrainScene& terrain);
     // Calls offer(capability) for each that it has.
@@ -31,6 +32,7 @@ public:
         offer(static_cast<const MapFromAbove&>(*this));
         offer(mBox);
         offer(static_cast<const PlaceReader&>(*this));
+        offer(static_cast<const LineMeasurer&>(*this));
         if (mTerrain.earth) offer(static_cast<const OnEarth&>(*this));
     }
 
@@ -40,13 +42,15 @@ public:
     std::optional<glm::dvec2> worldAt(const PlaceOnEarth& place) const override;
     double northAt(const glm::dvec3& world) const override;
     Facts readPlace(const glm::dvec3& world) const override;
+    // In heights of the file, whatever they are exaggerated by; terrain_line.cpp.
+    MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed) const override;
 
 private:
     const TerrainScene& mTerrain;
     SceneBox mBox;
 };
 
-// Offers RayCast, const TerrainScene, MapFromAbove, SceneBox, PlaceReader; as they are there, OnEarth and,
+// Offers RayCast, const TerrainScene, MapFromAbove, SceneBox, PlaceReader, LineMeasurer; as they are there, OnEarth and,
 // with baked light, a TurningLight. A tinted ground under the plain sun also offers light that is worked out
 // while one looks (terrain_daylight.h), and that turns: a TurningLight and a SeenLight.
 class ShownTerrain final : public Scene {

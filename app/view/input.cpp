@@ -186,6 +186,8 @@ std::optional<ViewAction> actionWithControl(const KeyPress& press) {
             return ViewAction{ViewCommand::AddPlace};
         case 'c':
             return ViewAction{ViewCommand::CopyPlace};
+        case 'm':
+            return ViewAction{ViewCommand::MeasurePlace};
         case 's':
             return ViewAction{ViewCommand::SaveScene};
         case 'p':
@@ -274,6 +276,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"Ctrl+S", "save the scene", does(SaveScene)},
         {"Ctrl+B", "keep this place", does(AddPlace)},
         {"Ctrl+C", "copy what is told of the place under the pointer", does(CopyPlace)},
+        {"Ctrl+M", "the measured line goes on to the place under the pointer", does(MeasurePlace)},
         {"Ctrl+Z", "undo; of keyframes first, while they are on the map", does(Undo)},
         {"Ctrl+Y", "redo", does(Redo)},
         {"Del", "remove the chosen keyframe; in slices the last seed"},

@@ -36,6 +36,7 @@ enum class ViewCommand {
     Redo,
     AddPlace,
     CopyPlace,
+    MeasurePlace,
     OpenPath,
     FullScreen,
     QuitAtOnce,

@@ -134,7 +134,10 @@ void Viewer::takeScene() {
     mSettings.reset();
     mApplies.clear();
     if (!loading.busy) mBefore.reset();
-    if (mSession && !mAnother) return mSession->replaceScene(mScene);
+    if (mSession && !mAnother) {
+        mMeasured.replaceScene(mScene->scene);
+        return mSession->replaceScene(mScene);
+    }
     if (!mSession && mBefore) {
         // Another one was chosen while the first was loaded: this is the first, and is shown until then.
         const Made next{mOptions, mGiven, mSaid};
@@ -170,6 +173,8 @@ void Viewer::beginSession() {
     mSettings.reset();
     mHistory.start(settings());
     mPlaces.emplace(fullName().string());
+    mMeasured.open(mScene->scene, measuredFile(mPlaces->file()));
+    mMarked.reset();
     mRecentDue = true;
     reportKept();
     if (first) mSession->notify("F1 shows the keys, F2 and F3 the panels");
@@ -208,6 +213,9 @@ bool Viewer::actOnInterface(const ViewAction& action) {
             return true;
         case ViewCommand::CopyPlace:
             copyPlace();
+            return true;
+        case ViewCommand::MeasurePlace:
+            measureHere();
             return true;
         case ViewCommand::OpenPath:
             if (mSession) mPanels.openPaths();
@@ -283,6 +291,7 @@ void Viewer::update(double dt) {
     mSettings.reset();
     mHistory.observe(settings(), panelled().active(), dt);
     followKeyframes();
+    if (mMeasured.poll()) mLayoutDue = true;
     askFor();
     followWishes();
     lookAtJob();
@@ -300,6 +309,10 @@ void Viewer::usePointer() {
     const SizeOption eye = eyeSizeAt(mode, place);
     for (const glm::dvec2& click : clicks) {
         const glm::dvec2 at = placeInPicture(mode, place, click) * glm::dvec2(eye.width, eye.height);
+        if (mMeasuring && !mSession->slicesShown()) {
+            measureHere();
+            continue;
+        }
         tell(mSession->click(at.x, at.y));
     }
 }

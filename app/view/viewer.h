@@ -83,6 +83,10 @@ public:
     std::shared_ptr<const SliceStudy> study() override;
     void saveScene(const std::filesystem::path& file) override;
     void copy(const std::string& text) override;
+    MeasuredLine* measured() override { return mSession ? &mMeasured : nullptr; }
+    bool measuring() const override { return mMeasuring; }
+    void measure(bool on) override { mMeasuring = on; }
+    void markWorld(const std::optional<glm::dvec3>& place) override { mMarked = place; }
     bool canUndo() const override { return mSession && (mKeyframes.canUndo() || mHistory.canUndo()); }
     bool canRedo() const override { return mSession && (mKeyframes.canRedo() || mHistory.canRedo()); }
     void undo() override;
@@ -177,7 +181,11 @@ private:
     std::vector<OverlayMark> marks(const OutputModeInfo& mode) const;
     // Where the pointer is over the picture: shares of an eye's size.
     std::optional<glm::dvec2> pointedShare(const OutputModeInfo& mode) const;
+    // What is seen there, of a picture that stands still.
+    std::optional<glm::dvec3> pointedWorld() const;
     void copyPlace();
+    void measureHere();
+    void addLineMarks(std::vector<OverlayMark>& marks) const;
     bool drawOverlay(const OutputModeInfo& mode);
 
     CommandResult mResult;
@@ -245,6 +253,9 @@ private:
     bool mLabels = true;  // of places, over the picture
     bool mNewFrame = false, mNewPreview = false, mLayoutDue = true, mLaidOutBusy = false, mAnother = false,
          mWasBusy = false, mStudyFailed = false;
+    bool mMeasuring = false;
+    std::optional<glm::dvec3> mMarked;  // world
+    MeasuredLine mMeasured{[] { Window::wake(); }};
     KeyframeEdit mKeyframes;
     long long mKeyframesSeen = 0, mKeyframesPath = 0;  // versions: of them, and of the path beside them
     bool mKeyframesFlown = false;                      // that path is theirs

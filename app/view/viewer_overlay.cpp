@@ -1,5 +1,9 @@
 // The viewer's part that is drawn over the picture in depth: the pointer, and names of kept places. And what
 // lies under the pointer.
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "app/view/eye_marks.h"
 #include "app/view/place_labels.h"
 #include "app/view/pointed_place.h"
@@ -20,19 +24,52 @@ std::optional<glm::dvec2> Viewer::pointedShare(const OutputModeInfo& mode) const
     return (share * glm::dvec2(place.part) - glm::dvec2(place.corner)) / glm::dvec2(place.size);
 }
 
-// A picture that was warped has the depths of another moment: figures wait until it stands still.
-Facts Viewer::pointedFacts() const {
+// A picture that was warped has the depths of another moment: what lies there waits until it stands still.
+std::optional<glm::dvec3> Viewer::pointedWorld() const {
     if (!mSession || !mFrame || !mPicture.left || mPicture.warped || mSession->slicesShown() ||
         mWindow.captured())
-        return {};
+        return std::nullopt;
     const OutputMode mode = shownMode();
-    if (mode == OutputMode::Right) return {};
+    if (mode == OutputMode::Right) return std::nullopt;
     const std::optional<glm::dvec2> share = pointedShare(infoOf(mode));
-    if (!share) return {};
-    const StereoViews views = viewsOf(mPicture.of);
-    const auto world = worldUnder(views, mFrame->left.viewDepth, *share, mFrame->request.guard);
+    if (!share) return std::nullopt;
+    return worldUnder(viewsOf(mPicture.of), mFrame->left.viewDepth, *share, mFrame->request.guard);
+}
+
+Facts Viewer::pointedFacts() const {
+    const auto world = pointedWorld();
     if (!world) return {};
-    return factsOfPlace(*mSession->open().scene, mSession->study().get(), *world, views.left.head);
+    return factsOfPlace(*mSession->open().scene, mSession->study().get(), *world,
+                        viewsOf(mPicture.of).left.head);
+}
+
+void Viewer::measureHere() {
+    if (!mSession) return;
+    const auto world = pointedWorld();
+    if (!world) return mSession->notify("nothing is under the pointer");
+    if (!mMeasured.add(*world)) return mSession->notify("the line is there already");
+    mSession->notify(fmt::format("place {} of the measured line", mMeasured.places().size()));
+    if (!mPanels.leftShown() && mMeasured.places().size() == 2) mPanels.toggleLeft();
+}
+
+// Its places with their numbers, and points between them as the line lies on the surface; what is hidden is
+// left out.
+void Viewer::addLineMarks(std::vector<OverlayMark>& marks) const {
+    constexpr std::size_t kMostPoints = 300;
+    const StereoViews views = viewsOf(mPicture.of);
+    const auto add = [&](const glm::dvec3& world, const std::string& text, bool dot) {
+        const auto at = markOf(views, mFrame->left.viewDepth, world, mFrame->request.guard);
+        if (!at) return;
+        const glm::vec2 beside(0.6f * mInterface.textSize("0").y, -1.2f * mInterface.textSize("0").y);
+        marks.push_back({glm::vec2(at->mark.left), glm::vec2(at->mark.right), text, beside, dot});
+    };
+    if (const MeasuredSurface* const measured = mMeasured.measured()) {
+        const std::size_t count = measured->places.size(), points = std::min(count, kMostPoints);
+        for (std::size_t n = 0; n < points; ++n) add(measured->places[n * count / points], "", true);
+    }
+    for (std::size_t n = 0; n < mMeasured.places().size(); ++n)
+        add(mMeasured.places()[n], std::to_string(n + 1), false);
+    if (mMarked) add(*mMarked, "*", false);
 }
 
 void Viewer::copyPlace() {
@@ -54,6 +91,7 @@ std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
             marks.push_back({glm::vec2(label.mark.left), glm::vec2(label.mark.right), label.text,
                              glm::vec2(label.textAt)});
     }
+    if (!mPanels.hidden() && (!mMeasured.places().empty() || mMarked)) addLineMarks(marks);
     const std::optional<glm::dvec2> share = drawsPointer(mode) ? pointedShare(mode) : std::nullopt;
     if (!share) return marks;
     const EyeMark under = markUnder(viewsOf(mPicture.of), depth, *share, guard);

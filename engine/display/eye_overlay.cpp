@@ -31,6 +31,11 @@ void drawLabel(ImDrawList& list, const glm::vec2& place, const OverlayMark& mark
 }
 
 void drawMark(ImDrawList& list, const glm::vec2& place, const OverlayMark& mark, const InterfaceLook& look) {
+    if (mark.dot) {
+        const float dot = 0.1f * ImGui::GetFontSize();
+        list.AddCircleFilled(at(place), dot + 1, kEdge);
+        return list.AddCircleFilled(at(place), dot, kInk);
+    }
     if (!mark.text.empty()) return drawLabel(list, place, mark, ImGui::GetFontSize());
     ImGui::RenderMouseCursor(&list, at(glm::round(place)), look.scale, ImGuiMouseCursor_Arrow, kInk, kEdge,
                              IM_COL32(0, 0, 0, 48));

@@ -22,6 +22,7 @@ struct OverlayMark {
     glm::vec2 left{0}, right{0};
     std::string text;     // a point with this beside it; "": the pointer
     glm::vec2 textAt{0};  // the text's top left corner, from the place
+    bool dot = false;     // a small point, without a text
     bool operator==(const OverlayMark&) const = default;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -141,6 +142,27 @@ LineMeasure measureLine(const Heightfield& ground, const std::vector<glm::dvec2>
     all.rise = heightOn(ground, world.back()) - heightOn(ground, world.front());
     if (!known) all.along = all.climb = all.descent = all.lowest = all.highest = kNotKnown;
     return all;
+}
+
+Heightfield cutGround(const Heightfield& ground, const std::vector<glm::dvec2>& world, double scale,
+                      glm::dvec2& shift) {
+    glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const glm::dvec2& place : world) {
+        if (!ground.contains(place))
+            throw Error("", "a place of the line", "lies beside the ground", "choose another one");
+        low = glm::min(low, ground.gridFromWorld(place)), high = glm::max(high, ground.gridFromWorld(place));
+    }
+    const glm::ivec2 last(ground.width() - 1, ground.height() - 1);
+    const glm::ivec2 from = glm::clamp(glm::ivec2(glm::floor(low)) - 2, glm::ivec2(0), last - 1);
+    const glm::ivec2 to = glm::clamp(glm::ivec2(glm::ceil(high)) + 2, from + 1, last);
+    const glm::ivec2 size = to - from + 1;
+    std::vector<float> heights;
+    heights.reserve(static_cast<std::size_t>(size.x) * size.y);
+    for (int j = from.y; j <= to.y; ++j)
+        for (int i = from.x; i <= to.x; ++i)
+            heights.push_back(static_cast<float>(ground.sample(i, j) / scale));
+    shift = ground.worldFromGrid(glm::dvec2(from) + 0.5 * glm::dvec2(size - 1));
+    return Heightfield(size.x, size.y, ground.spacing(), std::move(heights), "the ground there");
 }
 
 Heightfield thinnedGround(const Heightfield& ground, int firstX, int firstY, glm::dvec2& shift) {

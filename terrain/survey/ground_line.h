@@ -42,6 +42,12 @@ std::vector<double> errorsOfSpacing(const Heightfield& ground, const FiguresOfGr
 // Each figure's, of the same fields.
 LineMeasure errorsOfLine(const Heightfield& ground, const std::vector<glm::dvec2>& world);
 
+// The part of a ground around these places of its world, two samples wider at each side, with its heights
+// divided by `scale`. shift: where its world's origin lies. Throws Error where a place lies off the ground,
+// or nothing is known there.
+Heightfield cutGround(const Heightfield& ground, const std::vector<glm::dvec2>& world, double scale,
+                      glm::dvec2& shift);
+
 // Every second sample from (firstX, firstY) on. shift: where its world's origin lies.
 Heightfield thinnedGround(const Heightfield& ground, int firstX, int firstY, glm::dvec2& shift);
 

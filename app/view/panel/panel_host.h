@@ -11,6 +11,7 @@
 #include "app/view/bookmarks.h"
 #include "app/view/file_looks.h"
 #include "app/view/job.h"
+#include "app/view/measured_line.h"
 #include "app/view/recent_files.h"
 #include "app/view/session.h"
 #include "app/view/setting_texts.h"
@@ -111,6 +112,12 @@ public:
     virtual FileLook lookAt(const std::filesystem::path& file) = 0;
     virtual void saveScene(const std::filesystem::path& file) = 0;
     virtual void copy(const std::string& text) = 0;
+    // The line that is measured; null before a scene is there. While measuring() clicks on the picture put
+    // places of it on the surface.
+    virtual MeasuredLine* measured() { return nullptr; }
+    virtual bool measuring() const { return false; }
+    virtual void measure(bool /*on*/) {}
+    virtual void markWorld(const std::optional<glm::dvec3>& /*place*/) {}  // in the picture, until it is none
     virtual bool canUndo() const = 0;
     virtual bool canRedo() const = 0;
     virtual void undo() = 0;

@@ -9,6 +9,7 @@
 #include "app/view/panel/controls.h"
 #include "app/view/panel/file_browser.h"
 #include "app/view/panel/map_panel.h"
+#include "app/view/panel/measure_panel.h"
 #include "app/view/panel/menu_bar.h"
 #include "app/view/panel/places_panel.h"
 #include "app/view/panel/search.h"
@@ -129,6 +130,11 @@ void Panels::State::drawLeft(PanelHost& host) {
     };
     if (open("Places")) places.draw(host);
     if (MapPanel::has(host) && open("Map")) map.draw(host);
+    if (ImGui::CollapsingHeader("Measure",
+                                host.measuring() || (host.measured() && !host.measured()->places().empty())
+                                    ? ImGuiTreeNodeFlags_DefaultOpen
+                                    : 0))
+        drawMeasurePanel(host);
     if (session->open().scene->offered<SliceSource>() && open("Slices")) slices.draw(host);
 }
 

@@ -1,0 +1,43 @@
+#include "app/scene/ground_figures.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "terrain/survey/ground_area.h"
+#include "terrain/survey/ground_line.h"
+
+namespace stereonav {
+
+std::vector<GroundFigure> figuresOfLine(const Heightfield& ground, const std::vector<glm::dvec2>& world) {
+    const LineMeasure m = measureLine(ground, world), e = errorsOfLine(ground, world);
+    return {{"plan_m", "over the plan", "m", m.plan, 0},
+            {"straight_m", "straight", "m", m.straight, e.straight},
+            {"along_m", "along the ground", "m", m.along, e.along},
+            {"rise_m", "height difference", "m", m.rise, e.rise},
+            {"climb_m", "climb", "m", m.climb, e.climb},
+            {"descent_m", "descent", "m", m.descent, e.descent},
+            {"lowest_m", "lowest", "m", m.lowest, e.lowest},
+            {"highest_m", "highest", "m", m.highest, e.highest}};
+}
+
+std::vector<GroundFigure> figuresOfArea(const Heightfield& ground, const std::vector<glm::dvec2>& world,
+                                        const std::optional<double>& given) {
+    const double lowest = measureArea(ground, world, 0).lowest, plane = given.value_or(lowest);
+    const AreaMeasure m = measureArea(ground, world, plane), e = errorsOfArea(ground, world, plane);
+    return {{"area_m2", "area over the plan", "m2", m.plan, 0},
+            {"surface_m2", "area along the ground", "m2", m.along, e.along},
+            {"perimeter_m", "border over the plan", "m", m.perimeter, 0},
+            {"plane_m", "plane", "m", plane, 0},
+            {"above_m3", "volume over it", "m3", m.above, e.above},
+            {"below_m3", "volume under it", "m3", m.below, e.below},
+            {"lowest_m", "lowest", "m", m.lowest, e.lowest},
+            {"highest_m", "highest", "m", m.highest, e.highest}};
+}
+
+std::string errorText(const GroundFigure& figure) {
+    if (figure.error == 0) return "";
+    return std::isfinite(figure.error) ? fmt::format(" +- {:.2g}", figure.error) : " (error not known)";
+}
+
+}  // namespace stereonav

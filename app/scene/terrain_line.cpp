@@ -1,0 +1,49 @@
+// Lines and areas on a terrain that is flown over.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/scene/ground_figures.h"
+#include "app/scene/shown_terrain.h"
+#include "terrain/survey/ground_line.h"
+
+namespace stereonav {
+namespace {
+
+constexpr std::size_t kMostPlaces = 4000;  // of a line as it is drawn
+
+// Evenly thinned, first and last kept.
+template <typename T>
+std::vector<T> thinned(const std::vector<T>& all) {
+    if (all.size() <= kMostPlaces) return all;
+    std::vector<T> some;
+    for (std::size_t n = 0; n < kMostPlaces; ++n)
+        some.push_back(all[n * (all.size() - 1) / (kMostPlaces - 1)]);
+    return some;
+}
+
+}  // namespace
+
+MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bool closed) const {
+    const double scale = mTerrain.verticalScale;
+    std::vector<glm::dvec2> world;
+    for (const glm::dvec3& place : places) world.emplace_back(place);
+    glm::dvec2 shift;
+    const Heightfield cut = cutGround(mTerrain.ground, world, scale, shift);
+    for (glm::dvec2& place : world) place -= shift;
+    MeasuredSurface measured;
+    FactList list;
+    for (const GroundFigure& figure :
+         closed ? figuresOfArea(cut, world, std::nullopt) : figuresOfLine(cut, world))
+        list.both(figure.key, figure.value, figure.label,
+                  fmt::format("{:.7g} {}{}", figure.value, figure.unit, errorText(figure)), figure.unit);
+    measured.facts = std::move(list.facts());
+    if (closed) world.push_back(world.front());
+    for (const LinePoint& point : thinned(groundLine(cut, world))) {
+        measured.places.emplace_back(point.world + shift, scale * point.height);
+        measured.profile.emplace_back(point.distance, point.height);
+    }
+    return measured;
+}
+
+}  // namespace stereonav

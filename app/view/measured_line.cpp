@@ -1,0 +1,161 @@
+#include "app/view/measured_line.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/output/length_text.h"
+#include "app/view/kept_file.h"
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kMeasuredVersion = 1;
+
+bool isMeasuredLine(const nlohmann::json& file) {
+    if (!file.is_object() ||
+        file.value("stereonav_line", nlohmann::json()) != nlohmann::json(kMeasuredVersion) ||
+        !file.contains("places_m") || !file["places_m"].is_array() ||
+        file["places_m"].size() > MeasuredLine::kMost || !file.contains("closed") ||
+        !file["closed"].is_boolean())
+        return false;
+    for (const nlohmann::json& place : file["places_m"]) {
+        if (!place.is_array() || place.size() != 3) return false;
+        for (const nlohmann::json& number : place)
+            if (!number.is_number() || !(std::abs(number.get<double>()) <= 1e9)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::filesystem::path measuredFile(const std::filesystem::path& places) {
+    if (places.empty()) return {};
+    return places.parent_path().parent_path() / "lines" / places.filename();
+}
+
+MeasuredSurface straightMeasure(const std::vector<glm::dvec3>& places, bool closed) {
+    MeasuredSurface measured;
+    measured.places = places;
+    if (closed) measured.places.push_back(places.front());
+    double length = 0;
+    for (std::size_t n = 1; n < measured.places.size(); ++n)
+        length += glm::distance(measured.places[n - 1], measured.places[n]);
+    FactList list;
+    list.both("straight_m", length, closed ? "straight, around" : "straight", lengthText(length), "m");
+    if (places.size() > 2 && !closed) {
+        const double ends = glm::distance(places.front(), places.back());
+        list.both("ends_m", ends, "from end to end", lengthText(ends), "m");
+    }
+    measured.facts = std::move(list.facts());
+    return measured;
+}
+
+void MeasuredLine::open(std::shared_ptr<const Scene> scene, const std::filesystem::path& file) {
+    mFile = file;
+    mPlaces.clear();
+    mClosed = false;
+    std::string problem;
+    if (!file.empty())
+        if (const auto kept = readKeptJson(file, isMeasuredLine, problem)) {
+            for (const nlohmann::json& place : (*kept)["places_m"])
+                mPlaces.emplace_back(place[0].get<double>(), place[1].get<double>(), place[2].get<double>());
+            mClosed = (*kept)["closed"].get<bool>();
+        }
+    replaceScene(std::move(scene));
+    mProblem = problem;
+}
+
+void MeasuredLine::replaceScene(std::shared_ptr<const Scene> scene) {
+    mScene = std::move(scene);
+    mMeasured.reset();
+    mProblem.clear();
+    mDue = mPlaces.size() > 1;
+}
+
+bool MeasuredLine::add(const glm::dvec3& place) {
+    if (mPlaces.size() == kMost || (!mPlaces.empty() && mPlaces.back() == place)) return false;
+    mPlaces.push_back(place);
+    changed();
+    return true;
+}
+
+void MeasuredLine::removeLast() {
+    if (mPlaces.empty()) return;
+    mPlaces.pop_back();
+    changed();
+}
+
+void MeasuredLine::clear() {
+    if (mPlaces.empty()) return;
+    mPlaces.clear();
+    mClosed = false;
+    changed();
+}
+
+void MeasuredLine::setClosed(bool closed) {
+    if (closed == mClosed) return;
+    mClosed = closed;
+    changed();
+}
+
+void MeasuredLine::changed() {
+    mDue = mPlaces.size() > 1;
+    mProblem.clear();
+    if (!mDue) mMeasured.reset();
+    write();
+}
+
+// Never the reason why measuring stops.
+void MeasuredLine::write() {
+    if (mFile.empty()) return;
+    nlohmann::json places = nlohmann::json::array();
+    for (const glm::dvec3& place : mPlaces) places.push_back({place.x, place.y, place.z});
+    try {
+        writeKept(
+            mFile,
+            nlohmann::json{{"stereonav_line", kMeasuredVersion}, {"closed", mClosed}, {"places_m", places}}
+                    .dump(1) +
+                "\n");
+    } catch (const Error& error) {
+        mProblem = error.what();
+    }
+}
+
+MeasuredLine::Outcome MeasuredLine::outcomeOf(const Scene& scene, const std::vector<glm::dvec3>& places,
+                                              bool closed) {
+    try {
+        if (const auto* const measurer = scene.offered<LineMeasurer>())
+            return {measurer->measure(places, closed), ""};
+        return {straightMeasure(places, closed), ""};
+    } catch (const std::exception& error) {
+        return {{}, error.what()};
+    }
+}
+
+bool MeasuredLine::poll() {
+    bool isNew = false;
+    if (mWork.valid() && mWork.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        Outcome outcome = mWork.get();
+        isNew = true;
+        if (!mDue && mPlaces.size() > 1) {  // else something newer is wanted
+            mProblem = outcome.problem;
+            mMeasured.reset();
+            if (mProblem.empty()) mMeasured = std::move(outcome.measured);
+        }
+    }
+    if (!mDue || mWork.valid() || !mScene) return isNew;
+    mDue = false;
+    mWork = std::async(std::launch::async, [scene = mScene, places = mPlaces, wake = mWake,
+                                            closed = mClosed && mPlaces.size() > 2] {
+        Outcome outcome = outcomeOf(*scene, places, closed);
+        wake();
+        return outcome;
+    });
+    return isNew;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,29 @@
+// What a scene says of a line over its surface, for the window's measuring.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/scene/facts.h"
+
+namespace stereonav {
+
+struct MeasuredSurface {
+    Facts facts;  // each with a label and a text
+    // The line as it lies on the surface: world places, metres; and of each the distance along the line over
+    // the plan and the height, metres, which may be NaN.
+    std::vector<glm::dvec3> places;
+    std::vector<glm::dvec2> profile;
+};
+
+// A capability (capabilities.h).
+class LineMeasurer {
+public:
+    virtual ~LineMeasurer() = default;
+    // places: world, two or more that differ, on or near the surface; closed: the border of an area, three or
+    // more. May take seconds; from any thread. Throws Error where nothing can be measured there, Cancelled.
+    virtual MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed) const = 0;
+};
+
+}  // namespace stereonav
