@@ -108,6 +108,7 @@ struct SceneOptions {
     int threads = 0;     // 0: all
     SimdTarget simd = SimdTarget::Auto;
     VolumeOptions volume;
+    std::string paint;  // a word of --paint, as it was written (app/options/paint_words.h); "": none
     QualityOptions quality;
     MediumOptions medium;
     std::optional<TracedOptions> traced;  // none: of commands that trace no pictures

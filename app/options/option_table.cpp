@@ -53,9 +53,10 @@ struct Part {
     std::vector<Option> (*options)();
     bool inFile;  // whether scene files may say them
 };
-constexpr std::array<Part, 17> kParts{{{sourceOptions, true},
+constexpr std::array<Part, 18> kParts{{{sourceOptions, true},
                                        {studyOptions, true},
                                        {lookOptions, true},
+                                       {paintOptions, true},
                                        {volumeLookOptions, true},
                                        {qualityOptions, true},
                                        {mediumOptions, true},

@@ -122,6 +122,7 @@ constexpr const char* kSetKey = "set";  // gives any other option: --set fov=45
 std::vector<Option> sourceOptions();
 std::vector<Option> studyOptions();
 std::vector<Option> lookOptions();
+std::vector<Option> paintOptions();
 std::vector<Option> volumeLookOptions();
 std::vector<Option> qualityOptions();
 std::vector<Option> mediumOptions();

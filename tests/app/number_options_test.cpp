@@ -68,6 +68,7 @@ const std::set<std::string> kWords{"SCENE",
                                    "--with",
                                    "--distortion",
                                    "--findings",
+                                   "--paint",
                                    "--late-warp"};
 // Lists for which "1,5" is right.
 const std::set<std::string> kPairs{"--sun",  "--light-from", "--mist", "--isovalues",
