@@ -39,7 +39,7 @@ stereonav_part(colon OPTION STEREONAV_COLON LINK colon
     scene/medium_of_volume.cpp scene/volume_type.cpp scene/light_loading.cpp scene/lazy_light.cpp
     scene/traced_light.cpp command/bake_volume.cpp command/bake_peers_*.cpp command/info_colon.cpp
     command/info_series.cpp command/centreline_command.cpp command/coverage_command.cpp command/colon_of.cpp
-    command/findings_*.cpp command/register_command.cpp)
+    command/findings_*.cpp command/register_command.cpp command/unfold_command.cpp)
 stereonav_part(medium OPTION STEREONAV_MEDIUM LINK engine_medium
   SOURCES scene/medium_*.cpp scene/shown_medium.cpp command/info_medium.cpp view/sweep.cpp)
 stereonav_part(display OPTION STEREONAV_DISPLAY LINK engine_display

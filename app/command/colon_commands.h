@@ -47,4 +47,16 @@ struct RegisterOptions {
 };
 int runRegister(const RegisterOptions& options);
 
+struct UnfoldOptions {
+    SceneOptions scene;
+    Telling telling;
+    std::string out, distortion;            // pictures; distortion "": not written
+    double pixel_mm = 0.5;                  // of the wall, > 0
+    std::vector<glm::dvec3> at;             // LPS, metres
+    std::vector<std::pair<int, int>> pick;  // pixels
+    std::string findings;                   // .json of `findings`, marked; "": none
+    bool candidates = false, truth = false;
+};
+int runUnfold(const UnfoldOptions& options);
+
 }  // namespace stereonav

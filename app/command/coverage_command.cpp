@@ -12,12 +12,10 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
-#include "app/scene/volume_inside.h"
-#include "colon/flight/colon_flight.h"
+#include "app/scene/volume_flights.h"
 #include "colon/instruments/coverage.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/camera/recorded_path.h"
 
 namespace stereonav {
 namespace {
@@ -30,44 +28,6 @@ void checkCoverageOptions(const CoverageOptions& options) {
                     "name it patches.csv");
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     checkOutputFile("--out", options.out);
-}
-
-// Places of a flight that are about `step` metres apart.
-std::vector<Pose> posesAlong(const RecordedPath& path, double step) {
-    double length = 0;
-    const std::vector<PathSample>& samples = path.samples();
-    for (std::size_t n = 1; n < samples.size(); ++n)
-        length += glm::length(samples[n].pose.position - samples[n - 1].pose.position);
-    constexpr double kMost = 1e6;
-    return path.frames(static_cast<int>(std::min(std::ceil(length / step), kMost)) + 1);
-}
-
-// Flown back, looking where it came from.
-std::vector<Pose> backAlong(std::vector<Pose> poses) {
-    std::reverse(poses.begin(), poses.end());
-    for (Pose& pose : poses)
-        pose.orientation = pose.orientation * glm::angleAxis(std::numbers::pi, glm::dvec3(0, 1, 0));
-    return poses;
-}
-
-struct Flights {
-    std::vector<Pose> there, back;
-};
-
-Flights flightsOf(const ColonScene& colon, const CoverageOptions& options,
-                  const Coverage::FreeDistance& freeDistance, const ColonInterior& inside) {
-    const double step = 1e-3 * options.step_mm;
-    if (!options.path.empty()) {
-        const RecordedPath path = readPath(options.path);
-        inside.check(path, options.path);
-        const std::vector<Pose> poses = posesAlong(path, step);
-        return {poses, backAlong(poses)};
-    }
-    ColonFlightSetting setting;
-    setting.clearance = colon.clearance;
-    setting.largestSeparation = colon.stereo.separation;
-    return {posesAlong(colon.path, step),
-            posesAlong(centrelineFlight(freeDistance, colon.centreline, setting, true), step)};
 }
 
 Facts factsOfPatch(const UnseenPatch& patch, double along) {
@@ -118,7 +78,8 @@ int runCoverage(const CoverageOptions& options) {
     const auto freeDistance = [&](const glm::dvec3& place, double upTo) {
         return colon.freeDistanceAt(place, upTo);
     };
-    const Flights flights = flightsOf(colon, options, freeDistance, inside);
+    const ColonFlights flights =
+        colonFlights(colon, options.path, 1e-3 * options.step_mm, freeDistance, inside);
     const WallMesh wall = wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, bar.progress());
     const LineOfSight sight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue);
     CoverageSetting setting;

@@ -74,6 +74,12 @@ const NumberList& betweenNumbers() {
     return list;
 }
 
+const NumberList& pixelNumbers() {
+    static const NumberRange place = within(0, 32767, "pixels");
+    static const NumberList list{"x,y", {{"", {place, place}}}, "give two numbers, as in 1200,340"};
+    return list;
+}
+
 const NumberList& isovaluesNumbers() {
     static const NumberList list{"LOW,HIGH", {{"", {kValueRange, kValueRange}}}, "as in 80,150"};
     return list;

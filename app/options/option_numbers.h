@@ -5,15 +5,16 @@
 
 namespace stereonav {
 
-const NumberList& sunNumbers();          // --sun, --light-from: azimuth, elevation
-const NumberList& lampNumbers();         // --lamp: "head", or a place
-const NumberList& colorNumbers();        // --light-color: one or three
-const NumberList& albedoNumbers();       // --albedo: one or three
-const NumberList& skyNumbers();          // bake --sky: one or three
-const NumberList& mistNumbers();         // --mist: top, optical depth
-const NumberList& poseNumbers();         // --pose: place, and angles
-const NumberList& seedNumbers();         // --seed of a study: millimetres
-const NumberList& betweenNumbers();      // --between: two places, millimetres
+const NumberList& sunNumbers();     // --sun, --light-from: azimuth, elevation
+const NumberList& lampNumbers();    // --lamp: "head", or a place
+const NumberList& colorNumbers();   // --light-color: one or three
+const NumberList& albedoNumbers();  // --albedo: one or three
+const NumberList& skyNumbers();     // bake --sky: one or three
+const NumberList& mistNumbers();    // --mist: top, optical depth
+const NumberList& poseNumbers();    // --pose: place, and angles
+const NumberList& seedNumbers();    // --seed of a study: millimetres
+const NumberList& betweenNumbers();
+const NumberList& pixelNumbers();        // --between: two places, millimetres
 const NumberList& isovaluesNumbers();    // --isovalues: low, high
 const NumberList& pointLightNumbers();   // --light of bake, --point-light: a place, and an intensity
 const NumberList& groundPlaceNumbers();  // --from of instruments: x, y, height

@@ -7,7 +7,7 @@
 namespace stereonav {
 namespace {
 
-constexpr std::array<CommandFacts, 16> kCommands{{
+constexpr std::array<CommandFacts, 17> kCommands{{
     {command::kInfo, "info", "print what was read and the frame plan", scene_type::kAll},
     {command::kRender, "render", "one pose into a picture", scene_type::kAll},
     {command::kPlay, "play", "a flight into pictures, a video, or a hash", scene_type::kAll},
@@ -32,6 +32,7 @@ constexpr std::array<CommandFacts, 16> kCommands{{
     {command::kFindings, "findings", "polyps measured at places of a colon, as a list, a file and a page",
      scene_type::kVolumes},
     {command::kRegister, "register", "places of a colon in another study of it", scene_type::kVolumes},
+    {command::kUnfold, "unfold", "a colon's wall laid flat, as a picture", scene_type::kVolumes},
     {command::kView, "view", "fly through the scene in a window", scene_type::kAll},
 }};
 

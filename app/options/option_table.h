@@ -22,8 +22,8 @@ constexpr CommandSet kInfo = 1, kRender = 2, kPlay = 4, kCompare = 8, kReport = 
                      kProfile = 1 << 14, kSun = 1 << 15;
 constexpr CommandSet kSurveying = kViewshed | kMeasure | kProfile | kSun;  // of the ground
 // Instruments of colons: app/command/colon_commands.h.
-constexpr CommandSet kCoverage = 1 << 16, kFindings = 1 << 17, kRegister = 1 << 18;
-constexpr CommandSet kColonInstruments = kCoverage | kFindings | kRegister;
+constexpr CommandSet kCoverage = 1 << 16, kFindings = 1 << 17, kRegister = 1 << 18, kUnfold = 1 << 19;
+constexpr CommandSet kColonInstruments = kCoverage | kFindings | kRegister | kUnfold;
 constexpr CommandSet kShowing = kInfo | kRender | kPlay | kCompare | kView;  // any scene, as it looks
 }  // namespace command
 
@@ -58,6 +58,7 @@ struct OptionTargets {
     CoverageOptions* coverage = nullptr;
     FindingsOptions* findings = nullptr;
     RegisterOptions* registration = nullptr;
+    UnfoldOptions* unfold = nullptr;
     ViewOptions* view = nullptr;
 };
 

@@ -22,6 +22,11 @@ struct PaintWord {
 std::vector<PaintWord> paintWords();
 std::vector<PaintWord> groundPaintWords();   // paint_words_ground.cpp
 std::vector<OptionRule> groundPaintRules();  // of --paint
+std::vector<PaintWord> colonPaintWords();    // paint_words_colon.cpp
+std::vector<OptionRule> colonPaintRules();   // of --paint
+
+// Of colons.
+constexpr const char *kPaintCoverage = "coverage", *kPaintBothWays = "both", *kPaintFluid = "fluid";
 
 // A value of --paint, cut at its first colon.
 struct PaintAsked {

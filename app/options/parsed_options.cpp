@@ -168,6 +168,11 @@ void chooseCommand(CommandSet which, ParsedOptions& parsed) {
             tells(parsed.registration.telling);
             parsed.run = [&parsed] { return runRegister(parsed.registration); };
             break;
+        case command::kUnfold:
+            to.scene = &parsed.unfold.scene, to.unfold = &parsed.unfold, to.out = &parsed.unfold.out;
+            tells(parsed.unfold.telling);
+            parsed.run = [&parsed] { return runUnfold(parsed.unfold); };
+            break;
         case command::kBake:
             to.scene = &parsed.bake.scene, to.bake = &parsed.bake;
             tells(parsed.bake.telling);

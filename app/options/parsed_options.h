@@ -30,6 +30,7 @@ struct ParsedOptions {
     CoverageOptions coverage;
     FindingsOptions findings;
     RegisterOptions registration;
+    UnfoldOptions unfold;
     ViewOptions view;
     GivenOptions given;
     OptionTargets to;

@@ -171,11 +171,68 @@ std::vector<Option> registerOptions() {
     };
 }
 
+std::vector<Option> unfoldOptions() {
+    using command::kUnfold;
+    return {
+        {.key = "out",
+         .value = fileValue(),
+         .help = "the picture, .png or .ppm",
+         .commands = kUnfold,
+         .required = true,
+         .take = [](OptionTargets& to, const OptionValue& value) { *to.out = value.text; }},
+        {.key = "distortion",
+         .value = fileValue(),
+         .help = "a picture of how true its areas are: red is drawn too large, blue too small",
+         .commands = kUnfold,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.unfold->distortion = value.text; }},
+        {.key = "pixel",
+         .value = numberValue(within(0.1, 10, "mm")),
+         .help = "of the wall, the side of a pixel",
+         .advice = "0.5 is about a voxel",
+         .fallback = "0.5",
+         .commands = kUnfold,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.unfold->pixel_mm = value.number(); }},
+        {.key = "at",
+         .value = numbersValue(seedNumbers()),
+         .help = "a place on the wall: which pixel shows it; several are taken",
+         .commands = kUnfold,
+         .repeated = true,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.unfold->at.push_back(placeFrom(value, 0)); }},
+        {.key = "pick",
+         .value = numbersValue(pixelNumbers()),
+         .help = "a pixel: which place it shows; several are taken",
+         .commands = kUnfold,
+         .repeated = true,
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.unfold->pick.emplace_back(static_cast<int>(value.numbers[0]),
+                                              static_cast<int>(value.numbers[1]));
+             }},
+        {.key = "findings",
+         .value = fileValue(),
+         .help = "a file of stereonav findings, .json: outlined in yellow",
+         .commands = kUnfold,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.unfold->findings = value.text; }},
+        {.key = "candidates",
+         .value = flagValue(),
+         .help = "places that look like polyps by their shape: outlined in blue",
+         .commands = kUnfold,
+         .take = [](OptionTargets& to, const OptionValue&) { to.unfold->candidates = true; }},
+        {.key = "truth",
+         .value = flagValue(),
+         .help = "the polyps of the built-in colon: outlined in green, and how each is shown",
+         .commands = kUnfold,
+         .take = [](OptionTargets& to, const OptionValue&) { to.unfold->truth = true; }},
+    };
+}
+
 }  // namespace
 
 std::vector<Option> colonInstrumentOptions() {
     std::vector<Option> all;
-    for (std::vector<Option> part : {coverageOptions(), findingsOptions(), registerOptions()})
+    for (std::vector<Option> part :
+         {coverageOptions(), findingsOptions(), registerOptions(), unfoldOptions()})
         for (Option& option : part) all.push_back(std::move(option));
     return all;
 }

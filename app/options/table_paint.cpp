@@ -54,13 +54,16 @@ PaintAsked paintAskedOf(const std::string& text) {
 }
 
 std::vector<PaintWord> paintWords() {
-    return groundPaintWords();
+    std::vector<PaintWord> words = groundPaintWords();
+    for (PaintWord& word : colonPaintWords()) words.push_back(std::move(word));
+    return words;
 }
 
 std::vector<Option> paintOptions() {
     std::vector<OptionRule> rules{
         {isOfAnotherScene, "{paint} is for scenes of another type", "leave it out"}};
-    for (OptionRule& rule : groundPaintRules()) rules.push_back(std::move(rule));
+    for (const auto& ofType : {groundPaintRules(), colonPaintRules()})
+        rules.insert(rules.end(), ofType.begin(), ofType.end());
     return {
         {.key = "paint",
          .value = textValue().checked(problemOfPaint),

@@ -4,6 +4,7 @@
 
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
+#include "app/scene/volume_paint.h"
 
 namespace stereonav {
 namespace {
@@ -62,7 +63,12 @@ LitVolume litVolumeOf(const SceneOptions& options, Progress& progress, bool keep
 }
 
 std::unique_ptr<Scene> loadColonScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    return std::make_unique<ShownVolume>(litVolumeOf(options, progress), options, options, simd);
+    LitVolume lit = litVolumeOf(options, progress, paintNeedsStudy(options));
+    VolumeWorld& world = *lit.world;
+    auto scene = std::make_unique<ShownVolume>(std::move(lit), options, options, simd);
+    scene->setPaint(wallPainter(world, options, scene->lens.verticalFov, progress));
+    world.colon().study = {};
+    return scene;
 }
 
 }  // namespace stereonav

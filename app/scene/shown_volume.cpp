@@ -133,6 +133,13 @@ ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const Scen
     offerLight();
 }
 
+void ShownVolume::setPaint(std::shared_ptr<const EyePainter> painter) {
+    mPainter = std::move(painter);
+    if (!mPainter || mRenderer.translucent()) return;
+    mPaint.add(mPainter);
+    offer(mPaint);
+}
+
 FrameMaker& ShownVolume::frames() const {
     return mFrames;
 }
@@ -232,6 +239,7 @@ std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progres
         std::make_shared<ShownVolume>(std::move(made), mFirst, options, mRenderer.target(), &mValues);
     scene->name = name;
     scene->lens = lens;
+    scene->setPaint(mPainter);
     scene->mChoices.ambientMethods = mChoices.ambientMethods;  // one that was given stays among them
     if (mLighting.lazy) mLighting.lazy->showSurface(isovalue);
     return scene;

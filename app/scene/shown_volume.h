@@ -10,6 +10,7 @@
 #include "app/scene/volume_world.h"
 #include "engine/frame/cast_frames.h"
 #include "engine/scene/shown_values.h"
+#include "engine/scene/surface_paint.h"
 
 namespace stereonav {
 
@@ -36,6 +37,10 @@ public:
     ShownVolume(LitVolume volume, const SceneOptions& first, const SceneOptions& made, SimdTarget target,
                 const ShownValues* before = nullptr);
 
+    // Paints the wall in pictures that are shown: before the first, at most once. Offers a SurfacePaint,
+    // unless the painter is null or the wall translucent.
+    void setPaint(std::shared_ptr<const EyePainter> painter);
+
     FrameMaker& frames() const override;
     std::unique_ptr<Flight> makeFlight() const override;
     void check(const RecordedPath& flight, const std::string& file) const override;
@@ -58,6 +63,8 @@ private:
     mutable CastFrames mFrames;
     std::unique_ptr<SeenVolumeLight> mLight;  // that is worked out while one looks, or turns; else null
     SurfaceChoices mChoices;
+    std::shared_ptr<const EyePainter> mPainter;  // null: nothing is painted
+    SurfacePaint mPaint;
 };
 
 // What the user changed, into `options`; `first`: those that the study was loaded with.

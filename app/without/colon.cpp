@@ -58,6 +58,10 @@ int runRegister(const RegisterOptions&) {
     without();
 }
 
+int runUnfold(const UnfoldOptions&) {
+    without();
+}
+
 bool looksLikeStudy(const std::filesystem::path& path) {
     const std::string name = path.filename().string();
     for (const char* end : {".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd"})

@@ -1,4 +1,4 @@
-// `stereonav findings` and `register` as a user runs them.
+// `stereonav findings`, `register` and `unfold` as a user runs them.
 #include <nlohmann/json.hpp>
 
 #include "engine/image/image_file.h"
@@ -116,6 +116,44 @@ TEST_F(ColonInstruments, StudiesAreRegistered) {
     expectRefused({"register", a, "--with", b, "--bend", "4"}, {"--bend", "--with colon"});
     expectRefused({"register", a, "--with", "none.nrrd"}, {"none.nrrd"});
     expectRefused({"register", a, "--with", b, "--out", "a.txt"}, {"--out", ".csv"});
+}
+
+TEST_F(ColonInstruments, TheWallIsUnfolded) {
+    const std::string study = withPolyp();
+    const Json json = documentOf({"unfold", study, "--out", "wall.png", "--distortion", "map.png"});
+    const auto size = json.at("size").get<std::vector<int>>();
+    const Plane<PackedColor> picture = readColorImage(place() / "wall.png"),
+                             map = readColorImage(place() / "map.png");
+    EXPECT_EQ(picture.width(), size[0]);
+    EXPECT_EQ(map.height(), size[1]);
+    EXPECT_LT(json.at("area_error_percent").get<double>(), 40);
+    // To a pixel and back.
+    const Json at = documentOf({"unfold", study, "--out", "wall.png", "--at", "0,-14,0"})["places"][0];
+    ASSERT_FALSE(at.at("hidden").get<bool>());
+    const auto pixel = at.at("pixel").get<std::vector<double>>();
+    const Json back =
+        documentOf({"unfold", study, "--out", "wall.png", "--pick",
+                    std::to_string(std::lround(pixel[0])) + "," + std::to_string(std::lround(pixel[1])),
+                    "--pick", "32000,0"})["places"];
+    const auto there = back[0].at("place_mm").get<std::vector<double>>();
+    EXPECT_NEAR(there[0], 0, 1.5);
+    EXPECT_NEAR(there[1] + 14, 0, 1.5 + at.at("from_wall_mm").get<double>());
+    EXPECT_NEAR(there[2], 0, 1.5);
+    EXPECT_FALSE(back[1].contains("place_mm")) << "beside the picture";
+    // A finding is outlined.
+    documentOf({"findings", study, "--at", kPolyp, "--file", "f.json"});
+    documentOf({"unfold", study, "--out", "marked.png", "--findings", "f.json"});
+    const Plane<PackedColor> marked = readColorImage(place() / "marked.png");
+    int changed = 0;
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) changed += marked.at(x, y) != picture.at(x, y);
+    EXPECT_GT(changed, 30);
+    for (const char* file : {"wall.png", "map.png", "marked.png", "f.json"})
+        std::filesystem::remove(place() / file);
+    expectRefused({"unfold", study, "--out", "a.obj"}, {"--out", "a.obj"});
+    expectRefused({"unfold", study}, {"--out"});
+    expectRefused({"unfold", study, "--out", "a.png", "--pixel", "0"}, {"--pixel"});
+    expectRefused({"unfold", study, "--out", "a.png", "--truth"}, {"--truth", "built-in"});
 }
 
 }  // namespace

@@ -69,9 +69,13 @@ const std::set<std::string> kWords{"SCENE",
                                    "--file",
                                    "--page",
                                    "--with",
+                                   "--distortion",
+                                   "--findings",
+                                   "--paint",
                                    "--late-warp"};
 // Lists for which "1,5" is right.
-const std::set<std::string> kPairs{"--sun", "--light-from", "--mist", "--isovalues", "--from", "--to"};
+const std::set<std::string> kPairs{"--sun",  "--light-from", "--mist", "--isovalues",
+                                   "--from", "--to",         "--pick"};
 
 const std::vector<std::string> kNoNumbers{
     "nan", "inf",   "-inf", "NaN", "infinity", "1e300", "-1e300", std::string(309, '7'),

@@ -38,6 +38,7 @@ protected:
                 {{"findings", maskedTube(), "--no-cache", "--at", "0,7,0"}, "--csv", "a.csv"},
                 {{"findings", maskedTube(), "--no-cache", "--at", "0,7,0"}, "--page", "a.html"},
                 {{"register", maskedTube(), "--no-cache", "--with", maskedTube()}, "--out", "a.csv"},
+                {{"unfold", maskedTube(), "--no-cache"}, "--out", "a.png"},
                 {{"bake", hills(), "--what", "openness", "--resolution", "1"}, "--out", "a.light"},
                 {{"bake", maskedTube(), "--no-cache", "--samples", "1", "--resolution", "0.2"},
                  "--out",

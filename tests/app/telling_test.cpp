@@ -62,6 +62,9 @@ protected:
                   {"findings", "crads", "notice", "table"}}},
                 {"register",
                  {{maskedTube(), "--no-cache", "--with", maskedTube()}, {"length_mm", "other", "cost"}}},
+                {"unfold",
+                 {{maskedTube(), "--no-cache", "--out", "wall.png"},
+                  {"picture", "size", "area_error_percent", "hidden_percent"}}},
                 {"bake",
                  {{ground, "--what", "openness", "--resolution", "0.25", "--out", "a.light"},
                   {"light", "what", "baked_before", "samples"}}}};

@@ -102,6 +102,7 @@ std::vector<FaultCase> FaultTest::cases() const {
         {"findings file", {"findings", study, "--no-cache", "--at", "0,7,0", "--file", "a.json"}, ""},
         {"findings page", {"findings", study, "--no-cache", "--at", "0,7,0", "--page", "a.html"}, "a.html"},
         {"register", {"register", study, "--no-cache", "--with", study, "--out", "a.csv"}, "a.csv"},
+        {"unfold", {"unfold", study, "--no-cache", "--out", "a.png"}, "a.png"},
         {"bake terrain", {"bake", scene, "--what", "openness", "--resolution", "1", "--out", "a.light"}, ""},
         {"bake volume",
          {"bake", study, "--no-cache", "--samples", "1", "--resolution", "0.2", "--out", "a.bake"},

@@ -54,7 +54,7 @@ TEST_F(Faults, OfMeshesAndCentrelines) {
 }
 
 TEST_F(Faults, OfInstrumentsOfColons) {
-    for (const char* command : {"coverage", "findings", "register"}) tryAll(command, kSample);
+    for (const char* command : {"coverage", "findings", "register", "unfold"}) tryAll(command, kSample);
 }
 
 TEST_F(Faults, OfBakes) {

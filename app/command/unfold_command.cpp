@@ -1,0 +1,183 @@
+// `stereonav unfold`: the wall of a colon laid flat, as a picture; places of the colon in it, and back.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/command/colon_commands.h"
+#include "app/command/colon_of.h"
+#include "app/command/findings_words.h"
+#include "app/output/command_result.h"
+#include "app/output/output_place.h"
+#include "app/output/progress_bar.h"
+#include "app/scene/scene_loading.h"
+#include "colon/instruments/candidates.h"
+#include "colon/instruments/finding.h"
+#include "colon/instruments/unfolding.h"
+#include "engine/base/error.h"
+#include "engine/image/image_file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kShownWithin = 0.002;  // metres: a place is shown where the picture shows wall so near
+const glm::vec3 kTruthColor(0.02f, 0.6f, 0.1f), kFindingColor(0.9f, 0.6f, 0.0f),
+    kCandidateColor(0.05f, 0.2f, 0.9f);
+
+void checkUnfoldOptions(const UnfoldOptions& options) {
+    expectColonName(options.scene.scene);
+    std::vector<NamedPlace> inputs = inputsOf(options.scene);
+    if (!options.findings.empty()) inputs.push_back({"--findings", options.findings});
+    for (const auto& [option, file] :
+         {std::pair("--out", options.out), std::pair("--distortion", options.distortion)}) {
+        if (file.empty()) continue;
+        checkOutputPicture(option, file);
+        checkNoInput({option, file}, inputs);
+    }
+    if (options.truth && options.scene.scene != "colon")
+        throw Error("--truth", "",
+                    "expected with the built-in colon, of other studies the truth is not known",
+                    "mark findings with --findings FILE.json");
+}
+
+FactNumbers millimetresOf(const glm::dvec3& world) {
+    return {1e3 * world.x, 1e3 * world.y, 1e3 * world.z};
+}
+
+struct Flattened {
+    const ColonScene& colon;
+    const WallMesh& wall;
+    const WallNeighbours& neighbours;
+    const UnfoldedWall& flat;
+};
+
+// What is marked, with the heads that marks are made of.
+struct Marked {
+    std::vector<MeasuredPolyp> heads;
+    std::vector<glm::vec3> colors;
+
+    void add(MeasuredPolyp head, const glm::vec3& color) {
+        heads.push_back(std::move(head));
+        colors.push_back(color);
+    }
+    std::vector<UnfoldedWall::Mark> marks() const {
+        std::vector<UnfoldedWall::Mark> all;
+        for (std::size_t n = 0; n < heads.size(); ++n) all.push_back({heads[n].vertices, colors[n]});
+        return all;
+    }
+};
+
+// How the polyps of a generated colon are shown.
+void tellTruth(CommandResult& result, const Flattened& of, Marked& marked) {
+    std::vector<Facts> list;
+    int once = 0;
+    for (const Polyp& truth : of.colon.polyps) {
+        std::string why;
+        auto polyp =
+            polypAt(of.wall, of.neighbours, truth.position, polypSettingOf(of.colon.volume.field.frame), why);
+        Facts facts{factForJson("truth_mm", 1e3 * truth.diameter),
+                    factForJson("truth_shape", std::string(nameOf(truth.shape)))};
+        if (polyp) {
+            const UnfoldedWall::Shown shown = of.flat.shown(*polyp);
+            const glm::dvec2 at = of.flat.pixelOf(polyp->tip);
+            once += shown.share >= 0.5 && shown.pieces == 1;
+            facts.push_back(factForJson("shown_percent", 100 * shown.share));
+            facts.push_back(factForJson("area_percent", 100 * shown.area));
+            facts.push_back(factForJson("pieces", static_cast<std::int64_t>(shown.pieces)));
+            facts.push_back(factForJson("pixel", FactNumbers{at.x, at.y}));
+            marked.add(std::move(*polyp), kTruthColor);
+        }
+        list.push_back(std::move(facts));
+    }
+    result.say(fmt::format("  {} of {} polyps are shown once, by half of their heads at least\n", once,
+                           of.colon.polyps.size()));
+    result.add("polyps_once", static_cast<std::int64_t>(once));
+    result.add("polyps", std::move(list));
+}
+
+void mark(const UnfoldOptions& options, const Flattened& of, Marked& marked) {
+    const PolypSetting setting = polypSettingOf(of.colon.volume.field.frame);
+    if (!options.findings.empty())
+        for (const KeptFinding& kept : readFindings(options.findings)) {
+            std::string why;
+            if (auto polyp = polypAt(of.wall, of.neighbours, kept.place, setting, why))
+                marked.add(std::move(*polyp), kFindingColor);
+        }
+    if (!options.candidates) return;
+    CandidateSetting candidates;
+    candidates.polyp = setting;
+    for (Candidate& candidate : polypCandidates(of.wall, of.neighbours, candidates))
+        marked.add(std::move(candidate.polyp), kCandidateColor);
+}
+
+void tellPlaces(CommandResult& result, const UnfoldOptions& options, const Flattened& of) {
+    std::vector<Facts> list;
+    for (const glm::dvec3& place : options.at) {
+        const std::uint32_t vertex = nearestVertex(of.wall, place);
+        const glm::dvec2 at = of.flat.pixelOf(vertex);
+        const bool hidden = of.flat.hidden(vertex, kShownWithin);
+        const double off = 1e3 * glm::distance(place, glm::dvec3(of.wall.places[vertex]));
+        result.say(fmt::format("  {} is at pixel {:.0f},{:.0f}{}, {:.1f} mm from the wall\n",
+                               placeText(place), at.x, at.y, hidden ? ", hidden by a fold" : "", off));
+        list.push_back({factForJson("place_mm", millimetresOf(place)),
+                        factForJson("pixel", FactNumbers{at.x, at.y}), factForJson("hidden", hidden),
+                        factForJson("from_wall_mm", off)});
+    }
+    for (const auto& [x, y] : options.pick) {
+        const auto place = of.flat.placeAt(x, y);
+        if (!place) {
+            result.say(fmt::format("  pixel {},{}: no wall\n", x, y));
+            list.push_back({factForJson("pixel", FactNumbers{1.0 * x, 1.0 * y})});
+            continue;
+        }
+        const double along = 1e3 * of.flat.alongAt(x);
+        result.say(fmt::format("  pixel {},{} shows {}, {:.0f} mm along\n", x, y, placeText(*place), along));
+        list.push_back({factForJson("pixel", FactNumbers{1.0 * x, 1.0 * y}),
+                        factForJson("place_mm", millimetresOf(*place)), factForJson("along_mm", along)});
+    }
+    if (!list.empty()) result.add("places", std::move(list));
+}
+
+}  // namespace
+
+int runUnfold(const UnfoldOptions& options) {
+    checkUnfoldOptions(options);
+    CommandResult result("unfold", options.telling,
+                         {{"--out", options.out}, {"--distortion", options.distortion}});
+    ProgressBar bar(!options.telling.quiet);
+    const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress(), kNoPicture);
+    checkNotRead({{"--out", options.out}, {"--distortion", options.distortion}});
+    const ColonScene& colon = colonOf(*scene, options.scene);
+    const WallMesh wall = wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, bar.progress());
+    const WallNeighbours neighbours = neighboursOf(wall);
+    const LineOfSight sight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue);
+    UnfoldSetting setting;
+    setting.pixel = 1e-3 * options.pixel_mm;
+    const UnfoldedWall flat(wall, neighbours, colon.centreline, sight, setting, bar.progress());
+    const Flattened of{colon, wall, neighbours, flat};
+    Marked marked;
+    if (options.truth) tellTruth(result, of, marked);
+    mark(options, of, marked);
+    tellPlaces(result, options, of);
+    writeColorImage(options.out, flat.picture(colon.volume.look, marked.marks()));
+    if (!options.distortion.empty()) writeColorImage(options.distortion, flat.distortionMap());
+    bar.clear();
+    const UnfoldedWall::AreaError error = flat.areaError();
+    const double hides = 100 * flat.hiddenShare(kShownWithin);
+    result.say(fmt::format(
+        "{}: {}x{} pixels of {:g} mm; areas of square centimetres are off by {:.0f} % on average, 95 of "
+        "100 by {:.0f} % at most; {:.1f} % of the wall is hidden by folds; {}\n",
+        options.out, flat.width(), flat.height(), options.pixel_mm, 100 * error.mean, 100 * error.most95,
+        hides, kNoMedicalDevice));
+    result.add("scene", scene->name);
+    result.addFile("picture", options.out);
+    if (!options.distortion.empty()) result.addFile("map", options.distortion);
+    result.add("size", FactIntegers{flat.width(), flat.height()});
+    result.add("pixel_mm", options.pixel_mm);
+    result.add("area_error_percent", 100 * error.mean);
+    result.add("area_error_95_percent", 100 * error.most95);
+    result.add("hidden_percent", hides);
+    result.finish();
+    return 0;
+}
+
+}  // namespace stereonav

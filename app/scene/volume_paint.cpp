@@ -1,0 +1,100 @@
+#include "app/scene/volume_paint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/options/paint_words.h"
+#include "app/scene/volume_flights.h"
+#include "colon/instruments/coverage.h"
+#include "colon/instruments/wall_painter.h"
+#include "colon/wall/wall_mesh.h"
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+const glm::vec3 kUnseenTint(0.1f, 0.55f, 2.6f), kFluidTint(0.1f, 1.5f, 0.25f);
+constexpr int kSoftRounds = 2;
+constexpr double kFlightStep = 0.002;  // metres between poses, as `coverage`
+constexpr double kIntoLumen = 1.5;     // of the smallest spacing, from the wall, where fluid is looked for
+constexpr double kDry = -200;          // HU: more is fluid where the lumen is
+
+// By vertex: 1 where the flight did not show the wall.
+std::vector<float> unseenOf(const VolumeWorld& world, const ColonInterior& inside, const WallMesh& wall,
+                            const std::string& which, double verticalFov, Progress& progress) {
+    const ColonScene& colon = world.colon();
+    const auto freeDistance = [&](const glm::dvec3& place, double upTo) {
+        return colon.freeDistanceAt(place, upTo);
+    };
+    const bool both = which == kPaintBothWays;
+    const ColonFlights flights = colonFlights(colon, both ? "" : which, kFlightStep, freeDistance, inside);
+    const LineOfSight sight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue);
+    CoverageSetting setting;
+    setting.verticalFov = verticalFov;
+    Coverage coverage(wall, sight, setting);
+    coverage.look(flights.there, progress);
+    if (both) coverage.look(flights.back, progress);
+    std::vector<float> marks(wall.places.size());
+    std::transform(coverage.seen().begin(), coverage.seen().end(), marks.begin(),
+                   [](std::uint8_t seen) { return seen ? 0.0f : 1.0f; });
+    return marks;
+}
+
+// By vertex: 1 where the study has more than air just before the wall, in what is now lumen.
+std::vector<float> fluidOf(const ColonScene& colon, const WallMesh& wall) {
+    if (colon.study.empty())
+        throw Error("--paint fluid", "", "a mask tells nothing of fluid",
+                    "name the study that it was made from");
+    const VolumeFrame &before = colon.study.frame, &now = colon.volume.field.frame;
+    const double step = kIntoLumen * std::min({now.spacing.x, now.spacing.y, now.spacing.z});
+    std::vector<float> marks(wall.places.size(), 0.0f);
+    for (std::size_t v = 0; v < marks.size(); ++v) {
+        const glm::dvec3 place = glm::dvec3(wall.places[v]) + step * glm::dvec3(wall.normals[v]);
+        const glm::ivec3 lumen(glm::round(now.voxelFromWorld(place))),
+            study(glm::round(before.voxelFromWorld(place)));
+        if (!now.contains(lumen) || !before.contains(study) || colon.lumen.lumen.at(lumen) == 0) continue;
+        const double value = colon.study.at(study) * colon.study.scale + colon.study.offset;
+        marks[v] = value > kDry ? 1.0f : 0.0f;
+    }
+    return marks;
+}
+
+double percentOf(const WallMesh& wall, const std::vector<float>& marks) {
+    double marked = 0, all = 0;
+    for (std::size_t v = 0; v < marks.size(); ++v) {
+        all += wall.areas[v];
+        marked += marks[v] * wall.areas[v];
+    }
+    return all > 0 ? 100 * marked / all : 0;
+}
+
+}  // namespace
+
+bool paintNeedsStudy(const SceneOptions& options) {
+    return paintAskedOf(options.paint).word == kPaintFluid;
+}
+
+std::shared_ptr<const EyePainter> wallPainter(VolumeWorld& world, const SceneOptions& options,
+                                              double verticalFov, Progress& progress) {
+    if (options.paint.empty()) return nullptr;
+    ColonScene& colon = world.colon();
+    const ColonInterior* const inside = world.side().interior();
+    if (!inside) throw Error("--paint", "", "expected a colon, whose wall is painted", "leave it out");
+    const PaintAsked asked = paintAskedOf(options.paint);
+    const WallMesh wall = wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, progress);
+    const bool fluid = asked.word == kPaintFluid;
+    std::vector<float> marks =
+        fluid ? fluidOf(colon, wall) : unseenOf(world, *inside, wall, asked.rest, verticalFov, progress);
+    colon.notes.push_back(
+        fluid ? fmt::format("{:.1f} % of the wall was under tagged fluid: it is tinted green, "
+                            "and is to be checked in the slices",
+                            percentOf(wall, marks))
+              : fmt::format("{:.1f} % of the wall is not seen: it is tinted blue", percentOf(wall, marks)));
+    marks = softened(neighboursOf(wall), std::move(marks), kSoftRounds);
+    return std::make_shared<WallPainter>(
+        std::make_shared<const WallMarks>(wall, colon.volume.field.frame, marks),
+        fluid ? kFluidTint : kUnseenTint);
+}
+
+}  // namespace stereonav

@@ -1,0 +1,21 @@
+// What the options paint on a colon's wall.
+#pragma once
+
+#include <memory>
+
+#include "app/command/commands.h"
+#include "app/scene/volume_world.h"
+#include "engine/base/progress.h"
+#include "engine/render/eye_painter.h"
+
+namespace stereonav {
+
+// Whether what is asked for needs the study's own values (ColonScene::study).
+bool paintNeedsStudy(const SceneOptions& options);
+
+// Null where nothing is asked for. verticalFov: of the pictures, radians. Says in the colon's notes how much
+// is painted. Throws Error (no colon; no study), Cancelled.
+std::shared_ptr<const EyePainter> wallPainter(VolumeWorld& world, const SceneOptions& options,
+                                              double verticalFov, Progress& progress);
+
+}  // namespace stereonav

@@ -1,0 +1,119 @@
+// The wall of a colon laid flat along its centreline.
+//
+// Every place of the wall goes to one place of the picture: across by the place of the line that it belongs
+// to, down by the angle about the line, stretched so that parts of the picture have the area of the wall that
+// they show. Casting rays from the line instead (Vilanova Bartroli et al., "Virtual colon flattening", VisSym
+// 2001) shows a place twice, or not at all, where sections of a bend cross; here a place has one number along
+// the line and one angle, so nothing is shown twice. Both are smoothed over the wall (a screened Poisson
+// equation), so that they do not jump where sections cross. Folds that lean over hide what is behind them:
+// what is nearer to the line is in front.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "colon/centreline/centreline.h"
+#include "colon/instruments/polyp.h"
+#include "colon/instruments/unfolding_line.h"
+#include "colon/wall/line_of_sight.h"
+#include "colon/wall/wall_mesh.h"
+#include "engine/base/progress.h"
+#include "engine/image/packed_color.h"
+#include "engine/image/plane.h"
+#include "engine/volume/volume_look.h"
+
+namespace stereonav {
+
+struct UnfoldSetting {
+    double pixel = 0.0005;  // metres, > 0: of the wall, the side of a pixel
+    double even = 0.005;    // metres, > 0: over which areas are made equal
+    double stiff = 0.003;   // metres, >= 0: over which numbers along and around the line are smoothed
+};
+
+class UnfoldedWall {
+public:
+    static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
+    // All must outlive it. Column 0 is the rectum's end. The same on any number of threads. Throws Error (no
+    // wall, no line, too large a picture), Cancelled.
+    UnfoldedWall(const WallMesh& mesh, const WallNeighbours& neighbours, const Centreline& line,
+                 const LineOfSight& sight, const UnfoldSetting& setting, Progress& progress);
+
+    int width() const { return mWidth; }
+    int height() const { return mHeight; }
+    double pixel() const { return mSetting.pixel; }
+    // The vertex that is next to what a pixel shows; kNone beside the wall.
+    std::uint32_t vertexAt(int x, int y) const { return mVertex[static_cast<std::size_t>(y) * mWidth + x]; }
+    // World, metres, on the wall; nothing beside it, or outside the picture.
+    std::optional<glm::dvec3> placeAt(int x, int y) const;
+    // Where a vertex lies in the picture, pixels, also where another one hides it.
+    glm::dvec2 pixelOf(std::uint32_t vertex) const;
+    // Whether the picture shows wall further off than `within` metres at that place.
+    bool hidden(std::uint32_t vertex, double within) const;
+    // Share of the wall's area that is hidden so.
+    double hiddenShare(double within) const;
+
+    // Metres along the line at a column, and back; the line goes on straight beyond its ends, where numbers
+    // are negative or larger than its length. Columns are evenly spaced along the line but where more wall
+    // lies than columns are high: at its ends.
+    double alongAt(double column) const;
+    double columnAt(double along) const;
+
+    // Under the lamp of a viewer on the centreline, white beside the wall. Below it a mark every centimetre
+    // of the line, a long one every ten, and the outline of a square of one centimetre's side.
+    struct Mark {
+        std::span<const std::uint32_t> vertices;  // ascending
+        glm::vec3 color{1};
+    };
+    Plane<PackedColor> picture(const VolumeLook& look, std::span<const Mark> marks) const;
+    // How much of the picture a piece of wall takes, over squares of a centimetre: grey where it is its area,
+    // red twice as much and more, blue half and less.
+    Plane<PackedColor> distortionMap() const;
+
+    // Of squares of a centimetre that lie within the picture: by how much the area of wall in them is off.
+    struct AreaError {
+        double mean = 0, most95 = 0;  // shares; 95 of 100 squares are off by no more
+        int squares = 0;
+    };
+    AreaError areaError() const;
+
+    // How a polyp is shown: the share of its head's area that is not hidden, the picture's area over its own,
+    // and in how many pieces (of a tenth of its pixels at least).
+    struct Shown {
+        double share = 0, area = 0;
+        int pieces = 0;
+    };
+    Shown shown(const MeasuredPolyp& polyp) const;
+
+private:
+    void placeAlong(const LineOfSight& sight, Progress& progress);
+    void placeAround(Progress& progress);
+    void makeColumns();
+    void makeEqual();
+    void draw();
+    void drawTriangle(const std::array<std::uint32_t, 3>& triangle);
+    void drawFlat(const std::array<std::uint32_t, 3>& triangle, const std::array<glm::dvec2, 3>& at);
+    double downAt(double column, double turn) const;
+    double halfAt(int column) const;
+    std::vector<float> densities(int side) const;
+
+    const WallMesh& mMesh;
+    const WallNeighbours& mNeighbours;
+    UnfoldSetting mSetting;
+    UnfoldingLine mLine;
+    std::vector<float> mAlong;        // by vertex, metres
+    std::vector<float> mTurn, mAway;  // radians; metres from the line
+    double mFirst = 0;                // metres along the line where the columns start
+    std::vector<double> mColumns;     // by steps of the line: where they lie, pixels, ascending
+    std::vector<float> mTall;         // by column: pixels of wall
+    std::vector<float> mShare;        // by column and turn: of the wall's area before that turn
+    int mWidth = 0, mHeight = 0;
+    std::vector<std::uint32_t> mVertex;        // by pixel
+    std::vector<float> mNear;                  // by pixel: of what it shows, metres from the line
+    std::vector<glm::vec3> mPlaces, mNormals;  // by pixel
+};
+
+}  // namespace stereonav

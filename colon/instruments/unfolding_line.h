@@ -1,0 +1,45 @@
+// The line that a wall is laid flat along: a smoothed centreline with frames that do not twist, straight on
+// beyond its ends as far as the lumen goes; and numbers of a wall's vertices, smoothed over the wall.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "colon/centreline/centreline.h"
+#include "colon/wall/line_of_sight.h"
+#include "colon/wall/wall_mesh.h"
+
+namespace stereonav {
+
+class UnfoldingLine {
+public:
+    static constexpr double kStep = 0.001;  // metres between frames
+
+    struct Frame {
+        glm::dvec3 place{0.0}, tangent{0.0}, across{0.0}, over{0.0};
+    };
+
+    // Throws Error for a line of less than 2 mm.
+    UnfoldingLine(const Centreline& line, const LineOfSight& sight);
+
+    double first() const { return -mBefore; }  // metres along the line, <= 0
+    double length() const { return mLength; }  // metres, of the centreline
+    const std::vector<Frame>& frames() const { return mFrames; }
+    double alongOf(std::size_t frame) const { return static_cast<double>(frame) * kStep - mBefore; }
+    // Between frames; beyond them the last ones.
+    Frame at(double along) const;
+
+private:
+    double mBefore = 0, mLength = 0;
+    std::vector<Frame> mFrames;
+};
+
+// What minimises the sum of (f - value)^2 over the known vertices and `length`^2 |grad f|^2 over the wall,
+// for three values at once: a screened Poisson equation in linear elements, by Jacobi's rule. Vertices that
+// are not known take what is next to them. The same on any number of threads.
+std::vector<glm::vec3> smoothOverWall(const WallMesh& mesh, const WallNeighbours& neighbours,
+                                      std::vector<glm::vec3> values, std::vector<std::uint8_t> known,
+                                      double length);
+
+}  // namespace stereonav

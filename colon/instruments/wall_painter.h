@@ -1,0 +1,25 @@
+// Tints a lumen's wall where it is marked, in finished pictures.
+#pragma once
+
+#include <memory>
+
+#include "colon/instruments/wall_marks.h"
+#include "engine/render/eye_painter.h"
+
+namespace stereonav {
+
+class WallPainter final : public EyePainter {
+public:
+    // tint: linear RGB of a fully marked white wall; the wall's light and shade stay. Marks are drawn from
+    // 0.35 on, in full from 0.65.
+    WallPainter(std::shared_ptr<const WallMarks> marks, const glm::vec3& tint)
+        : mMarks(std::move(marks)), mTint(tint) {}
+
+    void paint(const EyeView& view, EyeImage& image) const override;
+
+private:
+    std::shared_ptr<const WallMarks> mMarks;
+    glm::vec3 mTint;
+};
+
+}  // namespace stereonav
