@@ -48,8 +48,7 @@ TEST_F(GroundPaintOptionsTest, ChangePicturesAndNoneLeavesThemAsTheyAre) {
         {"--paint", "hillshade"},
         {"--paint", "viewshed:50,50,2"},
         {"--tracks", (place() / "walk.geojson").string()},
-        {"--tracks", (place() / "walk.geojson").string(), "--contours", "10", "--paint", "slope", "--edges",
-         "off"}};
+        {"--tracks", (place() / "walk.geojson").string(), "--contours", "10", "--paint", "slope", "--edges", "0"}};
     for (const auto& words : all) EXPECT_TRUE(pictures.insert(picture(dem, words)).second) << words[1];
 }
 
