@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
@@ -29,6 +30,19 @@ void checkMeshOptions(const MeshOptions& options) {
                     "render, play and view show it; mesh writes the ground of terrains");
 }
 
+MeshPlace placeOfMesh(const TerrainScene& terrain) {
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    const TerrainReport& report = terrain.report;
+    MeshPlace place;
+    place.crs = report.sourceCrs;
+    if (report.sourceUnit > 0) place.offset = report.sourceOffset, place.unit = report.sourceUnit;
+    if (terrain.earth)
+        if (const auto origin = terrain.earth->placeAt(glm::dvec2(0.0)))
+            place.originDegrees = glm::dvec2(origin->longitude, origin->latitude) * kDegrees;
+    place.verticalScale = terrain.verticalScale;
+    return place;
+}
+
 }  // namespace
 
 int runMesh(const MeshOptions& options) {
@@ -43,7 +57,7 @@ int runMesh(const MeshOptions& options) {
     const double error = options.error_m < 0 ? halfSpacing : options.error_m;
     const TerrainMesh mesh = simplifyTerrain(ground, error, bar.progress());
     bar.progress().report(1.0, "writing");
-    writeTerrainMesh(options.out, ground, terrain.color, mesh);
+    writeTerrainMesh(options.out, ground, terrain.color, mesh, placeOfMesh(terrain));
     bar.clear();
     const double cells = static_cast<double>(ground.width() - 1) * (ground.height() - 1);
     const double share = 100.0 * static_cast<double>(mesh.triangles.size()) / (2.0 * cells);

@@ -11,6 +11,7 @@
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
 #include "terrain/read/scene_file.h"
+#include "terrain/scene/followed_track.h"
 #include "terrain/scene/terrain_illumination.h"
 #include "terrain/scene/terrain_loader.h"
 
@@ -81,8 +82,10 @@ std::vector<NamedPlace> filesOfTerrain(const std::string& toml) {
 TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
     TerrainScene terrain = loadTerrain(describeTerrain(options), progress);
     refuseSunWithoutEffect(options, terrain);
-    if (!options.ground.follow.empty())
+    if (!options.ground.follow.empty()) {
         terrain.path = followedTrack(terrain, options.ground.follow, options.ground.followHeight_m);
+        if (!terrain.eyesGiven) terrain.stereo = followedEyes(options.ground.followHeight_m);
+    }
     terrain.detail = options.groundDetail && !shownAs(options).swept;
     return terrain;
 }

@@ -98,6 +98,25 @@ void checkFileMemory(const std::filesystem::path& file, double texels, const Ter
                 "give a larger --error");
 }
 
+tinygltf::Value pairOf(const glm::dvec2& pair) {
+    return tinygltf::Value(tinygltf::Value::Array{tinygltf::Value(pair.x), tinygltf::Value(pair.y)});
+}
+
+tinygltf::Value extrasOf(const MeshPlace& place) {
+    tinygltf::Value::Object said;
+    said["crs"] = tinygltf::Value(place.crs);
+    if (place.offset) {
+        said["offset"] = pairOf(*place.offset);
+        said["metres_a_unit"] = tinygltf::Value(place.unit);
+    }
+    if (place.originDegrees) said["origin_longitude_latitude"] = pairOf(*place.originDegrees);
+    said["vertical_scale"] = tinygltf::Value(place.verticalScale);
+    said["axes"] = tinygltf::Value(std::string("x east, y up, z south; metres from the origin"));
+    tinygltf::Value::Object extras;
+    extras["stereonav_place"] = tinygltf::Value(std::move(said));
+    return tinygltf::Value(std::move(extras));
+}
+
 }  // namespace
 
 bool isMeshFileName(const std::filesystem::path& file) {
@@ -105,7 +124,7 @@ bool isMeshFileName(const std::filesystem::path& file) {
 }
 
 void writeTerrainMesh(const std::filesystem::path& file, const Heightfield& ground, const ColorTexture& color,
-                      const TerrainMesh& mesh) {
+                      const TerrainMesh& mesh, const MeshPlace& place) {
     if (!isMeshFileName(file))
         throw Error(file.string(), "",
                     fmt::format("expected a mesh named .glb or .gltf, got \"{}\"", file.extension().string()),
@@ -124,9 +143,11 @@ void writeTerrainMesh(const std::filesystem::path& file, const Heightfield& grou
     tinygltf::Node node;
     node.name = "terrain";
     node.mesh = 0;
+    node.extras = extrasOf(place);
     model.nodes.push_back(node);
     tinygltf::Scene scene;
     scene.nodes = {0};
+    scene.extras = extrasOf(place);
     model.scenes.push_back(scene);
     model.defaultScene = 0;
     writeGltf(file, model);

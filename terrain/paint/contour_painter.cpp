@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "engine/base/parallel.h"
 #include "engine/math/nice_step.h"
@@ -13,6 +14,8 @@ namespace stereonav {
 namespace {
 
 constexpr double kReliefParts = 5;
+// Pixels from a line within which it shows.
+constexpr double kContourReach = 0.5 * kIndexContourWidth + 0.5 + 1;
 constexpr double kLevel = 1e-7;      // of an interval, a pixel
 constexpr double kMostLevels = 1e9;  // from zero: beyond, heights have no digits for lines between
 
@@ -27,53 +30,99 @@ double fadeOfLines(double pixelsBetween) {
     return share * share * (3 - 2 * share);
 }
 
+// height: within kMostLevels steps. (Rounding by a conversion: the library's is a call.)
 double distanceFrom(double height, double step) {
-    return std::abs(height - step * std::round(height / step));
+    const double steps = height / step;
+    return std::abs(height -
+                    step * static_cast<double>(static_cast<long long>(steps + (steps < 0 ? -0.5 : 0.5))));
 }
 
-// Half of how much heights differ between a pixel and those beside it, one way: the lesser of both sides, as
-// a silhouette at one of them means nothing. Where ground is rougher than pixels are, its tangent planes do
-// not tell. Half, as a warped eye's depths may be those of the next pixel.
-double halfStep(double height, double before, double after) {
-    double step = std::fmin(std::abs(before - height), std::abs(after - height));
-    return std::isfinite(step) ? 0.5 * step : 0;
+// How much heights differ between a pixel and those beside it, one way: the more and the less of both sides.
+// NaN where neither side shows anything.
+struct HeightSteps {
+    double more, less;
+};
+HeightSteps stepsOf(double height, double before, double after) {
+    const double a = std::abs(before - height), b = std::abs(after - height);
+    // Of a NaN and a number the number.
+    return {!(a <= b) && a == a ? a : b, !(a >= b) && a == a ? a : b};
 }
+
+// The heights of what one row of an eye shows and of the rows beside it; NaN where it shows nothing.
+class HeightRows {
+public:
+    HeightRows(const EyeView& view, const EyeImage& image, int y) : mWidth(image.width()) {
+        mHeights.assign(3 * static_cast<std::size_t>(mWidth + 2), std::nan(""));
+        for (int k = 0; k < 3; ++k) {
+            const int row = y + k - 1;
+            if (row < 0 || row >= image.height()) continue;
+            const double first = view.rayDirection(0.5, row + 0.5).z, step = view.right.z * view.pixelWidth();
+            const float* const depth = image.viewDepth.row(row);
+            double* const heights = at(k);
+            for (int x = 0; x < mWidth; ++x) {
+                const double height = view.eye.z + static_cast<double>(depth[x]) * (first + step * x);
+                heights[x] = depth[x] > 0 && depth[x] < kMissDepth ? height : std::nan("");
+            }
+        }
+    }
+    double height(int x) const { return at(1)[x]; }
+    HeightSteps across(int x) const { return stepsOf(height(x), at(1)[x - 1], at(1)[x + 1]); }
+    HeightSteps down(int x) const { return stepsOf(height(x), at(0)[x], at(2)[x]); }
+
+private:
+    // One more at both ends, which show nothing.
+    double* at(int k) { return mHeights.data() + static_cast<std::size_t>(k) * (mWidth + 2) + 1; }
+    const double* at(int k) const { return mHeights.data() + static_cast<std::size_t>(k) * (mWidth + 2) + 1; }
+
+    int mWidth;
+    std::vector<double> mHeights;
+};
 
 class ContourRow {
 public:
-    ContourRow(const GroundView& ground, const EyeImage& image, const ContourSetting& setting)
-        : mGround(ground), mImage(image), mSetting(setting) {}
+    ContourRow(const HeightRows& heights, const ContourSetting& setting)
+        : mHeights(heights), mInterval(setting.interval), mPerMetre(1 / setting.verticalScale) {}
+
+    // Whether there can be a line in a pixel: most are told by the depths alone. A line's reach, and a pixel
+    // more, as a warped eye's depths may be those of the next one.
+    bool mayHaveLine(int x) const {
+        const double height = mHeights.height(x) * mPerMetre;
+        if (!(std::abs(height) < kMostLevels * mInterval)) return false;
+        const HeightSteps across = mHeights.across(x), down = mHeights.down(x);
+        if (kIndexContour * mInterval <= kContourGone * leastChange(across, down)) return false;
+        const double most = mPerMetre * (across.more + down.more);
+        return !(distanceFrom(height, mInterval) > kContourReach * most);
+    }
 
     // The ink's share; 0 where there is no line.
-    double at(int x, int y, const GroundSeen& seen) const {
-        const double perMetre = 1 / mSetting.verticalScale, height = seen.place.z * perMetre;
-        const double interval = mSetting.interval, index = kIndexContour * interval;
+    double at(int x, const GroundSeen& seen) const {
+        const double height = seen.place.z * mPerMetre, index = kIndexContour * mInterval;
         // A pixel's; of level ground none but rounding.
-        double change = perMetre * std::hypot(glm::dot(seen.gradient, glm::dvec2(seen.perX)),
-                                              glm::dot(seen.gradient, glm::dvec2(seen.perY)));
-        if (!(change > kLevel * interval) || !(std::abs(height) < kMostLevels * interval)) return 0;
-        const double fromIndex = distanceFrom(height, index) / change,
-                     from = distanceFrom(height, interval) / change;
-        const double wide = kIndexContourShare * coverOfLine(kIndexContourWidth, fromIndex),
-                     thin = kContourShare * coverOfLine(kContourWidth, from);
+        const double i = glm::dot(seen.gradient, glm::dvec2(seen.perX)),
+                     j = glm::dot(seen.gradient, glm::dvec2(seen.perY));
+        double change = mPerMetre * std::sqrt(i * i + j * j);
+        if (!(change > kLevel * mInterval) || !(std::abs(height) < kMostLevels * mInterval)) return 0;
+        const double wide = kIndexContourShare *
+                            coverOfLine(kIndexContourWidth, distanceFrom(height, index) / change),
+                     thin =
+                         kContourShare * coverOfLine(kContourWidth, distanceFrom(height, mInterval) / change);
         if (wide <= 0 && thin <= 0) return 0;
-        change = std::max(change, stepBeside(x, y, seen.place.z) * perMetre);
-        return std::max(wide * fadeOfLines(index / change), thin * fadeOfLines(interval / change));
+        change = std::max(change, leastChange(mHeights.across(x), mHeights.down(x)));
+        return std::max(wide * fadeOfLines(index / change), thin * fadeOfLines(mInterval / change));
     }
 
 private:
-    double stepBeside(int x, int y, double height) const {
-        const auto of = [&](int i, int j) {
-            if (i < 0 || j < 0 || i >= mImage.width() || j >= mImage.height()) return std::nan("");
-            return mGround.heightOf(i, j, mImage.viewDepth.at(i, j));
-        };
-        return std::max(halfStep(height, of(x - 1, y), of(x + 1, y)),
-                        halfStep(height, of(x, y - 1), of(x, y + 1)));
+    // Half of how much heights differ from pixel to pixel, by the lesser of both sides, as a silhouette at
+    // one of them means nothing. Where ground is rougher than pixels are, its tangent planes do not tell.
+    // Half, as a warped eye's depths may be those of the next pixel. 0 where nothing is known.
+    double leastChange(const HeightSteps& across, const HeightSteps& down) const {
+        // Of a NaN and a number the number.
+        const double least = across.less >= down.less || down.less != down.less ? across.less : down.less;
+        return least > 0 ? 0.5 * mPerMetre * least : 0;
     }
 
-    const GroundView& mGround;
-    const EyeImage& mImage;
-    const ContourSetting& mSetting;
+    const HeightRows& mHeights;
+    double mInterval, mPerMetre;
 };
 
 }  // namespace
@@ -85,12 +134,14 @@ double contourIntervalFor(double relief) {
 void ContourPainter::paint(const EyeView& view, EyeImage& image) const {
     if (!(mSetting.interval > 0) || image.viewDepth.empty()) return;
     const GroundView ground(mGround, view);
-    const ContourRow lines(ground, image, mSetting);
     parallelFor(image.height(), [&](int y) {
+        const HeightRows heights(view, image, y);
+        const ContourRow lines(heights, mSetting);
         for (int x = 0; x < image.width(); ++x) {
+            if (!lines.mayHaveLine(x)) continue;
             GroundSeen seen;
             if (!ground.at(x, y, image.viewDepth.at(x, y), seen)) continue;
-            const double share = lines.at(x, y, seen);
+            const double share = lines.at(x, seen);
             if (share <= 0) continue;
             const glm::vec3 ink = mFog.seen(glm::vec3(kContourInk[0], kContourInk[1], kContourInk[2]),
                                             view.eye, seen.direction, seen.depth);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace stereonav {
 namespace {
@@ -65,11 +64,6 @@ bool GroundView::at(int x, int y, float depth, GroundSeen& seen) const {
         seen.perY = -t * mUp + perY * ray;
         return true;
     }
-}
-
-double GroundView::heightOf(int x, int y, float depth) const {
-    if (!(depth > 0) || !std::isfinite(depth)) return std::numeric_limits<double>::quiet_NaN();
-    return mView.eye.z + depth * mView.rayDirection(x + 0.5, y + 0.5).z;
 }
 
 }  // namespace stereonav

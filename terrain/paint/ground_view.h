@@ -30,8 +30,6 @@ public:
     // the surface, and where what was hit is not the ground but stands on it: farther from it than two pixels
     // and a thousandth of the way.
     bool at(int x, int y, float depth, GroundSeen& seen) const;
-    // The height of what a pixel shows, whatever it is; NaN where nothing was hit and beside the picture.
-    double heightOf(int x, int y, float depth) const;
 
 private:
     struct Cell {

@@ -19,8 +19,9 @@ namespace stereonav {
 
 // Pixels: the line, with what is darker beside it; the mark of a place from its middle to its rim.
 constexpr double kTrackWidth = 2.6, kTrackCasing = 4.6, kMarkRadius = 6;
-constexpr float kTrackInk[3] = {1.0f, 0.22f, 0.02f};  // linear
-constexpr double kCasingShare = 0.65;                 // of black
+// Linear: a blue that neither ground nor the colours of slopes have.
+constexpr float kTrackInk[3] = {0.0f, 0.25f, 1.0f};
+constexpr double kCasingShare = 0.65;  // of black
 
 class TrackPainter final : public EyePainter {
 public:

@@ -127,4 +127,9 @@ RecordedPath followTrack(const Heightfield& ground, const std::vector<glm::dvec2
     return RecordedPath(std::move(samples), source);
 }
 
+StereoSetting followedEyes(double height) {
+    const double seen = height / std::sin(-kFollowPitch);
+    return {seen / 30, seen};
+}
+
 }  // namespace stereonav

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/camera/recorded_path.h"
+#include "engine/camera/stereo_rig.h"
 #include "terrain/ground/heightfield.h"
 
 namespace stereonav {
@@ -22,5 +23,9 @@ constexpr double kLongestFollow = 900;
 // Error named `source` where they do not differ.
 RecordedPath followTrack(const Heightfield& ground, const std::vector<glm::dvec2>& places, double height,
                          const std::string& source);
+
+// Eyes for such a flight: level ground in the middle of the picture lies in the screen, a thirtieth of its
+// distance between the eyes.
+StereoSetting followedEyes(double height);
 
 }  // namespace stereonav
