@@ -23,10 +23,26 @@ void checkMeshOptions(const MeshOptions& options) {
                     "name it terrain.glb");
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     checkOutputFile("--out", options.out);
+    if (hasMeshPlaceFile(options.out)) {
+        const std::string beside = meshPlaceFile(options.out).string();
+        checkNoInput({"the file beside --out", beside}, inputsOf(options.scene));
+        checkOutputFile("the file beside --out", beside);
+    }
     const SceneType& type = sceneTypeNamed(options.scene.scene);
     if (!type.hasGround)
         throw Error(options.scene.scene, "", fmt::format("expected a terrain, found a {}", type.noun),
                     "render, play and view show it; mesh writes the ground of terrains");
+}
+
+MeshPlace meshPlaceOf(const TerrainScene& terrain) {
+    MeshPlace place;
+    place.known = terrain.report.placed;
+    place.crs = terrain.report.worldCrs;
+    place.offset = terrain.report.sourceOffset;
+    place.metresPerUnit = terrain.report.worldUnit;
+    place.verticalScale = terrain.verticalScale;
+    place.verticalDatum = terrain.report.verticalDatum;
+    return place;
 }
 
 }  // namespace
@@ -43,7 +59,7 @@ int runMesh(const MeshOptions& options) {
     const double error = options.error_m < 0 ? halfSpacing : options.error_m;
     const TerrainMesh mesh = simplifyTerrain(ground, error, bar.progress());
     bar.progress().report(1.0, "writing");
-    writeTerrainMesh(options.out, ground, terrain.color, mesh);
+    writeTerrainMesh(options.out, ground, terrain.color, mesh, meshPlaceOf(terrain));
     bar.clear();
     const double cells = static_cast<double>(ground.width() - 1) * (ground.height() - 1);
     const double share = 100.0 * static_cast<double>(mesh.triangles.size()) / (2.0 * cells);
@@ -53,6 +69,7 @@ int runMesh(const MeshOptions& options) {
                     options.out, mesh.triangles.size(), mesh.vertices.size(), share, mesh.maxError, error));
     result.add("scene", scene->name);
     result.addFile("mesh", options.out);
+    if (hasMeshPlaceFile(options.out)) result.addFile("place", meshPlaceFile(options.out));
     result.add("triangles", static_cast<std::int64_t>(mesh.triangles.size()));
     result.add("vertices", static_cast<std::int64_t>(mesh.vertices.size()));
     result.add("triangles_percent", share);

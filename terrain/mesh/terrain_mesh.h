@@ -9,6 +9,7 @@
 #include "engine/base/progress.h"
 #include "engine/image/color_texture.h"
 #include "terrain/ground/heightfield.h"
+#include "terrain/mesh/mesh_place.h"
 
 namespace stereonav {
 
@@ -28,8 +29,10 @@ TerrainMesh simplifyTerrain(const Heightfield& ground, double error, Progress& p
 bool isMeshFileName(const std::filesystem::path& file);
 
 // Writes .glb or .gltf: positions in metres from the world's origin (y up), normals, and the colour
-// texture as a picture inside, unlit since the light is in it. Written beside and renamed. Throws Error.
+// texture as a picture inside, unlit since the light is in it. Its place is in the node's extras and, but for
+// pipes and devices, in meshPlaceFile(). Both are written beside and renamed. Throws Error: then both places
+// are as they were.
 void writeTerrainMesh(const std::filesystem::path& file, const Heightfield& ground, const ColorTexture& color,
-                      const TerrainMesh& mesh);
+                      const TerrainMesh& mesh, const MeshPlace& place = {});
 
 }  // namespace stereonav

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "engine/base/memory.h"
 #include "engine/camera/gltf_file.h"
 #include "engine/image/image_file.h"
@@ -98,6 +100,37 @@ void checkFileMemory(const std::filesystem::path& file, double texels, const Ter
                 "give a larger --error");
 }
 
+tinygltf::Value valueOf(const nlohmann::ordered_json& json) {
+    if (json.is_string()) return tinygltf::Value(json.get<std::string>());
+    if (json.is_number()) return tinygltf::Value(json.get<double>());
+    if (json.is_array()) {
+        tinygltf::Value::Array values;
+        for (const auto& one : json) values.push_back(valueOf(one));
+        return tinygltf::Value(std::move(values));
+    }
+    if (!json.is_object()) return {};  // null
+    tinygltf::Value::Object values;
+    for (const auto& [key, one] : json.items()) values.emplace(key, valueOf(one));
+    return tinygltf::Value(std::move(values));
+}
+
+// The mesh is the last to get into its place, and errors name it by that.
+void writeBoth(const std::filesystem::path& file, const tinygltf::Model& model,
+               const std::string& placeText) {
+    writeFileAtomically(file, [&](const std::filesystem::path& temporary) {
+        try {
+            writeGltf(temporary, model);
+        } catch (const Error& error) {
+            std::string words = error.what();
+            const std::string name = temporary.string();
+            if (const std::size_t at = words.find(name); at != std::string::npos)
+                words.replace(at, name.size(), file.string());
+            throw Error("", "", words, "");
+        }
+        writeTextFile(meshPlaceFile(file), placeText);
+    });
+}
+
 }  // namespace
 
 bool isMeshFileName(const std::filesystem::path& file) {
@@ -105,7 +138,7 @@ bool isMeshFileName(const std::filesystem::path& file) {
 }
 
 void writeTerrainMesh(const std::filesystem::path& file, const Heightfield& ground, const ColorTexture& color,
-                      const TerrainMesh& mesh) {
+                      const TerrainMesh& mesh, const MeshPlace& place) {
     if (!isMeshFileName(file))
         throw Error(file.string(), "",
                     fmt::format("expected a mesh named .glb or .gltf, got \"{}\"", file.extension().string()),
@@ -124,12 +157,17 @@ void writeTerrainMesh(const std::filesystem::path& file, const Heightfield& grou
     tinygltf::Node node;
     node.name = "terrain";
     node.mesh = 0;
+    const std::string placeText = meshPlaceText(place);
+    node.extras = valueOf(nlohmann::ordered_json::parse(placeText));
     model.nodes.push_back(node);
     tinygltf::Scene scene;
     scene.nodes = {0};
     model.scenes.push_back(scene);
     model.defaultScene = 0;
-    writeGltf(file, model);
+    if (hasMeshPlaceFile(file))
+        writeBoth(file, model, placeText);
+    else
+        writeGltf(file, model);
 }
 
 }  // namespace stereonav
