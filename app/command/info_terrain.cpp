@@ -47,6 +47,15 @@ std::string missingText(const TerrainReport& report) {
     return text;
 }
 
+// "EGM96 height, EGM96 geoid; heights in metres". The unit's own line says how long one is that is no metre.
+std::string verticalText(const TerrainReport& report) {
+    const std::string& unit = report.heightUnit;
+    const bool named = unit.find(" m each") != std::string::npos;
+    return fmt::format("{}; heights in {}",
+                       report.verticalDatum.empty() ? "no vertical one named" : report.verticalDatum,
+                       named ? unit.substr(0, unit.find(", ")) : "metres");
+}
+
 }  // namespace
 
 Facts factsOfTerrain(const Scene& scene) {
@@ -74,6 +83,10 @@ Facts factsOfTerrain(const Scene& scene) {
               fmt::format("{} .. {} m", heightText(ground.minHeight()), heightText(ground.maxHeight())), "m");
     list.both("crs", report.sourceCrs, "crs", orNone(report.sourceCrs));
     list.both("projection", report.projection, "projection", orNone(report.projection));
+    list.both("vertical_datum", report.verticalDatum, "datum", verticalText(report));
+    list.json("vertical_scale", terrain.verticalScale);
+    if (terrain.verticalScale != 1)
+        list.text("exaggerated", fmt::format("{:.6g} times", terrain.verticalScale));
     list.json("source_offset", FactNumbers{report.sourceOffset.x, report.sourceOffset.y});
     wherePresent("placed_by", report.placedBy, "placed by");
     wherePresent("band", report.band, "band");

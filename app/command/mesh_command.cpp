@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
@@ -24,22 +23,25 @@ void checkMeshOptions(const MeshOptions& options) {
                     "name it terrain.glb");
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     checkOutputFile("--out", options.out);
+    if (hasMeshPlaceFile(options.out)) {
+        const std::string beside = meshPlaceFile(options.out).string();
+        checkNoInput({"the file beside --out", beside}, inputsOf(options.scene));
+        checkOutputFile("the file beside --out", beside);
+    }
     const SceneType& type = sceneTypeNamed(options.scene.scene);
     if (!type.hasGround)
         throw Error(options.scene.scene, "", fmt::format("expected a terrain, found a {}", type.noun),
                     "render, play and view show it; mesh writes the ground of terrains");
 }
 
-MeshPlace placeOfMesh(const TerrainScene& terrain) {
-    constexpr double kDegrees = 180 / std::numbers::pi;
-    const TerrainReport& report = terrain.report;
+MeshPlace meshPlaceOf(const TerrainScene& terrain) {
     MeshPlace place;
-    place.crs = report.sourceCrs;
-    if (report.sourceUnit > 0) place.offset = report.sourceOffset, place.unit = report.sourceUnit;
-    if (terrain.earth)
-        if (const auto origin = terrain.earth->placeAt(glm::dvec2(0.0)))
-            place.originDegrees = glm::dvec2(origin->longitude, origin->latitude) * kDegrees;
+    place.known = terrain.report.placed;
+    place.crs = terrain.report.worldCrs;
+    place.offset = terrain.report.sourceOffset;
+    place.metresPerUnit = terrain.report.worldUnit;
     place.verticalScale = terrain.verticalScale;
+    place.verticalDatum = terrain.report.verticalDatum;
     return place;
 }
 
@@ -57,7 +59,7 @@ int runMesh(const MeshOptions& options) {
     const double error = options.error_m < 0 ? halfSpacing : options.error_m;
     const TerrainMesh mesh = simplifyTerrain(ground, error, bar.progress());
     bar.progress().report(1.0, "writing");
-    writeTerrainMesh(options.out, ground, terrain.color, mesh, placeOfMesh(terrain));
+    writeTerrainMesh(options.out, ground, terrain.color, mesh, meshPlaceOf(terrain));
     bar.clear();
     const double cells = static_cast<double>(ground.width() - 1) * (ground.height() - 1);
     const double share = 100.0 * static_cast<double>(mesh.triangles.size()) / (2.0 * cells);
@@ -67,6 +69,7 @@ int runMesh(const MeshOptions& options) {
                     options.out, mesh.triangles.size(), mesh.vertices.size(), share, mesh.maxError, error));
     result.add("scene", scene->name);
     result.addFile("mesh", options.out);
+    if (hasMeshPlaceFile(options.out)) result.addFile("place", meshPlaceFile(options.out));
     result.add("triangles", static_cast<std::int64_t>(mesh.triangles.size()));
     result.add("vertices", static_cast<std::int64_t>(mesh.vertices.size()));
     result.add("triangles_percent", share);

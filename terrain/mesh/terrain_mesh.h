@@ -4,13 +4,12 @@
 #include <array>
 #include <filesystem>
 #include <glm/vec2.hpp>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "engine/base/progress.h"
 #include "engine/image/color_texture.h"
 #include "terrain/ground/heightfield.h"
+#include "terrain/mesh/mesh_place.h"
 
 namespace stereonav {
 
@@ -26,23 +25,13 @@ struct TerrainMesh {
 // from rounding: 1e-12 of the heights). Throws Error for other values; Cancelled.
 TerrainMesh simplifyTerrain(const Heightfield& ground, double error, Progress& progress);
 
-// Where a mesh lies, for who puts it beside other data: kept in the file, and not read back, as this program
-// shows meshes by themselves. x, y of a place are offset + world / unit in its system; world: x east, y
-// north, which are x and -z of the file's axes.
-struct MeshPlace {
-    std::string crs;                   // name of the elevation model's reference system; "": none
-    std::optional<glm::dvec2> offset;  // of the world's origin in it; none: the ground is in another plane
-    double unit = 1;                   // metres of a unit of it
-    std::optional<glm::dvec2> originDegrees;  // longitude and latitude of the world's origin, WGS 84
-    double verticalScale = 1;                 // of the heights: so many times those of the elevation model
-};
-
 // Whether a mesh can be written under this name: .glb or .gltf.
 bool isMeshFileName(const std::filesystem::path& file);
 
 // Writes .glb or .gltf: positions in metres from the world's origin (y up), normals, and the colour
-// texture as a picture inside, unlit since the light is in it; its place as extras of the scene and of its
-// node, `stereonav_place`. Written beside and renamed. Throws Error.
+// texture as a picture inside, unlit since the light is in it. Its place is in the node's extras and, but for
+// pipes and devices, in meshPlaceFile(). Both are written beside and renamed. Throws Error: then both places
+// are as they were.
 void writeTerrainMesh(const std::filesystem::path& file, const Heightfield& ground, const ColorTexture& color,
                       const TerrainMesh& mesh, const MeshPlace& place = {});
 

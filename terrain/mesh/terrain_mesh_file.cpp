@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "engine/base/memory.h"
 #include "engine/camera/gltf_file.h"
 #include "engine/image/image_file.h"
@@ -98,23 +100,35 @@ void checkFileMemory(const std::filesystem::path& file, double texels, const Ter
                 "give a larger --error");
 }
 
-tinygltf::Value pairOf(const glm::dvec2& pair) {
-    return tinygltf::Value(tinygltf::Value::Array{tinygltf::Value(pair.x), tinygltf::Value(pair.y)});
+tinygltf::Value valueOf(const nlohmann::ordered_json& json) {
+    if (json.is_string()) return tinygltf::Value(json.get<std::string>());
+    if (json.is_number()) return tinygltf::Value(json.get<double>());
+    if (json.is_array()) {
+        tinygltf::Value::Array values;
+        for (const auto& one : json) values.push_back(valueOf(one));
+        return tinygltf::Value(std::move(values));
+    }
+    if (!json.is_object()) return {};  // null
+    tinygltf::Value::Object values;
+    for (const auto& [key, one] : json.items()) values.emplace(key, valueOf(one));
+    return tinygltf::Value(std::move(values));
 }
 
-tinygltf::Value extrasOf(const MeshPlace& place) {
-    tinygltf::Value::Object said;
-    said["crs"] = tinygltf::Value(place.crs);
-    if (place.offset) {
-        said["offset"] = pairOf(*place.offset);
-        said["metres_a_unit"] = tinygltf::Value(place.unit);
-    }
-    if (place.originDegrees) said["origin_longitude_latitude"] = pairOf(*place.originDegrees);
-    said["vertical_scale"] = tinygltf::Value(place.verticalScale);
-    said["axes"] = tinygltf::Value(std::string("x east, y up, z south; metres from the origin"));
-    tinygltf::Value::Object extras;
-    extras["stereonav_place"] = tinygltf::Value(std::move(said));
-    return tinygltf::Value(std::move(extras));
+// The mesh is the last to get into its place, and errors name it by that.
+void writeBoth(const std::filesystem::path& file, const tinygltf::Model& model,
+               const std::string& placeText) {
+    writeFileAtomically(file, [&](const std::filesystem::path& temporary) {
+        try {
+            writeGltf(temporary, model);
+        } catch (const Error& error) {
+            std::string words = error.what();
+            const std::string name = temporary.string();
+            if (const std::size_t at = words.find(name); at != std::string::npos)
+                words.replace(at, name.size(), file.string());
+            throw Error("", "", words, "");
+        }
+        writeTextFile(meshPlaceFile(file), placeText);
+    });
 }
 
 }  // namespace
@@ -143,14 +157,17 @@ void writeTerrainMesh(const std::filesystem::path& file, const Heightfield& grou
     tinygltf::Node node;
     node.name = "terrain";
     node.mesh = 0;
-    node.extras = extrasOf(place);
+    const std::string placeText = meshPlaceText(place);
+    node.extras = valueOf(nlohmann::ordered_json::parse(placeText));
     model.nodes.push_back(node);
     tinygltf::Scene scene;
     scene.nodes = {0};
-    scene.extras = extrasOf(place);
     model.scenes.push_back(scene);
     model.defaultScene = 0;
-    writeGltf(file, model);
+    if (hasMeshPlaceFile(file))
+        writeBoth(file, model, placeText);
+    else
+        writeGltf(file, model);
 }
 
 }  // namespace stereonav

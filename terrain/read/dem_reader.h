@@ -21,6 +21,7 @@ struct DemGrid {
     std::string driver;            // "GeoTIFF", ...
     std::string crs;               // name of the source's reference system, "" when it has none
     std::string projection;        // how it was brought to metres
+    std::string verticalDatum;     // of heights, as the file names it; "" where it does not
     glm::dvec2 sourceOffset{0.0};  // reference x, y of the grid's middle
     double sourceUnit = 0;         // metres of a unit of these; 0: they are not in the source's own system
     long long sourceMissing = 0;   // missing samples of the file itself, before any resampling

@@ -83,7 +83,13 @@ LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progr
     report.driver = dem.driver;
     report.sourceCrs = dem.crs;
     report.projection = dem.projection;
+    report.verticalDatum = dem.verticalDatum;
     report.sourceOffset = dem.sourceOffset;
+    report.placed = dem.georeferenced;
+    if (report.placed) {
+        report.worldCrs = dem.grid.wkt;
+        report.worldUnit = dem.spacing.x / dem.grid.transform[1];
+    }
     report.sourceUnit = dem.sourceUnit;
     report.placedBy = dem.source.placedBy;
     report.band = dem.band;

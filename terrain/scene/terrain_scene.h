@@ -23,9 +23,10 @@ class TerrainIllumination;  // terrain/scene/terrain_illumination.h: baked light
 
 // What the reader did, for `info`.
 struct TerrainReport {
-    std::string driver;      // "GeoTIFF", "built-in", ...
-    std::string sourceCrs;   // name of the source's reference system, "" when it has none
-    std::string projection;  // how it was brought to metres: "as it is", "local ..."
+    std::string driver;         // "GeoTIFF", "built-in", ...
+    std::string sourceCrs;      // name of the source's reference system, "" when it has none
+    std::string projection;     // how it was brought to metres: "as it is", "local ..."
+    std::string verticalDatum;  // of the source's heights, "" where it names none
     // What was found out of the file, in words; "" where there is nothing to say.
     std::string placedBy;          // control points
     std::string band;              // which of several
@@ -37,6 +38,9 @@ struct TerrainReport {
     long long filledSamples = 0;   // of the ground's, filled: missing ones as resampled, and those beyond
     long long openSamples = 0;     // of the ground's, left open
     glm::dvec2 sourceOffset{0.0};  // source x, y of the world's origin (metres in the local projection)
+    bool placed = false;           // the file says where it lies: sourceOffset tells something
+    std::string worldCrs;          // WKT of the system that sourceOffset is of; "": it is not known
+    double worldUnit = 1;          // metres of the world for a unit of that system
     double sourceUnit = 0;         // metres of a unit of these; 0: they are not in the source's own system
     std::string colorSource;       // "image winter.jpg 457x499", "hypsometric tint", ...
     bool colorHoldsSun = false;    // some of the colours hold the light of the look's sun

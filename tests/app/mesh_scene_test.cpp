@@ -46,24 +46,6 @@ TEST_F(MeshScene, InfoSaysWhatIsThere) {
     EXPECT_GT(facts.at("bytes"), corners / 3 * sizeof(TriangleMesh::Triangle));
 }
 
-// The hills' lower left corner is 0, 0: their middle is the world's origin.
-TEST_F(MeshScene, KeepsItsPlace) {
-    for (const char* name : {"a.glb", "b.gltf"}) {
-        const GltfFile gltf = readGltf(mesh(name));
-        for (const tinygltf::Value& extras :
-             {gltf.model.scenes.at(0).extras, gltf.model.nodes.at(0).extras}) {
-            ASSERT_TRUE(extras.Has("stereonav_place"));
-            const tinygltf::Value said = extras.Get("stereonav_place");
-            ASSERT_TRUE(said.Has("offset"));
-            EXPECT_EQ(said.Get("offset").Get(0).GetNumberAsDouble(), 32 * 30 / 2);
-            EXPECT_EQ(said.Get("offset").Get(1).GetNumberAsDouble(), 24 * 30 / 2);
-            EXPECT_EQ(said.Get("metres_a_unit").GetNumberAsDouble(), 1);
-            EXPECT_EQ(said.Get("vertical_scale").GetNumberAsDouble(), 1);
-            EXPECT_FALSE(said.Has("origin_longitude_latitude"));
-        }
-    }
-}
-
 TEST_F(MeshScene, BothKindsOfFileGiveOnePicture) {
     EXPECT_EQ(picture(mesh("a.glb"), {}), picture(mesh("b.gltf"), {}));
 }

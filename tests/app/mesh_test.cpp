@@ -1,4 +1,8 @@
 // `stereonav mesh` as a user runs it.
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
 #include "engine/camera/gltf_file.h"
 #include "tests/app/program.h"
 
@@ -25,6 +29,40 @@ TEST_F(MeshCommand, WritesAMeshThatReadsBackAndSaysItsError) {
     EXPECT_LE(high, 149 + 1e-3);
     EXPECT_GT(high - low, 30);
     EXPECT_EQ(file.model.images.size(), 1u);
+}
+
+// The file beside the mesh leads back to the elevation model's own coordinates.
+TEST_F(MeshCommand, KeepsItsPlace) {
+    const std::string ground = hills();
+    input("hills.prj",
+          "PROJCS[\"WGS 84 / UTM zone 33N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\","
+          "6378137,298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],"
+          "PROJECTION[\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],"
+          "PARAMETER[\"central_meridian\",15],PARAMETER[\"scale_factor\",0.9996],"
+          "PARAMETER[\"false_easting\",500000],PARAMETER[\"false_northing\",0],UNIT[\"metre\",1]]");
+    const Outcome outcome = run({"mesh", ground, "--vertical-scale", "2", "--out", "hills.glb", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(nlohmann::json::parse(outcome.out).at("place").at("path"), "hills.glb.json");
+    const auto beside = nlohmann::json::parse(contentOf(place() / "hills.glb.json"));
+    EXPECT_EQ(beside.at("crs"), "WGS 84 / UTM zone 33N");
+    EXPECT_EQ(beside.at("vertical_scale"), 2.0);
+    EXPECT_TRUE(beside.at("vertical_datum").is_null());
+    const auto info = nlohmann::json::parse(run({"info", ground, "--json", "--size", "16x12"}).out);
+    EXPECT_EQ(beside.at("offset"), info.at("terrain").at("source_offset"));
+    EXPECT_EQ(info.at("terrain").at("vertical_datum"), "");
+    EXPECT_NE(run({"info", ground, "--size", "16x12"}).out.find("no vertical one named; heights in metres"),
+              std::string::npos);
+}
+
+TEST_F(MeshCommand, ThePlaceBesideIsWrittenWithTheMeshOrNotAtAll) {
+    const std::filesystem::path out = mFolder / "hills.glb";
+    std::filesystem::create_directory(mFolder / "hills.glb.json");
+    expectRefused({"mesh", hills(), "--out", out.string()}, {"beside --out", "hills.glb.json"});
+    EXPECT_FALSE(std::filesystem::exists(out));
+    // Of the generated ground nothing is known; a file of an earlier mesh does not stay.
+    std::ofstream(place() / "a.gltf.json") << "of an earlier mesh";
+    ASSERT_EQ(run({"mesh", "terrain", "--error", "500", "--out", "a.gltf"}).status, 0);
+    EXPECT_TRUE(nlohmann::json::parse(contentOf(place() / "a.gltf.json")).at("offset").is_null());
 }
 
 TEST_F(MeshCommand, TheErrorChoosesTheSize) {

@@ -324,6 +324,8 @@ TEST(DemValues, VirtualRasterOfLocalFiles) {
     expectAsGdal(file, 33, 1, kSurveyFoot);  // the column between them
     EXPECT_EQ(readGround(file).heightUnit,
               "US survey foot, 0.30480061 m each, by the vertical reference system");
+    EXPECT_EQ(readGround(file).verticalDatum, "NAVD88 height (ftUS), North American Vertical Datum 1988");
+    EXPECT_EQ(readGround(folder / "left.tif").verticalDatum, "") << "a file that names none";
 }
 
 TEST(DemValues, VirtualRastersOfOtherThingsAreRefused) {

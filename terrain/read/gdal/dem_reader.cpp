@@ -66,11 +66,27 @@ std::string systemName(const std::string& wkt) {
     return made;
 }
 
+// What its heights are counted from: the vertical part of its reference system, or the ellipsoid of one with
+// three axes.
+std::string verticalDatumOf(GDALDataset& dataset) {
+    const OGRSpatialReference* system = dataset.GetSpatialRef();
+    if (!system) system = dataset.GetGCPSpatialRef();
+    if (!system) return "";
+    const auto text = [](const char* word) { return std::string(word ? word : ""); };
+    if (!system->IsCompound())
+        return system->GetAxesCount() == 3 ? "the ellipsoid of " + text(system->GetName()) : "";
+    const std::string name = text(system->GetAttrValue("VERT_CS")),
+                      datum = text(system->GetAttrValue("VERT_DATUM"));
+    if (name.empty() || datum.empty() || name == datum) return name.empty() ? datum : name;
+    return name + ", " + datum;
+}
+
 void placeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGrid& dem) {
     dem.source = georeferenceOf(dataset, file, dem.georeferenced);
     dem.driver = dataset.GetDriver()->GetMetadataItem(GDAL_DMD_LONGNAME);
     if (std::string_view(dataset.GetDriverName()) == "GTiff") dem.driver = "GeoTIFF";
     dem.crs = systemName(dem.source.wkt);
+    dem.verticalDatum = verticalDatumOf(dataset);
     if (dem.source.wkt.empty() && dem.georeferenced && looksLikeDegrees(dem.source)) {
         OGRSpatialReference degrees;
         degrees.importFromEPSG(4326);
