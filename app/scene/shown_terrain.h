@@ -50,9 +50,9 @@ private:
     SceneBox mBox;
 };
 
-// Offers RayCast, const TerrainScene, MapFromAbove, SceneBox, PlaceReader, LineMeasurer; as they are there, OnEarth and,
-// with baked light, a TurningLight. A tinted ground under the plain sun also offers light that is worked out
-// while one looks (terrain_daylight.h), and that turns: a TurningLight and a SeenLight.
+// Offers RayCast, const TerrainScene, MapFromAbove, SceneBox, PlaceReader, LineMeasurer; as they are there,
+// OnEarth and, with baked light, a TurningLight. A tinted ground under the plain sun also offers light that
+// is worked out while one looks (terrain_daylight.h), and that turns: a TurningLight and a SeenLight.
 class ShownTerrain final : public Scene {
 public:
     // lightsItself: sky light and shadows may be worked out, from the first frame on that somebody shows to

@@ -36,7 +36,7 @@ MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bo
     for (const GroundFigure& figure :
          closed ? figuresOfArea(cut, world, std::nullopt) : figuresOfLine(cut, world))
         list.both(figure.key, figure.value, figure.label,
-                  fmt::format("{:.7g} {}{}", figure.value, figure.unit, errorText(figure)), figure.unit);
+                  fmt::format("{:.1f} {}{}", figure.value, figure.unit, errorText(figure)), figure.unit);
     measured.facts = std::move(list.facts());
     if (closed) world.push_back(world.front());
     for (const LinePoint& point : thinned(groundLine(cut, world))) {

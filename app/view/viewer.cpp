@@ -298,25 +298,6 @@ void Viewer::update(double dt) {
     takeFrame();
 }
 
-void Viewer::usePointer() {
-    const glm::dvec2 drag = mWindow.takeDrag();
-    const std::vector<glm::dvec2> clicks = mWindow.takeClicks();
-    mSession->turnWheel(mWindow.takeWheel());
-    const OutputModeInfo& mode = infoOf(mSession->compose().mode);
-    const PicturePlace place = placeFor(mode);
-    const double radiansPerUnit = mSession->lens().verticalFov / place.size.y;
-    mSession->look(drag.x * radiansPerUnit, -drag.y * radiansPerUnit);
-    const SizeOption eye = eyeSizeAt(mode, place);
-    for (const glm::dvec2& click : clicks) {
-        const glm::dvec2 at = placeInPicture(mode, place, click) * glm::dvec2(eye.width, eye.height);
-        if (mMeasuring && !mSession->slicesShown()) {
-            measureHere();
-            continue;
-        }
-        tell(mSession->click(at.x, at.y));
-    }
-}
-
 void Viewer::takeDrops() {
     std::vector<std::string> drops = mWindow.takeDrops();
     if (mControls)

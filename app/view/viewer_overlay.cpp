@@ -1,5 +1,5 @@
-// The viewer's part that is drawn over the picture in depth: the pointer, and names of kept places. And what
-// lies under the pointer.
+// The viewer's part that is drawn over the picture in depth: the pointer, names of kept places, the measured
+// line. And what the pointer does on the picture, and what lies under it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -70,6 +70,25 @@ void Viewer::addLineMarks(std::vector<OverlayMark>& marks) const {
     for (std::size_t n = 0; n < mMeasured.places().size(); ++n)
         add(mMeasured.places()[n], std::to_string(n + 1), false);
     if (mMarked) add(*mMarked, "*", false);
+}
+
+void Viewer::usePointer() {
+    const glm::dvec2 drag = mWindow.takeDrag();
+    const std::vector<glm::dvec2> clicks = mWindow.takeClicks();
+    mSession->turnWheel(mWindow.takeWheel());
+    const OutputModeInfo& mode = infoOf(mSession->compose().mode);
+    const PicturePlace place = placeFor(mode);
+    const double radiansPerUnit = mSession->lens().verticalFov / place.size.y;
+    mSession->look(drag.x * radiansPerUnit, -drag.y * radiansPerUnit);
+    const SizeOption eye = eyeSizeAt(mode, place);
+    for (const glm::dvec2& click : clicks) {
+        const glm::dvec2 at = placeInPicture(mode, place, click) * glm::dvec2(eye.width, eye.height);
+        if (mMeasuring && !mSession->slicesShown()) {
+            measureHere();
+            continue;
+        }
+        tell(mSession->click(at.x, at.y));
+    }
 }
 
 void Viewer::copyPlace() {

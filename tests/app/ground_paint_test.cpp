@@ -40,15 +40,15 @@ TEST_F(GroundPaintOptionsTest, ChangePicturesAndNoneLeavesThemAsTheyAre) {
                   R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"name":"a"},
 "geometry":{"type":"LineString","coordinates":[[-250,-200],[0,0],[250,200]]}},
 {"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[20,40]}}]})");
-    const std::vector<std::vector<std::string>> all{
-        {"--contours", "7"},
-        {"--contours", "auto"},
-        {"--paint", "slope"},
-        {"--paint", "aspect"},
-        {"--paint", "hillshade"},
-        {"--paint", "viewshed:50,50,2"},
-        {"--tracks", (place() / "walk.geojson").string()},
-        {"--tracks", (place() / "walk.geojson").string(), "--contours", "10", "--paint", "slope", "--edges", "0"}};
+    const std::vector<std::vector<std::string>> all{{"--contours", "7"},
+                                                    {"--contours", "auto"},
+                                                    {"--paint", "slope"},
+                                                    {"--paint", "aspect"},
+                                                    {"--paint", "hillshade"},
+                                                    {"--paint", "viewshed:50,50,2"},
+                                                    {"--tracks", (place() / "walk.geojson").string()},
+                                                    {"--tracks", (place() / "walk.geojson").string(),
+                                                     "--contours", "10", "--paint", "slope", "--edges", "0"}};
     for (const auto& words : all) EXPECT_TRUE(pictures.insert(picture(dem, words)).second) << words[1];
 }
 

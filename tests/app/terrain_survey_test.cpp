@@ -9,7 +9,9 @@
 
 #include "app/scene/scene_loading.h"
 #include "app/scene/terrain_loading.h"
+#include "engine/base/error.h"
 #include "engine/scene/capabilities.h"
+#include "engine/scene/line_measurer.h"
 #include "engine/scene/place_reader.h"
 #include "tests/camera/temporary_folder.h"
 #include "tests/support/own_cache.h"
@@ -66,6 +68,51 @@ TEST(TerrainSurvey, AMapLeadsBackAndForth) {
     EXPECT_EQ(box->low.z, 0);
     EXPECT_EQ(box->high.z, 429);
     EXPECT_NEAR(box->high.x - box->low.x, 39 * 30, 1e-9);
+}
+
+double figureNamed(const Facts& facts, const std::string& key) {
+    for (const Fact& fact : facts)
+        if (fact.key == key) return std::get<double>(fact.value);
+    ADD_FAILURE() << key;
+    return std::nan("");
+}
+
+// The slope falls by a third towards the north, and rises by a thirtieth towards the east.
+TEST(TerrainSurvey, MeasuresInHeightsOfTheFileWhateverTheyAreExaggeratedBy) {
+    const TemporaryFolder folder;
+    const auto file = slope(folder, 600000, 5000000, true);
+    for (const double scale : {1.0, 3.0}) {
+        SceneOptions options;
+        options.scene = file.string();
+        options.verticalScale = scale;
+        Progress progress;
+        const auto scene = loadTerrainScene(options, SimdTarget::Auto, progress);
+        const auto* const measurer = scene->offered<LineMeasurer>();
+        ASSERT_TRUE(measurer);
+        const MeasuredSurface line = measurer->measure({{-300, -200, 0}, {300, 100, 0}}, false);
+        const double plan = std::hypot(600, 300), rise = -80;
+        EXPECT_NEAR(figureNamed(line.facts, "plan_m"), plan, 1e-6);
+        EXPECT_NEAR(figureNamed(line.facts, "rise_m"), rise, 1e-3);
+        EXPECT_NEAR(figureNamed(line.facts, "along_m"), std::hypot(plan, rise), 1e-3);
+        ASSERT_EQ(line.places.size(), line.profile.size());
+        ASSERT_GT(line.places.size(), 20U);
+        for (std::size_t n = 0; n < line.places.size(); ++n) {
+            const glm::dvec3& place = line.places[n];
+            EXPECT_NEAR(place.z, scale * line.profile[n].y, 1e-3);
+            EXPECT_NEAR(place.z, scale * (214.5 + place.x / 30 - place.y / 3), 1e-2);
+            EXPECT_NEAR(line.profile[n].x, std::hypot(place.x + 300, place.y + 200), 1e-6);
+        }
+        EXPECT_NEAR(line.profile.back().x, plan, 1e-6);
+        const MeasuredSurface area = measurer->measure({{0, 0, 0}, {100, 0, 0}, {100, 50, 0}}, true);
+        EXPECT_NEAR(figureNamed(area.facts, "area_m2"), 2500, 1e-6);
+        EXPECT_NEAR(figureNamed(area.facts, "surface_m2"), 2500 * std::sqrt(1 + 1.0 / 9 + 1.0 / 900), 1e-2);
+        EXPECT_NEAR(area.profile.back().x, 100 + 50 + std::hypot(100, 50), 1e-6) << "back to its first place";
+        // At the border, and beside it.
+        EXPECT_NEAR(figureNamed(measurer->measure({{-585, 585, 0}, {585, 585, 0}}, false).facts, "rise_m"),
+                    39, 1e-3);
+        EXPECT_THROW(measurer->measure({{0, 0, 0}, {586, 0, 0}}, false), Error);
+        EXPECT_THROW(measurer->measure({{0, 0, 0}, {std::nan(""), 0, 0}}, false), Error);
+    }
 }
 
 // Of a transverse Mercator projection's meridians: sin(latitude) of the longitude from its own, clockwise
