@@ -121,6 +121,11 @@ TEST(FollowedTrack, GoesAlongItAboveTheGroundWithoutJerks) {
         }
     }
     const Heightfield ground = test::makeGround("flat", 20, 20, 1);
+    // The middle ray of a level flight meets level ground in the screen.
+    const Pose first = followTrack(ground, {{-200, 0}, {200, 0}}, 50, "walk.gpx").at(0);
+    const double seen = followedEyes(50).zeroParallax;
+    EXPECT_NEAR((first.position + seen * first.forward()).z, 0, 1e-6);
+    EXPECT_NEAR(followedEyes(50).separation, seen / 30, 1e-9);
     EXPECT_THROW(followTrack(ground, {{1, 1}, {1, 1}}, 50, "walk.gpx"), Error);
     EXPECT_THROW(followTrack(ground, {{1, 1}}, 50, "walk.gpx"), Error);
     // Long ones go faster, short ones take two steps.
