@@ -14,6 +14,7 @@
 #include "engine/frame/cast_frames.h"
 #include "terrain/cast/terrain_renderer.h"
 #include "tests/support/test_grounds.h"
+#include "tests/terrain/painted_eyes.h"
 
 namespace stereonav {
 namespace {
@@ -189,25 +190,10 @@ TEST_F(Contours, AreTheSameOnAWarpedEyeAsOnACastOne) {
             painter.paint(views.right, *image);
         }
         const Plane<float>& depth = cast.right.viewDepth;
-        // Silhouettes, and crests that are about to be: where inverse depths, linear on planes, bend.
-        const auto edge = [&](int x, int y) {
-            for (int j = y - 1; j <= y + 1; ++j)
-                for (int i = x - 1; i <= x + 1; ++i) {
-                    const float here = 2 / depth.at(i, j);
-                    const float across = 1 / depth.at(i - 1, j) + 1 / depth.at(i + 1, j),
-                                down = 1 / depth.at(i, j - 1) + 1 / depth.at(i, j + 1);
-                    if (!(std::abs(across - here) < 0.01f * here && std::abs(down - here) < 0.01f * here))
-                        return true;
-                }
-            return false;
-        };
-        const auto grey = [](const EyeImage& image, int x, int y) {
-            return 255.0 * srgbFromLinear(unpackColor(image.color.at(x, y)).y);
-        };
         for (int y = 2; y + 2 < lens.height; ++y)
             for (int x = 2; x + 2 < lens.width; ++x) {
-                if (edge(x, y)) continue;
-                const double a = grey(warped.right, x, y), b = grey(cast.right, x, y);
+                if (test::bends(depth, x, y)) continue;
+                const double a = test::greyAt(warped.right, x, y), b = test::greyAt(cast.right, x, y);
                 off += std::abs(a - b) > 1;
                 worst = std::max(worst, std::abs(a - b));
                 sum += std::abs(a - b);

@@ -226,4 +226,16 @@ void optionControl(PanelHost& host, const Option& option) {
     ImGui::PopID();
 }
 
+void factTable(const PanelHost& host, const char* name, const Facts& facts) {
+    if (!ImGui::BeginTable(name, 2, ImGuiTableFlags_SizingStretchProp)) return;
+    for (const auto& [label, text] : rowsOf(facts)) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        quietText(host, label);
+        ImGui::TableNextColumn();
+        wrappedText(text);
+    }
+    ImGui::EndTable();
+}
+
 }  // namespace stereonav

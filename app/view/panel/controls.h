@@ -22,5 +22,7 @@ void wrappedText(const std::string& text, float width = 0);
 void quietLine(const PanelHost& host, const std::string& text);
 void quietText(const PanelHost& host, const std::string& text);
 void tooltip(const std::string& text);
+// Their rows, labels beside texts. name: of this panel alone.
+void factTable(const PanelHost& host, const char* name, const Facts& facts);
 
 }  // namespace stereonav

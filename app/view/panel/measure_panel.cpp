@@ -100,16 +100,7 @@ void drawMeasurePanel(PanelHost& host) {
     if (line->busy()) quietText(host, "measuring");
     const MeasuredSurface* const measured = line->measured();
     if (!measured) return;
-    if (ImGui::BeginTable("measured", 2, ImGuiTableFlags_SizingStretchProp)) {
-        for (const auto& [label, text] : rowsOf(measured->facts)) {
-            ImGui::TableNextRow();
-            ImGui::TableNextColumn();
-            quietText(host, label);
-            ImGui::TableNextColumn();
-            wrappedText(text);
-        }
-        ImGui::EndTable();
-    }
+    factTable(host, "measured", measured->facts);
     drawProfile(host, *measured);
     const std::string command = commandOf(*host.session()->open().scene, *line);
     if (ImGui::Button("Copy figures")) host.copy(linesOf(measured->facts));

@@ -182,15 +182,7 @@ void drawQuality(PanelHost& host, ViewSession& session) {
 void drawFacts(PanelHost& host) {
     const Facts* const facts = host.facts();
     if (!facts) return quietText(host, "being collected");
-    if (!ImGui::BeginTable("facts", 2, ImGuiTableFlags_SizingStretchProp)) return;
-    for (const auto& [label, text] : rowsOf(*facts)) {
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        quietText(host, label);
-        ImGui::TableNextColumn();
-        wrappedText(text);
-    }
-    ImGui::EndTable();
+    factTable(host, "facts", *facts);
 }
 
 // Of what is seen, in any size and kind of file.
