@@ -14,6 +14,7 @@
 #include <mutex>
 #include <utility>
 
+#include "engine/base/error.h"
 #include "engine/base/lone_loops.h"
 #include "engine/base/loop_watch.h"
 #include "engine/base/stop.h"
