@@ -8,15 +8,13 @@
 
 #include "engine/base/parallel.h"
 #include "engine/math/nice_step.h"
+#include "terrain/paint/contour_rows.h"
 #include "terrain/paint/ground_view.h"
 
 namespace stereonav {
 namespace {
 
 constexpr double kReliefParts = 5;
-// Pixels from a line within which it shows.
-constexpr double kContourReach = 0.5 * kIndexContourWidth + 0.5 + 1;
-constexpr double kLevel = 1e-7;      // of an interval, a pixel
 constexpr double kMostLevels = 1e9;  // from zero: beyond, heights have no digits for lines between
 
 // Of a line `width` pixels wide, in a pixel whose centre is so many from its middle.
@@ -78,9 +76,9 @@ private:
     std::vector<double> mHeights;
 };
 
-class ContourRow {
+class LinesOfRow {
 public:
-    ContourRow(const HeightRows& heights, const ContourSetting& setting)
+    LinesOfRow(const HeightRows& heights, const ContourSetting& setting)
         : mHeights(heights), mInterval(setting.interval), mPerMetre(1 / setting.verticalScale) {}
 
     // Whether there can be a line in a pixel: most are told by the depths alone. A line's reach, and a pixel
@@ -101,7 +99,7 @@ public:
         const double i = glm::dot(seen.gradient, glm::dvec2(seen.perX)),
                      j = glm::dot(seen.gradient, glm::dvec2(seen.perY));
         double change = mPerMetre * std::sqrt(i * i + j * j);
-        if (!(change > kLevel * mInterval) || !(std::abs(height) < kMostLevels * mInterval)) return 0;
+        if (!(change > kContourLevel * mInterval) || !(std::abs(height) < kMostLevels * mInterval)) return 0;
         const double wide = kIndexContourShare *
                             coverOfLine(kIndexContourWidth, distanceFrom(height, index) / change),
                      thin =
@@ -133,10 +131,20 @@ double contourIntervalFor(double relief) {
 
 void ContourPainter::paint(const EyeView& view, EyeImage& image) const {
     if (!(mSetting.interval > 0) || image.viewDepth.empty()) return;
+    const ContourRows rows(mGround, mFog, mSetting, view, mTarget);
+    if (!rows.fits()) {
+        paintPlainly(view, image);
+        return;
+    }
+    parallelFor(image.height(), [&](int y) { rows.paint(image, y); });
+}
+
+void ContourPainter::paintPlainly(const EyeView& view, EyeImage& image) const {
+    if (!(mSetting.interval > 0) || image.viewDepth.empty()) return;
     const GroundView ground(mGround, view);
     parallelFor(image.height(), [&](int y) {
         const HeightRows heights(view, image, y);
-        const ContourRow lines(heights, mSetting);
+        const LinesOfRow lines(heights, mSetting);
         for (int x = 0; x < image.width(); ++x) {
             if (!lines.mayHaveLine(x)) continue;
             GroundSeen seen;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "engine/render/eye_painter.h"
+#include "engine/simd/simd_target.h"
 #include "terrain/ground/heightfield.h"
 #include "terrain/light/fog.h"
 
@@ -26,21 +27,31 @@ constexpr int kIndexContour = 5;
 constexpr double kContourShare = 0.75, kIndexContourShare = 0.9;
 constexpr float kContourInk[3] = {0.055f, 0.027f, 0.012f};
 
+// Pixels from a line within which it may show, and one more, as a warped eye's depths may be those of the
+// next pixel.
+constexpr double kContourReach = 0.5 * kIndexContourWidth + 0.5 + 1;
+// Of an interval, a pixel: ground whose height changes by less is level.
+constexpr double kContourLevel = 1e-7;
+
 // A nice interval for heights over so many metres: some 25 lines; 0 of level ground.
 double contourIntervalFor(double relief);
 
 class ContourPainter final : public EyePainter {
 public:
     // ground, fog: outlive it; the lines are seen through the fog as the ground is.
-    ContourPainter(const Heightfield& ground, const Fog& fog, const ContourSetting& setting)
-        : mGround(ground), mFog(fog), mSetting(setting) {}
+    ContourPainter(const Heightfield& ground, const Fog& fog, const ContourSetting& setting,
+                   SimdTarget target = SimdTarget::Auto)
+        : mGround(ground), mFog(fog), mSetting(setting), mTarget(target) {}
 
     void paint(const EyeView& view, EyeImage& image) const override;
+    // The same pixel by pixel in doubles: what paint() is held against, and its way where floats do not do.
+    void paintPlainly(const EyeView& view, EyeImage& image) const;
 
 private:
     const Heightfield& mGround;
     const Fog& mFog;
     ContourSetting mSetting;
+    SimdTarget mTarget;
 };
 
 }  // namespace stereonav

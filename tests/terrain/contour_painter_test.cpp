@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "engine/base/parallel.h"
@@ -300,6 +301,80 @@ TEST_F(Contours, DoNotDependOnThreads) {
     setThreadCount(threads);
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) ASSERT_EQ(many.color.at(x, y), one.color.at(x, y));
+}
+
+// Pixels that two ways of painting lines colour differently: by more than a step of 1023, and the most.
+struct ContourOff {
+    long long pixels = 0, inked = 0;
+    int most = 0;
+};
+ContourOff contourOff(const EyeImage& a, const EyeImage& b) {
+    ContourOff off;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x) {
+            const int steps = std::abs(static_cast<int>(a.color.at(x, y) & 1023) -
+                                       static_cast<int>(b.color.at(x, y) & 1023));
+            off.pixels += steps > 4, off.most = std::max(off.most, steps);
+            off.inked += b.color.at(x, y) != packColor(glm::vec3(1.0f));
+        }
+    return off;
+}
+
+// The kernels of each instruction set paint what the plain way does: 4 steps of 1023 are a grey level. Where
+// a pixel's ray meets the ground at an edge of a cell rounding says which one it is, so a few may differ
+// more.
+TEST_F(Contours, OfEachInstructionSetAreThoseOfThePlainWay) {
+    TerrainLook foggy;
+    foggy.fogDistance = 2000;
+    const Fog fog(foggy);
+    long long inked = 0, pixels = 0;
+    int looks = 0;
+    for (const char* kind : {"smooth", "rough", "holed", "lake"})
+        for (const glm::dvec3& place : {glm::dvec3(0, -900, 300), glm::dvec3(30, -200, 900),
+                                        glm::dvec3(-4000, -9000, 3000), glm::dvec3(12.5, 40, 203)}) {
+            const TerrainScene scene = test::makeScene(kind == std::string("lake")
+                                                           ? contourGround(
+                                                                 [](const glm::dvec2& p) {
+                                                                     return 200 + std::max(0.0, 0.001 * p.x) -
+                                                                            std::max(0.0, 0.4 * p.y);
+                                                                 },
+                                                                 90, 20)
+                                                           : test::makeGround(kind, 100, 90, 5));
+            const EyeView view = contourView(poseFromAngles(place, -0.1, -0.25, 0.2), 203, 77);
+            const EyeImage white = contourWhite(scene, view);
+            for (const ContourSetting& setting :
+                 {ContourSetting{5, 1}, ContourSetting{37.5, 2.5}, ContourSetting{0.4, 1}}) {
+                const Fog& air = looks % 2 == 0 ? mNoFog : fog;
+                EyeImage plainly = white;
+                ContourPainter(scene.ground, air, setting).paintPlainly(view, plainly);
+                for (const SimdTarget target : simdTargets()) {
+                    EyeImage image = white;
+                    ContourPainter(scene.ground, air, setting, target).paint(view, image);
+                    const ContourOff off = contourOff(image, plainly);
+                    EXPECT_LE(off.pixels, 2 + off.inked / 200)
+                        << kind << " " << looks << " " << setting.interval << " " << nameOf(target) << " of "
+                        << off.inked << ", most " << off.most;
+                    inked += off.inked, pixels += off.pixels;
+                }
+                ++looks;
+            }
+        }
+    std::printf("%lld of %lld inked pixels off by more than a grey level\n", pixels, inked);
+    EXPECT_GT(inked, 30000);
+    EXPECT_LT(pixels, inked / 1000);
+}
+
+// Where floats have no digits for lines the plain way paints.
+TEST_F(Contours, OfTooManyLevelsArePaintedPlainly) {
+    const TerrainScene scene =
+        test::makeScene(contourGround([](const glm::dvec2& p) { return 8000 + 1e-4 * p.x; }, 60, 30));
+    const EyeView view = contourView(poseFromAngles({0, 0, 8400}, 0, -1.2, 0), 90, 70);
+    const EyeImage image = painted(scene, view, {0.001, 1});
+    EyeImage plainly = contourWhite(scene, view);
+    ContourPainter(scene.ground, mNoFog, {0.001, 1}).paintPlainly(view, plainly);
+    const ContourOff off = contourOff(image, plainly);
+    EXPECT_EQ(off.most, 0);
+    EXPECT_GT(off.inked, 0);
 }
 
 TEST(ContourInterval, IsNiceForAnyRelief) {

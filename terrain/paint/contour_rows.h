@@ -1,0 +1,38 @@
+// Contour lines on an eye, row by row, by the kernels of contour_row.h.
+#pragma once
+
+#include "engine/simd/simd_target.h"
+#include "terrain/paint/contour_painter.h"
+#include "terrain/paint/contour_row.h"
+
+namespace stereonav {
+
+class ContourRows {
+public:
+    // All outlive it.
+    ContourRows(const Heightfield& ground, const Fog& fog, const ContourSetting& setting, const EyeView& view,
+                SimdTarget target);
+
+    // Whether floats and 32-bit numbers hold the ground: not beyond some 1000 million samples, nor where
+    // lines lie closer than its heights have digits.
+    bool fits() const { return mFits; }
+    void paint(EyeImage& image, int y) const;
+
+private:
+    struct Kernels {
+        decltype(&plain::findLinePixels) find;
+        decltype(&plain::shareOfLines) share;
+        decltype(&plain::inkLines) ink;
+    };
+    static const Kernels& kernelsFor(SimdTarget target);
+
+    void inkThroughFog(const ContourRow& row, int pixels, int y) const;
+
+    const Fog& mFog;
+    const EyeView& mView;
+    const Kernels& mKernels;
+    ContourRow mRow;  // what all rows share
+    bool mFits = false;
+};
+
+}  // namespace stereonav
