@@ -1,6 +1,7 @@
 #include "terrain/survey/fan_ground.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace stereonav {
 namespace {
@@ -33,40 +34,51 @@ FanGround::FanGround(const Heightfield& ground, const glm::dvec2& eye, double fa
     mData = ground.data() + mStart * along;
 }
 
-bool FanGround::firm(int column, int row) const {
-    const glm::ivec2 at = sample(column, row);
-    for (int j = std::max(0, at.y - 1); j <= std::min(at.y + 1, mGround.height() - 1); ++j)
-        for (int i = std::max(0, at.x - 1); i <= std::min(at.x + 1, mGround.width() - 1); ++i)
-            if (!std::isfinite(mGround.sample(i, j))) return false;
-    return true;
+void FanGround::firm(int column, int firstRow, int rows, float* zeros) const {
+    // Zero times what is not known is no number, and stays so in sums.
+    const std::ptrdiff_t before = -mAlongStride, after = column + 1 < mColumns ? mAlongStride : 0;
+    const auto across = [&](int row) {
+        const std::ptrdiff_t at = std::clamp(row, 0, mRows - 1) * mAcrossStride;
+        const float* const middle = mData + column * mAlongStride + at;
+        return 0.0f * (middle[before] + middle[0] + middle[after]);
+    };
+    float below = across(firstRow - 1), here = across(firstRow);
+    for (int k = 0; k < rows; ++k) {
+        const float above = across(firstRow + k + 1);
+        zeros[k] = below + here + above;
+        below = here, here = above;
+    }
 }
 
-bool FanGround::clear(double eye, double target, int column, int row, int fromColumn, int toColumn,
-                      double grazing) const {
+Passing FanGround::passing(double eye, double target, int column, int row, int fromColumn, int toColumn,
+                           double grazing) const {
     const double reach = distance(column), tangent = (row - mMiddle) / reach;
     const FanLine line{eye, (target - eye) / reach, mMiddle, tangent, mFall * stretch(tangent), reach};
-    // Cell (column - 1, r), which the line crosses from x0 to x1; both ends' rows are known.
-    const auto passes = [&](int at, int r, double x0, double x1, double row0, double row1) {
+    // Rounding itself is less than an eighth of what is allowed for it.
+    const double least = grazing / 8, most = 2 * grazing;
+    // The ground over the line in cell (column - 1, r), which the line crosses from x0 to x1; both ends' rows
+    // are known.
+    const auto rise = [&](int at, int r, double x0, double x1, double row0, double row1) {
+        constexpr double kBelow = std::numeric_limits<double>::lowest();
         const float nearLow = height(at - 1, r), farLow = height(at, r), nearHigh = height(at - 1, r + 1),
                     farHigh = height(at, r + 1);
         // The surface is nowhere above its corners, nor the line below its ends by more than its bulge. Most
         // cells need no more. One that is not known may pass here: it hides nothing.
         const double lowest =
             std::min(line.heightAt(x0), line.heightAt(x1)) - line.bulge * (x1 - x0) * (x1 - x0);
-        if (std::max(std::max(nearLow, farLow), std::max(nearHigh, farHigh)) <= lowest) return true;
+        if (std::max(std::max(nearLow, farLow), std::max(nearHigh, farHigh)) <= lowest) return kBelow;
         const double a = nearLow, b = farLow, c = nearHigh, d = farHigh;
         const double twist = a - b - c + d, origin = distance(at - 1);
-        if (!std::isfinite(twist)) return true;  // open
+        if (!std::isfinite(twist)) return kBelow;  // open
         const auto over = [&](double x, double y) {
             const double u = x - origin, v = y - r;
             return a + (b - a) * u + (c - a) * v + twist * u * v - line.heightAt(x);
         };
-        const double first = over(x0, row0), last = over(x1, row1);
-        if (std::max(first, last) > grazing) return false;
+        const double first = over(x0, row0), last = over(x1, row1), higher = std::max(first, last);
         const double bend = twist * (x1 - x0) * (row1 - row0) - line.bulge * (x1 - x0) * (x1 - x0);
-        if (bend >= 0) return true;
+        if (higher > most || bend >= 0) return higher;
         const double t = 0.5 - 0.5 * (last - first) / bend;
-        return !(t > 0 && t < 1) || first + (last - first) * t + bend * t * (t - 1) <= grazing;
+        return t > 0 && t < 1 ? std::max(higher, first + (last - first) * t + bend * t * (t - 1)) : higher;
     };
     const int lastRow = mRows - 2;
     double x0 = std::max(0.0, distance(fromColumn)), row0 = line.rowAt(x0);
@@ -75,16 +87,18 @@ bool FanGround::clear(double eye, double target, int column, int row, int fromCo
         const double low = std::min(row0, row1), high = std::max(row0, row1);
         const int below = std::clamp(static_cast<int>(low), 0, lastRow);
         const double border = below + 1;
+        double over;
         if (high <= border || below == lastRow) {
-            if (!passes(at, below, x0, x1, row0, row1)) return false;
+            over = rise(at, below, x0, x1, row0, row1);
         } else {
             const double x = std::clamp((border - mMiddle) / tangent, x0, x1);
             const int r0 = row0 <= row1 ? below : below + 1, r1 = row0 <= row1 ? below + 1 : below;
-            if (!passes(at, r0, x0, x, row0, border) || !passes(at, r1, x, x1, border, row1)) return false;
+            over = std::max(rise(at, r0, x0, x, row0, border), rise(at, r1, x, x1, border, row1));
         }
+        if (over > least) return over > most ? Passing::Hidden : Passing::Untold;
         x0 = x1, row0 = row1;
     }
-    return true;
+    return Passing::Clear;
 }
 
 }  // namespace stereonav

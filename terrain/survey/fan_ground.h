@@ -10,6 +10,8 @@
 
 namespace stereonav {
 
+enum class Passing { Clear, Hidden, Untold };
+
 class FanGround {
 public:
     // eye: grid. axis: 0 looks east (sign 1) or west (-1), 1 north or south.
@@ -31,14 +33,17 @@ public:
         const int along = mStart + mSign * column;
         return mAxis == 0 ? glm::ivec2(along, row) : glm::ivec2(row, along);
     }
+    // column: -1 or more; the eye is on the ground.
     float height(int column, int row) const { return mData[column * mAlongStride + row * mAcrossStride]; }
-    // Whether it and all beside it are known: then so is all that it is a corner of.
-    bool firm(int column, int row) const;
+    // 0 for each of some samples that is known with all beside it, and so all that it is a corner of; NaN for
+    // the others.
+    void firm(int column, int firstRow, int rows, float* zeros) const;
 
     // How the line from `eye` metres up to a height in a sample of a column passes the ground between two
-    // columns: its cells as SightLines would look at them. False where it lies lower by more than `grazing`.
-    bool clear(double eye, double target, int column, int row, int fromColumn, int toColumn,
-               double grazing) const;
+    // columns: its cells as SightLines would look at them. Not told where it lies lower by what SightLines
+    // may take for rounding, `grazing` or a part of it.
+    Passing passing(double eye, double target, int column, int row, int fromColumn, int toColumn,
+                    double grazing) const;
 
 private:
     const Heightfield& mGround;

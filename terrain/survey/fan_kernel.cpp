@@ -42,6 +42,21 @@ void raiseLow(const LowRow& row) {
     }
 }
 
+void findTallest(const TallRow& row) {
+    const F below(std::numeric_limits<float>::lowest());
+    float* const out = row.tallest;
+    for (int k = 0; k < row.rows + 2; k += kLanes) store(out + k, below, firstLanes(row.rows + 2 - k));
+    for (int k = 0; k < row.nearRows; k += kLanes)
+        store(out + row.nearStart + k, loadF(row.near + k), firstLanes(row.nearRows - k));
+    for (int k = 0; k < row.farRows; k += kLanes) {
+        float* const at = out + row.farStart + k;
+        store(at, max(loadF(at), loadF(row.far + k)), firstLanes(row.farRows - k));
+    }
+    for (int k = 0; k < row.rows; k += kLanes)
+        store(out + k, max(loadF(out + k), max(loadF(out + k + 1), loadF(out + k + 2))),
+              firstLanes(row.rows - k));
+}
+
 void raiseHigh(const HighRow& row) {
     const FanBins& bins = row.bins;
     const F top(static_cast<float>(row.rows - 1));

@@ -29,6 +29,14 @@ struct LowRow {
     float* low = nullptr;           // slopes a column; raised
 };
 
+// Of two columns and three rows the tallest: rows are those that either column has, and the buffer `tallest`
+// is two longer.
+struct TallRow {
+    const float *near = nullptr, *far = nullptr;  // no NaN
+    int nearStart = 0, nearRows = 0, farStart = 0, farRows = 0, rows = 0;
+    float* tallest = nullptr;
+};
+
 struct HighRow {
     FanBins bins;                        // edges as `LowRow` has them, over the farther of two columns
     float nearRow = 0, nearRowStep = 0;  // over the nearer one
@@ -52,7 +60,7 @@ struct SampleRow {
     std::uint16_t *open = nullptr, *above = nullptr;
 };
 
-STEREONAV_EACH_SET(void raiseLow(const LowRow&); void raiseHigh(const HighRow&);
-                   void tellSamples(const SampleRow&);)
+STEREONAV_EACH_SET(void raiseLow(const LowRow&); void findTallest(const TallRow&);
+                   void raiseHigh(const HighRow&); void tellSamples(const SampleRow&);)
 
 }  // namespace stereonav

@@ -11,7 +11,6 @@ namespace stereonav {
 namespace {
 
 constexpr float kBelowAll = std::numeric_limits<float>::lowest();
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 // Neither more than a float holds nor beyond it.
 float floatOf(double value) {
@@ -20,15 +19,15 @@ float floatOf(double value) {
 
 }  // namespace
 
-FanSweep::FanSweep(const FanTask& task, int axis, int sign, int part)
+FanSweep::FanSweep(const FanTask& task, int axis, int sign, int part, int parts)
     : mTask(task),
       mHeights(task.lines.ground()),
       mGround(mHeights, glm::dvec2(task.eye), task.lines.fall(), axis, sign) {
-    mFrom = -1 + 2.0 * part / kParts, mTo = -1 + 2.0 * (part + 1) / kParts;
+    mFrom = -1 + 2.0 * part / parts, mTo = -1 + 2.0 * (part + 1) / parts;
     mOpenFrom = axis == 1 && part == 0;
-    mClosedTo = axis == 0 && part == kParts - 1;
+    mClosedTo = axis == 0 && part == parts - 1;
     mLow.assign(1 + FanBins::kPadding, kBelowAll);
-    mHigh = mLow;
+    mHigh = mBlock = mLow;
     const double range = double(mHeights.maxHeight()) - mHeights.minHeight();
     const glm::dvec2 spacing = mHeights.spacing();
     mSteepest = std::min(range, mHeights.maxSlope() * std::max(spacing.x, spacing.y));
@@ -37,10 +36,27 @@ FanSweep::FanSweep(const FanTask& task, int axis, int sign, int part)
         task.targetHeight;
 }
 
+// Of the ground from the eye to the first column.
+double FanSweep::slopeBeside() const {
+    const int first = mGround.first();
+    const double x = mGround.distance(first), last = mGround.rows() - 1.0;
+    const auto inside = [&](double row) { return static_cast<int>(std::clamp(row, 0.0, last)); };
+    const int low = inside(std::floor(mGround.middle() + std::min(0.0, x * mFrom))),
+              high = inside(std::ceil(mGround.middle() + std::max(0.0, x * mTo)));
+    double most = std::numeric_limits<double>::lowest();
+    for (int at = -1; at <= first; ++at)
+        for (int r = std::max(0, low - 1); r <= std::min(high + 1, mGround.rows() - 1); ++r)
+            if (std::isfinite(mGround.height(at, r)))
+                most = std::max(most, mGround.height(at, r) - mTask.eye.z);
+    const double over = most + 2 * mTask.grazing;
+    return over < 0 ? over / x : std::numeric_limits<double>::infinity();
+}
+
 FanCounts FanSweep::run() {
     const double reach = mTask.reach > 0 ? mTask.reach : std::numeric_limits<double>::infinity();
     const int first = mGround.first();
     if (first > 0 && mGround.columns() > 0) samplesNear(0);
+    if (first < mGround.columns()) mBeside = slopeBeside();
     for (int at = first; at < mGround.columns(); ++at) {
         const double x = mGround.distance(at);
         if (x * mGround.step() > reach) break;
@@ -61,9 +77,7 @@ FanCounts FanSweep::run() {
 
 // Each bin into two, which inherit what held for it.
 void FanSweep::split() {
-    std::vector<std::vector<float>*> all{&mLow, &mHigh};
-    if (!mBlocks.empty()) all.push_back(&mBlocks.back());
-    for (std::vector<float>* bounds : all) {
+    for (std::vector<float>* bounds : {&mLow, &mHigh, &mBlock}) {
         std::vector<float> finer(static_cast<std::size_t>(2 * mBins) + FanBins::kPadding, kBelowAll);
         for (int b = 0; b < 2 * mBins; ++b)
             finer[static_cast<std::size_t>(b)] = (*bounds)[static_cast<std::size_t>(b / 2)];
@@ -88,12 +102,13 @@ void FanSweep::read(int at, Column& column) const {
         column.height[static_cast<std::size_t>(k)] =
             floatOf(mGround.height(at, column.start + k) - mTask.eye.z);
     if (!mHeights.hasHoles()) return;
-    column.firm.assign(size, kUnknown);
-    column.known.assign(size, kBelowAll);
+    if (column.firm.size() < size) column.firm.resize(size), column.known.resize(size);
+    mGround.firm(at, column.start, column.rows, column.firm.data());
     for (int k = 0; k < column.rows; ++k) {
         const std::size_t r = static_cast<std::size_t>(k);
-        if (std::isfinite(column.height[r])) column.known[r] = column.height[r];
-        if (mGround.firm(at, column.start + k)) column.firm[r] = column.height[r];
+        column.firm[r] += column.height[r];
+        // Of NaN the other one.
+        column.known[r] = std::max(kBelowAll, column.height[r]);
     }
 }
 
@@ -143,24 +158,21 @@ void FanSweep::raiseLowAt(int at, const Column& column) {
 // No ground between two columns lies higher than their samples beside the bin.
 void FanSweep::raiseHighAt(int at, const Column& near, const Column& far) {
     const double x0 = mGround.distance(at - 1), x1 = mGround.distance(at);
-    if ((at - mGround.first() - 1) % kBlock == 0) mBlocks.emplace_back(mLow.size(), kBelowAll);
+    if ((at - mGround.first() - 1) % kBlock == 0 && at - mGround.first() > 1) endBlock();
     const glm::ivec2 range = binsOver(x0);
     if (range.y <= range.x) return;
     const bool holes = mHeights.hasHoles();
     // Rows of both; where one has none the bins beside do not need them.
     const int start = std::min(near.start, far.start),
               end = std::max(near.start + near.rows, far.start + far.rows), rows = end - start;
-    mThree.assign(static_cast<std::size_t>(rows) + 2 + FanBins::kPadding, kBelowAll);
-    for (const Column* column : {&near, &far}) {
-        const std::vector<float>& heights = holes ? column->known : column->height;
-        float* const out = mThree.data() + (column->start - start);
-        for (int k = 0; k < column->rows; ++k)
-            out[k] = std::max(out[k], heights[static_cast<std::size_t>(k)]);
-    }
-    for (int k = 0; k < rows; ++k)
-        mThree[static_cast<std::size_t>(k)] =
-            std::max({mThree[static_cast<std::size_t>(k)], mThree[static_cast<std::size_t>(k + 1)],
-                      mThree[static_cast<std::size_t>(k + 2)]});
+    mThree.resize(static_cast<std::size_t>(rows) + 2 + FanBins::kPadding);
+    TallRow tall;
+    tall.near = holes ? near.known.data() : near.height.data();
+    tall.far = holes ? far.known.data() : far.height.data();
+    tall.nearStart = near.start - start, tall.nearRows = near.rows;
+    tall.farStart = far.start - start, tall.farRows = far.rows;
+    tall.tallest = mThree.data(), tall.rows = rows;
+    mTask.kernels.findTallest(tall);
     HighRow row;
     row.bins = binsAt(x1, x0, range, start, slackOf(rows));
     const FanBins before = binsAt(x0, x0, range, start, 0);
@@ -168,12 +180,21 @@ void FanSweep::raiseHighAt(int at, const Column& near, const Column& far) {
     row.tallest = mThree.data();
     row.rows = rows;
     row.inverseNear = floatOf(1 / x0), row.inverseFar = floatOf(1 / x1);
-    row.high = mBlocks.back().data() + range.x;
+    row.high = mBlock.data() + range.x;
     mTask.kernels.raiseHigh(row);
     for (int b = range.x; b < range.y; ++b) {
         const std::size_t bin = static_cast<std::size_t>(b);
-        mHigh[bin] = std::max(mHigh[bin], mBlocks.back()[bin]);
+        mHigh[bin] = std::max(mHigh[bin], mBlock[bin]);
     }
+}
+
+void FanSweep::endBlock() {
+    mBlocks.push_back({mBounds.size(), mBins});
+    for (int b = 0; b < mBins; ++b) {
+        const std::size_t bin = static_cast<std::size_t>(b);
+        mBounds.push_back({mBlock[bin], mHigh[bin]});
+    }
+    std::fill(mBlock.begin(), mBlock.end(), kBelowAll);
 }
 
 glm::ivec2 FanSweep::ownRows(double x) const {
@@ -229,40 +250,54 @@ void FanSweep::sample(int at, int row, bool aboveHigh) {
     std::uint8_t& out = mTask.seen.row(place.y)[place.x];
     if (!std::isfinite(ground)) {
         out = static_cast<std::uint8_t>(Seen::NoGround);
+        ++mCounts.unknown;
         return;
     }
     const double tangent = (row - mGround.middle()) / x;
     if (mTask.reach > 0 && x * x * mGround.stretch(tangent) > mTask.reach * mTask.reach) return;
-    if (!isClear(at, row, ground + mTask.targetHeight, aboveHigh)) return;
+    const double height = ground + mTask.targetHeight;
+    const Passing passing = passingOf(at, row, height, aboveHigh);
+    if (passing == Passing::Hidden) return;
+    if (passing == Passing::Untold && !mTask.lines.sees(mTask.eye, {place, height})) return;
     out = static_cast<std::uint8_t>(Seen::Visible);
     ++mCounts.visible;
 }
 
-bool FanSweep::isClear(int at, int row, double height, bool aboveHigh) {
+Passing FanSweep::passingOf(int at, int row, double height, bool aboveHigh) {
     const int first = mGround.first();
-    const double eye = mTask.eye.z, grazing = mTask.grazing;
-    if (at - first <= kLag + 1) return mGround.clear(eye, height, at, row, -1, at, grazing);
-    if (!mGround.clear(eye, height, at, row, at - kLag, at, grazing)) return false;
+    const auto walk = [&](int from, int to) {
+        return mGround.passing(mTask.eye.z, height, at, row, from, to, mTask.grazing);
+    };
+    if (at - first <= kLag + 1) return walk(-1, at);
+    if (const Passing passing = walk(at - kLag, at); passing != Passing::Clear) return passing;
     const double x = mGround.distance(at), tangent = (row - mGround.middle()) / x;
-    const double slope = (height - eye) / x - mGround.fall() * x * mGround.stretch(tangent);
+    const double slope = (height - mTask.eye.z) / x - mGround.fall() * x * mGround.stretch(tangent);
     // Curvature only lowers the ground beside the eye: without it the bound holds, too.
-    if (slope <= mBeside && !mGround.clear(eye, height, at, row, -1, first, grazing)) return false;
+    if (slope <= mBeside)
+        if (const Passing passing = walk(-1, first); passing != Passing::Clear) return passing;
     ++(aboveHigh ? mCounts.near : mCounts.all);
-    return aboveHigh || isClearOverBlocks(at, row, height, tangent, slope - mWidest / x);
+    return aboveHigh ? Passing::Clear : passingOverBlocks(at, walk, slope, tangent);
 }
 
-// Of the blocks those are walked that reach up to the line; the last one, which is the likeliest, first.
-bool FanSweep::isClearOverBlocks(int at, int row, double height, double tangent, double slope) {
+// Of the blocks those are walked that reach up to the line, the last one first, until none before does.
+template <typename Walk>
+Passing FanSweep::passingOverBlocks(int at, const Walk& walk, double slope, double tangent) const {
     const double share = (tangent - mFrom) / (mTo - mFrom);
-    for (int block = static_cast<int>(mBlocks.size()) - 1; block >= 0; --block) {
-        const std::vector<float>& bounds = mBlocks[static_cast<std::size_t>(block)];
-        const int bins = static_cast<int>(bounds.size()) - FanBins::kPadding;
-        const int bin = std::clamp(static_cast<int>(share * bins), 0, bins - 1);
-        if (bounds[static_cast<std::size_t>(bin)] < slope) continue;
-        const int from = mGround.first() + block * kBlock, to = std::min(from + kBlock, at - kLag);
-        if (!mGround.clear(mTask.eye.z, height, at, row, from, to, mTask.grazing)) return false;
+    const auto binOf = [&](int bins) {
+        return static_cast<std::size_t>(std::clamp(static_cast<int>(share * bins), 0, bins - 1));
+    };
+    int block = static_cast<int>(mBlocks.size()), to = at - kLag;
+    Bounds bounds{mBlock[binOf(mBins)], mHigh[binOf(mBins)]};
+    while (bounds.before >= slope) {
+        const int from = mGround.first() + block * kBlock;
+        if (bounds.own >= slope)
+            if (const Passing passing = walk(from, to); passing != Passing::Clear) return passing;
+        if (--block < 0) break;
+        const Block& bins = mBlocks[static_cast<std::size_t>(block)];
+        bounds = mBounds[bins.first + binOf(bins.count)];
+        to = from;
     }
-    return true;
+    return Passing::Clear;
 }
 
 }  // namespace stereonav

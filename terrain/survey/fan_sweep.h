@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "engine/image/plane.h"
@@ -15,6 +16,7 @@ namespace stereonav {
 
 struct FanKernels {
     decltype(&plain::raiseLow) raiseLow;
+    decltype(&plain::findTallest) findTallest;
     decltype(&plain::raiseHigh) raiseHigh;
     decltype(&plain::tellSamples) tellSamples;
 };
@@ -25,30 +27,39 @@ struct FanTask {
     const FanKernels& kernels;
     glm::dvec3 eye;  // x, y in the grid's units, z in metres
     double targetHeight, reach;
-    double grazing;             // metres that a line may lie under the ground by
+    double grazing;             // metres that no line may lie under the ground by
     Plane<std::uint8_t>& seen;  // Seen
 };
 
 struct FanCounts {
-    long long visible = 0, near = 0, all = 0;  // seen; walked over the last columns; walked from the eye
+    // Seen; not known; walked over the last columns; walked further.
+    long long visible = 0, unknown = 0, near = 0, all = 0;
 };
 
 class FanSweep {
 public:
-    static constexpr int kParts = 16;  // of a fan: tasks for threads
-
-    FanSweep(const FanTask& task, int axis, int sign, int part);
+    // One of some parts of a fan: tasks for threads.
+    FanSweep(const FanTask& task, int axis, int sign, int part, int parts);
     FanCounts run();
 
 private:
-    static constexpr int kLag = 2;     // columns behind the samples that the upper bounds end at
-    static constexpr int kBlock = 16;  // columns of which upper bounds are kept together
+    static constexpr int kLag = 2;    // columns behind the samples that the upper bounds end at
+    static constexpr int kBlock = 4;  // columns of which upper bounds are kept together
 
     // Rows of a column that the part may ask for, over the eye: with what low bounds, and what high ones
     // need.
     struct Column {
         int start = 0, rows = 0;
         std::vector<float> height, firm, known;  // firm, known: where there are holes
+    };
+
+    // Upper bounds in the bins that there were at the end of a block of kBlock columns.
+    struct Bounds {
+        float own, before;  // of the block; of it and all nearer ones
+    };
+    struct Block {
+        std::size_t first;  // of mBounds
+        int count;
     };
 
     int bins() const { return mBins; }
@@ -62,13 +73,15 @@ private:
     void raiseLowAt(int at, const Column& column);
     void raiseHighAt(int at, const Column& near, const Column& far);
     double slopeBeside() const;
+    void endBlock();
     void samplesNear(int at);
     void samplesAt(int at, const Column& column);
     // First and last row of a column whose samples are this part's.
     glm::ivec2 ownRows(double x) const;
     void sample(int at, int row, bool aboveHigh);
-    bool isClear(int at, int row, double height, bool aboveHigh);
-    bool isClearOverBlocks(int at, int row, double height, double tangent, double slope);
+    Passing passingOf(int at, int row, double height, bool aboveHigh);
+    template <typename Walk>
+    Passing passingOverBlocks(int at, const Walk& walk, double slope, double tangent) const;
 
     const FanTask& mTask;
     const Heightfield& mHeights;
@@ -76,13 +89,14 @@ private:
     double mFrom, mTo;           // tangents
     bool mOpenFrom, mClosedTo;   // which of two fans, or parts, a ray between them belongs to
     double mSteepest, mTallest;  // metres between neighbours, from the eye
-    float mWidest = 0;           // slack of any column
-    double mBeside;              // no slope up to the first column is above it
+    // No slope up to the first column is above it.
+    double mBeside = std::numeric_limits<double>::infinity();
     int mBins = 1;
     std::vector<float> mLow, mHigh, mThree;
     std::vector<std::uint16_t> mOpen, mAbove;
-    // Upper bounds of kBlock columns each, in the bins that there were; the last is not full yet.
-    std::vector<std::vector<float>> mBlocks;
+    std::vector<float> mBlock;   // of the last columns, which are kBlock or less
+    std::vector<Block> mBlocks;  // those before
+    std::vector<Bounds> mBounds;
     std::array<Column, kLag + 2> mColumns;
     FanCounts mCounts;
 };

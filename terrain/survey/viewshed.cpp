@@ -1,5 +1,6 @@
 #include "terrain/survey/viewshed.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,9 +15,10 @@ namespace stereonav {
 namespace {
 
 const FanKernels& fanKernels() {
-    static const FanKernels plainSet{plain::raiseLow, plain::raiseHigh, plain::tellSamples},
-        avx2Set{avx2::raiseLow, avx2::raiseHigh, avx2::tellSamples},
-        avx512Set{avx512::raiseLow, avx512::raiseHigh, avx512::tellSamples};
+    static const FanKernels plainSet{plain::raiseLow, plain::findTallest, plain::raiseHigh,
+                                     plain::tellSamples},
+        avx2Set{avx2::raiseLow, avx2::findTallest, avx2::raiseHigh, avx2::tellSamples},
+        avx512Set{avx512::raiseLow, avx512::findTallest, avx512::raiseHigh, avx512::tellSamples};
     return kernelsOf(SimdTarget::Auto, plainSet, avx2Set, avx512Set);
 }
 
@@ -32,17 +34,21 @@ double checkedEye(const Heightfield& ground, const ViewshedSetting& setting) {
 }
 
 // Samples that are known and within reach.
-long long samplesOf(const Heightfield& ground, const ViewshedSetting& setting) {
-    if (!ground.hasHoles() && setting.reach <= 0)
-        return static_cast<long long>(ground.width()) * ground.height();
+long long samplesWithin(const Heightfield& ground, const ViewshedSetting& setting) {
     long long count = 0;
     for (int j = 0; j < ground.height(); ++j)
         for (int i = 0; i < ground.width(); ++i) {
             const glm::dvec2 run = (glm::dvec2(i, j) - setting.eye) * ground.spacing();
-            const bool inside = setting.reach <= 0 || glm::dot(run, run) <= setting.reach * setting.reach;
-            count += inside && std::isfinite(ground.sample(i, j));
+            count +=
+                glm::dot(run, run) <= setting.reach * setting.reach && std::isfinite(ground.sample(i, j));
         }
     return count;
+}
+
+// Of a fan: enough for many threads, and columns in each long enough to be worth their beginning.
+int partsOf(const Heightfield& ground) {
+    constexpr int kRowsEach = 64, kMostParts = 16;
+    return std::clamp(std::max(ground.width(), ground.height()) / kRowsEach, 1, kMostParts);
 }
 
 }  // namespace
@@ -50,11 +56,10 @@ long long samplesOf(const Heightfield& ground, const ViewshedSetting& setting) {
 Viewshed viewshedOf(const Heightfield& ground, const ViewshedSetting& setting, Progress& progress) {
     const double eye = checkedEye(ground, setting);
     progress.report(0, "looking around");
-    const HeightPyramid maxima(ground);
-    const SightLines lines(ground, maxima, setting.fall);
+    const HeightPyramid none;  // next to no line is walked by itself
+    const SightLines lines(ground, none, setting.fall);
     Viewshed result;
     result.seen.resize(ground.width(), ground.height());
-    constexpr int kParts = FanSweep::kParts;
     const FanTask task{lines,
                        fanKernels(),
                        glm::dvec3(setting.eye, eye),
@@ -62,16 +67,18 @@ Viewshed viewshedOf(const Heightfield& ground, const ViewshedSetting& setting, P
                        setting.reach,
                        lines.grazing(setting.eye, eye, setting.targetHeight),
                        result.seen};
-    std::vector<FanCounts> counts(4 * kParts);
-    parallelFor(4 * kParts, [&](int k) {
+    const int parts = partsOf(ground);
+    std::vector<FanCounts> counts(static_cast<std::size_t>(4) * parts);
+    parallelFor(4 * parts, [&](int k) {
         const int fan = k % 4;
-        counts[static_cast<std::size_t>(k)] = FanSweep(task, fan / 2, fan % 2 ? -1 : 1, k / 4).run();
+        counts[static_cast<std::size_t>(k)] = FanSweep(task, fan / 2, fan % 2 ? -1 : 1, k / 4, parts).run();
     });
+    result.samples = static_cast<long long>(ground.width()) * ground.height();
     for (const FanCounts& part : counts) {
-        result.visible += part.visible;
+        result.visible += part.visible, result.samples -= part.unknown;
         result.walkedNear += part.near, result.walkedAll += part.all;
     }
-    result.samples = samplesOf(ground, setting);
+    if (setting.reach > 0) result.samples = samplesWithin(ground, setting);
     // The sample on which the eye stands is in no fan.
     if (setting.eye == glm::floor(setting.eye)) {
         result.seen.row(static_cast<int>(setting.eye.y))[static_cast<int>(setting.eye.x)] =

@@ -86,17 +86,17 @@ int run(int argc, char** argv) {
     const SightLines lines(ground, maxima, 0);
     const double exact_ms = fastest_ms([&] {
         const glm::dvec3 from(setting.eye, ground.sample(column, height - 1 - row) + eye);
-        long long seen = 0;
         for (int j = 0; j < height; ++j)
             for (int i = 0; i < width; ++i) {
                 const double height_m = ground.sample(i, j);
-                seen += std::isfinite(height_m) && lines.sees(from, {i, j, height_m});
+                const bool sees = std::isfinite(height_m) && lines.sees(from, {i, j, height_m});
+                if (sees != (shed.seen.row(j)[i] == static_cast<std::uint8_t>(Seen::Visible)))
+                    throw Error(
+                        argv[1], fmt::format("sample {}, {}", i, height - 1 - j),
+                        fmt::format("is {} by its line, with a clearance of {:g} m", sees ? "seen" : "hidden",
+                                    lines.measure(from, {i, j, height_m}).clearance),
+                        "the sweep is wrong");
             }
-        if (seen != shed.visible)
-            throw Error(
-                argv[1], "",
-                fmt::format("{} samples are seen by their lines, {} by the sweep", seen, shed.visible),
-                "the sweep is wrong");
     });
     // Cells that differ, by how far the line passes over the ground (below 0: under it).
     long long onlyOurs = 0, onlyTheirs = 0, within1 = 0, within5 = 0;
