@@ -16,6 +16,12 @@ struct FanLine {
     double rowAt(double x) const { return row + tangent * x; }
 };
 
+constexpr double kRounding = 1e-9;  // of rows and columns
+
+bool isWhole(double row) {
+    return std::abs(row - std::round(row)) < kRounding;
+}
+
 }  // namespace
 
 FanGround::FanGround(const Heightfield& ground, const glm::dvec2& eye, double fall, int axis, int sign)
@@ -56,6 +62,12 @@ Passing FanGround::passing(double eye, double target, int column, int row, int f
     const FanLine line{eye, (target - eye) / reach, mMiddle, tangent, mFall * stretch(tangent), reach};
     // Rounding itself is less than an eighth of what is allowed for it.
     const double least = grazing / 8, most = 2 * grazing;
+    // Whether a sample that the line runs through may hide it where the cell is open: one beside it has
+    // ground.
+    const auto beside = [&](int at, double x, double y) {
+        const int sample = static_cast<int>(std::round(y));
+        return x == distance(at) && isWhole(y) && height(at, sample) - line.heightAt(x) > least - line.bulge;
+    };
     // The ground over the line in cell (column - 1, r), which the line crosses from x0 to x1; both ends' rows
     // are known.
     const auto rise = [&](int at, int r, double x0, double x1, double row0, double row1) {
@@ -69,13 +81,15 @@ Passing FanGround::passing(double eye, double target, int column, int row, int f
         if (std::max(std::max(nearLow, farLow), std::max(nearHigh, farHigh)) <= lowest) return kBelow;
         const double a = nearLow, b = farLow, c = nearHigh, d = farHigh;
         const double twist = a - b - c + d, origin = distance(at - 1);
-        if (!std::isfinite(twist)) return kBelow;  // open
+        if (!std::isfinite(twist)) return beside(at - 1, x0, row0) || beside(at, x1, row1) ? most : kBelow;
         const auto over = [&](double x, double y) {
             const double u = x - origin, v = y - r;
             return a + (b - a) * u + (c - a) * v + twist * u * v - line.heightAt(x);
         };
         const double first = over(x0, row0), last = over(x1, row1), higher = std::max(first, last);
         const double bend = twist * (x1 - x0) * (row1 - row0) - line.bulge * (x1 - x0) * (x1 - x0);
+        // A cell that is touched alone may be one beside those that the line crosses.
+        if (x1 - x0 < kRounding) return std::min(higher, most);
         if (higher > most || bend >= 0) return higher;
         const double t = 0.5 - 0.5 * (last - first) / bend;
         return t > 0 && t < 1 ? std::max(higher, first + (last - first) * t + bend * t * (t - 1)) : higher;

@@ -20,9 +20,7 @@ float floatOf(double value) {
 }  // namespace
 
 FanSweep::FanSweep(const FanTask& task, int axis, int sign, int part, int parts)
-    : mTask(task),
-      mHeights(task.lines.ground()),
-      mGround(mHeights, glm::dvec2(task.eye), task.lines.fall(), axis, sign) {
+    : mTask(task), mHeights(task.ground), mGround(mHeights, glm::dvec2(task.eye), task.fall, axis, sign) {
     mFrom = -1 + 2.0 * part / parts, mTo = -1 + 2.0 * (part + 1) / parts;
     mOpenFrom = axis == 1 && part == 0;
     mClosedTo = axis == 0 && part == parts - 1;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "engine/image/plane.h"
@@ -21,12 +23,33 @@ struct FanKernels {
     decltype(&plain::tellSamples) tellSamples;
 };
 
+// Each line by itself. What that takes is made when the first one is asked for: mostly none is.
+class SingleLines {
+public:
+    SingleLines(const Heightfield& ground, double fall) : mGround(ground), mFall(fall) {}
+    bool sees(const glm::dvec3& eye, const glm::dvec3& target) const {
+        std::call_once(mOnce, [&] {
+            mMaxima = HeightPyramid(mGround);
+            mLines.emplace(mGround, mMaxima, mFall);
+        });
+        return mLines->sees(eye, target);
+    }
+
+private:
+    const Heightfield& mGround;
+    double mFall;
+    mutable std::once_flag mOnce;
+    mutable HeightPyramid mMaxima;
+    mutable std::optional<SightLines> mLines;
+};
+
 // What all parts of all fans look at.
 struct FanTask {
-    const SightLines& lines;
+    const Heightfield& ground;
+    const SingleLines& lines;
     const FanKernels& kernels;
     glm::dvec3 eye;  // x, y in the grid's units, z in metres
-    double targetHeight, reach;
+    double fall, targetHeight, reach;
     double grazing;             // metres that no line may lie under the ground by
     Plane<std::uint8_t>& seen;  // Seen
 };

@@ -82,7 +82,6 @@ public:
             const int x = mCell[0] >> mLevel, y = mCell[1] >> mLevel;
             mOutX = mLine.leaves(0, x, mLevel), mOutY = mLine.leaves(1, y, mLevel);
             mOut = std::max(mS, std::min({mOutX, mOutY, mTo}));
-            if (mMaxima.levelCount() == 0) return true;
             if (mLine.leastOver(mS, mOut) - mMaxima.at(mLevel, x, y) < room) {
                 if (mLevel == 0) return true;
                 --mLevel;

@@ -30,8 +30,7 @@ struct Sight {
 
 class SightLines {
 public:
-    // ground and maxima live as long; no line leaps over blocks where maxima are empty. fall: of
-    // curvatureFall(), 0 for level ground.
+    // ground and maxima live as long. fall: of curvatureFall(), 0 for level ground.
     SightLines(const Heightfield& ground, const HeightPyramid& maxima, double fall);
 
     const Heightfield& ground() const { return mGround; }

@@ -56,16 +56,16 @@ int partsOf(const Heightfield& ground) {
 Viewshed viewshedOf(const Heightfield& ground, const ViewshedSetting& setting, Progress& progress) {
     const double eye = checkedEye(ground, setting);
     progress.report(0, "looking around");
-    const HeightPyramid none;  // next to no line is walked by itself
-    const SightLines lines(ground, none, setting.fall);
+    const HeightPyramid none;  // for grazing() alone, which needs none
+    const double grazing =
+        SightLines(ground, none, setting.fall).grazing(setting.eye, eye, setting.targetHeight);
+    const SingleLines lines(ground, setting.fall);
     Viewshed result;
     result.seen.resize(ground.width(), ground.height());
-    const FanTask task{lines,
-                       fanKernels(),
-                       glm::dvec3(setting.eye, eye),
-                       setting.targetHeight,
-                       setting.reach,
-                       lines.grazing(setting.eye, eye, setting.targetHeight),
+    const FanTask task{ground,        lines,
+                       fanKernels(),  glm::dvec3(setting.eye, eye),
+                       setting.fall,  setting.targetHeight,
+                       setting.reach, grazing,
                        result.seen};
     const int parts = partsOf(ground);
     std::vector<FanCounts> counts(static_cast<std::size_t>(4) * parts);

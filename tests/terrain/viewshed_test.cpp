@@ -225,6 +225,35 @@ TEST(Viewshed, BoundsSayWhatEachLineSays) {
     }
 }
 
+// Lines from a sample go through corners, and along borders, of cells that are not known.
+TEST(Viewshed, BoundsSayWhatEachLineSaysAmongHoles) {
+    std::mt19937 random(31);
+    std::uniform_real_distribution<double> any(0, 1);
+    const Heightfield ground = sightGround(131, 118, {10, 14}, [&](int i, int j) {
+        const bool hole = any(random) < 0.06 || std::hypot(i - 90, j - 60) < 15;
+        return hole ? std::nan("") : 25 * std::sin(0.11 * i) * std::cos(0.13 * j) + 5 * any(random);
+    });
+    const HeightPyramid maxima(ground);
+    const SightLines lines(ground, maxima, 0);
+    int told = 0;
+    for (const glm::dvec2 eye : {glm::dvec2(60, 50), glm::dvec2(31, 100), glm::dvec2(120, 9)}) {
+        const double height = ground.heightAt(ground.worldFromGrid(eye));
+        if (!std::isfinite(height)) continue;
+        ViewshedSetting setting;
+        setting.eye = eye, setting.eyeHeight = 12;
+        Progress progress;
+        const Viewshed shed = viewshedOf(ground, setting, progress);
+        for (int j = 0; j < ground.height(); ++j)
+            for (int i = 0; i < ground.width(); ++i) {
+                if (!std::isfinite(ground.sample(i, j))) continue;
+                ASSERT_EQ(seenAt(shed, i, j), lines.sees({eye, height + 12}, {i, j, ground.sample(i, j)}))
+                    << i << " " << j;
+                ++told;
+            }
+    }
+    EXPECT_GT(told, 12000);
+}
+
 TEST(Viewshed, ThreadsAndReachChangeNothingElse) {
     const Heightfield ground = roughGround(150, 120, 21);
     ViewshedSetting setting;
