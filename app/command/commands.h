@@ -26,8 +26,9 @@ struct VolumeOptions {
     std::string series;             // of a folder with several: its number or UID
     std::optional<int> label;       // of a mask with several
     std::vector<glm::dvec3> seeds;  // LPS, metres
-    bool resample = false;          // mend uneven or tilted slices
-    bool isosurface = false;        // seen from outside, without looking for a colon
+    FluidChoice fluid = FluidChoice::Out;
+    bool resample = false;    // mend uneven or tilted slices
+    bool isosurface = false;  // seen from outside, without looking for a colon
     std::optional<double> isovalue;
     std::string transfer;           // a transfer function's file or name; "": none
     std::optional<double> opacity;  // of a translucent wall a millimetre, in (0, 1]

@@ -9,6 +9,7 @@ namespace {
 constexpr std::array kShadings{"lamp",    "lambert", "lambert-shadows", "phong", "phong-shadows",
                                "varying", "fog"};
 constexpr std::array kModulations{"none", "variance", "gradient"};
+constexpr std::array kFluids{"out", "left", "tinted"};
 
 }  // namespace
 
@@ -32,6 +33,16 @@ Modulation modulationFromName(std::string_view name) {
     for (std::size_t n = 0; n < kModulations.size(); ++n)
         if (name == kModulations[n]) return static_cast<Modulation>(n);
     return Modulation::None;
+}
+
+std::vector<std::string> fluidNames() {
+    return {kFluids.begin(), kFluids.end()};
+}
+
+FluidChoice fluidFromName(std::string_view name) {
+    for (std::size_t n = 0; n < kFluids.size(); ++n)
+        if (name == kFluids[n]) return static_cast<FluidChoice>(n);
+    return FluidChoice::Out;
 }
 
 }  // namespace stereonav

@@ -37,6 +37,12 @@ const char* nameOf(Shading shading);
 
 std::vector<std::string> shadingNames();  // in the order of the enumeration
 
+// --fluid: tagged fluid in a colon is taken out, left with its surface as wall, or taken out with the wall
+// that was under it tinted; in the order of fluidNames().
+enum class FluidChoice : std::uint8_t { Out, Left, Tinted };
+std::vector<std::string> fluidNames();
+FluidChoice fluidFromName(std::string_view name);  // Out for any other
+
 // --modulate
 enum class Modulation : std::uint8_t { None, Variance, Gradient };
 const char* nameOf(Modulation modulation);

@@ -26,7 +26,7 @@ std::vector<PaintWord> colonPaintWords();    // paint_words_colon.cpp
 std::vector<OptionRule> colonPaintRules();   // of --paint
 
 // Of colons.
-constexpr const char *kPaintCoverage = "coverage", *kPaintBothWays = "both", *kPaintFluid = "fluid";
+constexpr const char *kPaintCoverage = "coverage", *kPaintBothWays = "both";
 
 // A value of --paint, cut at its first colon.
 struct PaintAsked {

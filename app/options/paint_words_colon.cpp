@@ -28,7 +28,7 @@ std::vector<OptionRule> colonPaintRules() {
 
 std::vector<PaintWord> colonPaintWords() {
     using scene_type::kSurfaces;
-    return {{kPaintCoverage, "[both or FLIGHT]", kSurfaces, problemOfFlight}, {kPaintFluid, "", kSurfaces}};
+    return {{kPaintCoverage, "[both or FLIGHT]", kSurfaces, problemOfFlight}};
 }
 
 }  // namespace stereonav

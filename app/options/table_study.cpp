@@ -12,6 +12,21 @@ OptionRule unlessColonIsLookedFor() {
             "does not go with --isosurface, which looks for no colon", kLeaveOneOut};
 }
 
+std::vector<OptionRule> fluidRules() {
+    const char* const advice = "use out or left";
+    return {unlessColonIsLookedFor(),
+            {[](const Asked& asked) {
+                 return asked.is("fluid", "tinted") &&
+                        !asked.runs(command::kRender | command::kPlay | command::kView);
+             },
+             "tinted shows in pictures of render, play and view alone", advice},
+            {[](const Asked& asked) {
+                 return asked.is("fluid", "tinted") && (!asked.shows(scene_type::kSurfaces) ||
+                                                        asked.has("transfer") || asked.has("opacity"));
+             },
+             "tinted expects an opaque wall", advice}};
+}
+
 }  // namespace
 
 std::vector<Option> studyOptions() {
@@ -49,6 +64,18 @@ std::vector<Option> studyOptions() {
          .panel = OptionPanel::Study,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.seeds.push_back(placeOf(value) / 1000.0); }},
+        {.key = "fluid",
+         .value = wordValue(fluidNames()),
+         .help = "tagged fluid in a colon: taken out, left with its surface as wall, or the wall that was "
+                 "under it tinted green",
+         .group = kStudyGroup,
+         .fallback = "out",
+         .commands = kReading,
+         .scenes = kVolumes,
+         .rules = fluidRules(),
+         .panel = OptionPanel::Study,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->volume.fluid = fluidFromName(value.text); }},
         {.key = "resample",
          .value = flagValue(),
          .help = "mend missing, uneven or tilted slices",

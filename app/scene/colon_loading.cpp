@@ -32,6 +32,7 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
     colon.reading.label = volume.label;
     colon.reading.resample = volume.resample;
     colon.segmentation.seeds = volume.seeds;
+    colon.segmentation.leavesFluid = volume.fluid == FluidChoice::Left;
     colon.centreline.reversed = volume.backwards;
     colon.isosurface = volume.isosurface;
     colon.isovalue = volume.isovalue;
@@ -66,7 +67,7 @@ std::unique_ptr<Scene> loadColonScene(const SceneOptions& options, SimdTarget si
     LitVolume lit = litVolumeOf(options, progress, paintNeedsStudy(options));
     VolumeWorld& world = *lit.world;
     auto scene = std::make_unique<ShownVolume>(std::move(lit), options, options, simd);
-    scene->setPaint(wallPainter(world, options, scene->lens.verticalFov, progress));
+    scene->setPaint(wallPainters(world, options, scene->lens.verticalFov, progress));
     world.colon().study = {};
     return scene;
 }

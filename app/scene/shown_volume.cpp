@@ -8,6 +8,7 @@
 #include "app/options/refusals.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/volume_ambient.h"
+#include "app/scene/volume_coverage.h"
 #include "app/scene/volume_light.h"
 #include "colon/scene/transfer_presets.h"
 #include "engine/volume/transfer_text.h"
@@ -131,13 +132,21 @@ ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const Scen
     mWorld->offerAll([this](auto& capability) { offer(capability); });
     if (mLighting.traced) offer<PictureLight>(*mLighting.traced);
     offerLight();
+    offerPaint();
 }
 
-void ShownVolume::setPaint(std::shared_ptr<const EyePainter> painter) {
-    mPainter = std::move(painter);
-    if (!mPainter || mRenderer.translucent()) return;
-    mPaint.add(mPainter);
+void ShownVolume::setPaint(std::vector<std::shared_ptr<const EyePainter>> painters) {
+    mPainters = std::move(painters);
+    mPaint.set(mPainters);
+}
+
+// What is painted lies on one surface.
+void ShownVolume::offerPaint() {
+    const ColonInterior* const inside = mWorld->side().interior();
+    if (!inside || mRenderer.translucent()) return;
+    mWall = std::make_unique<VolumeCoverage>(mWorld->colon(), *inside);
     offer(mPaint);
+    offer(*mWall);
 }
 
 FrameMaker& ShownVolume::frames() const {
@@ -239,7 +248,7 @@ std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progres
         std::make_shared<ShownVolume>(std::move(made), mFirst, options, mRenderer.target(), &mValues);
     scene->name = name;
     scene->lens = lens;
-    scene->setPaint(mPainter);
+    scene->setPaint(mPainters);
     scene->mChoices.ambientMethods = mChoices.ambientMethods;  // one that was given stays among them
     if (mLighting.lazy) mLighting.lazy->showSurface(isovalue);
     return scene;

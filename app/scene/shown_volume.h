@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/scene/seen_volume_light.h"
 #include "app/scene/traced_light.h"
@@ -11,6 +12,7 @@
 #include "engine/frame/cast_frames.h"
 #include "engine/scene/shown_values.h"
 #include "engine/scene/surface_paint.h"
+#include "engine/scene/wall_to_see.h"
 
 namespace stereonav {
 
@@ -29,7 +31,7 @@ struct LitVolume {
 };
 
 // Offers RayCast, SurfaceChoices, ShownValues and what its world has (VolumeWorld::offerAll); as they are
-// there, TurningLight, SeenLight, PictureLight.
+// there, TurningLight, SeenLight, PictureLight; SurfacePaint and WallToSee of an opaque colon.
 class ShownVolume final : public Scene {
 public:
     // first: the options that the study was loaded with, made: those that this scene shows; the same at
@@ -37,9 +39,8 @@ public:
     ShownVolume(LitVolume volume, const SceneOptions& first, const SceneOptions& made, SimdTarget target,
                 const ShownValues* before = nullptr);
 
-    // Paints the wall in pictures that are shown: before the first, at most once. Offers a SurfacePaint,
-    // unless the painter is null or the wall translucent.
-    void setPaint(std::shared_ptr<const EyePainter> painter);
+    // Paints the wall in pictures that are shown: before the first, at most once.
+    void setPaint(std::vector<std::shared_ptr<const EyePainter>> painters);
 
     FrameMaker& frames() const override;
     std::unique_ptr<Flight> makeFlight() const override;
@@ -49,6 +50,7 @@ public:
 
 private:
     void offerLight();
+    void offerPaint();
     void setChoices();
     void setValues(const ShownValues* before);
     void setAmbient();
@@ -63,8 +65,9 @@ private:
     mutable CastFrames mFrames;
     std::unique_ptr<SeenVolumeLight> mLight;  // that is worked out while one looks, or turns; else null
     SurfaceChoices mChoices;
-    std::shared_ptr<const EyePainter> mPainter;  // null: nothing is painted
+    std::vector<std::shared_ptr<const EyePainter>> mPainters;  // by the options, also while translucent
     SurfacePaint mPaint;
+    std::unique_ptr<WallToSee> mWall;  // of a colon; else null
 };
 
 // What the user changed, into `options`; `first`: those that the study was loaded with.

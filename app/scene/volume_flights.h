@@ -11,6 +11,8 @@
 
 namespace stereonav {
 
+constexpr double kFlightStep = 0.002;  // metres between poses, where nothing else is said
+
 struct ColonFlights {
     std::vector<Pose> there, back;
 };

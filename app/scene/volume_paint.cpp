@@ -14,11 +14,8 @@
 namespace stereonav {
 namespace {
 
-const glm::vec3 kUnseenTint(0.1f, 0.55f, 2.6f), kFluidTint(0.1f, 1.5f, 0.25f);
-constexpr int kSoftRounds = 2;
-constexpr double kFlightStep = 0.002;  // metres between poses, as `coverage`
-constexpr double kIntoLumen = 1.5;     // of the smallest spacing, from the wall, where fluid is looked for
-constexpr double kDry = -200;          // HU: more is fluid where the lumen is
+constexpr double kIntoLumen = 1.5;  // of the smallest spacing, from the wall, where fluid is looked for
+constexpr double kDry = -200;       // HU: more is fluid where the lumen is
 
 // By vertex: 1 where the flight did not show the wall.
 std::vector<float> unseenOf(const VolumeWorld& world, const ColonInterior& inside, const WallMesh& wall,
@@ -35,17 +32,14 @@ std::vector<float> unseenOf(const VolumeWorld& world, const ColonInterior& insid
     Coverage coverage(wall, sight, setting);
     coverage.look(flights.there, progress);
     if (both) coverage.look(flights.back, progress);
-    std::vector<float> marks(wall.places.size());
-    std::transform(coverage.seen().begin(), coverage.seen().end(), marks.begin(),
-                   [](std::uint8_t seen) { return seen ? 0.0f : 1.0f; });
-    return marks;
+    return unseenMarks(coverage.seen());
 }
 
 // By vertex: 1 where the study has more than air just before the wall, in what is now lumen.
 std::vector<float> fluidOf(const ColonScene& colon, const WallMesh& wall) {
     if (colon.study.empty())
-        throw Error("--paint fluid", "", "a mask tells nothing of fluid",
-                    "name the study that it was made from");
+        throw Error("--fluid", "tinted", "a mask tells nothing of fluid",
+                    "name the study that it was made from, or leave it out");
     const VolumeFrame &before = colon.study.frame, &now = colon.volume.field.frame;
     const double step = kIntoLumen * std::min({now.spacing.x, now.spacing.y, now.spacing.z});
     std::vector<float> marks(wall.places.size(), 0.0f);
@@ -72,29 +66,37 @@ double percentOf(const WallMesh& wall, const std::vector<float>& marks) {
 }  // namespace
 
 bool paintNeedsStudy(const SceneOptions& options) {
-    return paintAskedOf(options.paint).word == kPaintFluid;
+    return options.volume.fluid == FluidChoice::Tinted;
 }
 
-std::shared_ptr<const EyePainter> wallPainter(VolumeWorld& world, const SceneOptions& options,
-                                              double verticalFov, Progress& progress) {
-    if (options.paint.empty()) return nullptr;
+std::vector<std::shared_ptr<const EyePainter>> wallPainters(VolumeWorld& world, const SceneOptions& options,
+                                                            double verticalFov, Progress& progress) {
+    const bool fluid = options.volume.fluid == FluidChoice::Tinted;
+    if (options.paint.empty() && !fluid) return {};
     ColonScene& colon = world.colon();
     const ColonInterior* const inside = world.side().interior();
-    if (!inside) throw Error("--paint", "", "expected a colon, whose wall is painted", "leave it out");
-    const PaintAsked asked = paintAskedOf(options.paint);
+    if (!inside)
+        throw Error(fluid ? "--fluid" : "--paint", "", "expected a colon, whose wall is painted",
+                    "leave it out");
     const WallMesh wall = wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, progress);
-    const bool fluid = asked.word == kPaintFluid;
-    std::vector<float> marks =
-        fluid ? fluidOf(colon, wall) : unseenOf(world, *inside, wall, asked.rest, verticalFov, progress);
-    colon.notes.push_back(
-        fluid ? fmt::format("{:.1f} % of the wall was under tagged fluid: it is tinted green, "
-                            "and is to be checked in the slices",
-                            percentOf(wall, marks))
-              : fmt::format("{:.1f} % of the wall is not seen: it is tinted blue", percentOf(wall, marks)));
-    marks = softened(neighboursOf(wall), std::move(marks), kSoftRounds);
-    return std::make_shared<WallPainter>(
-        std::make_shared<const WallMarks>(wall, colon.volume.field.frame, marks),
-        fluid ? kFluidTint : kUnseenTint);
+    const WallNeighbours neighbours = neighboursOf(wall);
+    std::vector<std::shared_ptr<const EyePainter>> painters;
+    if (fluid) {
+        const std::vector<float> marks = fluidOf(colon, wall);
+        colon.notes.push_back(
+            fmt::format("{:.1f} % of the wall was under tagged fluid: it is tinted green, and is to be "
+                        "checked in the slices",
+                        percentOf(wall, marks)));
+        painters.push_back(wallPainter(wall, neighbours, colon.volume.field.frame, marks, kFluidTint));
+    }
+    if (!options.paint.empty()) {
+        const std::vector<float> marks =
+            unseenOf(world, *inside, wall, paintAskedOf(options.paint).rest, verticalFov, progress);
+        colon.notes.push_back(
+            fmt::format("{:.1f} % of the wall is not seen: it is tinted blue", percentOf(wall, marks)));
+        painters.push_back(wallPainter(wall, neighbours, colon.volume.field.frame, marks, kUnseenTint));
+    }
+    return painters;
 }
 
 }  // namespace stereonav

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "app/command/commands.h"
 #include "app/scene/volume_world.h"
@@ -13,9 +14,9 @@ namespace stereonav {
 // Whether what is asked for needs the study's own values (ColonScene::study).
 bool paintNeedsStudy(const SceneOptions& options);
 
-// Null where nothing is asked for. verticalFov: of the pictures, radians. Says in the colon's notes how much
-// is painted. Throws Error (no colon; no study), Cancelled.
-std::shared_ptr<const EyePainter> wallPainter(VolumeWorld& world, const SceneOptions& options,
-                                              double verticalFov, Progress& progress);
+// One over the other; none where nothing is asked for. verticalFov: of the pictures, radians. Says in the
+// colon's notes how much is painted. Throws Error (no colon; no study), Cancelled.
+std::vector<std::shared_ptr<const EyePainter>> wallPainters(VolumeWorld& world, const SceneOptions& options,
+                                                            double verticalFov, Progress& progress);
 
 }  // namespace stereonav

@@ -40,6 +40,8 @@ std::optional<ViewAction> actionOfKey(int key) {
             return ViewAction{ViewCommand::LeftPanels};
         case GLFW_KEY_F7:
             return ViewAction{ViewCommand::Controls};
+        case GLFW_KEY_F9:
+            return ViewAction{ViewCommand::ToggleCoverage};
         case GLFW_KEY_3:
             return ViewAction{ViewCommand::ToggleStereo};
         case GLFW_KEY_BACKSPACE:
@@ -214,6 +216,8 @@ std::optional<ViewAction> actionOf(const KeyPress& press) {
         return ViewAction{*command};
     if (press.repeat) return std::nullopt;
     if (const auto command = commandOfLetter(letter, press.shift)) return ViewAction{*command};
+    if (press.key == GLFW_KEY_F8)
+        return ViewAction{press.shift ? ViewCommand::PreviousUnseen : ViewCommand::NextUnseen};
     if (const auto mode = modeOfDigit(press.key)) return ViewAction{ViewCommand::SetMode, *mode};
     return actionOfKey(press.key);
 }
@@ -277,6 +281,9 @@ const std::vector<KeyHelp>& viewKeys() {
         {"Ctrl+B", "keep this place", does(AddPlace)},
         {"Ctrl+C", "copy what is told of the place under the pointer", does(CopyPlace)},
         {"Ctrl+M", "the measured line goes on to the place under the pointer", does(MeasurePlace)},
+        {"F9", "coverage (colon): tints the wall that was not seen yet, or not", does(ToggleCoverage)},
+        {"F8", "to the next part of the wall that was not seen (Coverage)", does(NextUnseen)},
+        {"Shift+F8", "to the one before", does(PreviousUnseen)},
         {"Ctrl+Z", "undo; of keyframes first, while they are on the map", does(Undo)},
         {"Ctrl+Y", "redo", does(Redo)},
         {"Del", "remove the chosen keyframe; in slices the last seed"},

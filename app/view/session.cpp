@@ -448,8 +448,8 @@ const FrameRequest& ViewSession::requestFor(int width, int height, double ahead,
     wanted.mode = compose().mode;
     wanted.fitEyes = mStereo.fits();
     wanted.truth = mTruth;
-    wanted.version = mRequest.version;
-    if (mFresh || !sameFrame(wanted, mRequest)) ++wanted.version;
+    wanted.paint = mPaint;
+    wanted.version = mRequest.version + (mFresh || !sameFrame(wanted, mRequest) ? 1 : 0);
     mFresh = false;
     mRequest = wanted;
     return mRequest;

@@ -37,6 +37,9 @@ enum class ViewCommand {
     AddPlace,
     CopyPlace,
     MeasurePlace,
+    ToggleCoverage,
+    NextUnseen,
+    PreviousUnseen,
     OpenPath,
     FullScreen,
     QuitAtOnce,
@@ -225,6 +228,12 @@ public:
     const ViewStereo& eyes() const { return mStereo; }
     ViewStereo& eyes() { return mStereo; }  // to be set by what is not a key
     void setTruth(TruthView truth) { mTruth = truth; }
+    // Over the surfaces from the next frame on; null: nothing.
+    void setPaint(const std::shared_ptr<const EyePainter>& paint) {
+        if (paint == mPaint) return;
+        mPaint = paint;
+        mFresh = true;
+    }
     TruthView truth() const { return mTruth; }
     // What was measured of the picture that rests; "" where it is of another one.
     std::string measuredText(const ViewFrame& frame) const;
@@ -312,6 +321,7 @@ private:
     std::string_view mMethod;
     int mModel = 0;
     TruthView mTruth = TruthView::None;
+    std::shared_ptr<const EyePainter> mPaint;
     FrameTruth mMeasured;
     double mShape = 0;           // width to height of the eyes' pictures that were asked for last
     std::optional<double> mFov;  // radians; none: the scene's

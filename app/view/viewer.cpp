@@ -136,6 +136,7 @@ void Viewer::takeScene() {
     if (!loading.busy) mBefore.reset();
     if (mSession && !mAnother) {
         mMeasured.replaceScene(mScene->scene);
+        mCoverage.replaceScene(mScene->scene);
         return mSession->replaceScene(mScene);
     }
     if (!mSession && mBefore) {
@@ -174,6 +175,7 @@ void Viewer::beginSession() {
     mHistory.start(settings());
     mPlaces.emplace(fullName().string());
     mMeasured.open(mScene->scene, measuredFile(mPlaces->file()));
+    mCoverage.open(mScene->scene, coverageFile(mPlaces->file()));
     mMarked.reset();
     mRecentDue = true;
     reportKept();
@@ -258,7 +260,7 @@ bool Viewer::actOnInterface(const ViewAction& action) {
             redo();
             return true;
         default:
-            return false;
+            return actOnCoverage(action.command);
     }
 }
 
@@ -292,6 +294,7 @@ void Viewer::update(double dt) {
     mHistory.observe(settings(), panelled().active(), dt);
     followKeyframes();
     if (mMeasured.poll()) mLayoutDue = true;
+    followCoverage();
     askFor();
     followWishes();
     lookAtJob();
@@ -321,6 +324,7 @@ void Viewer::takeFrame() {
         mSession->observe(*mFrame);
         if (!mSession->slicesShown() && !warps()) showFrame();
         if (mBench) mBench->cast(*mFrame);
+        showToCoverage();
         if (!warps()) mRate.count(mFrame->request.version < mAsked);
         mCosts.push_back(costOf(*mFrame));
         if (mCosts.size() > kKeptCosts) mCosts.pop_front();

@@ -15,6 +15,7 @@
 #include "app/view/input.h"
 #include "app/view/keyframe_edit.h"
 #include "app/view/late_view.h"
+#include "app/view/live_coverage.h"
 #include "app/view/loading.h"
 #include "app/view/panel/panel_host.h"
 #include "app/view/panel/panels.h"
@@ -86,6 +87,7 @@ public:
     MeasuredLine* measured() override { return mSession ? &mMeasured : nullptr; }
     bool measuring() const override { return mMeasuring; }
     void measure(bool on) override { mMeasuring = on; }
+    LiveCoverage* coverage() override { return mSession && mCoverage.can() ? &mCoverage : nullptr; }
     void markWorld(const std::optional<glm::dvec3>& place) override { mMarked = place; }
     bool canUndo() const override { return mSession && (mKeyframes.canUndo() || mHistory.canUndo()); }
     bool canRedo() const override { return mSession && (mKeyframes.canRedo() || mHistory.canRedo()); }
@@ -185,6 +187,11 @@ private:
     std::optional<glm::dvec3> pointedWorld() const;
     void copyPlace();
     void measureHere();
+    void followCoverage();
+    void showToCoverage();
+    bool actOnCoverage(ViewCommand command);
+    void toggleCoverage();
+    void flyToUnseen(int step);
     void addLineMarks(std::vector<OverlayMark>& marks) const;
     bool drawOverlay(const OutputModeInfo& mode);
 
@@ -256,6 +263,7 @@ private:
     bool mMeasuring = false;
     std::optional<glm::dvec3> mMarked;  // world
     MeasuredLine mMeasured{[] { Window::wake(); }};
+    LiveCoverage mCoverage{[] { Window::wake(); }};
     KeyframeEdit mKeyframes;
     long long mKeyframesSeen = 0, mKeyframesPath = 0;  // versions: of them, and of the path beside them
     bool mKeyframesFlown = false;                      // that path is theirs

@@ -99,6 +99,7 @@ void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& tr
     if (auto* const light = scene.offered<TurningLight>()) light->turnTo(request.sun);
     if (auto* const models = scene.offered<LightModels>()) models->choose(request.model);
     if (auto* const effort = scene.offered<FrameEffort>()) effort->setEffort(request.effort);
+    if (auto* const paint = scene.offered<SurfacePaint>()) paint->setOver(request.paint);
     EyeView view = makeEyeView(request.pose, castLens(request));
     if (request.twoEyes) {
         const FrameWay way = TruthMaker::wayOf(request.truth, request.way, scene.frames());

@@ -25,6 +25,7 @@
 #include "engine/frame/frame_maker.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/late/late_warp.h"
+#include "engine/render/eye_painter.h"
 #include "engine/scene/capabilities.h"
 #include "engine/scene/scene.h"
 #include "engine/stereo/parallax_histogram.h"
@@ -58,14 +59,15 @@ struct FrameRequest {
     // The eyes may be changed to be comfortable in this picture (comfortableEyes): its own request says to
     // what.
     bool fitEyes = false;
-    TruthView truth = TruthView::None;  // in the place of the right eye
-    double scale = 1;                   // of the eyes' full size: less while something moves
-    glm::ivec2 guard{0};                // pixels that are cast beyond the lens's, at each side
-    glm::ivec2 whole{0};                // that size; 0: the lens's
-    double effort = 1;                  // FrameEffort, where it is offered
-    bool flying = false;                // something moves: a newer one comes soon
-    bool late = false;                  // it will be seen from elsewhere too (ViewFrame::late)
-    bool refines = false;               // while it rests (rest_refiner.h)
+    TruthView truth = TruthView::None;        // in the place of the right eye
+    double scale = 1;                         // of the eyes' full size: less while something moves
+    glm::ivec2 guard{0};                      // pixels that are cast beyond the lens's, at each side
+    glm::ivec2 whole{0};                      // that size; 0: the lens's
+    double effort = 1;                        // FrameEffort, where it is offered
+    bool flying = false;                      // something moves: a newer one comes soon
+    bool late = false;                        // it will be seen from elsewhere too (ViewFrame::late)
+    bool refines = false;                     // while it rests (rest_refiner.h)
+    std::shared_ptr<const EyePainter> paint;  // over what the scene is painted with; null: nothing
 };
 
 struct ViewFrame : EyePair {

@@ -61,11 +61,24 @@ void Coverage::makeChunks() {
     }
 }
 
+EyeView Coverage::viewFrom(const Pose& pose) const {
+    EyeView view;
+    view.eye = view.head = pose.position;
+    view.right = pose.right();
+    view.up = pose.up();
+    view.forward = pose.forward();
+    view.yMax = std::tan(0.5 * mSetting.verticalFov);
+    view.yMin = -view.yMax;
+    view.xMax = view.yMax * mSetting.aspect;
+    view.xMin = -view.xMax;
+    return view;
+}
+
 // Whether anything of the chunk is near enough and not behind the eye.
-bool Coverage::reaches(const Chunk& chunk, const Pose& pose) const {
-    const glm::dvec3 to = glm::dvec3(chunk.middle) - pose.position;
+bool Coverage::reaches(const Chunk& chunk, const EyeView& view) const {
+    const glm::dvec3 to = glm::dvec3(chunk.middle) - view.eye;
     const double r = chunk.radius + mSight.smallestSpacing();
-    return glm::length(to) - r <= mSetting.within && glm::dot(to, pose.forward()) > -r;
+    return glm::length(to) - r <= mSetting.within && glm::dot(to, view.forward) > -r;
 }
 
 // On the wall itself every line of sight would end in it.
@@ -74,28 +87,41 @@ glm::dvec3 Coverage::lifted(std::uint32_t vertex) const {
            kLift * mSight.smallestSpacing() * glm::dvec3(mMesh.normals[vertex]);
 }
 
-bool Coverage::sees(const Pose& pose, std::uint32_t vertex) const {
-    const glm::dvec3 place(mMesh.places[vertex]), to = place - pose.position;
-    const double depth = glm::dot(to, pose.forward()), away = glm::length(to);
+bool Coverage::sees(const EyeView& view, std::uint32_t vertex) const {
+    const glm::dvec3 place(mMesh.places[vertex]), to = place - view.eye;
+    const double depth = glm::dot(to, view.forward), away = glm::length(to);
     if (!(depth > 0) || away > mSetting.within) return false;
-    const double tall = std::tan(0.5 * mSetting.verticalFov) * depth;
-    if (std::abs(glm::dot(to, pose.up())) > tall) return false;
-    if (std::abs(glm::dot(to, pose.right())) > tall * mSetting.aspect) return false;
+    const double x = glm::dot(to, view.right), y = glm::dot(to, view.up);
+    if (y < view.yMin * depth || y > view.yMax * depth) return false;
+    if (x < view.xMin * depth || x > view.xMax * depth) return false;
     if (-glm::dot(to, glm::dvec3(mMesh.normals[vertex])) < std::cos(mSetting.angle) * away) return false;
-    return mSight.clear(pose.position, lifted(vertex));
+    return mSight.clear(view.eye, lifted(vertex));
+}
+
+void Coverage::startAgain(const CoverageSetting& setting) {
+    check(setting);
+    mSetting = setting;
+    std::fill(mSeen.begin(), mSeen.end(), std::uint8_t{0});
 }
 
 void Coverage::look(std::span<const Pose> poses, Progress& progress) {
+    std::vector<EyeView> eyes;
+    eyes.reserve(poses.size());
+    for (const Pose& pose : poses) eyes.push_back(viewFrom(pose));
+    look(eyes, progress);
+}
+
+void Coverage::look(std::span<const EyeView> eyes, Progress& progress) {
     std::atomic<std::size_t> done = 0;
     // A chunk is one task: no two write the same vertex.
     parallelFor(static_cast<int>(mChunks.size()), [&](int n) {
         const Chunk& chunk = mChunks[n];
         std::uint32_t left = 0;
         for (std::uint32_t v = chunk.from; v < chunk.to; ++v) left += !mSeen[v];
-        for (std::size_t p = 0; p < poses.size() && left > 0; ++p) {
-            if (!reaches(chunk, poses[p])) continue;
+        for (std::size_t p = 0; p < eyes.size() && left > 0; ++p) {
+            if (!reaches(chunk, eyes[p])) continue;
             for (std::uint32_t v = chunk.from; v < chunk.to; ++v)
-                if (!mSeen[v] && sees(poses[p], v)) mSeen[v] = 1, --left;
+                if (!mSeen[v] && sees(eyes[p], v)) mSeen[v] = 1, --left;
         }
         progress.report(static_cast<double>(++done) / static_cast<double>(mChunks.size()),
                         "looking at the wall");
@@ -195,6 +221,13 @@ int Coverage::visit(const std::vector<UnseenPatch>& patches, const FreeDistance&
                         "looking at unseen patches");
     }
     return views;
+}
+
+std::vector<float> unseenMarks(const std::vector<std::uint8_t>& seen) {
+    std::vector<float> marks(seen.size());
+    std::transform(seen.begin(), seen.end(), marks.begin(),
+                   [](std::uint8_t was) { return was ? 0.0f : 1.0f; });
+    return marks;
 }
 
 }  // namespace stereonav

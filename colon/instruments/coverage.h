@@ -16,6 +16,7 @@
 #include "colon/wall/line_of_sight.h"
 #include "colon/wall/wall_mesh.h"
 #include "engine/base/progress.h"
+#include "engine/camera/eye_view.h"
 #include "engine/camera/pose.h"
 
 namespace stereonav {
@@ -44,11 +45,17 @@ public:
     // mesh and sight must outlive it. Nothing is seen yet. Throws Error for settings out of range.
     Coverage(const WallMesh& mesh, const LineOfSight& sight, const CoverageSetting& setting);
 
-    // Adds what is seen from these. The same on any number of threads. Throws Cancelled.
+    // Adds what is seen from these, by the setting's field of view. The same on any number of threads, and in
+    // any order. Throws Cancelled.
     void look(std::span<const Pose> poses, Progress& progress);
+    // Adds what is in these pictures.
+    void look(std::span<const EyeView> eyes, Progress& progress);
+    // Nothing is seen any more. Throws as the constructor.
+    void startAgain(const CoverageSetting& setting);
 
     double percent() const;  // of the wall's area; 0 of a wall without area
     const std::vector<std::uint8_t>& seen() const { return mSeen; }  // by vertex, 0 or 1
+    const WallNeighbours& neighbours() const { return mNeighbours; }
 
     // Those of at least the set size, largest first, with their views. clearance: metres that the eye keeps.
     std::vector<UnseenPatch> patches(const FreeDistance& freeDistance, double clearance) const;
@@ -66,8 +73,9 @@ private:
         float radius;
     };
     void makeChunks();
-    bool reaches(const Chunk& chunk, const Pose& pose) const;
-    bool sees(const Pose& pose, std::uint32_t vertex) const;
+    EyeView viewFrom(const Pose& pose) const;
+    bool reaches(const Chunk& chunk, const EyeView& view) const;
+    bool sees(const EyeView& view, std::uint32_t vertex) const;
     glm::dvec3 lifted(std::uint32_t vertex) const;
     std::vector<UnseenPatch> patchesAmong(const std::vector<std::uint32_t>& vertices) const;
     std::optional<Pose> viewOf(std::uint32_t vertex, const FreeDistance& freeDistance,
@@ -80,5 +88,8 @@ private:
     std::vector<Chunk> mChunks;
     std::vector<std::uint8_t> mSeen;
 };
+
+// By vertex: 1 where it was not seen, else 0.
+std::vector<float> unseenMarks(const std::vector<std::uint8_t>& seen);
 
 }  // namespace stereonav

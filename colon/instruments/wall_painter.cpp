@@ -25,4 +25,12 @@ void WallPainter::paint(const EyeView& view, EyeImage& image) const {
     });
 }
 
+std::shared_ptr<const EyePainter> wallPainter(const WallMesh& wall, const WallNeighbours& neighbours,
+                                              const VolumeFrame& frame, std::vector<float> marks,
+                                              const glm::vec3& tint) {
+    constexpr int kSoftRounds = 2;
+    marks = softened(neighbours, std::move(marks), kSoftRounds);
+    return std::make_shared<WallPainter>(std::make_shared<const WallMarks>(wall, frame, marks), tint);
+}
+
 }  // namespace stereonav

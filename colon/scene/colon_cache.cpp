@@ -257,6 +257,7 @@ std::uint64_t colonCacheKey(std::uint64_t study, const ColonOptions& options) {
     const SegmentationSetting& s = options.segmentation;
     hash.add(s.air).add(s.tagged).add(s.wall).add(static_cast<std::int64_t>(s.seeds.size()));
     for (const glm::dvec3& seed : s.seeds) hash.add(seed.x).add(seed.y).add(seed.z);
+    if (s.leavesFluid) hash.add("fluid is left");
     hash.add(options.centreline.spacing).add(static_cast<std::int64_t>(options.centreline.reversed));
     return hash.value();
 }

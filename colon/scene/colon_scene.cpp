@@ -73,6 +73,9 @@ auto inTheNameOf(const ColonOptions& options, const Work& work) {
 
 // The colon in a study that was read.
 FoundColon findColon(const Study& study, const ColonOptions& options, Progress& progress) {
+    if (study.isMask && options.segmentation.leavesFluid)
+        throw Error("--fluid", "left", "a mask tells nothing of fluid",
+                    "name the study that it was made from, or leave it out");
     FoundColon found;
     found.format = study.format;
     found.ofMask = study.isMask;

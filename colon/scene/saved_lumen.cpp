@@ -75,6 +75,7 @@ std::uint64_t savedLumenKey(std::uint64_t study, const SegmentationSetting& sett
     hash.add("lumen").add(kSavedVersion).add(static_cast<std::int64_t>(study));
     hash.add(setting.air).add(setting.tagged).add(setting.wall);
     for (const glm::dvec3& seed : setting.seeds) hash.add(seed.x).add(seed.y).add(seed.z);
+    if (setting.leavesFluid) hash.add("fluid is left");
     return hash.value();
 }
 

@@ -275,6 +275,16 @@ std::vector<LumenSegment> segmentsOf(const MaskVolume& lumen) {
     return segments;
 }
 
+// Left in, it may cut the lumen where it fills a loop.
+void noteFluid(std::size_t pools, const SegmentationSetting& setting, LumenField& lumen) {
+    if (setting.leavesFluid)
+        lumen.notes.push_back(fmt::format(
+            "left {} pool(s) of tagged fluid in, their surface is wall: the lumen is in {} piece(s)", pools,
+            lumen.segments.size()));
+    else if (pools > 0)
+        lumen.notes.push_back(fmt::format("took {} pool(s) of tagged fluid for lumen", pools));
+}
+
 }  // namespace
 
 std::optional<LumenField> restoreLumen(const GreyVolume& study, MaskVolume lumen,
@@ -287,7 +297,8 @@ std::optional<LumenField> restoreLumen(const GreyVolume& study, MaskVolume lumen
     LumenField found;
     found.segments = segmentsOf(lumen);
     if (found.segments.empty()) return std::nullopt;
-    const FluidPools fluid = poolsInside(study, setting, airInside(study, setting, inside), inside);
+    FluidPools fluid;
+    if (!setting.leavesFluid) fluid = poolsInside(study, setting, airInside(study, setting, inside), inside);
     found.field = cutField(study, *crop);
     found.isovalue = setting.wall;
     MaskVolume marks(crop->frame);
@@ -304,7 +315,9 @@ LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& sett
     AirPieces air = findAir(study, setting, progress);
     takeSeeds(study, setting, air);
     progress.report(0.4, "looking for tagged fluid");
-    const FluidPools fluid = findFluid(study, setting, air);
+    FluidPools fluid = findFluid(study, setting, air);
+    const std::size_t pools = fluid.pools.size();
+    if (setting.leavesFluid) fluid.pools.clear();
     LumenField lumen;
     lumen.notes = air.notes;
     const LumenCrop crop = cropOf(study, air, fluid);
@@ -318,8 +331,7 @@ LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& sett
     wallOff(marks, setting.wall, lumen.field);
     const Pieces pieces = markedPieces(marks);
     setSegments(pieces, orderOf(pieces, worthKeeping(pieces, crop.frame), crop.frame), lumen);
-    if (!fluid.pools.empty())
-        lumen.notes.push_back(fmt::format("took {} pool(s) of tagged fluid for lumen", fluid.pools.size()));
+    noteFluid(pools, setting, lumen);
     progress.report(1, "found the lumen");
     return lumen;
 }

@@ -16,6 +16,7 @@ struct SegmentationSetting {
     double tagged = 200;            // HU: above, with a level surface under air, is tagged fluid
     double wall = -450;             // HU: the wall is this isosurface (half way between air and tissue)
     std::vector<glm::dvec3> seeds;  // world, metres: pieces that hold one are the colon; empty: chosen
+    bool leavesFluid = false;       // tagged fluid stays: its surface is wall, the lumen is air alone
 };
 
 // A piece of the lumen, in order from rectum to caecum.
@@ -36,7 +37,8 @@ struct LumenField {
     std::vector<std::string> notes;  // what was found and left out, one line each
 };
 
-// From grey values. Tagged fluid becomes air in `field`, without a film between it and the air above.
+// From grey values. Tagged fluid becomes air in `field`, without a film between it and the air above, unless
+// it is left; it ties the air above it to the colon all the same.
 // Throws Error (no air, all air, seeds outside, nothing like a colon), Cancelled.
 LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress);
 

@@ -17,13 +17,17 @@ public:
     // One over the other, in this order.
     void set(std::vector<std::shared_ptr<const EyePainter>> painters) { mPainters = std::move(painters); }
     void add(std::shared_ptr<const EyePainter> painter) { mPainters.push_back(std::move(painter)); }
-    bool empty() const { return mPainters.empty(); }
+    // Over all of them, while one flies; null: nothing.
+    void setOver(std::shared_ptr<const EyePainter> painter) { mOver = std::move(painter); }
+    bool empty() const { return mPainters.empty() && !mOver; }
     void paint(const EyeView& view, EyeImage& image) const {
         for (const auto& painter : mPainters) painter->paint(view, image);
+        if (mOver) mOver->paint(view, image);
     }
 
 private:
     std::vector<std::shared_ptr<const EyePainter>> mPainters;
+    std::shared_ptr<const EyePainter> mOver;
 };
 
 // What the scene offers of it, on an eye that is there; its time, ms: 0 where there is nothing to paint.

@@ -43,9 +43,7 @@ TEST_F(VolumePaint, RefusesWhatCannotBePainted) {
     expectRefused({"render", study, "--out", "a.png", "--paint", "rainbow"}, {"--paint", "coverage"});
     expectRefused({"render", study, "--out", "a.png", "--paint", "coverage:flight"},
                   {"--paint", "coverage:both"});
-    expectRefused({"render", study, "--out", "a.png", "--paint", "fluid:x"}, {"--paint"});
-    expectRefused({"render", study, "--no-cache", "--out", "a.png", "--paint", "fluid"},
-                  {"--paint fluid", "mask"});
+    expectRefused({"render", study, "--out", "a.png", "--paint", "fluid"}, {"--paint", "coverage"});
     expectRefused({"render", study, "--out", "a.png", "--paint", "coverage", "--isosurface"},
                   {"--isosurface"});
     expectRefused({"render", study, "--out", "a.png", "--paint", "coverage", "--opacity", "0.9"},

@@ -202,5 +202,31 @@ TEST(Coverage, RefusesSettingsOutOfRange) {
     refused([](CoverageSetting& s) { s.smallestPatch = -1; });
 }
 
+// A picture whose window is not in its middle, as one of two eyes has, shows more to one side.
+TEST(Coverage, LooksThroughThePicturesOwnWindow) {
+    const LineOfSight sight = tube().sight();
+    const Pose eye = lookingAlong({0, 0, -0.02}, {0, 0, 1});
+    Progress progress;
+    CoverageSetting setting;
+    setting.within = 0.03;
+    const double side = std::tan(0.5 * setting.verticalFov);
+    EyeView view;
+    view.eye = eye.position;
+    view.right = eye.right(), view.up = eye.up(), view.forward = eye.forward();
+    view.xMin = view.yMin = -side;
+    view.xMax = view.yMax = side;
+    Coverage byPose(tube().mesh, sight, setting), byView(tube().mesh, sight, setting);
+    byPose.look({&eye, 1}, progress);
+    byView.look({&view, 1}, progress);
+    EXPECT_EQ(byPose.seen(), byView.seen());
+    byView.startAgain(setting);
+    EXPECT_EQ(byView.percent(), 0);
+    view.xMin = 0;
+    byView.look({&view, 1}, progress);
+    EXPECT_NEAR(seenArea(tube(), byView) / seenArea(tube(), byPose), 0.5, 0.01);
+    setting.within = -1;
+    EXPECT_THROW(byView.startAgain(setting), Error);
+}
+
 }  // namespace
 }  // namespace stereonav::test

@@ -11,6 +11,7 @@
 #include "app/view/bookmarks.h"
 #include "app/view/file_looks.h"
 #include "app/view/job.h"
+#include "app/view/live_coverage.h"
 #include "app/view/measured_line.h"
 #include "app/view/recent_files.h"
 #include "app/view/session.h"
@@ -118,6 +119,8 @@ public:
     virtual bool measuring() const { return false; }
     virtual void measure(bool /*on*/) {}
     virtual void markWorld(const std::optional<glm::dvec3>& /*place*/) {}  // in the picture, until it is none
+    // Null where the scene has no wall of which it can be followed what was seen.
+    virtual LiveCoverage* coverage() { return nullptr; }
     virtual bool canUndo() const = 0;
     virtual bool canRedo() const = 0;
     virtual void undo() = 0;

@@ -7,6 +7,7 @@
 
 #include "app/view/input.h"
 #include "app/view/panel/controls.h"
+#include "app/view/panel/coverage_panel.h"
 #include "app/view/panel/file_browser.h"
 #include "app/view/panel/map_panel.h"
 #include "app/view/panel/measure_panel.h"
@@ -43,6 +44,7 @@ struct Panels::State {
     Column left, side;
     bool beside = true;          // columns take their room from the picture
     float above = 0, below = 0;  // units that the menus and the line at the bottom took, in the last layout
+    CoveragePanel coverage;
     MapPanel map;
     PlacesPanel places;
     SlicesPanel slices;
@@ -135,6 +137,7 @@ void Panels::State::drawLeft(PanelHost& host) {
                                     ? ImGuiTreeNodeFlags_DefaultOpen
                                     : 0))
         drawMeasurePanel(host);
+    coverage.draw(host);
     if (session->open().scene->offered<SliceSource>() && open("Slices")) slices.draw(host);
 }
 

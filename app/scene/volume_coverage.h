@@ -1,0 +1,22 @@
+// The wall of a colon as one of which it is followed what was on screen.
+#pragma once
+
+#include "app/scene/volume_inside.h"
+#include "engine/scene/wall_to_see.h"
+
+namespace stereonav {
+
+class VolumeCoverage final : public WallToSee {
+public:
+    // Both must outlive it, and all that it begins.
+    VolumeCoverage(const ColonScene& colon, const ColonInterior& inside) : mColon(colon), mInside(inside) {}
+
+    std::unique_ptr<WallSeen> begin(const WallLooking& looking, Progress& progress) const override;
+    std::vector<Pose> ownFlight(bool back) const override;
+
+private:
+    const ColonScene& mColon;
+    const ColonInterior& mInside;
+};
+
+}  // namespace stereonav

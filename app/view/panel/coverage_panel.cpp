@@ -1,0 +1,119 @@
+#include "app/view/panel/coverage_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "app/output/length_text.h"
+#include "app/view/panel/controls.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// True where it is done: while it is dragged nothing is looked at again. `value` is in `unit`s of the
+// scene's.
+bool dragged(const char* label, double& value, double unit, double least, double most, const char* format,
+             const char* tip, bool& editing) {
+    double shown = value / unit;
+    ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
+    if (ImGui::DragScalar(label, ImGuiDataType_Double, &shown, static_cast<float>(most / 400), &least, &most,
+                          format, ImGuiSliderFlags_AlwaysClamp)) {
+        value = shown * unit;
+        editing = true;
+    }
+    const bool done = ImGui::IsItemDeactivatedAfterEdit();
+    tooltip(tip);
+    return done;
+}
+
+}  // namespace
+
+void CoveragePanel::drawSettings(LiveCoverage& coverage) {
+    if (!mEditing) mEdited = coverage.looking();
+    bool done = dragged("distance", mEdited.within, 0.001, 1, 1000, "%.0f mm",
+                        "How far from the eye wall counts as seen.", mEditing);
+    done |= dragged("angle", mEdited.angle, kDegree, 1, 90, "%.0f\u00b0",
+                    "How far off its normal wall counts as seen: 90 leaves nothing out that is on screen.",
+                    mEditing);
+    done |=
+        dragged("smallest patch", mEdited.smallestPatch, 1e-6, 0, 10000, "%.0f mm\u00b2",
+                "Unseen patches of this area and more are listed: 300 is usual in the literature.", mEditing);
+    if (!done) return;
+    mEditing = false;
+    coverage.judgeBy(mEdited);
+}
+
+void CoveragePanel::drawUnseen(PanelHost& host, LiveCoverage& coverage) {
+    constexpr float kRows = 8;
+    const std::vector<UnseenPart>& unseen = coverage.soFar().unseen;
+    if (unseen.empty()) return quietText(host, "No patch of that size was left unseen.");
+    quietText(host, fmt::format("{} unseen patch{}: area, place along the line", unseen.size(),
+                                unseen.size() > 1 ? "es" : ""));
+    const float row = ImGui::GetTextLineHeightWithSpacing();
+    const float rows = std::min(kRows, static_cast<float>(unseen.size()));
+    if (ImGui::BeginChild("unseen", {0, rows * row})) {
+        for (std::size_t n = 0; n < unseen.size(); ++n) {
+            const UnseenPart& part = unseen[n];
+            const auto& chosen = coverage.chosen();
+            ImGui::PushID(static_cast<int>(n));
+            ImGui::BeginDisabled(!part.view);
+            if (ImGui::Selectable("##part", chosen && chosen->place == part.place)) {
+                coverage.choose(part);
+                host.session()->flyTo(*part.view);
+            }
+            ImGui::EndDisabled();
+            if (!part.view) tooltip("There is no room for an eye before it.");
+            const float font = ImGui::GetFontSize();
+            for (const auto& [end, text] : {std::pair(5.5f, fmt::format("{:.0f} mm\u00b2", 1e6 * part.area)),
+                                            std::pair(10.5f, fmt::format("{:.0f} mm", 1e3 * part.along))}) {
+                ImGui::SameLine(end * font - ImGui::CalcTextSize(text.c_str()).x);
+                ImGui::TextUnformatted(text.c_str());
+            }
+            ImGui::PopID();
+        }
+    }
+    ImGui::EndChild();
+    if (ImGui::Button("Next")) host.act({ViewCommand::NextUnseen});
+    tooltip("Flies to the next smaller patch. Key: F8");
+    ImGui::SameLine();
+    if (ImGui::Button("Previous")) host.act({ViewCommand::PreviousUnseen});
+    tooltip("Flies to the next larger patch. Key: Shift+F8");
+}
+
+void CoveragePanel::draw(PanelHost& host) {
+    LiveCoverage* const coverage = host.coverage();
+    if (!coverage) return;
+    bool on = coverage->on();
+    if (on && !mWasOn) ImGui::SetNextItemOpen(true);  // by its key
+    mWasOn = on;
+    if (!ImGui::CollapsingHeader("Coverage")) return;
+    if (ImGui::Checkbox("Follow what is seen", &on)) host.act({ViewCommand::ToggleCoverage});
+    tooltip(
+        "Tints the wall that the left eye has not shown yet, from now on and in flights of before in this "
+        "file. Key: F9");
+    if (!coverage->on()) return;
+    const CoverageSoFar& now = coverage->soFar();
+    if (now.any)
+        wrappedText(fmt::format("{:.1f} % of the wall seen", now.percent));
+    else
+        quietText(host, "looking at the wall");
+    quietText(host, fmt::format("{} flown in {:.0f} s{}", lengthText(coverage->metres()), coverage->seconds(),
+                                now.any && coverage->busy() ? ", still looking" : ""));
+    if (const std::string problem = coverage->problem(); !problem.empty()) wrappedText(problem);
+    drawSettings(*coverage);
+    if (ImGui::Button("+ One way")) coverage->addOwnFlight(false);
+    tooltip("Counts the scene's own flight as flown, with this picture's field of view and shape.");
+    ImGui::SameLine();
+    if (ImGui::Button("+ Both ways")) coverage->addOwnFlight(true);
+    tooltip("Counts the scene's own flight there and back as flown.");
+    ImGui::SameLine();
+    if (ImGui::Button("Start again")) coverage->startAgain();
+    tooltip("Nothing was flown.");
+    if (now.any) drawUnseen(host, *coverage);
+}
+
+}  // namespace stereonav

@@ -1,0 +1,55 @@
+// A capability (capabilities.h): a closed wall of which it can be followed what was on screen.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/base/progress.h"
+#include "engine/camera/eye_view.h"
+#include "engine/camera/pose.h"
+#include "engine/render/eye_painter.h"
+
+namespace stereonav {
+
+// What counts as seen, and what is listed.
+struct WallLooking {
+    double within = 0.1;                // metres from the eye, > 0
+    double angle = 1.4835298641951802;  // radians, 85 degrees: off the wall's normal, in (0, pi / 2]
+    double smallestPatch = 300e-6;      // square metres, >= 0
+    bool operator==(const WallLooking&) const = default;
+};
+
+// A part of the wall that hangs together and was not seen.
+struct UnseenPart {
+    double area = 0;           // square metres
+    glm::dvec3 place{0.0};     // world, metres: on it, next to its middle
+    double along = 0;          // metres along the way through
+    std::optional<Pose> view;  // that shows it; none where there is no room for an eye
+};
+
+// What was seen of it so far. Used by one thread at a time, also while frames are made; the scene outlives
+// it.
+class WallSeen {
+public:
+    virtual ~WallSeen() = default;
+    // Adds what these show. Throws Cancelled.
+    virtual void look(std::span<const EyeView> eyes, Progress& progress) = 0;
+    // Nothing is seen any more. Throws Error where a number is out of range.
+    virtual void judgeBy(const WallLooking& looking) = 0;
+    virtual double percent() const = 0;                             // of the wall's area
+    virtual std::vector<UnseenPart> unseen() const = 0;             // largest first
+    virtual std::shared_ptr<const EyePainter> painter() const = 0;  // tints what was not seen until now
+};
+
+class WallToSee {
+public:
+    virtual ~WallToSee() = default;
+    // On any thread. Throws Error (memory; a number out of range), Cancelled.
+    virtual std::unique_ptr<WallSeen> begin(const WallLooking& looking, Progress& progress) const = 0;
+    // The scene's own flight, or the way back. On any thread; may take seconds.
+    virtual std::vector<Pose> ownFlight(bool back) const = 0;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,24 @@
+#!/bin/bash
+# Drives coverage in the viewer's window; run it inside xvfb-run.
+#   drive_coverage.sh PROGRAM FOLDER STUDY [OPTION ...]
+# Leaves pictures (one for each step, named in steps.txt), what is kept, the log and the exit status in FOLDER;
+# view_coverage_window_test.cpp judges them.
+. "$(dirname "$0")/drive_window.sh"
+shift 2
+
+kept() { find "$out" -path '*coverage*' -name '*.json' | head -n 1; }
+is_kept() { [ -n "$(kept)" ]; }
+
+open_window "$@"
+settled start
+keys F9
+settled followed start
+until_true is_kept
+cp "$(kept)" "$out/first.json"
+keys F8
+settled unseen followed
+keys F9
+sleep 1
+keys space
+settled off unseen
+close_window
