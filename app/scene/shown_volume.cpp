@@ -10,6 +10,7 @@
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
 #include "colon/scene/transfer_presets.h"
+#include "engine/render/place_painter.h"
 #include "engine/volume/transfer_text.h"
 #include "engine/volume/value_counts.h"
 #include "engine/volume/value_range.h"
@@ -138,6 +139,7 @@ void ShownVolume::setPaint(std::shared_ptr<const EyePainter> painter) {
     if (!mPainter || mRenderer.translucent()) return;
     mPaint.add(mPainter);
     offer(mPaint);
+    if (const auto* const places = dynamic_cast<const PlacePainter*>(mPainter.get())) offer(*places);
 }
 
 FrameMaker& ShownVolume::frames() const {

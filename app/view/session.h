@@ -27,6 +27,7 @@ enum class ViewCommand {
     HideInterface,
     Panels,
     LeftPanels,
+    Unfolded,
     Controls,
     Search,
     OpenFile,

@@ -5,10 +5,11 @@
 
 #include "colon/instruments/wall_marks.h"
 #include "engine/render/eye_painter.h"
+#include "engine/render/place_painter.h"
 
 namespace stereonav {
 
-class WallPainter final : public EyePainter {
+class WallPainter final : public EyePainter, public PlacePainter {
 public:
     // tint: linear RGB of a fully marked white wall; the wall's light and shade stay. Marks are drawn from
     // 0.35 on, in full from 0.65.
@@ -16,6 +17,7 @@ public:
         : mMarks(std::move(marks)), mTint(tint) {}
 
     void paint(const EyeView& view, EyeImage& image) const override;
+    glm::vec3 paintPlace(const glm::dvec3& world, const glm::vec3& color) const override;
 
 private:
     std::shared_ptr<const WallMarks> mMarks;
