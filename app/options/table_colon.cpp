@@ -140,6 +140,13 @@ std::vector<Option> registerOptions() {
          .commands = kRegister,
          .required = true,
          .take = [](OptionTargets& to, const OptionValue& value) { to.registration->with = value.text; }},
+        {.key = "with",
+         .value = fileValue(),
+         .help = "another study of the same colon, whose matching place is shown beside the eye",
+         .fallback = "none",
+         .commands = command::kView,
+         .scenes = scene_type::kSurfaces,
+         .take = [](OptionTargets&, const OptionValue&) {}},  // the window has it among its texts
         {.key = "at",
          .value = numbersValue(seedNumbers()),
          .help = "a place of the first study that is looked for in the other; several are taken",

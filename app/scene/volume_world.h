@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "app/command/commands.h"
+#include "app/scene/volume_flat_wall.h"
 #include "app/scene/volume_inside.h"
+#include "app/scene/volume_line_match.h"
 #include "colon/flight/colon_flight.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/nav/flight.h"
@@ -45,6 +47,8 @@ public:
         offer(*interior);
         offer(static_cast<const LineThrough&>(*interior));
         offer(interior->lineOnMap());
+        offer(static_cast<const FlatWall&>(mFlatWall));
+        offer(static_cast<const MatchingLine&>(mLine));
     }
     std::unique_ptr<Flight> makeFlight() const;
     // Throws Error naming `file` where a pose lies where no flight can be.
@@ -71,6 +75,8 @@ private:
     bool mFollows = false;
     const EyeRenderer* mWall = nullptr;
     SceneBox mBox;
+    VolumeFlatWall mFlatWall{mColon};  // where it is a colon
+    VolumeLine mLine{mColon};          // there too
 };
 
 }  // namespace stereonav

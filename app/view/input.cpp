@@ -38,6 +38,8 @@ std::optional<ViewAction> actionOfKey(int key) {
             return ViewAction{ViewCommand::Panels};
         case GLFW_KEY_F3:
             return ViewAction{ViewCommand::LeftPanels};
+        case GLFW_KEY_F10:
+            return ViewAction{ViewCommand::Unfolded};
         case GLFW_KEY_F7:
             return ViewAction{ViewCommand::Controls};
         case GLFW_KEY_F9:
@@ -273,6 +275,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"Tab", "the picture alone, or with the interface", does(HideInterface)},
         {"F2", "panels", does(Panels)},
         {"F3", "places, map and slices", does(LeftPanels)},
+        {"F10", "the wall laid flat (colon)", does(Unfolded)},
         {"F7", "the panels in a window of their own", does(Controls)},
         {"Ctrl+P", "find anything"},
         {"Ctrl+O", "open a file", does(OpenFile)},

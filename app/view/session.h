@@ -27,6 +27,7 @@ enum class ViewCommand {
     HideInterface,
     Panels,
     LeftPanels,
+    Unfolded,
     Controls,
     Search,
     OpenFile,
@@ -234,6 +235,7 @@ public:
         mPaint = paint;
         mFresh = true;
     }
+    const std::shared_ptr<const EyePainter>& paint() const { return mPaint; }
     TruthView truth() const { return mTruth; }
     // What was measured of the picture that rests; "" where it is of another one.
     std::string measuredText(const ViewFrame& frame) const;

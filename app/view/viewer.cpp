@@ -179,6 +179,7 @@ void Viewer::beginSession() {
     mMarked.reset();
     mRecentDue = true;
     reportKept();
+    beginSecond();
     if (first) mSession->notify("F1 shows the keys, F2 and F3 the panels");
 }
 
@@ -241,6 +242,9 @@ bool Viewer::actOnInterface(const ViewAction& action) {
         case ViewCommand::LeftPanels:
             mPanels.toggleLeft();
             return true;
+        case ViewCommand::Unfolded:
+            if (mSession) mPanels.toggleUnfolded();
+            return true;
         case ViewCommand::Search:
             mPanels.openSearch();
             return true;
@@ -297,6 +301,7 @@ void Viewer::update(double dt) {
     followCoverage();
     askFor();
     followWishes();
+    followSecond();
     lookAtJob();
     takeFrame();
 }

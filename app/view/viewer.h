@@ -21,6 +21,7 @@
 #include "app/view/panel/panels.h"
 #include "app/view/picture_place.h"
 #include "app/view/screenshots.h"
+#include "app/view/second_study.h"
 #include "app/view/session.h"
 #include "app/view/settings_history.h"
 #include "app/view/sweep.h"
@@ -89,6 +90,10 @@ public:
     void measure(bool on) override { mMeasuring = on; }
     LiveCoverage* coverage() override { return mSession && mCoverage.can() ? &mCoverage : nullptr; }
     void markWorld(const std::optional<glm::dvec3>& place) override { mMarked = place; }
+    std::optional<glm::dvec3> pointedWorld() const override;
+    SecondStudy* secondStudy() override { return &mSecond; }
+    void openOther(const std::string& study) override;
+    void swapStudies() override;
     bool canUndo() const override { return mSession && (mKeyframes.canUndo() || mHistory.canUndo()); }
     bool canRedo() const override { return mSession && (mKeyframes.canRedo() || mHistory.canRedo()); }
     void undo() override;
@@ -122,6 +127,8 @@ private:
     double waitSeconds() const;
     void takeScene();
     void beginSession();
+    void beginSecond();
+    void followSecond();
     void update(double dt);
     // The interface that has the panels.
     Interface& panelled() { return mControls ? mControls->interface() : mInterface; }
@@ -183,8 +190,6 @@ private:
     std::vector<OverlayMark> marks(const OutputModeInfo& mode) const;
     // Where the pointer is over the picture: shares of an eye's size.
     std::optional<glm::dvec2> pointedShare(const OutputModeInfo& mode) const;
-    // What is seen there, of a picture that stands still.
-    std::optional<glm::dvec3> pointedWorld() const;
     void copyPlace();
     void measureHere();
     void followCoverage();
@@ -268,8 +273,11 @@ private:
     long long mKeyframesSeen = 0, mKeyframesPath = 0;  // versions: of them, and of the path beside them
     bool mKeyframesFlown = false;                      // that path is theirs
     std::optional<ViewSession> mSession;
-    FileLooks mLooks{[] { Window::wake(); }};  // after the window, as the worker
-    std::unique_ptr<ViewWorker> mWorker;       // after the window, whose wake() it calls until it has ended
+    SecondStudy mSecond{[] { Window::wake(); }};  // after the window, as the worker
+    Made mSecondMade;                             // what it is, or is being, made of
+    std::optional<Pose> mSwapTo;                  // where the flight goes on in it
+    FileLooks mLooks{[] { Window::wake(); }};     // after the window, as the worker
+    std::unique_ptr<ViewWorker> mWorker;  // after the window, whose wake() it calls until it has ended
 };
 
 }  // namespace stereonav

@@ -114,6 +114,7 @@ void Viewer::load(const ViewOptions& options, bool another) {
     if (swept && !mSweep) mSweep = std::make_unique<ViewSweep>(shown.sweep);
     if (!mBefore) mBefore = Made{mOptions, mGiven, mSaid};
     mAnother = mAnother || another;
+    mSwapTo.reset();
     mOptions = mChanged = shown;
     mSettings.reset();
     mApplies.clear();

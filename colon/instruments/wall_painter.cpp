@@ -8,19 +8,23 @@
 
 namespace stereonav {
 
+glm::vec3 WallPainter::paintPlace(const glm::dvec3& world, const glm::vec3& color) const {
+    const glm::vec3 luminance(0.2126f, 0.7152f, 0.0722f);
+    const float mark = mMarks->at(world);
+    if (mark <= 0.35f) return color;
+    return glm::mix(color, glm::dot(color, luminance) * mTint, 0.8f * glm::smoothstep(0.35f, 0.65f, mark));
+}
+
 void WallPainter::paint(const EyeView& view, EyeImage& image) const {
     if (image.viewDepth.empty()) return;
-    const glm::vec3 luminance(0.2126f, 0.7152f, 0.0722f);
     parallelFor(image.height(), [&](int y) {
         for (int x = 0; x < image.width(); ++x) {
             const float depth = image.viewDepth.at(x, y);
             if (!(depth > 0) || !std::isfinite(depth)) continue;
-            const float mark = mMarks->at(view.pointAt(x + 0.5, y + 0.5, depth));
-            if (mark <= 0.35f) continue;
-            const float share = 0.8f * glm::smoothstep(0.35f, 0.65f, mark);
             PackedColor& color = image.color.at(x, y);
-            const glm::vec3 was = unpackColor(color);
-            color = packColor(glm::mix(was, glm::dot(was, luminance) * mTint, share));
+            const glm::vec3 was = unpackColor(color),
+                            now = paintPlace(view.pointAt(x + 0.5, y + 0.5, depth), was);
+            if (now != was) color = packColor(now);
         }
     });
 }

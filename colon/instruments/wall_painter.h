@@ -17,6 +17,7 @@ public:
         : mMarks(std::move(marks)), mTint(tint) {}
 
     void paint(const EyeView& view, EyeImage& image) const override;
+    glm::vec3 paintPlace(const glm::dvec3& world, const glm::vec3& color) const override;
 
 private:
     std::shared_ptr<const WallMarks> mMarks;

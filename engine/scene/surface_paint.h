@@ -17,6 +17,7 @@ public:
     // One over the other, in this order.
     void set(std::vector<std::shared_ptr<const EyePainter>> painters) { mPainters = std::move(painters); }
     void add(std::shared_ptr<const EyePainter> painter) { mPainters.push_back(std::move(painter)); }
+    const std::vector<std::shared_ptr<const EyePainter>>& painters() const { return mPainters; }
     // Over all of them, while one flies; null: nothing.
     void setOver(std::shared_ptr<const EyePainter> painter) { mOver = std::move(painter); }
     bool empty() const { return mPainters.empty() && !mOver; }

@@ -66,6 +66,11 @@ public:
     FileLook lookAt(const std::filesystem::path&) override { return {}; }
     ScreenAnswer screen() const override { return {}; }
     void leaveScreenUnknown() override {}
+    void markWorld(const std::optional<glm::dvec3>& place) override { marked = place; }
+    std::vector<FlatMark> flatMarks() const override { return flat; }
+
+    std::optional<glm::dvec3> marked;  // in the picture
+    std::vector<FlatMark> flat;
 
 private:
     ViewSession& mSession;

@@ -100,6 +100,8 @@ void FileBrowser::choose(PanelHost& host, const std::filesystem::path& path) {
     mOpen = false;
     if (mFor == For::Open)
         host.open(path.string());
+    else if (mFor == For::OpenOther)
+        host.openOther(path.string());
     else if (mFor == For::OpenPath)
         host.openPath(path);
     else
@@ -160,9 +162,10 @@ void FileBrowser::draw(PanelHost& host) {
     ImGui::SetNextWindowPos({whole.x / 2, whole.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({std::min(whole.x - font, 52 * font), std::min(whole.y - 3 * font, 36 * font)});
     if (mFresh) ImGui::SetNextWindowFocus();
-    const char* const title = mFor == For::Open       ? "Open a file or a folder of DICOM slices"
-                              : mFor == For::OpenPath ? "Open a flight: .gltf, .glb or .path"
-                                                      : "Save the scene";
+    const char* const title = mFor == For::Open        ? "Open a file or a folder of DICOM slices"
+                              : mFor == For::OpenOther ? "Open the other study of the same colon"
+                              : mFor == For::OpenPath  ? "Open a flight: .gltf, .glb or .path"
+                                                       : "Save the scene";
     ImGui::Begin(title, &mOpen,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoSavedSettings);

@@ -11,7 +11,7 @@ namespace stereonav {
 
 class FileBrowser {
 public:
-    enum class For { Open, SaveScene, OpenPath };
+    enum class For { Open, OpenOther, SaveScene, OpenPath };
 
     void open(For what);
     void close() { mOpen = false; }

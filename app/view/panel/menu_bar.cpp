@@ -16,6 +16,7 @@ void fileMenu(PanelHost& host, MenuWishes& wishes) {
     if (!ImGui::BeginMenu("File")) return;
     const bool shown = host.session() != nullptr;
     if (ImGui::MenuItem("Open...", "Ctrl+O")) wishes.openFile = true;
+    if (wishes.other && ImGui::MenuItem("Open the other study...")) wishes.openOther = true;
     if (ImGui::MenuItem("Start page", "Ctrl+N")) wishes.start = true;
     ImGui::Separator();
     if (ImGui::MenuItem("Save scene...", "Ctrl+S", false, shown)) wishes.saveScene = true;
@@ -55,6 +56,7 @@ void viewMenu(PanelHost& host, MenuWishes& wishes) {
     if (!ImGui::BeginMenu("View")) return;
     ImGui::MenuItem("Panels", "F2", wishes.side);
     ImGui::MenuItem("Places, map and slices", "F3", wishes.left);
+    if (wishes.unfolded) ImGui::MenuItem("Unfolded wall", "F10", wishes.unfolded);
     if (ImGui::MenuItem("Picture alone", "Tab")) wishes.hideAll = true;
     item(host, "Panels in their own window", "F7", ViewCommand::Controls, host.controlsApart());
     if (bool labels = host.placeLabels(); ImGui::MenuItem("Names of places", nullptr, &labels))
@@ -131,6 +133,8 @@ void flightMenu(PanelHost& host, MenuWishes& wishes) {
             if (ImGui::MenuItem(std::string(flight.modeName(mode)).c_str(), "F", mode == flight.mode()) &&
                 mode != flight.mode())
                 host.act({.command = ViewCommand::SetFlightMode, .number = mode});
+        if (flight.lineMode())
+            item(host, "Turn round, fly back", "Backspace", ViewCommand::TurnRound, flight.goesBack());
     }
     ImGui::EndMenu();
 }

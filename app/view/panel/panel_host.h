@@ -18,10 +18,12 @@
 #include "app/view/setting_texts.h"
 #include "app/view/view_display.h"
 #include "engine/display/interface_theme.h"
+#include "engine/scene/flat_wall.h"
 
 namespace stereonav {
 
 class KeyframeEdit;
+class SecondStudy;
 
 // Figures of one frame, for small plots.
 struct FrameCost {
@@ -121,6 +123,14 @@ public:
     virtual void markWorld(const std::optional<glm::dvec3>& /*place*/) {}  // in the picture, until it is none
     // Null where the scene has no wall of which it can be followed what was seen.
     virtual LiveCoverage* coverage() { return nullptr; }
+    // What is seen under the pointer, of a picture that stands still.
+    virtual std::optional<glm::dvec3> pointedWorld() const { return std::nullopt; }
+    // What is marked on the wall that lies flat.
+    virtual std::vector<FlatMark> flatMarks() const { return {}; }
+    // Another study beside this one; null where there can be none. Failures are told.
+    virtual SecondStudy* secondStudy() { return nullptr; }
+    virtual void openOther(const std::string& /*study*/) {}
+    virtual void swapStudies() {}
     virtual bool canUndo() const = 0;
     virtual bool canRedo() const = 0;
     virtual void undo() = 0;

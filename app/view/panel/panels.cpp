@@ -14,11 +14,13 @@
 #include "app/view/panel/menu_bar.h"
 #include "app/view/panel/places_panel.h"
 #include "app/view/panel/search.h"
+#include "app/view/panel/second_panel.h"
 #include "app/view/panel/side_panels.h"
 #include "app/view/panel/slices_panel.h"
 #include "app/view/panel/start_page.h"
 #include "app/view/panel/start_pictures.h"
 #include "app/view/panel/status_bar.h"
+#include "app/view/panel/unfolded_panel.h"
 
 namespace stereonav {
 namespace {
@@ -27,6 +29,7 @@ namespace {
 constexpr float kNarrowest = 10;
 constexpr float kBeside = 56;   // as wide must the interface be for panels beside the picture
 constexpr float kPicture = 20;  // what is left for it at least
+constexpr float kStrip = 13;    // of the unfolded wall
 constexpr ImGuiWindowFlags kPlainBox = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                                        ImGuiWindowFlags_NoBringToFrontOnFocus;
@@ -42,12 +45,16 @@ struct Panels::State {
     };
     bool hidden = false, help = false;
     Column left, side;
+    bool showsUnfolded = false;
+    float strip = 0;  // units that it took below the picture, in the last layout
+    UnfoldedPanel unfolded;
     bool beside = true;          // columns take their room from the picture
     float above = 0, below = 0;  // units that the menus and the line at the bottom took, in the last layout
     CoveragePanel coverage;
     MapPanel map;
     PlacesPanel places;
     SlicesPanel slices;
+    SecondPanel second;
     SearchBox search;
     FileBrowser files;
     StartPage start;
@@ -56,6 +63,7 @@ struct Panels::State {
     void drawHelp(PanelHost& host);
     void drawColumn(Column& column, bool atRight, float top, const std::function<void()>& content);
     void drawLeft(PanelHost& host);
+    void drawUnfolded(PanelHost& host);
 };
 
 Panels::Panels() : mState(std::make_unique<State>()) {}
@@ -138,7 +146,22 @@ void Panels::State::drawLeft(PanelHost& host) {
                                     : 0))
         drawMeasurePanel(host);
     coverage.draw(host);
+    if (SecondPanel::has(host) && open("Other study") && second.draw(host))
+        files.open(FileBrowser::For::OpenOther);
     if (session->open().scene->offered<SliceSource>() && open("Slices")) slices.draw(host);
+}
+
+// Between the columns, over the line at the bottom.
+void Panels::State::drawUnfolded(PanelHost& host) {
+    if (!showsUnfolded || hidden || !UnfoldedPanel::has(host)) return unfolded.hide(host);
+    const ImVec2 whole = ImGui::GetIO().DisplaySize;
+    const float height = std::min(kStrip * ImGui::GetFontSize(), 0.5f * whole.y);
+    ImGui::SetNextWindowPos({left.taken, whole.y - below - height});
+    ImGui::SetNextWindowSize({std::max(whole.x - left.taken - side.taken, 1.0f), height});
+    ImGui::Begin("##unfolded", nullptr, kPlainBox);
+    unfolded.draw(host);
+    ImGui::End();
+    strip = height;
 }
 
 void Panels::draw(PanelHost& host) {
@@ -146,15 +169,18 @@ void Panels::draw(PanelHost& host) {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     state.left.taken = state.side.taken = 0;
     state.beside = whole.x >= kBeside * ImGui::GetFontSize();
-    state.above = state.below = 0;
+    state.above = state.below = state.strip = 0;
     float& top = state.above;
     const bool sideBefore = state.side.shown;
     if (!state.hidden) {
         MenuWishes wishes;
         wishes.side = &state.side.shown;
         wishes.left = &state.left.shown;
+        wishes.other = SecondPanel::has(host);
+        if (UnfoldedPanel::has(host)) wishes.unfolded = &state.showsUnfolded;
         top = drawMenuBar(host, wishes);
         if (wishes.openFile) state.files.open(FileBrowser::For::Open);
+        if (wishes.openOther) state.files.open(FileBrowser::For::OpenOther);
         if (wishes.saveScene) state.files.open(FileBrowser::For::SaveScene);
         if (wishes.start) state.start.show(true);
         if (wishes.search) state.search.open();
@@ -171,6 +197,7 @@ void Panels::draw(PanelHost& host) {
             state.drawColumn(state.side, true, top, [&] { drawSidePanels(host, state.tools); });
         state.below = drawStatusBar(host, state.left.taken, state.side.taken);
     }
+    state.drawUnfolded(host);
     if (state.start.shown() && state.start.draw(host)) state.files.open(FileBrowser::For::Open);
     state.files.draw(host);
     state.search.draw(host);
@@ -182,7 +209,11 @@ Panels::Rest Panels::rest(const glm::vec2& whole) const {
     const float top = mState->above, bottom = mState->below;
     if (!mState->beside) return {{0, 0}, whole, top, bottom};
     const float left = mState->left.taken, right = mState->side.taken;
-    return {{left, 0}, {std::max(whole.x - left - right, 1.0f), whole.y}, top, bottom};
+    const float high = mState->strip > 0 ? whole.y - mState->strip - bottom : whole.y;
+    return {{left, 0},
+            {std::max(whole.x - left - right, 1.0f), std::max(high, 1.0f)},
+            top,
+            mState->strip > 0 ? 0 : bottom};
 }
 
 void Panels::toggleAll() {
@@ -200,6 +231,10 @@ void Panels::toggleLeft() {
     mState->hidden = false;
     mState->left.shown = !mState->left.shown;
     if (!mState->beside && mState->left.shown) mState->side.shown = false;
+}
+void Panels::toggleUnfolded() {
+    mState->hidden = false;
+    mState->showsUnfolded = !mState->showsUnfolded;
 }
 void Panels::openSearch() {
     mState->search.open();
@@ -253,6 +288,8 @@ void Panels::forget() {
     mState->map.forget();
     mState->places.forget();
     mState->slices.forget();
+    mState->unfolded.forget();
+    mState->second.forget();
     mState->tools.transfer.forget();
     mState->start.forget();
     forgetStartPictures();

@@ -29,6 +29,7 @@ public:
     bool hidden() const;
     void toggleSide();  // panels at the right
     void toggleLeft();  // places, map, slices
+    void toggleUnfolded();  // the wall laid flat, below the picture
     void openSearch();
     void openFiles();
     void openSave();

@@ -1,0 +1,59 @@
+// One piece of work at a time on a thread of its own, beside the window's: nothing is there before start().
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "engine/base/progress.h"
+
+namespace stereonav {
+
+template <typename Result>
+class BesideWork {
+public:
+    using Work = std::function<Result(Progress&)>;
+
+    BesideWork() = default;
+    BesideWork(const BesideWork&) = delete;
+    BesideWork& operator=(const BesideWork&) = delete;
+    ~BesideWork() { cancel(); }  // and waits for the end
+
+    bool busy() const { return mWork.valid(); }
+    double fraction() const { return mFraction; }
+    void cancel() {  // take() throws Cancelled soon
+        if (mProgress) mProgress->cancel();
+    }
+    // Not while busy. wake: called from that thread when it is done.
+    void start(Work work, std::function<void()> wake) {
+        mFraction = 0;
+        mProgress = std::make_unique<Progress>(
+            [this](double fraction, const std::string&) { mFraction = std::clamp(fraction, 0.0, 1.0); });
+        mWork = std::async(std::launch::async,
+                           [&progress = *mProgress, work = std::move(work), wake = std::move(wake)] {
+                               struct Wake {
+                                   const std::function<void()>& call;
+                                   ~Wake() { call(); }
+                               } const atEnd{wake};
+                               return work(progress);
+                           });
+    }
+    // None while it is not done, or nothing was started; throws what the work threw.
+    std::optional<Result> take() {
+        if (!busy() || mWork.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+            return std::nullopt;
+        return mWork.get();
+    }
+
+private:
+    std::atomic<double> mFraction = 0;
+    std::unique_ptr<Progress> mProgress;  // of this work alone
+    std::future<Result> mWork;            // last: its end is waited for first
+};
+
+}  // namespace stereonav

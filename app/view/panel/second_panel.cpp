@@ -1,0 +1,77 @@
+#include "app/view/panel/second_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/view/panel/controls.h"
+#include "engine/scene/capabilities.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kLeastWidth = 64, kMostWidth = 480;  // pixels of its picture
+
+}  // namespace
+
+bool SecondPanel::has(PanelHost& host) {
+    ViewSession* const session = host.session();
+    if (!session || !host.secondStudy()) return false;
+    const Scene& scene = *session->open().scene;
+    return scene.offered<const MatchingLine>() && scene.offered<RayCast>();
+}
+
+void SecondPanel::forget() {
+    mTexture.reset();
+    mShown.reset();
+}
+
+bool SecondPanel::draw(PanelHost& host) {
+    SecondStudy& second = *host.secondStudy();
+    if (second.loading()) {
+        quietText(host, fmt::format("opening the other study  {:.0f} %", 100 * second.fraction()));
+        if (ImGui::Button("Cancel##second")) second.cancel();
+        return false;
+    }
+    if (second.other()) {
+        drawPicture(host, second);
+        return false;
+    }
+    quietText(host, "The same colon in another study: its matching place is shown here.");
+    return ImGui::Button("Open the other study...");
+}
+
+void SecondPanel::drawPicture(PanelHost& host, SecondStudy& second) {
+    const ViewSession& session = *host.session();
+    const auto place = second.matching(*session.open().scene, session.pose());
+    if (!place) return;
+    const float wide = std::max(ImGui::GetContentRegionAvail().x, 16.0f), high = 0.75f * wide;
+    const int width = std::clamp(static_cast<int>(wide), kLeastWidth, kMostWidth);
+    second.look(*place, {width, 3 * width / 4});
+    if (const auto picture = second.picture(); picture != mShown) {
+        mShown = picture;
+        if (picture) mTexture.set(picture->color, true);
+    }
+    if (mShown)
+        ImGui::Image(mTexture.id(), {wide, high});
+    else
+        ImGui::Dummy({wide, high});
+    const std::filesystem::path name = second.other()->scene->name;
+    quietText(host, fmt::format("{}: {:.0f} of {:.0f} mm along, looking {}",
+                                name.filename().empty() ? name.string() : name.filename().string(),
+                                1e3 * place->along, 1e3 * place->length, place->back ? "back" : "ahead"));
+    tooltip(
+        fmt::format("Matched along both lines; how unlike they are: {:.2f}, 0 of a line with itself. Whose "
+                    "studies they are is not known.",
+                    second.cost()));
+    ImGui::BeginDisabled(host.loading().busy);
+    if (ImGui::Button("Swap")) host.swapStudies();
+    ImGui::EndDisabled();
+    tooltip("Flies in the other study from here on; nothing is read again.");
+    ImGui::SameLine();
+    if (ImGui::Button("Close")) second.close();
+}
+
+}  // namespace stereonav

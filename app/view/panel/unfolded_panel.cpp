@@ -1,0 +1,297 @@
+#include "app/view/panel/unfolded_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "app/view/eye_marks.h"
+#include "app/view/panel/controls.h"
+#include "engine/base/error.h"
+#include "engine/display/window.h"
+#include "engine/image/image_file.h"
+#include "engine/nav/flight_to.h"
+#include "engine/scene/capabilities.h"
+#include "engine/scene/line_match.h"
+#include "engine/scene/surface_paint.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kMostZoom = 16, kZoomStep = 1.25;
+constexpr double kWheelShare = 0.15;  // of the width that is seen, a notch
+constexpr double kScaleRows = 12;     // pixels of the scale below the wall that are seen too
+constexpr double kOnWall = 0.02;      // metres from the wall: what is farther is not of it
+constexpr double kNearest = 0.04;     // metres from the wall that a click flies to, where there is room
+constexpr double kBetweenPaints = 1;  // seconds, at least
+constexpr int kMostTexels = 8192;     // along a side, which every graphics card has
+constexpr ImU32 kEyeColor = IM_COL32(210, 120, 0, 255), kSeenColor = IM_COL32(20, 90, 220, 255),
+                kMarkColor = IM_COL32(180, 20, 60, 255), kHalo = IM_COL32(255, 255, 255, 220);
+
+ImVec2 point(const glm::dvec2& at) {
+    return {static_cast<float>(at.x), static_cast<float>(at.y)};
+}
+
+// What the scene is painted with, and over it what is painted while one flies; null: nothing.
+FlatTint tintOf(const Scene& scene, const std::shared_ptr<const EyePainter>& over) {
+    std::vector<std::shared_ptr<const EyePainter>> painters;
+    if (const auto* const paint = scene.offered<SurfacePaint>()) painters = paint->painters();
+    if (over) painters.push_back(over);
+    if (painters.empty()) return nullptr;
+    return [painters](const glm::dvec3& world, glm::vec3 color) {
+        for (const auto& painter : painters) color = painter->paintPlace(world, color);
+        return color;
+    };
+}
+
+void ring(ImDrawList& list, const glm::dvec2& at, float radius, ImU32 color) {
+    list.AddCircle(point(at), radius, kHalo, 0, 4);
+    list.AddCircle(point(at), radius, color, 0, 2);
+}
+
+}  // namespace
+
+bool UnfoldedPanel::has(PanelHost& host) {
+    ViewSession* const session = host.session();
+    return session && session->open().scene->offered<const FlatWall>();
+}
+
+void UnfoldedPanel::forget() {
+    mTexture.reset();
+}
+
+void UnfoldedPanel::mark(PanelHost& host, const std::optional<glm::dvec3>& world) {
+    if (world || mMarked) host.markWorld(world);
+    mMarked = world.has_value();
+}
+
+// A scene that is gone is not kept for its wall.
+void UnfoldedPanel::hide(PanelHost& host) {
+    mark(host, std::nullopt);
+    const ViewSession* const session = host.session();
+    if (!session || mOf.lock() == session->open().scene) return;
+    mWork.cancel();
+    mMade = {};
+    mTexture.reset();
+    mOf.reset();
+}
+
+// Another scene's wall is not begun before the thread of the last one has ended.
+void UnfoldedPanel::make(PanelHost& host) {
+    const std::shared_ptr<const OpenScene>& open = host.session()->openShared();
+    const bool other = mOf.lock() != open->scene;
+    if (other) mWork.cancel();
+    try {
+        if (auto made = mWork.take(); made && !other) {
+            mMade = std::move(*made);
+            mTexture.reset();
+            mAhead = mPointed = {};
+            mMarks.clear();
+        }
+    } catch (const Cancelled&) {
+        mProblem = "not made";
+    } catch (const std::exception& error) {
+        mProblem = error.what();
+    }
+    if (!other || mWork.busy()) return;
+    mMade = {};
+    mProblem.clear();
+    mZoom = 1;
+    mOf = open->scene;
+    mPaint = host.session()->paint();
+    mWork.start(
+        [open, paint = mPaint](Progress& progress) {
+            Made made{open, open->scene->offered<const FlatWall>()->makeFlat(progress), {}};
+            made.picture = made.flat->picture(tintOf(*open->scene, paint));
+            return made;
+        },
+        [] { Window::wake(); });
+}
+
+// What was seen changes while one flies; the last picture stays until the next is there.
+void UnfoldedPanel::repaint(PanelHost& host) {
+    if (auto painted = mPainting.take(); painted && painted->flat == mMade.flat) {
+        mMade = std::move(*painted);
+        mTexture.reset();
+    }
+    const std::shared_ptr<const EyePainter>& paint = host.session()->paint();
+    if (!mMade.flat || mPainting.busy() || paint == mPaint || Window::now() < mPaintNext) return;
+    mPaint = paint;
+    mPaintNext = Window::now() + kBetweenPaints;
+    mPainting.start(
+        [open = mMade.open, flat = mMade.flat, paint](Progress&) {
+            return Made{open, flat, flat->picture(tintOf(*open->scene, paint))};
+        },
+        [] { Window::wake(); });
+}
+
+void UnfoldedPanel::draw(PanelHost& host) {
+    make(host);
+    repaint(host);
+    if (mMade.flat) {
+        if (!mTexture.any()) {  // the window's context is another one
+            const int longest = std::max(mMade.picture.width(), mMade.picture.height());
+            mTexture.set(mMade.picture, true, (longest + kMostTexels - 1) / kMostTexels);
+        }
+        drawControls(host);
+        return drawWall(host);
+    }
+    if (mWork.busy()) {
+        quietLine(host, fmt::format("unfolding the wall  {:.0f} %", 100 * mWork.fraction()));
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel")) mWork.cancel();
+        return;
+    }
+    quietText(host, mProblem);
+    if (ImGui::Button("Unfold")) mOf.reset();
+}
+
+void UnfoldedPanel::save(PanelHost& host) {
+    mSaving.start(
+        [flat = mMade, file = mFile](Progress&) {
+            try {
+                writeColorImage(file, flat.picture);
+                return "saved " + file;
+            } catch (const std::exception& error) {
+                return std::string(error.what());
+            }
+        },
+        [] { Window::wake(); });
+    host.session()->notify("saving " + mFile);
+}
+
+void UnfoldedPanel::drawControls(PanelHost& host) {
+    if (const auto said = mSaving.take()) host.session()->notify(*said);
+    ImGui::Checkbox("follow the eye", &mFollows);
+    tooltip("The wall scrolls with the flight; the wheel and dragging end it.");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(9 * ImGui::GetFontSize());
+    ImGui::InputTextWithHint("##file", "unfolded.png", &mFile);
+    ImGui::SameLine();
+    ImGui::BeginDisabled(mFile.empty() || mSaving.busy());
+    if (ImGui::Button("Save picture")) save(host);
+    ImGui::EndDisabled();
+    tooltip("All of the wall, with a mark for each centimetre of the line, and a square centimetre.");
+    if (mUnder.empty()) return;
+    ImGui::SameLine();
+    quietLine(host, mUnder);
+}
+
+UnfoldedPanel::Part UnfoldedPanel::partSeen(const glm::dvec2& from, const glm::dvec2& size,
+                                            double eyeColumn) {
+    const FlatPicture& flat = *mMade.flat;
+    Part part{from, size, mZoom * size.y / (flat.height() + kScaleRows), mCorner};
+    const glm::dvec2 all(flat.width(), flat.height() + kScaleRows), seen = size / part.scale;
+    if (mFollows) mCorner.x = eyeColumn - 0.5 * seen.x;
+    const auto inside = [&](double corner, double whole, double shown) {
+        return shown >= whole ? 0.5 * (whole - shown) : std::clamp(corner, 0.0, whole - shown);
+    };
+    mCorner = {inside(mCorner.x, all.x, seen.x), inside(mCorner.y, all.y, seen.y)};
+    part.corner = mCorner;
+    return part;
+}
+
+void UnfoldedPanel::drawWall(PanelHost& host) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+    const glm::dvec2 from(corner.x, corner.y), size(std::max(room.x, 16.0f), std::max(room.y, 16.0f));
+    const Pose eye = host.session()->pose();
+    const LineThrough* const through = host.session()->open().scene->offered<const LineThrough>();
+    const double column = through ? mMade.flat->columnAt(through->placeOnLine(eye.position).along) : 0;
+    const Part part = partSeen(from, size, column);
+    ImGui::InvisibleButton("##wall", point(size));
+    ImGui::SetItemUsingMouseWheel();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect(point(from), point(from + size), true);
+    list.AddImage(mTexture.id(), point(part.unitsOf(glm::dvec2(0))),
+                  point(part.unitsOf({mMade.picture.width(), mMade.picture.height()})));
+    if (through) drawEye(host, part, column);
+    drawMarks(host, part);
+    usePointer(host, part);
+    list.PopClipRect();
+}
+
+std::optional<glm::dvec2> UnfoldedPanel::find(Found& found, const glm::dvec3& world) const {
+    if (!found.known || found.world != world) found = {world, mMade.flat->pixelOf(world, kOnWall), true};
+    return found.pixel;
+}
+
+// A line where the eye is, with an arrow the way that it looks, and a ring around what it looks at.
+void UnfoldedPanel::drawEye(PanelHost& host, const Part& part, double column) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const glm::dvec2 top(part.unitsOf({column, 0}).x, part.from.y), bottom(top.x, part.from.y + part.size.y);
+    list.AddLine(point(top), point(bottom), kHalo, 4);
+    list.AddLine(point(top), point(bottom), kEyeColor, 2);
+    const Scene& scene = *host.session()->open().scene;
+    const Pose eye = host.session()->pose();
+    const auto* const line = scene.offered<const MatchingLine>();
+    if (const auto* const through = scene.offered<const LineThrough>(); line && through) {
+        const bool back = looksBack(*line, through->placeOnLine(eye.position).along, eye);
+        const double large = 0.6 * ImGui::GetFontSize(), way = back ? -large : large;
+        list.AddTriangleFilled(point(top), point(top + glm::dvec2(1.4 * way, large)),
+                               point(top + glm::dvec2(0, 2 * large)), kEyeColor);
+    }
+    const ViewFrame* const frame = host.frame();
+    if (!frame || frame->left.viewDepth.empty()) return;
+    const auto seen =
+        worldUnder(viewsOf(frame->request), frame->left.viewDepth, glm::dvec2(0.5), frame->request.guard);
+    if (!seen) return;
+    if (const auto at = find(mAhead, *seen))
+        ring(list, part.unitsOf(*at), 0.45f * ImGui::GetFontSize(), kEyeColor);
+}
+
+void UnfoldedPanel::drawMarks(PanelHost& host, const Part& part) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const std::vector<FlatMark> marks = host.flatMarks();
+    mMarks.resize(marks.size());
+    const float radius = 0.4f * ImGui::GetFontSize();
+    for (std::size_t n = 0; n < marks.size(); ++n) {
+        const auto at = find(mMarks[n], marks[n].world);
+        if (!at) continue;
+        const glm::dvec2 units = part.unitsOf(*at);
+        ring(list, units, radius, kMarkColor);
+        list.AddText(point(units + glm::dvec2(1.3 * radius, -1.3 * radius)), kMarkColor,
+                     marks[n].label.c_str());
+    }
+    if (const auto pointed = host.pointedWorld())
+        if (const auto at = find(mPointed, *pointed))
+            ring(list, part.unitsOf(*at), 0.45f * ImGui::GetFontSize(), kSeenColor);
+}
+
+void UnfoldedPanel::usePointer(PanelHost& host, const Part& part) {
+    const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
+    const bool clicked = ImGui::IsItemDeactivated() && hovered && !mDragged;
+    if (ImGui::IsItemActivated()) mDragged = false;
+    ImGuiIO& io = ImGui::GetIO();
+    const glm::dvec2 pixel = part.pixelAt({io.MousePos.x, io.MousePos.y});
+    if (hovered && io.MouseWheel != 0 && io.KeyCtrl) {
+        const double zoom = std::clamp(mZoom * std::pow(kZoomStep, io.MouseWheel), 1.0, kMostZoom);
+        mCorner = pixel - (pixel - part.corner) * (mZoom / zoom);
+        mZoom = zoom;
+        mFollows = false;
+    } else if (hovered && io.MouseWheel != 0) {
+        mCorner.x -= kWheelShare * io.MouseWheel * part.size.x / part.scale;
+        mFollows = false;
+    }
+    if (active && ImGui::IsMouseDragging(ImGuiMouseButton_Left)) {
+        mDragged = true;
+        mFollows = false;
+        mCorner -= glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) / part.scale;
+    }
+    const auto place = hovered ? mMade.flat->placeAt(static_cast<int>(std::floor(pixel.x)),
+                                                     static_cast<int>(std::floor(pixel.y)))
+                               : std::nullopt;
+    mark(host, place ? std::optional(place->wall) : std::nullopt);
+    mUnder = place ? fmt::format("{:.0f} mm along, click: fly there", 1e3 * place->along) : "";
+    if (!clicked || !place) return;
+    Pose from = host.session()->pose();
+    from.position = place->line;
+    const double away = glm::distance(place->line, place->wall);
+    if (away > 0) host.session()->flyTo(poseLookingAt(place->wall, std::min(away, kNearest), from));
+}
+
+}  // namespace stereonav

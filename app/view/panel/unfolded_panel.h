@@ -1,0 +1,80 @@
+// The wall laid flat along the line, below the flight: what is looked at is marked in both, and a click flies
+// there. Made beside the window when it is first shown.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/view/beside_work.h"
+#include "app/view/panel/panel_host.h"
+#include "app/view/panel/panel_texture.h"
+#include "engine/render/eye_painter.h"
+#include "engine/scene/flat_wall.h"
+
+namespace stereonav {
+
+class UnfoldedPanel {
+public:
+    static bool has(PanelHost& host);  // whether the scene has a wall that can lie flat
+
+    // Into all of the room that there is.
+    void draw(PanelHost& host);
+    void hide(PanelHost& host);  // it is not drawn: its mark in the flight goes, and what is of another scene
+    void forget();               // what belongs to the window's context
+    // Null until it is there.
+    const FlatPicture* flat() const { return mMade.flat.get(); }
+
+private:
+    struct Made {
+        std::shared_ptr<const OpenScene> open;  // outlives the picture
+        std::shared_ptr<const FlatPicture> flat;
+        Plane<PackedColor> picture;
+    };
+    // Which part is seen: units of the interface for a pixel, and the pixel in the upper left corner.
+    struct Part {
+        glm::dvec2 from{0.0}, size{0.0};  // units, of the box
+        double scale = 1;
+        glm::dvec2 corner{0.0};
+        glm::dvec2 pixelAt(const glm::dvec2& at) const { return corner + (at - from) / scale; }
+        glm::dvec2 unitsOf(const glm::dvec2& pixel) const { return from + (pixel - corner) * scale; }
+    };
+    // Where the wall next to a place lies, kept until another one is asked for.
+    struct Found {
+        glm::dvec3 world{0.0};
+        std::optional<glm::dvec2> pixel;
+        bool known = false;
+    };
+
+    void make(PanelHost& host);
+    void repaint(PanelHost& host);
+    void drawControls(PanelHost& host);
+    void drawWall(PanelHost& host);
+    Part partSeen(const glm::dvec2& from, const glm::dvec2& size, double eyeColumn);
+    void usePointer(PanelHost& host, const Part& part);
+    void drawEye(PanelHost& host, const Part& part, double column);
+    void drawMarks(PanelHost& host, const Part& part);
+    std::optional<glm::dvec2> find(Found& found, const glm::dvec3& world) const;
+    void mark(PanelHost& host, const std::optional<glm::dvec3>& world);
+    void save(PanelHost& host);
+
+    BesideWork<Made> mWork, mPainting;
+    std::shared_ptr<const EyePainter> mPaint;  // over the scene's own: that the picture has, or gets
+    double mPaintNext = 0;                     // of the window's clock
+    std::weak_ptr<const Scene> mOf;            // that was made, or is being made, of
+    Made mMade;
+    PanelTexture mTexture;
+    std::string mProblem, mUnder;  // one line each
+    BesideWork<std::string> mSaving;
+    std::string mFile = "unfolded.png";
+    double mZoom = 1;         // 1: as high as the box
+    glm::dvec2 mCorner{0.0};  // pixels
+    bool mFollows = true, mDragged = false, mMarked = false;
+    Found mAhead, mPointed;
+    std::vector<Found> mMarks;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,75 @@
+// The viewer's part of a second study beside the one that is flown.
+#include "app/scene/shown_as.h"
+#include "app/view/viewer.h"
+#include "engine/base/error.h"
+#include "engine/scene/capabilities.h"
+#include "engine/scene/line_match.h"
+
+namespace stereonav {
+
+// What was chosen in the flown study is not of the other one.
+void Viewer::openOther(const std::string& study) {
+    if (!mSession) return;
+    mFailure.clear();
+    tryTo([&] {
+        const Scene& flown = *mScene->scene;
+        if (!flown.offered<const MatchingLine>() || !flown.offered<RayCast>())
+            throw Error(study, "", "what is open has no line to match it with", "open a colon first");
+        SettingTexts settings = this->settings();
+        const std::string name = mOptions.scene.scene;
+        for (const char* key : {"series", "label", "seed", "path", "pose", "paint"}) settings.erase(key);
+        settings["SCENE"] = {study};
+        settings["with"] = {name};
+        ViewOptions options = viewOptionsOf(settings);
+        if (shownAs(options.scene).swept)
+            throw Error(study, "", "expected a study that is shown as a surface", "name a CT study");
+        options.scene.skyTurns = true;
+        options.mode = mMode;
+        checkMethod(options.scene, options.method);
+        checkSize(windowSize(), options.scene, kViewBytes);
+        mSecondMade = {options, settingTextsOf(options.scene.given), fileTextsOf(options.scene.given)};
+        mSecond.open(mScene, [options, size = windowSize()](Progress& progress) {
+            return openScene(options, false, size, nullptr, progress);
+        });
+    });
+}
+
+// What the scene that begins says of another one; after a swap that is there.
+void Viewer::beginSecond() {
+    if (mSwapTo) return mSession->goTo(*std::exchange(mSwapTo, std::nullopt));
+    mSecond.close();
+    if (const auto with = mGiven.find("with"); with != mGiven.end() && !with->second.empty())
+        openOther(std::string(with->second.back()));
+}
+
+void Viewer::followSecond() {
+    try {
+        if (mSecond.poll()) mSession->notify("the other study is there: F3");
+    } catch (const Cancelled&) {
+        mSession->notify("the other study was not opened");
+    } catch (const std::exception& error) {
+        mFailure = error.what();
+    }
+}
+
+void Viewer::swapStudies() {
+    if (!mSession || !mSecond.other() || mWorker->loading().busy) return;
+    const auto place = mSecond.matching(*mScene->scene, mSession->pose());
+    if (!place) return;
+    const Pose pose = mSecond.poseAt(*place);
+    const std::shared_ptr<const OpenScene> next = mSecond.swap(mScene);
+    Made flown{mOptions, settings(), mSaid};
+    mMode = mSession->mode();
+    mBefore = flown;
+    mAnother = true;
+    mOptions = mChanged = mSecondMade.options;
+    mGiven = mSecondMade.given;
+    mSaid = mSecondMade.said;
+    mSecondMade = std::move(flown);
+    mSettings.reset();
+    mApplies.clear();
+    mSwapTo = pose;
+    mWorker->reload([next](Progress&) { return *next; });
+}
+
+}  // namespace stereonav

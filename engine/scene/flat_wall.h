@@ -1,0 +1,57 @@
+// The wall of a scene laid flat along the line through it: a picture in which places are found, and back.
+#pragma once
+
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/base/progress.h"
+#include "engine/image/packed_color.h"
+#include "engine/image/plane.h"
+
+namespace stereonav {
+
+// A place of the wall, and the place of the line that it lies at.
+struct FlatPlace {
+    glm::dvec3 wall{0.0}, line{0.0};  // world, metres
+    double along = 0;                 // metres from the line's start
+};
+
+// A place that is marked in it, with a few letters.
+struct FlatMark {
+    glm::dvec3 world{0.0};
+    std::string label;
+};
+
+// What wall of this colour, linear RGB, looks like at a place where it is painted. From many threads.
+using FlatTint = std::function<glm::vec3(const glm::dvec3& world, const glm::vec3& color)>;
+
+// From any thread. Pixels count from the top left corner of the wall; columns go along the line.
+class FlatPicture {
+public:
+    virtual ~FlatPicture() = default;
+    virtual int width() const = 0;     // pixels
+    virtual int height() const = 0;    // of the wall, without the scale
+    virtual double pixel() const = 0;  // metres of the wall, the side of a pixel
+    // The wall in its light, then its scale below. tint: null where nothing is painted.
+    virtual Plane<PackedColor> picture(const FlatTint& tint) const = 0;
+    // Nothing beside the wall.
+    virtual std::optional<FlatPlace> placeAt(int x, int y) const = 0;
+    // Where the wall next to a place lies; none where that is farther than `within` metres.
+    virtual std::optional<glm::dvec2> pixelOf(const glm::dvec3& world, double within) const = 0;
+    virtual double columnAt(double along) const = 0;
+};
+
+// A capability (capabilities.h).
+class FlatWall {
+public:
+    virtual ~FlatWall() = default;
+    // Takes seconds, on any thread, also while frames are made. What it makes lives no longer than the scene.
+    // Throws Error, Cancelled.
+    virtual std::shared_ptr<const FlatPicture> makeFlat(Progress& progress) const = 0;
+};
+
+}  // namespace stereonav

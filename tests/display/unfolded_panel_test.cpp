@@ -1,0 +1,198 @@
+// The wall that lies flat, as it is felt: made once it is shown and not before, what is under the pointer is
+// marked in the flight, and a click flies there.
+#include "app/view/panel/unfolded_panel.h"
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "engine/base/error.h"
+#include "engine/display/interface.h"
+#include "engine/nav/navigator.h"
+#include "engine/scene/capabilities.h"
+#include "engine/scene/surface_paint.h"
+#include "tests/display/fake_frames.h"
+#include "tests/display/fake_panel_host.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kBox = 400;               // of the window, pixels
+constexpr int kWide = 300, kHigh = 60;  // of the wall
+
+// A wall in the plane y = 0.01: a pixel is a millimetre, its rows go up along z; the line is the x axis.
+class StraightFlat final : public FlatPicture {
+public:
+    int width() const override { return kWide; }
+    int height() const override { return kHigh; }
+    double pixel() const override { return 0.001; }
+    Plane<PackedColor> picture(const FlatTint& tint) const override {
+        Plane<PackedColor> picture(kWide, kHigh + 20);
+        const glm::vec3 grey(0.5f);
+        for (int y = 0; y < picture.height(); ++y)
+            for (int x = 0; x < picture.width(); ++x)
+                picture.at(x, y) = packColor(tint ? tint(glm::dvec3(0), grey) : grey);
+        return picture;
+    }
+    std::optional<FlatPlace> placeAt(int x, int y) const override {
+        if (x < 0 || y < 0 || x >= kWide || y >= kHigh) return std::nullopt;
+        return FlatPlace{{0.001 * x, 0.01, 0.001 * y}, {0.001 * x, 0, 0}, 0.001 * x};
+    }
+    std::optional<glm::dvec2> pixelOf(const glm::dvec3& world, double) const override {
+        return glm::dvec2(1000 * world.x, 1000 * world.z);
+    }
+    double columnAt(double along) const override { return 1000 * along; }
+};
+
+class CountedPainter final : public EyePainter {
+public:
+    void paint(const EyeView&, EyeImage&) const override {}
+    glm::vec3 paintPlace(const glm::dvec3&, const glm::vec3& color) const override {
+        ++painted;
+        return 0.5f * color;
+    }
+    mutable std::atomic<int> painted = 0;
+};
+
+class Walled final : public Scene, FlatWall, LineThrough {
+public:
+    Walled() {
+        lens.verticalFov = 0.8;
+        stereo = {0.001, 0.03};
+        offer<const FlatWall>(*this);
+        offer<const LineThrough>(*this);
+        paint.add(painter);
+        offer(paint);
+    }
+    FrameMaker& frames() const override { return mFrames; }
+    std::unique_ptr<Flight> makeFlight() const override {
+        return std::make_unique<Navigator>([](const glm::dvec2&) { return -100.0; }, Pose{{0.15, 0, 0}},
+                                           FlightSetting{});
+    }
+    PlaceOnLine placeOnLine(const glm::dvec3& world) const override { return {world.x, 0.3}; }
+    std::shared_ptr<const FlatPicture> makeFlat(Progress& progress) const override {
+        ++made;
+        if (fails) throw Error("wall", "", "it has none", "choose another");
+        progress.report(0.5, "unfolding");
+        return std::make_shared<const StraightFlat>();
+    }
+
+    mutable std::atomic<int> made = 0;
+    std::shared_ptr<CountedPainter> painter = std::make_shared<CountedPainter>();
+    SurfacePaint paint;
+    bool fails = false;
+
+private:
+    mutable FakeFrames mFrames;
+};
+
+class UnfoldedPanelTest : public testing::Test {
+protected:
+    void SetUp() override {
+        try {
+            mWindow = std::make_unique<Window>("test", kBox, kBox, false);
+        } catch (const Error& error) {
+            GTEST_SKIP() << error.what();
+        }
+        mInterface = std::make_unique<Interface>(*mWindow);
+        mPanel = std::make_unique<UnfoldedPanel>();
+    }
+    void TearDown() override {
+        mPanel.reset();
+        mInterface.reset();
+    }
+    void layOut() {
+        mInterface->layOut({}, 0.02, [&] {
+            ImGui::SetNextWindowPos({0, 0});
+            ImGui::SetNextWindowSize({kBox, kBox});
+            ImGui::Begin("flat", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
+            mPanel->draw(mHost);
+            ImGui::End();
+        });
+    }
+    void make() {
+        for (int n = 0; n < 1000 && !mPanel->flat(); ++n) {
+            layOut();
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    }
+    void pointAtMiddle() {
+        mInterface->pointerAt({0.5, 0.6});
+        layOut();
+        layOut();
+    }
+
+    std::shared_ptr<Walled> mScene = std::make_shared<Walled>();
+    ViewSession mSession{std::make_shared<OpenScene>(OpenScene{mScene, {}, {}, 0, false}), {}};
+    FakePanelHost mHost{mSession};
+    std::unique_ptr<Window> mWindow;
+    std::unique_ptr<Interface> mInterface;
+    std::unique_ptr<UnfoldedPanel> mPanel;
+};
+
+TEST_F(UnfoldedPanelTest, IsMadeOnceItIsShownAndPainted) {
+    EXPECT_TRUE(UnfoldedPanel::has(mHost));
+    mPanel->hide(mHost);
+    EXPECT_EQ(mScene->made, 0) << "nothing before it is shown";
+    make();
+    ASSERT_TRUE(mPanel->flat());
+    for (int n = 0; n < 5; ++n) layOut();
+    EXPECT_EQ(mScene->made, 1);
+    EXPECT_GT(mScene->painter->painted, 0) << "in what the scene is painted with";
+}
+
+TEST_F(UnfoldedPanelTest, IsPaintedAgainWhileOneFlies) {
+    make();
+    ASSERT_TRUE(mPanel->flat());
+    const auto seen = std::make_shared<CountedPainter>(), more = std::make_shared<CountedPainter>();
+    const int before = mScene->painter->painted;
+    for (const auto& painter : {seen, more}) {
+        mSession.setPaint(painter);
+        for (int n = 0; n < 5000 && painter->painted == 0; ++n) {
+            layOut();
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        EXPECT_GT(painter->painted, 0);
+    }
+    EXPECT_GT(mScene->painter->painted, before) << "the scene's own paint stays below";
+    EXPECT_EQ(mScene->made, 1) << "the wall is not unfolded again";
+}
+
+TEST_F(UnfoldedPanelTest, MarksWhatIsUnderThePointerAndFliesThere) {
+    make();
+    ASSERT_TRUE(mPanel->flat());
+    pointAtMiddle();
+    ASSERT_TRUE(mHost.marked);
+    EXPECT_NEAR(mHost.marked->y, 0.01, 1e-9);
+    EXPECT_NEAR(mHost.marked->x, 0.15, 0.02) << "it follows the eye, which is in the middle";
+    const glm::dvec3 wall = *mHost.marked;
+    EXPECT_FALSE(mSession.flyingToGoal());
+    mInterface->takesButton(0, true);
+    layOut();
+    mInterface->takesButton(0, false);
+    layOut();
+    ASSERT_TRUE(mSession.flyingToGoal());
+    for (int n = 0; n < 100 && mSession.flyingToGoal(); ++n) mSession.step({}, 0.1);
+    const glm::dvec3 to = wall - mSession.pose().position;
+    EXPECT_LT(glm::length(to), 0.041);
+    EXPECT_GT(glm::dot(glm::normalize(to), mSession.pose().forward()), 0.999) << "it looks at that wall";
+    mPanel->hide(mHost);
+    EXPECT_FALSE(mHost.marked);
+}
+
+TEST_F(UnfoldedPanelTest, SaysWhyThereIsNone) {
+    mScene->fails = true;
+    for (int n = 0; n < 50; ++n) {
+        layOut();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    EXPECT_FALSE(mPanel->flat());
+    EXPECT_EQ(mScene->made, 1) << "what failed is not tried again by itself";
+}
+
+}  // namespace
+}  // namespace stereonav
