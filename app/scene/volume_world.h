@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/command/commands.h"
+#include "app/scene/colon_findings.h"
 #include "app/scene/volume_inside.h"
 #include "colon/flight/colon_flight.h"
 #include "colon/scene/colon_scene.h"
@@ -45,6 +46,7 @@ public:
         offer(*interior);
         offer(static_cast<const LineThrough&>(*interior));
         offer(interior->lineOnMap());
+        offer(static_cast<SurfaceFindings&>(mFindings));
     }
     std::unique_ptr<Flight> makeFlight() const;
     // Throws Error naming `file` where a pose lies where no flight can be.
@@ -71,6 +73,7 @@ private:
     bool mFollows = false;
     const EyeRenderer* mWall = nullptr;
     SceneBox mBox;
+    ColonFindings mFindings;  // of mColon
 };
 
 }  // namespace stereonav

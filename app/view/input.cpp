@@ -188,6 +188,8 @@ std::optional<ViewAction> actionWithControl(const KeyPress& press) {
             return ViewAction{ViewCommand::CopyPlace};
         case 'm':
             return ViewAction{ViewCommand::MeasurePlace};
+        case 'f':
+            return ViewAction{ViewCommand::AddFinding};
         case 's':
             return ViewAction{ViewCommand::SaveScene};
         case 'p':
@@ -277,6 +279,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"Ctrl+B", "keep this place", does(AddPlace)},
         {"Ctrl+C", "copy what is told of the place under the pointer", does(CopyPlace)},
         {"Ctrl+M", "the measured line goes on to the place under the pointer", does(MeasurePlace)},
+        {"Ctrl+F", "a finding under the pointer (colon)", does(AddFinding)},
         {"Ctrl+Z", "undo; of keyframes first, while they are on the map", does(Undo)},
         {"Ctrl+Y", "redo", does(Redo)},
         {"Del", "remove the chosen keyframe; in slices the last seed"},

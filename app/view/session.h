@@ -37,6 +37,7 @@ enum class ViewCommand {
     AddPlace,
     CopyPlace,
     MeasurePlace,
+    AddFinding,
     OpenPath,
     FullScreen,
     QuitAtOnce,

@@ -136,6 +136,7 @@ void Viewer::takeScene() {
     if (!loading.busy) mBefore.reset();
     if (mSession && !mAnother) {
         mMeasured.replaceScene(mScene->scene);
+        mFindings.replaceScene(mScene->scene);
         return mSession->replaceScene(mScene);
     }
     if (!mSession && mBefore) {
@@ -173,8 +174,7 @@ void Viewer::beginSession() {
     mSettings.reset();
     mHistory.start(settings());
     mPlaces.emplace(fullName().string());
-    mMeasured.open(mScene->scene, measuredFile(mPlaces->file()));
-    mMarked.reset();
+    openInstruments();
     mRecentDue = true;
     reportKept();
     if (first) mSession->notify("F1 shows the keys, F2 and F3 the panels");
@@ -216,6 +216,9 @@ bool Viewer::actOnInterface(const ViewAction& action) {
             return true;
         case ViewCommand::MeasurePlace:
             measureHere();
+            return true;
+        case ViewCommand::AddFinding:
+            findHere();
             return true;
         case ViewCommand::OpenPath:
             if (mSession) mPanels.openPaths();
@@ -292,6 +295,7 @@ void Viewer::update(double dt) {
     mHistory.observe(settings(), panelled().active(), dt);
     followKeyframes();
     if (mMeasured.poll()) mLayoutDue = true;
+    if (mFindings.poll(mSession->study()) || mFindings.busy()) mLayoutDue = true;
     askFor();
     followWishes();
     lookAtJob();

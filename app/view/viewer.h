@@ -85,7 +85,10 @@ public:
     void copy(const std::string& text) override;
     MeasuredLine* measured() override { return mSession ? &mMeasured : nullptr; }
     bool measuring() const override { return mMeasuring; }
-    void measure(bool on) override { mMeasuring = on; }
+    void measure(bool on) override;
+    FindingList* findings() override { return mSession && mFindings.maker() ? &mFindings : nullptr; }
+    void addFinding(const glm::dvec3& place) override;
+    void writeFindingsPage(const std::filesystem::path& file) override;
     void markWorld(const std::optional<glm::dvec3>& place) override { mMarked = place; }
     bool canUndo() const override { return mSession && (mKeyframes.canUndo() || mHistory.canUndo()); }
     bool canRedo() const override { return mSession && (mKeyframes.canRedo() || mHistory.canRedo()); }
@@ -184,7 +187,9 @@ private:
     // What is seen there, of a picture that stands still.
     std::optional<glm::dvec3> pointedWorld() const;
     void copyPlace();
+    void openInstruments();
     void measureHere();
+    void findHere();
     void addLineMarks(std::vector<OverlayMark>& marks) const;
     bool drawOverlay(const OutputModeInfo& mode);
 
@@ -256,6 +261,7 @@ private:
     bool mMeasuring = false;
     std::optional<glm::dvec3> mMarked;  // world
     MeasuredLine mMeasured{[] { Window::wake(); }};
+    FindingList mFindings{[] { Window::wake(); }};
     KeyframeEdit mKeyframes;
     long long mKeyframesSeen = 0, mKeyframesPath = 0;  // versions: of them, and of the path beside them
     bool mKeyframesFlown = false;                      // that path is theirs

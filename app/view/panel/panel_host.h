@@ -10,6 +10,7 @@
 
 #include "app/view/bookmarks.h"
 #include "app/view/file_looks.h"
+#include "app/view/finding_list.h"
 #include "app/view/job.h"
 #include "app/view/measured_line.h"
 #include "app/view/recent_files.h"
@@ -118,6 +119,10 @@ public:
     virtual bool measuring() const { return false; }
     virtual void measure(bool /*on*/) {}
     virtual void markWorld(const std::optional<glm::dvec3>& /*place*/) {}  // in the picture, until it is none
+    // Findings of this scene; null before a scene is there, or where it measures none.
+    virtual FindingList* findings() { return nullptr; }
+    virtual void addFinding(const glm::dvec3& /*place*/) {}
+    virtual void writeFindingsPage(const std::filesystem::path& /*file*/) {}  // failures are told
     virtual bool canUndo() const = 0;
     virtual bool canRedo() const = 0;
     virtual void undo() = 0;

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "app/view/input.h"
 #include "app/view/panel/controls.h"
 #include "app/view/panel/file_browser.h"
+#include "app/view/panel/findings_panel.h"
 #include "app/view/panel/map_panel.h"
 #include "app/view/panel/measure_panel.h"
 #include "app/view/panel/menu_bar.h"
@@ -46,6 +48,8 @@ struct Panels::State {
     MapPanel map;
     PlacesPanel places;
     SlicesPanel slices;
+    FindingsPanel findings;
+    bool showFindings = false;  // in the next layout they are opened and scrolled to
     SearchBox search;
     FileBrowser files;
     StartPage start;
@@ -54,6 +58,7 @@ struct Panels::State {
     void drawHelp(PanelHost& host);
     void drawColumn(Column& column, bool atRight, float top, const std::function<void()>& content);
     void drawLeft(PanelHost& host);
+    void drawFindings(PanelHost& host);
 };
 
 Panels::Panels() : mState(std::make_unique<State>()) {}
@@ -135,7 +140,17 @@ void Panels::State::drawLeft(PanelHost& host) {
                                     ? ImGuiTreeNodeFlags_DefaultOpen
                                     : 0))
         drawMeasurePanel(host);
+    if (FindingsPanel::has(host)) drawFindings(host);
     if (session->open().scene->offered<SliceSource>() && open("Slices")) slices.draw(host);
+}
+
+void Panels::State::drawFindings(PanelHost& host) {
+    if (showFindings) ImGui::SetNextItemOpen(true);
+    const bool open =
+        ImGui::CollapsingHeader("Findings", FindingsPanel::inUse(host) ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    if (std::exchange(showFindings, false)) ImGui::SetScrollHereY(0);
+    if (!open) return;
+    if (const auto place = findings.draw(host)) slices.show(*place);
 }
 
 void Panels::draw(PanelHost& host) {
@@ -197,6 +212,10 @@ void Panels::toggleLeft() {
     mState->hidden = false;
     mState->left.shown = !mState->left.shown;
     if (!mState->beside && mState->left.shown) mState->side.shown = false;
+}
+void Panels::showFindings() {
+    if (!mState->left.shown) toggleLeft();
+    mState->showFindings = true;
 }
 void Panels::openSearch() {
     mState->search.open();
