@@ -130,7 +130,8 @@ int runFindings(const FindingsOptions& options) {
     tellDistances(result, options, colon);
     if (!options.file.empty()) writeFindings(options.file, colon.name, findings);
     if (!options.csv.empty()) writeTextFile(options.csv, csvOf(findings));
-    if (!options.page.empty()) writeTextFile(options.page, findingsPage(colon, findings));
+    if (!options.page.empty())
+        writeTextFile(options.page, findingsPage(colon, colon.study, findings, bar.progress()));
     for (const auto& [key, file] :
          {std::pair("kept", options.file), std::pair("table", options.csv), std::pair("page", options.page)})
         if (!file.empty()) result.addFile(key, file);

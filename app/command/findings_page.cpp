@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "app/command/colon_of.h"
 #include "app/command/findings_words.h"
 #include "app/output/inline_picture.h"
+#include "colon/instruments/polyp_view.h"
 #include "colon/wall/line_of_sight.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/metrics/svg_chart.h"
@@ -27,19 +27,6 @@ constexpr const char* kStyle =
     "table{border-collapse:collapse;font-size:.85rem}th,td{padding:2px 10px 2px 0;text-align:left;"
     "border-bottom:1px solid #d9dde3}figure{display:inline-block;margin:0 12px 12px 0}"
     "figcaption{font-size:.85rem;color:#5b6470}img{display:block}";
-
-// Eyes at the side of the polyp that the lumen is on, this far turned to one side of its axis.
-Pose eyeBeside(const MeasuredPolyp& polyp, const LineOfSight& sight, double side) {
-    const glm::dvec3 helper = std::abs(polyp.outward.z) < 0.8 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 across = glm::normalize(glm::cross(polyp.outward, helper));
-    const glm::dvec3 way = glm::normalize(polyp.outward + side * 0.7 * across);
-    const double wanted = std::max(0.015, 2.5 * polyp.widest.length);
-    // From before its tip, not from inside of its flesh.
-    const glm::dvec3 from = polyp.middle + (0.6 * polyp.widest.length + 0.001) * way;
-    const double room = 0.85 * sight.reach(from, way, wanted);
-    const glm::dvec3 eye = from + room * way, look = glm::normalize(polyp.middle - eye);
-    return poseFromAngles(eye, std::atan2(look.x, look.y), std::asin(std::clamp(look.z, -1.0, 1.0)), 0);
-}
 
 Plane<PackedColor> pictureOf(const ColonScene& colon, const VolumeRenderer& renderer, const Pose& eye) {
     Lens lens = colon.lens;
@@ -93,6 +80,9 @@ std::string rowOf(const Finding& f, std::size_t number) {
                                       nameOfSlice(f.polyp->sliceAxis), mm(f.polyp->slice))
                         : "-");
     row += cell(f.polyp ? fmt::format("{:.0f}", 1e9 * f.polyp->volume) : "-");
+    row += cell(
+        f.values ? fmt::format("{:.0f} \u00b1 {:.0f} ({})", f.values->mean, f.values->sigma, f.values->voxels)
+                 : "-");
     row += cell(fmt::format("{:.0f}", 1e3 * f.along)) + cell(f.segment);
     row += cell(f.truth ? mm(f.truth->diameter) + " " + nameOf(f.truth->shape) : "");
     const std::string both = f.problem.empty() || f.comment.empty() ? "" : "; ";
@@ -101,7 +91,8 @@ std::string rowOf(const Finding& f, std::size_t number) {
 
 }  // namespace
 
-std::string findingsPage(const ColonScene& colon, const std::vector<Finding>& findings) {
+std::string findingsPage(const ColonScene& colon, const GreyVolume& study,
+                         const std::vector<Finding>& findings, Progress& progress) {
     std::string html = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/><title>Findings in {0}</title>\n"
         "<style>{1}</style></head><body>\n<h1>Findings in {0}</h1>\n<p class=\"warn\">{2}. Sizes are "
@@ -111,23 +102,24 @@ std::string findingsPage(const ColonScene& colon, const std::vector<Finding>& fi
         escapedXml(colon.name), kStyle, kNoMedicalDevice, cradsClassOf(findings));
     html +=
         "<table><tr><th></th><th>left, back, head mm</th><th>longest mm</th><th>in a slice "
-        "mm</th><th>mm\u00b3</th>"
+        "mm</th><th>mm\u00b3</th><th>HU, sigma (voxels)</th>"
         "<th>from the rectum mm</th><th>segment</th><th>truth mm</th><th>notes</th></tr>\n";
     for (std::size_t n = 0; n < findings.size(); ++n) html += rowOf(findings[n], n + 1);
     html += "</table>\n";
     const VolumeRenderer renderer(colon.volume);
     const LineOfSight sight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue);
     for (std::size_t n = 0; n < findings.size(); ++n) {
+        progress.report(static_cast<double>(n) / static_cast<double>(findings.size()), "making the page");
         if (!findings[n].polyp) continue;
         const MeasuredPolyp& polyp = *findings[n].polyp;
         html += fmt::format("<h2>{}: {:.1f} mm</h2>\n", n + 1, 1e3 * polyp.widest.length);
         for (const double side : {1.0, -1.0})
             html += figure(pictureOf(colon, renderer, eyeBeside(polyp, sight, side)),
                            side > 0 ? "from one side" : "from the other side");
-        if (!colon.study.empty())
-            html += figure(sliceOf(colon.study, polyp),
-                           fmt::format("{} slice, lung window, {:g} mm wide", nameOfSlice(polyp.sliceAxis),
-                                       1e3 * kSliceExtent));
+        if (!study.empty())
+            html +=
+                figure(sliceOf(study, polyp), fmt::format("{} slice, lung window, {:g} mm wide",
+                                                          nameOfSlice(polyp.sliceAxis), 1e3 * kSliceExtent));
     }
     return html + "</body></html>\n";
 }

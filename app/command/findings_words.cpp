@@ -37,6 +37,10 @@ void addPolyp(const Finding& finding, Facts& facts) {
     facts.push_back(factForJson("slice_at_mm", 1e3 * polyp.slice));
     facts.push_back(factForJson("volume_mm3", 1e9 * polyp.volume));
     facts.push_back(factForJson("area_mm2", 1e6 * polyp.area));
+    if (!finding.values) return;
+    facts.push_back(factForJson("hu_mean", finding.values->mean));
+    facts.push_back(factForJson("hu_sigma", finding.values->sigma));
+    facts.push_back(factForJson("hu_voxels", static_cast<std::int64_t>(finding.values->voxels)));
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& place, const char* expected) {
@@ -77,6 +81,8 @@ std::string lineOf(const Finding& finding, std::size_t number) {
         line += fmt::format(": {:.1f} mm, {:.1f} mm in the {} slice at {:.1f}, {:.0f} mm^3",
                             1e3 * polyp.widest.length, 1e3 * polyp.widestInSlice.length,
                             nameOfSlice(polyp.sliceAxis), 1e3 * polyp.slice, 1e9 * polyp.volume);
+        if (finding.values)
+            line += fmt::format(", {:.0f} +- {:.0f} HU", finding.values->mean, finding.values->sigma);
     }
     line += fmt::format(", {:.0f} mm from the rectum", 1e3 * finding.along);
     if (!finding.segment.empty()) line += ", " + finding.segment;
@@ -91,7 +97,7 @@ std::string lineOf(const Finding& finding, std::size_t number) {
 std::string csvOf(const std::vector<Finding>& findings) {
     std::string text =
         "number,left_mm,back_mm,head_mm,diameter_mm,slice_diameter_mm,slice,volume_mm3,"
-        "along_mm,segment,truth_mm,note,comment\n";
+        "hu_mean,hu_sigma,hu_voxels,along_mm,segment,truth_mm,note,comment\n";
     for (std::size_t n = 0; n < findings.size(); ++n) {
         const Finding& f = findings[n];
         text +=
@@ -102,6 +108,8 @@ std::string csvOf(const std::vector<Finding>& findings) {
                                 1e9 * f.polyp->volume);
         else
             text += ",,,,";
+        text += f.values ? fmt::format("{:.1f},{:.1f},{},", f.values->mean, f.values->sigma, f.values->voxels)
+                         : ",,,";
         text += fmt::format("{:.1f},{},", 1e3 * f.along, f.segment);
         if (f.truth) text += fmt::format("{:.2f}", 1e3 * f.truth->diameter);
         text += "," + field(f.problem) + "," + field(f.comment) + "\n";
@@ -112,7 +120,11 @@ std::string csvOf(const std::vector<Finding>& findings) {
 std::vector<KeptFinding> readFindings(const std::filesystem::path& file) {
     std::error_code code;
     if (!std::filesystem::exists(file, code)) return {};
-    const nlohmann::json document = nlohmann::json::parse(readTextFile(file), nullptr, false);
+    return findingsIn(readTextFile(file), file);
+}
+
+std::vector<KeptFinding> findingsIn(const std::string& text, const std::filesystem::path& file) {
+    const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
     if (!document.is_object() || document.value("document", nlohmann::json()) != kDocument ||
         !document.contains("findings") || !document["findings"].is_array())
         refuse(file, "", "a document of findings");
@@ -136,15 +148,18 @@ std::vector<KeptFinding> readFindings(const std::filesystem::path& file) {
     return kept;
 }
 
-void writeFindings(const std::filesystem::path& file, const std::string& study,
-                   const std::vector<Finding>& findings) {
+std::string findingsDocument(const std::string& study, const std::vector<Finding>& findings) {
     std::vector<Facts> list;
     for (std::size_t n = 0; n < findings.size(); ++n) list.push_back(factsOf(findings[n], n + 1));
     const Facts document{factForJson("document", std::string(kDocument)), factForJson("study", study),
                          factForJson("notice", std::string(kNoMedicalDevice)),
                          factForJson("findings", std::move(list))};
-    const std::string text =
-        jsonOf(document).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return jsonOf(document).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void writeFindings(const std::filesystem::path& file, const std::string& study,
+                   const std::vector<Finding>& findings) {
+    const std::string text = findingsDocument(study, findings);
     writeFileAtomically(
         file,
         [&](const std::filesystem::path& temporary) {

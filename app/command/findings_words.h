@@ -29,11 +29,16 @@ struct KeptFinding {
 };
 // Of a document that writeFindings wrote; none where there is no such file. Throws Error where it is another.
 std::vector<KeptFinding> readFindings(const std::filesystem::path& file);
+// The document itself, and what it keeps. file: its name, for the Error where it is another.
+std::string findingsDocument(const std::string& study, const std::vector<Finding>& findings);
+std::vector<KeptFinding> findingsIn(const std::string& document, const std::filesystem::path& file);
 // Whole or not at all, over an earlier one too. Throws Error.
 void writeFindings(const std::filesystem::path& file, const std::string& study,
                    const std::vector<Finding>& findings);
 
-// One HTML file with all of its pictures: each finding from two sides, and in a slice of the study.
-std::string findingsPage(const ColonScene& colon, const std::vector<Finding>& findings);
+// One HTML file with all of its pictures: each finding from two sides, and in a slice of the study, unless
+// that is empty. Throws Cancelled.
+std::string findingsPage(const ColonScene& colon, const GreyVolume& study,
+                         const std::vector<Finding>& findings, Progress& progress);
 
 }  // namespace stereonav

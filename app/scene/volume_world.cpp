@@ -68,7 +68,8 @@ VolumeWorld::VolumeWorld(ColonScene colon, const SceneOptions& options)
       mOptions(colonOptionsOf(options)),
       mSide(sideOf(mColon)),
       mFollows(!options.separation_m && !options.zeroParallax_m),
-      mBox(boxOf(mColon.volume.field.frame)) {}
+      mBox(boxOf(mColon.volume.field.frame)),
+      mFindings(mColon) {}
 
 void VolumeWorld::setViews(const SceneOptions& options, Scene& scene) {
     scene.lens = mColon.lens;
@@ -115,6 +116,7 @@ std::shared_ptr<const SliceStudy> VolumeWorld::readSlices(Progress& progress) co
         slices->grey = builtInColon(mOptions.builtIn, progress).grey;
     } else {
         Study study = readStudy(mOptions.study, mOptions.reading, progress);
+        slices->ofMask = study.isMask;
         slices->grey = study.isMask ? greyOf(study.mask) : std::move(study.grey);
     }
     if (mOptions.up) turnUp(slices->grey.frame, *mOptions.up);

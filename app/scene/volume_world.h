@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/command/commands.h"
+#include "app/scene/colon_findings.h"
 #include "app/scene/volume_flat_wall.h"
 #include "app/scene/volume_inside.h"
 #include "app/scene/volume_line_match.h"
@@ -49,6 +50,7 @@ public:
         offer(interior->lineOnMap());
         offer(static_cast<const FlatWall&>(mFlatWall));
         offer(static_cast<const MatchingLine&>(mLine));
+        offer(static_cast<SurfaceFindings&>(mFindings));
     }
     std::unique_ptr<Flight> makeFlight() const;
     // Throws Error naming `file` where a pose lies where no flight can be.
@@ -75,6 +77,7 @@ private:
     bool mFollows = false;
     const EyeRenderer* mWall = nullptr;
     SceneBox mBox;
+    ColonFindings mFindings;           // of mColon
     VolumeFlatWall mFlatWall{mColon};  // where it is a colon
     VolumeLine mLine{mColon};          // there too
 };

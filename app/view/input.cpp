@@ -192,6 +192,8 @@ std::optional<ViewAction> actionWithControl(const KeyPress& press) {
             return ViewAction{ViewCommand::CopyPlace};
         case 'm':
             return ViewAction{ViewCommand::MeasurePlace};
+        case 'f':
+            return ViewAction{ViewCommand::AddFinding};
         case 's':
             return ViewAction{ViewCommand::SaveScene};
         case 'p':
@@ -287,6 +289,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"F9", "coverage (colon): tints the wall that was not seen yet, or not", does(ToggleCoverage)},
         {"F8", "to the next part of the wall that was not seen (Coverage)", does(NextUnseen)},
         {"Shift+F8", "to the one before", does(PreviousUnseen)},
+        {"Ctrl+F", "a finding under the pointer (colon)", does(AddFinding)},
         {"Ctrl+Z", "undo; of keyframes first, while they are on the map", does(Undo)},
         {"Ctrl+Y", "redo", does(Redo)},
         {"Del", "remove the chosen keyframe; in slices the last seed"},

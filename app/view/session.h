@@ -41,6 +41,7 @@ enum class ViewCommand {
     ToggleCoverage,
     NextUnseen,
     PreviousUnseen,
+    AddFinding,
     OpenPath,
     FullScreen,
     QuitAtOnce,

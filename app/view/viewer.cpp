@@ -137,6 +137,7 @@ void Viewer::takeScene() {
     if (mSession && !mAnother) {
         mMeasured.replaceScene(mScene->scene);
         mCoverage.replaceScene(mScene->scene);
+        mFindings.replaceScene(mScene->scene);
         return mSession->replaceScene(mScene);
     }
     if (!mSession && mBefore) {
@@ -174,9 +175,7 @@ void Viewer::beginSession() {
     mSettings.reset();
     mHistory.start(settings());
     mPlaces.emplace(fullName().string());
-    mMeasured.open(mScene->scene, measuredFile(mPlaces->file()));
-    mCoverage.open(mScene->scene, coverageFile(mPlaces->file()));
-    mMarked.reset();
+    openInstruments();
     mRecentDue = true;
     reportKept();
     beginSecond();
@@ -219,6 +218,9 @@ bool Viewer::actOnInterface(const ViewAction& action) {
             return true;
         case ViewCommand::MeasurePlace:
             measureHere();
+            return true;
+        case ViewCommand::AddFinding:
+            findHere();
             return true;
         case ViewCommand::OpenPath:
             if (mSession) mPanels.openPaths();
@@ -299,6 +301,7 @@ void Viewer::update(double dt) {
     followKeyframes();
     if (mMeasured.poll()) mLayoutDue = true;
     followCoverage();
+    if (mFindings.poll(mSession->study()) || mFindings.busy()) mLayoutDue = true;
     askFor();
     followWishes();
     followSecond();

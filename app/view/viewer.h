@@ -87,10 +87,14 @@ public:
     void copy(const std::string& text) override;
     MeasuredLine* measured() override { return mSession ? &mMeasured : nullptr; }
     bool measuring() const override { return mMeasuring; }
-    void measure(bool on) override { mMeasuring = on; }
+    void measure(bool on) override;
     LiveCoverage* coverage() override { return mSession && mCoverage.can() ? &mCoverage : nullptr; }
+    FindingList* findings() override { return mSession && mFindings.maker() ? &mFindings : nullptr; }
+    void addFinding(const glm::dvec3& place) override;
+    void writeFindingsPage(const std::filesystem::path& file) override;
     void markWorld(const std::optional<glm::dvec3>& place) override { mMarked = place; }
     std::optional<glm::dvec3> pointedWorld() const override;
+    std::vector<FlatMark> flatMarks() const override;
     SecondStudy* secondStudy() override { return &mSecond; }
     void openOther(const std::string& study) override;
     void swapStudies() override;
@@ -191,12 +195,14 @@ private:
     // Where the pointer is over the picture: shares of an eye's size.
     std::optional<glm::dvec2> pointedShare(const OutputModeInfo& mode) const;
     void copyPlace();
+    void openInstruments();
     void measureHere();
     void followCoverage();
     void showToCoverage();
     bool actOnCoverage(ViewCommand command);
     void toggleCoverage();
     void flyToUnseen(int step);
+    void findHere();
     void addLineMarks(std::vector<OverlayMark>& marks) const;
     bool drawOverlay(const OutputModeInfo& mode);
 
@@ -269,6 +275,7 @@ private:
     std::optional<glm::dvec3> mMarked;  // world
     MeasuredLine mMeasured{[] { Window::wake(); }};
     LiveCoverage mCoverage{[] { Window::wake(); }};
+    FindingList mFindings{[] { Window::wake(); }};
     KeyframeEdit mKeyframes;
     long long mKeyframesSeen = 0, mKeyframesPath = 0;  // versions: of them, and of the path beside them
     bool mKeyframesFlown = false;                      // that path is theirs

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/view/eye_marks.h"
+#include "app/view/finding_marks.h"
 #include "app/view/place_labels.h"
 #include "app/view/pointed_place.h"
 #include "app/view/viewer.h"
@@ -83,8 +84,8 @@ void Viewer::usePointer() {
     const SizeOption eye = eyeSizeAt(mode, place);
     for (const glm::dvec2& click : clicks) {
         const glm::dvec2 at = placeInPicture(mode, place, click) * glm::dvec2(eye.width, eye.height);
-        if (mMeasuring && !mSession->slicesShown()) {
-            measureHere();
+        if ((mMeasuring || mFindings.clicks()) && !mSession->slicesShown()) {
+            mMeasuring ? measureHere() : findHere();
             continue;
         }
         tell(mSession->click(at.x, at.y));
@@ -111,6 +112,8 @@ std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
                              glm::vec2(label.textAt)});
     }
     if (!mPanels.hidden() && (!mMeasured.places().empty() || mMarked)) addLineMarks(marks);
+    if (!mPanels.hidden())
+        addFindingMarks(mFindings, mPicture.of, depth, guard, mInterface.textSize("0").y, marks);
     const std::optional<glm::dvec2> share = drawsPointer(mode) ? pointedShare(mode) : std::nullopt;
     if (!share) return marks;
     const EyeMark under = markUnder(viewsOf(mPicture.of), depth, *share, guard);

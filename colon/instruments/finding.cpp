@@ -74,13 +74,21 @@ bool Finding::right() const {
 FindingTool::FindingTool(const ColonScene& colon, Progress& progress)
     : mColon(colon),
       mWall(wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, progress)),
-      mNeighbours(neighboursOf(mWall)) {}
+      mNeighbours(neighboursOf(mWall)) {
+    if (!colon.study.empty()) useStudy(colon.study);
+}
+
+void FindingTool::useStudy(const GreyVolume& study) {
+    mStudy = &study;
+    mBlur = blurAcrossWall(study, mWall);
+}
 
 Finding FindingTool::at(const glm::dvec3& place) const {
     Finding finding;
     finding.asked = place;
     finding.polyp =
         polypAt(mWall, mNeighbours, place, polypSettingOf(mColon.volume.field.frame), finding.problem);
+    if (finding.polyp && mBlur) finding.values = valuesInside(*mStudy, mWall, *finding.polyp, *mBlur);
     const glm::dvec3 where = finding.polyp ? finding.polyp->middle : place;
     finding.along = alongLine(mColon.centreline, where);
     finding.segment = colonSegmentAt(mColon.centreline, finding.along);

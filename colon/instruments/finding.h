@@ -8,6 +8,7 @@
 
 #include "colon/centreline/centreline.h"
 #include "colon/instruments/polyp.h"
+#include "colon/instruments/polyp_values.h"
 #include "colon/scene/colon_scene.h"
 #include "colon/wall/wall_mesh.h"
 
@@ -19,9 +20,10 @@ struct Finding {
     std::optional<Polyp> truth;  // of a generated colon
 
     std::optional<MeasuredPolyp> polyp;
-    std::string problem;  // why there is none, or a note on it; ""
-    double along = 0;     // metres from the rectum
-    std::string segment;  // of the colon, by landmarks; "": not told
+    std::string problem;                // why there is none, or a note on it; ""
+    double along = 0;                   // metres from the rectum
+    std::string segment;                // of the colon, by landmarks; "": not told
+    std::optional<PolypValues> values;  // of the CT inside it; none: not told
 
     double diameter() const { return polyp ? polyp->widest.length : 0; }  // metres
     bool doubled = false;  // of the same polyp as one before it in its list
@@ -31,8 +33,11 @@ struct Finding {
 
 class FindingTool {
 public:
-    // colon must outlive it.
+    // colon must outlive it. Values are those of its `study`, where it has one.
     FindingTool(const ColonScene& colon, Progress& progress);
+
+    // Values are those of this study from now on, which must outlive it.
+    void useStudy(const GreyVolume& study);
 
     Finding at(const glm::dvec3& place) const;
     // Those of a generated colon, at their true places.
@@ -46,6 +51,8 @@ private:
     const ColonScene& mColon;
     WallMesh mWall;
     WallNeighbours mNeighbours;
+    const GreyVolume* mStudy = nullptr;  // null: it has no values
+    std::optional<double> mBlur;         // of mStudy across the wall, metres
 };
 
 // Notes on findings that are of one polyp: each but the first says so. Nothing is left out.

@@ -14,6 +14,10 @@ namespace {
 constexpr ImU32 kInk = IM_COL32(255, 255, 255, 255), kEdge = IM_COL32(0, 0, 0, 255),
                 kPlate = IM_COL32(0, 0, 0, 170);
 
+ImU32 inkOf(const OverlayMark& mark) {
+    return IM_COL32(mark.ink.r, mark.ink.g, mark.ink.b, 255);
+}
+
 ImVec2 at(const glm::vec2& place) {
     return {place.x, place.y};
 }
@@ -21,20 +25,20 @@ ImVec2 at(const glm::vec2& place) {
 void drawLabel(ImDrawList& list, const glm::vec2& place, const OverlayMark& mark, float font) {
     const float dot = 0.2f * font, margin = 0.25f * font;
     list.AddCircleFilled(at(place), dot + 1, kEdge);
-    list.AddCircleFilled(at(place), dot, kInk);
+    list.AddCircleFilled(at(place), dot, inkOf(mark));
     // Whole pixels of either eye: letters are sharp.
     const glm::vec2 corner = glm::round(place + mark.textAt);
     const ImVec2 size = ImGui::CalcTextSize(mark.text.c_str());
     list.AddRectFilled({corner.x - margin, corner.y}, {corner.x + size.x + margin, corner.y + size.y}, kPlate,
                        0.2f * font);
-    list.AddText(at(corner), kInk, mark.text.c_str());
+    list.AddText(at(corner), inkOf(mark), mark.text.c_str());
 }
 
 void drawMark(ImDrawList& list, const glm::vec2& place, const OverlayMark& mark, const InterfaceLook& look) {
     if (mark.dot) {
         const float dot = 0.1f * ImGui::GetFontSize();
         list.AddCircleFilled(at(place), dot + 1, kEdge);
-        return list.AddCircleFilled(at(place), dot, kInk);
+        return list.AddCircleFilled(at(place), dot, inkOf(mark));
     }
     if (!mark.text.empty()) return drawLabel(list, place, mark, ImGui::GetFontSize());
     ImGui::RenderMouseCursor(&list, at(glm::round(place)), look.scale, ImGuiMouseCursor_Arrow, kInk, kEdge,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <glm/ext/vector_uint3_sized.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -20,9 +21,10 @@ class Interface;
 // Places are pixels of each eye's picture, (0, 0) its top left corner.
 struct OverlayMark {
     glm::vec2 left{0}, right{0};
-    std::string text;     // a point with this beside it; "": the pointer
-    glm::vec2 textAt{0};  // the text's top left corner, from the place
-    bool dot = false;     // a small point, without a text
+    std::string text;      // a point with this beside it; "": the pointer
+    glm::vec2 textAt{0};   // the text's top left corner, from the place
+    bool dot = false;      // a small point, without a text
+    glm::u8vec3 ink{255};  // sRGB, of points and texts
     bool operator==(const OverlayMark&) const = default;
 };
 

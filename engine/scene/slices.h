@@ -11,6 +11,7 @@ namespace stereonav {
 
 struct SliceStudy {
     GreyVolume grey;
+    bool ofMask = false;                            // it says what is lumen, and nothing of values
     double windowWidth = 1500, windowLevel = -200;  // values shown from black to white, and their middle
 };
 

@@ -10,6 +10,7 @@
 
 #include "app/view/bookmarks.h"
 #include "app/view/file_looks.h"
+#include "app/view/finding_list.h"
 #include "app/view/job.h"
 #include "app/view/live_coverage.h"
 #include "app/view/measured_line.h"
@@ -131,6 +132,10 @@ public:
     virtual SecondStudy* secondStudy() { return nullptr; }
     virtual void openOther(const std::string& /*study*/) {}
     virtual void swapStudies() {}
+    // Findings of this scene; null before a scene is there, or where it measures none.
+    virtual FindingList* findings() { return nullptr; }
+    virtual void addFinding(const glm::dvec3& /*place*/) {}
+    virtual void writeFindingsPage(const std::filesystem::path& /*file*/) {}  // failures are told
     virtual bool canUndo() const = 0;
     virtual bool canRedo() const = 0;
     virtual void undo() = 0;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "app/view/input.h"
 #include "app/view/panel/controls.h"
 #include "app/view/panel/coverage_panel.h"
 #include "app/view/panel/file_browser.h"
+#include "app/view/panel/findings_panel.h"
 #include "app/view/panel/map_panel.h"
 #include "app/view/panel/measure_panel.h"
 #include "app/view/panel/menu_bar.h"
@@ -55,6 +57,8 @@ struct Panels::State {
     PlacesPanel places;
     SlicesPanel slices;
     SecondPanel second;
+    FindingsPanel findings;
+    bool showFindings = false;  // in the next layout they are opened and scrolled to
     SearchBox search;
     FileBrowser files;
     StartPage start;
@@ -64,6 +68,7 @@ struct Panels::State {
     void drawColumn(Column& column, bool atRight, float top, const std::function<void()>& content);
     void drawLeft(PanelHost& host);
     void drawUnfolded(PanelHost& host);
+    void drawFindings(PanelHost& host);
 };
 
 Panels::Panels() : mState(std::make_unique<State>()) {}
@@ -145,10 +150,20 @@ void Panels::State::drawLeft(PanelHost& host) {
                                     ? ImGuiTreeNodeFlags_DefaultOpen
                                     : 0))
         drawMeasurePanel(host);
+    if (FindingsPanel::has(host)) drawFindings(host);
     coverage.draw(host);
     if (SecondPanel::has(host) && open("Other study") && second.draw(host))
         files.open(FileBrowser::For::OpenOther);
     if (session->open().scene->offered<SliceSource>() && open("Slices")) slices.draw(host);
+}
+
+void Panels::State::drawFindings(PanelHost& host) {
+    if (showFindings) ImGui::SetNextItemOpen(true);
+    const bool open =
+        ImGui::CollapsingHeader("Findings", FindingsPanel::inUse(host) ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    if (std::exchange(showFindings, false)) ImGui::SetScrollHereY(0);
+    if (!open) return;
+    if (const auto place = findings.draw(host)) slices.show(*place);
 }
 
 // Between the columns, over the line at the bottom.
@@ -235,6 +250,10 @@ void Panels::toggleLeft() {
 void Panels::toggleUnfolded() {
     mState->hidden = false;
     mState->showsUnfolded = !mState->showsUnfolded;
+}
+void Panels::showFindings() {
+    if (!mState->left.shown) toggleLeft();
+    mState->showFindings = true;
 }
 void Panels::openSearch() {
     mState->search.open();

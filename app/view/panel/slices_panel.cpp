@@ -82,10 +82,10 @@ void SlicesPanel::draw(PanelHost& host) {
     if (mFollows) mCross = session->pose().position;
     windowControls(*study);
     for (const SliceAxis axis : {SliceAxis::Axial, SliceAxis::Coronal, SliceAxis::Sagittal})
-        drawView(*session, *study, axis);
+        drawView(host, *session, *study, axis);
 }
 
-void SlicesPanel::drawView(ViewSession& session, const SliceStudy& study, SliceAxis axis) {
+void SlicesPanel::drawView(PanelHost& host, ViewSession& session, const SliceStudy& study, SliceAxis axis) {
     View& view = mViews[static_cast<std::size_t>(axis)];
     const int width = std::max(static_cast<int>(ImGui::GetContentRegionAvail().x), 16);
     // The picture is a part of a larger one about the cross where it is enlarged.
@@ -144,6 +144,9 @@ void SlicesPanel::drawView(ViewSession& session, const SliceStudy& study, SliceA
             mFollows = false;
             mCross = *world;
         }
+        if (world && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::IsItemDeactivated())
+            if (const FindingList* const findings = host.findings(); findings && findings->clicks())
+                host.addFinding(*world);
         if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::IsMouseDown(ImGuiMouseButton_Right))
             tooltip(
                 "click: the other slices through here\ndouble click: fly there\nwheel: slices; Ctrl+wheel: "

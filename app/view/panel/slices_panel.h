@@ -15,6 +15,8 @@ class SlicesPanel {
 public:
     void draw(PanelHost& host);
     void forget();
+    // The slices go through that place from now on.
+    void show(const glm::dvec3& place) { mFollows = false, mCross = place; }
 
 private:
     struct View {
@@ -24,7 +26,7 @@ private:
         double zoom = 0;
         double window = 0, level = 0;
     };
-    void drawView(ViewSession& session, const SliceStudy& study, SliceAxis axis);
+    void drawView(PanelHost& host, ViewSession& session, const SliceStudy& study, SliceAxis axis);
     void windowControls(const SliceStudy& study);
 
     std::weak_ptr<const SliceStudy> mStudy;

@@ -1,0 +1,137 @@
+#include "app/scene/colon_findings.h"
+
+#include <fmt/format.h>
+
+#include "app/command/colon_of.h"
+#include "app/command/findings_words.h"
+#include "colon/instruments/polyp_view.h"
+
+namespace stereonav {
+namespace {
+
+struct OwnFinding final : SurfaceFinding::Own {
+    explicit OwnFinding(Finding made) : finding(std::move(made)) {}
+    Finding finding;
+};
+
+// As they are listed: with their comments, and notes on those that are of one polyp.
+std::vector<Finding> findingsOf(const FindingRefs& list) {
+    std::vector<Finding> findings;
+    for (const SurfaceFinding* const one : list) {
+        findings.push_back(static_cast<const OwnFinding&>(*one->own).finding);
+        findings.back().comment = one->comment;
+    }
+    noteDoubles(findings);
+    return findings;
+}
+
+std::vector<std::string> linesOf(const Finding& finding) {
+    std::vector<std::string> lines;
+    if (finding.polyp) {
+        const MeasuredPolyp& polyp = *finding.polyp;
+        lines.push_back(fmt::format("{:.1f} mm in the {} slice", 1e3 * polyp.widestInSlice.length,
+                                    nameOfSlice(polyp.sliceAxis)));
+        lines.push_back(fmt::format("{:.0f} mm\u00b3", 1e9 * polyp.volume));
+        lines.back() += finding.values
+                            ? fmt::format(", {:.0f} \u00b1 {:.0f} HU of {} voxels", finding.values->mean,
+                                          finding.values->sigma, finding.values->voxels)
+                            : ", HU not told";
+    }
+    lines.push_back(fmt::format("{:.0f} mm from the rectum", 1e3 * finding.along));
+    if (!finding.segment.empty()) lines.back() += ", " + finding.segment;
+    return lines;
+}
+
+}  // namespace
+
+SurfaceFinding ColonFindings::at(const glm::dvec3& place, const std::string& comment) const {
+    Finding finding;
+    finding.asked = place;
+    finding.comment = comment;
+    SurfaceFinding made;
+    made.asked = made.middle = place;
+    made.comment = comment;
+    made.own = std::make_shared<OwnFinding>(std::move(finding));
+    return made;
+}
+
+// Under the mutex.
+FindingTool& ColonFindings::tool(const std::shared_ptr<const SliceStudy>& study, Progress& progress) const {
+    if (!mTool) mTool = std::make_unique<FindingTool>(mColon, progress);
+    if (study && study != mStudy && !study->ofMask) {
+        mTool->useStudy(study->grey);
+        mStudy = study;
+    }
+    return *mTool;
+}
+
+SurfaceFinding ColonFindings::shown(Finding finding) const {
+    SurfaceFinding made = at(finding.asked, finding.comment);
+    made.measured = true;
+    made.found = finding.polyp.has_value();
+    made.note = finding.problem;
+    made.diameter = finding.diameter();
+    made.lines = linesOf(finding);
+    if (finding.polyp) {
+        const LineOfSight sight(mColon.volume.field, mColon.volume.cells, mColon.lumen.isovalue);
+        made.middle = finding.polyp->middle;
+        made.outline = finding.polyp->outline;
+        made.across = widestOnWall(*finding.polyp, sight, mColon.lumen.isovalue);
+        made.view = eyeBeside(*finding.polyp, sight, 0);
+    }
+    made.own = std::make_shared<OwnFinding>(std::move(finding));
+    return made;
+}
+
+SurfaceFinding ColonFindings::measured(const SurfaceFinding& finding,
+                                       const std::shared_ptr<const SliceStudy>& study,
+                                       Progress& progress) const {
+    const std::lock_guard lock(mMutex);
+    Finding made = tool(study, progress).at(finding.asked);
+    made.comment = finding.comment;
+    return shown(std::move(made));
+}
+
+std::vector<SurfaceFinding> ColonFindings::candidates(const std::shared_ptr<const SliceStudy>& study,
+                                                      Progress& progress) const {
+    const std::lock_guard lock(mMutex);
+    std::vector<SurfaceFinding> list;
+    FindingTool& made = tool(study, progress);
+    progress.report(0.8, "looking for candidates");
+    for (Finding& finding : made.candidates()) list.push_back(shown(std::move(finding)));
+    return list;
+}
+
+std::vector<std::string> ColonFindings::notesOn(const FindingRefs& list) const {
+    std::vector<std::string> notes;
+    for (const Finding& finding : findingsOf(list)) notes.push_back(finding.problem);
+    return notes;
+}
+
+std::string ColonFindings::summaryOf(const FindingRefs& list) const {
+    return fmt::format("C-RADS {} by size and count alone", cradsClassOf(findingsOf(list)));
+}
+
+std::string ColonFindings::notice() const {
+    return kNoMedicalDevice;
+}
+
+std::string ColonFindings::documentOf(const FindingRefs& list) const {
+    return findingsDocument(mColon.name, findingsOf(list));
+}
+
+std::vector<SurfaceFinding> ColonFindings::listOf(const std::string& document,
+                                                  const std::filesystem::path& name) const {
+    std::vector<SurfaceFinding> list;
+    for (const KeptFinding& kept : findingsIn(document, name)) list.push_back(at(kept.place, kept.comment));
+    return list;
+}
+
+std::string ColonFindings::pageOf(const FindingRefs& list, const std::shared_ptr<const SliceStudy>& study,
+                                  Progress& progress) const {
+    const GreyVolume none;
+    const bool values = study && !study->ofMask;
+    return findingsPage(mColon, values ? study->grey : none, findingsOf(list), progress);
+}
+
+}  // namespace stereonav

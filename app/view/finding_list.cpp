@@ -1,0 +1,246 @@
+#include "app/view/finding_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "app/output/output_place.h"
+#include "app/view/kept_file.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+
+namespace stereonav {
+namespace {
+
+constexpr const char* kCancelled = "cancelled";
+
+auto rowOf(std::vector<FindingList::Row>& rows, int id) {
+    return std::find_if(rows.begin(), rows.end(), [id](const auto& row) { return row.id == id; });
+}
+
+}  // namespace
+
+std::filesystem::path findingsFile(const std::filesystem::path& places) {
+    if (places.empty()) return {};
+    return places.parent_path().parent_path() / "findings" / places.filename();
+}
+
+void FindingList::open(std::shared_ptr<const Scene> scene, const std::filesystem::path& file) {
+    cancel();
+    ++mOpened;
+    mScene = std::move(scene);
+    mFile = maker() ? file : std::filesystem::path();
+    mRows.clear();
+    mCandidates.clear();
+    mRemoved.clear();
+    mPage.clear();
+    mUsed = mStopped = mClicks = mFindsCandidates = false;
+    mSummary.clear(), mTold.clear(), mProblem.clear();
+    if (mFile.empty()) return;
+    try {
+        if (const auto document = readKept(mFile))
+            for (SurfaceFinding& kept : maker()->listOf(*document, mFile))
+                mRows.push_back({mNext++, std::move(kept), false, ""});
+    } catch (const Error& error) {
+        const std::filesystem::path aside = setAside(mFile);
+        mProblem = error.what();
+        if (!aside.empty()) mProblem += "; it is kept as " + aside.filename().string();
+    }
+}
+
+void FindingList::replaceScene(std::shared_ptr<const Scene> scene) {
+    mScene = std::move(scene);
+}
+
+FindingRefs FindingList::refs() const {
+    FindingRefs refs;
+    for (const Row& row : mRows) refs.push_back(&row.finding);
+    return refs;
+}
+
+bool FindingList::add(const glm::dvec3& place) {
+    if (!maker() || mRows.size() >= kMost) return false;
+    goOn();
+    mRows.push_back({mNext++, maker()->at(place, ""), false, ""});
+    changed();
+    return true;
+}
+
+void FindingList::remove(int id) {
+    const auto row = rowOf(mRows, id);
+    if (row == mRows.end()) return;
+    mRemoved.emplace_back(row - mRows.begin(), std::move(*row));
+    mRows.erase(row);
+    changed();
+}
+
+void FindingList::putBack() {
+    if (mRemoved.empty() || mRows.size() >= kMost) return;
+    auto [place, row] = std::move(mRemoved.back());
+    mRemoved.pop_back();
+    mRows.insert(mRows.begin() + static_cast<std::ptrdiff_t>(std::min(place, mRows.size())), std::move(row));
+    changed();
+}
+
+void FindingList::comment(int id, const std::string& text) {
+    const auto row = rowOf(mRows, id);
+    if (row == mRows.end()) return;
+    const std::string kept = keptText(text, kMostComment);
+    if (kept == row->finding.comment) return;
+    row->finding.comment = kept;
+    changed();
+}
+
+void FindingList::keep(int id) {
+    const auto row = rowOf(mCandidates, id);
+    if (row == mCandidates.end() || mRows.size() >= kMost) return;
+    mRows.push_back(std::move(*row));
+    mCandidates.erase(row);
+    changed();
+}
+
+void FindingList::writePage(const std::filesystem::path& file) {
+    if (file.extension() != ".html")
+        throw Error("page", "", fmt::format("expected a file named .html, got \"{}\"", file.string()),
+                    "name it findings.html");
+    const std::filesystem::path place = std::filesystem::absolute(file).lexically_normal();
+    checkOutputFile("page", place.string());
+    mPage = place;
+}
+
+void FindingList::changed() {
+    mProblem.clear();
+    mTold.clear();
+    judge();
+    if (mFile.empty() || !maker()) return;
+    try {  // never the reason why a window ends
+        writeKept(mFile, maker()->documentOf(refs()));
+    } catch (const Error& error) {
+        mProblem = error.what();
+    }
+}
+
+// Notes and the summary, of what is measured. Candidates come after the findings, of which one may be among
+// them.
+void FindingList::judge() {
+    mSummary.clear();
+    if (!maker()) return;
+    FindingRefs all = refs();
+    for (const Row& row : mCandidates) all.push_back(&row.finding);
+    const std::vector<std::string> notes = maker()->notesOn(all);
+    for (std::size_t n = 0; n < mRows.size(); ++n) mRows[n].note = notes[n];
+    for (std::size_t n = 0; n < mCandidates.size(); ++n) mCandidates[n].note = notes[mRows.size() + n];
+    const bool known =
+        std::all_of(mRows.begin(), mRows.end(), [](const Row& row) { return row.finding.measured; });
+    if (known && !mRows.empty()) mSummary = maker()->summaryOf(refs());
+}
+
+void FindingList::cancel() {
+    if (mProgress) mProgress->cancel();
+    mFindsCandidates = false;
+    mPage.clear();
+}
+
+// Those that are to be measured: first of all, or again for the values of a study that has come.
+std::vector<std::pair<int, SurfaceFinding>> FindingList::unmeasured(bool values) const {
+    std::vector<std::pair<int, SurfaceFinding>> due;
+    for (const Row& row : mRows)
+        if (!row.finding.measured || (values && !row.withValues && row.finding.found))
+            due.emplace_back(row.id, row.finding);
+    return due;
+}
+
+void FindingList::start(const std::string& doing, bool values, Job job) {
+    mDoing = doing;
+    mWorksFor = mOpened;
+    mFraction = std::make_shared<std::atomic<double>>(0);
+    mProgress = std::make_shared<Progress>(
+        [fraction = mFraction](double now, const std::string&) { *fraction = std::clamp(now, 0.0, 1.0); });
+    mWork = std::async(std::launch::async,
+                       [scene = mScene, progress = mProgress, wake = mWake, values, job = std::move(job)] {
+                           Outcome outcome;
+                           outcome.withValues = values;
+                           try {
+                               job(*scene->offered<SurfaceFindings>(), *progress, outcome);
+                           } catch (const Cancelled&) {
+                               outcome.told = kCancelled;
+                           } catch (const std::exception& error) {
+                               outcome.problem = error.what();
+                           }
+                           wake();
+                           return outcome;
+                       });
+}
+
+// The next thing that is to be done, if any.
+bool FindingList::begin(const std::shared_ptr<const SliceStudy>& study) {
+    if (auto due = unmeasured(study != nullptr); mUsed && !due.empty()) {
+        start("measuring", study != nullptr,
+              [due = std::move(due), study](const SurfaceFindings& maker, Progress& progress,
+                                            Outcome& outcome) {
+                  for (const auto& [id, finding] : due)
+                      outcome.measured.emplace_back(id, maker.measured(finding, study, progress));
+              });
+        return true;
+    }
+    if (std::exchange(mFindsCandidates, false)) {
+        start("looking for candidates", study != nullptr,
+              [study](const SurfaceFindings& maker, Progress& progress, Outcome& outcome) {
+                  outcome.candidates = maker.candidates(study, progress);
+                  outcome.looked = true;
+              });
+        return true;
+    }
+    if (mPage.empty()) return false;
+    std::vector<SurfaceFinding> list;
+    for (const Row& row : mRows) list.push_back(row.finding);
+    start("writing the page", false,
+          [list = std::move(list), study, page = std::exchange(mPage, {})](
+              const SurfaceFindings& maker, Progress& progress, Outcome& outcome) {
+              FindingRefs refs;
+              for (const SurfaceFinding& finding : list) refs.push_back(&finding);
+              writeTextFile(page, maker.pageOf(refs, study, progress));
+              outcome.told = "written to " + page.string();
+          });
+    return true;
+}
+
+void FindingList::take(Outcome outcome) {
+    if (mWorksFor != mOpened) return;  // of a scene that is gone
+    mTold = outcome.told;
+    mProblem = outcome.problem;
+    // What fails is not tried again and again.
+    if (!mProblem.empty() || mTold == kCancelled) mUsed = false, mStopped = true;
+    for (auto& [id, finding] : outcome.measured) {
+        const auto row = rowOf(mRows, id);
+        if (row == mRows.end()) continue;
+        finding.comment = row->finding.comment;  // it may have been changed meanwhile
+        row->finding = std::move(finding);
+        row->withValues = outcome.withValues;
+    }
+    if (outcome.looked) {
+        mCandidates.clear();
+        for (SurfaceFinding& finding : outcome.candidates)
+            mCandidates.push_back({mNext++, std::move(finding), outcome.withValues, ""});
+        mTold = fmt::format("{} candidates", mCandidates.size());
+        judge();
+    }
+    if (outcome.measured.empty()) return;
+    const std::string problem = mProblem;
+    changed();
+    if (mProblem.empty()) mProblem = problem;
+}
+
+bool FindingList::poll(const std::shared_ptr<const SliceStudy>& study) {
+    bool isNew = false;
+    if (mWork.valid() && mWork.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        take(mWork.get());
+        isNew = true;
+    }
+    if (mWork.valid() || !maker()) return isNew;
+    return begin(study) || isNew;
+}
+
+}  // namespace stereonav

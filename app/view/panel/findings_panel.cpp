@@ -1,0 +1,156 @@
+#include "app/view/panel/findings_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <cfloat>
+
+#include "app/view/panel/controls.h"
+
+namespace stereonav {
+
+bool FindingsPanel::inUse(PanelHost& host) {
+    const FindingList* const list = host.findings();
+    return list && (list->clicks() || !list->rows().empty() || !list->candidates().empty());
+}
+
+std::optional<glm::dvec3> FindingsPanel::draw(PanelHost& host) {
+    FindingList* const list = host.findings();
+    if (!list) return std::nullopt;
+    mChosen.reset();
+    bool clicks = list->clicks();
+    if (ImGui::Checkbox("Clicks add findings", &clicks)) {
+        if (clicks) host.measure(false);
+        list->setClicks(clicks);
+    }
+    tooltip(
+        "A click on the picture, while nothing moves, or in a slice, measures the polyp there. Key, at any "
+        "time: Ctrl+F");
+    quietText(host, list->maker()->notice());
+    if (!list->rows().empty()) {
+        list->use();
+        host.study();  // whose values are told
+    }
+    if (list->busy()) {
+        const std::string text = fmt::format("{} {:.0f} %", list->doing(), 100 * list->fraction());
+        ImGui::ProgressBar(static_cast<float>(list->fraction()), {-6 * ImGui::GetFontSize(), 0},
+                           text.c_str());
+        ImGui::SameLine();
+        if (ImGui::SmallButton("Cancel")) list->cancel();
+    } else if (list->stopped()) {
+        if (ImGui::SmallButton("Measure again")) list->goOn();
+    }
+    if (!list->problem().empty()) wrappedText(list->problem());
+    if (!list->told().empty()) quietText(host, list->told());
+    if (list->rows().empty()) quietText(host, "No findings yet.");
+    if (!list->summary().empty()) wrappedText(list->summary());
+    // A copy: what is pressed changes the list.
+    const std::vector<FindingList::Row> rows = list->rows();
+    for (std::size_t n = 0; n < rows.size(); ++n) drawRow(host, *list, rows[n], std::to_string(n + 1));
+    if (list->canPutBack()) {
+        if (ImGui::SmallButton("Undo remove")) list->putBack();
+        tooltip("Puts back what was removed last.");
+    }
+    drawCandidates(host, *list);
+    drawFiles(host, *list);
+    return mChosen;
+}
+
+void FindingsPanel::goTo(PanelHost& host, const SurfaceFinding& finding) {
+    mChosen = finding.middle;
+    if (!finding.view) return;
+    Bookmark there;
+    there.pose = *finding.view;
+    host.goToPlace(there);
+}
+
+void FindingsPanel::drawRow(PanelHost& host, FindingList& list, const FindingList::Row& row,
+                            const std::string& name) {
+    const SurfaceFinding& finding = row.finding;
+    ImGui::PushID(row.id);
+    const std::string size = !finding.measured ? "not measured yet"
+                             : finding.found   ? fmt::format("{:.1f} mm", 1e3 * finding.diameter)
+                                               : "no polyp";
+    const float button = 1.8f * ImGui::GetFontSize();
+    if (ImGui::Selectable(fmt::format("{}:  {}", name, size).c_str(), false, 0,
+                          {ImGui::GetContentRegionAvail().x - button, 0}))
+        goTo(host, finding);
+    tooltip("Fly there, and show it in the slices.");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("\u2715")) list.remove(row.id);
+    tooltip("Removes this finding.");
+    ImGui::Indent();
+    for (const std::string& line : finding.lines) quietText(host, line);
+    if (!row.note.empty()) wrappedText(row.note);
+    drawComment(list, row);
+    ImGui::Unindent();
+    ImGui::PopID();
+}
+
+void FindingsPanel::drawComment(FindingList& list, const FindingList::Row& row) {
+    const std::string& comment = row.finding.comment;
+    if (mCommenting != row.id) {
+        if (!comment.empty()) wrappedText(comment);
+        if (ImGui::SmallButton(comment.empty() ? "+ Comment" : "Edit")) {
+            mCommenting = row.id;
+            mComment = comment;
+            mFocus = true;
+        }
+        return;
+    }
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (std::exchange(mFocus, false)) ImGui::SetKeyboardFocusHere();
+    const bool done = ImGui::InputText("##comment", &mComment, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (!done && !ImGui::IsItemDeactivated()) return;
+    list.comment(row.id, mComment);
+    mCommenting = 0;
+}
+
+void FindingsPanel::drawCandidates(PanelHost& host, FindingList& list) {
+    if (ImGui::Button("Candidates")) {
+        host.study();
+        list.findCandidates();
+    }
+    tooltip(
+        "Looks for places that are shaped like polyps. They are to be looked at, and are no findings until "
+        "they are kept.");
+    if (list.candidates().empty()) return;
+    ImGui::SameLine();
+    if (ImGui::Button("Hide")) return list.dropCandidates();
+    const std::vector<FindingList::Row> candidates = list.candidates();
+    for (const FindingList::Row& row : candidates) {
+        ImGui::PushID(row.id);
+        const float button = 4.0f * ImGui::GetFontSize();
+        const std::string label = fmt::format("candidate: {:.1f} mm", 1e3 * row.finding.diameter);
+        ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(110, 190, 255, 255));
+        if (ImGui::Selectable(label.c_str(), false, 0, {ImGui::GetContentRegionAvail().x - button, 0}))
+            goTo(host, row.finding);
+        ImGui::PopStyleColor();
+        tooltip("Fly there. A candidate only, to be looked at: " + row.finding.comment);
+        ImGui::SameLine();
+        ImGui::BeginDisabled(!row.note.empty());
+        if (ImGui::SmallButton("Keep")) list.keep(row.id);
+        ImGui::EndDisabled();
+        tooltip(row.note.empty() ? "Makes it a finding." : row.note);
+        ImGui::PopID();
+    }
+}
+
+void FindingsPanel::drawFiles(PanelHost& host, FindingList& list) {
+    if (list.rows().empty()) return;
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    ImGui::InputTextWithHint("##page", "findings.html", &mPage);
+    ImGui::BeginDisabled(list.busy());
+    if (ImGui::Button("Write page")) host.writeFindingsPage(mPage);
+    ImGui::EndDisabled();
+    tooltip("One HTML file with the list and pictures of each.");
+    ImGui::SameLine();
+    if (ImGui::Button("Copy command"))
+        host.copy(fmt::format("stereonav findings '{}' --file '{}' --page findings.html",
+                              host.session()->open().scene->name, list.file().string()));
+    tooltip(fmt::format("Goes on with the list without a window. It is kept in {}", list.file().string()));
+    quietText(host, "kept in " + list.file().string());
+}
+
+}  // namespace stereonav
