@@ -27,8 +27,8 @@ public:
 
     void toggleAll();  // hides everything, or shows it again
     bool hidden() const;
-    void toggleSide();  // panels at the right
-    void toggleLeft();  // places, map, slices
+    void toggleSide();      // panels at the right
+    void toggleLeft();      // places, map, slices
     void toggleUnfolded();  // the wall laid flat, below the picture
     void openSearch();
     void openFiles();

@@ -25,12 +25,13 @@ namespace {
 
 constexpr double kMostZoom = 16, kZoomStep = 1.25;
 constexpr double kWheelShare = 0.15;  // of the width that is seen, a notch
-constexpr double kScaleRows = 12;     // pixels of the scale below the wall that are seen too
+constexpr double kScaleRows = 22;     // pixels of the scale below the wall that are seen too
 constexpr double kOnWall = 0.02;      // metres from the wall: what is farther is not of it
 constexpr double kNearest = 0.04;     // metres from the wall that a click flies to, where there is room
 constexpr int kMostTexels = 8192;     // along a side, which every graphics card has
 constexpr ImU32 kEyeColor = IM_COL32(210, 120, 0, 255), kSeenColor = IM_COL32(20, 90, 220, 255),
-                kMarkColor = IM_COL32(180, 20, 60, 255), kHalo = IM_COL32(255, 255, 255, 220);
+                kMarkColor = IM_COL32(180, 20, 60, 255), kTextColor = IM_COL32(20, 20, 20, 255),
+                kHalo = IM_COL32(255, 255, 255, 220);
 
 ImVec2 point(const glm::dvec2& at) {
     return {static_cast<float>(at.x), static_cast<float>(at.y)};
@@ -147,16 +148,13 @@ void UnfoldedPanel::drawControls(PanelHost& host) {
     ImGui::Checkbox("follow the eye", &mFollows);
     tooltip("The wall scrolls with the flight; the wheel and dragging end it.");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(9 * ImGui::GetFontSize());
+    ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
     ImGui::InputTextWithHint("##file", "unfolded.png", &mFile);
     ImGui::SameLine();
     ImGui::BeginDisabled(mFile.empty() || mSaving.busy());
     if (ImGui::Button("Save picture")) save(host);
     ImGui::EndDisabled();
     tooltip("All of the wall, with a mark for each centimetre of the line, and a square centimetre.");
-    if (mUnder.empty()) return;
-    ImGui::SameLine();
-    quietLine(host, mUnder);
 }
 
 UnfoldedPanel::Part UnfoldedPanel::partSeen(const glm::dvec2& from, const glm::dvec2& size,
@@ -189,6 +187,14 @@ void UnfoldedPanel::drawWall(PanelHost& host) {
     if (through) drawEye(host, part, column);
     drawMarks(host, part);
     usePointer(host, part);
+    const double line = ImGui::GetTextLineHeight();
+    const glm::dvec2 text = from + glm::dvec2(0.4 * line, size.y - 1.2 * line);
+    if (!mUnder.empty()) {
+        const ImVec2 wide = ImGui::CalcTextSize(mUnder.c_str());
+        list.AddRectFilled(point(text - 0.15 * line), point(text + glm::dvec2(wide.x, wide.y) + 0.15 * line),
+                           kHalo);
+        list.AddText(point(text), kTextColor, mUnder.c_str());
+    }
     list.PopClipRect();
 }
 
