@@ -280,10 +280,11 @@ private:
     long long mKeyframesSeen = 0, mKeyframesPath = 0;  // versions: of them, and of the path beside them
     bool mKeyframesFlown = false;                      // that path is theirs
     std::optional<ViewSession> mSession;
-    SecondStudy mSecond{[] { Window::wake(); }};  // after the window, as the worker
-    Made mSecondMade;                             // what it is, or is being, made of
-    std::optional<Pose> mSwapTo;                  // where the flight goes on in it
-    FileLooks mLooks{[] { Window::wake(); }};     // after the window, as the worker
+    SecondStudy mSecond{[] { Window::wake(); }};                   // after the window, as the worker
+    Made mSecondMade;                                              // what it is, or is being, made of
+    std::optional<Pose> mSwapTo;                                   // where the flight goes on in it
+    std::shared_ptr<const SliceStudy> mSecondSlices, mSwapSlices;  // its own, once read; those to go on with
+    FileLooks mLooks{[] { Window::wake(); }};                      // after the window, as the worker
     std::unique_ptr<ViewWorker> mWorker;  // after the window, whose wake() it calls until it has ended
 };
 

@@ -28,6 +28,7 @@ void Viewer::openOther(const std::string& study) {
         checkMethod(options.scene, options.method);
         checkSize(windowSize(), options.scene, kViewBytes);
         mSecondMade = {options, settingTextsOf(options.scene.given), fileTextsOf(options.scene.given)};
+        mSecondSlices.reset();
         mSecond.open(mScene, [options, size = windowSize()](Progress& progress) {
             return openScene(options, false, size, nullptr, progress);
         });
@@ -36,8 +37,12 @@ void Viewer::openOther(const std::string& study) {
 
 // What the scene that begins says of another one; after a swap that is there.
 void Viewer::beginSecond() {
-    if (mSwapTo) return mSession->goTo(*std::exchange(mSwapTo, std::nullopt));
+    if (mSwapTo) {
+        if (mSwapSlices) mSession->keepStudy(std::exchange(mSwapSlices, nullptr));
+        return mSession->goTo(*std::exchange(mSwapTo, std::nullopt));
+    }
     mSecond.close();
+    mSecondSlices.reset();
     if (const auto with = mGiven.find("with"); with != mGiven.end() && !with->second.empty())
         openOther(std::string(with->second.back()));
 }
@@ -69,6 +74,7 @@ void Viewer::swapStudies() {
     mSettings.reset();
     mApplies.clear();
     mSwapTo = pose;
+    mSwapSlices = std::exchange(mSecondSlices, mSession->study());
     mWorker->reload([next](Progress&) { return *next; });
 }
 

@@ -13,12 +13,12 @@ settled start
 keys F10
 sleep 2
 settled below
-# A click on the wall, left of the middle, flies there.
-press 300 540
+# A click on the wall, which is in the middle, flies there.
+press 530 540
 sleep 3
 settled flown below
 # The other study's place, and the flight goes on in it.
 keys F3
-sleep 2
-settled beside
+sleep 1
+shot beside
 close_window

@@ -33,10 +33,10 @@ private:
 };
 
 // The line is the x axis from 0 to `length`; places match by their share of it.
-class Lined final : public Scene, LineThrough, MatchingLine {
+class StraightLine final : public Scene, LineThrough, MatchingLine {
 public:
-    Lined(double length, PackedColor color, bool line = true) : mLength(length), mRenderer(color) {
-        name = "lined";
+    StraightLine(double length, PackedColor color, bool line = true) : mLength(length), mRenderer(color) {
+        name = "straight";
         lens.verticalFov = 0.8;
         mRays.renderer = &mRenderer;
         offer(mRays);
@@ -72,13 +72,13 @@ private:
     mutable FakeFrames mFrames;
 };
 
-std::shared_ptr<const OpenScene> lined(double length, PackedColor color, bool line = true) {
+std::shared_ptr<const OpenScene> straightLine(double length, PackedColor color, bool line = true) {
     return std::make_shared<const OpenScene>(
-        OpenScene{std::make_shared<Lined>(length, color, line), {}, {}, 0, false});
+        OpenScene{std::make_shared<StraightLine>(length, color, line), {}, {}, 0, false});
 }
 
 // True when it is there; throws what poll() throws.
-bool waitFor(SecondStudy& second) {
+bool waitForSecond(SecondStudy& second) {
     for (int n = 0; n < 2000; ++n) {
         if (second.poll()) return true;
         if (!second.loading()) return false;
@@ -89,13 +89,13 @@ bool waitFor(SecondStudy& second) {
 
 TEST(SecondStudy, ShowsTheMatchingPlaceAndSwaps) {
     const PackedColor red = packColor({1, 0, 0}), blue = packColor({0, 0, 1});
-    const auto first = lined(1, red), other = lined(2, blue);
+    const auto first = straightLine(1, red), other = straightLine(2, blue);
     SecondStudy second([] {});
     EXPECT_FALSE(second.loading());
     EXPECT_FALSE(second.drawing());
     EXPECT_FALSE(second.matching(*first->scene, Pose{})) << "there is none";
     second.open(first, [&](Progress&) { return *other; });
-    ASSERT_TRUE(waitFor(second));
+    ASSERT_TRUE(waitForSecond(second));
     EXPECT_FALSE(second.drawing()) << "no thread before a picture is asked for";
     const Pose back = poseFromAngles({0.3, 0, 0}, -1.5, 0, 0);
     const auto place = second.matching(*first->scene, back);
@@ -125,11 +125,11 @@ TEST(SecondStudy, ShowsTheMatchingPlaceAndSwaps) {
 }
 
 TEST(SecondStudy, RefusesWhatHasNoLineAndForgetsWhatIsNotWanted) {
-    const auto first = lined(1, 0);
+    const auto first = straightLine(1, 0);
     SecondStudy second([] {});
-    second.open(first, [](Progress&) { return *lined(2, 0, false); });
+    second.open(first, [](Progress&) { return *straightLine(2, 0, false); });
     try {
-        waitFor(second);
+        waitForSecond(second);
         FAIL() << "it has no line";
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("no colon was found"), std::string::npos) << error.what();
@@ -143,14 +143,14 @@ TEST(SecondStudy, RefusesWhatHasNoLineAndForgetsWhatIsNotWanted) {
     };
     second.open(first, endless);
     second.cancel();
-    EXPECT_THROW(waitFor(second), Cancelled);
+    EXPECT_THROW(waitForSecond(second), Cancelled);
     // Of another file: the end of the first is silent, and the second begins after it.
     second.open(first, endless);
     second.close();
-    EXPECT_NO_THROW(waitFor(second));
+    EXPECT_NO_THROW(waitForSecond(second));
     second.open(first, endless);
-    second.open(first, [](Progress&) { return *lined(2, 0); });
-    EXPECT_TRUE(waitFor(second));
+    second.open(first, [](Progress&) { return *straightLine(2, 0); });
+    EXPECT_TRUE(waitForSecond(second));
 }
 
 }  // namespace

@@ -23,17 +23,18 @@
 namespace stereonav {
 namespace {
 
-constexpr double kMostZoom = 16, kZoomStep = 1.25;
+constexpr double kMostEnlarged = 16, kZoomStep = 1.25;
 constexpr double kWheelShare = 0.15;  // of the width that is seen, a notch
-constexpr double kScaleRows = 12;     // pixels of the scale below the wall that are seen too
+constexpr double kScaleRows = 22;     // pixels of the scale below the wall that are seen too
 constexpr double kOnWall = 0.02;      // metres from the wall: what is farther is not of it
-constexpr double kNearest = 0.04;     // metres from the wall that a click flies to, where there is room
+constexpr double kClickAway = 0.04;   // metres from the wall that a click flies to, where there is room
 constexpr double kBetweenPaints = 1;  // seconds, at least
 constexpr int kMostTexels = 8192;     // along a side, which every graphics card has
-constexpr ImU32 kEyeColor = IM_COL32(210, 120, 0, 255), kSeenColor = IM_COL32(20, 90, 220, 255),
-                kMarkColor = IM_COL32(180, 20, 60, 255), kHalo = IM_COL32(255, 255, 255, 220);
+constexpr ImU32 kFlatEyeColor = IM_COL32(210, 120, 0, 255), kFlatSeenColor = IM_COL32(20, 90, 220, 255),
+                kFlatMarkColor = IM_COL32(180, 20, 60, 255), kFlatTextColor = IM_COL32(20, 20, 20, 255),
+                kHalo = IM_COL32(255, 255, 255, 220);
 
-ImVec2 point(const glm::dvec2& at) {
+ImVec2 unitsPoint(const glm::dvec2& at) {
     return {static_cast<float>(at.x), static_cast<float>(at.y)};
 }
 
@@ -49,9 +50,9 @@ FlatTint tintOf(const Scene& scene, const std::shared_ptr<const EyePainter>& ove
     };
 }
 
-void ring(ImDrawList& list, const glm::dvec2& at, float radius, ImU32 color) {
-    list.AddCircle(point(at), radius, kHalo, 0, 4);
-    list.AddCircle(point(at), radius, color, 0, 2);
+void drawRing(ImDrawList& list, const glm::dvec2& at, float radius, ImU32 color) {
+    list.AddCircle(unitsPoint(at), radius, kHalo, 0, 4);
+    list.AddCircle(unitsPoint(at), radius, color, 0, 2);
 }
 
 }  // namespace
@@ -170,16 +171,13 @@ void UnfoldedPanel::drawControls(PanelHost& host) {
     ImGui::Checkbox("follow the eye", &mFollows);
     tooltip("The wall scrolls with the flight; the wheel and dragging end it.");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(9 * ImGui::GetFontSize());
+    ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
     ImGui::InputTextWithHint("##file", "unfolded.png", &mFile);
     ImGui::SameLine();
     ImGui::BeginDisabled(mFile.empty() || mSaving.busy());
     if (ImGui::Button("Save picture")) save(host);
     ImGui::EndDisabled();
     tooltip("All of the wall, with a mark for each centimetre of the line, and a square centimetre.");
-    if (mUnder.empty()) return;
-    ImGui::SameLine();
-    quietLine(host, mUnder);
 }
 
 UnfoldedPanel::Part UnfoldedPanel::partSeen(const glm::dvec2& from, const glm::dvec2& size,
@@ -203,15 +201,23 @@ void UnfoldedPanel::drawWall(PanelHost& host) {
     const LineThrough* const through = host.session()->open().scene->offered<const LineThrough>();
     const double column = through ? mMade.flat->columnAt(through->placeOnLine(eye.position).along) : 0;
     const Part part = partSeen(from, size, column);
-    ImGui::InvisibleButton("##wall", point(size));
+    ImGui::InvisibleButton("##wall", unitsPoint(size));
     ImGui::SetItemUsingMouseWheel();
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.PushClipRect(point(from), point(from + size), true);
-    list.AddImage(mTexture.id(), point(part.unitsOf(glm::dvec2(0))),
-                  point(part.unitsOf({mMade.picture.width(), mMade.picture.height()})));
+    list.PushClipRect(unitsPoint(from), unitsPoint(from + size), true);
+    list.AddImage(mTexture.id(), unitsPoint(part.unitsOf(glm::dvec2(0))),
+                  unitsPoint(part.unitsOf({mMade.picture.width(), mMade.picture.height()})));
     if (through) drawEye(host, part, column);
     drawMarks(host, part);
     usePointer(host, part);
+    const double line = ImGui::GetTextLineHeight();
+    const glm::dvec2 text = from + glm::dvec2(0.4 * line, size.y - 1.2 * line);
+    if (!mUnder.empty()) {
+        const ImVec2 wide = ImGui::CalcTextSize(mUnder.c_str());
+        list.AddRectFilled(unitsPoint(text - 0.15 * line),
+                           unitsPoint(text + glm::dvec2(wide.x, wide.y) + 0.15 * line), kHalo);
+        list.AddText(unitsPoint(text), kFlatTextColor, mUnder.c_str());
+    }
     list.PopClipRect();
 }
 
@@ -224,16 +230,16 @@ std::optional<glm::dvec2> UnfoldedPanel::find(Found& found, const glm::dvec3& wo
 void UnfoldedPanel::drawEye(PanelHost& host, const Part& part, double column) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const glm::dvec2 top(part.unitsOf({column, 0}).x, part.from.y), bottom(top.x, part.from.y + part.size.y);
-    list.AddLine(point(top), point(bottom), kHalo, 4);
-    list.AddLine(point(top), point(bottom), kEyeColor, 2);
+    list.AddLine(unitsPoint(top), unitsPoint(bottom), kHalo, 4);
+    list.AddLine(unitsPoint(top), unitsPoint(bottom), kFlatEyeColor, 2);
     const Scene& scene = *host.session()->open().scene;
     const Pose eye = host.session()->pose();
     const auto* const line = scene.offered<const MatchingLine>();
     if (const auto* const through = scene.offered<const LineThrough>(); line && through) {
         const bool back = looksBack(*line, through->placeOnLine(eye.position).along, eye);
         const double large = 0.6 * ImGui::GetFontSize(), way = back ? -large : large;
-        list.AddTriangleFilled(point(top), point(top + glm::dvec2(1.4 * way, large)),
-                               point(top + glm::dvec2(0, 2 * large)), kEyeColor);
+        list.AddTriangleFilled(unitsPoint(top), unitsPoint(top + glm::dvec2(1.4 * way, large)),
+                               unitsPoint(top + glm::dvec2(0, 2 * large)), kFlatEyeColor);
     }
     const ViewFrame* const frame = host.frame();
     if (!frame || frame->left.viewDepth.empty()) return;
@@ -241,7 +247,7 @@ void UnfoldedPanel::drawEye(PanelHost& host, const Part& part, double column) {
         worldUnder(viewsOf(frame->request), frame->left.viewDepth, glm::dvec2(0.5), frame->request.guard);
     if (!seen) return;
     if (const auto at = find(mAhead, *seen))
-        ring(list, part.unitsOf(*at), 0.45f * ImGui::GetFontSize(), kEyeColor);
+        drawRing(list, part.unitsOf(*at), 0.45f * ImGui::GetFontSize(), kFlatEyeColor);
 }
 
 void UnfoldedPanel::drawMarks(PanelHost& host, const Part& part) {
@@ -253,13 +259,13 @@ void UnfoldedPanel::drawMarks(PanelHost& host, const Part& part) {
         const auto at = find(mMarks[n], marks[n].world);
         if (!at) continue;
         const glm::dvec2 units = part.unitsOf(*at);
-        ring(list, units, radius, kMarkColor);
-        list.AddText(point(units + glm::dvec2(1.3 * radius, -1.3 * radius)), kMarkColor,
+        drawRing(list, units, radius, kFlatMarkColor);
+        list.AddText(unitsPoint(units + glm::dvec2(1.3 * radius, -1.3 * radius)), kFlatMarkColor,
                      marks[n].label.c_str());
     }
     if (const auto pointed = host.pointedWorld())
         if (const auto at = find(mPointed, *pointed))
-            ring(list, part.unitsOf(*at), 0.45f * ImGui::GetFontSize(), kSeenColor);
+            drawRing(list, part.unitsOf(*at), 0.45f * ImGui::GetFontSize(), kFlatSeenColor);
 }
 
 void UnfoldedPanel::usePointer(PanelHost& host, const Part& part) {
@@ -269,7 +275,7 @@ void UnfoldedPanel::usePointer(PanelHost& host, const Part& part) {
     ImGuiIO& io = ImGui::GetIO();
     const glm::dvec2 pixel = part.pixelAt({io.MousePos.x, io.MousePos.y});
     if (hovered && io.MouseWheel != 0 && io.KeyCtrl) {
-        const double zoom = std::clamp(mZoom * std::pow(kZoomStep, io.MouseWheel), 1.0, kMostZoom);
+        const double zoom = std::clamp(mZoom * std::pow(kZoomStep, io.MouseWheel), 1.0, kMostEnlarged);
         mCorner = pixel - (pixel - part.corner) * (mZoom / zoom);
         mZoom = zoom;
         mFollows = false;
@@ -291,7 +297,7 @@ void UnfoldedPanel::usePointer(PanelHost& host, const Part& part) {
     Pose from = host.session()->pose();
     from.position = place->line;
     const double away = glm::distance(place->line, place->wall);
-    if (away > 0) host.session()->flyTo(poseLookingAt(place->wall, std::min(away, kNearest), from));
+    if (away > 0) host.session()->flyTo(poseLookingAt(place->wall, std::min(away, kClickAway), from));
 }
 
 }  // namespace stereonav
