@@ -46,7 +46,7 @@ void checkFindingsOptions(const FindingsOptions& options) {
         throw Error("--comment", "", "expected with one --at, whose it is", "give one place at a time");
 }
 
-std::vector<Finding> collect(const FindingsOptions& options, const FindingTool& tool) {
+std::vector<Finding> collect(const FindingsOptions& options, const FindingTool& tool, Progress& progress) {
     std::vector<Finding> findings;
     if (!options.file.empty())
         for (const KeptFinding& kept : readFindings(options.file)) {
@@ -60,7 +60,7 @@ std::vector<Finding> collect(const FindingsOptions& options, const FindingTool& 
     if (options.atTruth)
         for (Finding& finding : tool.atTruth()) findings.push_back(std::move(finding));
     if (options.candidates)
-        for (Finding& finding : tool.candidates()) findings.push_back(std::move(finding));
+        for (Finding& finding : tool.candidates(progress)) findings.push_back(std::move(finding));
     noteDoubles(findings);
     return findings;
 }
@@ -120,7 +120,7 @@ int runFindings(const FindingsOptions& options) {
         throw Error(options.scene.scene, "", "no colon was found", "give --seed x,y,z inside it");
     checkNotRead({{"--csv", options.csv}, {"--page", options.page}});
     const FindingTool tool(colon, bar.progress());
-    const std::vector<Finding> findings = collect(options, tool);
+    const std::vector<Finding> findings = collect(options, tool, bar.progress());
     bar.clear();
     result.say(fmt::format("{}: {} findings, C-RADS {} by size and count alone; {}\n", options.scene.scene,
                            findings.size(), cradsClassOf(findings), kNoMedicalDevice));

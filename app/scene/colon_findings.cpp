@@ -97,8 +97,7 @@ std::vector<SurfaceFinding> ColonFindings::candidates(const std::shared_ptr<cons
     const std::lock_guard lock(mMutex);
     std::vector<SurfaceFinding> list;
     FindingTool& made = tool(study, progress);
-    progress.report(0.8, "looking for candidates");
-    for (Finding& finding : made.candidates()) list.push_back(shown(std::move(finding)));
+    for (Finding& finding : made.candidates(progress)) list.push_back(shown(std::move(finding)));
     return list;
 }
 

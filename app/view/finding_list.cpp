@@ -186,7 +186,7 @@ bool FindingList::begin(const std::shared_ptr<const SliceStudy>& study) {
         return true;
     }
     if (std::exchange(mFindsCandidates, false)) {
-        start("looking for candidates", study != nullptr,
+        start("candidates", study != nullptr,
               [study](const SurfaceFindings& maker, Progress& progress, Outcome& outcome) {
                   outcome.candidates = maker.candidates(study, progress);
                   outcome.looked = true;
@@ -196,7 +196,7 @@ bool FindingList::begin(const std::shared_ptr<const SliceStudy>& study) {
     if (mPage.empty()) return false;
     std::vector<SurfaceFinding> list;
     for (const Row& row : mRows) list.push_back(row.finding);
-    start("writing the page", false,
+    start("the page", false,
           [list = std::move(list), study, page = std::exchange(mPage, {})](
               const SurfaceFindings& maker, Progress& progress, Outcome& outcome) {
               FindingRefs refs;

@@ -36,12 +36,17 @@ std::vector<std::uint32_t> tipsOf(const WallNeighbours& neighbours, const std::v
 }  // namespace
 
 std::vector<Candidate> polypCandidates(const WallMesh& mesh, const WallNeighbours& neighbours,
-                                       const CandidateSetting& setting) {
+                                       const CandidateSetting& setting, Progress* progress) {
     const std::vector<Curvatures> curvatures =
         wallCurvatures(mesh, neighbours, setting.polyp.curvatureRadius);
     std::vector<Candidate> found;
     std::vector<std::uint8_t> taken(mesh.places.size(), 0);
-    for (const std::uint32_t tip : tipsOf(neighbours, curvatures, setting)) {
+    const std::vector<std::uint32_t> tips = tipsOf(neighbours, curvatures, setting);
+    std::size_t done = 0;
+    for (const std::uint32_t tip : tips) {
+        if (progress)
+            progress->report(static_cast<double>(done++) / static_cast<double>(tips.size()),
+                             "looking for candidates");
         if (taken[tip]) continue;  // of a head that was found by another tip of it
         std::string why;
         auto polyp = polypAt(mesh, neighbours, tip, setting.polyp, why);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "colon/instruments/polyp.h"
+#include "engine/base/progress.h"
 
 namespace stereonav {
 
@@ -25,8 +26,9 @@ struct Candidate {
     double score = 0;
 };
 
-// The highest scores first; of each head one. The same on any number of threads.
+// The highest scores first; of each head one. The same on any number of threads. progress: told of it, if
+// any. Throws Cancelled.
 std::vector<Candidate> polypCandidates(const WallMesh& mesh, const WallNeighbours& neighbours,
-                                       const CandidateSetting& setting);
+                                       const CandidateSetting& setting, Progress* progress = nullptr);
 
 }  // namespace stereonav

@@ -104,11 +104,12 @@ std::vector<Finding> FindingTool::atTruth() const {
     return findings;
 }
 
-std::vector<Finding> FindingTool::candidates() const {
+std::vector<Finding> FindingTool::candidates(Progress& progress) const {
     std::vector<Finding> findings;
     CandidateSetting setting;
     setting.polyp = polypSettingOf(mColon.volume.field.frame);
-    for (const Candidate& candidate : polypCandidates(mWall, mNeighbours, setting)) {
+    for (const Candidate& candidate : polypCandidates(mWall, mNeighbours, setting, &progress)) {
+        progress.report(1, "measuring candidates");
         findings.push_back(at(glm::dvec3(mWall.places[candidate.polyp.tip])));
         findings.back().comment =
             fmt::format("candidate {}, score {:.2f} mm", findings.size(), 1e3 * candidate.score);

@@ -43,7 +43,7 @@ public:
     // Those of a generated colon, at their true places.
     std::vector<Finding> atTruth() const;
     // Places that look like polyps (candidates.h), with a comment that says so.
-    std::vector<Finding> candidates() const;
+    std::vector<Finding> candidates(Progress& progress) const;
 
     const WallMesh& wall() const { return mWall; }
 
