@@ -10,13 +10,13 @@ kept() { find "$out" -path '*coverage*' -name '*.json' | head -n 1; }
 is_kept() { [ -n "$(kept)" ]; }
 
 open_window "$@"
-shot start
+settled start
 keys F9
 differing followed start
 until_true is_kept
 cp "$(kept)" "$out/first.json"
 keys F8
-differing unseen followed
+settled unseen followed
 keys F9
 sleep 1
 keys space
