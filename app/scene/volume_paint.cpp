@@ -38,7 +38,7 @@ std::vector<float> unseenOf(const VolumeWorld& world, const ColonInterior& insid
 // By vertex: 1 where the study has more than air just before the wall, in what is now lumen.
 std::vector<float> fluidOf(const ColonScene& colon, const WallMesh& wall) {
     if (colon.study.empty())
-        throw Error("--fluid", "tinted", "a mask tells nothing of fluid",
+        throw Error("--fluid tinted", "", "a mask tells nothing of fluid",
                     "name the study that it was made from, or leave it out");
     const VolumeFrame &before = colon.study.frame, &now = colon.volume.field.frame;
     const double step = kIntoLumen * std::min({now.spacing.x, now.spacing.y, now.spacing.z});

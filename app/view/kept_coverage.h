@@ -12,7 +12,7 @@
 namespace stereonav {
 
 struct FlownWay {
-    static constexpr std::size_t kMost = 100000;  // eyes: 200 m at 2 mm, 8 MB of file
+    static constexpr std::size_t kMost = 100000;  // eyes: 150 m at 1.5 mm, 8 MB of file
 
     std::vector<EyeView> eyes;  // without sizes in pixels
     double metres = 0, seconds = 0;

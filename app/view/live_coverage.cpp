@@ -14,15 +14,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kStep = 0.002;       // metres between the eyes that are looked from in flight,
+constexpr double kStep = 0.0015;      // metres between the eyes that are looked from in flight,
 constexpr double kTurn = 0.05;        // radians
 constexpr double kRestStep = 0.0002;  // and of pictures that rest
 constexpr double kRestTurn = 0.005;
-constexpr double kJump = 0.1;                    // metres: nobody flew further from one picture to the next
-constexpr double kPause = 1;                     // seconds: nor for longer
-constexpr std::size_t kBatch = 32;               // eyes that are looked from at a time
-constexpr std::chrono::seconds kBetweenNews{1};  // between what is told, and between files
-constexpr int kShareOfWork = 4;                  // telling takes at most a fourth of what passes in between
+constexpr double kJump = 0.1;       // metres: nobody flew further from one picture to the next
+constexpr double kPause = 1;        // seconds: nor for longer
+constexpr std::size_t kBatch = 32;  // eyes that are looked from at a time
+constexpr std::chrono::milliseconds kBetweenNews{300};
+constexpr std::chrono::seconds kBetweenFiles{1};
+constexpr int kShareOfWork = 4;  // telling takes at most a fourth of what passes in between
 
 double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
@@ -229,7 +230,7 @@ void LiveCoverage::Work::write() {
     } catch (const Error& error) {
         fail(error.what());
     }
-    nextWritten = Clock::now() + kBetweenNews;
+    nextWritten = Clock::now() + kBetweenFiles;
 }
 
 // before: of the same file, ended; null: there is none.

@@ -21,7 +21,7 @@ bool Viewer::actOnCoverage(ViewCommand command) {
 
 // The left eye's picture: the right one shows little more.
 void Viewer::showToCoverage() {
-    if (!mCoverage.on() || mSession->slicesShown()) return;
+    if (!mCoverage.on() || mSession->slicesShown() || mFrame->request.version <= mSessionSince) return;
     const FrameRequest& of = mFrame->request;
     mCoverage.show(
         of.twoEyes ? makeStereoViews(of.pose, of.lens, of.stereo).left : makeEyeView(of.pose, of.lens),

@@ -73,9 +73,6 @@ auto inTheNameOf(const ColonOptions& options, const Work& work) {
 
 // The colon in a study that was read.
 FoundColon findColon(const Study& study, const ColonOptions& options, Progress& progress) {
-    if (study.isMask && options.segmentation.leavesFluid)
-        throw Error("--fluid", "left", "a mask tells nothing of fluid",
-                    "name the study that it was made from, or leave it out");
     FoundColon found;
     found.format = study.format;
     found.ofMask = study.isMask;
@@ -341,6 +338,9 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
         return scene;
     }
     refuseTurned(options);
+    if (study.isMask && options.segmentation.leavesFluid)
+        throw Error("--fluid left", "", "a mask tells nothing of fluid",
+                    "name the study that it was made from, or leave it out");
     FoundColon found = inTheNameOf(options, [&] { return findColon(study, options, progress); });
     found.polyps = std::move(polyps);
     if (!options.keepsStudy) study = {};

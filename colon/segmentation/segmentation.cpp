@@ -277,7 +277,9 @@ std::vector<LumenSegment> segmentsOf(const MaskVolume& lumen) {
 
 // Left in, it may cut the lumen where it fills a loop.
 void noteFluid(std::size_t pools, const SegmentationSetting& setting, LumenField& lumen) {
-    if (setting.leavesFluid)
+    if (setting.leavesFluid && pools == 0)
+        lumen.notes.emplace_back("no tagged fluid was found that could be left in");
+    else if (setting.leavesFluid)
         lumen.notes.push_back(fmt::format(
             "left {} pool(s) of tagged fluid in, their surface is wall: the lumen is in {} piece(s)", pools,
             lumen.segments.size()));

@@ -12,7 +12,7 @@ using Json = nlohmann::json;
 
 class Fluid : public VolumeTest {
 protected:
-    // A tube with fluid behind y = 34.5 mm of the file, which is 1.5 tenths of its width from its axis.
+    // A tube of 12 mm radius with fluid from 3.5 mm behind its axis on.
     std::string scan() const {
         return nrrd("scan.nrrd", {120, 110, 120, 1, "short", ""},
                     [](int i, int j, int k) { return TubeBody::hu(glm::dvec3(i, j, k) * 0.001); });
@@ -49,7 +49,7 @@ TEST_F(Fluid, IsTakenOutOrLeft) {
     // Around: a circle of 12 mm, or its part before a chord 3.5 mm behind the middle, and the chord.
     const double half = std::acos(3.5 / 12), around = 2 * 12 * (3.14159265 - half) + 2 * 12 * std::sin(half);
     const double ends = 12 * 12 * (3.14159265 - half) + 3.5 * 12 * std::sin(half);
-    EXPECT_NEAR(left / (around * 70 + 2 * ends), 1, 0.03);
+    EXPECT_NEAR(left / (around * 70 + 2 * ends), 1, 0.04);
     EXPECT_NEAR(out / (2 * 3.14159265 * 12 * (70 + 12)), 1, 0.03);
     const std::string info = run({"info", study, "--no-cache", "--fluid", "left"}).out;
     EXPECT_NE(info.find("left 1 pool(s) of tagged fluid in"), std::string::npos) << info;

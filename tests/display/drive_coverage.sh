@@ -12,7 +12,7 @@ is_kept() { [ -n "$(kept)" ]; }
 open_window "$@"
 settled start
 keys F9
-settled followed start
+differing followed start
 until_true is_kept
 cp "$(kept)" "$out/first.json"
 keys F8

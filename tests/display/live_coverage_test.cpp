@@ -141,8 +141,8 @@ TEST(LiveCoverage, LooksFromWhatIsShown) {
     double seconds = 10;
     for (const Pose& pose : flight) coverage.show(eyeAt(pose), seconds += 0.1, false);
     waitFor(coverage);
-    // Steps of 2 mm that came out a hair shorter are one with the next.
-    EXPECT_NEAR(coverage.soFar().percent, percentByCommand(false), 1);
+    // Where the flight is slow its steps are shorter than those that are looked from.
+    EXPECT_NEAR(coverage.soFar().percent, percentByCommand(false), 0.5);
     double metres = 0;
     for (std::size_t n = 1; n < flight.size(); ++n)
         metres += glm::length(flight[n].position - flight[n - 1].position);

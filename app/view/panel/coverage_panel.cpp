@@ -68,8 +68,8 @@ void CoveragePanel::drawUnseen(PanelHost& host, LiveCoverage& coverage) {
             ImGui::EndDisabled();
             if (!part.view) tooltip("There is no room for an eye before it.");
             const float font = ImGui::GetFontSize();
-            for (const auto& [end, text] : {std::pair(5.5f, fmt::format("{:.0f} mm\u00b2", 1e6 * part.area)),
-                                            std::pair(10.5f, fmt::format("{:.0f} mm", 1e3 * part.along))}) {
+            for (const auto& [end, text] : {std::pair(6.5f, fmt::format("{:.0f} mm\u00b2", 1e6 * part.area)),
+                                            std::pair(11.5f, fmt::format("{:.0f} mm", 1e3 * part.along))}) {
                 ImGui::SameLine(end * font - ImGui::CalcTextSize(text.c_str()).x);
                 ImGui::TextUnformatted(text.c_str());
             }
@@ -110,7 +110,6 @@ void CoveragePanel::draw(PanelHost& host) {
     ImGui::SameLine();
     if (ImGui::Button("+ Both ways")) coverage->addOwnFlight(true);
     tooltip("Counts the scene's own flight there and back as flown.");
-    ImGui::SameLine();
     if (ImGui::Button("Start again")) coverage->startAgain();
     tooltip("Nothing was flown.");
     if (now.any) drawUnseen(host, *coverage);
