@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 
 #include "terrain/survey/viewshed.h"
@@ -99,7 +100,11 @@ void FanSweep::read(int at, Column& column) const {
     for (int k = 0; k < column.rows; ++k)
         column.height[static_cast<std::size_t>(k)] =
             floatOf(mGround.height(at, column.start + k) - mTask.eye.z);
-    if (!mHeights.hasHoles()) return;
+    // Those beside it, too.
+    const glm::ivec2 first = mGround.sample(at - 1, column.start - 1),
+                     last = mGround.sample(at + 1, column.start + column.rows);
+    column.holes = mTask.holes.any(glm::min(first, last), glm::max(first, last));
+    if (!column.holes) return;
     if (column.firm.size() < size) column.firm.resize(size), column.known.resize(size);
     mGround.firm(at, column.start, column.rows, column.firm.data());
     for (int k = 0; k < column.rows; ++k) {
@@ -146,7 +151,7 @@ void FanSweep::raiseLowAt(int at, const Column& column) {
     if (range.y <= range.x) return;
     LowRow row;
     row.bins = binsAt(x, x, range, column.start, slackOf(column.rows));
-    row.height = mHeights.hasHoles() ? column.firm.data() : column.height.data();
+    row.height = column.holes ? column.firm.data() : column.height.data();
     row.rows = column.rows;
     row.inverse = floatOf(1 / x);
     row.low = mLow.data() + range.x;
@@ -159,14 +164,13 @@ void FanSweep::raiseHighAt(int at, const Column& near, const Column& far) {
     if ((at - mGround.first() - 1) % kBlock == 0 && at - mGround.first() > 1) endBlock();
     const glm::ivec2 range = binsOver(x0);
     if (range.y <= range.x) return;
-    const bool holes = mHeights.hasHoles();
     // Rows of both; where one has none the bins beside do not need them.
     const int start = std::min(near.start, far.start),
               end = std::max(near.start + near.rows, far.start + far.rows), rows = end - start;
     mThree.resize(static_cast<std::size_t>(rows) + 2 + FanBins::kPadding);
     TallRow tall;
-    tall.near = holes ? near.known.data() : near.height.data();
-    tall.far = holes ? far.known.data() : far.height.data();
+    tall.near = near.holes ? near.known.data() : near.height.data();
+    tall.far = far.holes ? far.known.data() : far.height.data();
     tall.nearStart = near.start - start, tall.nearRows = near.rows;
     tall.farStart = far.start - start, tall.farRows = far.rows;
     tall.tallest = mThree.data(), tall.rows = rows;

@@ -12,6 +12,7 @@
 #include "engine/image/plane.h"
 #include "terrain/survey/fan_ground.h"
 #include "terrain/survey/fan_rows.h"
+#include "terrain/survey/hole_tiles.h"
 #include "terrain/survey/sight_line.h"
 
 namespace stereonav {
@@ -46,6 +47,7 @@ private:
 // What all parts of all fans look at.
 struct FanTask {
     const Heightfield& ground;
+    const HoleTiles& holes;
     const SingleLines& lines;
     const FanKernels& kernels;
     glm::dvec3 eye;  // x, y in the grid's units, z in metres
@@ -73,6 +75,7 @@ private:
     // need.
     struct Column {
         int start = 0, rows = 0;
+        bool holes = false;
         std::vector<float> height, firm, known;  // firm, known: where there are holes
     };
 

@@ -59,13 +59,19 @@ Viewshed viewshedOf(const Heightfield& ground, const ViewshedSetting& setting, P
     const HeightPyramid none;  // for grazing() alone, which needs none
     const double grazing =
         SightLines(ground, none, setting.fall).grazing(setting.eye, eye, setting.targetHeight);
+    const HoleTiles holes(ground);
     const SingleLines lines(ground, setting.fall);
     Viewshed result;
     result.seen.resize(ground.width(), ground.height());
-    const FanTask task{ground,        lines,
-                       fanKernels(),  glm::dvec3(setting.eye, eye),
-                       setting.fall,  setting.targetHeight,
-                       setting.reach, grazing,
+    const FanTask task{ground,
+                       holes,
+                       lines,
+                       fanKernels(),
+                       glm::dvec3(setting.eye, eye),
+                       setting.fall,
+                       setting.targetHeight,
+                       setting.reach,
+                       grazing,
                        result.seen};
     const int parts = partsOf(ground);
     std::vector<FanCounts> counts(static_cast<std::size_t>(4) * parts);

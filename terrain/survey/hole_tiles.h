@@ -1,0 +1,26 @@
+// Where a ground has samples that are not known, tile by tile: most of it has none.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "terrain/ground/heightfield.h"
+
+namespace stereonav {
+
+class HoleTiles {
+public:
+    explicit HoleTiles(const Heightfield& ground);
+
+    // Whether there may be any among the samples from `low` to `high`; what lies beside the ground has none.
+    bool any(const glm::ivec2& low, const glm::ivec2& high) const;
+
+private:
+    static constexpr int kSide = 16;  // samples
+
+    int mWidth = 0, mHeight = 0;  // tiles; none: no holes
+    std::vector<std::uint8_t> mHoles;
+};
+
+}  // namespace stereonav
