@@ -40,16 +40,19 @@ std::shared_ptr<const EyePainter> trackPainter(const TerrainScene& terrain, cons
                 line.push_back(*world);
             else
                 ++lost;
-        if (track.closed && line.size() > 2) line.push_back(line.front());
+        legend.lines.push_back({track.name, track.closed && line.size() > 2, line});
+        if (legend.lines.back().closed) line.push_back(line.front());
         lines.push_back(std::move(line));
     }
     long long beside = 0;
     for (const TrackPlace& place : read.places) {
         const auto world = worldOfTrack(terrain, place.degrees);
-        if (world && terrain.ground.contains(*world))
+        if (world && terrain.ground.contains(*world)) {
             places.push_back(*world);
-        else
+            legend.places.push_back({place.name, {*world, terrain.ground.heightAt(*world)}});
+        } else {
             ++beside;
+        }
     }
     auto painter = std::make_shared<TrackPainter>(terrain.ground, fog, lines, places);
     const double length = painter->length(), outside = painter->lengthOutside();

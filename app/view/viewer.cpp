@@ -134,10 +134,7 @@ void Viewer::takeScene() {
     mSettings.reset();
     mApplies.clear();
     if (!loading.busy) mBefore.reset();
-    if (mSession && !mAnother) {
-        mMeasured.replaceScene(mScene->scene);
-        return mSession->replaceScene(mScene);
-    }
+    if (mSession && !mAnother) return replaceScene();
     if (!mSession && mBefore) {
         // Another one was chosen while the first was loaded: this is the first, and is shown until then.
         const Made next{mOptions, mGiven, mSaid};
@@ -292,6 +289,7 @@ void Viewer::update(double dt) {
     mHistory.observe(settings(), panelled().active(), dt);
     followKeyframes();
     if (mMeasured.poll()) mLayoutDue = true;
+    followPaint();
     askFor();
     followWishes();
     lookAtJob();

@@ -87,6 +87,10 @@ public:
     bool measuring() const override { return mMeasuring; }
     void measure(bool on) override { mMeasuring = on; }
     void markWorld(const std::optional<glm::dvec3>& place) override { mMarked = place; }
+    void saveMeasured(const std::string& file) override;
+    std::optional<double> seesFromClicks() const override { return mSeesFrom; }
+    void seeFromClicks(const std::optional<double>& height) override { mSeesFrom = height; }
+    std::optional<PaintWork> painting() const override;
     bool canUndo() const override { return mSession && (mKeyframes.canUndo() || mHistory.canUndo()); }
     bool canRedo() const override { return mSession && (mKeyframes.canRedo() || mHistory.canRedo()); }
     void undo() override;
@@ -120,6 +124,7 @@ private:
     double waitSeconds() const;
     void takeScene();
     void beginSession();
+    void replaceScene();
     void update(double dt);
     // The interface that has the panels.
     Interface& panelled() { return mControls ? mControls->interface() : mInterface; }
@@ -185,6 +190,9 @@ private:
     std::optional<glm::dvec3> pointedWorld() const;
     void copyPlace();
     void measureHere();
+    void seeFromHere();
+    void followPaint();
+    std::vector<Bookmark> namedPlaces() const;
     void addLineMarks(std::vector<OverlayMark>& marks) const;
     bool drawOverlay(const OutputModeInfo& mode);
 
@@ -255,6 +263,9 @@ private:
          mWasBusy = false, mStudyFailed = false;
     bool mMeasuring = false;
     std::optional<glm::dvec3> mMarked;  // world
+    std::optional<double> mSeesFrom;    // metres above the ground
+    long long mPaintSeen = 0;           // versions: of what is painted
+    Stopwatch mPaintWatch;              // of what is worked out
     MeasuredLine mMeasured{[] { Window::wake(); }};
     KeyframeEdit mKeyframes;
     long long mKeyframesSeen = 0, mKeyframesPath = 0;  // versions: of them, and of the path beside them
