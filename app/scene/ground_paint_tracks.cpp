@@ -56,6 +56,8 @@ std::shared_ptr<const EyePainter> trackPainter(const TerrainScene& terrain, cons
     }
     auto painter = std::make_shared<TrackPainter>(terrain.ground, fog, lines, places);
     const double length = painter->length(), outside = painter->lengthOutside();
+    if (!(length > 0) && places.empty() && beside + lost == 0)
+        throw Error(file, "", "no line of it has 2 places that differ", "a line has two ends");
     if (!(outside < length) && places.empty())
         throw Error(file, "", "all of it lies outside the ground", trackAdvice(terrain));
     std::string drawn;
