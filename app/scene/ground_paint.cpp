@@ -6,8 +6,6 @@
 
 #include "app/options/paint_words.h"
 #include "app/output/length_text.h"
-#include "app/scene/ground_paint_survey.h"
-#include "app/scene/ground_paint_tracks.h"
 #include "terrain/paint/contour_painter.h"
 #include "terrain/scene/slope_color.h"
 
@@ -27,24 +25,15 @@ GroundPaint groundPaintOf(const SceneOptions& options) {
     return groundPaintNamed(paintAskedOf(options.paint).word).value_or(GroundPaint::None);
 }
 
-std::vector<std::shared_ptr<const EyePainter>> groundPainters(const TerrainScene& terrain, const Fog& fog,
-                                                              const SceneOptions& options,
-                                                              PaintLegend& legend, Progress& progress) {
-    std::vector<std::shared_ptr<const EyePainter>> painters;
-    if (Legend colors = legendOfPaint(groundPaintOf(options)); !colors.entries.empty())
-        legend.legends.push_back(std::move(colors));
-    if (auto survey = surveyPainter(terrain, fog, options, legend, progress))
-        painters.push_back(std::move(survey));
-    if (const double interval = contourIntervalOf(terrain, options.ground); interval > 0) {
-        painters.push_back(std::make_shared<ContourPainter>(terrain.ground, fog,
-                                                            ContourSetting{interval, terrain.verticalScale}));
-        legend.legends.push_back({"contours",
-                                  {{glm::vec3(kContourInk[0], kContourInk[1], kContourInk[2]),
-                                    fmt::format("every {}", lengthText(interval))}}});
-    }
-    if (!options.ground.tracks.empty())
-        painters.push_back(trackPainter(terrain, fog, options.ground.tracks, legend));
-    return painters;
+std::shared_ptr<const EyePainter> contoursOf(const TerrainScene& terrain, const Fog& fog,
+                                             const GroundPaintOptions& options, PaintLegend& legend) {
+    const double interval = contourIntervalOf(terrain, options);
+    if (!(interval > 0)) return nullptr;
+    legend.legends.push_back({"contours",
+                              {{glm::vec3(kContourInk[0], kContourInk[1], kContourInk[2]),
+                                fmt::format("every {}", lengthText(interval))}}});
+    return std::make_shared<ContourPainter>(terrain.ground, fog,
+                                            ContourSetting{interval, terrain.verticalScale});
 }
 
 void addLegend(const PaintLegend& legend, Facts& facts) {

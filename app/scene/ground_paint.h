@@ -2,10 +2,8 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "app/command/commands.h"
-#include "engine/base/progress.h"
 #include "engine/render/eye_painter.h"
 #include "engine/render/paint_legend.h"
 #include "engine/scene/facts.h"
@@ -17,11 +15,9 @@ namespace stereonav {
 // The paint that a terrain is loaded with, in the place of its tints; None where --paint says another.
 GroundPaint groundPaintOf(const SceneOptions& options);
 
-// One over the other, in this order; none where nothing is asked for. legend: gets what the colours mean, of
-// groundPaintOf() too. terrain, fog: outlive them. Throws Error, Cancelled.
-std::vector<std::shared_ptr<const EyePainter>> groundPainters(const TerrainScene& terrain, const Fog& fog,
-                                                              const SceneOptions& options,
-                                                              PaintLegend& legend, Progress& progress);
+// Null where there are none. legend: gets what they mean. terrain, fog: outlive it.
+std::shared_ptr<const EyePainter> contoursOf(const TerrainScene& terrain, const Fog& fog,
+                                             const GroundPaintOptions& options, PaintLegend& legend);
 
 // Adds what is painted to what a scene says of itself; nothing where nothing is.
 void addLegend(const PaintLegend& legend, Facts& facts);

@@ -12,7 +12,6 @@
 #include "app/options/option_numbers.h"
 #include "app/options/paint_words.h"
 #include "app/options/utc_text.h"
-#include "app/scene/survey_ground.h"
 #include "app/scene/survey_sun.h"
 #include "engine/base/error.h"
 #include "engine/image/packed_color.h"
@@ -23,6 +22,7 @@
 namespace stereonav {
 namespace {
 
+constexpr const char *kSeenFrom = "viewshed", *kHours = "hours";
 constexpr double kUsualEyeHeight = 2;  // metres above the ground, as for the command viewshed
 constexpr double kSunStep = 20 * 60;   // seconds, as for the command sun
 constexpr float kHiddenShare = 0.62f, kHoursShare = 0.6f;
@@ -86,15 +86,26 @@ std::shared_ptr<const EyePainter> hoursPainter(const TerrainScene& terrain, cons
 
 }  // namespace
 
+bool surveyed(const std::string& paint) {
+    const std::string word = paintAskedOf(paint).word;
+    return word == kSeenFrom || word == kHours;
+}
+
 std::shared_ptr<const EyePainter> surveyPainter(const TerrainScene& terrain, const Fog& fog,
-                                                const SceneOptions& options, PaintLegend& legend,
-                                                Progress& progress) {
-    const PaintAsked asked = paintAskedOf(options.paint);
-    const bool shed = asked.word == "viewshed";
-    if (!shed && asked.word != "hours") return nullptr;
-    const SurveyGround survey = loadSurveyGround(options, progress);
-    return shed ? viewshedPainter(terrain, fog, survey, asked.rest, legend, progress)
-                : hoursPainter(terrain, fog, survey, asked.rest, legend, progress);
+                                                const SurveyGround& survey, const std::string& paint,
+                                                PaintLegend& legend, Progress& progress) {
+    const PaintAsked asked = paintAskedOf(paint);
+    if (asked.word == kSeenFrom) return viewshedPainter(terrain, fog, survey, asked.rest, legend, progress);
+    if (asked.word == kHours) return hoursPainter(terrain, fog, survey, asked.rest, legend, progress);
+    return nullptr;
+}
+
+std::string paintSeenFrom(const SurveyGround& survey, const glm::dvec2& world, double height) {
+    const auto place = survey.reference->referenceAt(world);
+    if (!place)
+        throw Error("--paint", "", "the place has no coordinates in the elevation model's reference system",
+                    "choose another place");
+    return fmt::format("{}:{:.10g},{:.10g},{:.6g}", kSeenFrom, place->x, place->y, height);
 }
 
 }  // namespace stereonav

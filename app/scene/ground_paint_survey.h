@@ -1,9 +1,11 @@
 // What instruments find for each sample of the ground, painted on it: --paint viewshed and hours.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <memory>
+#include <string>
 
-#include "app/command/commands.h"
+#include "app/scene/survey_ground.h"
 #include "engine/base/progress.h"
 #include "engine/render/eye_painter.h"
 #include "engine/render/paint_legend.h"
@@ -12,10 +14,15 @@
 
 namespace stereonav {
 
-// Null where options.paint asks for something else. The elevation model is read once more, for its places in
-// its file's reference system. terrain, fog: outlive it. Throws Error, Cancelled.
+// Null where `paint`, a value of --paint, asks for something else: surveyed() says whether it does.
+// survey: the same ground, with its places in its file's reference system. terrain, fog: outlive it. Throws
+// Error, Cancelled.
 std::shared_ptr<const EyePainter> surveyPainter(const TerrainScene& terrain, const Fog& fog,
-                                                const SceneOptions& options, PaintLegend& legend,
-                                                Progress& progress);
+                                                const SurveyGround& survey, const std::string& paint,
+                                                PaintLegend& legend, Progress& progress);
+bool surveyed(const std::string& paint);
+
+// The value that paints what is seen from so high above the ground there, world x, y. Throws Error.
+std::string paintSeenFrom(const SurveyGround& survey, const glm::dvec2& world, double height);
 
 }  // namespace stereonav

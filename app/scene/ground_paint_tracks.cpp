@@ -40,19 +40,24 @@ std::shared_ptr<const EyePainter> trackPainter(const TerrainScene& terrain, cons
                 line.push_back(*world);
             else
                 ++lost;
-        if (track.closed && line.size() > 2) line.push_back(line.front());
+        legend.lines.push_back({track.name, track.closed && line.size() > 2, line});
+        if (legend.lines.back().closed) line.push_back(line.front());
         lines.push_back(std::move(line));
     }
     long long beside = 0;
     for (const TrackPlace& place : read.places) {
         const auto world = worldOfTrack(terrain, place.degrees);
-        if (world && terrain.ground.contains(*world))
+        if (world && terrain.ground.contains(*world)) {
             places.push_back(*world);
-        else
+            legend.places.push_back({place.name, {*world, terrain.ground.heightAt(*world)}});
+        } else {
             ++beside;
+        }
     }
     auto painter = std::make_shared<TrackPainter>(terrain.ground, fog, lines, places);
     const double length = painter->length(), outside = painter->lengthOutside();
+    if (!(length > 0) && places.empty() && beside + lost == 0)
+        throw Error(file, "", "no line of it has 2 places that differ", "a line has two ends");
     if (!(outside < length) && places.empty())
         throw Error(file, "", "all of it lies outside the ground", trackAdvice(terrain));
     std::string drawn;

@@ -12,8 +12,9 @@
 
 namespace stereonav {
 
-// Draws the lines, borders and places of a GPX or GeoJSON file; says in `legend` what it drew, and in a note
-// how much lies beside the ground. terrain, fog: outlive it. Throws Error where nothing lies on the ground.
+// Draws the lines, borders and places of a GPX or GeoJSON file; says in `legend` what it drew, with its lines
+// and places, and in a note how much lies beside the ground. terrain, fog: outlive it. Throws Error where
+// nothing lies on the ground.
 std::shared_ptr<const EyePainter> trackPainter(const TerrainScene& terrain, const Fog& fog,
                                                const std::string& file, PaintLegend& legend);
 

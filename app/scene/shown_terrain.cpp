@@ -8,6 +8,7 @@
 
 #include "app/command/scene_facts.h"
 #include "app/scene/ground_paint.h"
+#include "app/scene/ground_painting.h"
 #include "app/scene/terrain_daylight.h"
 #include "engine/nav/navigator.h"
 #include "terrain/scene/ground_map.h"
@@ -184,14 +185,17 @@ ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsI
 ShownTerrain::~ShownTerrain() = default;
 
 void ShownTerrain::paintGround(const SceneOptions& options, Progress& progress) {
-    mPaint.set(groundPainters(mTerrain, mRenderer.fog(), options, mLegend, progress));
-    if (!mPaint.empty()) offer(mPaint);
-    if (!mLegend.legends.empty()) offer<const PaintLegend>(mLegend);
+    mPainting = std::make_unique<GroundPainting>(mTerrain, mRenderer.fog(), options, mPaint);
+    mPainting->paintAll(progress);
+    mLegend = mPainting->legend();
+    offer(mPaint);
+    offer<LivePaint>(*mPainting);
+    if (!mLegend->legends.empty()) offer<const PaintLegend>(*mLegend);
 }
 
 Facts ShownTerrain::describe() const {
     Facts facts = factsOfTerrain(*this);
-    addLegend(mLegend, facts);
+    if (mPainting) addLegend(*mPainting->legend(), facts);
     return {factForJson("terrain", std::move(facts))};
 }
 

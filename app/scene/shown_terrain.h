@@ -16,6 +16,8 @@
 
 namespace stereonav {
 
+class GroundPainting;
+
 // Over the ground, as its extent asks for. terrain: lives as long as the flight.
 std::unique_ptr<Flight> flightOver(const TerrainScene& terrain);
 // What a terrain says of lens, eyes, start and flight.
@@ -44,6 +46,7 @@ public:
     Facts readPlace(const glm::dvec3& world) const override;
     // In heights of the file, whatever they are exaggerated by; terrain_line.cpp.
     MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed) const override;
+    Facts sight(const glm::dvec3& from, const glm::dvec3& to, double height) const override;
 
 private:
     const TerrainScene& mTerrain;
@@ -60,8 +63,8 @@ public:
     ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsItself = false);
     ~ShownTerrain() override;
 
-    // Paints the ground in pictures that are shown: before the first. Offers a SurfacePaint where there is
-    // anything to paint, and a PaintLegend where it means something. Throws Error, Cancelled.
+    // Paints the ground in pictures that are shown: before the first. Offers a SurfacePaint that can be
+    // exchanged (LivePaint), and a PaintLegend where something is painted now. Throws Error, Cancelled.
     void paintGround(const SceneOptions& options, Progress& progress);
 
     FrameMaker& frames() const override { return mFrames; }
@@ -79,8 +82,9 @@ private:
     RayCast mRays;
     mutable CastFrames mFrames;
     SurfacePaint mPaint;
-    PaintLegend mLegend;
-    std::unique_ptr<TurningLight> mSun;  // null: it stands in the colours
+    std::shared_ptr<const PaintLegend> mLegend;  // of the first paint
+    std::unique_ptr<GroundPainting> mPainting;   // null before paintGround()
+    std::unique_ptr<TurningLight> mSun;          // null: it stands in the colours
     std::unique_ptr<Daylight> mDaylight;
 };
 

@@ -2,10 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "app/output/length_text.h"
 #include "app/scene/ground_figures.h"
 #include "app/scene/shown_terrain.h"
+#include "terrain/ground/height_pyramid.h"
 #include "terrain/survey/ground_line.h"
+#include "terrain/survey/sight_line.h"
 
 namespace stereonav {
 namespace {
@@ -44,6 +48,28 @@ MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bo
         measured.profile.emplace_back(point.distance, point.height);
     }
     return measured;
+}
+
+// As `viewshed --to` has it, without the curvature.
+Facts TerrainSurvey::sight(const glm::dvec3& from, const glm::dvec3& to, double height) const {
+    glm::dvec2 shift;
+    const Heightfield cut =
+        cutGround(mTerrain.ground, {glm::dvec2(from), glm::dvec2(to)}, mTerrain.verticalScale, shift);
+    const auto above = [&](const glm::dvec3& place) {
+        const glm::dvec2 world = glm::dvec2(place) - shift;
+        return glm::dvec3(cut.gridFromWorld(world), cut.heightAt(world) + height);
+    };
+    const glm::dvec3 eye = above(from), target = above(to);
+    if (!std::isfinite(eye.z) || !std::isfinite(target.z)) return {};
+    const HeightPyramid maxima(cut);
+    const Sight sight = SightLines(cut, maxima, 0).measure(eye, target);
+    FactList list;
+    list.both(
+        "sees", sight.seen, fmt::format("line of sight, {:.4g} m up", height),
+        fmt::format("{}: {} {} the ground, {} from the first", sight.seen ? "they see each other" : "hidden",
+                    lengthText(std::abs(sight.clearance)), sight.clearance < 0 ? "under" : "over",
+                    lengthText(sight.at)));
+    return std::move(list.facts());
 }
 
 }  // namespace stereonav

@@ -4,17 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "app/options/option_value.h"
+#include "engine/scene/live_paint.h"
 #include "engine/scene/shown_values.h"
 #include "engine/text/number.h"
 #include "engine/volume/transfer_text.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+constexpr const char* kPaintKeys[] = {"contours", "paint", "tracks"};
 
 // To a thousandth of a degree, which no picture shows.
 std::string degreeText(double radians) {
@@ -235,6 +239,25 @@ bool takesOpacity(const ViewSession& session, const std::string& text) {
     return begun && begun->transfer.empty() && numberOf(text) == begun->opacity;
 }
 
+// What surfaces are painted with: null where the key says something else, or the scene is to be made anew.
+LivePaint* paintOf(const ViewSession& session, const std::string& key) {
+    const auto is = [&](const char* one) { return key == one; };
+    return std::any_of(std::begin(kPaintKeys), std::end(kPaintKeys), is)
+               ? session.open().scene->offered<LivePaint>()
+               : nullptr;
+}
+
+// One that the scene does not take is of another scene, which is being made.
+void tellPaint(const ViewSession& session, SettingTexts& given) {
+    for (const char* const key : kPaintKeys) {
+        const LivePaint* const paint = paintOf(session, key);
+        const auto said = given.find(key);
+        if (!paint || !paint->takes(key, said == given.end() ? "" : said->second.back())) continue;
+        given.erase(key);
+        if (const std::string text = paint->now(key); !text.empty()) given[key] = {text};
+    }
+}
+
 // A function and an opacity are two ways to say one thing, which is said as it is shown, or not.
 void tellFunction(const ViewSession& session, SettingTexts& given) {
     if (!begunOf(session)) {
@@ -250,10 +273,12 @@ void tellFunction(const ViewSession& session, SettingTexts& given) {
 }  // namespace
 
 bool isLive(const ViewSession& session, const std::string& key) {
+    if (const LivePaint* const paint = paintOf(session, key)) return paint->takes(key, "");
     return key != "opacity" && liveNamed(session, key) != nullptr;
 }
 
 bool isLive(const ViewSession& session, const std::string& key, const std::optional<std::string>& text) {
+    if (const LivePaint* const paint = paintOf(session, key)) return paint->takes(key, text.value_or(""));
     const Live* const live = liveNamed(session, key);
     if (!live) return false;
     if (key == "isovalue" && !text) return begunOf(session) && begunOf(session)->isovalueChosen;
@@ -268,20 +293,36 @@ SettingTexts withLive(const ViewSession& session, SettingTexts given) {
         if (!live.asBegun(session)) given[live.key] = {live.now(session)};
     }
     tellFunction(session, given);
+    tellPaint(session, given);
     return given;
 }
 
 std::optional<std::string> valueNow(const ViewSession& session, const std::string& key) {
+    if (const LivePaint* const paint = paintOf(session, key)) return paint->now(key);
+    if (const auto* const terrain = session.open().scene->offered<const TerrainScene>();
+        terrain && key == "vertical-scale")
+        return fmt::format("{:.6g}", terrain->verticalScale);
     const Live* const live = liveNamed(session, key);
     return live ? std::optional(live->now(session)) : std::nullopt;
 }
 
+void keepPaint(const Scene& before, const Scene& after) {
+    const auto* const old = before.offered<LivePaint>();
+    auto* const fresh = after.offered<LivePaint>();
+    if (!old || !fresh) return;
+    for (const char* const key : kPaintKeys)
+        if (const std::string text = old->now(key); fresh->takes(key, text)) fresh->ask(key, text);
+}
+
 void setLive(ViewSession& session, const std::string& key, const std::optional<std::string>& text) {
+    LivePaint* const paint = paintOf(session, key);
     const Live* const live = liveNamed(session, key);
-    if (!live) return;
-    if (!text) return live->reset(session);
+    if (!live && !paint) return;
+    if (!text) return paint ? paint->ask(key, "") : live->reset(session);
     const Option& option = *viewOption(key);
-    live->set(session, readValue(option.name(), option.value, option.advice, *text));
+    const OptionValue value = readValue(option.name(), option.value, option.advice, *text);
+    if (paint) return paint->ask(key, *text);
+    live->set(session, value);
 }
 
 }  // namespace stereonav

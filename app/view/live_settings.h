@@ -23,4 +23,7 @@ std::optional<std::string> valueNow(const ViewSession& session, const std::strin
 // Sets a live key: text as the option takes it, none: as the scene began. Throws Error as the command line.
 void setLive(ViewSession& session, const std::string& key, const std::optional<std::string>& text);
 
+// What was painted since a scene was asked for is painted in that scene too.
+void keepPaint(const Scene& before, const Scene& after);
+
 }  // namespace stereonav

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,11 +10,19 @@
 #include "app/output/length_text.h"
 #include "app/view/kept_file.h"
 #include "engine/base/error.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 namespace {
 
 constexpr int kMeasuredVersion = 1;
+
+// Its heights may have been exaggerated otherwise when the place was put there.
+glm::dvec3 onGround(const TerrainScene& terrain, const glm::dvec3& place) {
+    const glm::dvec2 at(place);
+    const double height = terrain.ground.contains(at) ? terrain.ground.heightAt(at) : std::nan("");
+    return std::isfinite(height) ? glm::dvec3(at, height) : place;
+}
 
 bool isMeasuredLine(const nlohmann::json& file) {
     if (!file.is_object() ||
@@ -71,6 +80,8 @@ void MeasuredLine::open(std::shared_ptr<const Scene> scene, const std::filesyste
 
 void MeasuredLine::replaceScene(std::shared_ptr<const Scene> scene) {
     mScene = std::move(scene);
+    if (const auto* const terrain = mScene ? mScene->offered<const TerrainScene>() : nullptr)
+        for (glm::dvec3& place : mPlaces) place = onGround(*terrain, place);
     mMeasured.reset();
     mProblem.clear();
     mDue = mPlaces.size() > 1;
@@ -102,6 +113,26 @@ void MeasuredLine::setClosed(bool closed) {
     changed();
 }
 
+bool MeasuredLine::take(const std::vector<glm::dvec3>& places, bool closed) {
+    const std::size_t count = std::min(places.size(), kMost);
+    std::vector<glm::dvec3> taken;
+    for (std::size_t n = 0; n < count; ++n) {
+        const glm::dvec3& place = places[count < 2 ? n : n * (places.size() - 1) / (count - 1)];
+        if (taken.empty() || taken.back() != place) taken.push_back(place);
+    }
+    if (taken.size() < 2) return false;
+    mPlaces = std::move(taken);
+    mClosed = closed && mPlaces.size() > 2;
+    changed();
+    return true;
+}
+
+void MeasuredLine::setEyeHeight(double height) {
+    if (height == mEyeHeight) return;
+    mEyeHeight = height;
+    mDue = mPlaces.size() > 1;
+}
+
 void MeasuredLine::changed() {
     mDue = mPlaces.size() > 1;
     mProblem.clear();
@@ -126,10 +157,15 @@ void MeasuredLine::write() {
 }
 
 MeasuredLine::Outcome MeasuredLine::outcomeOf(const Scene& scene, const std::vector<glm::dvec3>& places,
-                                              bool closed) {
+                                              bool closed, double eyeHeight) {
     try {
-        if (const auto* const measurer = scene.offered<LineMeasurer>())
-            return {measurer->measure(places, closed), ""};
+        if (const auto* const measurer = scene.offered<LineMeasurer>()) {
+            Outcome outcome{measurer->measure(places, closed), ""};
+            if (closed) return outcome;
+            for (Fact& fact : measurer->sight(places[places.size() - 2], places.back(), eyeHeight))
+                outcome.measured.facts.push_back(std::move(fact));
+            return outcome;
+        }
         return {straightMeasure(places, closed), ""};
     } catch (const std::exception& error) {
         return {{}, error.what()};
@@ -150,8 +186,8 @@ bool MeasuredLine::poll() {
     if (!mDue || mWork.valid() || !mScene) return isNew;
     mDue = false;
     mWork = std::async(std::launch::async, [scene = mScene, places = mPlaces, wake = mWake,
-                                            closed = mClosed && mPlaces.size() > 2] {
-        Outcome outcome = outcomeOf(*scene, places, closed);
+                                            closed = mClosed && mPlaces.size() > 2, height = mEyeHeight] {
+        Outcome outcome = outcomeOf(*scene, places, closed, height);
         wake();
         return outcome;
     });

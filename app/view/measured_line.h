@@ -36,6 +36,12 @@ public:
     void removeLast();
     void clear();
     void setClosed(bool closed);
+    // These in the place of its own, evenly thinned to kMost. False: fewer than two that differ, and nothing
+    // is changed.
+    bool take(const std::vector<glm::dvec3>& places, bool closed);
+    // Of a line of sight between its last two places: above the surface, metres.
+    double eyeHeight() const { return mEyeHeight; }
+    void setEyeHeight(double height);
 
     // Looks whether the last measuring is done, and begins the next. True: there is something new.
     bool poll();
@@ -49,7 +55,8 @@ private:
         MeasuredSurface measured;
         std::string problem;
     };
-    static Outcome outcomeOf(const Scene& scene, const std::vector<glm::dvec3>& places, bool closed);
+    static Outcome outcomeOf(const Scene& scene, const std::vector<glm::dvec3>& places, bool closed,
+                             double eyeHeight);
     void changed();
     void write();
 
@@ -58,6 +65,7 @@ private:
     std::filesystem::path mFile;
     std::vector<glm::dvec3> mPlaces;
     bool mClosed = false, mDue = false;
+    double mEyeHeight = 2;
     std::optional<MeasuredSurface> mMeasured;
     std::string mProblem;
     std::future<Outcome> mWork;  // last: it is waited for at the end

@@ -39,8 +39,9 @@ bool sameFrame(const FrameRequest& a, const FrameRequest& b) {
     return samePose(a.pose, b.pose) && a.lens.width == b.lens.width && a.lens.height == b.lens.height &&
            a.lens.verticalFov == b.lens.verticalFov && a.stereo.separation == b.stereo.separation &&
            a.stereo.zeroParallax == b.stereo.zeroParallax && a.way.method == b.way.method &&
-           a.model == b.model && a.time == b.time && a.twoEyes == b.twoEyes && a.mode == b.mode &&
-           a.sun == b.sun && a.fitEyes == b.fitEyes && a.truth == b.truth && a.guard == b.guard;
+           a.model == b.model && a.time == b.time && a.paint == b.paint && a.twoEyes == b.twoEyes &&
+           a.mode == b.mode && a.sun == b.sun && a.fitEyes == b.fitEyes && a.truth == b.truth &&
+           a.guard == b.guard;
 }
 
 bool mixesEyes(OutputLayout layout) {
@@ -80,54 +81,6 @@ ViewSession::ViewSession(std::shared_ptr<const OpenScene> scene, const Options& 
       mSpeedByDistance(options.speedByDistance) {
     takeSurface();
     if (const auto* const surface = offered<SurfaceChoices>()) mTriedTransfer = surface->transfer;
-}
-
-void ViewSession::takeSurface() {
-    const auto* const surface = offered<SurfaceChoices>();
-    mIsovalue = surface ? surface->isovalue : std::nullopt;
-    mTranslucent = surface && surface->translucent;
-    mTransfer = surface ? surface->transfer : "";
-    mAmbient = surface ? surface->ambient : std::nullopt;
-}
-
-void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
-    if (!scene->changed) stopPlaying();
-    mGoal.reset();
-    const Pose here = mFlight->pose();
-    const int mode = mFlight->mode();
-    std::unique_ptr<Flight> flight = scene->scene->makeFlight();
-    if (mode < flight->modeCount()) flight->setMode(mode);
-    flight->setPose(here);
-    mFlight = std::move(flight);
-    // Light that was turned stays so over the same study.
-    const auto *const before = offered<TurningLight>(), *const after = scene->scene->offered<TurningLight>();
-    const bool lightStays = before && after && before->isSky() == after->isSky();
-    const bool methodStays = scene->changed && scene->way.method == mScene->way.method;
-    mStereo.replaceScene(*scene->scene);
-    mScene = std::move(scene);
-    if (mOwnPath) takePath(shown().path);
-    if (!lightStays) mSun = mScene->sun;
-    mModel = mScene->model;
-    if (!methodStays) mMethod = mScene->way.method;
-    // More may be asked for than a scene made in between shows.
-    if (!mScene->changed) forgetSceneChange();
-    mResting = false;
-    mLooked = true;  // one step at least shows it
-    ++mRequest.version;
-}
-
-std::optional<SceneChange> ViewSession::takeSceneChange() {
-    return std::exchange(mChange, std::nullopt);
-}
-
-void ViewSession::forgetSceneChange() {
-    if (mChange) return;  // asked for since
-    const std::optional<AmbientChoice> before = mAmbient;
-    takeSurface();
-    if (!before || !mAmbient) return;
-    // What is not shown keeps its radius for when it is.
-    if (!mAmbient->lit) mAmbient->radius = before->radius;
-    if (mAmbient->modulate.empty() && !mAmbient->lit) mAmbient->modulateRadius = before->modulateRadius;
 }
 
 void ViewSession::act(const ViewAction& action) {
@@ -444,6 +397,7 @@ const FrameRequest& ViewSession::requestFor(int width, int height, double ahead,
     wanted.model = mModel;
     wanted.time = offered<Animation>() ? mTime + ahead : mTime;
     wanted.sun = mSun;
+    wanted.paint = paintVersion(shown());
     wanted.twoEyes = mStereoOn;
     wanted.mode = compose().mode;
     wanted.fitEyes = mStereo.fits();

@@ -1,5 +1,5 @@
-// The session's part that changes what is shown: a volume's surface and wall, light that turns, and the
-// slices that seeds are set in.
+// The session's part that changes what is shown: another scene in its place, a volume's surface and wall,
+// light that turns, and the slices that seeds are set in.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,10 +8,68 @@
 #include <utility>
 
 #include "app/output/length_text.h"
+#include "app/view/live_settings.h"
+#include "app/view/raised_ground.h"
 #include "app/view/session.h"
 #include "app/view/status.h"
 
 namespace stereonav {
+
+void ViewSession::takeSurface() {
+    const auto* const surface = offered<SurfaceChoices>();
+    mIsovalue = surface ? surface->isovalue : std::nullopt;
+    mTranslucent = surface && surface->translucent;
+    mTransfer = surface ? surface->transfer : "";
+    mAmbient = surface ? surface->ambient : std::nullopt;
+}
+
+void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
+    if (!scene->changed) stopPlaying();
+    mGoal.reset();
+    const auto raised = RaisedGround::between(shown(), *scene->scene);
+    if (raised && recording()) saveFlight();  // of the ground as it was
+    const Pose here = raised ? raised->moved(mFlight->pose()) : mFlight->pose();
+    const int mode = mFlight->mode();
+    std::unique_ptr<Flight> flight = scene->scene->makeFlight();
+    if (mode < flight->modeCount()) flight->setMode(mode);
+    flight->setPose(here);
+    mFlight = std::move(flight);
+    // Light that was turned stays so over the same study.
+    const auto *const before = offered<TurningLight>(), *const after = scene->scene->offered<TurningLight>();
+    const bool lightStays = before && after && before->isSky() == after->isSky();
+    const bool methodStays = scene->changed && scene->way.method == mScene->way.method;
+    mStereo.replaceScene(*scene->scene);
+    keepPaint(shown(), *scene->scene);
+    mScene = std::move(scene);
+    if (mOwnPath) {
+        takePath(shown().path);
+    } else if (raised) {
+        setPath(raised->moved(mPath));
+        for (RecordedPath& path : mPathsBefore) path = raised->moved(path);
+    }
+    if (!lightStays) mSun = mScene->sun;
+    mModel = mScene->model;
+    if (!methodStays) mMethod = mScene->way.method;
+    // More may be asked for than a scene made in between shows.
+    if (!mScene->changed) forgetSceneChange();
+    mResting = false;
+    mLooked = true;  // one step at least shows it
+    ++mRequest.version;
+}
+
+std::optional<SceneChange> ViewSession::takeSceneChange() {
+    return std::exchange(mChange, std::nullopt);
+}
+
+void ViewSession::forgetSceneChange() {
+    if (mChange) return;  // asked for since
+    const std::optional<AmbientChoice> before = mAmbient;
+    takeSurface();
+    if (!before || !mAmbient) return;
+    // What is not shown keeps its radius for when it is.
+    if (!mAmbient->lit) mAmbient->radius = before->radius;
+    if (mAmbient->modulate.empty() && !mAmbient->lit) mAmbient->modulateRadius = before->modulateRadius;
+}
 
 bool ViewSession::actOnVolume(ViewCommand command) {
     switch (command) {

@@ -134,12 +134,7 @@ void Viewer::takeScene() {
     mSettings.reset();
     mApplies.clear();
     if (!loading.busy) mBefore.reset();
-    if (mSession && !mAnother) {
-        mMeasured.replaceScene(mScene->scene);
-        mCoverage.replaceScene(mScene->scene);
-        mFindings.replaceScene(mScene->scene);
-        return mSession->replaceScene(mScene);
-    }
+    if (mSession && !mAnother) return replaceScene();
     if (!mSession && mBefore) {
         // Another one was chosen while the first was loaded: this is the first, and is shown until then.
         const Made next{mOptions, mGiven, mSaid};
@@ -302,6 +297,7 @@ void Viewer::update(double dt) {
     if (mMeasured.poll()) mLayoutDue = true;
     followCoverage();
     if (mFindings.poll(mSession->study()) || mFindings.busy()) mLayoutDue = true;
+    followPaint();
     askFor();
     followWishes();
     followSecond();

@@ -98,6 +98,10 @@ public:
     SecondStudy* secondStudy() override { return &mSecond; }
     void openOther(const std::string& study) override;
     void swapStudies() override;
+    void saveMeasured(const std::string& file) override;
+    std::optional<double> seesFromClicks() const override { return mSeesFrom; }
+    void seeFromClicks(const std::optional<double>& height) override { mSeesFrom = height; }
+    std::optional<PaintWork> painting() const override;
     bool canUndo() const override { return mSession && (mKeyframes.canUndo() || mHistory.canUndo()); }
     bool canRedo() const override { return mSession && (mKeyframes.canRedo() || mHistory.canRedo()); }
     void undo() override;
@@ -133,6 +137,7 @@ private:
     void beginSession();
     void beginSecond();
     void followSecond();
+    void replaceScene();
     void update(double dt);
     // The interface that has the panels.
     Interface& panelled() { return mControls ? mControls->interface() : mInterface; }
@@ -203,6 +208,9 @@ private:
     void toggleCoverage();
     void flyToUnseen(int step);
     void findHere();
+    void seeFromHere();
+    void followPaint();
+    std::vector<Bookmark> namedPlaces() const;
     void addLineMarks(std::vector<OverlayMark>& marks) const;
     bool drawOverlay(const OutputModeInfo& mode);
 
@@ -273,6 +281,9 @@ private:
          mWasBusy = false, mStudyFailed = false;
     bool mMeasuring = false;
     std::optional<glm::dvec3> mMarked;  // world
+    std::optional<double> mSeesFrom;    // metres above the ground
+    long long mPaintSeen = 0;           // versions: of what is painted
+    Stopwatch mPaintWatch;              // of what is worked out
     MeasuredLine mMeasured{[] { Window::wake(); }};
     LiveCoverage mCoverage{[] { Window::wake(); }};
     FindingList mFindings{[] { Window::wake(); }};

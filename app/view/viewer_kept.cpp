@@ -4,6 +4,7 @@
 
 #include "app/scene/scene_type.h"
 #include "app/view/live_settings.h"
+#include "app/view/raised_ground.h"
 #include "app/view/viewer.h"
 #include "engine/base/error.h"
 
@@ -86,6 +87,7 @@ void Viewer::addPlace() {
     tryTo([&] {
         Bookmark place;
         place.pose = mSession->pose();
+        place.settings = groundSettings(*mScene->scene);
         if (!mSession->followsClearance()) place.stereo = mSession->stereo();
         const std::string name = mPlaces->add(place, mFrame ? &mFrame->left.color : nullptr);
         mSession->notify("kept as " + name);
@@ -95,7 +97,7 @@ void Viewer::addPlace() {
 
 void Viewer::goToPlace(const Bookmark& place) {
     if (!mSession) return;
-    mSession->flyTo(place.pose);
+    mSession->flyTo(placeNow(place, *mScene->scene).pose);
     if (place.stereo && !mSession->followsClearance()) mSession->setEyes(*place.stereo);
 }
 

@@ -56,7 +56,7 @@ void Viewer::measureHere() {
 // Its places with their numbers, and points between them as the line lies on the surface; what is hidden is
 // left out.
 void Viewer::addLineMarks(std::vector<OverlayMark>& marks) const {
-    constexpr std::size_t kMostPoints = 300;
+    constexpr std::size_t kMostPoints = 300, kMostNumbers = 60;
     const StereoViews views = viewsOf(mPicture.of);
     const auto add = [&](const glm::dvec3& world, const std::string& text, bool dot) {
         const auto at = markOf(views, mFrame->left.viewDepth, world, mFrame->request.guard);
@@ -68,8 +68,11 @@ void Viewer::addLineMarks(std::vector<OverlayMark>& marks) const {
         const std::size_t count = measured->places.size(), points = std::min(count, kMostPoints);
         for (std::size_t n = 0; n < points; ++n) add(measured->places[n * count / points], "", true);
     }
-    for (std::size_t n = 0; n < mMeasured.places().size(); ++n)
-        add(mMeasured.places()[n], std::to_string(n + 1), false);
+    // Numbers of many would hide the line: those of its ends are left.
+    const std::size_t count = mMeasured.places().size();
+    for (std::size_t n = 0; n < count; ++n)
+        if (count <= kMostNumbers || n == 0 || n + 1 == count)
+            add(mMeasured.places()[n], std::to_string(n + 1), false);
     if (mMarked) add(*mMarked, "*", false);
 }
 
@@ -84,8 +87,10 @@ void Viewer::usePointer() {
     const SizeOption eye = eyeSizeAt(mode, place);
     for (const glm::dvec2& click : clicks) {
         const glm::dvec2 at = placeInPicture(mode, place, click) * glm::dvec2(eye.width, eye.height);
-        if ((mMeasuring || mFindings.clicks()) && !mSession->slicesShown()) {
-            mMeasuring ? measureHere() : findHere();
+        if ((mMeasuring || mSeesFrom || mFindings.clicks()) && !mSession->slicesShown()) {
+            if (mSeesFrom) seeFromHere();
+            if (mMeasuring) measureHere();
+            if (mFindings.clicks()) findHere();
             continue;
         }
         tell(mSession->click(at.x, at.y));
@@ -103,11 +108,10 @@ std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
     if (!mSession || !mFrame || !mPicture.left || mSession->slicesShown()) return marks;
     const Plane<float>& depth = mFrame->left.viewDepth;
     const glm::ivec2& guard = mFrame->request.guard;
-    if (mLabels && mPlaces && !mPanels.hidden() && !mPanels.startShown()) {
+    if (mLabels && !mPanels.hidden() && !mPanels.startShown()) {
         const auto sizeOf = [this](const std::string& text) { return glm::dvec2(mInterface.textSize(text)); };
         const double margin = 0.3 * sizeOf("0").y;
-        for (const PlaceLabel& label :
-             labelsInView(mPicture.of, depth, mPlaces->list(), sizeOf, margin, guard))
+        for (const PlaceLabel& label : labelsInView(mPicture.of, depth, namedPlaces(), sizeOf, margin, guard))
             marks.push_back({glm::vec2(label.mark.left), glm::vec2(label.mark.right), label.text,
                              glm::vec2(label.textAt)});
     }

@@ -11,6 +11,7 @@
 #include "app/options/scene_types.h"
 #include "app/scene/shown_as.h"
 #include "app/view/live_settings.h"
+#include "app/view/raised_ground.h"
 #include "app/view/viewer.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -120,6 +121,18 @@ void Viewer::load(const ViewOptions& options, bool another) {
     mApplies.clear();
     mWorker->reload([options = shown, size = windowSize(), sweep = swept ? mSweep.get() : nullptr](
                         Progress& progress) { return openScene(options, false, size, sweep, progress); });
+}
+
+// In the same session.
+void Viewer::replaceScene() {
+    const auto raised = RaisedGround::between(*mSession->open().scene, *mScene->scene);
+    mMeasured.replaceScene(mScene->scene);
+    mCoverage.replaceScene(mScene->scene);
+    mFindings.replaceScene(mScene->scene);
+    mSession->replaceScene(mScene);
+    if (!raised || !mKeyframes.any()) return;
+    mKeyframes.start(raised->moved(mKeyframes.keys()));
+    mKeyframesPath = mSession->pathVersion();
 }
 
 void Viewer::open(const std::string& scene) {

@@ -97,6 +97,7 @@ void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& tr
     frame.effort = 1;
     frame.expected_db = 0;
     if (auto* const light = scene.offered<TurningLight>()) light->turnTo(request.sun);
+    if (auto* const paint = scene.offered<LivePaint>()) paint->takeUp();
     if (auto* const models = scene.offered<LightModels>()) models->choose(request.model);
     if (auto* const effort = scene.offered<FrameEffort>()) effort->setEffort(request.effort);
     if (auto* const paint = scene.offered<SurfacePaint>()) paint->setOver(request.paint);

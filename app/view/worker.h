@@ -27,6 +27,7 @@
 #include "engine/late/late_warp.h"
 #include "engine/render/eye_painter.h"
 #include "engine/scene/capabilities.h"
+#include "engine/scene/live_paint.h"
 #include "engine/scene/scene.h"
 #include "engine/stereo/parallax_histogram.h"
 
@@ -54,6 +55,7 @@ struct FrameRequest {
     int model = 0;                       // of LightModels::names()
     double time = 0;                     // seconds, where the scene is animated
     SunPlace sun;                        // where it can be moved
+    long long paint = 0;                 // LivePaint::version(), where it is offered
     bool twoEyes = true;                 // false: one eye, from the head itself
     OutputMode mode = OutputMode::Left;  // that the eyes' size was chosen for
     // The eyes may be changed to be comfortable in this picture (comfortableEyes): its own request says to

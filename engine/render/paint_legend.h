@@ -1,6 +1,7 @@
-// What the colours mean that a scene's surfaces are painted in.
+// What the colours mean that a scene's surfaces are painted in, and what of it has a name.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
@@ -17,10 +18,25 @@ struct Legend {
     std::vector<LegendEntry> entries;
 };
 
+// A place that is marked on the surface: world, metres.
+struct PaintedPlace {
+    std::string name;  // "" where it has none
+    glm::dvec3 world{0.0};
+};
+
+// A line that is drawn on the surface, or an area's border, whose first place is not repeated.
+struct PaintedLine {
+    std::string name;  // "" where it has none
+    bool closed = false;
+    std::vector<glm::dvec2> world;  // x, y; those beside the surface among them
+};
+
 // A capability of scenes (engine/scene/capabilities.h).
 struct PaintLegend {
     std::vector<Legend> legends;
     std::vector<std::string> notes;  // of what could not be painted, a sentence each
+    std::vector<PaintedPlace> places;
+    std::vector<PaintedLine> lines;
 };
 
 }  // namespace stereonav

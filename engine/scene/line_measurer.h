@@ -24,6 +24,11 @@ public:
     // places: world, two or more that differ, on or near the surface; closed: the border of an area, three or
     // more. May take seconds; from any thread. Throws Error where nothing can be measured there, Cancelled.
     virtual MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed) const = 0;
+    // Whether two places see each other from so high above the surface, metres; none where that is not known.
+    // As measure().
+    virtual Facts sight(const glm::dvec3& /*from*/, const glm::dvec3& /*to*/, double /*height*/) const {
+        return {};
+    }
 };
 
 }  // namespace stereonav

@@ -76,6 +76,10 @@ TEST_F(GroundPaintOptionsTest, RefuseWhatDoesNotGo) {
     refused({"--tracks", "none.gpx"}, "none.gpx");
     writeTextFile(place() / "far.geojson", R"({"type":"LineString","coordinates":[[9250,200],[9000,0]]})");
     refused({"--tracks", (place() / "far.geojson").string()}, "all of it lies outside the ground");
+    writeTextFile(place() / "one.gpx",
+                  R"(<gpx version="1.1" creator="t" xmlns="http://www.topografix.com/GPX/1/1">
+<trk><trkseg><trkpt lat="1" lon="1"/></trkseg></trk></gpx>)");
+    refused({"--tracks", (place() / "one.gpx").string()}, "no line of it has 2 places that differ");
     writeTextFile(place() / "empty.geojson", R"({"type":"FeatureCollection","features":[]})");
     refused({"--tracks", (place() / "empty.geojson").string()}, "expected tracks, lines, areas or places");
 }

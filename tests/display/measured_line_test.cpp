@@ -43,6 +43,26 @@ std::int64_t placesSaid(const MeasuredLine& line) {
     return std::get<std::int64_t>(line.measured()->facts.at(0).value);
 }
 
+TEST(MeasuredLine, ALongLineIsTakenEvenlyThinned) {
+    MeasuredLine line([] {});
+    line.open(std::make_shared<CountingScene>(), "");
+    std::vector<glm::dvec3> places;
+    for (int n = 0; n < 2500; ++n) places.emplace_back(n, 0, 0);
+    EXPECT_TRUE(line.take(places, false));
+    ASSERT_EQ(line.places().size(), MeasuredLine::kMost);
+    EXPECT_EQ(line.places().front().x, 0);
+    EXPECT_EQ(line.places().back().x, 2499);
+    for (std::size_t n = 1; n < MeasuredLine::kMost; ++n)
+        EXPECT_NEAR(line.places()[n].x - line.places()[n - 1].x, 2499.0 / 999, 1);
+    EXPECT_FALSE(line.take({{5, 5, 5}}, false)) << "one place is no line";
+    EXPECT_FALSE(line.take({{5, 5, 5}, {5, 5, 5}}, false)) << "twice the same";
+    EXPECT_EQ(line.places().size(), MeasuredLine::kMost) << "and nothing is changed";
+    EXPECT_TRUE(line.take({{0, 0, 0}, {1, 0, 0}}, true));
+    EXPECT_FALSE(line.closed()) << "two places enclose nothing";
+    waitFor(line);
+    EXPECT_EQ(placesSaid(line), 2);
+}
+
 TEST(MeasuredLine, IsMeasuredBesideTheWindowEachTimeItChanges) {
     std::atomic<int> woken = 0;
     MeasuredLine line([&] { ++woken; });

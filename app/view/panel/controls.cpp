@@ -87,6 +87,7 @@ void numberControl(PanelHost& host, const Option& option, const std::string& now
     char* end = nullptr;
     double value = std::strtod(now.c_str(), &end);
     const bool known = end && end != now.c_str() && *end == 0;
+    if (!known) value = std::strtod(option.fallback, nullptr);  // dragged from there; words are 0
     const bool whole = option.value.kind == ValueKind::Whole;
     static std::map<std::string, double> dragged;  // not live: set once it is let go
     const bool live = host.live(option);

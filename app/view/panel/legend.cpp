@@ -4,7 +4,7 @@
 
 #include "app/view/panel/controls.h"
 #include "engine/image/packed_color.h"
-#include "engine/render/paint_legend.h"
+#include "engine/scene/live_paint.h"
 
 namespace stereonav {
 namespace {
@@ -24,7 +24,9 @@ void drawEntry(const LegendEntry& entry, int id) {
 }  // namespace
 
 void drawLegend(PanelHost& host, const Scene& scene) {
-    const auto* const painted = scene.offered<const PaintLegend>();
+    const auto* const live = scene.offered<LivePaint>();
+    const std::shared_ptr<const PaintLegend> newest = live ? live->legend() : nullptr;
+    const PaintLegend* const painted = newest ? newest.get() : scene.offered<const PaintLegend>();
     if (!painted) return;
     int id = 0;
     for (const Legend& legend : painted->legends) {

@@ -2,36 +2,20 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 
 #include "app/output/length_text.h"
+#include "app/view/measured_command.h"
 #include "app/view/panel/controls.h"
-#include "engine/scene/place_reader.h"
+#include "app/view/panel/taken_lines.h"
+#include "engine/scene/live_paint.h"
 
 namespace stereonav {
 namespace {
-
-// The command that measures the same, with files of it; "" where the scene has no such command or a place has
-// no coordinates.
-std::string commandOf(const Scene& scene, const MeasuredLine& line) {
-    const auto* const reader = scene.offered<PlaceReader>();
-    if (!reader || !scene.offered<LineMeasurer>()) return "";
-    const bool area = line.closed() && line.places().size() > 2;
-    std::string text;
-    for (const glm::dvec3& place : line.places()) {
-        glm::dvec2 at(place);
-        for (const Fact& fact : reader->readPlace(place))
-            if (fact.key == "reference")
-                if (const auto* const numbers = std::get_if<FactNumbers>(&fact.value))
-                    at = {numbers->at(0), numbers->at(1)};
-        text += fmt::format("{}{:.10g},{:.10g}", text.empty() ? "" : ",", at.x, at.y);
-    }
-    return fmt::format("stereonav measure '{}' {} {} --csv measured.csv --geojson measured.geojson",
-                       scene.name, area ? "--area" : "--line", text);
-}
 
 // Heights over the distance; under the pointer the place is shown in the picture too.
 void drawProfile(PanelHost& host, const MeasuredSurface& measured) {
@@ -74,6 +58,33 @@ void drawProfile(PanelHost& host, const MeasuredSurface& measured) {
     quietText(host, fmt::format("{:.1f} to {:.1f} m, {}", low, high, lengthText(length)));
 }
 
+// Of grounds: lines of sight are told among the figures.
+void drawEyeHeight(PanelHost& host, MeasuredLine& line) {
+    const Scene& scene = *host.session()->open().scene;
+    if (line.closed() || !scene.offered<LivePaint>()) return;
+    double height = line.eyeHeight();
+    ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
+    if (ImGui::DragScalar("above the ground##sight", ImGuiDataType_Double, &height, 0.1f, nullptr, nullptr,
+                          "%.4g m") &&
+        std::isfinite(height))
+        line.setEyeHeight(std::clamp(height, 0.0, 1e6));
+    tooltip("How high both ends of the line of sight are, which joins the last two places.");
+}
+
+// Of the line, as the commands `profile` and `measure` write it.
+void drawSaving(PanelHost& host) {
+    static std::string file = "profile.svg";
+    const bool busy = host.job() && host.job()->running();
+    ImGui::SetNextItemWidth(-5 * ImGui::GetFontSize());
+    ImGui::InputTextWithHint("##measured file", "profile.svg", &file);
+    tooltip("A .svg or .csv of the profile, or a .geojson of the line with its figures.");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(busy || file.empty());
+    if (ImGui::Button("Save##measured")) host.saveMeasured(file);
+    ImGui::EndDisabled();
+    tooltip("Written beside the flight; a file that is there already is replaced, one that was read never.");
+}
+
 }  // namespace
 
 void drawMeasurePanel(PanelHost& host) {
@@ -93,6 +104,7 @@ void drawMeasurePanel(PanelHost& host) {
     if (ImGui::Checkbox("Area", &closed)) line->setClosed(closed);
     tooltip("Joins the last place to the first: three places or more.");
     ImGui::EndDisabled();
+    drawTakenLines(host);
     if (!line->problem().empty()) wrappedText(line->problem());
     if (line->places().size() < 2)
         return quietText(
@@ -101,13 +113,17 @@ void drawMeasurePanel(PanelHost& host) {
     const MeasuredSurface* const measured = line->measured();
     if (!measured) return;
     factTable(host, "measured", measured->facts);
+    drawEyeHeight(host, *line);
     drawProfile(host, *measured);
-    const std::string command = commandOf(*host.session()->open().scene, *line);
+    const std::string where = measuredWords(*host.session()->open().scene, *line);
     if (ImGui::Button("Copy figures")) host.copy(linesOf(measured->facts));
-    if (command.empty()) return;
+    if (where.empty()) return;
     ImGui::SameLine();
-    if (ImGui::Button("Copy command")) host.copy(command);
+    if (ImGui::Button("Copy command"))
+        host.copy(fmt::format("stereonav measure {} {} --csv measured.csv --geojson measured.geojson",
+                              shellWord(host.session()->open().scene->name), where));
     tooltip("Measures the same without a window, and writes it as CSV and GeoJSON.");
+    drawSaving(host);
 }
 
 }  // namespace stereonav

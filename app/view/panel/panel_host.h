@@ -136,6 +136,14 @@ public:
     virtual FindingList* findings() { return nullptr; }
     virtual void addFinding(const glm::dvec3& /*place*/) {}
     virtual void writeFindingsPage(const std::filesystem::path& /*file*/) {}  // failures are told
+    // Into a file of what is measured, by its name: .csv and .svg of the profile, .geojson. Failures are
+    // told.
+    virtual void saveMeasured(const std::string& /*file*/) {}
+    // Clicks on the picture paint what is seen from there, so high above the ground; none: they do not.
+    virtual std::optional<double> seesFromClicks() const { return std::nullopt; }
+    virtual void seeFromClicks(const std::optional<double>& /*height*/) {}
+    // Paint that is being worked out, once one waits for it.
+    virtual std::optional<PaintWork> painting() const { return std::nullopt; }
     virtual bool canUndo() const = 0;
     virtual bool canRedo() const = 0;
     virtual void undo() = 0;

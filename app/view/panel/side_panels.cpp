@@ -12,6 +12,7 @@
 
 #include "app/view/panel/comfort_meter.h"
 #include "app/view/panel/controls.h"
+#include "app/view/panel/ground_paint_panel.h"
 #include "app/view/panel/legend.h"
 #include "app/view/panel/path_panel.h"
 #include "app/view/status.h"
@@ -113,6 +114,7 @@ void drawLight(PanelHost& host, ViewSession& session, SunPanel& sun) {
 void drawMaterial(PanelHost& host, ViewSession& session, TransferPanel& transfer) {
     if (TransferPanel::has(host)) transfer.draw(host);
     drawOptions(host, OptionPanel::Material);
+    drawGroundPaint(host, *session.open().scene);
     drawLegend(host, *session.open().scene);
     const auto* const surface = session.open().scene->offered<SurfaceChoices>();
     if (!surface) return;

@@ -92,6 +92,16 @@ void askForScreen(PanelHost& host, float wrap) {
     tooltip("It is not asked again.");
 }
 
+void drawPainting(PanelHost& host, const PaintWork& work, float wrap) {
+    wrappedText(work.what.empty() ? "painting the ground" : work.what, wrap);
+    // What does not tell how far it is has no figure.
+    ImGui::ProgressBar(static_cast<float>(work.fraction), {std::min(wrap, 20 * ImGui::GetFontSize()), 0},
+                       work.fraction > 0 ? nullptr : "");
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel##paint"))
+        if (auto* const paint = host.session()->open().scene->offered<LivePaint>()) paint->cancel();
+}
+
 }  // namespace
 
 float drawStatusBar(PanelHost& host, float left, float right) {
@@ -147,7 +157,9 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
     const bool waits = loading.busy && (host.loadingSeconds() > kPatience || !session);
     const Job* const job = host.job() && host.job()->running() ? host.job() : nullptr;
     const bool asks = asksForScreen(host);
-    if (notice.empty() && host.failure().empty() && !waits && !job && !host.readingSlices() && !asks) return;
+    const std::optional<PaintWork> painting = host.painting();
+    const bool works = waits || job || host.readingSlices() || painting;
+    if (notice.empty() && host.failure().empty() && !works && !asks) return;
     const float wrap =
         std::max(std::min(width - 2 * margin, 46 * ImGui::GetFontSize()) - 4 * ImGui::GetFontSize(), 60.0f);
     ImGui::SetNextWindowPos({left + width / 2, top + margin}, ImGuiCond_Always, {0.5f, 0});
@@ -179,6 +191,7 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
         ImGui::SameLine();
         if (ImGui::Button("Cancel##slices")) host.cancelSlices();
     }
+    if (painting) drawPainting(host, *painting, wrap);
     if (asks) askForScreen(host, wrap);
     if (job) {
         wrappedText(job->what(), wrap);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "app/view/panel/controls.h"
+#include "app/view/panel/ground_paint_panel.h"
 
 namespace stereonav {
 namespace {
@@ -161,6 +162,7 @@ void SunPanel::draw(PanelHost& host) {
     // What is computed anew for each place of the sun is, once it is let go.
     if (host.live(*option) ? changed : done) host.set(option->key, text);
     quietText(host, describe(mThen));
+    drawHoursButton(host, dateText(*mClock));
     if (host.valueOf(*option).value_or("") != text) {
         const auto given = host.settings().find(option->key);
         const bool isSet = given != host.settings().end() && given->second.back() == text;

@@ -1,0 +1,15 @@
+// The measured line as the commands `measure` and `profile` take it.
+#pragma once
+
+#include <string>
+
+#include "app/view/measured_line.h"
+#include "engine/scene/scene.h"
+
+namespace stereonav {
+
+// "--line=x,y,..." in the reference system of the scene's file; "" where the scene has no such commands, or a
+// place has no coordinates.
+std::string measuredWords(const Scene& scene, const MeasuredLine& line);
+
+}  // namespace stereonav

@@ -1,0 +1,95 @@
+#include "app/view/panel/ground_paint_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+#include "app/view/panel/controls.h"
+#include "engine/scene/capabilities.h"
+#include "engine/scene/live_paint.h"
+#include "engine/text/number.h"
+
+namespace stereonav {
+namespace {
+
+// Of the slider: from its left end there are none so far, then intervals from a metre on as a logarithm.
+constexpr float kNoneShare = 0.04f;
+constexpr double kMostInterval = 1000;  // metres
+
+double intervalAt(float share) {
+    if (share < kNoneShare) return 0;
+    return std::pow(kMostInterval, double(share - kNoneShare) / (1 - kNoneShare));
+}
+
+float shareOf(double interval) {
+    if (!(interval > 0)) return 0;
+    const double share = std::log(interval) / std::log(kMostInterval);
+    return kNoneShare + (1 - kNoneShare) * static_cast<float>(std::clamp(share, 0.0, 1.0));
+}
+
+void drawInterval(PanelHost& host, const LivePaint& paint) {
+    const std::string text = paint.now("contours");
+    const auto number = numberOf(text);
+    const double interval = number.value_or(0);
+    const std::string shown = interval > 0             ? fmt::format("contours every {:.4g} m", interval)
+                              : text.empty() || number ? "contours: none"
+                                                       : "contours: " + text;
+    float share = shareOf(interval);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (ImGui::SliderFloat("##interval", &share, 0, 1, shown.c_str(),
+                           ImGuiSliderFlags_NoRoundToFormat | ImGuiSliderFlags_NoInput))
+        host.set("contours", fmt::format("{:.0f}", intervalAt(share)));
+    tooltip("Metres between contour lines, changed as it is dragged; at the left end there are none.");
+}
+
+void drawSeenFrom(PanelHost& host, LivePaint& paint) {
+    static double height = 2;
+    bool on = host.seesFromClicks().has_value();
+    ImGui::BeginDisabled(!paint.takes("paint", "viewshed:0,0"));
+    bool changed = ImGui::Checkbox("Clicks paint what is seen", &on);
+    tooltip(
+        "From each place that is clicked on the ground, while nothing moves. What is hidden from there is "
+        "darker.");
+    ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
+    if (ImGui::DragScalar("above the ground##seen", ImGuiDataType_Double, &height, 0.1f, nullptr, nullptr,
+                          "%.4g m")) {
+        height = std::isfinite(height) ? std::clamp(height, 0.0, 1e6) : 2;
+        changed = true;
+    }
+    tooltip("How high the eye is that looks from there.");
+    if (changed) host.seeFromClicks(on ? std::optional(height) : std::nullopt);
+    if (ImGui::Button("What is seen from here"))
+        paint.askSeenFrom(glm::dvec2(host.session()->pose().position), height);
+    ImGui::EndDisabled();
+    tooltip("From the ground under the eyes, so high above it.");
+    if (paint.now("paint").empty()) return;
+    ImGui::SameLine();
+    if (ImGui::Button("None##paint")) host.set("paint", std::nullopt);
+    tooltip("Takes what is painted away.");
+}
+
+}  // namespace
+
+void drawGroundPaint(PanelHost& host, const Scene& scene) {
+    auto* const paint = scene.offered<LivePaint>();
+    if (!paint) return;
+    drawInterval(host, *paint);
+    drawSeenFrom(host, *paint);
+}
+
+void drawHoursButton(PanelHost& host, const std::string& date) {
+    const Scene& scene = *host.session()->open().scene;
+    const auto* const paint = scene.offered<LivePaint>();
+    if (!paint || !scene.offered<OnEarth>()) return;
+    const std::string text = "hours:" + date;
+    ImGui::BeginDisabled(!paint->takes("paint", text) || paint->now("paint") == text);
+    if (ImGui::Button("Paint hours of sun")) host.set("paint", text);
+    ImGui::EndDisabled();
+    tooltip(
+        "How long the sun reaches each place of the ground on this day; it is worked out beside the flight.");
+}
+
+}  // namespace stereonav

@@ -1,0 +1,79 @@
+// The viewer's part that exchanges what is painted on the ground, and names what is painted there.
+#include <fmt/format.h>
+
+#include "app/view/measured_command.h"
+#include "app/view/raised_ground.h"
+#include "app/view/viewer.h"
+#include "engine/base/error.h"
+#include "engine/scene/live_paint.h"
+
+namespace stereonav {
+
+// What is worked out beside the frames has come, or could not be had.
+void Viewer::followPaint() {
+    auto* const paint = mScene->scene->offered<LivePaint>();
+    if (!paint) return;
+    if (!paint->work()) mPaintWatch.lap_ms();
+    if (const std::string problem = paint->takeProblem(); !problem.empty()) mFailure = problem;
+    if (paint->version() == mPaintSeen) return;
+    mPaintSeen = paint->version();
+    mFacts.reset();  // they tell what is painted
+    mLayoutDue = true;
+}
+
+std::optional<PaintWork> Viewer::painting() const {
+    constexpr double kPatience_ms = 500;
+    const auto* const paint = mScene ? mScene->scene->offered<LivePaint>() : nullptr;
+    return paint && mPaintWatch.elapsed_ms() > kPatience_ms ? paint->work() : std::nullopt;
+}
+
+void Viewer::seeFromHere() {
+    auto* const paint = mScene->scene->offered<LivePaint>();
+    if (!paint) return;
+    const auto world = pointedWorld();
+    if (!world) return mSession->notify("nothing is under the pointer");
+    if (!paint->takes("paint", "viewshed:0,0"))
+        return mSession->notify("the ground has other colours now: set paint to none first");
+    paint->askSeenFrom(glm::dvec2(*world), *mSeesFrom);
+}
+
+// Kept places, as high over the ground as they were; and those of tracks, whose marks say where they are.
+std::vector<Bookmark> Viewer::namedPlaces() const {
+    std::vector<Bookmark> places;
+    if (mPlaces)
+        for (const Bookmark& place : mPlaces->list()) places.push_back(placeNow(place, *mScene->scene));
+    const auto* const paint = mScene->scene->offered<LivePaint>();
+    if (!paint) return places;
+    for (const PaintedPlace& painted : paint->legend()->places) {
+        if (painted.name.empty()) continue;
+        Bookmark place;
+        place.name = painted.name;
+        place.pose.position = painted.world;
+        places.push_back(std::move(place));
+    }
+    return places;
+}
+
+void Viewer::saveMeasured(const std::string& file) {
+    tryTo([&] {
+        checkNoJob();
+        const std::filesystem::path place = std::filesystem::absolute(file).lexically_normal();
+        const std::string kind = place.extension();
+        const bool profile = kind == ".svg" || kind == ".csv";
+        if (!profile && kind != ".geojson")
+            throw Error(file, "", "expected a name that ends in .svg, .csv or .geojson", "as in profile.svg");
+        if (profile && mMeasured.closed())
+            throw Error(file, "", "an area has no profile", "name a .geojson, or take Area away");
+        SettingTexts settings;
+        for (const char* const key : {"SCENE", "open-holes"})
+            if (const auto said = this->settings().find(key); said != this->settings().end())
+                settings.insert(*said);
+        std::vector<std::string> words =
+            commandWords(profile ? command::kProfile : command::kMeasure, settings);
+        words.push_back(measuredWords(*mScene->scene, mMeasured));
+        words.push_back(fmt::format("--{}={}", kind.substr(1), place.string()));
+        startJob(place.string(), words);
+    });
+}
+
+}  // namespace stereonav

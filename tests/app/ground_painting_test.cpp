@@ -1,0 +1,189 @@
+// What is painted on a shown terrain, exchanged between frames: each exchanged paint is what the scene shows
+// that was loaded with it.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+#include "app/scene/terrain_loading.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/scene/line_measurer.h"
+#include "engine/scene/live_paint.h"
+#include "engine/scene/surface_paint.h"
+#include "tests/camera/temporary_folder.h"
+
+namespace stereonav {
+namespace {
+
+class GroundPaintingTest : public testing::Test {
+protected:
+    GroundPaintingTest() {
+        std::string text = "ncols 60\nnrows 50\nxllcorner 0\nyllcorner 0\ncellsize 10\n";
+        for (int j = 0; j < 50; ++j)
+            for (int i = 0; i < 60; ++i)
+                text += std::to_string(std::max(0, 120 - ((i - 30) * (i - 30) + (j - 25) * (j - 25)) / 4)) +
+                        (i == 59 ? "\n" : " ");
+        writeTextFile(mFolder / "hill.asc", text);
+        writeTextFile(mFolder / "walk.geojson",
+                      R"({"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"name":"walk"},"geometry":{"type":"LineString","coordinates":
+[[-250,-200],[0,0],[250,200],[900,0]]}},
+{"type":"Feature","properties":{"name":"hut"},"geometry":{"type":"Point","coordinates":[20,40]}}]})");
+    }
+    std::string walk() const { return (mFolder / "walk.geojson").string(); }
+    std::unique_ptr<Scene> loaded(const std::function<void(SceneOptions&)>& set = nullptr) {
+        SceneOptions options;
+        options.scene = (mFolder / "hill.asc").string();
+        if (set) set(options);
+        Progress progress;
+        return loadTerrainScene(options, SimdTarget::Auto, progress);
+    }
+    // As the window makes it.
+    static Plane<PackedColor> pictureOf(const Scene& scene) {
+        if (auto* const paint = scene.offered<LivePaint>()) paint->takeUp();
+        Lens lens = scene.lens;
+        lens.width = 120;
+        lens.height = 80;
+        const EyeView view = makeEyeView(poseFromAngles({0, -420, 300}, 0, -0.5, 0), lens);
+        EyePair frame;
+        scene.frames().makeOne(view, 0, frame);
+        paintEye(scene, view, frame.left);
+        return frame.left.color;
+    }
+    static bool same(const Plane<PackedColor>& a, const Plane<PackedColor>& b) {
+        for (int y = 0; y < a.height(); ++y)
+            for (int x = 0; x < a.width(); ++x)
+                if (a.at(x, y) != b.at(x, y)) return false;
+        return true;
+    }
+    static void waitFor(const LivePaint& paint) {
+        while (paint.work()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+
+    TemporaryFolder mFolder;
+};
+
+TEST_F(GroundPaintingTest, ExchangedPaintIsThatOfASceneLoadedWithIt) {
+    const auto scene = loaded();
+    LivePaint& paint = *scene->offered<LivePaint>();
+    const auto plain = pictureOf(*scene);
+    const auto shows = [&](const char* key, const std::string& text,
+                           const std::function<void(SceneOptions&)>& set) {
+        const long long before = paint.version();
+        ASSERT_TRUE(paint.takes(key, text));
+        paint.ask(key, text);
+        EXPECT_EQ(paint.now(key), text);
+        waitFor(paint);
+        EXPECT_EQ(paint.takeProblem(), "");
+        EXPECT_GT(paint.version(), before) << key;
+        const auto picture = pictureOf(*scene);
+        EXPECT_FALSE(same(picture, plain)) << key;
+        EXPECT_TRUE(same(picture, pictureOf(*loaded(set)))) << key;
+        EXPECT_FALSE(paint.legend()->legends.empty()) << key;
+        paint.ask(key, "");
+        EXPECT_EQ(paint.now(key), "");
+        EXPECT_TRUE(same(pictureOf(*scene), plain)) << key;
+        EXPECT_TRUE(paint.legend()->legends.empty()) << key;
+    };
+    shows("contours", "7", [](SceneOptions& options) { options.ground.contours_m = 7; });
+    shows("contours", "auto", [](SceneOptions& options) { options.ground.contoursAuto = true; });
+    shows("paint", "viewshed:50,50,2", [](SceneOptions& options) { options.paint = "viewshed:50,50,2"; });
+    shows("tracks", walk(), [&](SceneOptions& options) { options.ground.tracks = walk(); });
+}
+
+TEST_F(GroundPaintingTest, WhatCanNotBeHadIsToldAndThePictureStays) {
+    const auto scene = loaded([](SceneOptions& options) { options.ground.contours_m = 9; });
+    LivePaint& paint = *scene->offered<LivePaint>();
+    paint.ask("paint", "viewshed:50,50,2");
+    waitFor(paint);
+    const auto before = pictureOf(*scene);
+    const std::pair<const char*, std::string> wrong[] = {
+        {"paint", "viewshed:99999,0"}, {"paint", "hours:2026-06-21"}, {"tracks", "none.gpx"}};
+    for (const auto& [key, text] : wrong) {
+        paint.ask(key, text);
+        waitFor(paint);
+        const std::string problem = paint.takeProblem();
+        EXPECT_NE(problem, "") << text;
+        EXPECT_EQ(problem.find('\n'), std::string::npos) << problem;
+        EXPECT_EQ(paint.takeProblem(), "") << "told once";
+        EXPECT_TRUE(same(pictureOf(*scene), before)) << text;
+    }
+    EXPECT_EQ(paint.now("paint"), "viewshed:50,50,2");
+    EXPECT_EQ(paint.now("tracks"), "");
+    EXPECT_EQ(paint.now("contours"), "9");
+    EXPECT_THROW(paint.ask("contours", "many"), Error);
+}
+
+TEST_F(GroundPaintingTest, TheNewestWishCountsAndACancelKeepsWhatIsShown) {
+    const auto scene = loaded();
+    LivePaint& paint = *scene->offered<LivePaint>();
+    for (int n = 0; n < 20; ++n) paint.ask("paint", "viewshed:" + std::to_string(50 + n) + ",100,2");
+    waitFor(paint);
+    EXPECT_EQ(paint.now("paint"), "viewshed:69,100,2");
+    EXPECT_EQ(paint.takeProblem(), "");
+    paint.ask("paint", "viewshed:5,5,2");
+    paint.cancel();
+    EXPECT_FALSE(paint.work());
+    const std::string now = paint.now("paint");  // it may have been done before
+    EXPECT_TRUE(now == "viewshed:69,100,2" || now == "viewshed:5,5,2") << now;
+    paint.ask("paint", "viewshed:6,6,2");  // and the scene goes while that is worked out
+}
+
+TEST_F(GroundPaintingTest, WhatIsSeenFromAPlaceIsSaidInTheFilesCoordinates) {
+    const auto scene = loaded();
+    LivePaint& paint = *scene->offered<LivePaint>();
+    paint.askSeenFrom({12.5, -40}, 3);
+    waitFor(paint);
+    EXPECT_EQ(paint.now("paint"), "viewshed:312.5,210,3");
+    paint.askSeenFrom({1e6, 0}, 3);
+    waitFor(paint);
+    EXPECT_NE(paint.takeProblem().find("expected a place on the ground"), std::string::npos);
+    EXPECT_EQ(paint.now("paint"), "viewshed:312.5,210,3");
+}
+
+TEST_F(GroundPaintingTest, OtherColoursOfTheGroundNeedAnotherScene) {
+    const auto plain = loaded(), tinted = loaded([](SceneOptions&options) { options.paint = "slope"; });
+    EXPECT_FALSE(plain->offered<LivePaint>()->takes("paint", "slope"));
+    EXPECT_TRUE(plain->offered<LivePaint>()->takes("paint", "hours:2026-06-21"));
+    EXPECT_TRUE(plain->offered<LivePaint>()->takes("paint", ""));
+    EXPECT_FALSE(tinted->offered<LivePaint>()->takes("paint", ""));
+    EXPECT_TRUE(tinted->offered<LivePaint>()->takes("contours", "5"));
+    EXPECT_EQ(tinted->offered<LivePaint>()->now("paint"), "slope");
+}
+
+TEST_F(GroundPaintingTest, NamesAndLinesOfTracksAreTold) {
+    const auto scene = loaded([&](SceneOptions& options) { options.ground.tracks = walk(); });
+    const auto legend = scene->offered<LivePaint>()->legend();
+    ASSERT_EQ(legend->places.size(), 1u);
+    EXPECT_EQ(legend->places[0].name, "hut");
+    EXPECT_NEAR(legend->places[0].world.x, 20, 1e-9);
+    EXPECT_GT(legend->places[0].world.z, 50) << "on the hill";
+    ASSERT_EQ(legend->lines.size(), 1u);
+    EXPECT_EQ(legend->lines[0].name, "walk");
+    EXPECT_EQ(legend->lines[0].world.size(), 4u);
+    ASSERT_EQ(legend->notes.size(), 1u) << "one place lies outside";
+}
+
+TEST_F(GroundPaintingTest, LinesOfSightGoOverTheHillOrNot) {
+    for (const double scale : {1.0, 3.0}) {
+        const auto scene = loaded([&](SceneOptions& options) { options.verticalScale = scale; });
+        const auto* const measurer = scene->offered<LineMeasurer>();
+        const auto sees = [&](const glm::dvec3& from, const glm::dvec3& to, double height) {
+            const Facts facts = measurer->sight(from, to, height);
+            EXPECT_EQ(facts.size(), 1u);
+            return std::get<bool>(facts.at(0).value);
+        };
+        const glm::dvec3 west(-280, 0, 0), east(280, 0, 0), south(-280, -220, 0);
+        EXPECT_FALSE(sees(west, east, 2)) << "the hill is between";
+        EXPECT_TRUE(sees(west, east, 125)) << "it is 120 m high in the file, however it is shown";
+        EXPECT_FALSE(sees(west, east, 110));
+        EXPECT_TRUE(sees(west, south, 2)) << "beside it";
+        EXPECT_THROW(measurer->sight(west, {1e6, 0, 0}, 2), Error);
+    }
+}
+
+}  // namespace
+}  // namespace stereonav
