@@ -402,7 +402,7 @@ const FrameRequest& ViewSession::requestFor(int width, int height, double ahead,
     wanted.mode = compose().mode;
     wanted.fitEyes = mStereo.fits();
     wanted.truth = mTruth;
-    wanted.paint = mPaint;
+    wanted.paintOver = mPaint;
     wanted.version = mRequest.version + (mFresh || !sameFrame(wanted, mRequest) ? 1 : 0);
     mFresh = false;
     mRequest = wanted;

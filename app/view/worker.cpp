@@ -100,7 +100,7 @@ void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& tr
     if (auto* const paint = scene.offered<LivePaint>()) paint->takeUp();
     if (auto* const models = scene.offered<LightModels>()) models->choose(request.model);
     if (auto* const effort = scene.offered<FrameEffort>()) effort->setEffort(request.effort);
-    if (auto* const paint = scene.offered<SurfacePaint>()) paint->setOver(request.paint);
+    if (auto* const paint = scene.offered<SurfacePaint>()) paint->setOver(request.paintOver);
     EyeView view = makeEyeView(request.pose, castLens(request));
     if (request.twoEyes) {
         const FrameWay way = TruthMaker::wayOf(request.truth, request.way, scene.frames());

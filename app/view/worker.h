@@ -69,7 +69,7 @@ struct FrameRequest {
     bool flying = false;                      // something moves: a newer one comes soon
     bool late = false;                        // it will be seen from elsewhere too (ViewFrame::late)
     bool refines = false;                     // while it rests (rest_refiner.h)
-    std::shared_ptr<const EyePainter> paint;  // over what the scene is painted with; null: nothing
+    std::shared_ptr<const EyePainter> paintOver;  // over what the scene is painted with; null: nothing
 };
 
 struct ViewFrame : EyePair {
