@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "app/view/kept_file.h"
+#include "engine/camera/pose.h"
 
 namespace stereonav {
 namespace {
