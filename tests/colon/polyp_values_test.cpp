@@ -13,7 +13,7 @@
 namespace stereonav::test {
 namespace {
 
-constexpr double kAirHu = -1000, kFlesh = 55, kNoiseHu = 12;
+constexpr double kGasHu = -1000, kFlesh = 55, kNoiseHu = 12;
 
 double normal(double x) {
     return 0.5 * std::erfc(-x / std::sqrt(2.0));
@@ -54,7 +54,7 @@ struct BlurredPolyp {
                                  stalk = normal(-stalkOf(p) / sigma);
                     const double share = std::min(std::max({outside, ball, stalk}), 1.0);
                     study.at(i, j, k) = static_cast<std::int16_t>(
-                        std::lround(kAirHu + share * (kFlesh - kAirHu) + noise(study.frame.index(i, j, k))));
+                        std::lround(kGasHu + share * (kFlesh - kGasHu) + noise(study.frame.index(i, j, k))));
                 }
         std::string why;
         polyp = polypAt(wall.mesh, neighboursOf(wall.mesh), kMiddle, polypSettingOf(study.frame), why);
