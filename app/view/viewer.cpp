@@ -294,9 +294,7 @@ void Viewer::update(double dt) {
     mSettings.reset();
     mHistory.observe(settings(), panelled().active(), dt);
     followKeyframes();
-    if (mMeasured.poll()) mLayoutDue = true;
-    followCoverage();
-    if (mFindings.poll(mSession->study()) || mFindings.busy()) mLayoutDue = true;
+    followInstruments();
     followPaint();
     askFor();
     followWishes();

@@ -201,6 +201,7 @@ private:
     std::optional<glm::dvec2> pointedShare(const OutputModeInfo& mode) const;
     void copyPlace();
     void openInstruments();
+    void followInstruments();
     void measureHere();
     void followCoverage();
     void showToCoverage();

@@ -12,6 +12,12 @@ void Viewer::openInstruments() {
     mMarked.reset();
 }
 
+void Viewer::followInstruments() {
+    if (mMeasured.poll()) mLayoutDue = true;
+    followCoverage();
+    if (mFindings.poll(mSession->study()) || mFindings.busy()) mLayoutDue = true;
+}
+
 // A click means one thing.
 void Viewer::measure(bool on) {
     mMeasuring = on;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "engine/base/error.h"
 #include "engine/medium/sweep/swept_frames.h"
 #include "tests/medium/sweep_scenes.h"
 
