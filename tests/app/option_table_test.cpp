@@ -216,8 +216,8 @@ TEST_F(OptionTable, HasForACommandWhatItReads) {
               (std::set<std::string>{"SCENE", "vertical-scale", "open-holes", "threads", "image",
                                      "shade-image", "sun", "out", "error", "set", "json", "quiet"}));
     EXPECT_EQ(keysOf("centreline"),
-              (std::set<std::string>{"SCENE", "threads", "series", "label", "seed", "resample", "backwards",
-                                     "no-cache", "out", "set", "json", "quiet"}));
+              (std::set<std::string>{"SCENE", "threads", "series", "label", "seed", "fluid", "resample",
+                                     "backwards", "no-cache", "out", "set", "json", "quiet"}));
     EXPECT_FALSE(keysOf("bake").contains("simd"));
     EXPECT_FALSE(keysOf("bake").contains("fov"));
 }
