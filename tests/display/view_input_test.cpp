@@ -38,7 +38,11 @@ TEST(ViewKeys, KeysWithoutLetters) {
     EXPECT_EQ(commandOf({GLFW_KEY_F12, 0, false, false}), ViewCommand::Screenshot);
     EXPECT_EQ(commandOf({GLFW_KEY_SPACE, ' ', false, false}), ViewCommand::Home);
     EXPECT_EQ(commandOf({GLFW_KEY_3, '3', false, false}), ViewCommand::ToggleStereo);
-    EXPECT_EQ(commandOf({GLFW_KEY_F9, 0, false, false}), std::nullopt);
+    EXPECT_EQ(commandOf({GLFW_KEY_F8, 0, false, false}), ViewCommand::NextUnseen);
+    EXPECT_EQ(commandOf({GLFW_KEY_F8, 0, true, false}), ViewCommand::PreviousUnseen);
+    EXPECT_EQ(commandOf({GLFW_KEY_F9, 0, false, false}), ViewCommand::ToggleCoverage);
+    EXPECT_EQ(commandOf({GLFW_KEY_F10, 0, false, false}), ViewCommand::Unfolded);
+    EXPECT_EQ(commandOf({GLFW_KEY_F13, 0, false, false}), std::nullopt);
 }
 
 TEST(ViewKeys, LookOfVolumes) {
