@@ -61,14 +61,14 @@ struct FrameRequest {
     // The eyes may be changed to be comfortable in this picture (comfortableEyes): its own request says to
     // what.
     bool fitEyes = false;
-    TruthView truth = TruthView::None;        // in the place of the right eye
-    double scale = 1;                         // of the eyes' full size: less while something moves
-    glm::ivec2 guard{0};                      // pixels that are cast beyond the lens's, at each side
-    glm::ivec2 whole{0};                      // that size; 0: the lens's
-    double effort = 1;                        // FrameEffort, where it is offered
-    bool flying = false;                      // something moves: a newer one comes soon
-    bool late = false;                        // it will be seen from elsewhere too (ViewFrame::late)
-    bool refines = false;                     // while it rests (rest_refiner.h)
+    TruthView truth = TruthView::None;            // in the place of the right eye
+    double scale = 1;                             // of the eyes' full size: less while something moves
+    glm::ivec2 guard{0};                          // pixels that are cast beyond the lens's, at each side
+    glm::ivec2 whole{0};                          // that size; 0: the lens's
+    double effort = 1;                            // FrameEffort, where it is offered
+    bool flying = false;                          // something moves: a newer one comes soon
+    bool late = false;                            // it will be seen from elsewhere too (ViewFrame::late)
+    bool refines = false;                         // while it rests (rest_refiner.h)
     std::shared_ptr<const EyePainter> paintOver;  // over what the scene is painted with; null: nothing
 };
 
