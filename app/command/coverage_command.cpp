@@ -14,6 +14,7 @@
 #include "app/scene/scene_loading.h"
 #include "app/scene/volume_flights.h"
 #include "colon/instruments/coverage.h"
+#include "colon/instruments/shared_wall.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
@@ -80,7 +81,7 @@ int runCoverage(const CoverageOptions& options) {
     };
     const ColonFlights flights =
         colonFlights(colon, options.path, 1e-3 * options.step_mm, freeDistance, inside);
-    const WallMesh wall = wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, bar.progress());
+    const std::shared_ptr<const JoinedWall> wall = joinedWall(colon, bar.progress());
     const LineOfSight sight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue);
     CoverageSetting setting;
     setting.verticalFov = scene->lens.verticalFov;
@@ -88,7 +89,7 @@ int runCoverage(const CoverageOptions& options) {
     setting.within = 1e-3 * options.within_mm;
     setting.angle = options.angle_deg * std::numbers::pi / 180;
     setting.smallestPatch = 1e-6 * options.patch_mm2;
-    Coverage coverage(wall, sight, setting);
+    Coverage coverage(wall->mesh, wall->neighbours, sight, setting);
     coverage.look(flights.there, bar.progress());
     const double oneWay = coverage.percent();
     coverage.look(flights.back, bar.progress());
@@ -103,13 +104,13 @@ int runCoverage(const CoverageOptions& options) {
         fmt::format("{}: {:.1f} % of {:.0f} cm^2 of wall seen one way, {:.1f} % there and back, {:.1f} % "
                     "after {} views of {} "
                     "patches of at least {:g} mm^2; {}\n",
-                    scene->name, oneWay, 1e4 * wall.area(), twoWay, after, views, patches.size(),
+                    scene->name, oneWay, 1e4 * wall->mesh.area(), twoWay, after, views, patches.size(),
                     options.patch_mm2, kNoMedicalDevice));
     result.add("scene", scene->name);
     result.add("fov_deg", setting.verticalFov * 180 / std::numbers::pi);
     result.add("within_mm", options.within_mm);
     result.add("angle_deg", options.angle_deg);
-    result.add("wall_mm2", 1e6 * wall.area());
+    result.add("wall_mm2", 1e6 * wall->mesh.area());
     result.add("poses", static_cast<std::int64_t>(flights.there.size() + flights.back.size()));
     result.add("one_way_percent", oneWay);
     result.add("two_way_percent", twoWay);

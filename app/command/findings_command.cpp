@@ -119,7 +119,7 @@ int runFindings(const FindingsOptions& options) {
     if (!colon.isColon())
         throw Error(options.scene.scene, "", "no colon was found", "give --seed x,y,z inside it");
     checkNotRead({{"--csv", options.csv}, {"--page", options.page}});
-    const FindingTool tool(colon, bar.progress());
+    const FindingTool tool(colon, joinedWall(colon, bar.progress()));
     const std::vector<Finding> findings = collect(options, tool, bar.progress());
     bar.clear();
     result.say(fmt::format("{}: {} findings, C-RADS {} by size and count alone; {}\n", options.scene.scene,

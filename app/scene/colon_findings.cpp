@@ -57,7 +57,7 @@ SurfaceFinding ColonFindings::at(const glm::dvec3& place, const std::string& com
 
 // Under the mutex.
 FindingTool& ColonFindings::tool(const std::shared_ptr<const SliceStudy>& study, Progress& progress) const {
-    if (!mTool) mTool = std::make_unique<FindingTool>(mColon, progress);
+    if (!mTool) mTool = std::make_unique<FindingTool>(mColon, mWall.get(progress));
     if (study && study != mStudy && !study->ofMask) {
         mTool->useStudy(study->grey);
         mStudy = study;

@@ -13,8 +13,8 @@ namespace stereonav {
 // Holds nothing until something is measured.
 class ColonFindings final : public SurfaceFindings {
 public:
-    // A colon, which must outlive it.
-    explicit ColonFindings(const ColonScene& colon) : mColon(colon) {}
+    // A colon and its wall, which must outlive it.
+    ColonFindings(const ColonScene& colon, const SharedWall& wall) : mColon(colon), mWall(wall) {}
 
     SurfaceFinding at(const glm::dvec3& place, const std::string& comment) const override;
     SurfaceFinding measured(const SurfaceFinding& finding, const std::shared_ptr<const SliceStudy>& study,
@@ -35,6 +35,7 @@ private:
     SurfaceFinding shown(Finding finding) const;
 
     const ColonScene& mColon;
+    const SharedWall& mWall;
     mutable std::mutex mMutex;  // of what follows, which is made by the first measuring
     mutable std::unique_ptr<FindingTool> mTool;
     mutable std::shared_ptr<const SliceStudy> mStudy;  // that mTool tells values of

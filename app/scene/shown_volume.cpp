@@ -144,7 +144,7 @@ void ShownVolume::setPaint(std::vector<std::shared_ptr<const EyePainter>> painte
 void ShownVolume::offerPaint() {
     const ColonInterior* const inside = mWorld->side().interior();
     if (!inside || mRenderer.translucent()) return;
-    mWall = std::make_unique<VolumeCoverage>(mWorld->colon(), *inside);
+    mWall = std::make_unique<VolumeCoverage>(mWorld->colon(), *inside, mWorld->wall());
     offer(mPaint);
     offer(*mWall);
 }

@@ -1,6 +1,6 @@
 #include "app/scene/volume_coverage.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "app/scene/volume_flights.h"
 #include "colon/instruments/coverage.h"
@@ -19,13 +19,13 @@ CoverageSetting settingOf(const WallLooking& looking) {
 
 class SeenOfColon final : public WallSeen {
 public:
-    SeenOfColon(const ColonScene& colon, const ColonInterior& inside, const WallLooking& looking,
-                Progress& progress)
+    SeenOfColon(const ColonScene& colon, const ColonInterior& inside, std::shared_ptr<const JoinedWall> wall,
+                const WallLooking& looking)
         : mColon(colon),
           mInside(inside),
-          mWall(wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, progress)),
+          mWall(std::move(wall)),
           mSight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue),
-          mCoverage(mWall, mSight, settingOf(looking)) {}
+          mCoverage(mWall->mesh, mWall->neighbours, mSight, settingOf(looking)) {}
 
     void look(std::span<const EyeView> eyes, Progress& progress) override { mCoverage.look(eyes, progress); }
     void judgeBy(const WallLooking& looking) override { mCoverage.startAgain(settingOf(looking)); }
@@ -42,14 +42,14 @@ public:
     }
 
     std::shared_ptr<const EyePainter> painter() const override {
-        return wallPainter(mWall, mCoverage.neighbours(), mColon.volume.field.frame,
+        return wallPainter(mWall->mesh, mWall->neighbours, mColon.volume.field.frame,
                            unseenMarks(mCoverage.seen()), kUnseenTint);
     }
 
 private:
     const ColonScene& mColon;
     const ColonInterior& mInside;
-    WallMesh mWall;
+    std::shared_ptr<const JoinedWall> mWall;
     LineOfSight mSight;
     Coverage mCoverage;
 };
@@ -57,7 +57,7 @@ private:
 }  // namespace
 
 std::unique_ptr<WallSeen> VolumeCoverage::begin(const WallLooking& looking, Progress& progress) const {
-    return std::make_unique<SeenOfColon>(mColon, mInside, looking, progress);
+    return std::make_unique<SeenOfColon>(mColon, mInside, mWall.get(progress), looking);
 }
 
 std::vector<Pose> VolumeCoverage::ownFlight(bool back) const {

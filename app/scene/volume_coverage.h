@@ -2,14 +2,16 @@
 #pragma once
 
 #include "app/scene/volume_inside.h"
+#include "colon/instruments/shared_wall.h"
 #include "engine/scene/wall_to_see.h"
 
 namespace stereonav {
 
 class VolumeCoverage final : public WallToSee {
 public:
-    // Both must outlive it, and all that it begins.
-    VolumeCoverage(const ColonScene& colon, const ColonInterior& inside) : mColon(colon), mInside(inside) {}
+    // They must outlive it, and all that it begins.
+    VolumeCoverage(const ColonScene& colon, const ColonInterior& inside, const SharedWall& wall)
+        : mColon(colon), mInside(inside), mWall(wall) {}
 
     std::unique_ptr<WallSeen> begin(const WallLooking& looking, Progress& progress) const override;
     std::vector<Pose> ownFlight(bool back) const override;
@@ -17,6 +19,7 @@ public:
 private:
     const ColonScene& mColon;
     const ColonInterior& mInside;
+    const SharedWall& mWall;
 };
 
 }  // namespace stereonav

@@ -1,12 +1,12 @@
 #include "app/scene/volume_flat_wall.h"
 
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "colon/instruments/polyp.h"
 #include "colon/instruments/registration.h"
 #include "colon/instruments/unfolding.h"
 #include "colon/wall/line_of_sight.h"
-#include "colon/wall/wall_mesh.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -14,11 +14,10 @@ namespace {
 
 class ColonFlatPicture final : public FlatPicture {
 public:
-    ColonFlatPicture(const ColonScene& colon, Progress& progress)
+    ColonFlatPicture(const ColonScene& colon, std::shared_ptr<const JoinedWall> wall, Progress& progress)
         : mColon(colon),
-          mMesh(wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, progress)),
-          mNeighbours(neighboursOf(mMesh)),
-          mFlat(mMesh, mNeighbours, colon.centreline,
+          mWall(std::move(wall)),
+          mFlat(mWall->mesh, mWall->neighbours, colon.centreline,
                 LineOfSight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue), UnfoldSetting{},
                 progress) {}
 
@@ -48,22 +47,21 @@ public:
     }
 
     std::optional<glm::dvec2> pixelOf(const glm::dvec3& world, double within) const override {
-        const std::uint32_t vertex = nearestVertex(mMesh, world);
-        if (glm::distance(glm::dvec3(mMesh.places[vertex]), world) > within) return std::nullopt;
+        const std::uint32_t vertex = nearestVertex(mWall->mesh, world);
+        if (glm::distance(glm::dvec3(mWall->mesh.places[vertex]), world) > within) return std::nullopt;
         return mFlat.pixelOf(vertex);
     }
 
 private:
     const ColonScene& mColon;
-    WallMesh mMesh;
-    WallNeighbours mNeighbours;
+    std::shared_ptr<const JoinedWall> mWall;
     UnfoldedWall mFlat;
 };
 
 }  // namespace
 
 std::shared_ptr<const FlatPicture> VolumeFlatWall::makeFlat(Progress& progress) const {
-    return std::make_shared<const ColonFlatPicture>(mColon, progress);
+    return std::make_shared<const ColonFlatPicture>(mColon, mWall.get(progress), progress);
 }
 
 }  // namespace stereonav

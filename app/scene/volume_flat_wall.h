@@ -1,19 +1,20 @@
 // A colon's wall laid flat, for the window.
 #pragma once
 
-#include "colon/scene/colon_scene.h"
+#include "colon/instruments/shared_wall.h"
 #include "engine/scene/flat_wall.h"
 
 namespace stereonav {
 
 class VolumeFlatWall final : public FlatWall {
 public:
-    // A colon, which must outlive it and its pictures.
-    explicit VolumeFlatWall(const ColonScene& colon) : mColon(colon) {}
+    // A colon, which must outlive it and its pictures, and its wall.
+    VolumeFlatWall(const ColonScene& colon, const SharedWall& wall) : mColon(colon), mWall(wall) {}
     std::shared_ptr<const FlatPicture> makeFlat(Progress& progress) const override;
 
 private:
     const ColonScene& mColon;
+    const SharedWall& mWall;
 };
 
 }  // namespace stereonav

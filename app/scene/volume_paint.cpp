@@ -7,8 +7,8 @@
 #include "app/options/paint_words.h"
 #include "app/scene/volume_flights.h"
 #include "colon/instruments/coverage.h"
+#include "colon/instruments/shared_wall.h"
 #include "colon/instruments/wall_painter.h"
-#include "colon/wall/wall_mesh.h"
 #include "engine/base/error.h"
 
 namespace stereonav {
@@ -18,7 +18,7 @@ constexpr double kIntoLumen = 1.5;  // of the smallest spacing, from the wall, w
 constexpr double kDry = -200;       // HU: more is fluid where the lumen is
 
 // By vertex: 1 where the flight did not show the wall.
-std::vector<float> unseenOf(const VolumeWorld& world, const ColonInterior& inside, const WallMesh& wall,
+std::vector<float> unseenOf(const VolumeWorld& world, const ColonInterior& inside, const JoinedWall& wall,
                             const std::string& which, double verticalFov, Progress& progress) {
     const ColonScene& colon = world.colon();
     const auto freeDistance = [&](const glm::dvec3& place, double upTo) {
@@ -29,7 +29,7 @@ std::vector<float> unseenOf(const VolumeWorld& world, const ColonInterior& insid
     const LineOfSight sight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue);
     CoverageSetting setting;
     setting.verticalFov = verticalFov;
-    Coverage coverage(wall, sight, setting);
+    Coverage coverage(wall.mesh, wall.neighbours, sight, setting);
     coverage.look(flights.there, progress);
     if (both) coverage.look(flights.back, progress);
     return unseenMarks(coverage.seen());
@@ -78,8 +78,8 @@ std::vector<std::shared_ptr<const EyePainter>> wallPainters(VolumeWorld& world, 
     if (!inside)
         throw Error(fluid ? "--fluid" : "--paint", "", "expected a colon, whose wall is painted",
                     "leave it out");
-    const WallMesh wall = wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, progress);
-    const WallNeighbours neighbours = neighboursOf(wall);
+    const std::shared_ptr<const JoinedWall> joined = world.wall().get(progress);
+    const WallMesh& wall = joined->mesh;
     std::vector<std::shared_ptr<const EyePainter>> painters;
     if (fluid) {
         const std::vector<float> marks = fluidOf(colon, wall);
@@ -87,14 +87,16 @@ std::vector<std::shared_ptr<const EyePainter>> wallPainters(VolumeWorld& world, 
             fmt::format("{:.1f} % of the wall was under tagged fluid: it is tinted green, and is to be "
                         "checked in the slices",
                         percentOf(wall, marks)));
-        painters.push_back(wallPainter(wall, neighbours, colon.volume.field.frame, marks, kFluidTint));
+        painters.push_back(
+            wallPainter(wall, joined->neighbours, colon.volume.field.frame, marks, kFluidTint));
     }
     if (!options.paint.empty()) {
         const std::vector<float> marks =
-            unseenOf(world, *inside, wall, paintAskedOf(options.paint).rest, verticalFov, progress);
+            unseenOf(world, *inside, *joined, paintAskedOf(options.paint).rest, verticalFov, progress);
         colon.notes.push_back(
             fmt::format("{:.1f} % of the wall is not seen: it is tinted blue", percentOf(wall, marks)));
-        painters.push_back(wallPainter(wall, neighbours, colon.volume.field.frame, marks, kUnseenTint));
+        painters.push_back(
+            wallPainter(wall, joined->neighbours, colon.volume.field.frame, marks, kUnseenTint));
     }
     return painters;
 }

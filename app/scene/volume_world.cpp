@@ -68,8 +68,7 @@ VolumeWorld::VolumeWorld(ColonScene colon, const SceneOptions& options)
       mOptions(colonOptionsOf(options)),
       mSide(sideOf(mColon)),
       mFollows(!options.separation_m && !options.zeroParallax_m),
-      mBox(boxOf(mColon.volume.field.frame)),
-      mFindings(mColon) {}
+      mBox(boxOf(mColon.volume.field.frame)) {}
 
 void VolumeWorld::setViews(const SceneOptions& options, Scene& scene) {
     scene.lens = mColon.lens;

@@ -34,6 +34,7 @@ public:
 
     ColonScene& colon() { return mColon; }
     const ColonScene& colon() const { return mColon; }
+    const SharedWall& wall() const { return mSharedWall; }  // where it is a colon
     const VolumeSide& side() const { return *mSide; }
     // Calls offer(capability) for each that it has, however its frames are made.
     template <typename Offer>
@@ -77,9 +78,11 @@ private:
     bool mFollows = false;
     const EyeRenderer* mWall = nullptr;
     SceneBox mBox;
-    ColonFindings mFindings;           // of mColon
-    VolumeFlatWall mFlatWall{mColon};  // where it is a colon
-    VolumeLine mLine{mColon};          // there too
+    // Where it is a colon:
+    SharedWall mSharedWall{mColon};
+    ColonFindings mFindings{mColon, mSharedWall};
+    VolumeFlatWall mFlatWall{mColon, mSharedWall};
+    VolumeLine mLine{mColon};
 };
 
 }  // namespace stereonav

@@ -39,10 +39,10 @@ Pose lookingAt(const glm::dvec3& eye, const glm::dvec3& target) {
 
 }  // namespace
 
-Coverage::Coverage(const WallMesh& mesh, const LineOfSight& sight, const CoverageSetting& setting)
-    : mMesh(mesh), mSight(sight), mSetting(setting), mSeen(mesh.places.size(), 0) {
+Coverage::Coverage(const WallMesh& mesh, const WallNeighbours& neighbours, const LineOfSight& sight,
+                   const CoverageSetting& setting)
+    : mMesh(mesh), mNeighbours(neighbours), mSight(sight), mSetting(setting), mSeen(mesh.places.size(), 0) {
     check(setting);
-    mNeighbours = neighboursOf(mesh);
     makeChunks();
 }
 

@@ -42,8 +42,9 @@ public:
     // Distance free of wall around a place, metres, at most upTo (ColonScene::freeDistanceAt).
     using FreeDistance = std::function<double(const glm::dvec3& world, double upTo)>;
 
-    // mesh and sight must outlive it. Nothing is seen yet. Throws Error for settings out of range.
-    Coverage(const WallMesh& mesh, const LineOfSight& sight, const CoverageSetting& setting);
+    // All but the setting must outlive it. Nothing is seen yet. Throws Error for settings out of range.
+    Coverage(const WallMesh& mesh, const WallNeighbours& neighbours, const LineOfSight& sight,
+             const CoverageSetting& setting);
 
     // Adds what is seen from these, by the setting's field of view. The same on any number of threads, and in
     // any order. Throws Cancelled.
@@ -55,7 +56,6 @@ public:
 
     double percent() const;  // of the wall's area; 0 of a wall without area
     const std::vector<std::uint8_t>& seen() const { return mSeen; }  // by vertex, 0 or 1
-    const WallNeighbours& neighbours() const { return mNeighbours; }
 
     // Those of at least the set size, largest first, with their views. clearance: metres that the eye keeps.
     std::vector<UnseenPatch> patches(const FreeDistance& freeDistance, double clearance) const;
@@ -82,9 +82,9 @@ private:
                                double clearance) const;
 
     const WallMesh& mMesh;
+    const WallNeighbours& mNeighbours;
     const LineOfSight& mSight;
     CoverageSetting mSetting;
-    WallNeighbours mNeighbours;
     std::vector<Chunk> mChunks;
     std::vector<std::uint8_t> mSeen;
 };

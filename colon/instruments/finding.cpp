@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "colon/instruments/candidates.h"
 
@@ -15,9 +16,9 @@ namespace {
 constexpr double kMm = 1e-3;
 constexpr double kRectum = 150 * kMm, kCaecum = 60 * kMm, kFlexure = 30 * kMm;
 
-// Distances along the line of its landmarks.
 constexpr double kLeastWidth = 0.1;  // metres from side to side: what is narrower is no frame of a colon
 
+// Distances along the line of its landmarks.
 struct Landmarks {
     double descending = 0, splenic = 0, hepatic = 0, length = 0;
     bool found = false;
@@ -71,24 +72,22 @@ bool Finding::right() const {
     return polyp && std::abs(diameter() - truth->diameter) <= std::max(1 * kMm, 0.1 * truth->diameter);
 }
 
-FindingTool::FindingTool(const ColonScene& colon, Progress& progress)
-    : mColon(colon),
-      mWall(wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, progress)),
-      mNeighbours(neighboursOf(mWall)) {
+FindingTool::FindingTool(const ColonScene& colon, std::shared_ptr<const JoinedWall> wall)
+    : mColon(colon), mWall(std::move(wall)) {
     if (!colon.study.empty()) useStudy(colon.study);
 }
 
 void FindingTool::useStudy(const GreyVolume& study) {
     mStudy = &study;
-    mBlur = blurAcrossWall(study, mWall);
+    mBlur = blurAcrossWall(study, wall());
 }
 
 Finding FindingTool::at(const glm::dvec3& place) const {
     Finding finding;
     finding.asked = place;
-    finding.polyp =
-        polypAt(mWall, mNeighbours, place, polypSettingOf(mColon.volume.field.frame), finding.problem);
-    if (finding.polyp && mBlur) finding.values = valuesInside(*mStudy, mWall, *finding.polyp, *mBlur);
+    finding.polyp = polypAt(mWall->mesh, mWall->neighbours, place, polypSettingOf(mColon.volume.field.frame),
+                            finding.problem);
+    if (finding.polyp && mBlur) finding.values = valuesInside(*mStudy, wall(), *finding.polyp, *mBlur);
     const glm::dvec3 where = finding.polyp ? finding.polyp->middle : place;
     finding.along = alongLine(mColon.centreline, where);
     finding.segment = colonSegmentAt(mColon.centreline, finding.along);
@@ -108,9 +107,9 @@ std::vector<Finding> FindingTool::candidates(Progress& progress) const {
     std::vector<Finding> findings;
     CandidateSetting setting;
     setting.polyp = polypSettingOf(mColon.volume.field.frame);
-    for (const Candidate& candidate : polypCandidates(mWall, mNeighbours, setting, &progress)) {
+    for (const Candidate& candidate : polypCandidates(mWall->mesh, mWall->neighbours, setting, &progress)) {
         progress.report(1, "measuring candidates");
-        findings.push_back(at(glm::dvec3(mWall.places[candidate.polyp.tip])));
+        findings.push_back(at(glm::dvec3(wall().places[candidate.polyp.tip])));
         findings.back().comment =
             fmt::format("candidate {}, score {:.2f} mm", findings.size(), 1e3 * candidate.score);
     }

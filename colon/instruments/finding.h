@@ -9,8 +9,8 @@
 #include "colon/centreline/centreline.h"
 #include "colon/instruments/polyp.h"
 #include "colon/instruments/polyp_values.h"
+#include "colon/instruments/shared_wall.h"
 #include "colon/scene/colon_scene.h"
-#include "colon/wall/wall_mesh.h"
 
 namespace stereonav {
 
@@ -33,8 +33,8 @@ struct Finding {
 
 class FindingTool {
 public:
-    // colon must outlive it. Values are those of its `study`, where it has one.
-    FindingTool(const ColonScene& colon, Progress& progress);
+    // colon must outlive it; wall: its own. Values are those of its `study`, where it has one.
+    FindingTool(const ColonScene& colon, std::shared_ptr<const JoinedWall> wall);
 
     // Values are those of this study from now on, which must outlive it.
     void useStudy(const GreyVolume& study);
@@ -45,12 +45,11 @@ public:
     // Places that look like polyps (candidates.h), with a comment that says so.
     std::vector<Finding> candidates(Progress& progress) const;
 
-    const WallMesh& wall() const { return mWall; }
+    const WallMesh& wall() const { return mWall->mesh; }
 
 private:
     const ColonScene& mColon;
-    WallMesh mWall;
-    WallNeighbours mNeighbours;
+    std::shared_ptr<const JoinedWall> mWall;
     const GreyVolume* mStudy = nullptr;  // null: it has no values
     std::optional<double> mBlur;         // of mStudy across the wall, metres
 };

@@ -7,12 +7,21 @@
 #include "engine/base/parallel.h"
 
 namespace stereonav {
+namespace {
+
+constexpr float kFaintest = 0.35f, kFull = 0.65f;  // marks: from here on they are drawn; in full
+
+}  // namespace
+
+glm::vec3 WallPainter::tinted(float mark, const glm::vec3& color) const {
+    const glm::vec3 luminance(0.2126f, 0.7152f, 0.0722f);
+    return glm::mix(color, glm::dot(color, luminance) * mTint,
+                    0.8f * glm::smoothstep(kFaintest, kFull, mark));
+}
 
 glm::vec3 WallPainter::paintPlace(const glm::dvec3& world, const glm::vec3& color) const {
-    const glm::vec3 luminance(0.2126f, 0.7152f, 0.0722f);
     const float mark = mMarks->at(world);
-    if (mark <= 0.35f) return color;
-    return glm::mix(color, glm::dot(color, luminance) * mTint, 0.8f * glm::smoothstep(0.35f, 0.65f, mark));
+    return mark > kFaintest ? tinted(mark, color) : color;
 }
 
 void WallPainter::paint(const EyeView& view, EyeImage& image) const {
@@ -21,10 +30,10 @@ void WallPainter::paint(const EyeView& view, EyeImage& image) const {
         for (int x = 0; x < image.width(); ++x) {
             const float depth = image.viewDepth.at(x, y);
             if (!(depth > 0) || !std::isfinite(depth)) continue;
+            const float mark = mMarks->at(view.pointAt(x + 0.5, y + 0.5, depth));
+            if (!(mark > kFaintest)) continue;
             PackedColor& color = image.color.at(x, y);
-            const glm::vec3 was = unpackColor(color),
-                            now = paintPlace(view.pointAt(x + 0.5, y + 0.5, depth), was);
-            if (now != was) color = packColor(now);
+            color = packColor(tinted(mark, unpackColor(color)));
         }
     });
 }

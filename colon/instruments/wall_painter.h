@@ -20,6 +20,8 @@ public:
     glm::vec3 paintPlace(const glm::dvec3& world, const glm::vec3& color) const override;
 
 private:
+    glm::vec3 tinted(float mark, const glm::vec3& color) const;
+
     std::shared_ptr<const WallMarks> mMarks;
     glm::vec3 mTint;
 };

@@ -60,13 +60,13 @@ TEST(Coverage, OfATubeFromItsAxisIsKnown) {
         setting.verticalFov = degrees * kCoveragePi / 180;
         setting.within = 0.03;
         setting.angle = kCoveragePi / 2;
-        Coverage byDistance(tube().mesh, sight, setting);
+        Coverage byDistance(tube().mesh, tube().neighbours, sight, setting);
         byDistance.look({&eye, 1}, progress);
         const double reach = std::sqrt(setting.within * setting.within - kRadius * kRadius);
         EXPECT_NEAR(seenArea(tube(), byDistance) / sideSeen(setting.verticalFov, reach), 1, 0.01) << degrees;
         setting.within = 1;
         setting.angle = 70 * kCoveragePi / 180;
-        Coverage byAngle(tube().mesh, sight, setting);
+        Coverage byAngle(tube().mesh, tube().neighbours, sight, setting);
         byAngle.look({&eye, 1}, progress);
         const double slant = kRadius * std::tan(setting.angle);
         EXPECT_NEAR(seenArea(tube(), byAngle) / sideSeen(setting.verticalFov, slant), 1, 0.025) << degrees;
@@ -79,7 +79,7 @@ TEST(Coverage, WideAndTallPicturesShowWhatTheyFrame) {
     Progress progress;
     CoverageSetting setting;
     setting.aspect = 3;
-    Coverage wide(tube().mesh, sight, setting);
+    Coverage wide(tube().mesh, tube().neighbours, sight, setting);
     wide.look({&eye, 1}, progress);
     const auto right = static_cast<glm::vec3>(eye.right()), up = static_cast<glm::vec3>(eye.up());
     for (std::size_t v = 0; v < tube().mesh.places.size(); ++v) {
@@ -89,7 +89,7 @@ TEST(Coverage, WideAndTallPicturesShowWhatTheyFrame) {
         EXPECT_LE(std::abs(glm::dot(to, right)), to.z * 3.0001);
     }
     setting.aspect = 1;
-    Coverage square(tube().mesh, sight, setting);
+    Coverage square(tube().mesh, tube().neighbours, sight, setting);
     square.look({&eye, 1}, progress);
     EXPECT_GT(wide.percent(), square.percent() + 1);
 }
@@ -102,7 +102,7 @@ TEST(Coverage, HidesWhatIsBehindAFold) {
     CoverageSetting setting;
     setting.within = 1;
     setting.angle = kCoveragePi / 2;
-    Coverage coverage(wall.mesh, sight, setting);
+    Coverage coverage(wall.mesh, wall.neighbours, sight, setting);
     coverage.look({&eye, 1}, progress);
     int asked = 0, differ = 0, hidden = 0;
     for (std::size_t v = 0; v < wall.mesh.places.size(); v += 7) {
@@ -126,7 +126,7 @@ TEST(Coverage, PatchesAreWhatIsLeft) {
     Progress progress;
     CoverageSetting setting;
     setting.smallestPatch = 50e-6;
-    Coverage coverage(wall.mesh, sight, setting);
+    Coverage coverage(wall.mesh, wall.neighbours, sight, setting);
     EXPECT_EQ(coverage.percent(), 0);
     const std::vector<UnseenPatch> all = coverage.patches(freeIn(wall), 0.001);
     ASSERT_EQ(all.size(), 1u) << "nothing was looked at";
@@ -151,7 +151,7 @@ TEST(Coverage, PatchesAreWhatIsLeft) {
     EXPECT_GE(views, static_cast<int>(left.size()));
     EXPECT_GT(coverage.percent(), before + 10);
     setting.smallestPatch = 1;
-    EXPECT_TRUE(Coverage(wall.mesh, sight, setting).patches(freeIn(wall), 0.001).empty());
+    EXPECT_TRUE(Coverage(wall.mesh, wall.neighbours, sight, setting).patches(freeIn(wall), 0.001).empty());
 }
 
 // The view of a patch shows its place.
@@ -159,7 +159,7 @@ TEST(Coverage, ViewsShowTheirPatch) {
     const LumenWall& wall = folded();
     const LineOfSight sight = wall.sight();
     Progress progress;
-    Coverage coverage(wall.mesh, sight, {});
+    Coverage coverage(wall.mesh, wall.neighbours, sight, {});
     const std::vector<UnseenPatch> all = coverage.patches(freeIn(wall), 0.001);
     ASSERT_TRUE(all.at(0).view);
     EXPECT_GE(wall.freeDistanceAt(all[0].view->position, 0.001), 0.001 * 0.999);
@@ -178,7 +178,7 @@ TEST(Coverage, IsTheSameOnAnyNumberOfThreads) {
     std::vector<std::vector<std::uint8_t>> seen;
     for (const int threads : {1, 3}) {
         setThreadCount(threads);
-        Coverage coverage(folded().mesh, sight, {});
+        Coverage coverage(folded().mesh, folded().neighbours, sight, {});
         coverage.look({&eye, 1}, progress);
         seen.push_back(coverage.seen());
     }
@@ -191,7 +191,7 @@ TEST(Coverage, RefusesSettingsOutOfRange) {
     const auto refused = [&](auto change) {
         CoverageSetting setting;
         change(setting);
-        EXPECT_THROW(Coverage(tube().mesh, sight, setting), Error);
+        EXPECT_THROW(Coverage(tube().mesh, tube().neighbours, sight, setting), Error);
     };
     refused([](CoverageSetting& s) { s.verticalFov = kCoveragePi; });
     refused([](CoverageSetting& s) { s.verticalFov = std::nan(""); });
@@ -215,7 +215,8 @@ TEST(Coverage, LooksThroughThePicturesOwnWindow) {
     view.right = eye.right(), view.up = eye.up(), view.forward = eye.forward();
     view.xMin = view.yMin = -side;
     view.xMax = view.yMax = side;
-    Coverage byPose(tube().mesh, sight, setting), byView(tube().mesh, sight, setting);
+    Coverage byPose(tube().mesh, tube().neighbours, sight, setting),
+        byView(tube().mesh, tube().neighbours, sight, setting);
     byPose.look({&eye, 1}, progress);
     byView.look({&view, 1}, progress);
     EXPECT_EQ(byPose.seen(), byView.seen());

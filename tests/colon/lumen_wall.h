@@ -11,6 +11,7 @@ struct LumenWall {
     LumenField lumen;
     SurfaceCells cells;
     WallMesh mesh;
+    WallNeighbours neighbours;
 
     LumenWall(const Shape& shape, const glm::dvec3& low, const glm::dvec3& high, double spacing)
         : LumenWall(lumenOf(shape, low, high, glm::dvec3(spacing))) {}
@@ -21,6 +22,7 @@ struct LumenWall {
         setting.region = &lumen.lumen;
         cells = findSurfaceCells(lumen.field, setting, progress);
         mesh = wallMesh(lumen.field, cells, lumen.lumen, progress);
+        neighbours = neighboursOf(mesh);
     }
     LineOfSight sight() const { return {lumen.field, cells, lumen.isovalue}; }
     double freeDistanceAt(const glm::dvec3& place, double upTo) const {

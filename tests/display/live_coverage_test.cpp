@@ -64,13 +64,13 @@ double percentByCommand(bool bothWays, const WallLooking& looking = {}) {
     const auto free = [&](const glm::dvec3& p, double upTo) { return colon.freeDistanceAt(p, upTo); };
     const ColonFlights flights = colonFlights(colon, "", kFlightStep, free, inside);
     Progress progress;
-    const WallMesh wall = wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, progress);
+    const std::shared_ptr<const JoinedWall> wall = joinedWall(colon, progress);
     const LineOfSight sight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue);
     CoverageSetting setting;
     setting.verticalFov = ringedTube()->lens.verticalFov;
     setting.within = looking.within;
     setting.angle = looking.angle;
-    Coverage coverage(wall, sight, setting);
+    Coverage coverage(wall->mesh, wall->neighbours, sight, setting);
     coverage.look(flights.there, progress);
     if (bothWays) coverage.look(flights.back, progress);
     return coverage.percent();
