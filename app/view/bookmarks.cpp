@@ -132,6 +132,7 @@ const Bookmark* Bookmarks::find(const std::string& name) const {
 void Bookmarks::read() {
     if (mFile.empty() || mUnkept) return;
     const std::optional<json> file = readKeptJson(mFile, isPlaces, mProblem);
+    ++mVersion;
     mList.clear();
     if (!file) return;
     for (const json& place : (*file)["places"]) {
@@ -142,6 +143,7 @@ void Bookmarks::read() {
 }
 
 void Bookmarks::write() {
+    ++mVersion;
     json file = {
         {"stereonav_places", kPlacesVersion}, {"scene", jsonOfPath(mScene)}, {"places", json::array()}};
     for (const Bookmark& mark : mList) file["places"].push_back(jsonOfMark(mark));

@@ -32,6 +32,8 @@ public:
     static std::filesystem::path placesFolder();  // "" where there is no home
 
     const std::vector<Bookmark>& list() const { return mList; }
+    // Another one whenever the list was read or changed; from 1 on.
+    int version() const { return mVersion; }
     // The place of that name, null where there is none.
     const Bookmark* find(const std::string& name) const;
 
@@ -56,6 +58,7 @@ private:
     std::string mScene;
     std::filesystem::path mFile;  // "" keeps nothing
     std::vector<Bookmark> mList;
+    int mVersion = 1;
     std::string mProblem;
     bool mUnkeptTold = false, mUnkept = false;
 };

@@ -43,15 +43,15 @@ std::optional<glm::dvec2> placed(const EyeMark& mark, const glm::dvec2& size, co
 }  // namespace
 
 std::vector<PlaceLabel> labelsInView(const FrameRequest& request, const Plane<float>& viewDepth,
-                                     const std::vector<Bookmark>& places, const TextSize& sizeOf,
+                                     const std::vector<LabelledPlace>& places, const TextSize& sizeOf,
                                      double margin, const glm::ivec2& guard) {
     std::vector<PlaceLabel> labels;
     if (places.empty()) return labels;
     const StereoViews views = viewsOf(request);
     const glm::dvec2 picture(views.left.width, views.left.height);
-    std::vector<std::pair<PointMark, const Bookmark*>> seen;
-    for (const Bookmark& place : places) {
-        const auto point = markOf(views, viewDepth, place.pose.position, guard);
+    std::vector<std::pair<PointMark, const LabelledPlace*>> seen;
+    for (const LabelledPlace& place : places) {
+        const auto point = markOf(views, viewDepth, place.world, guard);
         if (!point || point->mark.right.x - point->mark.left.x < kNearest * picture.x) continue;
         seen.emplace_back(*point, &place);
     }

@@ -6,10 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "app/view/bookmarks.h"
 #include "app/view/eye_marks.h"
 
 namespace stereonav {
+
+struct LabelledPlace {
+    std::string name;
+    glm::dvec3 world{0};  // metres
+};
 
 struct PlaceLabel {
     EyeMark mark;          // the place
@@ -23,7 +27,7 @@ using TextSize = std::function<glm::dvec2(const std::string&)>;
 // Nearest first; none that would lie over another one, or that has no room in the picture. Places that would
 // stand far before the screen have none: one is nearly there. margin: pixels kept around texts.
 std::vector<PlaceLabel> labelsInView(const FrameRequest& request, const Plane<float>& viewDepth,
-                                     const std::vector<Bookmark>& places, const TextSize& sizeOf,
+                                     const std::vector<LabelledPlace>& places, const TextSize& sizeOf,
                                      double margin, const glm::ivec2& guard = glm::ivec2(0));
 
 }  // namespace stereonav

@@ -20,6 +20,7 @@
 #include "app/view/panel/panel_host.h"
 #include "app/view/panel/panels.h"
 #include "app/view/picture_place.h"
+#include "app/view/place_labels.h"
 #include "app/view/screenshots.h"
 #include "app/view/second_study.h"
 #include "app/view/session.h"
@@ -211,7 +212,7 @@ private:
     void findHere();
     void seeFromHere();
     void followPaint();
-    std::vector<Bookmark> namedPlaces() const;
+    const std::vector<LabelledPlace>& namedPlaces() const;
     void addLineMarks(std::vector<OverlayMark>& marks) const;
     bool drawOverlay(const OutputModeInfo& mode);
 
@@ -278,6 +279,12 @@ private:
     std::optional<Made> mBefore;  // while another one is loaded
     SliceReading mSlices;
     bool mLabels = true;  // of places, over the picture
+    mutable struct {
+        std::weak_ptr<const OpenScene> of;
+        int places = -1;  // versions
+        long long paint = 0;
+        std::vector<LabelledPlace> list;
+    } mNames;  // of those places
     bool mNewFrame = false, mNewPreview = false, mLayoutDue = true, mLaidOutBusy = false, mAnother = false,
          mWasBusy = false, mStudyFailed = false;
     bool mMeasuring = false;

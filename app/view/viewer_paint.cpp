@@ -38,20 +38,20 @@ void Viewer::seeFromHere() {
 }
 
 // Kept places, as high over the ground as they were; and those of tracks, whose marks say where they are.
-std::vector<Bookmark> Viewer::namedPlaces() const {
-    std::vector<Bookmark> places;
-    if (mPlaces)
-        for (const Bookmark& place : mPlaces->list()) places.push_back(placeNow(place, *mScene->scene));
+// Made when one of them changes: there may be a thousand, and names are drawn with each picture.
+const std::vector<LabelledPlace>& Viewer::namedPlaces() const {
     const auto* const paint = mScene->scene->offered<LivePaint>();
-    if (!paint) return places;
-    for (const PaintedPlace& painted : paint->legend()->places) {
-        if (painted.name.empty()) continue;
-        Bookmark place;
-        place.name = painted.name;
-        place.pose.position = painted.world;
-        places.push_back(std::move(place));
-    }
-    return places;
+    const int places = mPlaces ? mPlaces->version() : 0;
+    const long long painted = paint ? paint->version() : 0;
+    if (mNames.of.lock() == mScene && mNames.places == places && mNames.paint == painted) return mNames.list;
+    mNames = {mScene, places, painted, {}};
+    if (mPlaces)
+        for (const Bookmark& place : mPlaces->list())
+            mNames.list.push_back({place.name, placeNow(place, *mScene->scene).pose.position});
+    if (!paint) return mNames.list;
+    for (const PaintedPlace& place : paint->legend()->places)
+        if (!place.name.empty()) mNames.list.push_back({place.name, place.world});
+    return mNames.list;
 }
 
 void Viewer::saveMeasured(const std::string& file) {

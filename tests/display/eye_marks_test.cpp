@@ -144,10 +144,7 @@ TEST(EyeMarks, OfOneEyeHaveNoParallax) {
 class PlaceLabelsTest : public testing::Test {
 protected:
     void keep(const std::string& name, double x, double y, double depth) {
-        Bookmark place;
-        place.name = name;
-        place.pose.position = viewsOf(mRequest).left.pointAt(x, y, depth);
-        mPlaces.push_back(place);
+        mPlaces.push_back({name, viewsOf(mRequest).left.pointAt(x, y, depth)});
     }
     std::vector<PlaceLabel> labels() const {
         const auto sizeOf = [](const std::string& text) {
@@ -168,7 +165,7 @@ protected:
 
     FrameRequest mRequest = request();
     Plane<float> mDepth = everywhere(kMarkedSky);
-    std::vector<Bookmark> mPlaces;
+    std::vector<LabelledPlace> mPlaces;
 };
 
 TEST_F(PlaceLabelsTest, StayInsideBothPictures) {

@@ -95,7 +95,9 @@ TEST(Bookmarks, NamesAreUnlikeEachOther) {
     EXPECT_EQ(marks.rename("ridge 2", "ridge 2"), "ridge 2");
     EXPECT_EQ(marks.rename("ridge 2", "valley"), "valley");
     EXPECT_EQ(marks.rename("nobody", "valley"), "");
+    const int before = marks.version();
     EXPECT_TRUE(marks.remove("ridge"));
+    EXPECT_NE(marks.version(), before) << "labels are made again";
     EXPECT_FALSE(marks.remove("ridge"));
     EXPECT_TRUE(marks.find("valley"));
     EXPECT_FALSE(marks.find("ridge"));

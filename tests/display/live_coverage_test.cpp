@@ -13,12 +13,14 @@
 
 #include "app/scene/scene_loading.h"
 #include "app/scene/volume_flights.h"
+#include "colon/instruments/shared_wall.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/file.h"
 #include "engine/scene/surface_paint.h"
 #include "tests/camera/temporary_folder.h"
 #include "tests/display/fake_frames.h"
 #include "tests/display/fake_scene.h"
+#include "tests/support/byte_study.h"
 #include "tests/support/own_cache.h"
 
 namespace stereonav {
@@ -30,18 +32,11 @@ namespace fs = std::filesystem;
 std::shared_ptr<const Scene> ringedTube() {
     static const std::shared_ptr<const Scene> scene = [] {
         const TemporaryFolder folder;
-        const fs::path file = folder / "tube.nrrd";
-        {
-            std::ofstream out(file, std::ios::binary);
-            out << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 24 24 66\nspace: left-posterior-superior\n"
-                   "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: raw\n\n";
-            for (int k = 0; k < 66; ++k)
-                for (int j = 0; j < 24; ++j)
-                    for (int i = 0; i < 24; ++i) {
-                        const double wide = std::abs(k - 22) < 2 || std::abs(k - 44) < 2 ? 5 : 8;
-                        out.put(std::hypot(i - 11.5, j - 11.5) < wide && k > 2 && k < 63 ? 1 : 0);
-                    }
-        }
+        const fs::path file =
+            test::writeByteStudy(folder / "tube.nrrd", {24, 24, 66}, {0, 0, 0}, [](int i, int j, int k) {
+                const double wide = std::abs(k - 22) < 2 || std::abs(k - 44) < 2 ? 5 : 8;
+                return std::hypot(i - 11.5, j - 11.5) < wide && k > 2 && k < 63;
+            });
         SceneOptions options;
         options.scene = file.string();
         options.volume.cache = false;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/display/window_test.h"
+#include "tests/support/byte_study.h"
 
 namespace stereonav {
 namespace {
@@ -24,14 +25,9 @@ protected:
     // A straight tube of 200 mm, 16 mm wide, with a ring near its start: its far part is met too flat to
     // count as seen, and what is behind the ring is hidden.
     fs::path tube() const {
-        std::ofstream out(mFolder / "tube.nrrd", std::ios::binary);
-        out << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 24 24 204\nspace: left-posterior-superior\n"
-               "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: raw\n\n";
-        for (int k = 0; k < 204; ++k)
-            for (int j = 0; j < 24; ++j)
-                for (int i = 0; i < 24; ++i)
-                    out.put(std::hypot(i - 11.5, j - 11.5) < 8 && k > 1 && k < 202 ? 1 : 0);
-        return mFolder / "tube.nrrd";
+        return test::writeByteStudy(mFolder / "tube.nrrd", {24, 24, 204}, {0, 0, 0}, [](int i, int j, int k) {
+            return std::hypot(i - 11.5, j - 11.5) < 8 && k > 1 && k < 202;
+        });
     }
 };
 

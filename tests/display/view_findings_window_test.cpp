@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/display/window_test.h"
+#include "tests/support/byte_study.h"
 
 namespace stereonav {
 namespace {
@@ -13,18 +14,12 @@ using nlohmann::json;
 
 // A tube along z, 28 mm wide, with a ball of 5 mm radius on its side: a mask of 48 voxels of 1 mm.
 std::filesystem::path writePolyp(const std::filesystem::path& folder) {
-    std::ofstream out(folder / "polyp.nrrd", std::ios::binary);
-    out << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 48 48 48\nspace: left-posterior-superior\n"
-           "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (-23.5,-23.5,-23.5)\n"
-           "encoding: raw\n\n";
-    for (int k = 0; k < 48; ++k)
-        for (int j = 0; j < 48; ++j)
-            for (int i = 0; i < 48; ++i) {
-                const double x = i - 23.5, y = j - 23.5, z = k - 23.5;
-                const bool tube = std::hypot(x, y) < 14 && k > 2 && k < 45;
-                out.put(tube && std::hypot(x - 2, y - 11, z) >= 5 ? 1 : 0);
-            }
-    return folder / "polyp.nrrd";
+    return test::writeByteStudy(folder / "polyp.nrrd", glm::ivec3(48), glm::dvec3(-23.5),
+                                [](int i, int j, int k) {
+                                    const double x = i - 23.5, y = j - 23.5, z = k - 23.5;
+                                    const bool tube = std::hypot(x, y) < 14 && k > 2 && k < 45;
+                                    return tube && std::hypot(x - 2, y - 11, z) >= 5;
+                                });
 }
 
 TEST_F(FindingsWindow, AreMeasuredMarkedAndKept) {

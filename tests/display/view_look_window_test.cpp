@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/display/window_test.h"
+#include "tests/support/byte_study.h"
 
 namespace stereonav {
 namespace {
@@ -14,18 +15,12 @@ class LookWindow : public WindowTest {
 protected:
     // Two balls that touch, 48 voxels of 1 mm along each axis.
     fs::path study() const {
-        std::ofstream out(mFolder / "study.nrrd", std::ios::binary);
-        out << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 48 48 48\nspace: left-posterior-superior\n"
-               "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (-23.5,-23.5,-23.5)\n"
-               "encoding: raw\n\n";
-        for (int k = 0; k < 48; ++k)
-            for (int j = 0; j < 48; ++j)
-                for (int i = 0; i < 48; ++i) {
-                    const double away = std::min(std::hypot(i - 14.5, j - 23.5, k - 23.5),
-                                                 std::hypot(i - 32.5, j - 23.5, k - 23.5));
-                    out.put(static_cast<char>(std::clamp(static_cast<int>(340 - 24 * away), 0, 200)));
-                }
-        return mFolder / "study.nrrd";
+        return test::writeByteStudy(
+            mFolder / "study.nrrd", glm::ivec3(48), glm::dvec3(-23.5), [](int i, int j, int k) {
+                const double away = std::min(std::hypot(i - 14.5, j - 23.5, k - 23.5),
+                                             std::hypot(i - 32.5, j - 23.5, k - 23.5));
+                return std::clamp(static_cast<int>(340 - 24 * away), 0, 200);
+            });
     }
     std::map<std::string, Picture> shotsOf(const std::string& options) {
         const std::string moved = (mFolder / "moved.nrrd").string();

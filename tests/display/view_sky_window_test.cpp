@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/display/window_test.h"
+#include "tests/support/byte_study.h"
 
 namespace stereonav {
 namespace {
@@ -16,15 +17,10 @@ protected:
         if (IsSkipped()) return;
         setenv("XDG_CACHE_HOME", (mFolder / "cache").c_str(), 1);
         // A ball of 24 voxels.
-        std::ofstream out(mFolder / "ball.nrrd", std::ios::binary);
-        out << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 24 24 24\nspace: left-posterior-superior\n"
-               "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (-11.5,-11.5,-11.5)\n"
-               "encoding: raw\n\n";
-        for (int k = 0; k < 24; ++k)
-            for (int j = 0; j < 24; ++j)
-                for (int i = 0; i < 24; ++i)
-                    out.put(static_cast<char>(
-                        std::max(0.0, 250 - 20 * std::hypot(i - 11.5, j - 11.5, k - 11.5))));
+        test::writeByteStudy(mFolder / "ball.nrrd", glm::ivec3(24), glm::dvec3(-11.5),
+                             [](int i, int j, int k) {
+                                 return std::max(0.0, 250 - 20 * std::hypot(i - 11.5, j - 11.5, k - 11.5));
+                             });
         // Bright in the east (a column of the panorama), dark elsewhere.
         std::ofstream probe(mFolder / "east.hdr", std::ios::binary);
         probe << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n";

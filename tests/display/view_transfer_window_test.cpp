@@ -6,6 +6,7 @@
 #include "app/view/setting_texts.h"
 #include "engine/volume/transfer_text.h"
 #include "tests/display/window_test.h"
+#include "tests/support/byte_study.h"
 
 namespace stereonav {
 namespace {
@@ -14,15 +15,10 @@ class TransferWindow : public WindowTest {
 protected:
     // A ball of bytes, 250 in its middle and 0 around it.
     std::filesystem::path ball() const {
-        std::ofstream out(mFolder / "ball.nrrd", std::ios::binary);
-        out << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 32 32 32\nspace: left-posterior-superior\n"
-               "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: raw\n\n";
-        for (int k = 0; k < 32; ++k)
-            for (int j = 0; j < 32; ++j)
-                for (int i = 0; i < 32; ++i)
-                    out.put(static_cast<char>(
-                        std::clamp(250 - static_cast<int>(17 * std::hypot(i - 16, j - 16, k - 16)), 0, 250)));
-        return mFolder / "ball.nrrd";
+        return test::writeByteStudy(
+            mFolder / "ball.nrrd", glm::ivec3(32), glm::dvec3(0), [](int i, int j, int k) {
+                return std::clamp(250 - static_cast<int>(17 * std::hypot(i - 16, j - 16, k - 16)), 0, 250);
+            });
     }
     SettingTexts saved(const char* file) const {
         return settingTextsOf(viewOptionsOf({{"SCENE", {(mFolder / file).string()}}}).scene.given);

@@ -1,6 +1,7 @@
 // The window with the wall laid flat below the flight: the picture makes room for it, and a click on the wall
 // flies there.
 #include "tests/display/window_test.h"
+#include "tests/support/byte_study.h"
 
 namespace stereonav {
 namespace {
@@ -8,19 +9,11 @@ namespace {
 using UnfoldedWindow = WindowTest;
 
 TEST_F(UnfoldedWindow, LiesBelowTheFlightAndLeadsIt) {
-    const std::filesystem::path study = mFolder / "tube.nrrd";
-    {
-        std::ofstream out(study, std::ios::binary);
-        out << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 40 40 48\nspace: left-posterior-superior\n"
-               "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (-19.5,-19.5,-23.5)\n"
-               "encoding: raw\n\n";
-        for (int k = 0; k < 48; ++k)
-            for (int j = 0; j < 40; ++j)
-                for (int i = 0; i < 40; ++i) {
-                    const double z = k - 23.5;
-                    out.put(std::hypot(i - 19.5, j - 19.5) < 8 + std::sin(z) && std::abs(z) < 21 ? 1 : 0);
-                }
-    }
+    const std::filesystem::path study = test::writeByteStudy(
+        mFolder / "tube.nrrd", {40, 40, 48}, {-19.5, -19.5, -23.5}, [](int i, int j, int k) {
+            const double z = k - 23.5;
+            return std::hypot(i - 19.5, j - 19.5) < 8 + std::sin(z) && std::abs(z) < 21;
+        });
     ASSERT_EQ(drive("drive_unfolded.sh", "'" + study.string() + "'"), 0)
         << textOf("problems.txt") << textOf("log.txt");
     EXPECT_EQ(textOf("status.txt"), "0\n") << textOf("log.txt");

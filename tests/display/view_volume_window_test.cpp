@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "tests/display/window_test.h"
+#include "tests/support/byte_study.h"
 
 namespace stereonav {
 namespace {
@@ -16,14 +17,8 @@ class VolumeWindow : public WindowTest {
 protected:
     // 48 voxels of 1 mm along each axis, the middle at 0, as a NRRD file of bytes.
     fs::path study(const std::function<int(double x, double y, double z)>& value) const {
-        std::ofstream out(mFolder / "study.nrrd", std::ios::binary);
-        out << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 48 48 48\nspace: left-posterior-superior\n"
-               "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (-23.5,-23.5,-23.5)\n"
-               "encoding: raw\n\n";
-        for (int k = 0; k < 48; ++k)
-            for (int j = 0; j < 48; ++j)
-                for (int i = 0; i < 48; ++i) out.put(static_cast<char>(value(i - 23.5, j - 23.5, k - 23.5)));
-        return mFolder / "study.nrrd";
+        return test::writeByteStudy(mFolder / "study.nrrd", glm::ivec3(48), glm::dvec3(-23.5),
+                                    [&](int i, int j, int k) { return value(i - 23.5, j - 23.5, k - 23.5); });
     }
 
     // Eyes that are given do not follow the room, which takes long to come to rest.
