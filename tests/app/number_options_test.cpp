@@ -129,8 +129,8 @@ TEST(NumberOptions, SayRangeUnitAndAdvice) {
               "0.95 is a wall that is nearly opaque within a millimetre");
     EXPECT_EQ(
         refusalOf({"play", "--frames", "2.5"}),
-        "--frames: expected a whole number, 1 to 1e6 frames, got \"2.5\"; leave it out for the whole path "
-        "at --fps");
+        "--frames: expected a whole number, 1 to 1e6 frames, or FIRST..LAST of those from 0 on, got \"2.5\"; "
+        "leave it out for the whole path at --fps");
     EXPECT_EQ(refusalOf({"render", "--pose", "1,2"}),
               "--pose: expected x,y,z,heading,pitch,roll (-1e9 to 1e9 metres, then -360 to "
               "360 degrees), got \"1,2\"; the angles may be left out, as in 0,0,3000");
