@@ -152,7 +152,7 @@ std::string ValueType::expected() const {
         case ValueKind::Whole:
             return rangeText(range);
         case ValueKind::WholeOrPart:
-            return rangeText(range) + ", or FIRST..LAST of those from 0 on";
+            return "a whole number, " + rangeText(range) + ", or FIRST..LAST of those from 0 on";
         case ValueKind::Numbers:
             return listText(*list);
         case ValueKind::Size:

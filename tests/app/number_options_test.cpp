@@ -121,6 +121,13 @@ TEST(NumberOptions, RefuseWhatIsNoNumberInOneLine) {
     }
 }
 
+TEST(NumberOptions, TakeAPartByItsEnds) {
+    for (const char* part : {"0..0", "3..8", "999999..1000000"})
+        EXPECT_EQ(refusalOf({"play", "--frames", part}), "") << part;
+    for (const char* part : {"8..3", "..3", "3..", "..", "1..2..3", "-1..2", "0..1000001", "1...2", "1.5..2"})
+        EXPECT_NE(refusalOf({"play", "--frames", part}).find("FIRST..LAST"), std::string::npos) << part;
+}
+
 TEST(NumberOptions, SayRangeUnitAndAdvice) {
     EXPECT_EQ(refusalOf({"render", "--fov", "nan"}),
               "--fov: expected 1 to 170 degrees, got \"nan\"; 45 is common");

@@ -77,6 +77,7 @@ public:
     }
 
     [[noreturn]] void abort() override {
+        const std::lock_guard lock(mMutex);
         MPI_Abort(MPI_COMM_WORLD, 1);
         std::_Exit(1);
     }
