@@ -16,7 +16,7 @@ namespace stereonav {
 namespace {
 
 constexpr std::string_view kSharing[] = {"bake", "coverage", "play", "report"};
-constexpr double kFirstTells_s = 1;  // that others leave the first process to tell what all find alike
+constexpr double kFirstTells_s = 3;  // that others leave the first process to tell what all find alike
 
 bool& joining() {
     static bool is = false;

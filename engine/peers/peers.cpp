@@ -170,7 +170,9 @@ void joinRun(const std::string& greeting) {
     const Launch launch = launchOfThisProcess();
     if (!launch.several) return;
     static const auto& table = moduleFunctions<MpiFunctions>(
-        "mpi", "to share work with the processes that were started with this one");
+        "mpi",
+        "to share work with the processes that were started with this one, and built where Open MPI is "
+        "(libopenmpi-dev)");
     std::unique_ptr<PeerLink> link = table.join();
     if (launch.count > 1 && link->count() != launch.count)
         throw Error("MPI", "",
