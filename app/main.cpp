@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/command/process_facts.h"
+#include "app/command/together.h"
 #include "app/options/arguments.h"
 #include "engine/base/error.h"
 #include "engine/base/stop.h"
@@ -24,17 +25,18 @@ int main(int argc, char** argv) {
     stereonav::noteStart();
     stereonav::catchStopSignals();
     try {
+        stereonav::joinOthers(argc, argv);
         const int status = stereonav::runCommandLine(argc, argv);
         // What was printed has arrived, or the run has failed.
         if (std::fflush(stdout) != 0 || std::ferror(stdout))
             throw stereonav::Error("standard output", "", "can not be written", "is the disk full?");
+        stereonav::leaveOthers();
         return status;
     } catch (const stereonav::Cancelled&) {
-        std::fprintf(stderr, "stereonav: stopped\n");
+        return stereonav::endStopped();
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "stereonav: there is not enough memory; free some, or ask for less\n");
+        return stereonav::endWith("there is not enough memory; free some, or ask for less");
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "stereonav: %s\n", printable(error.what()).c_str());
+        return stereonav::endWith(printable(error.what()));
     }
-    return 1;
 }

@@ -22,7 +22,7 @@ install(TARGETS ${rooms} EXPORT stereonav_targets ARCHIVE DESTINATION ${CMAKE_IN
 install(EXPORT stereonav_targets NAMESPACE stereonav:: DESTINATION ${package_dir} ${development})
 
 # Headers of what was built. Those of modules and helpers are for them alone.
-set(folders engine/base engine/math engine/simd engine/text engine/image engine/camera engine/render engine/stereo engine/sampling
+set(folders engine/base engine/peers engine/math engine/simd engine/text engine/image engine/camera engine/render engine/stereo engine/sampling
   engine/frame engine/late engine/volume engine/light engine/nav engine/metrics)
 foreach(part TERRAIN terrain COLON colon MEDIUM engine/medium DISPLAY engine/display)
   if(part MATCHES "^[A-Z]+$")
@@ -34,7 +34,7 @@ endforeach()
 foreach(folder ${folders})
   get_filename_component(parent ${folder} DIRECTORY)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stereonav/${parent} ${development}
-    FILES_MATCHING PATTERN "*.h" PATTERN "opencv" EXCLUDE PATTERN "jxl" EXCLUDE PATTERN "gdal" EXCLUDE)
+    FILES_MATCHING PATTERN "*.h" PATTERN "opencv" EXCLUDE PATTERN "jxl" EXCLUDE PATTERN "gdal" EXCLUDE PATTERN "mpi" EXCLUDE)
 endforeach()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/package.cmake.in ${CMAKE_BINARY_DIR}/stereonav-config.cmake

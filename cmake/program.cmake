@@ -3,7 +3,7 @@ stereonav_module(video app/ffmpeg LINK engine_image PkgConfig::FFMPEG)
 # All but main(): tests of the program's own functions link it too, so that nothing is compiled twice.
 add_library(program STATIC)
 add_dependencies(program stereonav_video)
-target_link_libraries(program PUBLIC engine_light engine_mesh engine_metrics engine_scene
+target_link_libraries(program PUBLIC engine_light engine_mesh engine_metrics engine_peers engine_scene
   engine_late   CLI11::CLI11 nlohmann_json::nlohmann_json)
 
 set(left_out "")   # sources of app/ that need what is left out
@@ -37,7 +37,7 @@ endif()
 stereonav_part(colon OPTION STEREONAV_COLON LINK colon
   SOURCES scene/colon_*.cpp scene/volume_*.cpp scene/glance_volume.cpp scene/shown_volume.cpp scene/seen_volume_light.cpp
     scene/medium_of_volume.cpp scene/volume_type.cpp scene/light_loading.cpp scene/lazy_light.cpp
-    scene/traced_light.cpp command/bake_volume.cpp command/bake_peers_*.cpp command/info_colon.cpp
+    scene/traced_light.cpp command/bake_volume.cpp command/info_colon.cpp
     command/info_series.cpp command/centreline_command.cpp command/coverage_command.cpp command/colon_of.cpp
     command/findings_*.cpp command/register_command.cpp command/unfold_command.cpp)
 stereonav_part(medium OPTION STEREONAV_MEDIUM LINK engine_medium
@@ -54,14 +54,7 @@ if(STEREONAV_FAULTS)
 else()
   list(APPEND left_out report/faults_on.cpp)
 endif()
-if(STEREONAV_MPI AND STEREONAV_COLON)
-  find_package(MPI REQUIRED COMPONENTS CXX)
-  target_link_libraries(program PUBLIC MPI::MPI_CXX)
-  list(APPEND left_out command/bake_peers_single.cpp)
-else()
-  list(APPEND left_out command/bake_peers_mpi.cpp)
-endif()
-if(NOT STEREONAV_MPI)
+if(NOT MPI_C_FOUND)
   list(APPEND without MPI)
 endif()
 foreach(folder options scene output command view view/panel report report/papers)

@@ -18,6 +18,7 @@
 #include "app/scene/terrain_loading.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
+#include "engine/peers/peers.h"
 #include "terrain/ground/ground_rays.h"
 #include "terrain/light/terrain_bake_part.h"
 #include "terrain/light/terrain_light.h"
@@ -54,11 +55,19 @@ bool holds(const std::filesystem::path& file, const Heightfield& ground, const T
     }
 }
 
+// What the first process finds, to all of them.
+bool bakedBefore(Peers& peers, bool found) {
+    if (peers.alone()) return found;
+    if (!peers.first()) return ByteReader(peers.hear()).get<char>() != 0;
+    peers.tellAll(ByteWriter().put(found ? char{1} : char{0}).take());
+    return found;
+}
+
 // None where it was stopped and what is done is kept.
 std::optional<TerrainLight> bakeOrKeep(const Heightfield& ground, const TerrainLightSettings& settings,
                                        ProgressBar& bar) {
     try {
-        return bakeTerrainLight(ground, settings, bar.progress(), true);
+        return bakeTerrainLight(ground, settings, bar.progress(), true, &peersOfThisRun());
     } catch (const Cancelled&) {
         if (!std::filesystem::exists(terrainBakePart(terrainLightKey(ground, settings)))) throw;
         bar.clear();
@@ -72,9 +81,10 @@ std::optional<TerrainLight> bakeOrKeep(const Heightfield& ground, const TerrainL
 
 int bakeTerrain(const BakeOptions& options) {
     const TerrainLightSettings settings = settingsOf(options);
-    if (!options.out.empty()) checkOutputToReadAgain("--out", options.out);
+    Peers& peers = peersOfThisRun();
+    if (peers.first() && !options.out.empty()) checkOutputToReadAgain("--out", options.out);
     CommandResult result("bake", options.telling, {});
-    ProgressBar bar(!options.telling.quiet);
+    ProgressBar bar(peers.first() && !options.telling.quiet);
     SceneOptions unlit = options.scene;
     unlit.light = {};
     checkSceneOptions(unlit);
@@ -84,7 +94,11 @@ int bakeTerrain(const BakeOptions& options) {
         options.out.empty() ? terrainLightCache(ground) : std::filesystem::path(options.out);
     result.add("scene", options.scene.scene.empty() ? "terrain" : options.scene.scene);
     result.add("what", std::string(options.what == BakeKind::Openness ? "openness" : "transfer"));
-    if (holds(file, ground, settings, options.telling.quiet)) {
+    if (!peers.first()) {
+        if (!bakedBefore(peers, false)) bakeTerrainLight(ground, settings, bar.progress(), true, &peers);
+        return 0;
+    }
+    if (bakedBefore(peers, holds(file, ground, settings, options.telling.quiet))) {
         bar.clear();
         result.say(file.string() + ": baked before\n");
         result.addFile("light", file);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/command/bake_peers.h"
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/colon_loading.h"
@@ -18,6 +17,7 @@
 #include "engine/base/stop.h"
 #include "engine/base/stopwatch.h"
 #include "engine/light/bake/bake_job.h"
+#include "engine/peers/peers.h"
 
 namespace stereonav {
 namespace {
@@ -83,64 +83,45 @@ void tellOf(CommandResult& result, const std::string& scene, const VolumeBakePla
     result.add("notes", plan.notes);
 }
 
-// Between passes alone, since others must be waited for.
-BakeShare shareOf(const BakePeers& peers, const BakeKeeping& keeping) {
-    BakeShare share;
-    if (peers.count() == 1) return share;
-    share.index = static_cast<std::size_t>(peers.index());
-    share.count = static_cast<std::size_t>(peers.count());
-    share.meet = [&peers, &keeping, sinceKept = Stopwatch()](BakeSums& sums, BakeEnd own) mutable {
-        const BakeEnd end = peers.meet(sums, own);
-        if (!peers.decide(sinceKept.elapsed_ms() > 1000 * keeping.everySeconds)) return end;
-        peers.gather(sums);
-        if (peers.first()) keeping.keep(sums);
-        sinceKept = Stopwatch();
-        return end;
-    };
-    return share;
-}
-
 }  // namespace
 
 int bakeVolume(const BakeOptions& options) {
-    checkBakeOptions(options);
-    const BakePeers peers;
+    Peers& peers = peersOfThisRun();
+    if (peers.first()) checkBakeOptions(options);
     CommandResult result("bake", options.telling, {});
     ProgressBar bar(peers.first() && !options.telling.quiet);
     Progress& progress = bar.progress();
-    SceneOptions shown = options.scene;
-    const int share = peers.threads();
-    if (shown.threads == 0) shown.threads = share;
-    checkSceneOptions(shown);
-    const LitVolume loaded = litVolumeOf(shown, progress);
+    checkSceneOptions(options.scene);
+    const LitVolume loaded = litVolumeOf(options.scene, progress);
     const ColonScene& scene = loaded.world->colon();
     VolumeBakePlan plan = planVolumeBake(scene, options, progress);
+    const TexelLighter lighter(scene.volume.field, plan.inputs.texels, plan.inputs.light,
+                               plan.inputs.sampling);
+    const FinishingWork keepsWhatIsDone;  // a stop is an end like others
+    if (!peers.first()) {
+        BakeSums sums(plan.inputs.texels, std::move(plan.bricks), plan.inputs.shape, lighter.bytesToCome());
+        serveBake(sums, sourceOf(lighter), peers);
+        return 0;
+    }
     const BakeIdentity identity{bakeKey(plan.inputs), plan.inputs.content};
     const std::filesystem::path file =
         options.out.empty() ? bakeCacheFile(identity.key) : std::filesystem::path(options.out);
-    const TexelLighter lighter(scene.volume.field, plan.inputs.texels, plan.inputs.light,
-                               plan.inputs.sampling);
-    BakeSums sums = begin(file, identity.key, plan, lighter, peers.first() && !options.telling.quiet, bar);
-    peers.checkSameStart(sums);
+    BakeSums sums = begin(file, identity.key, plan, lighter, !options.telling.quiet, bar);
     const double before = samplesIn(sums);
     BakeKeeping keeping;
     keeping.keep = [&](const BakeSums& now) { writeBakeFile(file, identity, now); };
     const Stopwatch watch;
-    const FinishingWork keepsWhatIsDone;  // a stop is an end like others
-    const BakeEnd end = runBake(sums, sourceOf(lighter), goalOf(options), progress,
-                                peers.count() == 1 ? keeping : BakeKeeping{}, shareOf(peers, keeping));
-    peers.gather(sums);
-    if (peers.first()) {
-        const double seconds = watch.elapsed_ms() / 1000, done = samplesIn(sums) - before;
-        if (done > 0 || !std::filesystem::exists(file)) writeBakeFile(file, identity, sums);
-        bar.clear();
-        tellOf(result, options.scene.scene, plan, sums, done, seconds, file);
-        result.add("stopped", end == BakeEnd::Cancelled);
-        result.finish();
-        if (end == BakeEnd::Cancelled)
-            std::fprintf(stderr,
-                         "stereonav: stopped; what is done is kept, and the next run goes on from there\n");
-    }
+    const BakeEnd end = runBake(sums, sourceOf(lighter), goalOf(options), progress, keeping, &peers);
+    const double seconds = watch.elapsed_ms() / 1000, done = samplesIn(sums) - before;
+    if (done > 0 || !std::filesystem::exists(file)) writeBakeFile(file, identity, sums);
+    bar.clear();
+    peers.throwIfFailed();
+    tellOf(result, options.scene.scene, plan, sums, done, seconds, file);
+    result.add("stopped", end == BakeEnd::Cancelled);
+    result.finish();
+    if (end == BakeEnd::Cancelled)
+        std::fprintf(stderr,
+                     "stereonav: stopped; what is done is kept, and the next run goes on from there\n");
     return end == BakeEnd::Cancelled ? 1 : 0;
 }
 

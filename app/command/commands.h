@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/options/given_options.h"
@@ -168,6 +169,8 @@ struct RenderOptions {
 };
 int runRender(const RenderOptions& options);
 
+constexpr double kPlayFps = 25;  // where nothing is said
+
 struct PlayOptions {
     SceneOptions scene = shownSceneOptions();
     Telling telling;
@@ -176,11 +179,12 @@ struct PlayOptions {
     std::string method = "auto";  // as in RenderOptions: files do not depend on measured times
     RayOptions rays;
     OutputMode mode = OutputMode::SideBySide;
-    std::string out;            // folder for frame_00000.png ...; "" with --video or --hash
-    std::string video;          // .mp4, .avi or .mkv
-    std::optional<double> fps;  // none: 25
-    int frames = 0;             // 0: the whole path at fps; else this many, evenly
-    bool hash = false;          // print one content hash of all frames
+    std::string out;                          // folder for frame_00000.png ...; "" with --video or --hash
+    std::string video;                        // .mp4, .avi or .mkv
+    std::optional<double> fps;                // none: 25
+    int frames = 0;                           // 0: the whole path at fps; else this many, evenly
+    std::optional<std::pair<int, int>> part;  // first and last of the whole path's frames at fps, from 0
+    bool hash = false;                        // print one content hash of all frames
 };
 int runPlay(const PlayOptions& options);
 

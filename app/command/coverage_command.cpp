@@ -17,13 +17,14 @@
 #include "colon/instruments/shared_wall.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/peers/peers.h"
 
 namespace stereonav {
 namespace {
 
 void checkCoverageOptions(const CoverageOptions& options) {
     expectColonName(options.scene.scene);
-    if (options.out.empty()) return;
+    if (options.out.empty() || !peersOfThisRun().first()) return;
     if (!isStandardOutput(options.out) && !options.out.ends_with(".csv"))
         throw Error("--out", "", "expected a file named .csv, got \"" + options.out + "\"",
                     "name it patches.csv");
@@ -69,11 +70,12 @@ void tell(CommandResult& result, const CoverageOptions& options, const std::vect
 }  // namespace
 
 int runCoverage(const CoverageOptions& options) {
+    Peers& peers = peersOfThisRun();
     checkCoverageOptions(options);
     CommandResult result("coverage", options.telling, {{"--out", options.out}});
-    ProgressBar bar(!options.telling.quiet);
+    ProgressBar bar(peers.first() && !options.telling.quiet);
     const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress(), kNoPicture);
-    checkNotRead({{"--out", options.out}});
+    if (peers.first()) checkNotRead({{"--out", options.out}});
     const ColonScene& colon = colonOf(*scene, options.scene);
     const ColonInterior& inside = *scene->offered<const ColonInterior>();
     const auto freeDistance = [&](const glm::dvec3& place, double upTo) {
@@ -90,9 +92,11 @@ int runCoverage(const CoverageOptions& options) {
     setting.angle = options.angle_deg * std::numbers::pi / 180;
     setting.smallestPatch = 1e-6 * options.patch_mm2;
     Coverage coverage(wall->mesh, wall->neighbours, sight, setting);
+    coverage.shareWith(peers);
     coverage.look(flights.there, bar.progress());
     const double oneWay = coverage.percent();
     coverage.look(flights.back, bar.progress());
+    if (!peers.first()) return 0;
     const double twoWay = coverage.percent();
     const std::vector<UnseenPatch> patches = coverage.patches(freeDistance, colon.clearance);
     std::vector<double> along;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "app/command/paint_notes.h"
+#include "app/command/play_frames.h"
 #include "app/command/quality.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
@@ -15,7 +16,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/camera/timed_poses.h"
-#include "engine/image/image_file.h"
+#include "engine/peers/piece_dealer.h"
 
 namespace stereonav {
 namespace {
@@ -23,27 +24,43 @@ namespace {
 constexpr int kMostFrames = 1'000'000;
 
 double fpsOf(const PlayOptions& options) {
-    return options.fps.value_or(25);
+    return options.fps.value_or(kPlayFps);
 }
 
 std::pair<int, int> frameSize(const PlayOptions& options) {
     return composedSize(options.mode, options.size.width, options.size.height);
 }
 
+// How far frames may be made beyond the next one to be written: two for each process, so that one that takes
+// long holds nobody up.
+std::size_t framesAhead(const Peers& peers) {
+    return 2 * static_cast<std::size_t>(peers.count());
+}
+
 // A video's codec holds frames as they are composed, in most modes with both eyes in them.
+// The first of several processes holds the frames that wait for their turn.
 PixelBytes bytesOf(const PlayOptions& options) {
-    if (options.video.empty()) return withRays(kRenderBytes, options.rays);
+    const Peers& peers = peersOfThisRun();
     const auto [width, height] = frameSize(options);
     const double eyes = 1.0 * width * height / (1.0 * options.size.width * options.size.height);
-    const double codec = eyes * videoBytesAPixel(videoKindOf(options.video));
-    return withRays({kVideoBytes.cast + codec, kVideoBytes.swept + codec, kVideoBytes.beside}, options.rays);
+    const double waiting =
+        peers.alone() || !peers.first() ? 0 : framesAhead(peers) * packedBytesAPixel(options, eyes);
+    const bool coded = !options.video.empty() && peers.first();
+    const double codec = coded ? eyes * videoBytesAPixel(videoKindOf(options.video)) : 0;
+    const PixelBytes& each = coded ? kVideoBytes : kRenderBytes;
+    return withRays({each.cast + codec + waiting, each.swept + codec + waiting, each.beside}, options.rays);
 }
 
 void checkOptions(const PlayOptions& options) {
     if (options.out.empty() && options.video.empty() && !options.hash)
         throw Error("play", "", "expected a place for the frames", "give --out DIR, --video FILE or --hash");
-    if (!options.out.empty()) checkOutputFolder("--out", options.out);
-    if (!options.video.empty()) {
+    if (options.scene.quality.target_ms && !peersOfThisRun().alone())
+        throw Error("--target-ms", "", "does not go with several processes, which do not measure alike",
+                    "use --quality");
+    // Others write nothing, and may be where the places are not.
+    const bool writes = peersOfThisRun().first();
+    if (writes && !options.out.empty()) checkOutputFolder("--out", options.out);
+    if (writes && !options.video.empty()) {
         const auto [width, height] = frameSize(options);
         checkVideoFile("--video", options.video, width, height);
     }
@@ -62,34 +79,17 @@ std::vector<TimedPose> posesOf(const PlayOptions& options, const RecordedPath& p
     return timedFramesAtRate(path, fps);
 }
 
-// Where composed frames go; what was not asked for stays unused.
-class FrameSink {
-public:
-    FrameSink(const PlayOptions& options, const OutputMode mode) : mFolder(options.out), mMode(mode) {
-        if (!options.out.empty()) makeOutputFolder(options.out);
-        if (options.video.empty()) return;
-        const auto [width, height] = frameSize(options);
-        mVideo = std::make_unique<VideoFile>(options.video, fpsOf(options), width, height, stereoTagOf(mode));
-    }
-
-    void add(const StereoFrame& frame, int index) {
-        if (mFolder.empty() && !mVideo) return;
-        const Plane<PackedColor> picture = frame.compose(mMode);
-        if (!mFolder.empty())
-            writeColorImage(std::filesystem::path(mFolder) / fmt::format("frame_{:05d}.png", index), picture,
-                            Flush::ToSystem);
-        if (mVideo) mVideo->add(picture);
-    }
-
-    void finish() {
-        if (mVideo) mVideo->finish();
-    }
-
-private:
-    std::string mFolder;
-    OutputMode mMode;
-    std::unique_ptr<VideoFile> mVideo;
-};
+// First and last of the frames that are made.
+std::pair<std::size_t, std::size_t> partOf(const PlayOptions& options, std::size_t frames) {
+    if (!options.part) return {0, frames - 1};
+    const auto [first, last] = *options.part;
+    if (static_cast<std::size_t>(last) >= frames)
+        throw Error("--frames", "",
+                    fmt::format("the flight has frames 0 to {} at {:g} a second, got {}..{}", frames - 1,
+                                fpsOf(options), first, last),
+                    "end earlier");
+    return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
+}
 
 // "" where the video's file says how it shows two eyes.
 std::string stereoNote(const PlayOptions& options) {
@@ -106,23 +106,31 @@ double medianOf(std::vector<double> values) {
     return *middle;
 }
 
-void tellOfFlight(CommandResult& result, const PlayOptions& options, std::size_t frames, bool madeTogether,
-                  const std::vector<double>& left_ms, const std::vector<double>& right_ms,
-                  const std::vector<double>& both_ms) {
+struct FlownPart {
+    std::size_t first = 0, last = 0;  // frames, by their numbers in the whole flight
+    std::size_t count() const { return last - first + 1; }
+};
+
+void tellOfFlight(CommandResult& result, const PlayOptions& options, const FlownPart& flight,
+                  const FrameSink& sink) {
+    const std::size_t frames = flight.count();
     result.add("frames", static_cast<std::int64_t>(frames));
+    if (options.part) result.add("first_frame", static_cast<std::int64_t>(flight.first));
+    if (peersOfThisRun().count() > 1)
+        result.add("processes", static_cast<std::int64_t>(peersOfThisRun().count()));
     result.add("frames_per_second", fpsOf(options));
     result.add("size", FactIntegers{options.size.width, options.size.height});
     result.add("mode", std::string(infoOf(options.mode).shortName));
     if (!options.out.empty()) result.add("folder", options.out);
     if (!options.video.empty()) result.addFile("video", options.video);
-    if (madeTogether) {
-        result.say(fmt::format("{} frames, median both eyes {:.2f} ms\n", frames, medianOf(both_ms)));
-        result.add("median_both_ms", medianOf(both_ms));
+    if (sink.left_ms.back() == 0) {  // made together
+        result.say(fmt::format("{} frames, median both eyes {:.2f} ms\n", frames, medianOf(sink.both_ms)));
+        result.add("median_both_ms", medianOf(sink.both_ms));
     } else {
         result.say(fmt::format("{} frames, median left {:.2f} ms, right {:.2f} ms\n", frames,
-                               medianOf(left_ms), medianOf(right_ms)));
-        result.add("median_left_ms", medianOf(left_ms));
-        result.add("median_right_ms", medianOf(right_ms));
+                               medianOf(sink.left_ms), medianOf(sink.right_ms)));
+        result.add("median_left_ms", medianOf(sink.left_ms));
+        result.add("median_right_ms", medianOf(sink.right_ms));
     }
     if (const std::string note = stereoNote(options); !note.empty()) {
         result.say(note + "\n");
@@ -130,44 +138,71 @@ void tellOfFlight(CommandResult& result, const PlayOptions& options, std::size_t
     }
 }
 
+void flyAlone(const FlownPart& flight, FlightFrames& frames, FrameSink& sink, Progress& progress) {
+    for (std::size_t k = flight.first; k <= flight.last; ++k) {
+        progress.report(static_cast<double>(k - flight.first) / static_cast<double>(flight.count()),
+                        fmt::format("frame {} of {}", k - flight.first + 1, flight.count()));
+        sink.add(frames.make(k), k);
+    }
+}
+
+// Any process makes any frame; this one writes them in their order.
+void flyWithOthers(const PlayOptions& options, const FlownPart& flight, FlightFrames& frames, FrameSink& sink,
+                   Progress& progress) {
+    PieceWork work;
+    work.count = flight.count();
+    work.inOrder = true;
+    work.ahead = framesAhead(peersOfThisRun());
+    work.make = [&](std::size_t n, std::span<const std::byte>) {
+        return packedFrame(frames.make(flight.first + n), options);
+    };
+    work.take = [&](std::size_t n, std::span<const std::byte> made) {
+        progress.report(static_cast<double>(n) / static_cast<double>(flight.count()),
+                        fmt::format("frame {} of {}", n + 1, flight.count()));
+        sink.add(made, flight.first + n);
+    };
+    PieceDealer(peersOfThisRun()).deal(work);
+}
+
 }  // namespace
 
 int runPlay(const PlayOptions& options) {
+    Peers& peers = peersOfThisRun();
     checkOptions(options);
     checkMethod(options.scene, options.method);
     // the path first: a bad one should not cost the reading of a large scene
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
     CommandResult result("play", options.telling, {});
-    ProgressBar bar(!options.telling.quiet);
+    ProgressBar bar(!options.telling.quiet && peers.first());
     const std::unique_ptr<Scene> loaded =
         loadScene(options.scene, options.size, bar.progress(), bytesOf(options));
     const Scene& scene = *loaded;
-    checkNotRead({{"--video", options.video}});
+    if (peers.first()) checkNotRead({{"--video", options.video}});
     const std::vector<TimedPose> poses = posesOf(options, flightOf(scene, path, options.path));
-    FrameSink sink(options, options.mode);
+    const auto [first, last] = partOf(options, poses.size());
+    const FlownPart flight{first, last};
     StereoFrame frame(scene, options.method);
     frame.refine(options.scene, options.rays, bar.progress());
-    Hash hash;
-    std::vector<double> left_ms, right_ms, both_ms;
-    for (std::size_t k = 0; k < poses.size(); ++k) {
-        bar.progress().report(static_cast<double>(k) / static_cast<double>(poses.size()),
-                              fmt::format("frame {} of {}", k + 1, poses.size()));
-        frame.render(poses[k].pose, poses[k].time);
-        frame.paint();
-        left_ms.push_back(frame.timings().left_ms);
-        right_ms.push_back(frame.timings().right_ms);
-        both_ms.push_back(frame.timings().both_ms);
-        if (options.hash) frame.addTo(hash);
-        sink.add(frame, static_cast<int>(k));
+    FlightFrames frames(frame, poses);
+    if (!peers.first()) {
+        peers.serve([&](std::size_t n, std::span<const std::byte>) {
+            return packedFrame(frames.make(flight.first + n), options);
+        });
+        return 0;
     }
+    FrameSink sink(options);
+    if (peers.alone())
+        flyAlone(flight, frames, sink, bar.progress());
+    else
+        flyWithOthers(options, flight, frames, sink, bar.progress());
     sink.finish();
     bar.clear();
     tellPaintNotes(scene, result);
-    tellOfFlight(result, options, poses.size(), frame.timings().left_ms == 0, left_ms, right_ms, both_ms);
+    tellOfFlight(result, options, flight, sink);
     result.add("scene", scene.name);
     if (options.hash) {
-        const std::string text = fmt::format("{:016x}", hash.value());
+        const std::string text = fmt::format("{:016x}", sink.hash());
         result.answer("hash " + text + "\n");
         result.add("hash", text);
     }

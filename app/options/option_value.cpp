@@ -48,6 +48,22 @@ std::vector<double> sidesOf(const std::string& option, const ValueType& type, co
     }
 }
 
+// One number, or the two ends of a part.
+std::vector<double> wholeOrPartIn(const std::string& option, const ValueType& type, const std::string& advice,
+                                  const std::string& text) {
+    const std::size_t dots = text.find("..");
+    try {
+        if (dots == std::string::npos) return {static_cast<double>(wholeIn("", type.range, "", text))};
+        NumberRange ends = type.range;
+        ends.low = 0;
+        const auto first = static_cast<double>(wholeIn("", ends, "", text.substr(0, dots))),
+                   last = static_cast<double>(wholeIn("", ends, "", text.substr(dots + 2)));
+        if (first <= last) return {first, last};
+    } catch (const Error&) {
+    }
+    throw refusal(option, type, text, advice);
+}
+
 double fractionIn(const std::string& option, const ValueType& type, const std::string& advice,
                   const std::string& text) {
     const std::size_t slash = std::min(text.find('/'), text.size());
@@ -84,6 +100,9 @@ ValueType numberValue(const NumberRange& range) {
 }
 ValueType wholeValue(const NumberRange& range) {
     return rangedType(ValueKind::Whole, range);
+}
+ValueType wholeOrPartValue(const NumberRange& range) {
+    return rangedType(ValueKind::WholeOrPart, range);
 }
 ValueType numbersValue(const NumberList& list) {
     ValueType type = typeOf(ValueKind::Numbers);
@@ -124,7 +143,7 @@ ValueType ValueType::checked(std::optional<ValueProblem> (*by)(const std::string
 
 bool ValueType::takesNumbers() const {
     return kind == ValueKind::Number || kind == ValueKind::Whole || kind == ValueKind::Numbers ||
-           kind == ValueKind::Size || kind == ValueKind::Fraction;
+           kind == ValueKind::Size || kind == ValueKind::Fraction || kind == ValueKind::WholeOrPart;
 }
 
 std::string ValueType::expected() const {
@@ -132,6 +151,8 @@ std::string ValueType::expected() const {
         case ValueKind::Number:
         case ValueKind::Whole:
             return rangeText(range);
+        case ValueKind::WholeOrPart:
+            return "a whole number, " + rangeText(range) + ", or FIRST..LAST of those from 0 on";
         case ValueKind::Numbers:
             return listText(*list);
         case ValueKind::Size:
@@ -161,6 +182,9 @@ OptionValue readValue(const std::string& option, const ValueType& type, const st
         case ValueKind::Whole:
             value.whole = wholeIn(option, type.range, advice, text);
             value.numbers = {static_cast<double>(value.whole)};
+            break;
+        case ValueKind::WholeOrPart:
+            value.numbers = wholeOrPartIn(option, type, advice, text);
             break;
         case ValueKind::Numbers: {
             GivenNumbers given = numbersIn(option, *type.list, text);

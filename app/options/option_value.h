@@ -12,17 +12,18 @@
 namespace stereonav {
 
 enum class ValueKind {
-    Flag,       // given or not
-    Number,     // in a range
-    Whole,      // a whole number in a range
-    Numbers,    // a NumberList
-    Size,       // "500x400"
-    Fraction,   // "0.0333" or "1/30", in a range
-    Word,       // one of a list
-    Words,      // several of a list that only the scene knows, separated by commas
-    Text,       // anything
-    File,       // a file or folder
-    FileOrWord  // a file, or one of a list
+    Flag,         // given or not
+    Number,       // in a range
+    Whole,        // a whole number in a range
+    WholeOrPart,  // the same, or "FIRST..LAST": two from 0 to the range's end, in this order
+    Numbers,      // a NumberList
+    Size,         // "500x400"
+    Fraction,     // "0.0333" or "1/30", in a range
+    Word,         // one of a list
+    Words,        // several of a list that only the scene knows, separated by commas
+    Text,         // anything
+    File,         // a file or folder
+    FileOrWord    // a file, or one of a list
 };
 
 struct ValueProblem {
@@ -48,6 +49,7 @@ struct ValueType {
 ValueType flagValue();
 ValueType numberValue(const NumberRange& range);
 ValueType wholeValue(const NumberRange& range);
+ValueType wholeOrPartValue(const NumberRange& range);
 ValueType numbersValue(const NumberList& list);
 ValueType sizeValue();
 ValueType fractionValue(const NumberRange& range);
@@ -59,7 +61,7 @@ ValueType fileOrWordValue(std::vector<std::string> words);
 
 struct OptionValue {
     std::string text;             // as it is written
-    std::vector<double> numbers;  // of all kinds that take numbers; of a size both sides
+    std::vector<double> numbers;  // of all kinds that take numbers; of a size both sides, of a part both ends
     std::int64_t whole = 0;       // of Whole
     std::string word;             // that a NumberList's form begins with
     std::size_t choice = 0;       // of Word: which of the list

@@ -74,6 +74,7 @@ std::string valueText(const Option& option) {
             return "NUMBERS";
         case ValueKind::Number:
         case ValueKind::Whole:
+        case ValueKind::WholeOrPart:
         case ValueKind::Fraction:
             break;
     }

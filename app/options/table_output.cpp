@@ -27,6 +27,14 @@ void takeMode(OptionTargets& to, const OptionValue& value) {
 void takePath(OptionTargets& to, const OptionValue& value) {
     *to.path = value.text;
 }
+// One number: how many. Two: from which to which.
+void takeFrames(OptionTargets& to, const OptionValue& value) {
+    const auto at = [&](std::size_t n) { return static_cast<int>(value.numbers[n]); };
+    if (value.numbers.size() == 1)
+        to.play->frames = at(0);
+    else
+        to.play->part = {at(0), at(1)};
+}
 void takeOut(OptionTargets& to, const OptionValue& value) {
     *to.out = value.text;
 }
@@ -236,20 +244,24 @@ std::vector<Option> pictureOptions() {
          .commands = kPlay,
          .take = [](OptionTargets& to, const OptionValue& value) { to.play->video = value.text; }},
         {.key = "frames",
-         .value = wholeValue(within(1, 1e6, "frames")),
-         .help = "this many, evenly over the path",
+         .value = wholeOrPartValue(within(1, 1e6, "frames")),
+         .help =
+             "this many, evenly over the path; or some of the whole path's at --fps, 0..249 being the first "
+             "250, with the numbers that they have there",
          .advice = "leave it out for the whole path at --fps",
          .fallback = "the whole path at --fps",
          .commands = kPlay,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.play->frames = static_cast<int>(value.whole); }},
+         .take = takeFrames},
         {.key = "fps",
          .value = numberValue(within(0.001, 1000, "frames a second")),
          .help = "of a video, or of pictures",
          .advice = "25 is common",
          .fallback = "25",
          .commands = kPlay,
-         .rules = {{[](const Asked& asked) { return asked.has("frames") && !asked.has("video"); },
+         .rules = {{[](const Asked& asked) {
+                        return asked.has("frames") && !asked.has("video") &&
+                               asked.given.text("frames").find("..") == std::string::npos;
+                    },
                     "has no effect beside --frames, which says how many pictures there are",
                     "leave one of them out, or give --video"}},
          .take = [](OptionTargets& to, const OptionValue& value) { to.play->fps = value.number(); }},

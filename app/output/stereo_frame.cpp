@@ -10,12 +10,6 @@
 namespace stereonav {
 namespace {
 
-template <typename T>
-void addRows(Hash& hash, const Plane<T>& plane) {
-    for (int y = 0; y < plane.height(); ++y)
-        hash.add(plane.row(y), sizeof(T) * static_cast<std::size_t>(plane.width()));
-}
-
 // Of several frames that make one picture. Of the warps the last one's figures but for its times.
 FrameTimings plus(const FrameTimings& sum, const FrameTimings& frame) {
     FrameTimings all = frame;
@@ -90,8 +84,8 @@ void StereoFrame::makeMany(const StereoViews& views, double time, EyePair& made)
 
 void StereoFrame::addTo(Hash& hash) const {
     for (const EyeImage* eye : {&mFrame.left, &mFrame.right}) {
-        addRows(hash, eye->color);
-        addRows(hash, eye->viewDepth);
+        hashPlane(hash, eye->color);
+        hashPlane(hash, eye->viewDepth);
     }
 }
 

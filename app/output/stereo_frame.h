@@ -10,6 +10,13 @@
 
 namespace stereonav {
 
+// The pixels of a plane, without what pads its rows.
+template <typename T>
+void hashPlane(Hash& hash, const Plane<T>& plane) {
+    for (int y = 0; y < plane.height(); ++y)
+        hash.add(plane.row(y), sizeof(T) * static_cast<std::size_t>(plane.width()));
+}
+
 class StereoFrame {
 public:
     // method: one of the scene's FrameMaker, or "auto" for its default.
@@ -21,6 +28,8 @@ public:
     // Both eyes at one pose, as far apart as suits the room there (NarrowedEyes). time: seconds, of what
     // moves by itself; no less than before.
     void render(const Pose& head, double time = 0);
+    // Flies past without a picture: eyes come together as they would have with one.
+    void passBy(const Pose& head, double time) { mStereo = mEyes.at(head, time); }
     // What the scene's surfaces are painted with (engine/scene/surface_paint.h), over the last picture; once.
     void paint();
 

@@ -18,6 +18,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/parallel.h"
+#include "engine/peers/peers.h"
 
 namespace stereonav {
 namespace {
@@ -127,6 +128,9 @@ void tellOf(CommandResult& result, const ReportOptions& options, const Report& r
 }  // namespace
 
 int runReport(const ReportOptions& options) {
+    // Nearly all parts take times and errors from the same pictures, and times are only true while nobody
+    // else computes: the first of several processes measures, the others sleep.
+    if (!peersOfThisRun().first()) return 0;
     checkOutputFolder("--out", options.out);
     std::optional<EarlierReport> earlier;
     if (!options.compare.empty()) earlier = readEarlierReport(options.compare);

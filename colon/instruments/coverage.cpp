@@ -10,12 +10,16 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/peers/piece_dealer.h"
 
 namespace stereonav {
 namespace {
 
-constexpr std::uint32_t kChunk = 256;   // vertices
-constexpr double kLift = 0.5;           // of the smallest spacing: how far off the wall lines of sight end
+constexpr std::uint32_t kChunk = 256;     // vertices
+constexpr double kLift = 0.5;             // of the smallest spacing: how far off the wall lines of sight end
+constexpr std::size_t kPiecesEach = 8;    // for each of several processes, where there are so many chunks
+constexpr std::size_t kMostInPiece = 64;  // chunks
+constexpr const char* kLooking = "looking at the wall";
 constexpr double kFarthestView = 0.02;  // metres from a patch to the eye that looks at it
 
 void check(const CoverageSetting& setting) {
@@ -112,20 +116,68 @@ void Coverage::look(std::span<const Pose> poses, Progress& progress) {
 }
 
 void Coverage::look(std::span<const EyeView> eyes, Progress& progress) {
+    if (mPeers && !mPeers->alone())
+        lookShared(eyes, progress);
+    else
+        lookHere(eyes, progress);
+}
+
+void Coverage::lookHere(std::span<const EyeView> eyes, Progress& progress) {
     std::atomic<std::size_t> done = 0;
     // A chunk is one task: no two write the same vertex.
     parallelFor(static_cast<int>(mChunks.size()), [&](int n) {
-        const Chunk& chunk = mChunks[n];
-        std::uint32_t left = 0;
-        for (std::uint32_t v = chunk.from; v < chunk.to; ++v) left += !mSeen[v];
-        for (std::size_t p = 0; p < eyes.size() && left > 0; ++p) {
-            if (!reaches(chunk, eyes[p])) continue;
-            for (std::uint32_t v = chunk.from; v < chunk.to; ++v)
-                if (!mSeen[v] && sees(eyes[p], v)) mSeen[v] = 1, --left;
-        }
-        progress.report(static_cast<double>(++done) / static_cast<double>(mChunks.size()),
-                        "looking at the wall");
+        lookAt(static_cast<std::size_t>(n), eyes);
+        progress.report(static_cast<double>(++done) / static_cast<double>(mChunks.size()), kLooking);
     });
+}
+
+void Coverage::lookAt(std::size_t n, std::span<const EyeView> eyes) {
+    const Chunk& chunk = mChunks[n];
+    std::uint32_t left = 0;
+    for (std::uint32_t v = chunk.from; v < chunk.to; ++v) left += !mSeen[v];
+    for (std::size_t p = 0; p < eyes.size() && left > 0; ++p) {
+        if (!reaches(chunk, eyes[p])) continue;
+        for (std::uint32_t v = chunk.from; v < chunk.to; ++v)
+            if (!mSeen[v] && sees(eyes[p], v)) mSeen[v] = 1, --left;
+    }
+}
+
+std::span<std::uint8_t> Coverage::seenOf(std::size_t firstChunk, std::size_t chunks) {
+    const std::uint32_t from = mChunks[firstChunk].from, to = mChunks[firstChunk + chunks - 1].to;
+    return std::span(mSeen).subspan(from, to - from);
+}
+
+// By parts of the wall rather than by poses: who looks at a part leaves out what he has seen already.
+void Coverage::lookShared(std::span<const EyeView> eyes, Progress& progress) {
+    const std::size_t each = std::clamp<std::size_t>(
+        mChunks.size() / (kPiecesEach * static_cast<std::size_t>(mPeers->count())), 1, kMostInPiece);
+    const auto make = [&](std::size_t piece, std::span<const std::byte> order) {
+        const std::size_t first = piece * each;
+        if (first >= mChunks.size())
+            throw Error("", "coverage", "the processes do not find the same wall", "give all the same files");
+        const std::size_t chunks = std::min(each, mChunks.size() - first);
+        const std::span<std::uint8_t> seen = seenOf(first, chunks);
+        ByteReader(order).getAll(seen);
+        parallelFor(static_cast<int>(chunks),
+                    [&](int n) { lookAt(first + static_cast<std::size_t>(n), eyes); });
+        return ByteWriter().putAll(std::span<const std::uint8_t>(seen)).take();
+    };
+    if (!mPeers->first()) return mPeers->serve(make);
+    PieceWork work;
+    work.count = (mChunks.size() + each - 1) / each;
+    const auto seenOfPiece = [&](std::size_t piece) {
+        return seenOf(piece * each, std::min(each, mChunks.size() - piece * each));
+    };
+    work.order = [&](std::size_t piece) {
+        return ByteWriter().putAll(std::span<const std::uint8_t>(seenOfPiece(piece))).take();
+    };
+    work.make = make;
+    std::size_t done = 0;
+    work.take = [&](std::size_t piece, std::span<const std::byte> made) {
+        ByteReader(made).getAll(seenOfPiece(piece));
+        progress.report(static_cast<double>(++done) / static_cast<double>(work.count), kLooking);
+    };
+    PieceDealer(*mPeers).deal(work);
 }
 
 double Coverage::percent() const {
@@ -210,7 +262,8 @@ int Coverage::visit(const std::vector<UnseenPatch>& patches, const FreeDistance&
         double left = patches[n].area;
         for (int round = 0; round < kMostViews && view; ++round) {
             Progress silent([&](double, const std::string&) { throwIfStopped(); });
-            look(std::span(&*view, 1), silent);
+            const EyeView eye = viewFrom(*view);
+            lookHere(std::span(&eye, 1), silent);
             ++views;
             const std::vector<UnseenPatch> rest = patchesAmong(patches[n].vertices);
             if (rest.empty() || rest.front().area >= left) break;

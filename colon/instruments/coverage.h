@@ -21,6 +21,8 @@
 
 namespace stereonav {
 
+class Peers;
+
 struct CoverageSetting {
     double verticalFov = 1.5707963267948966;  // radians, in (0, pi)
     double aspect = 1;                        // width of the picture over its height, > 0
@@ -51,6 +53,9 @@ public:
     void look(std::span<const Pose> poses, Progress& progress);
     // Adds what is in these pictures.
     void look(std::span<const EyeView> eyes, Progress& progress);
+    // From here on the wall is shared with the other processes of this run, each of which calls look() as
+    // this one does; the first has what is seen, the others have nothing of use. They must outlive it.
+    void shareWith(Peers& peers) { mPeers = &peers; }
     // Nothing is seen any more. Throws as the constructor.
     void startAgain(const CoverageSetting& setting);
 
@@ -73,6 +78,10 @@ private:
         float radius;
     };
     void makeChunks();
+    void lookHere(std::span<const EyeView> eyes, Progress& progress);
+    void lookAt(std::size_t chunk, std::span<const EyeView> eyes);
+    void lookShared(std::span<const EyeView> eyes, Progress& progress);
+    std::span<std::uint8_t> seenOf(std::size_t firstChunk, std::size_t chunks);
     EyeView viewFrom(const Pose& pose) const;
     bool reaches(const Chunk& chunk, const EyeView& view) const;
     bool sees(const EyeView& view, std::uint32_t vertex) const;
@@ -87,6 +96,7 @@ private:
     CoverageSetting mSetting;
     std::vector<Chunk> mChunks;
     std::vector<std::uint8_t> mSeen;
+    Peers* mPeers = nullptr;  // none: this process looks at all of it
 };
 
 // By vertex: 1 where it was not seen, else 0.

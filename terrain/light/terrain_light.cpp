@@ -18,6 +18,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/stop.h"
 #include "engine/light/skies/spherical_harmonics.h"
+#include "engine/peers/piece_dealer.h"
 #include "terrain/light/terrain_bake_part.h"
 #include "terrain/light/terrain_transfer.h"
 
@@ -91,12 +92,14 @@ Hash hashOf(const Heightfield& ground) {
 
 class Bake {
 public:
-    Bake(const Heightfield& ground, const TerrainLightSettings& settings, Progress& progress, bool keeps)
+    Bake(const Heightfield& ground, const TerrainLightSettings& settings, Progress& progress, bool keeps,
+         Peers* peers)
         : mGround(ground),
           mSettings(settings),
           mProgress(progress),
           mGrid(ground, settings.stride),
-          mKeeps(keeps) {
+          mPeers(peers && !peers->alone() ? peers : nullptr),
+          mKeeps(keeps && !helps()) {
         checkSettings(settings);
         checkMemoryOf(ground, mGrid, settings);
     }
@@ -111,10 +114,16 @@ public:
             const FinishingWork keepsWhatIsDone;
             keepDone();
             throw;
+        } catch (const PeerFailure&) {
+            keepDone();
+            throw;
         }
     }
 
 private:
+    // Of several processes one that is not the first: it bakes rows for that one, and keeps nothing.
+    bool helps() const { return mPeers && !mPeers->first(); }
+
     TerrainLight bake() {
         mProgress.report(0, "building the ground for rays");
         const GroundRays rays(mGround);
@@ -122,6 +131,7 @@ private:
         mLight.grid = mGrid;
         mLight.key = terrainLightKey(mGround, mSettings);
         goOn();
+        if (mPeers) beginAlike();
         if (mDone.phase == 0) {
             bakeDirect(rays, isTransfer() ? mSettings.bounces == 0 ? 0.9 : 0.5 : 1.0);
             nextPhase();
@@ -135,6 +145,7 @@ private:
             nextPhase();
         }
         mNext = {};
+        if (helps()) return std::move(mLight);
         intoPlanes();
         mProgress.report(1, "baked");
         return std::move(mLight);
@@ -146,6 +157,11 @@ private:
     // All rows of the present phase are done.
     void nextPhase() {
         keepDone();
+        if (mPeers && mDone.phase + 1 < phases()) pass(blocksOf({mDone.phase, 0, mGrid.height}));
+        enterNextPhase();
+    }
+
+    void enterNextPhase() {
         if (mDone.phase == 0)
             mTotal = mDirect;
         else
@@ -183,7 +199,7 @@ private:
         const BakeKept kept = readBakePart(mLight.key, mGrid.height, phases(), [&](const BakeBand& band) {
             if (band.phase > mDone.phase) {
                 mDone.rows = mKept.rows = mGrid.height;
-                nextPhase();
+                enterNextPhase();
             }
             return blocksOf(band);
         });
@@ -207,6 +223,8 @@ private:
     // Runs work(row) for all rows of the phase that are not done; the job's share from `from` to `to`.
     template <typename Work>
     void eachRow(double from, double to, const char* what, const Work& work) {
+        if (helps()) return serveRows(work);
+        if (mPeers) return shareRows(from, to, what, work);
         while (mDone.rows < mGrid.height) {
             mProgress.report(from + (to - from) * mDone.rows / mGrid.height, what);
             const int band = std::min(kBand, mGrid.height - mDone.rows);
@@ -214,6 +232,74 @@ private:
             mDone.rows += band;
             if (bytesPerRow() * static_cast<std::uint64_t>(notKept().rows) >= kKeepBytes) keepDone();
         }
+    }
+
+    // From the first process to the others: bytes that all of them have memory for.
+    void pass(const BakeBlocks& blocks) {
+        constexpr std::size_t kAtOnce = 64 << 20;
+        for (const std::span<std::byte> block : blocks)
+            for (std::size_t from = 0; from < block.size(); from += kAtOnce) {
+                const auto part = block.subspan(from, std::min(kAtOnce, block.size() - from));
+                if (helps())
+                    ByteReader(mPeers->hear()).getAll(part);
+                else
+                    mPeers->tellAll({part.begin(), part.end()});
+            }
+    }
+
+    // An earlier run may have been stopped in any phase: all go on from what the first one holds.
+    void beginAlike() {
+        std::int32_t phase = mDone.phase;
+        pass({std::as_writable_bytes(std::span(&phase, 1))});
+        if (phase > 0) pass(blocksOf({0, 0, mGrid.height}));
+        if (helps())
+            while (mDone.phase < phase) enterNextPhase();
+        if (phase > 1) pass({std::as_writable_bytes(std::span(mTotal))});
+    }
+
+    BakeBand bandAt(std::size_t piece, int first) const {
+        const int from = first + kBand * static_cast<int>(piece);
+        return {mDone.phase, from, std::min(kBand, mGrid.height - from)};
+    }
+
+    template <typename Work>
+    void shareRows(double from, double to, const char* what, const Work& work) {
+        const int first = mDone.rows;
+        PieceWork rows;
+        rows.count = static_cast<std::size_t>((mGrid.height - first + kBand - 1) / kBand);
+        rows.inOrder = true;
+        rows.ahead = 4 * static_cast<std::size_t>(mPeers->count());
+        rows.order = [&](std::size_t n) { return ByteWriter().put(bandAt(n, first)).take(); };
+        rows.make = [&](std::size_t n, std::span<const std::byte>) {
+            const BakeBand band = bandAt(n, first);
+            parallelFor(band.rows, [&](int k) { work(band.first + k); });
+            return PeerBytes{};
+        };
+        rows.take = [&](std::size_t n, std::span<const std::byte> made) {
+            mProgress.report(from + (to - from) * mDone.rows / mGrid.height, what);
+            const BakeBand band = bandAt(n, first);
+            ByteReader reader(made);
+            if (!made.empty())
+                for (const std::span<std::byte> block : blocksOf(band)) reader.getAll(block);
+            mDone.rows += band.rows;
+            if (bytesPerRow() * static_cast<std::uint64_t>(notKept().rows) >= kKeepBytes) keepDone();
+        };
+        PieceDealer(*mPeers).deal(rows);
+    }
+
+    template <typename Work>
+    void serveRows(const Work& work) {
+        mPeers->serve([&](std::size_t, std::span<const std::byte> order) {
+            const auto band = ByteReader(order).get<BakeBand>();
+            if (band.phase != mDone.phase || band.first < 0 || band.first + band.rows > mGrid.height)
+                throw Error("", "bake", "the processes do not find the same ground",
+                            "give all the same files");
+            parallelFor(band.rows, [&](int k) { work(band.first + k); });
+            ByteWriter made;
+            for (const std::span<std::byte> block : blocksOf(band))
+                made.putAll(std::span<const std::byte>(block));
+            return made.take();
+        });
     }
 
     // A row of a large ground takes seconds.
@@ -304,6 +390,7 @@ private:
     const std::vector<float> mUnit = units();
     TerrainLight mLight;
     TransferField mDirect, mTotal, mNext;
+    Peers* const mPeers;  // null: alone
     const bool mKeeps;
     bool mKeepingFailed = false;
     BakeReached mDone, mKept;
@@ -352,8 +439,8 @@ std::uint64_t terrainLightKey(const Heightfield& ground, const TerrainLightSetti
 }
 
 TerrainLight bakeTerrainLight(const Heightfield& ground, const TerrainLightSettings& settings,
-                              Progress& progress, bool keeps) {
-    return Bake(ground, settings, progress, keeps).run();
+                              Progress& progress, bool keeps, Peers* peers) {
+    return Bake(ground, settings, progress, keeps, peers).run();
 }
 
 }  // namespace stereonav

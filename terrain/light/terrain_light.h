@@ -23,6 +23,8 @@
 
 namespace stereonav {
 
+class Peers;
+
 enum class TerrainLightKind : std::uint32_t {
     Openness = 1,  // the share of the sky's light that reaches a sample, one byte
     Transfer = 2,  // openness, horizons and harmonics
@@ -108,9 +110,10 @@ std::filesystem::path terrainLightCache(const Heightfield& ground);
 
 // Throws Error for settings outside their ranges and where the memory would not suffice; Cancelled. The
 // result does not depend on the thread count. keeps: where it is cancelled what is done is kept in the cache,
-// and the same bake goes on from there, to the same bytes.
+// and the same bake goes on from there, to the same bytes. peers: all of them, who bake rows for the first;
+// the others' result is of no use. Throws PeerFailure where another one failed.
 TerrainLight bakeTerrainLight(const Heightfield& ground, const TerrainLightSettings& settings,
-                              Progress& progress, bool keeps = false);
+                              Progress& progress, bool keeps = false, Peers* peers = nullptr);
 
 // Written beside and renamed. Throws Error.
 void saveTerrainLight(const std::filesystem::path& file, const TerrainLight& light);

@@ -121,6 +121,13 @@ TEST(NumberOptions, RefuseWhatIsNoNumberInOneLine) {
     }
 }
 
+TEST(NumberOptions, TakeAPartByItsEnds) {
+    for (const char* part : {"0..0", "3..8", "999999..1000000"})
+        EXPECT_EQ(refusalOf({"play", "--frames", part}), "") << part;
+    for (const char* part : {"8..3", "..3", "3..", "..", "1..2..3", "-1..2", "0..1000001", "1...2", "1.5..2"})
+        EXPECT_NE(refusalOf({"play", "--frames", part}).find("FIRST..LAST"), std::string::npos) << part;
+}
+
 TEST(NumberOptions, SayRangeUnitAndAdvice) {
     EXPECT_EQ(refusalOf({"render", "--fov", "nan"}),
               "--fov: expected 1 to 170 degrees, got \"nan\"; 45 is common");
@@ -129,8 +136,8 @@ TEST(NumberOptions, SayRangeUnitAndAdvice) {
               "0.95 is a wall that is nearly opaque within a millimetre");
     EXPECT_EQ(
         refusalOf({"play", "--frames", "2.5"}),
-        "--frames: expected a whole number, 1 to 1e6 frames, got \"2.5\"; leave it out for the whole path "
-        "at --fps");
+        "--frames: expected a whole number, 1 to 1e6 frames, or FIRST..LAST of those from 0 on, got \"2.5\"; "
+        "leave it out for the whole path at --fps");
     EXPECT_EQ(refusalOf({"render", "--pose", "1,2"}),
               "--pose: expected x,y,z,heading,pitch,roll (-1e9 to 1e9 metres, then -360 to "
               "360 degrees), got \"1,2\"; the angles may be left out, as in 0,0,3000");

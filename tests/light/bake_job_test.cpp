@@ -5,13 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <barrier>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <thread>
 
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
+#include "engine/light/bake/brick_work.h"
+#include "tests/support/thread_peers.h"
 #include "tests/volume/test_volumes.h"
 
 namespace stereonav {
@@ -268,46 +270,42 @@ INSTANTIATE_TEST_SUITE_P(BakeJob, EveryKind,
                          testing::Values(BakeKind::Irradiance, BakeKind::Transfer, BakeKind::Openness),
                          [](const auto& kind) { return std::string(nameOf(kind.param)); });
 
-// Threads that stand for processes: each has sums of its own and meets the others after each pass.
+// Threads that stand for processes.
 TEST_P(EveryKind, SharedBakesGiveTheBytesOfOneProcess) {
     for (const BakeGoal& goal : {BakeGoal{100, 0, 0}, BakeGoal{0, 0.02, 0}}) {
-        BakeSums whole = emptySums(GetParam());
+        BakeSums whole = emptySums(GetParam()), shared = emptySums(GetParam());
         bake(whole, goal);
-        constexpr std::size_t kPeers = 3;
-        std::vector<BakeSums> sums;
-        for (std::size_t p = 0; p < kPeers; ++p) sums.push_back(emptySums(GetParam()));
-        std::barrier meeting(kPeers);
-        const auto peer = [&](std::size_t own) {
-            BakeShare share{own, kPeers, {}};
-            share.meet = [&](BakeSums& mine, BakeEnd end) {
-                meeting.arrive_and_wait();
-                for (std::size_t n = 0; n < mine.bricks().size(); ++n) {
-                    const BakeSums& from = sums[n % kPeers];
-                    if (n % kPeers == own) continue;
-                    mine.samples[n] = from.samples[n];
-                    mine.estimates[n] = from.estimates[n];
-                }
-                meeting.arrive_and_wait();
-                return end;
-            };
+        std::atomic<int> helped = 0;
+        runAsPeers(3, [&](Peers& peers) {
+            BakeSums scratch = emptySums(GetParam());
+            BakeSource source = madeUp();
+            if (!peers.first()) {
+                BakeSource counted = source;
+                counted.addIrradiance = [&](auto texels, int count, auto sums) {
+                    ++helped;
+                    source.addIrradiance(texels, count, sums);
+                };
+                counted.addTransfer = [&](auto texels, int first, int count, int order, int channels,
+                                          auto sums, auto alive) {
+                    ++helped;
+                    source.addTransfer(texels, first, count, order, channels, sums, alive);
+                };
+                return serveBake(scratch, counted, peers);
+            }
             Progress progress;
-            EXPECT_EQ(runBake(sums[own], madeUp(), goal, progress, {}, share), BakeEnd::Reached);
-        };
-        std::vector<std::thread> threads;
-        for (std::size_t p = 0; p < kPeers; ++p) threads.emplace_back(peer, p);
-        for (std::thread& thread : threads) thread.join();
+            EXPECT_EQ(runBake(shared, source, goal, progress, {}, &peers), BakeEnd::Reached);
+        });
         for (std::size_t n = 0; n < whole.bricks().size(); ++n) {
-            BakeSums& from = sums[n % kPeers];
-            ASSERT_EQ(from.samples[n], whole.samples[n]);
-            ASSERT_EQ(from.estimates[n].variance, whole.estimates[n].variance);
+            ASSERT_EQ(shared.samples[n], whole.samples[n]);
+            ASSERT_EQ(shared.estimates[n].variance, whole.estimates[n].variance);
             const auto bytes = [](const auto& span) {
                 return std::string(reinterpret_cast<const char*>(span.data()), span.size_bytes());
             };
-            ASSERT_EQ(bytes(from.light(n)), bytes(whole.light(n)));
-            ASSERT_EQ(bytes(from.transfer(n)), bytes(whole.transfer(n)));
-            ASSERT_EQ(bytes(from.alive(n)), bytes(whole.alive(n)));
+            ASSERT_EQ(bytes(shared.light(n)), bytes(whole.light(n)));
+            ASSERT_EQ(bytes(shared.transfer(n)), bytes(whole.transfer(n)));
+            ASSERT_EQ(bytes(shared.alive(n)), bytes(whole.alive(n)));
         }
-        EXPECT_EQ(sums[0].error(), whole.error());
+        EXPECT_EQ(shared.error(), whole.error());
     }
 }
 

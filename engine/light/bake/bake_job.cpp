@@ -5,18 +5,22 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
 
 #include "engine/base/parallel.h"
+#include "engine/base/stop.h"
 #include "engine/base/stopwatch.h"
+#include "engine/light/bake/brick_peers.h"
+#include "engine/light/bake/brick_work.h"
+#include "engine/peers/piece_dealer.h"
 
 namespace stereonav {
 namespace {
 
 // Samples of the first pass where the end is not known: enough for an estimate of the error.
 constexpr std::uint32_t kFirstPass = 16;
-// Samples at once. TexelLighter gave 0.5, 0.9 and 1.2 million samples a second for 16, 64 and 128 at once
-// (160 texels of the engine under Grace, one thread of a busy machine).
-constexpr std::uint32_t kBatch = 128;
 // Floats count samples exactly up to here.
 constexpr std::uint32_t kMostSamples = 1u << 24;
 constexpr double kReport_ms = 50;
@@ -35,12 +39,16 @@ std::string errorText(double error) {
 class BakeRun {
 public:
     BakeRun(BakeSums& sums, const BakeSource& source, const BakeGoal& goal, Progress& progress,
-            const BakeKeeping& keeping, const BakeShare& share)
-        : mSums(sums), mSource(source), mGoal(goal), mProgress(progress), mKeeping(keeping), mShare(share) {}
+            const BakeKeeping& keeping, Peers* peers)
+        : mSums(sums), mBricks(sums, source), mGoal(goal), mProgress(progress), mKeeping(keeping) {
+        if (!peers || peers->alone()) return;
+        mPeers = peers;
+        mDealer.emplace(*peers);
+    }
 
     BakeEnd run() {
         mError = mSums.error();
-        for (std::size_t n = mShare.index; n < mSums.bricks().size(); n += mShare.count) {
+        for (std::size_t n = 0; n < mSums.bricks().size(); ++n) {
             count(mSums.estimates[n], 1);
             mOwnTexels += static_cast<double>(mSums.texelsOf(n));
         }
@@ -49,7 +57,6 @@ public:
             const std::uint32_t next = nextTarget();
             if (next == 0) break;
             runPass(next);
-            if (mShare.meet) mEnd = mShare.meet(mSums, mEnd);
             mError = mSums.error();
         }
         return mEnd;
@@ -62,8 +69,8 @@ private:
         const std::uint32_t most = mostSamples();
         if (mSums.bricks().empty() || now >= most) return 0;
         if (now > 0 && mGoal.error > 0 && mError <= mGoal.error) return 0;
-        std::uint32_t next = mGoal.error > 0 || mGoal.minutes > 0 ? kFirstPass : kBatch;
-        while (next <= now) next = next < kBatch ? kBatch : 2 * next;
+        std::uint32_t next = mGoal.error > 0 || mGoal.minutes > 0 ? kFirstPass : kBakeBatch;
+        while (next <= now) next = next < kBakeBatch ? kBakeBatch : 2 * next;
         return std::min({next, most, mGoal.error > 0 ? neededForError(now) : most});
     }
 
@@ -83,95 +90,101 @@ private:
     void runPass(std::uint32_t target) {
         for (;;) {
             std::vector<std::size_t> todo;
-            for (std::size_t n = mShare.index; n < mSums.bricks().size(); n += mShare.count)
+            for (std::size_t n = 0; n < mSums.bricks().size(); ++n)
                 if (mSums.samples[n] < target) todo.push_back(n);
             if (todo.empty()) return;
             countWork(target);
             mPause = false;
-            parallelFor(static_cast<int>(todo.size()), [&](int n) {
-                if (mStop || mPause) return;
-                advance(todo[n], target);
-            });
-            if (mKeeping.keep && !mStop && mSinceKept.elapsed_ms() > 1000 * mKeeping.everySeconds) {
-                mKeeping.keep(mSums);
-                mSinceKept = Stopwatch();
-            }
+            if (mDealer)
+                shareBricks(todo, target);
+            else
+                parallelFor(static_cast<int>(todo.size()), [&](int n) {
+                    if (mStop || mPause) return;
+                    advance(todo[n], target);
+                });
+            keepIfDue();
             if (mStop) return;
         }
     }
 
     void advance(std::size_t brick, std::uint32_t target) {
-        const bool transfer = mSums.shape().kind == BakeKind::Transfer;
-        std::uint32_t countBefore = mSums.samples[brick];
-        std::vector<float> before;
-        const auto remember = [&] {
-            countBefore = mSums.samples[brick];
-            if (transfer) before.assign(mSums.transfer(brick).begin(), mSums.transfer(brick).end());
-        };
-        remember();
-        while (mSums.samples[brick] < target && !mStop) {
-            const std::uint32_t now = mSums.samples[brick];
-            std::uint32_t end = std::min(batchEnd(now), target);
-            // Two parts tell how much they differ.
-            if (transfer && now == 0) end = (end + 1) / 2;
-
-            transfer ? addTransfer(brick, now, end - now) : addIrradiance(brick, end - now);
-            mSums.samples[brick] = end;
-            if (now == 0 && end < target) remember();  // so that the first pass tells its error, too
-            mDone += static_cast<double>((end - now) * mSums.texelsOf(brick));
+        const BrickEstimate before = mSums.estimates[brick];
+        mBricks.advance(brick, target, [this](double samples) {
+            mDone += samples;
             check();
-        }
-        if (mSums.samples[brick] < target && transfer) return;
-        count(mSums.estimates[brick], -1);
-        mSums.estimates[brick] =
-            transfer ? estimateOf(before, countBefore, mSums.transfer(brick), mSums.samples[brick])
-                     : estimateOf(mSums.light(brick));
-        count(mSums.estimates[brick], 1);
+            return mStop.load();
+        });
+        noteEstimate(before, mSums.estimates[brick]);
     }
 
-    // Texels on no surface are left out: they are known after the first batch.
-    void addIrradiance(std::size_t brick, std::uint32_t count) {
-        const std::vector<glm::ivec3> all = texelsIn(mSums.layout(), mSums.bricks()[brick]);
-        const std::span<TexelSum> sums = mSums.light(brick);
-        std::vector<glm::ivec3> texels;
-        std::vector<TexelSum> some;
-        for (std::size_t n = 0; n < all.size(); ++n) {
-            if (sums[n].samples < 0) continue;
-            texels.push_back(all[n]);
-            some.push_back(sums[n]);
+    // Bricks are made by any of the processes; this one has the sums of all.
+    void shareBricks(const std::vector<std::size_t>& todo, std::uint32_t target) {
+        const BrickRuns runs(todo, mPeers->count());
+        PieceWork work;
+        work.count = runs.count();
+        work.order = [&](std::size_t n) { return orderOf(mSums, runs.at(n), target, secondsLeftOfGoal()); };
+        work.make = [&](std::size_t n, std::span<const std::byte>) {
+            const std::span<const std::size_t> bricks = runs.at(n);
+            parallelFor(static_cast<int>(bricks.size()), [&](int k) {
+                if (!mStop) advance(bricks[static_cast<std::size_t>(k)], target);
+            });
+            return PeerBytes{};
+        };
+        work.take = [&](std::size_t n, std::span<const std::byte> made) {
+            if (!made.empty()) takeBricks(runs.at(n), made);
+            keepIfDue();
+        };
+        work.ended = [this] {
+            if (mPeers->failed()) end(BakeEnd::Cancelled);
+            check();
+            return mStop.load();
+        };
+        try {
+            mDealer->deal(work);
+        } catch (const Cancelled&) {
+            end(BakeEnd::Cancelled);
+        } catch (const PeerFailure&) {
+            end(BakeEnd::Cancelled);
         }
-        if (texels.empty()) return;
-        mSource.addIrradiance(texels, static_cast<int>(count), some);
-        std::size_t from = 0;
-        for (TexelSum& sum : sums)
-            if (!(sum.samples < 0)) sum = some[from++];
     }
 
-    void addTransfer(std::size_t brick, std::uint32_t first, std::uint32_t count) {
-        const std::vector<glm::ivec3> all = texelsIn(mSums.layout(), mSums.bricks()[brick]);
-        const std::span<float> sums = mSums.transfer(brick);
-        const std::span<std::uint8_t> alive = mSums.alive(brick);
-        const auto each = static_cast<std::ptrdiff_t>(mSums.shape().numbersPerTexel());
-        std::vector<glm::ivec3> texels;
-        std::vector<float> some;
-        for (std::size_t n = 0; n < all.size(); ++n) {
-            if (!alive[n]) continue;
-            texels.push_back(all[n]);
-            const auto from = sums.begin() + static_cast<std::ptrdiff_t>(n) * each;
-            some.insert(some.end(), from, from + each);
+    // From another process.
+    void takeBricks(std::span<const std::size_t> bricks, std::span<const std::byte> made) {
+        std::vector<BrickEstimate> estimates;
+        double before = 0, after = 0;
+        const auto samplesOf = [&](std::size_t brick) {
+            return static_cast<double>(mSums.samples[brick]) * static_cast<double>(mSums.texelsOf(brick));
+        };
+        for (const std::size_t brick : bricks) {
+            estimates.push_back(mSums.estimates[brick]);
+            before += samplesOf(brick);
         }
-        if (texels.empty()) return;
-        std::vector<std::uint8_t> someAlive(texels.size(), 1);
-        mSource.addTransfer(texels, static_cast<int>(first), static_cast<int>(count), mSums.shape().order,
-                            mSums.shape().channels, some, someAlive);
-        std::ptrdiff_t from = 0;
-        for (std::size_t n = 0; n < all.size(); ++n) {
-            if (!alive[n]) continue;
-            alive[n] = someAlive[static_cast<std::size_t>(from)];
-            std::copy_n(some.begin() + from * each, each,
-                        sums.begin() + static_cast<std::ptrdiff_t>(n) * each);
-            ++from;
+        takeResult(mSums, bricks, made);
+        for (std::size_t n = 0; n < bricks.size(); ++n) {
+            noteEstimate(estimates[n], mSums.estimates[bricks[n]]);
+            after += samplesOf(bricks[n]);
         }
+        mDone += after - before;
+    }
+
+    double secondsLeftOfGoal() const {
+        if (!(mGoal.minutes > 0)) return std::numeric_limits<double>::infinity();
+        return std::max(0.0, 60 * mGoal.minutes - mSinceStart.elapsed_ms() / 1000);
+    }
+
+    bool keepingIsDue() const {
+        return mKeeping.keep && !mStop && mSinceKept.elapsed_ms() > 1000 * mKeeping.everySeconds;
+    }
+
+    void keepIfDue() {
+        if (!keepingIsDue()) return;
+        mKeeping.keep(mSums);
+        mSinceKept = Stopwatch();
+    }
+
+    void noteEstimate(const BrickEstimate& before, const BrickEstimate& now) {
+        count(before, -1);
+        count(now, 1);
     }
 
     // For what is told on the way: the error of the bricks where it is known.
@@ -189,7 +202,7 @@ private:
     void check() {
         if (mProgress.cancelled()) end(BakeEnd::Cancelled);
         if (mGoal.minutes > 0 && mSinceStart.elapsed_ms() >= 60000 * mGoal.minutes) end(BakeEnd::TimeUp);
-        if (mKeeping.keep && mSinceKept.elapsed_ms() > 1000 * mKeeping.everySeconds) mPause = true;
+        if (keepingIsDue()) mPause = true;
         report(false);
     }
 
@@ -218,7 +231,7 @@ private:
             last = mGoal.samples > 0 ? std::min(last, foreseen) : foreseen;
         }
         double done = 0;
-        for (std::size_t n = mShare.index; n < mSums.bricks().size(); n += mShare.count)
+        for (std::size_t n = 0; n < mSums.bricks().size(); ++n)
             done += static_cast<double>(mSums.samples[n]) * static_cast<double>(mSums.texelsOf(n));
         mAll = last * mOwnTexels;
         mDone = done;
@@ -251,11 +264,12 @@ private:
     }
 
     BakeSums& mSums;
-    const BakeSource& mSource;
+    const BrickWork mBricks;
     const BakeGoal mGoal;
     Progress& mProgress;
     const BakeKeeping& mKeeping;
-    const BakeShare& mShare;
+    Peers* mPeers = nullptr;             // several processes, this being the first
+    std::optional<PieceDealer> mDealer;  // of them
     const Stopwatch mSinceStart;
     Stopwatch mSinceKept;
     std::atomic<bool> mStop = false, mPause = false;
@@ -282,13 +296,17 @@ BakeSource sourceOf(const TexelLighter& lighter) {
     return source;
 }
 
-std::uint32_t batchEnd(std::uint32_t first) {
-    return (first / kBatch + 1) * kBatch;
+BakeEnd runBake(BakeSums& sums, const BakeSource& source, const BakeGoal& goal, Progress& progress,
+                const BakeKeeping& keeping, Peers* peers) {
+    return BakeRun(sums, source, goal, progress, keeping, peers).run();
 }
 
-BakeEnd runBake(BakeSums& sums, const BakeSource& source, const BakeGoal& goal, Progress& progress,
-                const BakeKeeping& keeping, const BakeShare& share) {
-    return BakeRun(sums, source, goal, progress, keeping, share).run();
+void serveBake(BakeSums& sums, const BakeSource& source, Peers& peers) {
+    const BrickWork work(sums, source);
+    peers.serve([&](std::size_t, std::span<const std::byte> order) {
+        if (stopWished()) throw Cancelled();
+        return resultOf(sums, work, order);
+    });
 }
 
 }  // namespace stereonav

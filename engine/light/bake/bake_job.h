@@ -10,6 +10,8 @@
 
 namespace stereonav {
 
+class Peers;
+
 // Where samples come from; as the functions of TexelLighter with the same names.
 struct BakeSource {
     std::function<void(std::span<const glm::ivec3> texels, int count, std::span<TexelSum> sums)>
@@ -34,23 +36,16 @@ struct BakeKeeping {
 
 enum class BakeEnd { Reached, TimeUp, Cancelled };
 
-// Several processes at one bake: this one has bricks index, index + count, ... of the sums.
-struct BakeShare {
-    std::size_t index = 0, count = 1;
-    // After each pass, by all: gives everyone the samples and estimates of all bricks (their sums stay where
-    // they are), and how the pass ended: Reached unless it ended otherwise for one of them. Empty for one
-    // process. So all agree on the next pass, which is that of a single process.
-    std::function<BakeEnd(BakeSums& sums, BakeEnd own)> meet;
-};
-
 // Runs on all threads; the result does not depend on their number. Sums that already have samples go on from
 // there: a bake to a number of samples that was broken off gives the same bytes as one that was not, and so
 // does one that went on from another multiple of 128. Never throws Cancelled: cancelling is an end like
-// others.
+// others. peers: of whom this is the first process, which deals out bricks and has the sums of all; the same
+// bytes as alone. That another one failed is an end as by Cancelled; Peers::throwIfFailed tells.
 BakeEnd runBake(BakeSums& sums, const BakeSource& source, const BakeGoal& goal, Progress& progress,
-                const BakeKeeping& keeping = {}, const BakeShare& share = {});
+                const BakeKeeping& keeping = {}, Peers* peers = nullptr);
 
-// The end of the batch that sample `first` is in: fixed, so that sums do not depend on breaks.
-std::uint32_t batchEnd(std::uint32_t first);
+// Of the other processes: lights the bricks that the first one's runBake deals. Their sums are of the same
+// texels, and of no use afterwards. Throws Error, Cancelled.
+void serveBake(BakeSums& sums, const BakeSource& source, Peers& peers);
 
 }  // namespace stereonav

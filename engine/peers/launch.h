@@ -1,0 +1,20 @@
+// Whether this process was started as one of several, by what mpirun, mpiexec or srun put into the
+// environment: nothing of MPI is loaded to find out.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace stereonav {
+
+struct Launch {
+    bool several = false;     // processes of one run
+    int rank = 0, count = 1;  // count 0: only that there are several is known
+};
+
+// variable: as std::getenv, null for what is not set.
+Launch launchOf(const std::function<const char*(const char*)>& variable);
+// Of this process.
+Launch launchOfThisProcess();
+
+}  // namespace stereonav

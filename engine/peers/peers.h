@@ -1,0 +1,84 @@
+// The processes of this run that share a command's work: this one alone, or those that mpirun or srun
+// started. The first one (rank 0) deals out pieces of work as the others ask for them, makes pieces itself,
+// and alone writes results (piece_dealer.h); the others make what they are given.
+//
+// The others call MPI on the thread that works. The first one has a thread of its own for messages, so that
+// nobody waits for a piece that it makes. Who waits sleeps: MPI's own waiting keeps a core busy.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "engine/peers/peer_link.h"
+
+namespace stereonav {
+
+class PieceDesk;
+
+// What another process could not do: its whole line.
+class PeerFailure : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+class Peers {
+public:
+    Peers();  // one process: nothing is loaded, no thread started
+    // By all at once. greeting: the same for all, or check() throws.
+    Peers(std::unique_ptr<PeerLink> link, const std::string& greeting);
+    ~Peers();
+    Peers(const Peers&) = delete;
+    Peers& operator=(const Peers&) = delete;
+
+    int rank() const { return mRank; }
+    int count() const { return mCount; }
+    bool first() const { return mRank == 0; }
+    bool alone() const { return mCount == 1; }
+    // Of this process, where those that may run on the same cores share them evenly; 0: of one alone, all.
+    int threads() const { return mThreads; }
+    // Throws Error where the processes were not given the same.
+    void check() const;
+
+    // Of the others. Makes what the first one deals (a PieceDealer) until it closes. Throws what `make` does,
+    // and Cancelled.
+    using Make = std::function<PeerBytes(std::size_t piece, std::span<const std::byte> order)>;
+    void serve(const Make& make);
+    // What the first one told all, in its order. Throws Cancelled.
+    PeerBytes hear();
+    // Of the first: what all others hear. Returns when it has been sent.
+    void tellAll(const PeerBytes& bytes);
+
+    // First: whether another one has failed. Throws PeerFailure.
+    void throwIfFailed() const;
+    bool failed() const;
+    // A good end, by all: waits for the first one.
+    void leave();
+    // Of several: an end of one, which ends all. Tells the line, on standard error and once for the run; a
+    // run that was stopped has none but the first one's.
+    [[noreturn]] void fail(const std::string& line);
+
+    PieceDesk* desk() { return mDesk.get(); }
+
+private:
+    void greet(const std::string& greeting);
+    PeerMessage waitFor(PeerKind kind, PeerKind orKind);
+    PeerMessage waitFor(PeerKind kind) { return waitFor(kind, kind); }
+
+    std::unique_ptr<PeerLink> mLink;   // null: alone
+    std::unique_ptr<PieceDesk> mDesk;  // of the first of several
+    int mRank = 0, mCount = 1, mThreads = 0;
+    bool mSame = true;
+    int mPhase = 0;               // of serve()
+    std::deque<PeerBytes> mTold;  // that came before it was asked for
+};
+
+// Of this process. Alone until joinRun() has found otherwise.
+Peers& peersOfThisRun();
+// Joins those that were started with this one, if any. greeting: as of Peers. Throws Error.
+void joinRun(const std::string& greeting);
+
+}  // namespace stereonav
