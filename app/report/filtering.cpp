@@ -1,5 +1,5 @@
-// The report's chart of how the ground's colour is read: mip levels, with a bias or none, and more rays a
-// pixel, against many rays a pixel that read the finest level.
+// The report's chart of how the ground is filtered: its colour by mip levels, with a bias or none, its shape
+// by levels of detail, and more rays a pixel, against many rays a pixel that read the finest of both.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +19,7 @@ struct FilterWay {
     GroundFilter filter;
     int factor = 1;  // rays a pixel, each way
     bool isDefault = false;
+    double levelOfDetail = 0;  // RingWish::share
     std::unique_ptr<TerrainRenderer> renderer = nullptr;
     std::vector<double> ms = {};  // by repeat, mean frame
     double squares = 0, worst = 0;
@@ -36,8 +37,18 @@ std::vector<FilterWay> waysOf(const Scene& scene) {
     ways.push_back({"bilinear alone", "the finest level whatever the footprint", {false, 0}, 1, false});
     ways.push_back({"mip levels, 4 rays", "a pixel, averaged in linear light", {}, 2, false});
     ways.push_back({"bilinear, 4 rays", "a pixel, averaged in linear light", {false, 0}, 2, false});
-    for (FilterWay& way : ways)
+    for (const double share : {0.5, 1.0, 2.0})
+        ways.push_back({fmt::format("level of detail {:g}", share),
+                        "coarser samples where they are off by that share of a pixel",
+                        {},
+                        1,
+                        false,
+                        share});
+    ways.push_back({"level of detail 0.5, 4 rays", "a pixel, averaged in linear light", {}, 2, false, 0.5});
+    for (FilterWay& way : ways) {
         way.renderer = std::make_unique<TerrainRenderer>(*terrainOf(scene), scene.simd, way.filter);
+        way.renderer->takeCoarser(way.levelOfDetail);
+    }
     return ways;
 }
 
@@ -59,7 +70,8 @@ WayChart filteringChart(ReportRun& run, const ReportScene& scene) {
     Progress progress([&](double, const std::string&) { run.tell("filtering, " + scene.title); });
     std::vector<FilterWay> ways = waysOf(loaded);
     for (FilterWay& way : ways) way.ms.assign(static_cast<std::size_t>(repeats), 0.0);
-    const TerrainRenderer unfiltered(*terrainOf(loaded), loaded.simd, {false, 0});
+    TerrainRenderer unfiltered(*terrainOf(loaded), loaded.simd, {false, 0});
+    unfiltered.takeCoarser(0);
     const std::vector<Pose> poses =
         loaded.path.samples().empty() ? std::vector<Pose>{loaded.startPose} : loaded.path.frames(frames);
     const auto count = static_cast<double>(poses.size());
@@ -67,6 +79,8 @@ WayChart filteringChart(ReportRun& run, const ReportScene& scene) {
     for (const Pose& pose : poses) {
         const EyeView view = makeEyeView(pose, loaded.lens);
         image.resize(view.width, view.height, rendererOf(loaded).viewDependence());
+        for (const FilterWay& way : ways)
+            way.renderer->lookFrom(view);  // untimed: rings last for many frames
         const Plane<PackedColor> truth = renderSupersampled(unfiltered, view, truthFactor, progress);
         for (int r = 0; r < repeats; ++r)
             for (FilterWay& way : ways) {
@@ -79,7 +93,7 @@ WayChart filteringChart(ReportRun& run, const ReportScene& scene) {
     }
     WayChart chart;
     chart.id = "filtering/" + scene.id;
-    chart.title = "Reading the ground's colour, " + scene.title;
+    chart.title = "Filtering the ground, " + scene.title;
     chart.setting =
         fmt::format("{}, {} frames", run.settingOf(loaded.lens.width, loaded.lens.height), poses.size());
     chart.text = fmt::format(

@@ -87,6 +87,7 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
         if (!terrain.eyesGiven) terrain.stereo = followedEyes(options.ground.followHeight_m);
     }
     terrain.detail = options.groundDetail && !shownAs(options).swept;
+    terrain.levelOfDetail = options.levelOfDetail;
     return terrain;
 }
 

@@ -40,6 +40,7 @@ std::vector<std::string_view> CastFrames::compared() const {
 
 void CastFrames::make(const StereoViews& views, double, const FrameWay& way, EyePair& frame) {
     const WarpSetting setting = settingOf(way);
+    mRenderer.lookFrom(views.left);
     frame.left.resize(views.left.width, views.left.height, mRenderer.viewDependence());
     const Stopwatch watch;
     renderEye(mRenderer, views.left, frame.left);
@@ -75,6 +76,7 @@ RightEyeTimings CastFrames::warp(const StereoViews& views, const EyeImage& left,
 }
 
 void CastFrames::makeOne(const EyeView& view, double, EyePair& frame) {
+    mRenderer.lookFrom(view);
     frame.left.resize(view.width, view.height, mRenderer.viewDependence());
     frame.right = {};
     const Stopwatch watch;

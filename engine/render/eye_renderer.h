@@ -25,6 +25,10 @@ class EyeRenderer {
 public:
     virtual ~EyeRenderer() = default;
 
+    // Pictures from this eye, and from others close beside it, come next: what is chosen by where the eyes are
+    // (the level of detail) is chosen now, and stays for all of them. Not while a picture is cast.
+    virtual void lookFrom(const EyeView&) const {}
+
     // The scene chooses how a picture is cut into tiles (bands of columns for terrain). Together the
     // tiles 0 .. tileCount(view) - 1 cover every pixel once.
     virtual int tileCount(const EyeView& view) const = 0;

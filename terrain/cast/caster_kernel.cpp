@@ -2,6 +2,7 @@
 // from lower rays to higher ones, and a ray starts where a lower one's free way proves its own to be
 // free (coherentStart). Compiled once for each instruction set.
 #include "terrain/cast/kernel_columns.h"
+#include "terrain/cast/kernel_rings.h"
 #include "terrain/cast/kernel_shade.h"
 #include "terrain/cast/kernel_stream.h"
 
@@ -112,11 +113,49 @@ private:
         for (int a = begin; a < end; a += kLanes) {
             const int count = end - a < kLanes ? end - a : kLanes;
             const M lanes = firstLanes(count);
-            Columns columns(mEye, raysOfRow(mView, mOffsets, a, mBand.firstStep), lanes);
+            const Rays rays = raysOfRow(mView, mOffsets, a, mBand.firstStep);
+            const M shaded = mScene.beyond.scene != nullptr ? maskFromBits(0) : lanes;
+            Columns columns(mEye, rays, lanes);
             for (int q = mBand.firstStep; q < mBand.endStep; ++q) {
-                const Hits hits = columns.cast(mView.base[2] + q * mView.perStep[2]);
-                put(a, q, count, lanes, hits.t, shadePacket(mScene, mView, columns.rays(), hits, lanes));
+                const Hits hits = columns.cast(slopeOf(q), lanes);
+                const M colored = shaded | (hits.t < infinity());
+                put(a, q, count, lanes, hits.t,
+                    any(colored) ? shadePacket(mScene, mView, columns.rays(), hits, lanes & colored) : I(0));
             }
+            if (mScene.beyond.scene != nullptr) columnsBeyond(a, lanes, rays);
+        }
+    }
+
+    double slopeOf(int q) const { return mView.base[2] + q * mView.perStep[2]; }
+
+    // The columns' rays that met nothing, over each coarser ground in turn: again from the lowest up. What is
+    // met is told by the depths that are stored. Columns are upright, lanes lie beside each other.
+    void columnsBeyond(int a, M lanes, Rays rays) {
+        const CasterScene* scene = &mScene;
+        double x = mEye.x, y = mEye.y;
+        F border = borderExit(mEye, rays);
+        while (scene->beyond.scene != nullptr) {
+            const CoarserGround& beyond = scene->beyond;
+            x = (x - beyond.originX) * beyond.scale;
+            y = (y - beyond.originY) * beyond.scale;
+            rays = scaledRays(rays, beyond.scale);
+            scene = beyond.scene;
+            const bool last = scene->beyond.scene == nullptr;
+            const Eye eye = makeEyeAt(scene->ground, mView, x, y);
+            Columns columns(eye, rays, lanes, border);
+            for (int q = mBand.firstStep; q < mBand.endStep; ++q) {
+                const std::int64_t row = mView.firstY + static_cast<std::int64_t>(q) * mView.stepY;
+                float* depth = mTarget.depth + row * mTarget.depthStride + mView.firstX + a;
+                std::uint32_t* color = mTarget.color + row * mTarget.colorStride + mView.firstX + a;
+                const M left = lanes & (loadF(depth) >= infinity());
+                if (!any(left)) continue;
+                const Hits hits = columns.cast(slopeOf(q), left);
+                const M met = left & (hits.t < infinity()), shaded = last ? left : met;
+                if (!any(shaded)) continue;
+                store(color, shadePacket(*scene, mView, columns.rays(), hits, shaded), shaded);
+                store(depth, hits.t, met);
+            }
+            border = max(border, borderExit(eye, rays));
         }
     }
 
@@ -141,8 +180,8 @@ private:
         const Rays rays = raysOfRow(mView, mOffsets, a, q);
         const F start = coherentStart(rays, a, q, lanes);
         const I level = select(start > F(0.0f), I(0), I(kColdLevel < mScene.ground.levels ? kColdLevel : 0));
-        const Hits hits = castPacket(mEye, rays, start, level, lanes);
-        const I color = shadePacket(mScene, mView, rays, hits, lanes);
+        Hits hits = castPacket(mEye, rays, start, level, lanes);
+        const I color = shadeThrough(mScene, mView, mEye, rays, start, lanes, hits);
         store(row + a, hits.free, lanes);
         put(a, q, count, lanes, hits.t, color);
     }

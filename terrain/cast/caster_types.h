@@ -52,9 +52,20 @@ struct DetailOctave {
 struct DetailData {
     const float* values = nullptr;  // of the lattice
     const float* rough = nullptr;   // at the ground's samples
+    int roughPitch = 0;             // samples from row to row
     int octaves = 0;                // 0: no detail
     float perMetre = 1;             // cells of the ground
     DetailOctave octave[kDetailOctaves];
+};
+
+struct CasterScene;
+
+// Ground that goes on beyond the border of a finer one, which lies in its middle
+// (terrain/ground/ground_rings.h).
+struct CoarserGround {
+    const CasterScene* scene = nullptr;  // null: there is none
+    double originX = 0, originY = 0;     // of its sample (0, 0), in grid coordinates of the finer one
+    double scale = 1;                    // its grid units for one of the finer: a power of two
 };
 
 struct CasterScene {
@@ -64,6 +75,7 @@ struct CasterScene {
     SkyData sky;
     FogData fog;
     AirData air;  // of a physical sky; then there is no fog
+    CoarserGround beyond;
 };
 
 // A view turned so that `step` leads from steeper to higher rays (rows from bottom to top in an upright

@@ -27,7 +27,7 @@ double riseOfFade(double t) {
 
 }  // namespace
 
-GroundDetail::GroundDetail(const Heightfield& ground) : mSpacing(ground.spacing()) {
+GroundDetail::GroundDetail(const Heightfield& ground) : mSpacing(ground.spacing()), mWidth(ground.width()) {
     const Noise noise(4711);
     mValues.resize(static_cast<std::size_t>(kDetailPitch) * kDetailSide);
     for (int y = 0; y < kDetailSide; ++y)
@@ -48,6 +48,7 @@ DetailData GroundDetail::forKernels(const TerrainLook& look) const {
     DetailData data;
     data.values = mValues.data();
     data.rough = mRough.data();
+    data.roughPitch = mWidth;
     data.octaves = kDetailOctaves;
     data.perMetre = static_cast<float>(1 / std::sqrt(mSpacing.x * mSpacing.y));
     const glm::dvec3 sun = GroundLight(look).direct();
@@ -68,8 +69,7 @@ DetailData GroundDetail::forKernels(const TerrainLook& look) const {
     return data;
 }
 
-double detailAt(const DetailData& detail, int samplesAcross, int i, int j, double u, double v,
-                double footprint) {
+double detailAt(const DetailData& detail, int i, int j, double u, double v, double footprint) {
     double light = 0;
     for (const DetailOctave& octave : detail.octave) {
         const double weight = std::clamp(
@@ -88,8 +88,8 @@ double detailAt(const DetailData& detail, int samplesAcross, int i, int j, doubl
         const double alongY = riseOfFade(q) * ((c - a) + fadeOf(p) * ((d - b) - (c - a)));
         light += weight * (octave.lightX * alongX + octave.lightY * alongY);
     }
-    const float* const south = detail.rough + static_cast<std::size_t>(j) * samplesAcross + i;
-    const float* const north = south + samplesAcross;
+    const float* const south = detail.rough + static_cast<std::size_t>(j) * detail.roughPitch + i;
+    const float* const north = south + detail.roughPitch;
     const double rough = std::lerp(std::lerp(double(south[0]), double(south[1]), u),
                                    std::lerp(double(north[0]), double(north[1]), u), v);
     return std::clamp(rough * light, double(kDarkestDetail), double(kBrightestDetail));

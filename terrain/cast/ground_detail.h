@@ -27,11 +27,11 @@ private:
     std::vector<float> mValues;  // of the lattice, kDetailPitch a row
     std::vector<float> mRough;   // at samples: 0 on level ground, towards 1 on steep ground
     glm::dvec2 mSpacing;
+    int mWidth;  // samples of a row
 };
 
 // The plain statement of what kernels work out: by how much ground in cell (i, j), at u, v in it, is brighter
 // than without detail, as a share. footprint: a pixel's longer side there, metres.
-double detailAt(const DetailData& detail, int samplesAcross, int i, int j, double u, double v,
-                double footprint);
+double detailAt(const DetailData& detail, int i, int j, double u, double v, double footprint);
 
 }  // namespace stereonav

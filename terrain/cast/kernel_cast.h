@@ -42,31 +42,36 @@ STEREONAV_INLINE int clampInt(double x, int low, int high) {
     return x < low ? low : x > high ? high : static_cast<int>(x);
 }
 
-STEREONAV_INLINE Eye makeEye(const GroundData& ground, const CasterView& view) {
-    const int baseI = clampInt(view.originX, 0, ground.width - 2);
-    const int baseJ = clampInt(view.originY, 0, ground.height - 2);
+// x, y: of the eye, in grid coordinates of this ground.
+STEREONAV_INLINE Eye makeEyeAt(const GroundData& ground, const CasterView& view, double x, double y) {
+    const int baseI = clampInt(x, 0, ground.width - 2);
+    const int baseJ = clampInt(y, 0, ground.height - 2);
     // Heights take part as (eye - sample) + rest + t * slope, beside differences of samples: each term is
     // rounded once, and each is at most the largest of these in size; 2^-21 of it covers the few roundings of
     // 2^-24.
     const float height = static_cast<float>(view.originZ);
-    const auto size = [](double x) { return static_cast<float>(x < 0 ? -x : x); };
+    const auto size = [](double z) { return static_cast<float>(z < 0 ? -z : z); };
     float largest = ground.maxHeight - ground.minHeight;
     if (size(view.originZ - ground.minHeight) > largest) largest = size(view.originZ - ground.minHeight);
     if (size(view.originZ - ground.maxHeight) > largest) largest = size(view.originZ - ground.maxHeight);
     return {ground,
-            view.originX,
-            view.originY,
+            x,
+            y,
             view.originZ,
             baseI,
             baseJ,
-            F(static_cast<float>(view.originX - baseI)),
-            F(static_cast<float>(view.originY - baseJ)),
+            F(static_cast<float>(x - baseI)),
+            F(static_cast<float>(y - baseJ)),
             F(height),
             F(static_cast<float>(view.originZ - height)),
             F(largest * 0x1p-21f),
             I(ground.width - 2),
             I(ground.height - 2),
             view.nearDepth};
+}
+
+STEREONAV_INLINE Eye makeEye(const GroundData& ground, const CasterView& view) {
+    return makeEyeAt(ground, view, view.originX, view.originY);
 }
 
 STEREONAV_INLINE F infinity() {
@@ -83,6 +88,7 @@ struct Walk {
     F inverseX, inverseY;
     M eastward, northward, downward;
     F t;
+    F floor;  // no hit lies before: the near distance, or where the ray came to this ground
     I i, j, level;
     M active;
     M risen;  // above all ground and rising: free for good
@@ -224,12 +230,13 @@ STEREONAV_INLINE float cellApproach(const GroundData& g, const int* cell, const 
 }
 
 // The plain walk in double precision, lane by lane, from a little before `from` (the float walk has
-// cleared what lies before, up to corners of cells).
-inline void castExactly(const Eye& eye, const Rays& rays, F from, M m, Hits& hits) {
-    alignas(64) float t[kLanes], u[kLanes], v[kLanes], approach[kLanes], start[kLanes];
+// cleared what lies before, up to corners of cells), but not before `floor`.
+inline void castExactly(const Eye& eye, const Rays& rays, F from, F floor, M m, Hits& hits) {
+    alignas(64) float t[kLanes], u[kLanes], v[kLanes], approach[kLanes], start[kLanes], least[kLanes];
     alignas(64) std::int32_t i[kLanes], j[kLanes];
     alignas(64) double x[kLanes], y[kLanes], z[kLanes];
     store(t, hits.t), store(u, hits.u), store(v, hits.v), store(approach, hits.approach), store(start, from);
+    store(least, floor);
     store(i, hits.i), store(j, hits.j);
     __builtin_memcpy(x, &rays.exactX, sizeof x);
     __builtin_memcpy(y, &rays.exactY, sizeof y);
@@ -240,7 +247,7 @@ inline void castExactly(const Eye& eye, const Rays& rays, F from, M m, Hits& hit
         const double fastest = __builtin_fmax(__builtin_fabs(x[k]), __builtin_fabs(y[k]));
         const double back = 2.0 / (fastest > 1e-12 ? fastest : 1e-12);
         const double origin[3] = {eye.x, eye.y, eye.z}, direction[3] = {x[k], y[k], z[k]};
-        const double tMin = __builtin_fmax(start[k] - back, static_cast<double>(eye.nearDepth));
+        const double tMin = __builtin_fmax(start[k] - back, static_cast<double>(least[k]));
         int cell[2] = {};
         double position[2] = {};
         t[k] = static_cast<float>(g.exactHit(g.context, origin, direction, tMin, cell, position));
@@ -253,6 +260,7 @@ inline void castExactly(const Eye& eye, const Rays& rays, F from, M m, Hits& hit
 
 STEREONAV_INLINE Walk startWalk(const Eye& eye, const Rays& rays, F start, I level, M lanes) {
     Walk w;
+    w.floor = F(eye.nearDepth);
     w.rays = rays;
     w.inverseX = approxReciprocal(divisible(rays.x));
     w.inverseY = approxReciprocal(divisible(rays.y));
@@ -346,7 +354,7 @@ STEREONAV_INLINE Hits settle(const Eye& eye, const Walk& w, const CellHit& found
     hits.free = F(0.0f);
     if (any(found.hit | found.unsure)) {
         const M doubtful = found.unsure | refine(eye, w, found, found.hit, hits);
-        if (any(doubtful)) castExactly(eye, w.rays, w.t, doubtful, hits);
+        if (any(doubtful)) castExactly(eye, w.rays, w.t, w.floor, doubtful, hits);
     }
     // Hits end the free way, misses at the border of the ground (w.t).
     hits.free = select(hits.t < infinity(), hits.t, select(w.risen, infinity(), w.t));
@@ -354,11 +362,9 @@ STEREONAV_INLINE Hits settle(const Eye& eye, const Walk& w, const CellHit& found
     return hits;
 }
 
-// First hits of the rays `lanes` at or behind `start` (and the near distance). level: pyramid level to
-// begin with; 0 where the hit is thought to be close: then two cells are tried outright, which is all
-// that most rays need.
-STEREONAV_INLINE Hits castPacket(const Eye& eye, const Rays& rays, F start, I level, M lanes) {
-    Walk w = startWalk(eye, rays, start, level, lanes);
+// The rest of a walk that was started.
+STEREONAV_INLINE Hits walkOn(const Eye& eye, Walk w) {
+    const I level = w.level;
     CellHit found;
     found.hit = found.unsure = maskFromBits(0);
     found.t = infinity();
@@ -373,6 +379,13 @@ STEREONAV_INLINE Hits castPacket(const Eye& eye, const Rays& rays, F start, I le
         if (any(parked)) tryCells(eye, w, parked, found);
     }
     return settle(eye, w, found);
+}
+
+// First hits of the rays `lanes` at or behind `start` (and the near distance). level: pyramid level to
+// begin with; 0 where the hit is thought to be close: then two cells are tried outright, which is all
+// that most rays need.
+STEREONAV_INLINE Hits castPacket(const Eye& eye, const Rays& rays, F start, I level, M lanes) {
+    return walkOn(eye, startWalk(eye, rays, start, level, lanes));
 }
 
 }  // namespace stereonav::STEREONAV_ISA

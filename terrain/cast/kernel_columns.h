@@ -5,21 +5,25 @@
 // the cell is entered and solved for each ray that ends in it. Included by kernels only.
 #pragma once
 
-#include "terrain/cast/kernel_cast.h"
+#include "terrain/cast/kernel_rings.h"
 
 namespace stereonav::STEREONAV_ISA {
 
 class Columns {
 public:
     // rays: the lowest ray of each column; all slopes of a row are equal.
-    STEREONAV_INLINE Columns(const Eye& eye, const Rays& rays, M lanes) : mEye(eye) {
-        mWalk = startWalk(eye, rays, F(0.0f), I(0), lanes);
+    // border: where they come from a finer ground; 0: they come from the eye.
+    STEREONAV_INLINE Columns(const Eye& eye, const Rays& rays, M lanes, F border = F(0.0f)) : mEye(eye) {
+        mWalk = startWalk(eye, rays, border, I(0), lanes);
+        mEntering = border > F(0.0f);
+        mWalk.floor = max(mWalk.floor, border);
+        mExit = cellExit(mEye, mWalk);
         // A steeper ray may come down later than a flatter one enters: each must start at the border.
         mStarted = false;
     }
 
-    // Hits of the next row: z is its rays' slope, not below that of the rows before.
-    STEREONAV_INLINE Hits cast(double z) {
+    // Hits of the lanes' rays in the next row: z is their slope, not below that of the rows before.
+    STEREONAV_INLINE Hits cast(double z, M lanes) {
         mWalk.rays.exactZ = D(z);
         mWalk.rays.z = F(static_cast<float>(z));
         mWalk.downward = mWalk.rays.z < F(0.0f);
@@ -28,7 +32,8 @@ public:
         found.hit = found.unsure = maskFromBits(0);
         found.t = infinity();
         found.approach = F(-1.0f);
-        M pending = mWalk.active;
+        mSunk = maskFromBits(0);
+        M pending = mWalk.active & lanes;
         for (int cells = 0; any(pending); ++cells) {
             solve(pending, found);
             pending = andNot(pending, found.hit | found.unsure) & mWalk.active;
@@ -52,7 +57,6 @@ private:
 
     STEREONAV_INLINE void start() {
         mStarted = true;
-        mExit = cellExit(mEye, mWalk);
         enterCell(mWalk.active);
     }
 
@@ -89,6 +93,8 @@ private:
     STEREONAV_INLINE void solve(M m, CellHit& found) {
         F height = mulAdd(mWalk.t, mWalk.rays.z, mGround0);
         const M unsure = m & (height < F(0.0f) - mEye.margin - mEye.margin);
+        const M step = unsure & mEntering & (mWalk.t <= mWalk.floor);
+        mSunk = mSunk | step;
         height = max(height, F(0.0f));
         const F b = mWalk.rays.z - mGround1;
         const F discriminant = mulAdd(b, b, F(-4.0f) * mCurvature * height);
@@ -99,8 +105,8 @@ private:
         const M hit = andNot(m, unsure) & (discriminant >= F(0.0f)) & (s >= F(0.0f)) & (s <= mLength);
         found.t = select(hit, mWalk.t + s, found.t);
         found.approach = select(hit, mulAdd(mCurvature + mCurvature, s, b), found.approach);
-        found.hit = found.hit | hit;
-        found.unsure = found.unsure | unsure;
+        found.hit = found.hit | hit | step;
+        found.unsure = found.unsure | andNot(unsure, step);
     }
 
     STEREONAV_INLINE Hits settled(CellHit& found) {
@@ -113,8 +119,9 @@ private:
         if (!any(found.hit | found.unsure)) return hits;
         found.h00 = mH00, found.h10 = mH10, found.h01 = mH01, found.h11 = mH11;
         found.curvature = mCurvature;
-        const M doubtful = found.unsure | refine(mEye, mWalk, found, found.hit, hits);
-        if (any(doubtful)) castExactly(mEye, mWalk.rays, mWalk.t, doubtful, hits);
+        const M doubtful = found.unsure | refine(mEye, mWalk, found, andNot(found.hit, mSunk), hits);
+        if (any(doubtful)) castExactly(mEye, mWalk.rays, mWalk.t, mWalk.floor, doubtful, hits);
+        if (any(mSunk)) meetAt(mWalk, standingAt(mEye, mWalk, mSunk), mSunk, hits);
         return hits;
     }
 
@@ -123,6 +130,7 @@ private:
     BlockExit mExit;
     F mH00{0.0f}, mH10{0.0f}, mH01{0.0f}, mH11{0.0f};
     F mGround0{0.0f}, mGround1{0.0f}, mCurvature{0.0f}, mLength{0.0f};
+    M mEntering, mSunk;  // from a finer ground; below this one where they entered it
     bool mStarted = false;
 };
 

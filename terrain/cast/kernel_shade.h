@@ -126,8 +126,7 @@ STEREONAV_INLINE F longerSide(const CasterView& view, F length, F t, F approach)
 }
 
 // detailAt() of ground_detail.h, for the lanes m.
-STEREONAV_INLINE F detailOf(const DetailData& detail, const GroundData& ground, const Hits& hits, F footprint,
-                            M m) {
+STEREONAV_INLINE F detailOf(const DetailData& detail, const Hits& hits, F footprint, M m) {
     const F inverse = approxReciprocal(max(footprint * F(detail.perMetre), F(1e-9f)));
     F light(0.0f);
     for (int k = 0; k < detail.octaves; ++k) {
@@ -155,9 +154,9 @@ STEREONAV_INLINE F detailOf(const DetailData& detail, const GroundData& ground, 
         const F alongY = rise(q) * lerp(overWest, overEast, fade(p));
         light = mulAdd(weight, F(o.lightX) * alongX + F(o.lightY) * alongY, light);
     }
-    const I index = hits.j * I(ground.width) + hits.i;
+    const I index = hits.j * I(detail.roughPitch) + hits.i;
     const FPair south = gatherPair(detail.rough, index, m);
-    const FPair north = gatherPair(detail.rough + ground.width, index, m);
+    const FPair north = gatherPair(detail.rough + detail.roughPitch, index, m);
     const F rough =
         lerp(lerp(south.first, south.second, hits.u), lerp(north.first, north.second, hits.u), hits.v);
     return clamp(rough * light, F(kDarkestDetail), F(kBrightestDetail));
@@ -194,7 +193,7 @@ STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view,
             const M near = ground & (footprint * F(scene.detail.perMetre) <
                                      F(scene.detail.octave[0].cell / kDetailPixels));
             if (any(near)) {
-                const F brighter = detailOf(scene.detail, scene.ground, hits, footprint, near);
+                const F brighter = detailOf(scene.detail, hits, footprint, near);
                 color = brightened(color, select(near, brighter, F(0.0f)));
             }
         }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "terrain/cast/kernel_cast.h"
+#include "terrain/cast/kernel_rings.h"
 #include "terrain/cast/kernel_shade.h"
 
 namespace stereonav::STEREONAV_ISA {
@@ -90,11 +91,12 @@ private:
         CellHit done = mFound;
         done.hit = done.hit & m;
         done.unsure = done.unsure & m;
-        const Hits hits = settle(mEye, mWalk, done);
+        Hits hits = settle(mEye, mWalk, done);
+        const I color = shadeThrough(mScene, mView, mEye, mWalk.rays, loadF(mStart), m, hits);
         alignas(64) float depth[kLanes];
         alignas(64) std::uint32_t packed[kLanes];
         store(depth, hits.t);
-        store(packed, shadePacket(mScene, mView, mWalk.rays, hits, m));
+        store(packed, color);
         for (std::uint32_t left = bits(m); left != 0; left &= left - 1) {
             const int k = __builtin_ctz(left);
             const CasterPixel p = mBatch.pixels[mPixel[k]];

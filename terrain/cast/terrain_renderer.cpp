@@ -11,11 +11,12 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "terrain/cast/caster_scene.h"
 #include "terrain/cast/caster_types.h"
 #include "terrain/cast/fog_row.h"
 #include "terrain/cast/ground_detail.h"
 #include "terrain/cast/hole_rays.h"
-#include "terrain/cast/plain_caster.h"
+#include "terrain/cast/ring_scenes.h"
 #include "terrain/cast/specular.h"
 #include "terrain/cast/terrain_view.h"
 #include "terrain/ground/height_pyramid.h"
@@ -30,46 +31,6 @@ constexpr float kUnseen = 1e-7f;  // a tenth of the first step of a packed chann
 
 const CasterKernels& kernelsFor(SimdTarget target) {
     return kernelsOf(target, plain::kCasterKernels, avx2::kCasterKernels, avx512::kCasterKernels);
-}
-
-double exactHit(const void* context, const double* origin, const double* direction, double tMin, int* cell,
-                double* position) {
-    const auto& ground = *static_cast<const Heightfield*>(context);
-    const glm::dvec2 spacing = ground.spacing();
-    const glm::dvec3 world(ground.worldFromGrid({origin[0], origin[1]}), origin[2]);
-    const GroundHit hit =
-        castPlain(ground, world, {direction[0] * spacing.x, direction[1] * spacing.y, direction[2]}, tMin);
-    cell[0] = hit.i, cell[1] = hit.j;
-    position[0] = hit.u, position[1] = hit.v;
-    return hit.t;
-}
-
-GroundData groundData(const Heightfield& ground, const HeightPyramid& pyramid) {
-    GroundData g;
-    g.heights = ground.data();
-    g.width = ground.width();
-    g.height = ground.height();
-    g.maxima = pyramid.data();
-    std::copy(pyramid.offsets().begin(), pyramid.offsets().end(), g.maximaOffset);
-    std::copy(pyramid.pitches().begin(), pyramid.pitches().end(), g.maximaPitch);
-    g.levels = pyramid.levelCount();
-    g.minHeight = ground.minHeight();
-    g.maxHeight = ground.maxHeight();
-    g.maxSlope = static_cast<float>(ground.maxSlope() * (1 + 1e-6));
-    g.spacingX = ground.spacing().x;
-    g.spacingY = ground.spacing().y;
-    g.exactHit = exactHit;
-    g.context = &ground;
-    return g;
-}
-
-TextureData textureData(const ColorTexture& color, const glm::dvec2& spacing, const GroundFilter& filter) {
-    TextureData t = color.forKernels(glm::dvec2(0.0), glm::dvec2(1.0));  // places are grid coordinates
-    if (!filter.mipLevels) t.levels = 1;
-    const glm::dvec2 texel = color.gridPerTexel() * spacing;
-    t.texelsPerMetre =
-        static_cast<float>(std::exp2(std::clamp(filter.levelBias, -8.0, 8.0)) / std::sqrt(texel.x * texel.y));
-    return t;
 }
 
 CasterTarget targetOf(EyeImage& image) {
@@ -107,6 +68,7 @@ struct TerrainRenderer::State {
     GroundFilter filter;
     const TerrainIllumination* light;      // null: the plain sun's
     std::unique_ptr<GroundDetail> detail;  // null: none
+    std::unique_ptr<RingScenes> rings;     // null: the ground itself is cast
 
     State(const TerrainScene& terrain, SimdTarget wanted, const GroundFilter& read)
         : pyramid(terrain.ground),
@@ -141,19 +103,48 @@ struct TerrainRenderer::State {
         scene.sky = clear.sky = {sky.map().row(0), sky.map().width(), sky.map().stride()};
     }
 
-    CasterView viewOf(const EyeView& view, const Heightfield& ground) const {
+    // With or without its fog, of what is cast now.
+    const CasterScene& shown(bool withoutFog) const {
+        if (rings && rings->any()) return rings->first(withoutFog);
+        return withoutFog ? clear : scene;
+    }
+    void ringsChanged() {
+        if (rings) rings->dress(scene, clear);
+    }
+
+    CasterView viewOver(const EyeView& view, const Heightfield& ground) const {
         CasterView caster = makeCasterView(view, ground);
         if (fog.air()) caster.air = fog.air()->eyeAt(view.eye.z);
         return caster;
     }
+    CasterView viewOf(const EyeView& view, const Heightfield& whole) const {
+        return viewOver(view, rings && rings->any() ? rings->ground() : whole);
+    }
 };
 
 TerrainRenderer::TerrainRenderer(const TerrainScene& scene, SimdTarget target, const GroundFilter& filter)
-    : mScene(scene), mState(std::make_unique<State>(scene, target, filter)) {}
+    : mScene(scene), mState(std::make_unique<State>(scene, target, filter)) {
+    takeCoarser(scene.levelOfDetail);
+}
 TerrainRenderer::~TerrainRenderer() = default;
 
 std::size_t TerrainRenderer::byteCount() const {
-    return mState->pyramid.byteCount() + (mState->detail ? mState->detail->byteCount() : 0);
+    return mState->pyramid.byteCount() + (mState->detail ? mState->detail->byteCount() : 0) +
+           (mState->rings ? mState->rings->byteCount() : 0);
+}
+
+void TerrainRenderer::takeCoarser(double share) {
+    mState->rings = share > 0 ? std::make_unique<RingScenes>(mScene.ground, share) : nullptr;
+}
+
+const GroundRings* TerrainRenderer::rings() const {
+    return mState->rings && mState->rings->any() ? &mState->rings->rings() : nullptr;
+}
+
+void TerrainRenderer::lookFrom(const EyeView& view) const {
+    if (!mState->rings) return;
+    mState->rings->lookFrom(view);
+    mState->ringsChanged();
 }
 
 int TerrainRenderer::tileCount(const EyeView& view) const {
@@ -165,7 +156,7 @@ void TerrainRenderer::renderTile(const EyeView& view, int tile, EyeImage& image)
     const CasterBand band = bandOf(caster, tile);
     thread_local std::vector<float> scratch;
     scratch.resize(8 * (static_cast<std::size_t>(caster.lanes) + 128));
-    const CasterScene& scene = keepsBase(image) ? mState->clear : mState->scene;
+    const CasterScene& scene = mState->shown(keepsBase(image));
     mState->kernels->castBand(scene, caster, band, targetOf(image), scratch.data());
     if (mScene.landmarks || viewDependent()) finish(view, pixelsOf(caster, band), image);
 }
@@ -237,7 +228,7 @@ float TerrainRenderer::sunShownAt(const glm::dvec3& place) const {
 }
 
 void TerrainRenderer::shadeRows(const EyeView& view, int y0, int y1, EyeImage& image) const {
-    const CasterView caster = mState->viewOf(view, mScene.ground);
+    const CasterView caster = mState->viewOver(view, mScene.ground);
     for (int y = y0; y < y1; ++y) mState->kernels->shadeRow(mState->scene, caster, y, targetOf(image));
 }
 
@@ -271,6 +262,7 @@ void TerrainRenderer::changeAir(const EyeView& from, const EyeView& view, int y,
 void TerrainRenderer::sunMoved() {
     mState->specular = specularOf(mScene, mState->light);
     mState->sunMoved(mScene.look);
+    mState->ringsChanged();
 }
 
 void TerrainRenderer::showLight(const TerrainIllumination& light, const ColorTexture& lit) {
@@ -293,7 +285,7 @@ void TerrainRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::s
     thread_local HoleSort holes;
     holes.sort(caster, bounds, pixels);
     const CasterTarget target = targetOf(image);
-    const CasterScene& scene = keepsBase(image) ? mState->clear : mState->scene;
+    const CasterScene& scene = mState->shown(keepsBase(image));
     thread_local std::vector<float> scratch;
     scratch.resize(8 * (static_cast<std::size_t>(caster.lanes) + 128));
     for (const CasterBand& band : holes.dense()) {
@@ -302,7 +294,9 @@ void TerrainRenderer::renderPixels(const EyeView& view, PixelRect bounds, std::s
     }
     castSparse(
         view, caster, holes.sparse(),
-        [&](PixelIndex p) { return startInFront(caster, mState->scene.ground, bounds, image.viewDepth, p); },
+        [&](PixelIndex p) {
+            return startInFront(caster, mState->shown(false).ground, bounds, image.viewDepth, p);
+        },
         image);
 }
 
@@ -311,7 +305,7 @@ void TerrainRenderer::castSparse(const EyeView& view, const CasterView& caster,
                                  std::span<const PixelIndex> pixels,
                                  const std::function<float(PixelIndex)>& startOf, EyeImage& image) const {
     const CasterTarget target = targetOf(image);
-    const CasterScene& scene = keepsBase(image) ? mState->clear : mState->scene;
+    const CasterScene& scene = mState->shown(keepsBase(image));
     // Long enough to keep all lanes busy, short enough for later pixels to start from earlier ones.
     constexpr std::size_t kChunk = 128;
     CasterPixel chunk[kChunk];
@@ -332,7 +326,7 @@ void TerrainRenderer::renderMoreRays(const EyeView& view, const EyeView& known, 
                                      PixelRect, std::span<const PixelIndex> pixels, EyeImage& image) const {
     const CasterView caster = mState->viewOf(view, mScene.ground),
                      cast = mState->viewOf(known, mScene.ground);
-    const StartBeside starts(caster, cast, mState->scene.ground, depths);
+    const StartBeside starts(caster, cast, mState->shown(false).ground, depths);
     castSparse(
         view, caster, pixels, [&](PixelIndex p) { return starts.of(p); }, image);
 }
@@ -395,12 +389,14 @@ bool TerrainRenderer::mayHitBeyondEdgeFrom(const EyeView& view, PixelRect rect, 
                                            double parallaxScale, double& freeDepth) const {
     if (rect.x1 >= column) return true;
     const double end = parallaxScale / (column - rect.x1);
+    const double coarser = rings() ? rings()->errorBound : 0;  // than the ground itself
     const Box corners = cornerBox(view, rect);
     double& from = freeDepth;
     from = std::max(from, view.nearDepth);
     while (from < end) {
         const double to = std::min(end, from * 2);
-        const Box box = frustumBox(view.eye, corners, from, to);
+        Box box = frustumBox(view.eye, corners, from, to);
+        box.low.z -= coarser;
         if (reachesGround(mScene.ground, mState->pyramid, box)) return true;
         if (mScene.landmarks) {
             const glm::dvec3 low = mScene.landmarks->boundsMin(), high = mScene.landmarks->boundsMax();

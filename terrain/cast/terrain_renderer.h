@@ -8,6 +8,7 @@
 #include "engine/render/eye_renderer.h"
 #include "engine/simd/simd_target.h"
 #include "terrain/cast/caster_types.h"
+#include "terrain/ground/ground_rings.h"
 #include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
@@ -29,6 +30,14 @@ public:
                              const GroundFilter& filter = {});
     ~TerrainRenderer() override;
 
+    // From now on a picture takes the ground from coarser samples where they are off by no more than that
+    // share of what a pixel covers there (terrain/ground/ground_rings.h); 0: all of it from the ground's own.
+    // The scene's own share at first. Not while a picture is cast.
+    void takeCoarser(double share);
+    // That the next pictures are of; null: the ground itself.
+    const GroundRings* rings() const;
+
+    void lookFrom(const EyeView& view) const override;
     int tileCount(const EyeView& view) const override;
     void renderTile(const EyeView& view, int tile, EyeImage& image) const override;
     void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
@@ -60,7 +69,7 @@ public:
     const Fog& fog() const;
     SimdTarget target() const;  // what Auto became
     const TerrainScene& scene() const { return mScene; }
-    std::size_t byteCount() const;  // beside the scene: the pyramid of heights
+    std::size_t byteCount() const;  // beside the scene: the pyramid of heights, coarser levels
 
 private:
     struct State;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/parallel.h"
+
 namespace stereonav {
 namespace {
 
@@ -36,17 +38,19 @@ HeightPyramid::HeightPyramid(const Heightfield& ground) {
     for (int k = mLevels; k < kMaxLevels; ++k)
         mOffset[k] = mOffset[mLevels - 1], mPitch[k] = mPitch[mLevels - 1];
     mMaxima.resize(total);
-    for (int j = 0; j < rows[0]; ++j)
+    parallelFor(rows[0], [&](int j) {
         for (int i = 0; i < mPitch[0]; ++i)
             mMaxima[static_cast<std::size_t>(j) * mPitch[0] + i] = cellMaximum(ground, i, j);
+    });
     for (int k = 1; k < mLevels; ++k)
-        for (int j = 0; j < rows[k]; ++j)
+        parallelFor(rows[k], [&](int j) {
             for (int i = 0; i < mPitch[k]; ++i) {
                 const int i1 = std::min(2 * i + 1, mPitch[k - 1] - 1),
                           j1 = std::min(2 * j + 1, rows[k - 1] - 1);
                 mMaxima[mOffset[k] + static_cast<std::size_t>(j) * mPitch[k] + i] = std::max(
                     {at(k - 1, 2 * i, 2 * j), at(k - 1, i1, 2 * j), at(k - 1, 2 * i, j1), at(k - 1, i1, j1)});
             }
+        });
 }
 
 }  // namespace stereonav

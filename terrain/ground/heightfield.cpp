@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 
 namespace stereonav {
 namespace {
@@ -18,6 +19,31 @@ double cellSlope(const float* south, const float* north, const glm::dvec2& spaci
     const double gx = std::max(std::abs(double(south[1]) - south[0]), std::abs(double(north[1]) - north[0]));
     const double gy = std::max(std::abs(double(north[0]) - south[0]), std::abs(double(north[1]) - south[1]));
     return std::hypot(gx / spacing.x, gy / spacing.y);
+}
+
+// Of the cells of a row.
+struct CellRange {
+    float low = std::numeric_limits<float>::infinity(), high = -std::numeric_limits<float>::infinity();
+    double steepest = 0;
+    bool any = false, holes = false;
+};
+
+CellRange rangeOfRow(const float* south, const float* north, int cells, const glm::dvec2& spacing) {
+    CellRange range;
+    for (int i = 0; i < cells; ++i) {
+        const float low = std::min({south[i], south[i + 1], north[i], north[i + 1]});
+        const float high = std::max({south[i], south[i + 1], north[i], north[i + 1]});
+        const float sum = south[i] + south[i + 1] + north[i] + north[i + 1];
+        if (!std::isfinite(sum)) {
+            range.holes = true;
+            continue;
+        }
+        range.any = true;
+        range.low = std::min(range.low, low);
+        range.high = std::max(range.high, high);
+        range.steepest = std::max(range.steepest, cellSlope(south + i, north + i, spacing));
+    }
+    return range;
 }
 
 }  // namespace
@@ -37,23 +63,18 @@ Heightfield::Heightfield(int width, int height, glm::dvec2 spacing, std::vector<
     mOrigin = -0.5 * glm::dvec2(width - 1, height - 1) * spacing;
     mMin = std::numeric_limits<float>::infinity();
     mMax = -mMin;
+    std::vector<CellRange> rows(static_cast<std::size_t>(height) - 1);
+    parallelFor(height - 1, [&](int j) {
+        const float* const south = &mHeights[static_cast<std::size_t>(j) * width];
+        rows[j] = rangeOfRow(south, south + width, width - 1, spacing);
+    });
     bool anyCell = false;
-    for (int j = 0; j + 1 < height; ++j) {
-        const float* south = &mHeights[static_cast<std::size_t>(j) * width];
-        const float* north = south + width;
-        for (int i = 0; i + 1 < width; ++i) {
-            const float low = std::min({south[i], south[i + 1], north[i], north[i + 1]});
-            const float high = std::max({south[i], south[i + 1], north[i], north[i + 1]});
-            const float sum = south[i] + south[i + 1] + north[i] + north[i + 1];
-            if (!std::isfinite(sum)) {
-                mHasHoles = true;
-                continue;
-            }
-            anyCell = true;
-            mMin = std::min(mMin, low);
-            mMax = std::max(mMax, high);
-            mMaxSlope = std::max(mMaxSlope, cellSlope(south + i, north + i, spacing));
-        }
+    for (const CellRange& row : rows) {
+        anyCell = anyCell || row.any;
+        mHasHoles = mHasHoles || row.holes;
+        mMin = std::min(mMin, row.low);
+        mMax = std::max(mMax, row.high);
+        mMaxSlope = std::max(mMaxSlope, row.steepest);
     }
     if (!anyCell) throw Error(source, "", "no cell with four known heights", "check the file's nodata value");
     if (mHasHoles) mMaxSlope = std::numeric_limits<double>::infinity();

@@ -6,13 +6,15 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stereonav {
 
-// Spaces. World: metres, x east, y north, z up, origin at the middle of the grid at z = 0 of the
-// source's heights. Grid: gx = (x - originWorld.x) / spacing.x, so sample (i, j) is at (i, j); i
-// counts east, j counts north. Cell (i, j) has the corner samples (i, j) to (i + 1, j + 1).
+// Spaces. World: metres, x east, y north, z up, origin at the middle of the grid (of the whole ground's,
+// where this is a part of one) at z = 0 of the source's heights. Grid: gx = (x - originWorld.x) / spacing.x,
+// so sample (i, j) is at (i, j); i counts east, j counts north. Cell (i, j) has the corner samples (i, j) to
+// (i + 1, j + 1).
 class Heightfield {
 public:
     Heightfield() = default;
@@ -21,6 +23,12 @@ public:
     // finite cell. Throws Error otherwise, named by `source`.
     Heightfield(int width, int height, glm::dvec2 spacing, std::vector<float> heights,
                 const std::string& source);
+    // A part of a larger ground, whose sample (0, 0) lies there.
+    Heightfield(int width, int height, glm::dvec2 spacing, std::vector<float> heights,
+                const std::string& source, const glm::dvec2& originWorld)
+        : Heightfield(width, height, spacing, std::move(heights), source) {
+        mOrigin = originWorld;
+    }
 
     int width() const { return mWidth; }    // samples, >= 2
     int height() const { return mHeight; }  // samples, >= 2

@@ -83,7 +83,7 @@ TEST(GroundDetail, EachSetShadesAsThePlainStatementSays) {
                     const double approach = std::abs(ray.z - ray.x * east - ray.y * north);
                     const double footprint = hit.t * pixel * std::max(1.0, glm::length(ray) / approach);
                     const double light =
-                        detailAt(data, ground.width(), hit.i, hit.j, hit.u, hit.v, footprint);
+                        detailAt(data, hit.i, hit.j, hit.u, hit.v, footprint);
                     const glm::vec3 is = rootsOf(after.color.at(x, y));
                     const glm::vec3 expected =
                         rootsOf(before.color.at(x, y)) * static_cast<float>(std::sqrt(1 + light));
@@ -137,7 +137,7 @@ TEST(GroundDetail, TheMeanStays) {
     int count = 0;
     for (int k = 0; k < 20000; ++k) {
         const double u = std::fmod(k * 0.7548776662, 1.0), v = std::fmod(k * 0.5698402910, 1.0);
-        const double light = detailAt(data, ground.width(), 21 + k % 25, k / 25 % 46, u, v, 1e-3);
+        const double light = detailAt(data, 21 + k % 25, k / 25 % 46, u, v, 1e-3);
         sum += light;
         squares += light * light;
         ++count;
@@ -152,18 +152,17 @@ TEST(GroundDetail, HasNoSeams) {
     const Heightfield ground = greyHills(false).ground;
     const GroundDetail detail(ground);
     const DetailData data = detail.forKernels(TerrainLook());
-    const int n = ground.width();
     for (int k = 0; k < 200; ++k) {
         const double v = k / 200.0;
-        EXPECT_NEAR(detailAt(data, n, 30, 20, 1 - 1e-9, v, 0.01), detailAt(data, n, 31, 20, 0, v, 0.01),
+        EXPECT_NEAR(detailAt(data, 30, 20, 1 - 1e-9, v, 0.01), detailAt(data, 31, 20, 0, v, 0.01),
                     1e-5);
-        EXPECT_NEAR(detailAt(data, n, 30, 20, v, 1 - 1e-9, 0.01), detailAt(data, n, 30, 21, v, 0, 0.01),
+        EXPECT_NEAR(detailAt(data, 30, 20, v, 1 - 1e-9, 0.01), detailAt(data, 30, 21, v, 0, 0.01),
                     1e-5);
         const double footprint = 0.02 * std::pow(1.05, k);
-        EXPECT_NEAR(detailAt(data, n, 30, 20, 0.3, 0.6, footprint),
-                    detailAt(data, n, 30, 20, 0.3, 0.6, footprint * 1.0001), 1e-3);
+        EXPECT_NEAR(detailAt(data, 30, 20, 0.3, 0.6, footprint),
+                    detailAt(data, 30, 20, 0.3, 0.6, footprint * 1.0001), 1e-3);
     }
-    EXPECT_EQ(detailAt(data, n, 30, 20, 0.3, 0.6, 30), 0);
+    EXPECT_EQ(detailAt(data, 30, 20, 0.3, 0.6, 30), 0);
 }
 
 }  // namespace

@@ -1,0 +1,138 @@
+#include "terrain/ground/ground_rings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <optional>
+
+namespace stereonav {
+namespace {
+
+constexpr int kBlock = GroundLevels::kBlock;
+
+// Of samples of the ground itself, both ends within.
+struct Span {
+    glm::ivec2 low{0}, high{0};
+    void add(const Span& other) {
+        low = glm::min(low, other.low);
+        high = glm::max(high, other.high);
+    }
+    bool operator==(const Span&) const = default;
+};
+
+class Planner {
+public:
+    Planner(const GroundLevels& levels, const RingWish& wish)
+        : mLevels(levels), mWish(wish), mEye(levels.ground().gridFromWorld(glm::dvec2(wish.eye))) {
+        const Heightfield& ground = levels.ground();
+        mOver = std::max({0.0, wish.eye.z - ground.maxHeight(), ground.minHeight() - wish.eye.z});
+    }
+
+    // Blocks of that level that must be finer; none where all may be of it.
+    std::optional<Span> tooCoarse(int level) const {
+        std::optional<Span> all;
+        const glm::ivec2 blocks = mLevels.blocks(level);
+        for (int j = 0; j < blocks.y; ++j)
+            for (int i = 0; i < blocks.x; ++i) {
+                const Span block = spanOf(level, i, j);
+                if (mLevels.errorBound(level, i, j) <= mWish.share * mWish.pixelAngle * distanceTo(block))
+                    continue;
+                all ? all->add(block) : void(all = block);
+            }
+        return all;
+    }
+
+    Span below() const {
+        const glm::ivec2 cell(glm::clamp(glm::floor(mEye), glm::dvec2(0), glm::dvec2(mLevels.size(0) - 2)));
+        return {cell, cell + 1};
+    }
+
+private:
+    Span spanOf(int level, int i, int j) const {
+        const glm::ivec2 low = kBlock * glm::ivec2(i, j), last = mLevels.size(level) - 1;
+        return {low * (1 << level), glm::min(low + kBlock, last) * (1 << level)};
+    }
+    // Metres at least, to anything of the ground within it.
+    double distanceTo(const Span& block) const {
+        const glm::dvec2 aside = glm::max(glm::dvec2(block.low) - mEye, mEye - glm::dvec2(block.high));
+        const glm::dvec2 metres = glm::max(aside, glm::dvec2(0)) * mLevels.ground().spacing();
+        return std::hypot(metres.x, metres.y, mOver);
+    }
+
+    const GroundLevels& mLevels;
+    const RingWish& mWish;
+    glm::dvec2 mEye;   // grid of the ground
+    double mOver = 0;  // metres from the eye's height to the nearest of the ground's
+};
+
+// Around the span, in steps of several blocks: a box stays the same for a while as the eye moves.
+RingBox boxAround(const GroundLevels& levels, int level, const Span& span) {
+    constexpr int kStep = 4 * kBlock;
+    const int cell = kStep << level;
+    const glm::ivec2 last = levels.size(level) - 1;
+    const glm::ivec2 low = span.low / cell * kStep;
+    const glm::ivec2 high = glm::min((span.high + cell - 1) / cell * kStep, last);
+    return {level, low, high - low + 1};
+}
+
+RingBox wholeOf(const GroundLevels& levels, int level) {
+    return {level, glm::ivec2(0), levels.size(level)};
+}
+
+Span spanOf(const RingBox& box) {
+    return {box.low * (1 << box.level), (box.low + box.size - 1) * (1 << box.level)};
+}
+
+}  // namespace
+
+std::vector<RingBox> planRings(const GroundLevels& levels, const RingWish& wish) {
+    const int last = levels.count() - 1;
+    if (!(wish.share > 0 && wish.pixelAngle > 0)) return {wholeOf(levels, 0)};
+    const Planner planner(levels, wish);
+    if (!levels.ground().contains(glm::dvec2(wish.eye))) {
+        for (int level = last; level > 0; --level)
+            if (!planner.tooCoarse(level)) return {wholeOf(levels, level)};
+        return {wholeOf(levels, 0)};
+    }
+    std::vector<RingBox> boxes;
+    for (int level = 0; level < last; ++level) {
+        std::optional<Span> span = planner.tooCoarse(level + 1);
+        if (!span && boxes.empty()) continue;  // nothing needs this level
+        if (span) span->add(planner.below());
+        if (!boxes.empty()) span ? span->add(spanOf(boxes.back())) : void(span = spanOf(boxes.back()));
+        const RingBox box = boxAround(levels, level, *span);
+        if (box == wholeOf(levels, level)) {
+            boxes.push_back(box);
+            return boxes;
+        }
+        const bool wider =
+            boxes.empty() || span->low != spanOf(boxes.back()).low || span->high != spanOf(boxes.back()).high;
+        if (wider) boxes.push_back(box);
+    }
+    boxes.push_back(wholeOf(levels, last));
+    return boxes;
+}
+
+std::shared_ptr<const GroundRings> makeRings(const GroundLevels& levels, const std::vector<RingBox>& boxes,
+                                             const GroundRings* before) {
+    auto made = std::make_shared<GroundRings>();
+    for (const RingBox& box : boxes) {
+        std::shared_ptr<const GroundRing> ring;
+        if (before)
+            for (const auto& kept : before->rings)
+                if (kept->box == box) ring = kept;
+        if (!ring) {
+            auto fresh = std::make_shared<GroundRing>();
+            fresh->box = box;
+            fresh->ground = levels.part(box.level, box.low, box.size);
+            fresh->maxima = HeightPyramid(fresh->ground);
+            ring = std::move(fresh);
+        }
+        made->steepest = std::max(made->steepest, ring->ground.maxSlope());
+        made->errorBound = std::max(made->errorBound, levels.errorBound(box.level));
+        made->rings.push_back(std::move(ring));
+    }
+    return made;
+}
+
+}  // namespace stereonav
