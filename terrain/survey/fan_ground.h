@@ -35,6 +35,11 @@ public:
     }
     // column: -1 or more; the eye is on the ground.
     float height(int column, int row) const { return mData[column * mAlongStride + row * mAcrossStride]; }
+    // A column from a row on, and how far one row is from the next.
+    const float* row(int column, int first, std::ptrdiff_t* stride) const {
+        *stride = mAcrossStride;
+        return mData + column * mAlongStride + first * mAcrossStride;
+    }
     // 0 for each of some samples that is known with all beside it, and so all that it is a corner of; NaN for
     // the others.
     void firm(int column, int firstRow, int rows, float* zeros) const;

@@ -18,7 +18,38 @@ STEREONAV_INLINE F heightOnLine(const float* height, F row, int rows, M lanes) {
     return mulAdd(row - toFloat(below), ends.second - ends.first, ends.first);
 }
 
+// The largest size of what is a number, in any lane.
+STEREONAV_INLINE F largerSize(F most, F value, M lanes) {
+    const F size = max(value, F(0.0f) - value);
+    return max(most, keep(lanes & (size <= F(std::numeric_limits<float>::max())), size));
+}
+STEREONAV_INLINE float largestLane(F value) {
+    float lanes[kLanes];
+    store(lanes, value);
+    float most = lanes[0];
+    for (int k = 1; k < kLanes; ++k) most = lanes[k] > most ? lanes[k] : most;
+    return most;
+}
+
 }  // namespace
+
+void readHeights(ReadRow& row) {
+    F tallest(row.tallest), steepest(row.steepest);
+    const I places = laneIndex() * I(static_cast<int>(row.stride));
+    for (int k = 0; k < row.count; k += kLanes) {
+        const M lanes = firstLanes(row.count - k);
+        const float* const from = row.ground + k * row.stride;
+        const F ground =
+            row.stride == 1 && k + kLanes <= row.count ? loadF(from) : gather(from, places, lanes, F(0.0f));
+        const F height = (ground - F(row.eye)) - F(row.eyeRest);
+        store(row.height + k, height, lanes);
+        tallest = largerSize(tallest, height, lanes);
+    }
+    for (int k = 0; k + 1 < row.count; k += kLanes)
+        steepest = largerSize(steepest, loadF(row.height + k + 1) - loadF(row.height + k),
+                              firstLanes(row.count - 1 - k));
+    row.tallest = largestLane(tallest), row.steepest = largestLane(steepest);
+}
 
 void raiseLow(const LowRow& row) {
     const FanBins& bins = row.bins;
@@ -76,6 +107,7 @@ void raiseHigh(const HighRow& row) {
         const F least = select(t0 * t1 <= F(0.0f), F(0.0f), min(t0 * t0, t1 * t1));
         const F fall = mulAdd(least, F(bins.fallAcross), F(bins.fallAlong));
         const F slope = over * select(over < F(0.0f), F(row.inverseFar), F(row.inverseNear)) - fall;
+        store(row.block + b, max(loadF(row.block + b), slope), lanes);
         store(row.high + b, max(loadF(row.high + b), slope), lanes);
     }
 }

@@ -3,6 +3,7 @@
 // beyond their end.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "engine/simd/kernel_sets.h"
@@ -19,6 +20,15 @@ struct FanBins {
     float tangent = 0, tangentStep = 0;
     float fallAlong = 0, fallAcross = 0;  // what curvature takes from slopes: along + across * tangent^2
     float slack = 0;                      // metres: more than rounding to floats makes of heights
+};
+
+struct ReadRow {
+    const float* ground = nullptr;
+    std::ptrdiff_t stride = 1;        // from a row to the next
+    int count = 0;                    // rows
+    float eye = 0, eyeRest = 0;       // both together its height
+    float* height = nullptr;          // over the eye
+    float tallest = 0, steepest = 0;  // raised: of what is known, from the eye, and from row to row
 };
 
 struct LowRow {
@@ -43,7 +53,7 @@ struct HighRow {
     const float* tallest = nullptr;      // of both columns and three rows: this and the next two
     int rows = 0;                        // of `tallest`
     float inverseNear = 0, inverseFar = 0;
-    float* high = nullptr;
+    float *block = nullptr, *high = nullptr;  // both raised
 };
 
 struct SampleRow {
@@ -60,7 +70,46 @@ struct SampleRow {
     std::uint16_t *open = nullptr, *above = nullptr;
 };
 
-STEREONAV_EACH_SET(void raiseLow(const LowRow&); void findTallest(const TallRow&);
-                   void raiseHigh(const HighRow&); void tellSamples(const SampleRow&);)
+// A column that lines are walked over, and how its rows lie to those of the column before it.
+struct WalkColumn {
+    std::size_t offset = 0;  // of its heights
+    int shift = 0;           // its row k is row k + shift of the column before it
+    int top = 0;             // the last row but one of the ground
+    float x = 0;             // distance
+    float row = 0;           // where the part's first tangent meets it
+    float rowBefore = 0;     // and meets the column before it, in rows of this one
+};
+
+// Upper bounds of a few columns, and of them and all nearer ones, in the bins that there were.
+struct WalkBlock {
+    const float *own = nullptr, *before = nullptr;
+    int bins = 0;
+};
+
+// Samples of column `at`: rows in its buffer.
+struct WalkRows {
+    const float* heights = nullptr;
+    const WalkColumn* columns = nullptr;  // from -1 on, which counts from where the eye is
+
+    int at = 0, first = 0;         // the first column that has bounds
+    int lag = 0, blockLength = 0;  // columns
+    // The last one is not whole yet.
+    const WalkBlock* blocks = nullptr;
+    int blockCount = 0;
+    float inverse = 0, tangent = 0, width = 0;  // of the part: its first tangent, one over its width
+    float bulgeAlong = 0, bulgeAcross = 0;      // curvature: along + across * tangent^2, metres
+    float targetHeight = 0, slack = 0;
+    float beside = 0;    // slopes that are no more may be hidden up to `first`
+    bool holes = false;  // some of the heights may not be known
+    const int* rows = nullptr;
+    const std::uint8_t* above = nullptr;  // 1: no bound reaches up to it
+    int count = 0;
+    std::uint8_t* told = nullptr;  // Told
+};
+enum Told : std::uint8_t { kToldClear, kToldHidden, kUntold };
+
+STEREONAV_EACH_SET(void readHeights(ReadRow&); void raiseLow(const LowRow&); void findTallest(const TallRow&);
+                   void raiseHigh(const HighRow&); void tellSamples(const SampleRow&);
+                   void walkSamples(const WalkRows&);)
 
 }  // namespace stereonav
