@@ -73,45 +73,6 @@ void raiseLow(const LowRow& row) {
     }
 }
 
-void findTallest(const TallRow& row) {
-    const F below(std::numeric_limits<float>::lowest());
-    float* const out = row.tallest;
-    for (int k = 0; k < row.rows + 2; k += kLanes) store(out + k, below, firstLanes(row.rows + 2 - k));
-    for (int k = 0; k < row.nearRows; k += kLanes)
-        store(out + row.nearStart + k, loadF(row.near + k), firstLanes(row.nearRows - k));
-    for (int k = 0; k < row.farRows; k += kLanes) {
-        float* const at = out + row.farStart + k;
-        store(at, max(loadF(at), loadF(row.far + k)), firstLanes(row.farRows - k));
-    }
-    for (int k = 0; k < row.rows; k += kLanes)
-        store(out + k, max(loadF(out + k), max(loadF(out + k + 1), loadF(out + k + 2))),
-              firstLanes(row.rows - k));
-}
-
-void raiseHigh(const HighRow& row) {
-    const FanBins& bins = row.bins;
-    const F top(static_cast<float>(row.rows - 1));
-    for (int b = 0; b < bins.count; b += kLanes) {
-        const M lanes = firstLanes(bins.count - b);
-        const F edge = lanesFrom(b), next = edge + F(1.0f);
-        const F far0 = mulAdd(edge, F(bins.rowStep), F(bins.row)),
-                near0 = mulAdd(edge, F(row.nearRowStep), F(row.nearRow));
-        const F far1 = mulAdd(next, F(bins.rowStep), F(bins.row)),
-                near1 = mulAdd(next, F(row.nearRowStep), F(row.nearRow));
-        const I first = floorToInt(clamp(min(far0, near0), F(0.0f), top));
-        const I last = floorToInt(clamp(max(far1, near1) + F(1.0f), F(0.0f), top));
-        const F over = max(gather(row.tallest, first, lanes, F(0.0f)),
-                           gather(row.tallest, max(first, last - I(2)), lanes, F(0.0f))) +
-                       F(bins.slack);
-        const F t0 = mulAdd(edge, F(bins.tangentStep), F(bins.tangent)), t1 = t0 + F(bins.tangentStep);
-        const F least = select(t0 * t1 <= F(0.0f), F(0.0f), min(t0 * t0, t1 * t1));
-        const F fall = mulAdd(least, F(bins.fallAcross), F(bins.fallAlong));
-        const F slope = over * select(over < F(0.0f), F(row.inverseFar), F(row.inverseNear)) - fall;
-        store(row.block + b, max(loadF(row.block + b), slope), lanes);
-        store(row.high + b, max(loadF(row.high + b), slope), lanes);
-    }
-}
-
 void tellSamples(const SampleRow& row) {
     for (int k = 0; k < row.count; k += kLanes) {
         const M lanes = firstLanes(row.count - k);

@@ -39,20 +39,16 @@ struct LowRow {
     float* low = nullptr;           // slopes a column; raised
 };
 
-// Of two columns and three rows the tallest: rows are those that either column has, and the buffer `tallest`
-// is two longer.
-struct TallRow {
-    const float *near = nullptr, *far = nullptr;  // no NaN
-    int nearStart = 0, nearRows = 0, farStart = 0, farRows = 0, rows = 0;
-    float* tallest = nullptr;
-};
-
+// Two columns next to each other, and the bins over the ground between them.
 struct HighRow {
-    FanBins bins;                        // edges as `LowRow` has them, over the farther of two columns
-    float nearRow = 0, nearRowStep = 0;  // over the nearer one
-    const float* tallest = nullptr;      // of both columns and three rows: this and the next two
-    int rows = 0;                        // of `tallest`
+    FanBins bins;                        // edges as `LowRow` has them, over the farther column
+    float nearRow = 0, nearRowStep = 0;  // over the nearer one, in rows of the farther one
+    const float *near = nullptr, *far = nullptr;
+    int shift = 0;              // row k of the farther column is row k + shift of the nearer one
+    int nearRows = 0, top = 0;  // top: the last row but one of the ground
+    float x = 0;                // distance of the nearer column
     float inverseNear = 0, inverseFar = 0;
+    float* edge = nullptr;                    // scratch for one more than the bins
     float *block = nullptr, *high = nullptr;  // both raised
 };
 
@@ -108,8 +104,7 @@ struct WalkRows {
 };
 enum Told : std::uint8_t { kToldClear, kToldHidden, kUntold };
 
-STEREONAV_EACH_SET(void readHeights(ReadRow&); void raiseLow(const LowRow&); void findTallest(const TallRow&);
-                   void raiseHigh(const HighRow&); void tellSamples(const SampleRow&);
-                   void walkSamples(const WalkRows&);)
+STEREONAV_EACH_SET(void readHeights(ReadRow&); void raiseLow(const LowRow&); void raiseHigh(const HighRow&);
+                   void tellSamples(const SampleRow&); void walkSamples(const WalkRows&);)
 
 }  // namespace stereonav

@@ -128,14 +128,9 @@ void FanSweep::read(int at, Column& column) {
     column.holes = mTask.holes.any(glm::min(first, last), glm::max(first, last));
     mHoles = mHoles || column.holes;
     if (!column.holes || beside) return;
-    if (column.firm.size() < size) column.firm.resize(size), column.known.resize(size);
+    if (column.firm.size() < size) column.firm.resize(size);
     mGround.firm(at, column.start, column.rows, column.firm.data());
-    for (int k = 0; k < column.rows; ++k) {
-        const std::size_t r = static_cast<std::size_t>(k);
-        column.firm[r] += column.height[k];
-        // Of NaN the other one.
-        column.known[r] = std::max(kBelowAll, column.height[k]);
-    }
+    for (int k = 0; k < column.rows; ++k) column.firm[static_cast<std::size_t>(k)] += column.height[k];
 }
 
 glm::ivec2 FanSweep::binsOver(double x) const {
@@ -188,24 +183,17 @@ void FanSweep::raiseHighAt(int at, const Column& near, const Column& far) {
     if ((at - mGround.first() - 1) % kBlock == 0 && at - mGround.first() > 1) endBlock();
     const glm::ivec2 range = binsOver(x0);
     if (range.y <= range.x) return;
-    // Rows of both; where one has none the bins beside do not need them.
-    const int start = std::min(near.start, far.start),
-              end = std::max(near.start + near.rows, far.start + far.rows), rows = end - start;
-    mThree.resize(static_cast<std::size_t>(rows) + 2 + FanBins::kPadding);
-    TallRow tall;
-    tall.near = near.holes ? near.known.data() : near.height;
-    tall.far = far.holes ? far.known.data() : far.height;
-    tall.nearStart = near.start - start, tall.nearRows = near.rows;
-    tall.farStart = far.start - start, tall.farRows = far.rows;
-    tall.tallest = mThree.data(), tall.rows = rows;
-    mTask.kernels.findTallest(tall);
+    mEdge.resize(static_cast<std::size_t>(range.y - range.x) + 1 + FanBins::kPadding);
     HighRow row;
-    row.bins = binsAt(x1, x0, range, start, slackOf(rows));
-    const FanBins before = binsAt(x0, x0, range, start, 0);
+    row.bins = binsAt(x1, x0, range, far.start, slackOf(std::max(near.rows, far.rows)));
+    const FanBins before = binsAt(x0, x0, range, far.start, 0);
     row.nearRow = before.row, row.nearRowStep = before.rowStep;
-    row.tallest = mThree.data();
-    row.rows = rows;
+    row.near = near.height, row.far = far.height;
+    row.shift = far.start - near.start;
+    row.nearRows = near.rows, row.top = mGround.rows() - 2 - far.start;
+    row.x = floatOf(x0);
     row.inverseNear = floatOf(1 / x0), row.inverseFar = floatOf(1 / x1);
+    row.edge = mEdge.data();
     row.block = mBlock.data() + range.x, row.high = mHigh.data() + range.x;
     mTask.kernels.raiseHigh(row);
 }

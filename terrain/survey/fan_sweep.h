@@ -20,7 +20,6 @@ namespace stereonav {
 struct FanKernels {
     decltype(&plain::readHeights) readHeights;
     decltype(&plain::raiseLow) raiseLow;
-    decltype(&plain::findTallest) findTallest;
     decltype(&plain::raiseHigh) raiseHigh;
     decltype(&plain::tellSamples) tellSamples;
     decltype(&plain::walkSamples) walkSamples;
@@ -78,8 +77,8 @@ private:
     struct Column {
         int start = 0, rows = 0;
         bool holes = false;
-        float* height = nullptr;         // of mStore
-        std::vector<float> firm, known;  // where there are holes
+        float* height = nullptr;  // of mStore
+        std::vector<float> firm;  // where there are holes
     };
 
     int bins() const { return mBins; }
@@ -118,7 +117,7 @@ private:
     // No slope up to the first column is above it.
     double mBeside = std::numeric_limits<double>::infinity();
     int mBins = 1;
-    std::vector<float> mLow, mHigh, mThree;
+    std::vector<float> mLow, mHigh, mEdge;
     std::vector<std::uint16_t> mOpen, mAbove;
     std::vector<float> mBlock;  // upper bounds of the last columns, which are kBlock or less
     // Of those before, in the bins that there were at the end of each block.
