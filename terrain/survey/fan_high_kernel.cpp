@@ -7,6 +7,7 @@
 
 #include "engine/simd/simd.h"
 #include "terrain/survey/fan_rows.h"
+#include "terrain/survey/fan_tops.h"
 
 namespace stereonav::STEREONAV_ISA {
 namespace {
@@ -84,30 +85,58 @@ STEREONAV_INLINE F sampleInside(const float* heights, F low, F high, int last, M
     return knownOf(gather(heights, row, inside, F(std::numeric_limits<float>::lowest())));
 }
 
+// No less than any slope of kLanes bins.
+STEREONAV_INLINE float slopeOver(const HighRow& row, int bin) {
+    const FanBins& bins = row.bins;
+    const float low = static_cast<float>(bin), high = static_cast<float>(bin + kLanes);
+    const float far = tallestBetween(row.farTops, row.farRows, bins.row + low * bins.rowStep,
+                                     bins.row + high * bins.rowStep),
+                near = tallestBetween(
+                    row.nearTops, row.nearRows,
+                    row.nearRow + low * row.nearRowStep + static_cast<float>(row.shift) - 1.0f,
+                    row.nearRow + high * row.nearRowStep + static_cast<float>(row.shift) + 1.0f);
+    const float over = (far > near ? far : near) + bins.slack;
+    return over * (over < 0 ? row.inverseFar : row.inverseNear) - bins.fallAlong;
+}
+
+// Of kLanes bins; their edges are known.
+STEREONAV_INLINE F slopeOfBins(const HighRow& row, int bin, M lanes) {
+    const FanBins& bins = row.bins;
+    const F edge = placesFrom(bin), next = edge + F(1.0f), shift(static_cast<float>(row.shift));
+    const F far = sampleInside(row.far, mulAdd(edge, F(bins.rowStep), F(bins.row)),
+                               mulAdd(next, F(bins.rowStep), F(bins.row)), row.top + 1, lanes);
+    const F near =
+        sampleInside(row.near, mulAdd(edge, F(row.nearRowStep), F(row.nearRow)) + shift,
+                     mulAdd(next, F(row.nearRowStep), F(row.nearRow)) + shift, row.nearRows - 1, lanes);
+    const F t0 = mulAdd(edge, F(bins.tangentStep), F(bins.tangent)), t1 = t0 + F(bins.tangentStep);
+    const F least = select(t0 * t1 <= F(0.0f), F(0.0f), min(t0 * t0, t1 * t1));
+    const F fall = mulAdd(least, F(bins.fallAcross), F(bins.fallAlong));
+    const F most = max(max(loadF(row.edge + bin), loadF(row.edge + bin + 1)),
+                       max(near * F(row.inverseNear), far * F(row.inverseFar)));
+    return mulAdd(F(bins.slack), F(row.inverseNear), most) - fall;
+}
+
 }  // namespace
 
 void raiseHigh(const HighRow& row) {
     const FanBins& bins = row.bins;
-    for (int e = 0; e <= bins.count; e += kLanes) {
-        const M lanes = firstLanes(bins.count + 1 - e);
-        store(row.edge + e, slopeAlong(row, placesFrom(e), lanes), lanes);
-    }
+    int edges = 0;  // before this one they are known, or not asked for
     for (int b = 0; b < bins.count; b += kLanes) {
         const M lanes = firstLanes(bins.count - b);
-        const F edge = placesFrom(b), next = edge + F(1.0f), shift(static_cast<float>(row.shift));
-        const F far = sampleInside(row.far, mulAdd(edge, F(bins.rowStep), F(bins.row)),
-                                   mulAdd(next, F(bins.rowStep), F(bins.row)), row.top + 1, lanes);
-        const F near =
-            sampleInside(row.near, mulAdd(edge, F(row.nearRowStep), F(row.nearRow)) + shift,
-                         mulAdd(next, F(row.nearRowStep), F(row.nearRow)) + shift, row.nearRows - 1, lanes);
-        const F t0 = mulAdd(edge, F(bins.tangentStep), F(bins.tangent)), t1 = t0 + F(bins.tangentStep);
-        const F least = select(t0 * t1 <= F(0.0f), F(0.0f), min(t0 * t0, t1 * t1));
-        const F fall = mulAdd(least, F(bins.fallAcross), F(bins.fallAlong));
-        const F most = max(max(loadF(row.edge + b), loadF(row.edge + b + 1)),
-                           max(near * F(row.inverseNear), far * F(row.inverseFar)));
-        const F slope = mulAdd(F(bins.slack), F(row.inverseNear), most) - fall;
-        store(row.block + b, max(loadF(row.block + b), slope), lanes);
-        store(row.high + b, max(loadF(row.high + b), slope), lanes);
+        const F high = loadF(row.high + b), block = loadF(row.block + b);
+        // Where nothing is raised, the block has a bound that is less sharp.
+        const F over(slopeOver(row, b));
+        if (!any(lanes & (high < over))) {
+            store(row.block + b, max(block, over), lanes);
+            continue;
+        }
+        for (edges = edges > b ? edges : b; edges <= b + kLanes && edges <= bins.count; edges += kLanes) {
+            const M here = firstLanes(bins.count + 1 - edges);
+            store(row.edge + edges, slopeAlong(row, placesFrom(edges), here), here);
+        }
+        const F slope = slopeOfBins(row, b, lanes);
+        store(row.block + b, max(block, slope), lanes);
+        store(row.high + b, max(high, slope), lanes);
     }
 }
 

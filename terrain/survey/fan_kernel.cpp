@@ -3,6 +3,7 @@
 
 #include "engine/simd/simd.h"
 #include "terrain/survey/fan_rows.h"
+#include "terrain/survey/fan_tops.h"
 
 namespace stereonav::STEREONAV_ISA {
 namespace {
@@ -48,6 +49,16 @@ void readHeights(ReadRow& row) {
     for (int k = 0; k + 1 < row.count; k += kLanes)
         steepest = largerSize(steepest, loadF(row.height + k + 1) - loadF(row.height + k),
                               firstLanes(row.count - 1 - k));
+    for (int k = 0; k < row.count; k += ReadRow::kTopRows) {
+        const F below(std::numeric_limits<float>::lowest());
+        F top = below;
+        for (int n = k; n < k + ReadRow::kTopRows; n += kLanes) {
+            const F height = loadF(row.height + n);
+            const M known = firstLanes(row.count - n) & (height <= F(std::numeric_limits<float>::max()));
+            top = max(top, select(known, height, below));
+        }
+        row.tops[k / ReadRow::kTopRows] = largestLane(top);
+    }
     row.tallest = largestLane(tallest), row.steepest = largestLane(steepest);
 }
 
@@ -56,6 +67,10 @@ void raiseLow(const LowRow& row) {
     const F top(static_cast<float>(row.rows - 1));
     for (int b = 0; b < bins.count; b += kLanes) {
         const M lanes = firstLanes(bins.count - b);
+        const F known = loadF(row.low + b);
+        const float over = tallestBetween(row.tops, row.rows, bins.row + static_cast<float>(b) * bins.rowStep,
+                                          bins.row + static_cast<float>(b + kLanes) * bins.rowStep);
+        if (!any(lanes & (known < F(over * row.inverse)))) continue;
         const F edge = lanesFrom(b), next = edge + F(1.0f);
         const F y0 = clamp(mulAdd(edge, F(bins.rowStep), F(bins.row)), F(0.0f), top);
         const F y1 = clamp(mulAdd(next, F(bins.rowStep), F(bins.row)), F(0.0f), top);
@@ -67,9 +82,8 @@ void raiseLow(const LowRow& row) {
         const F fall = mulAdd(max(t0 * t0, t1 * t1), F(bins.fallAcross), F(bins.fallAlong));
         const F slope = (min(min(h0, h1), between) - F(bins.slack)) * F(row.inverse) - fall;
         // What is not known raises nothing: it makes the sum no number.
-        const M known = (h0 + h1) + between <= F(std::numeric_limits<float>::max());
-        const F low = loadF(row.low + b);
-        store(row.low + b, slope, lanes & known & (low < slope));
+        const M firm = (h0 + h1) + between <= F(std::numeric_limits<float>::max());
+        store(row.low + b, slope, lanes & firm & (known < slope));
     }
 }
 

@@ -22,12 +22,16 @@ struct FanBins {
     float slack = 0;                      // metres: more than rounding to floats makes of heights
 };
 
+// A column of ground, heights over the eye.
 struct ReadRow {
+    static constexpr int kTopRows = 16;
+
     const float* ground = nullptr;
     std::ptrdiff_t stride = 1;        // from a row to the next
     int count = 0;                    // rows
     float eye = 0, eyeRest = 0;       // both together its height
     float* height = nullptr;          // over the eye
+    float* tops = nullptr;            // the tallest of each kTopRows rows that is known
     float tallest = 0, steepest = 0;  // raised: of what is known, from the eye, and from row to row
 };
 
@@ -37,13 +41,15 @@ struct LowRow {
     int rows = 0;                   // 2 or more
     float inverse = 0;              // one over the distance in columns
     float* low = nullptr;           // slopes a column; raised
+    const float* tops = nullptr;    // of ReadRow
 };
 
 // Two columns next to each other, and the bins over the ground between them.
 struct HighRow {
     FanBins bins;                        // edges as `LowRow` has them, over the farther column
     float nearRow = 0, nearRowStep = 0;  // over the nearer one, in rows of the farther one
-    const float *near = nullptr, *far = nullptr;
+    const float *near = nullptr, *far = nullptr, *nearTops = nullptr, *farTops = nullptr;
+    int farRows = 0;
     int shift = 0;              // row k of the farther column is row k + shift of the nearer one
     int nearRows = 0, top = 0;  // top: the last row but one of the ground
     float x = 0;                // distance of the nearer column

@@ -109,7 +109,8 @@ void FanSweep::read(int at, Column& column) {
     row.ground = mGround.row(at, column.start, &row.stride);
     row.count = column.rows;
     row.eye = floatOf(mTask.eye.z), row.eyeRest = floatOf(mTask.eye.z - double(row.eye));
-    row.height = column.height;
+    column.tops.resize(static_cast<std::size_t>(column.rows / ReadRow::kTopRows + 1));
+    row.height = column.height, row.tops = column.tops.data();
     row.tallest = mTallest, row.steepest = mSteepest;
     mTask.kernels.readHeights(row);
     mTallest = row.tallest, mSteepest = row.steepest;
@@ -174,6 +175,7 @@ void FanSweep::raiseLowAt(int at, const Column& column) {
     row.rows = column.rows;
     row.inverse = floatOf(1 / x);
     row.low = mLow.data() + range.x;
+    row.tops = column.tops.data();
     mTask.kernels.raiseLow(row);
 }
 
@@ -189,6 +191,8 @@ void FanSweep::raiseHighAt(int at, const Column& near, const Column& far) {
     const FanBins before = binsAt(x0, x0, range, far.start, 0);
     row.nearRow = before.row, row.nearRowStep = before.rowStep;
     row.near = near.height, row.far = far.height;
+    row.nearTops = near.tops.data(), row.farTops = far.tops.data();
+    row.farRows = far.rows;
     row.shift = far.start - near.start;
     row.nearRows = near.rows, row.top = mGround.rows() - 2 - far.start;
     row.x = floatOf(x0);

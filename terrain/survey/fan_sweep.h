@@ -78,6 +78,7 @@ private:
         int start = 0, rows = 0;
         bool holes = false;
         float* height = nullptr;  // of mStore
+        std::vector<float> tops;  // of ReadRow
         std::vector<float> firm;  // where there are holes
     };
 
