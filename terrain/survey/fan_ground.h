@@ -19,6 +19,7 @@ public:
 
     int columns() const { return mColumns; }
     int rows() const { return mRows; }
+    int sign() const { return mSign; }
     // The first column that is a sample spacing away or more: 0 or 1. Nothing before it has bounds.
     int first() const { return mNearest < 1 ? 1 : 0; }
     // Of a column before the eye; that of column -1 is 0 or below.

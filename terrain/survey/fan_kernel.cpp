@@ -36,6 +36,9 @@ STEREONAV_INLINE float largestLane(F value) {
 
 void readHeights(ReadRow& row) {
     F tallest(row.tallest), steepest(row.steepest);
+    if (row.ahead != 0)
+        for (int k = row.aheadRow; k < row.count; k += ReadRow::kTopRows)
+            __builtin_prefetch(row.ground + k * row.stride + row.ahead);
     const I places = laneIndex() * I(static_cast<int>(row.stride));
     for (int k = 0; k < row.count; k += kLanes) {
         const M lanes = firstLanes(row.count - k);

@@ -27,8 +27,10 @@ struct ReadRow {
     static constexpr int kTopRows = 16;
 
     const float* ground = nullptr;
-    std::ptrdiff_t stride = 1;        // from a row to the next
-    int count = 0;                    // rows
+    std::ptrdiff_t stride = 1;  // from a row to the next
+    int count = 0;              // rows
+    // Heights that are asked for soon: so far on, of each kTopRows-th row from `aheadRow`. 0: none.
+    int ahead = 0, aheadRow = 0;
     float eye = 0, eyeRest = 0;       // both together its height
     float* height = nullptr;          // over the eye
     float* tops = nullptr;            // the tallest of each kTopRows rows that is known

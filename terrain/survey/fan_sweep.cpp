@@ -108,6 +108,12 @@ void FanSweep::read(int at, Column& column) {
     ReadRow row;
     row.ground = mGround.row(at, column.start, &row.stride);
     row.count = column.rows;
+    // Across the grain each height lies in a line of memory that holds those of the next columns, too.
+    constexpr int kAhead = 24;
+    if (row.stride != 1 && at + kAhead < mGround.columns()) {
+        row.ahead = kAhead * mGround.sign();
+        row.aheadRow = (at + 1) % ReadRow::kTopRows;
+    }
     row.eye = floatOf(mTask.eye.z), row.eyeRest = floatOf(mTask.eye.z - double(row.eye));
     column.tops.resize(static_cast<std::size_t>(column.rows / ReadRow::kTopRows + 1));
     row.height = column.height, row.tops = column.tops.data();
