@@ -15,10 +15,15 @@ namespace {
 
 // The steepest gradient inside one bilinear cell: dh/dx is linear in y and dh/dy in x, so each is
 // largest at an edge.
-double cellSlope(const float* south, const float* north, const glm::dvec2& spacing) {
+// `steepest`, or this one where it is larger.
+double steeperSlope(double steepest, const float* south, const float* north, const glm::dvec2& spacing) {
     const double gx = std::max(std::abs(double(south[1]) - south[0]), std::abs(double(north[1]) - north[0]));
     const double gy = std::max(std::abs(double(north[0]) - south[0]), std::abs(double(north[1]) - south[1]));
-    return std::hypot(gx / spacing.x, gy / spacing.y);
+    const double x = gx / spacing.x, y = gy / spacing.y;
+    // Most cells are less steep by far, which needs no root.
+    constexpr double kSurely = 1 - 1e-12;
+    if (x * x + y * y < kSurely * steepest * steepest) return steepest;
+    return std::max(steepest, std::hypot(x, y));
 }
 
 // Of the cells of a row.
@@ -41,7 +46,7 @@ CellRange rangeOfRow(const float* south, const float* north, int cells, const gl
         range.any = true;
         range.low = std::min(range.low, low);
         range.high = std::max(range.high, high);
-        range.steepest = std::max(range.steepest, cellSlope(south + i, north + i, spacing));
+        range.steepest = steeperSlope(range.steepest, south + i, north + i, spacing);
     }
     return range;
 }

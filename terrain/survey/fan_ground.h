@@ -19,6 +19,7 @@ public:
 
     int columns() const { return mColumns; }
     int rows() const { return mRows; }
+    int sign() const { return mSign; }
     // The first column that is a sample spacing away or more: 0 or 1. Nothing before it has bounds.
     int first() const { return mNearest < 1 ? 1 : 0; }
     // Of a column before the eye; that of column -1 is 0 or below.
@@ -35,6 +36,11 @@ public:
     }
     // column: -1 or more; the eye is on the ground.
     float height(int column, int row) const { return mData[column * mAlongStride + row * mAcrossStride]; }
+    // A column from a row on, and how far one row is from the next.
+    const float* row(int column, int first, std::ptrdiff_t* stride) const {
+        *stride = mAcrossStride;
+        return mData + column * mAlongStride + first * mAcrossStride;
+    }
     // 0 for each of some samples that is known with all beside it, and so all that it is a corner of; NaN for
     // the others.
     void firm(int column, int firstRow, int rows, float* zeros) const;

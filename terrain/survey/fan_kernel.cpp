@@ -3,6 +3,7 @@
 
 #include "engine/simd/simd.h"
 #include "terrain/survey/fan_rows.h"
+#include "terrain/survey/fan_tops.h"
 
 namespace stereonav::STEREONAV_ISA {
 namespace {
@@ -18,13 +19,61 @@ STEREONAV_INLINE F heightOnLine(const float* height, F row, int rows, M lanes) {
     return mulAdd(row - toFloat(below), ends.second - ends.first, ends.first);
 }
 
+// The largest size of what is a number, in any lane.
+STEREONAV_INLINE F largerSize(F most, F value, M lanes) {
+    const F size = max(value, F(0.0f) - value);
+    return max(most, keep(lanes & (size <= F(std::numeric_limits<float>::max())), size));
+}
+STEREONAV_INLINE float largestLane(F value) {
+    float lanes[kLanes];
+    store(lanes, value);
+    float most = lanes[0];
+    for (int k = 1; k < kLanes; ++k) most = lanes[k] > most ? lanes[k] : most;
+    return most;
+}
+
 }  // namespace
+
+void readHeights(ReadRow& row) {
+    F tallest(row.tallest), steepest(row.steepest);
+    if (row.ahead != 0)
+        for (int k = row.aheadRow; k < row.count; k += ReadRow::kTopRows)
+            __builtin_prefetch(row.ground + k * row.stride + row.ahead);
+    const I places = laneIndex() * I(static_cast<int>(row.stride));
+    for (int k = 0; k < row.count; k += kLanes) {
+        const M lanes = firstLanes(row.count - k);
+        const float* const from = row.ground + k * row.stride;
+        const F ground =
+            row.stride == 1 && k + kLanes <= row.count ? loadF(from) : gather(from, places, lanes, F(0.0f));
+        const F height = (ground - F(row.eye)) - F(row.eyeRest);
+        store(row.height + k, height, lanes);
+        tallest = largerSize(tallest, height, lanes);
+    }
+    for (int k = 0; k + 1 < row.count; k += kLanes)
+        steepest = largerSize(steepest, loadF(row.height + k + 1) - loadF(row.height + k),
+                              firstLanes(row.count - 1 - k));
+    for (int k = 0; k < row.count; k += ReadRow::kTopRows) {
+        const F below(std::numeric_limits<float>::lowest());
+        F top = below;
+        for (int n = k; n < k + ReadRow::kTopRows; n += kLanes) {
+            const F height = loadF(row.height + n);
+            const M known = firstLanes(row.count - n) & (height <= F(std::numeric_limits<float>::max()));
+            top = max(top, select(known, height, below));
+        }
+        row.tops[k / ReadRow::kTopRows] = largestLane(top);
+    }
+    row.tallest = largestLane(tallest), row.steepest = largestLane(steepest);
+}
 
 void raiseLow(const LowRow& row) {
     const FanBins& bins = row.bins;
     const F top(static_cast<float>(row.rows - 1));
     for (int b = 0; b < bins.count; b += kLanes) {
         const M lanes = firstLanes(bins.count - b);
+        const F known = loadF(row.low + b);
+        const float over = tallestBetween(row.tops, row.rows, bins.row + static_cast<float>(b) * bins.rowStep,
+                                          bins.row + static_cast<float>(b + kLanes) * bins.rowStep);
+        if (!any(lanes & (known < F(over * row.inverse)))) continue;
         const F edge = lanesFrom(b), next = edge + F(1.0f);
         const F y0 = clamp(mulAdd(edge, F(bins.rowStep), F(bins.row)), F(0.0f), top);
         const F y1 = clamp(mulAdd(next, F(bins.rowStep), F(bins.row)), F(0.0f), top);
@@ -36,47 +85,8 @@ void raiseLow(const LowRow& row) {
         const F fall = mulAdd(max(t0 * t0, t1 * t1), F(bins.fallAcross), F(bins.fallAlong));
         const F slope = (min(min(h0, h1), between) - F(bins.slack)) * F(row.inverse) - fall;
         // What is not known raises nothing: it makes the sum no number.
-        const M known = (h0 + h1) + between <= F(std::numeric_limits<float>::max());
-        const F low = loadF(row.low + b);
-        store(row.low + b, slope, lanes & known & (low < slope));
-    }
-}
-
-void findTallest(const TallRow& row) {
-    const F below(std::numeric_limits<float>::lowest());
-    float* const out = row.tallest;
-    for (int k = 0; k < row.rows + 2; k += kLanes) store(out + k, below, firstLanes(row.rows + 2 - k));
-    for (int k = 0; k < row.nearRows; k += kLanes)
-        store(out + row.nearStart + k, loadF(row.near + k), firstLanes(row.nearRows - k));
-    for (int k = 0; k < row.farRows; k += kLanes) {
-        float* const at = out + row.farStart + k;
-        store(at, max(loadF(at), loadF(row.far + k)), firstLanes(row.farRows - k));
-    }
-    for (int k = 0; k < row.rows; k += kLanes)
-        store(out + k, max(loadF(out + k), max(loadF(out + k + 1), loadF(out + k + 2))),
-              firstLanes(row.rows - k));
-}
-
-void raiseHigh(const HighRow& row) {
-    const FanBins& bins = row.bins;
-    const F top(static_cast<float>(row.rows - 1));
-    for (int b = 0; b < bins.count; b += kLanes) {
-        const M lanes = firstLanes(bins.count - b);
-        const F edge = lanesFrom(b), next = edge + F(1.0f);
-        const F far0 = mulAdd(edge, F(bins.rowStep), F(bins.row)),
-                near0 = mulAdd(edge, F(row.nearRowStep), F(row.nearRow));
-        const F far1 = mulAdd(next, F(bins.rowStep), F(bins.row)),
-                near1 = mulAdd(next, F(row.nearRowStep), F(row.nearRow));
-        const I first = floorToInt(clamp(min(far0, near0), F(0.0f), top));
-        const I last = floorToInt(clamp(max(far1, near1) + F(1.0f), F(0.0f), top));
-        const F over = max(gather(row.tallest, first, lanes, F(0.0f)),
-                           gather(row.tallest, max(first, last - I(2)), lanes, F(0.0f))) +
-                       F(bins.slack);
-        const F t0 = mulAdd(edge, F(bins.tangentStep), F(bins.tangent)), t1 = t0 + F(bins.tangentStep);
-        const F least = select(t0 * t1 <= F(0.0f), F(0.0f), min(t0 * t0, t1 * t1));
-        const F fall = mulAdd(least, F(bins.fallAcross), F(bins.fallAlong));
-        const F slope = over * select(over < F(0.0f), F(row.inverseFar), F(row.inverseNear)) - fall;
-        store(row.high + b, max(loadF(row.high + b), slope), lanes);
+        const M firm = (h0 + h1) + between <= F(std::numeric_limits<float>::max());
+        store(row.low + b, slope, lanes & firm & (known < slope));
     }
 }
 

@@ -27,12 +27,8 @@ FanSweep::FanSweep(const FanTask& task, int axis, int sign, int part, int parts)
     mClosedTo = axis == 0 && part == parts - 1;
     mLow.assign(1 + FanBins::kPadding, kBelowAll);
     mHigh = mBlock = mLow;
-    const double range = double(mHeights.maxHeight()) - mHeights.minHeight();
-    const glm::dvec2 spacing = mHeights.spacing();
-    mSteepest = std::min(range, mHeights.maxSlope() * std::max(spacing.x, spacing.y));
-    mTallest =
-        std::max(std::abs(mHeights.maxHeight() - task.eye.z), std::abs(mHeights.minHeight() - task.eye.z)) +
-        task.targetHeight;
+    mBlocks.emplace_back();
+    makeStore();
 }
 
 // Of the ground from the eye to the first column.
@@ -54,8 +50,10 @@ double FanSweep::slopeBeside() const {
 FanCounts FanSweep::run() {
     const double reach = mTask.reach > 0 ? mTask.reach : std::numeric_limits<double>::infinity();
     const int first = mGround.first();
-    if (first > 0 && mGround.columns() > 0) samplesNear(0);
+    if (first > 0 && mGround.columns() > 0) samplesOneByOne(0, ownRows(mGround.distance(0)));
     if (first < mGround.columns()) mBeside = slopeBeside();
+    Column beside;
+    for (int at = -1; at < first && mGround.columns() > 0; ++at) read(at, beside);
     for (int at = first; at < mGround.columns(); ++at) {
         const double x = mGround.distance(at);
         if (x * mGround.step() > reach) break;
@@ -85,34 +83,61 @@ void FanSweep::split() {
     mBins *= 2;
 }
 
-void FanSweep::read(int at, Column& column) const {
-    // A row more on each side than the wedge has, and what the column before it may ask for.
-    const double x = mGround.distance(at);
+// Room for the heights of all columns.
+void FanSweep::makeStore() {
+    mWalkColumns.resize(static_cast<std::size_t>(mGround.columns()) + 1);
+    double size = 4 * FanBins::kPadding;
+    for (int at = 0; at < mGround.columns(); ++at)
+        size += std::min(mGround.distance(at) * (mTo - mFrom) + 7, mGround.rows() + 0.0);
+    mStore.assign(static_cast<std::size_t>(size), 0.0f);
+}
+
+void FanSweep::read(int at, Column& column) {
+    // Rows more on each side than the wedge has, and what the column before it may ask for.
+    const bool beside = at < mGround.first();  // the eye lies in the cells before it
+    const double x = std::max(0.0, mGround.distance(at));
     const auto inside = [&](double row) {
         return static_cast<int>(std::clamp(row, 0.0, mGround.rows() - 1.0));
     };
-    column.start = inside(std::floor(mGround.middle() + x * mFrom) - 2);
-    const int end = inside(std::ceil(mGround.middle() + x * mTo) + 2);
+    column.start = inside(std::floor(mGround.middle() + (beside ? -1 : x * mFrom)) - 2);
+    const int end = inside(std::ceil(mGround.middle() + (beside ? 1 : x * mTo)) + 2);
     column.start = std::min(column.start, std::max(0, end - 1));
     column.rows = std::min(end, mGround.rows() - 1) - column.start + 1;
     const std::size_t size = static_cast<std::size_t>(column.rows) + FanBins::kPadding;
-    if (column.height.size() < size) column.height.resize(size);
-    for (int k = 0; k < column.rows; ++k)
-        column.height[static_cast<std::size_t>(k)] =
-            floatOf(mGround.height(at, column.start + k) - mTask.eye.z);
+    column.height = mStore.data() + mStored;
+    ReadRow row;
+    row.ground = mGround.row(at, column.start, &row.stride);
+    row.count = column.rows;
+    // Across the grain each height lies in a line of memory that holds those of the next columns, too.
+    constexpr int kAhead = 24;
+    if (row.stride != 1 && at + kAhead < mGround.columns()) {
+        row.ahead = kAhead * mGround.sign();
+        row.aheadRow = (at + 1) % ReadRow::kTopRows;
+    }
+    row.eye = floatOf(mTask.eye.z), row.eyeRest = floatOf(mTask.eye.z - double(row.eye));
+    column.tops.resize(static_cast<std::size_t>(column.rows / ReadRow::kTopRows + 1));
+    row.height = column.height, row.tops = column.tops.data();
+    row.tallest = mTallest, row.steepest = mSteepest;
+    mTask.kernels.readHeights(row);
+    mTallest = row.tallest, mSteepest = row.steepest;
+    WalkColumn& walked = mWalkColumns[static_cast<std::size_t>(at + 1)];
+    walked.offset = mStored;
+    walked.shift = column.start - mLastStart;
+    walked.top = mGround.rows() - 2 - column.start;
+    walked.x = floatOf(x);
+    walked.row = floatOf(mGround.middle() + x * mFrom - column.start);
+    walked.rowBefore = floatOf(mGround.middle() + std::max(0.0, x - 1) * mFrom - column.start);
+    mLastStart = column.start;
+    mStored += static_cast<std::size_t>(column.rows);
     // Those beside it, too.
     const glm::ivec2 first = mGround.sample(at - 1, column.start - 1),
                      last = mGround.sample(at + 1, column.start + column.rows);
     column.holes = mTask.holes.any(glm::min(first, last), glm::max(first, last));
-    if (!column.holes) return;
-    if (column.firm.size() < size) column.firm.resize(size), column.known.resize(size);
+    mHoles = mHoles || column.holes;
+    if (!column.holes || beside) return;
+    if (column.firm.size() < size) column.firm.resize(size);
     mGround.firm(at, column.start, column.rows, column.firm.data());
-    for (int k = 0; k < column.rows; ++k) {
-        const std::size_t r = static_cast<std::size_t>(k);
-        column.firm[r] += column.height[r];
-        // Of NaN the other one.
-        column.known[r] = std::max(kBelowAll, column.height[r]);
-    }
+    for (int k = 0; k < column.rows; ++k) column.firm[static_cast<std::size_t>(k)] += column.height[k];
 }
 
 glm::ivec2 FanSweep::binsOver(double x) const {
@@ -127,7 +152,8 @@ float FanSweep::slackOf(int rows) const {
     constexpr double kRounding = 0x1p-22;
     const glm::dvec2 extent = glm::dvec2(mHeights.width(), mHeights.height()) * mHeights.spacing();
     const double fall = mGround.fall() * (extent.x * extent.x + extent.y * extent.y);
-    return floatOf(kRounding * (4 * mTallest + 4 * fall + mSteepest * (rows + 8)) + 2 * mTask.grazing);
+    return floatOf(kRounding * (4 * (mTallest + mTask.targetHeight) + 4 * fall + mSteepest * (rows + 8)) +
+                   2 * mTask.grazing);
 }
 
 FanBins FanSweep::binsAt(double x, double fallAt, const glm::ivec2& range, int start, float slack) const {
@@ -151,10 +177,11 @@ void FanSweep::raiseLowAt(int at, const Column& column) {
     if (range.y <= range.x) return;
     LowRow row;
     row.bins = binsAt(x, x, range, column.start, slackOf(column.rows));
-    row.height = column.holes ? column.firm.data() : column.height.data();
+    row.height = column.holes ? column.firm.data() : column.height;
     row.rows = column.rows;
     row.inverse = floatOf(1 / x);
     row.low = mLow.data() + range.x;
+    row.tops = column.tops.data();
     mTask.kernels.raiseLow(row);
 }
 
@@ -164,38 +191,30 @@ void FanSweep::raiseHighAt(int at, const Column& near, const Column& far) {
     if ((at - mGround.first() - 1) % kBlock == 0 && at - mGround.first() > 1) endBlock();
     const glm::ivec2 range = binsOver(x0);
     if (range.y <= range.x) return;
-    // Rows of both; where one has none the bins beside do not need them.
-    const int start = std::min(near.start, far.start),
-              end = std::max(near.start + near.rows, far.start + far.rows), rows = end - start;
-    mThree.resize(static_cast<std::size_t>(rows) + 2 + FanBins::kPadding);
-    TallRow tall;
-    tall.near = near.holes ? near.known.data() : near.height.data();
-    tall.far = far.holes ? far.known.data() : far.height.data();
-    tall.nearStart = near.start - start, tall.nearRows = near.rows;
-    tall.farStart = far.start - start, tall.farRows = far.rows;
-    tall.tallest = mThree.data(), tall.rows = rows;
-    mTask.kernels.findTallest(tall);
+    mEdge.resize(static_cast<std::size_t>(range.y - range.x) + 1 + FanBins::kPadding);
     HighRow row;
-    row.bins = binsAt(x1, x0, range, start, slackOf(rows));
-    const FanBins before = binsAt(x0, x0, range, start, 0);
+    row.bins = binsAt(x1, x0, range, far.start, slackOf(std::max(near.rows, far.rows)));
+    const FanBins before = binsAt(x0, x0, range, far.start, 0);
     row.nearRow = before.row, row.nearRowStep = before.rowStep;
-    row.tallest = mThree.data();
-    row.rows = rows;
+    row.near = near.height, row.far = far.height;
+    row.nearTops = near.tops.data(), row.farTops = far.tops.data();
+    row.farRows = far.rows;
+    row.shift = far.start - near.start;
+    row.nearRows = near.rows, row.top = mGround.rows() - 2 - far.start;
+    row.x = floatOf(x0);
     row.inverseNear = floatOf(1 / x0), row.inverseFar = floatOf(1 / x1);
-    row.high = mBlock.data() + range.x;
+    row.edge = mEdge.data();
+    row.block = mBlock.data() + range.x, row.high = mHigh.data() + range.x;
     mTask.kernels.raiseHigh(row);
-    for (int b = range.x; b < range.y; ++b) {
-        const std::size_t bin = static_cast<std::size_t>(b);
-        mHigh[bin] = std::max(mHigh[bin], mBlock[bin]);
-    }
 }
 
 void FanSweep::endBlock() {
-    mBlocks.push_back({mBounds.size(), mBins});
-    for (int b = 0; b < mBins; ++b) {
-        const std::size_t bin = static_cast<std::size_t>(b);
-        mBounds.push_back({mBlock[bin], mHigh[bin]});
-    }
+    const std::size_t bins = static_cast<std::size_t>(mBins);
+    std::vector<float>& kept = mKept.emplace_back(2 * bins);
+    std::copy_n(mBlock.begin(), bins, kept.begin());
+    std::copy_n(mHigh.begin(), bins, kept.begin() + mBins);
+    mBlocks.back() = {kept.data(), kept.data() + mBins, mBins};
+    mBlocks.emplace_back();
     std::fill(mBlock.begin(), mBlock.end(), kBelowAll);
 }
 
@@ -210,18 +229,22 @@ glm::ivec2 FanSweep::ownRows(double x) const {
     return {first, last};
 }
 
-// Those of a column too near for bounds.
-void FanSweep::samplesNear(int at) {
-    const glm::ivec2 rows = ownRows(mGround.distance(at));
-    for (int r = rows.x; r <= rows.y; ++r) sample(at, r, false);
+// Of a column too near for bounds.
+void FanSweep::samplesOneByOne(int at, const glm::ivec2& rows) {
+    for (int r = rows.x; r <= rows.y; ++r)
+        if (!std::isfinite(mGround.height(at, r)))
+            missing(at, r);
+        else if (withinReach(at, r))
+            sampleAlone(at, r);
 }
 
 void FanSweep::samplesAt(int at, const Column& column) {
     const double x = mGround.distance(at);
     const glm::ivec2 rows = ownRows(x);
     if (rows.y < rows.x) return;
+    if (at - mGround.first() <= kLag + 1) return samplesOneByOne(at, rows);
     SampleRow row;
-    row.height = column.height.data() + (rows.x - column.start);
+    row.height = column.height + (rows.x - column.start);
     row.count = rows.y - rows.x + 1;
     row.inverse = floatOf(1 / x);
     row.binStep = floatOf(1 / (x * width()));
@@ -239,33 +262,74 @@ void FanSweep::samplesAt(int at, const Column& column) {
     if (mOpen.size() < words) mOpen.resize(words), mAbove.resize(words);
     row.open = mOpen.data(), row.above = mAbove.data();
     mTask.kernels.tellSamples(row);
+    mWalkRows.clear(), mWalkAbove.clear();
     for (std::size_t w = 0; w < words; ++w)
         for (unsigned open = mOpen[w]; open != 0; open &= open - 1) {
-            const int bit = std::countr_zero(open);
-            sample(at, rows.x + static_cast<int>(16 * w) + bit, mAbove[w] >> bit & 1);
+            const int bit = std::countr_zero(open), k = static_cast<int>(16 * w) + bit;
+            if (!std::isfinite(row.height[k])) {
+                missing(at, rows.x + k);
+            } else if (mTask.reach <= 0 || withinReach(at, rows.x + k)) {
+                mWalkRows.push_back(rows.x - column.start + k);
+                mWalkAbove.push_back(mAbove[w] >> bit & 1);
+            }
         }
+    if (!mWalkRows.empty()) walk(at, column);
 }
 
-void FanSweep::sample(int at, int row, bool aboveHigh) {
-    const double ground = mGround.height(at, row), x = mGround.distance(at);
+bool FanSweep::withinReach(int at, int row) const {
+    const double x = mGround.distance(at), tangent = (row - mGround.middle()) / x;
+    return mTask.reach <= 0 || x * x * mGround.stretch(tangent) <= mTask.reach * mTask.reach;
+}
+
+void FanSweep::missing(int at, int row) {
     const glm::ivec2 place = mGround.sample(at, row);
-    std::uint8_t& out = mTask.seen.row(place.y)[place.x];
-    if (!std::isfinite(ground)) {
-        out = static_cast<std::uint8_t>(Seen::NoGround);
-        ++mCounts.unknown;
-        return;
-    }
-    const double tangent = (row - mGround.middle()) / x;
-    if (mTask.reach > 0 && x * x * mGround.stretch(tangent) > mTask.reach * mTask.reach) return;
-    const double height = ground + mTask.targetHeight;
-    const Passing passing = passingOf(at, row, height, aboveHigh);
-    if (passing == Passing::Hidden) return;
-    if (passing == Passing::Untold && !mTask.lines.sees(mTask.eye, {place, height})) return;
-    out = static_cast<std::uint8_t>(Seen::Visible);
+    mTask.seen.row(place.y)[place.x] = static_cast<std::uint8_t>(Seen::NoGround);
+    ++mCounts.unknown;
+}
+
+void FanSweep::see(int at, int row) {
+    const glm::ivec2 place = mGround.sample(at, row);
+    mTask.seen.row(place.y)[place.x] = static_cast<std::uint8_t>(Seen::Visible);
     ++mCounts.visible;
 }
 
-Passing FanSweep::passingOf(int at, int row, double height, bool aboveHigh) {
+void FanSweep::walk(int at, const Column& column) {
+    const int count = static_cast<int>(mWalkRows.size());
+    const double x = mGround.distance(at), across = mGround.across();
+    mBlocks.back() = {mBlock.data(), mHigh.data(), mBins};
+    mWalkRows.resize(mWalkRows.size() + FanBins::kPadding);
+    mTold.resize(static_cast<std::size_t>(count));
+    WalkRows rows;
+    rows.heights = mStore.data(), rows.columns = mWalkColumns.data() + 1;
+    rows.at = at, rows.first = mGround.first(), rows.lag = kLag, rows.blockLength = kBlock;
+    rows.blocks = mBlocks.data(), rows.blockCount = static_cast<int>(mBlocks.size());
+    rows.inverse = floatOf(1 / x), rows.tangent = floatOf(mFrom), rows.width = floatOf(1 / (mTo - mFrom));
+    rows.bulgeAlong = floatOf(mGround.fall() * mGround.stretch(0));
+    rows.bulgeAcross = floatOf(mGround.fall() * across * across);
+    rows.targetHeight = floatOf(mTask.targetHeight), rows.slack = 2 * slackOf(column.rows);
+    rows.beside = floatOf(mBeside), rows.holes = mHoles;
+    rows.rows = mWalkRows.data(), rows.above = mWalkAbove.data(), rows.count = count;
+    rows.told = mTold.data();
+    mTask.kernels.walkSamples(rows);
+    for (int k = 0; k < count; ++k) {
+        const std::size_t n = static_cast<std::size_t>(k);
+        ++(mWalkAbove[n] ? mCounts.near : mCounts.all);
+        if (mTold[n] == kToldClear) see(at, column.start + mWalkRows[n]);
+        if (mTold[n] == kUntold) sampleAlone(at, column.start + mWalkRows[n]);
+    }
+}
+
+// By doubles.
+void FanSweep::sampleAlone(int at, int row) {
+    ++mCounts.alone;
+    const double height = double(mGround.height(at, row)) + mTask.targetHeight;
+    const Passing passing = passingOf(at, row, height);
+    if (passing == Passing::Hidden) return;
+    if (passing == Passing::Untold && !mTask.lines.sees(mTask.eye, {mGround.sample(at, row), height})) return;
+    see(at, row);
+}
+
+Passing FanSweep::passingOf(int at, int row, double height) const {
     const int first = mGround.first();
     const auto walk = [&](int from, int to) {
         return mGround.passing(mTask.eye.z, height, at, row, from, to, mTask.grazing);
@@ -277,26 +341,21 @@ Passing FanSweep::passingOf(int at, int row, double height, bool aboveHigh) {
     // Curvature only lowers the ground beside the eye: without it the bound holds, too.
     if (slope <= mBeside)
         if (const Passing passing = walk(-1, first); passing != Passing::Clear) return passing;
-    ++(aboveHigh ? mCounts.near : mCounts.all);
-    return aboveHigh ? Passing::Clear : passingOverBlocks(at, walk, slope, tangent);
+    return passingOverBlocks(at, walk, slope, tangent);
 }
 
 // Of the blocks those are walked that reach up to the line, the last one first, until none before does.
 template <typename Walk>
 Passing FanSweep::passingOverBlocks(int at, const Walk& walk, double slope, double tangent) const {
     const double share = (tangent - mFrom) / (mTo - mFrom);
-    const auto binOf = [&](int bins) {
-        return static_cast<std::size_t>(std::clamp(static_cast<int>(share * bins), 0, bins - 1));
-    };
-    int block = static_cast<int>(mBlocks.size()), to = at - kLag;
-    Bounds bounds{mBlock[binOf(mBins)], mHigh[binOf(mBins)]};
-    while (bounds.before >= slope) {
-        const int from = mGround.first() + block * kBlock;
-        if (bounds.own >= slope)
+    int to = at - kLag;
+    for (int b = static_cast<int>(mBlocks.size()) - 1; b >= 0; --b) {
+        const WalkBlock& block = mBlocks[static_cast<std::size_t>(b)];
+        const int bin = std::clamp(static_cast<int>(share * block.bins), 0, block.bins - 1);
+        if (block.before[bin] < slope) break;
+        const int from = mGround.first() + b * kBlock;
+        if (block.own[bin] >= slope)
             if (const Passing passing = walk(from, to); passing != Passing::Clear) return passing;
-        if (--block < 0) break;
-        const Block& bins = mBlocks[static_cast<std::size_t>(block)];
-        bounds = mBounds[bins.first + binOf(bins.count)];
         to = from;
     }
     return Passing::Clear;

@@ -18,10 +18,11 @@
 namespace stereonav {
 
 struct FanKernels {
+    decltype(&plain::readHeights) readHeights;
     decltype(&plain::raiseLow) raiseLow;
-    decltype(&plain::findTallest) findTallest;
     decltype(&plain::raiseHigh) raiseHigh;
     decltype(&plain::tellSamples) tellSamples;
+    decltype(&plain::walkSamples) walkSamples;
 };
 
 // Each line by itself. What that takes is made when the first one is asked for: mostly none is.
@@ -58,7 +59,7 @@ struct FanTask {
 
 struct FanCounts {
     // Seen; not known; walked over the last columns; walked further.
-    long long visible = 0, unknown = 0, near = 0, all = 0;
+    long long visible = 0, unknown = 0, near = 0, all = 0, alone = 0;
 };
 
 class FanSweep {
@@ -76,53 +77,60 @@ private:
     struct Column {
         int start = 0, rows = 0;
         bool holes = false;
-        std::vector<float> height, firm, known;  // firm, known: where there are holes
-    };
-
-    // Upper bounds in the bins that there were at the end of a block of kBlock columns.
-    struct Bounds {
-        float own, before;  // of the block; of it and all nearer ones
-    };
-    struct Block {
-        std::size_t first;  // of mBounds
-        int count;
+        float* height = nullptr;  // of mStore
+        std::vector<float> tops;  // of ReadRow
+        std::vector<float> firm;  // where there are holes
     };
 
     int bins() const { return mBins; }
     double width() const { return (mTo - mFrom) / mBins; }
     void split();
-    void read(int at, Column& column) const;
+    void makeStore();
+    void read(int at, Column& column);
     // The bins over a column that lie on the ground, in part at least: first and one past the last.
     glm::ivec2 binsOver(double x) const;
     FanBins binsAt(double x, double fallAt, const glm::ivec2& range, int start, float slack) const;
-    float slackOf(int rows) const;  // of rows in a buffer
+    float slackOf(int rows) const;  // of rows in a buffer, so far
     void raiseLowAt(int at, const Column& column);
     void raiseHighAt(int at, const Column& near, const Column& far);
     double slopeBeside() const;
     void endBlock();
-    void samplesNear(int at);
     void samplesAt(int at, const Column& column);
     // First and last row of a column whose samples are this part's.
     glm::ivec2 ownRows(double x) const;
-    void sample(int at, int row, bool aboveHigh);
-    Passing passingOf(int at, int row, double height, bool aboveHigh);
+    void samplesOneByOne(int at, const glm::ivec2& rows);
+    void walk(int at, const Column& column);
+    void sampleAlone(int at, int row);
+    Passing passingOf(int at, int row, double height) const;
     template <typename Walk>
     Passing passingOverBlocks(int at, const Walk& walk, double slope, double tangent) const;
+    void see(int at, int row);
+    void missing(int at, int row);
+    bool withinReach(int at, int row) const;
 
     const FanTask& mTask;
     const Heightfield& mHeights;
     const FanGround mGround;
-    double mFrom, mTo;           // tangents
-    bool mOpenFrom, mClosedTo;   // which of two fans, or parts, a ray between them belongs to
-    double mSteepest, mTallest;  // metres between neighbours, from the eye
+    double mFrom, mTo;          // tangents
+    bool mOpenFrom, mClosedTo;  // which of two fans, or parts, a ray between them belongs to
+    // Metres from the eye, and from row to row, in the columns so far.
+    float mTallest = 0, mSteepest = 0;
     // No slope up to the first column is above it.
     double mBeside = std::numeric_limits<double>::infinity();
     int mBins = 1;
-    std::vector<float> mLow, mHigh, mThree;
+    std::vector<float> mLow, mHigh, mEdge;
     std::vector<std::uint16_t> mOpen, mAbove;
-    std::vector<float> mBlock;   // of the last columns, which are kBlock or less
-    std::vector<Block> mBlocks;  // those before
-    std::vector<Bounds> mBounds;
+    std::vector<float> mBlock;  // upper bounds of the last columns, which are kBlock or less
+    // Of those before, in the bins that there were at the end of each block.
+    std::vector<std::vector<float>> mKept;
+    std::vector<WalkBlock> mBlocks;  // mKept, and the last one
+    std::vector<float> mStore;       // heights of all columns so far
+    std::size_t mStored = 0;
+    bool mHoles = false;  // in any column so far
+    int mLastStart = 0;   // of the column before
+    std::vector<WalkColumn> mWalkColumns;
+    std::vector<int> mWalkRows;
+    std::vector<std::uint8_t> mWalkAbove, mTold;
     std::array<Column, kLag + 2> mColumns;
     FanCounts mCounts;
 };

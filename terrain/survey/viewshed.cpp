@@ -15,10 +15,11 @@ namespace stereonav {
 namespace {
 
 const FanKernels& fanKernels() {
-    static const FanKernels plainSet{plain::raiseLow, plain::findTallest, plain::raiseHigh,
-                                     plain::tellSamples},
-        avx2Set{avx2::raiseLow, avx2::findTallest, avx2::raiseHigh, avx2::tellSamples},
-        avx512Set{avx512::raiseLow, avx512::findTallest, avx512::raiseHigh, avx512::tellSamples};
+    static const FanKernels plainSet{plain::readHeights, plain::raiseLow, plain::raiseHigh,
+                                     plain::tellSamples, plain::walkSamples},
+        avx2Set{avx2::readHeights, avx2::raiseLow, avx2::raiseHigh, avx2::tellSamples, avx2::walkSamples},
+        avx512Set{avx512::readHeights, avx512::raiseLow, avx512::raiseHigh, avx512::tellSamples,
+                  avx512::walkSamples};
     return kernelsOf(SimdTarget::Auto, plainSet, avx2Set, avx512Set);
 }
 
@@ -47,7 +48,7 @@ long long samplesWithin(const Heightfield& ground, const ViewshedSetting& settin
 
 // Of a fan: enough for many threads, and columns in each long enough to be worth their beginning.
 int partsOf(const Heightfield& ground) {
-    constexpr int kRowsEach = 64, kMostParts = 16;
+    constexpr int kRowsEach = 128, kMostParts = 16;
     return std::clamp(std::max(ground.width(), ground.height()) / kRowsEach, 1, kMostParts);
 }
 
@@ -82,7 +83,7 @@ Viewshed viewshedOf(const Heightfield& ground, const ViewshedSetting& setting, P
     result.samples = static_cast<long long>(ground.width()) * ground.height();
     for (const FanCounts& part : counts) {
         result.visible += part.visible, result.samples -= part.unknown;
-        result.walkedNear += part.near, result.walkedAll += part.all;
+        result.walkedNear += part.near, result.walkedAll += part.all, result.walkedAlone += part.alone;
     }
     if (setting.reach > 0) result.samples = samplesWithin(ground, setting);
     // The sample on which the eye stands is in no fan.

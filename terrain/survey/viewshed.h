@@ -30,9 +30,10 @@ struct ViewshedSetting {
 enum class Seen : std::uint8_t { Hidden = 0, NoGround = 128, Visible = 255 };  // also in files
 
 struct Viewshed {
-    Plane<std::uint8_t> seen;                 // Seen; row 0 southernmost; beyond reach: hidden
-    long long visible = 0, samples = 0;       // samples: that are known and within reach
-    long long walkedNear = 0, walkedAll = 0;  // of them: by the last columns; from the eye
+    Plane<std::uint8_t> seen;            // Seen; row 0 southernmost; beyond reach: hidden
+    long long visible = 0, samples = 0;  // samples: that are known and within reach
+    // Of them: by the last columns; from the eye; again in doubles.
+    long long walkedNear = 0, walkedAll = 0, walkedAlone = 0;
 };
 
 // Throws Error where the eye's place is not on the ground, or in a hole of it; Cancelled.

@@ -130,9 +130,9 @@ int run(int argc, char** argv) {
     fmt::print(
         "wall clock (processor): ours {}, one thread {}, GDAL {}, each line by itself, one thread {}\n",
         two.text(), one.text(), gdal.text(), exact.text());
-    fmt::print("seen {:.2f} %; by the last columns {:.2f} %, from the eye {:.2f} %\n",
+    fmt::print("seen {:.2f} %; by the last columns {:.2f} %, from the eye {:.2f} %, in doubles {:.3f} %\n",
                100.0 * shed.visible / shed.samples, 100.0 * shed.walkedNear / shed.samples,
-               100.0 * shed.walkedAll / shed.samples);
+               100.0 * shed.walkedAll / shed.samples, 100.0 * shed.walkedAlone / shed.samples);
     fmt::print(
         "seen by ours alone {}, by GDAL's alone {}: of these the line lies under the ground by less than 1 m "
         "in {}, 5 m in {}, at most {:.2f} m\n",

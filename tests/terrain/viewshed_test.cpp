@@ -254,6 +254,75 @@ TEST(Viewshed, BoundsSayWhatEachLineSaysAmongHoles) {
     EXPECT_GT(told, 12000);
 }
 
+void expectAsEachLine(const Heightfield& ground, const ViewshedSetting& setting) {
+    const HeightPyramid maxima(ground);
+    const SightLines lines(ground, maxima, setting.fall);
+    const glm::dvec3 from(setting.eye,
+                          ground.heightAt(ground.worldFromGrid(setting.eye)) + setting.eyeHeight);
+    Progress progress;
+    const Viewshed shed = viewshedOf(ground, setting, progress);
+    for (int j = 0; j < ground.height(); ++j)
+        for (int i = 0; i < ground.width(); ++i) {
+            const double target = ground.sample(i, j) + setting.targetHeight;
+            if (!std::isfinite(target)) continue;
+            ASSERT_EQ(seenAt(shed, i, j), lines.sees(from, {i, j, target})) << i << " " << j;
+        }
+}
+
+// Fields of equal heights, ground that slopes with the line, peaks far above and below the eye: lines that
+// graze, where floats alone would not tell.
+TEST(Viewshed, GroundThatLinesGrazeIsAsEachLineSays) {
+    const std::vector<std::function<double(int, int)>> grounds = {
+        [](int, int) { return 812.0; },
+        [](int i, int j) { return std::floor(0.013 * i * i - 0.2 * j); },
+        [](int i, int j) { return (i / 9 + j / 7) % 2 * 0.001 + 4000; },
+        [](int i, int j) { return 0.1f * static_cast<float>(i) + 0.3f * static_cast<float>(j); },
+        [](int i, int j) { return (i * 37 + j * 101) % 17 == 0 ? 8000.0 : -400.0; },
+        [](int i, int j) { return 1e6 + (i ^ j) % 5; }};
+    for (const auto& heightAt : grounds) {
+        const Heightfield ground = sightGround(77, 90, {30, 20}, heightAt);
+        for (const glm::dvec2 eye : {glm::dvec2(38, 41), glm::dvec2(0.25, 3.5), glm::dvec2(76, 89)})
+            for (const double eyeHeight : {0.0, 1e-4, 25.0}) {
+                ViewshedSetting setting;
+                setting.eye = eye, setting.eyeHeight = eyeHeight;
+                expectAsEachLine(ground, setting);
+                setting.targetHeight = 1.5, setting.fall = 1e-6;
+                expectAsEachLine(ground, setting);
+            }
+    }
+}
+
+// Lines that leave along a row or a diagonal run between cells of which one is open.
+TEST(Viewshed, LinesBetweenOpenCellsAreAsEachLineSays) {
+    std::mt19937 random(77);
+    for (const double share : {0.003, 0.05, 0.4}) {
+        std::uniform_real_distribution<double> any(0, 1);
+        const Heightfield ground = sightGround(70, 64, {10, 10}, [&](int i, int j) {
+            const bool near = std::abs(i - 30) < 3 && std::abs(j - 30) < 3;
+            const double height = std::floor(3 * any(random));
+            return !near && any(random) < share ? std::nan("") : height;
+        });
+        for (const glm::dvec2 eye : {glm::dvec2(30, 30), glm::dvec2(29.5, 31), glm::dvec2(31, 28.75)}) {
+            ViewshedSetting setting;
+            setting.eye = eye, setting.eyeHeight = 2.5;
+            expectAsEachLine(ground, setting);
+        }
+    }
+}
+
+// Grounds of few columns and rows, longer one way.
+TEST(Viewshed, SmallGroundIsAsEachLineSays) {
+    for (const glm::ivec2 size :
+         {glm::ivec2(2, 2), glm::ivec2(3, 41), glm::ivec2(300, 2), glm::ivec2(7, 5)}) {
+        const Heightfield ground = roughGround(size.x, size.y, 8);
+        for (const glm::dvec2 share : {glm::dvec2(0), glm::dvec2(1), glm::dvec2(0.37, 0.61)}) {
+            ViewshedSetting setting;
+            setting.eye = share * glm::dvec2(size - 1);
+            expectAsEachLine(ground, setting);
+        }
+    }
+}
+
 TEST(Viewshed, ThreadsAndReachChangeNothingElse) {
     const Heightfield ground = roughGround(150, 120, 21);
     ViewshedSetting setting;
