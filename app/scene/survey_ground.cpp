@@ -41,9 +41,10 @@ SurveyGround generated(const SceneFile& file, Progress& progress) {
     return survey;
 }
 
-// Heights, and the maxima over blocks of them.
+// Heights, the maxima over blocks of them, what is seen, and the heights that a sweep has read
+// (survey/fan_sweep.h).
 double bytesOfSurvey(double samples) {
-    return (4 + 4 * 4.0 / 3 + 1) * samples;
+    return (4 + 4 * 4.0 / 3 + 1 + 4) * samples;
 }
 
 SurveyGround read(const SceneFile& file, Progress& progress) {
