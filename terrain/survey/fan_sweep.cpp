@@ -306,6 +306,7 @@ void FanSweep::walk(int at, const Column& column) {
     rows.inverse = floatOf(1 / x), rows.tangent = floatOf(mFrom), rows.width = floatOf(1 / (mTo - mFrom));
     rows.bulgeAlong = floatOf(mGround.fall() * mGround.stretch(0));
     rows.bulgeAcross = floatOf(mGround.fall() * across * across);
+    // A walk rounds more often than a bound does: rows, heights on both sides of a cell, and their bend.
     rows.targetHeight = floatOf(mTask.targetHeight), rows.slack = 2 * slackOf(column.rows);
     rows.beside = floatOf(mBeside), rows.holes = mHoles;
     rows.rows = mWalkRows.data(), rows.above = mWalkAbove.data(), rows.count = count;

@@ -5,10 +5,11 @@
 // Around the eye lie four fans of bins, narrow wedges over the plan, that are swept outward column by column
 // (row by row). Of each bin is known a slope that every ray in it has met (low) and one that none has
 // exceeded (high). A sample below low is hidden. One above high is seen, if nothing within the last columns,
-// which high lags behind, hides it; those are walked exactly. What lies between both is walked over
-// those blocks of columns that reach up to the line. Sweeping outward with horizons is that of XDraw
-// (Franklin, Ray and Mehta 1994), which interpolates one horizon in the place of two bounds and is not exact;
-// the exact walk of each sample is their R3.
+// which high lags behind, hides it; those are walked. What lies between both is walked over those blocks of
+// columns that reach up to the line. Walks are made in packets, in floats with stated rounding; what that
+// leaves open is walked in doubles, and what is within their rounding as one line by itself. Sweeping outward
+// with horizons is that of XDraw (Franklin, Ray and Mehta 1994), which interpolates one horizon in the place
+// of two bounds and is not exact; the exact walk of each sample is their R3.
 #pragma once
 
 #include <cstdint>
