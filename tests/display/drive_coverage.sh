@@ -17,8 +17,6 @@ until_true is_kept
 cp "$(kept)" "$out/first.json"
 keys F8
 settled unseen followed
-keys F9
-sleep 1
-keys space
+keys F9 space
 settled off unseen
 close_window
