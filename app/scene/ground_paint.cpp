@@ -22,7 +22,11 @@ double contourIntervalOf(const TerrainScene& terrain, const GroundPaintOptions& 
 }  // namespace
 
 GroundPaint groundPaintOf(const SceneOptions& options) {
-    return groundPaintNamed(paintAskedOf(options.paint).word).value_or(GroundPaint::None);
+    return groundPaintOf(options.paint);
+}
+
+GroundPaint groundPaintOf(const std::string& paint) {
+    return groundPaintNamed(paintAskedOf(paint).word).value_or(GroundPaint::None);
 }
 
 std::shared_ptr<const EyePainter> contoursOf(const TerrainScene& terrain, const Fog& fog,

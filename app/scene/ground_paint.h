@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "app/command/commands.h"
 #include "engine/render/eye_painter.h"
@@ -14,6 +15,7 @@ namespace stereonav {
 
 // The paint that a terrain is loaded with, in the place of its tints; None where --paint says another.
 GroundPaint groundPaintOf(const SceneOptions& options);
+GroundPaint groundPaintOf(const std::string& paint);  // a value of --paint
 
 // Null where there are none. legend: gets what they mean. terrain, fog: outlive it.
 std::shared_ptr<const EyePainter> contoursOf(const TerrainScene& terrain, const Fog& fog,

@@ -12,8 +12,10 @@
 #include "app/scene/ground_paint_tracks.h"
 #include "engine/base/error.h"
 #include "engine/base/lone_loops.h"
+#include "engine/base/memory.h"
 #include "engine/base/parallel.h"
 #include "engine/base/thread_priority.h"
+#include "terrain/scene/ground_color.h"
 #include "terrain/scene/slope_color.h"
 
 namespace stereonav {
@@ -35,18 +37,28 @@ std::string contourText(const SceneOptions& options) {
     return fmt::format("{:.6g}", *options.ground.contours_m);
 }
 
+SunAngles sunOf(const TerrainLook& look) {
+    return {look.sunAzimuth, look.sunElevation};
+}
+
 }  // namespace
 
 const std::array<const char*, GroundPainting::kLayers> GroundPainting::kKeys{"paint", "contours", "tracks"};
 
 GroundPainting::GroundPainting(const TerrainScene& terrain, const Fog& fog, const SceneOptions& options,
-                               SurfacePaint& paint)
+                               SurfacePaint& paint, std::function<void(const GroundWorn&)> wear)
     : mTerrain(terrain),
       mFog(fog),
       mOptions(options),
       mPaint(paint),
-      mTinted(groundPaintOf(options) != GroundPaint::None),
-      mLegend(std::make_shared<PaintLegend>()) {}
+      mWear(std::move(wear)),
+      mLoadedSource(terrain.report.colorSource),
+      mSunTaken(sunOf(terrain.look)),
+      mSunAsked(mSunTaken),
+      mSun(mSunTaken),
+      mLegend(std::make_shared<PaintLegend>()) {
+    mWorn.paint = terrain.colorSource ? terrain.colorSource->paint : GroundPaint::None;
+}
 
 GroundPainting::~GroundPainting() {
     cancel();
@@ -63,7 +75,7 @@ void GroundPainting::paintAll(Progress& progress) {
     const std::string tracks = mOptions.ground.tracks, contours = contourText(mOptions);
     for (const auto& [layer, text] :
          {std::pair(kPaint, mOptions.paint), std::pair(kContours, contours), std::pair(kTracks, tracks)}) {
-        Painted made = painted(layer, {text, {}}, progress);
+        Painted made = painted(layer, {text, {}, mSun}, progress);
         const std::lock_guard lock(mMutex);
         show(layer, std::move(made));
     }
@@ -74,7 +86,8 @@ void GroundPainting::paintAll(Progress& progress) {
 bool GroundPainting::takes(const std::string& key, const std::string& text) const {
     const Layer layer = layerOf(key);
     if (layer != kPaint) return layer != kLayers;
-    return !mTinted && (text.empty() || surveyed(text));
+    if (text.empty() || surveyed(text)) return true;
+    return mTerrain.colorSource && groundPaintOf(text) != GroundPaint::None;
 }
 
 std::string GroundPainting::now(const std::string& key) const {
@@ -88,9 +101,10 @@ std::string GroundPainting::now(const std::string& key) const {
 void GroundPainting::ask(const std::string& key, const std::string& text) {
     const Layer layer = layerOf(key);
     if (layer == kLayers || text == now(key)) return;
-    if (layer != kContours && !text.empty()) return wish(layer, {text, {}});
+    const bool quick = layer == kContours || (text.empty() && (layer != kPaint || loadedPlain()));
+    if (!quick) return wish(layer, {text, {}, {}});
     Progress quiet;
-    Painted made = painted(layer, {text, {}}, quiet);  // at once
+    Painted made = painted(layer, {text, {}, {}}, quiet);  // at once
     const std::lock_guard lock(mMutex);
     ++mNumbers[layer];
     mWishes[layer].reset();
@@ -99,7 +113,7 @@ void GroundPainting::ask(const std::string& key, const std::string& text) {
 }
 
 void GroundPainting::askSeenFrom(const glm::dvec2& place, double height) {
-    wish(kPaint, {"", SeenFrom{place, height}});
+    wish(kPaint, {"", SeenFrom{place, height}, {}});
 }
 
 void GroundPainting::wish(Layer layer, Wish wish) {
@@ -110,6 +124,7 @@ void GroundPainting::wish(Layer layer, Wish wish) {
         if (mAtWork == layer) drop();
         if (std::exchange(mWorks, true)) return;
     }
+    const std::lock_guard begin(mBegin);
     if (mThread.joinable()) mThread.join();  // it has nothing left to do
     mThread = std::thread([this] { workOff(); });
 }
@@ -163,6 +178,7 @@ void GroundPainting::workOff() {
                 return;
             }
             wish = *mWishes[layer];
+            wish.sun = mSun;
             number = mNumbers[layer];
             mWork = {};
             mAtWork = layer;
@@ -201,7 +217,7 @@ const SurveyGround& GroundPainting::survey(Progress& progress) {
 }
 
 GroundPainting::Painted GroundPainting::painted(Layer layer, const Wish& wish, Progress& progress) {
-    Painted made{wish.text, nullptr, {}};
+    Painted made{wish.text, nullptr, {}, {}};
     if (wish.seenFrom)
         made.text = paintSeenFrom(survey(progress), wish.seenFrom->place, wish.seenFrom->height);
     if (layer == kContours) {
@@ -209,13 +225,39 @@ GroundPainting::Painted GroundPainting::painted(Layer layer, const Wish& wish, P
     } else if (layer == kTracks && !made.text.empty()) {
         progress.report(0, "reading " + made.text);
         made.painter = trackPainter(mTerrain, mFog, made.text, made.legend);
-    } else if (layer == kPaint && surveyed(made.text)) {
-        made.painter = surveyPainter(mTerrain, mFog, survey(progress), made.text, made.legend, progress);
     } else if (layer == kPaint) {
-        if (Legend colors = legendOfPaint(groundPaintOf(mOptions)); !colors.entries.empty())
+        const GroundPaint paint = groundPaintOf(made.text);
+        if (surveyed(made.text))
+            made.painter = surveyPainter(mTerrain, mFog, survey(progress), made.text, made.legend, progress);
+        if (Legend colors = legendOfPaint(paint); !colors.entries.empty())
             made.legend.legends.push_back(std::move(colors));
+        made.ground = groundAs(paint, wish.sun, progress);
     }
     return made;
+}
+
+bool GroundPainting::loadedPlain() const {
+    return !mTerrain.colorSource || mTerrain.colorSource->paint == GroundPaint::None;
+}
+
+GroundWorn GroundPainting::groundAs(GroundPaint paint, const SunAngles& sun, Progress& progress) const {
+    GroundWorn worn{paint, nullptr, mLoadedSource, sun};
+    if (!mTerrain.colorSource) return worn;  // a picture's
+    const GroundColorSource& source = *mTerrain.colorSource;
+    const bool asLoaded = !turnsWithSun(paint, source) || sun == sunOf(source.look);
+    if (paint == source.paint && asLoaded) return worn;
+    const Heightfield& ground = mTerrain.ground;
+    checkMemory("colours of the ground", bytesOfTint(double(ground.width()) * ground.height()), "");
+    GroundColor color = groundColorsAs(paint, ground, source, sun, progress);
+    if (source.alone) leaveOutLit(color.source);
+    worn.texture = std::make_shared<const ColorTexture>(std::move(color.texture));
+    worn.source = std::move(color.source);
+    return worn;
+}
+
+std::string GroundPainting::colorSource() const {
+    const std::lock_guard lock(mMutex);
+    return mShown[kPaint].ground.source;
 }
 
 void GroundPainting::show(Layer layer, Painted painted) {
@@ -233,13 +275,28 @@ void GroundPainting::show(Layer layer, Painted painted) {
 }
 
 void GroundPainting::takeUp() {
-    if (mTaken == mVersion) return;
-    const std::lock_guard lock(mMutex);
-    mTaken = mVersion;
-    std::vector<std::shared_ptr<const EyePainter>> painters;
-    for (const Painted& shown : mShown)
-        if (shown.painter) painters.push_back(shown.painter);
-    mPaint.set(std::move(painters));
+    const SunAngles sun = sunOf(mTerrain.look);
+    if (mTaken == mVersion && mSunTaken == sun) return;
+    mSunTaken = sun;
+    GroundWorn ground;
+    std::string again;  // the paint, under the sun that has turned
+    {
+        const std::lock_guard lock(mMutex);
+        mTaken = mVersion;
+        mSun = sun;
+        std::vector<std::shared_ptr<const EyePainter>> painters;
+        for (const Painted& shown : mShown)
+            if (shown.painter) painters.push_back(shown.painter);
+        mPaint.set(std::move(painters));
+        ground = mShown[kPaint].ground;
+        const bool turns = mTerrain.colorSource && turnsWithSun(ground.paint, *mTerrain.colorSource);
+        if (turns && !mWishes[kPaint] && ground.sun != sun && mSunAsked != sun) again = mShown[kPaint].text;
+    }
+    if (ground.texture != mWorn.texture || ground.paint != mWorn.paint) mWear(ground);
+    mWorn = std::move(ground);
+    if (again.empty()) return;
+    mSunAsked = sun;
+    wish(kPaint, {again, {}, {}});
 }
 
 }  // namespace stereonav

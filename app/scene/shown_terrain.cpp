@@ -111,60 +111,68 @@ Facts TerrainSurvey::readPlace(const glm::dvec3& world) const {
 // Over baked light.
 class ShownTerrain::Sun final : public TurningLight {
 public:
-    Sun(TerrainScene& terrain, TerrainRenderer& renderer) : mTerrain(terrain), mRenderer(renderer) {}
+    explicit Sun(GroundColors& colors) : mColors(colors) {}
 
-    SunPlace place() const override { return {mTerrain.look.sunAzimuth, mTerrain.look.sunElevation}; }
+    SunPlace place() const override { return mColors.sun(); }
     void turnTo(const SunPlace& to) override {
-        if (to == place()) return;
-        moveSun(mTerrain, to.azimuth, to.elevation);
-        mRenderer.sunMoved();
+        if (to != place()) mColors.turnSun(to);
     }
 
 private:
-    TerrainScene& mTerrain;
-    TerrainRenderer& mRenderer;
+    GroundColors& mColors;
 };
 
-// Over ground whose light is worked out meanwhile. All is called between frames but changes().
+// Over ground in its own colours whose light is worked out meanwhile. All is called between frames but
+// changes().
 class ShownTerrain::Daylight final : public TurningLight, public SeenLight {
 public:
-    Daylight(TerrainScene& terrain, TerrainRenderer& renderer)
-        : mTerrain(terrain), mRenderer(renderer), mBaker(terrain, renderer.target()) {}
+    Daylight(TerrainScene& terrain, TerrainRenderer& renderer, GroundColors& colors)
+        : mTerrain(terrain), mRenderer(renderer), mColors(colors), mBaker(terrain, renderer.target()) {}
 
-    SunPlace place() const override { return {mTerrain.look.sunAzimuth, mTerrain.look.sunElevation}; }
+    SunPlace place() const override { return mColors.sun(); }
     void turnTo(const SunPlace& to) override {
         std::unique_ptr<LitGround> better = mBaker.take();
-        const bool turned = to != place();
-        if (turned) {
-            mTerrain.look.sunAzimuth = to.azimuth;
-            mTerrain.look.sunElevation = to.elevation;
-            if (mTerrain.landmarks) mTerrain.landmarks->setLook(mTerrain.look);
-        }
-        LitGround* const shown = better ? better.get() : mShown.get();
-        if (!shown) {  // the plain sun's light until then
-            if (turned) mRenderer.sunMoved();
-            return;
-        }
-        const bool stale = shown->sunAzimuth != to.azimuth || shown->sunElevation != to.elevation;
-        if (stale) shown->lightAgain(mTerrain.look);
-        if (!better && !stale) return;
-        mRenderer.showLight(*shown->light, shown->color);
-        if (better) mShown = std::move(better);  // the one before goes when it is not shown any more
-        mTerrain.report.lightSource = mShown->source();
+        const bool turned = to != place(), fresh = better != nullptr;
+        if (fresh) std::swap(better, mShown);  // the one before goes when it is not shown any more
+        if (turned && mShown && !mColors.painted())
+            moveSun(mTerrain, to.azimuth, to.elevation);
+        else if (turned)
+            mColors.turnSun(to);  // the plain sun's light until there is better
+        show(fresh);
     }
+    // The ground has other colours.
+    void colorsChanged() { show(true); }
 
-    void seen(const EyeView&, const EyeImage&) override { mBaker.begin(); }
+    void seen(const EyeView&, const EyeImage&) override {
+        if (!mColors.painted()) mBaker.begin(mColors.texture());
+    }
     std::uint64_t changes() const override { return mBaker.count(); }
 
 private:
+    // fresh: it is not what the ground is shown in.
+    void show(bool fresh) {
+        if (!mShown || mColors.painted()) return;
+        const SunPlace sun = place();
+        const bool stale = mShown->sunAzimuth != sun.azimuth || mShown->sunElevation != sun.elevation;
+        if (stale) mShown->lightAgain(mTerrain.look);
+        if (!fresh && !stale) return;
+        mRenderer.showColors(mShown->color, mShown->light.get());
+        mTerrain.report.lightSource = mShown->source();
+    }
+
     TerrainScene& mTerrain;
     TerrainRenderer& mRenderer;
+    GroundColors& mColors;
     std::unique_ptr<LitGround> mShown;
     TerrainDaylight mBaker;
 };
 
 ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsItself)
-    : mTerrain(std::move(terrain)), mSurvey(mTerrain), mRenderer(mTerrain, target), mFrames(mRenderer) {
+    : mTerrain(std::move(terrain)),
+      mSurvey(mTerrain),
+      mRenderer(mTerrain, target),
+      mColors(mTerrain, mRenderer),
+      mFrames(mRenderer) {
     setViews(mTerrain, *this);
     simd = mRenderer.target();
     mRays = {&mRenderer};
@@ -173,19 +181,23 @@ ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsI
     offer<const TerrainRenderer>(mRenderer);
     mSurvey.offerAll([this](auto& capability) { offer(capability); });
     if (lightsItself && mTerrain.tint) {
-        mDaylight = std::make_unique<Daylight>(mTerrain, mRenderer);
+        mDaylight = std::make_unique<Daylight>(mTerrain, mRenderer, mColors);
         offer<TurningLight>(*mDaylight);
         offer<SeenLight>(*mDaylight);
     }
     if (!mTerrain.illumination) return;
-    mSun = std::make_unique<Sun>(mTerrain, mRenderer);
+    mSun = std::make_unique<Sun>(mColors);
     offer<TurningLight>(*mSun);
 }
 
 ShownTerrain::~ShownTerrain() = default;
 
 void ShownTerrain::paintGround(const SceneOptions& options, Progress& progress) {
-    mPainting = std::make_unique<GroundPainting>(mTerrain, mRenderer.fog(), options, mPaint);
+    const auto wear = [this](const GroundWorn& worn) {
+        mColors.wear(worn.texture, worn.paint != GroundPaint::None);
+        if (mDaylight) mDaylight->colorsChanged();
+    };
+    mPainting = std::make_unique<GroundPainting>(mTerrain, mRenderer.fog(), options, mPaint, wear);
     mPainting->paintAll(progress);
     mLegend = mPainting->legend();
     offer(mPaint);
@@ -195,7 +207,12 @@ void ShownTerrain::paintGround(const SceneOptions& options, Progress& progress) 
 
 Facts ShownTerrain::describe() const {
     Facts facts = factsOfTerrain(*this);
-    if (mPainting) addLegend(*mPainting->legend(), facts);
+    if (mPainting) {
+        const std::string colors = mPainting->colorSource();
+        for (Fact& fact : facts)
+            if (fact.key == "color") fact = factForAll("color", colors, "colour", colors);
+        addLegend(*mPainting->legend(), facts);
+    }
     return {factForJson("terrain", std::move(facts))};
 }
 

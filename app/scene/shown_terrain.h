@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/command/commands.h"
+#include "app/scene/ground_colors.h"
 #include "engine/frame/cast_frames.h"
 #include "engine/render/paint_legend.h"
 #include "engine/scene/capabilities.h"
@@ -79,6 +80,7 @@ private:
     TerrainScene mTerrain;
     TerrainSurvey mSurvey;
     TerrainRenderer mRenderer;
+    GroundColors mColors;
     RayCast mRays;
     mutable CastFrames mFrames;
     SurfacePaint mPaint;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -73,11 +74,11 @@ void LitGround::lightAgain(const TerrainLook& look) {
     } else {
         const std::vector<float> around = plainLight(terrain->ground, grid, GroundLight(look));
         if (look.sunAzimuth == sunOfColor.azimuth && look.sunElevation == sunOfColor.elevation) {
-            light->applyOver(look, terrain->color, around, color);
+            light->applyOver(look, *plain, around, color);
         } else {
             Progress quiet;
-            const GroundColor plain = tintedGround(terrain->ground, look, *terrain->tint, quiet);
-            light->applyOver(look, plain.texture, around, color);
+            const GroundColor now = tintedGround(terrain->ground, look, *terrain->tint, quiet);
+            light->applyOver(look, now.texture, around, color);
         }
     }
     sunAzimuth = look.sunAzimuth;
@@ -98,8 +99,8 @@ TerrainDaylight::~TerrainDaylight() {
     if (mThread.joinable()) mThread.join();
 }
 
-void TerrainDaylight::begin() {
-    if (!mThread.joinable()) mThread = std::thread([this] { work(); });
+void TerrainDaylight::begin(std::shared_ptr<const ColorTexture> plain) {
+    if (!mThread.joinable()) mThread = std::thread([this, plain = std::move(plain)] { work(plain); });
 }
 
 std::unique_ptr<LitGround> TerrainDaylight::take() {
@@ -115,7 +116,7 @@ void TerrainDaylight::give(std::unique_ptr<LitGround> lit) {
     ++mCount;
 }
 
-void TerrainDaylight::work() {
+void TerrainDaylight::work(const std::shared_ptr<const ColorTexture>& plain) {
     stepBehindTheWindow();
     stepBehindTheWindow();  // and behind the thread that makes frames
     loopOnThisThreadAlone();
@@ -133,6 +134,7 @@ void TerrainDaylight::work() {
             lit->light = std::make_unique<TerrainIllumination>(ground, albedo.texture, mTerrain.sky,
                                                                std::move(light), 1.0f, mTarget);
             lit->terrain = &mTerrain;
+            lit->plain = plain;
             lit->sunOfColor = {mLook.sunAzimuth, mLook.sunElevation};
             lit->color = albedo.texture;
             lit->lightAgain(mLook);

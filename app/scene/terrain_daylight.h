@@ -20,10 +20,11 @@ namespace stereonav {
 // Ground under baked light, and the place of the sun that its colours are lit from.
 struct LitGround {
     const TerrainScene* terrain = nullptr;
+    std::shared_ptr<const ColorTexture> plain;  // the ground's own colours under the plain sun
     std::unique_ptr<TerrainIllumination> light;
     ColorTexture color;
     double sunAzimuth = 0, sunElevation = 0;
-    SunPlace sunOfColor;  // that of the terrain's own colours
+    SunPlace sunOfColor;  // that of the plain colours
 
     // Of light at some samples alone the shades between them are those of the plain sun.
     void lightAgain(const TerrainLook& look);
@@ -38,8 +39,8 @@ public:
     TerrainDaylight(const TerrainDaylight&) = delete;
     TerrainDaylight& operator=(const TerrainDaylight&) = delete;
 
-    // Starts it; later calls do nothing.
-    void begin();
+    // Starts it; later calls do nothing. plain: the terrain's tint under its sun.
+    void begin(std::shared_ptr<const ColorTexture> plain);
     // The newest light since the last call, null where there is none.
     std::unique_ptr<LitGround> take();
     // Grows as light comes.
@@ -51,7 +52,7 @@ public:
     static constexpr double kMostSamples[] = {6'000, 60'000, 400'000};
 
 private:
-    void work();
+    void work(const std::shared_ptr<const ColorTexture>& plain);
     void give(std::unique_ptr<LitGround> lit);
 
     const TerrainScene& mTerrain;

@@ -56,6 +56,7 @@ public:
     const std::deque<FrameCost>& costs() const override { return mCosts; }
     std::string sceneName() const override;
     const SettingTexts& settings() const override;
+    SettingTexts settingsToOpen() const override;
     std::optional<std::string> valueOf(const Option& option) const override;
     bool applies(const Option& option) const override;
     bool live(const Option& option) const override;

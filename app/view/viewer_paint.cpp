@@ -32,8 +32,6 @@ void Viewer::seeFromHere() {
     if (!paint) return;
     const auto world = pointedWorld();
     if (!world) return mSession->notify("nothing is under the pointer");
-    if (!paint->takes("paint", "viewshed:0,0"))
-        return mSession->notify("the ground has other colours now: set paint to none first");
     paint->askSeenFrom(glm::dvec2(*world), *mSeesFrom);
 }
 

@@ -47,6 +47,12 @@ void Viewer::beginSecond() {
         openOther(std::string(with->second.back()));
 }
 
+SettingTexts Viewer::settingsToOpen() const {
+    SettingTexts texts = settings();
+    if (mSecond.other()) texts["with"] = {mSecondMade.options.scene.scene};
+    return texts;
+}
+
 void Viewer::followSecond() {
     try {
         if (mSecond.poll()) mSession->notify("the other study is there: F3");

@@ -265,8 +265,8 @@ void TerrainRenderer::sunMoved() {
     mState->ringsChanged();
 }
 
-void TerrainRenderer::showLight(const TerrainIllumination& light, const ColorTexture& lit) {
-    mState->light = &light;
+void TerrainRenderer::showColors(const ColorTexture& lit, const TerrainIllumination* light) {
+    mState->light = light;
     mState->scene.texture = mState->clear.texture = textureData(lit, mScene.ground.spacing(), mState->filter);
     sunMoved();
 }

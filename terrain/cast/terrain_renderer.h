@@ -60,10 +60,9 @@ public:
 
     // The scene's look has changed (moveSun()): highlights follow. Not while a picture is cast.
     void sunMoved();
-    // Casts the ground in these colours, under this light, in place of the scene's own from now on. Both must
-    // live until others are shown; the colours have size and place of the scene's. Not while a picture is
-    // cast.
-    void showLight(const TerrainIllumination& light, const ColorTexture& lit);
+    // Casts the ground in these colours from now on, in place of the scene's own. light: that they are lit
+    // by, null: the plain sun, or none. Both must live until others are shown. Not while a picture is cast.
+    void showColors(const ColorTexture& lit, const TerrainIllumination* light);
 
     // That the ground is seen through now; lives as long as the renderer, and changes with sunMoved().
     const Fog& fog() const;

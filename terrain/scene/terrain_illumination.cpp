@@ -12,11 +12,11 @@ TerrainIllumination::TerrainIllumination(const Heightfield& ground, const ColorT
                                          SimdTarget target)
     : mAlbedo(albedo), mSky(skyRadiance(sky)), mRelight(ground, std::move(light), target), mShare(share) {}
 
-void TerrainIllumination::apply(const TerrainLook& look, ColorTexture& lit) {
+void TerrainIllumination::applyTo(const ColorTexture& albedo, const TerrainLook& look, ColorTexture& lit) {
     const SunAndSky now = sunAndSky(look, mSky);
     mRelight.relight(now, mBrightness, look.specular > 0);
     mHighlightLight = exposureOf(now) * now.sunThroughAir;
-    mRelight.lightTexture(mAlbedo, mBrightness, {exposureOf(now), mShare}, lit);
+    mRelight.lightTexture(albedo, mBrightness, {exposureOf(now), mShare}, lit);
 }
 
 void TerrainIllumination::applyOver(const TerrainLook& look, const ColorTexture& plain,

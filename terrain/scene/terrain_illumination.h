@@ -20,7 +20,9 @@ public:
                         TerrainLight light, float share, SimdTarget target = SimdTarget::Auto);
 
     // Writes the colours under the look's sun into `lit`, which is of albedo's size.
-    void apply(const TerrainLook& look, ColorTexture& lit);
+    void apply(const TerrainLook& look, ColorTexture& lit) { applyTo(mAlbedo, look, lit); }
+    // The same on other colours without light; `lit` is of their size.
+    void applyTo(const ColorTexture& albedo, const TerrainLook& look, ColorTexture& lit);
 
     // The same from light that was baked at some samples alone, for colours `plain` that are lit by a plain
     // light already, which is known at all of them: what is baked is laid over it as the quotient of both at

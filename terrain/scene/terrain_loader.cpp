@@ -8,7 +8,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
-#include <string_view>
 
 #include "engine/base/error.h"
 #include "terrain/built_in/built_in_terrain.h"
@@ -19,9 +18,9 @@
 #include "terrain/read/height_limits.h"
 #include "terrain/read/raster_file.h"
 #include "terrain/scene/ground_color.h"
+#include "terrain/scene/ground_recolor.h"
 #include "terrain/scene/landmark.h"
 #include "terrain/scene/scene_flight.h"
-#include "terrain/scene/slope_color.h"
 #include "terrain/scene/terrain_illumination.h"
 
 namespace stereonav {
@@ -34,8 +33,8 @@ constexpr double kSeparationShare = 1.0 / 30;  // of the zero-parallax distance 
 constexpr double kFallbackShare = 0.25;        // of the shorter side, where the view meets no ground
 
 struct LoadedGround {
-    DemGrid place;  // without heights
-    std::optional<Plane<PackedColor>> ownColor;
+    DemGrid place;                        // without heights
+    std::optional<BuiltInTerrain> built;  // with the heights that it has its colours for, moved from here
 };
 
 // Whether the ground's colours are to be without light.
@@ -44,14 +43,7 @@ bool litLater(const SceneFile& file) {
 }
 
 LoadedGround loadBuiltIn(const SceneFile& file, TerrainScene& scene, Progress& progress) {
-    const TerrainLook usual;
-    const bool usualSun =
-        file.look.sunAzimuth == usual.sunAzimuth && file.look.sunElevation == usual.sunElevation;
-    BuiltInTerrain built =
-        usualSun && !litLater(file)
-            ? builtInTerrain(file.seed, file.builtInSize, progress)
-            : generateBuiltInTerrain(file.seed, file.builtInSize, progress,
-                                     litLater(file) ? std::nullopt : std::optional(file.look));
+    BuiltInTerrain built = builtInUnder({file.seed, file.builtInSize}, file.look, litLater(file), progress);
     const auto [low, high] = std::minmax_element(built.heights.begin(), built.heights.end());
     checkScaledHeights("the built-in terrain", *low, *high, file.verticalScale);
     if (file.verticalScale != 1.0)
@@ -65,7 +57,7 @@ LoadedGround loadBuiltIn(const SceneFile& file, TerrainScene& scene, Progress& p
     place.width = place.height = built.size;
     place.transform = {0, built.spacing, 0, 0, 0, -built.spacing};
     loaded.place.grid = place;
-    if (file.verticalScale == 1.0) loaded.ownColor = std::move(built.color);
+    if (file.verticalScale == 1.0) loaded.built = std::move(built);
     return loaded;
 }
 
@@ -127,31 +119,35 @@ TintPlace tintPlaceOf(const SceneFile& file, const TerrainScene& scene) {
     return place;
 }
 
-void loadColor(const SceneFile& file, LoadedGround& loaded, TerrainScene& scene, Progress& progress) {
-    GroundColor color;
-    TerrainLook look = file.look;
-    if (litLater(file)) look.ambient = 1;
+GroundColorSource colorSourceOf(const SceneFile& file, const LoadedGround& loaded,
+                                const TerrainScene& scene) {
+    GroundColorSource source{file.look, litLater(file), file.verticalScale, file.paint, std::nullopt, {}};
+    if (loaded.built) source.builtIn = BuiltInOrigin{file.seed, file.builtInSize};
+    source.tint = tintPlaceOf(file, scene);
+    return source;
+}
+
+GroundColor colorOf(const SceneFile& file, const LoadedGround& loaded, TerrainScene& scene,
+                    Progress& progress) {
     if (!file.image.empty()) {
-        color =
-            groundFromImage(file.image, loaded.place, scene.ground, look, tintPlaceOf(file, scene), progress);
-    } else if (file.paint != GroundPaint::None) {
-        color = paintedGround(scene.ground, file.verticalScale, file.paint, look, progress);
-    } else if (loaded.ownColor) {
-        const Plane<PackedColor>& texels = *loaded.ownColor;
-        const glm::dvec2 cells(scene.ground.width() - 1, scene.ground.height() - 1);
-        color = {ColorTexture(texels, glm::dvec2(0.0), cells / glm::dvec2(texels.width(), texels.height())),
-                 "generated, lit", true};
-    } else {
-        const TintPlace place = tintPlaceOf(file, scene);
-        color = tintedGround(scene.ground, look, place, progress);
-        if (!litLater(file)) scene.tint = place;
+        TerrainLook look = file.look;
+        if (litLater(file)) look.ambient = 1;
+        return groundFromImage(file.image, loaded.place, scene.ground, look, tintPlaceOf(file, scene),
+                               progress);
     }
+    const GroundColorSource& source = scene.colorSource.emplace(colorSourceOf(file, loaded, scene));
+    if (!loaded.built && !litLater(file)) scene.tint = source.tint;
+    if (loaded.built && file.paint == GroundPaint::None) return colorsOfBuiltIn(scene.ground, *loaded.built);
+    return groundColorsAs(file.paint, scene.ground, source, {file.look.sunAzimuth, file.look.sunElevation},
+                          progress);
+}
+
+void loadColor(const SceneFile& file, const LoadedGround& loaded, TerrainScene& scene, Progress& progress) {
+    GroundColor color = colorOf(file, loaded, scene, progress);
     scene.color = std::move(color.texture);
     scene.report.colorSource = std::move(color.source);
     scene.report.colorHoldsSun = color.holdsSun && !litLater(file);
-    constexpr std::string_view kLit = ", lit";
-    if (litLater(file) && scene.report.colorSource.ends_with(kLit))
-        scene.report.colorSource.resize(scene.report.colorSource.size() - kLit.size());
+    if (litLater(file)) leaveOutLit(scene.report.colorSource);
 }
 
 void loadLight(const SceneFile& file, TerrainScene& scene, Progress& progress) {

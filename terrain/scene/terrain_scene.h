@@ -14,6 +14,7 @@
 #include "terrain/light/sky_map.h"
 #include "terrain/raster/earth_places.h"
 #include "terrain/read/scene_file.h"
+#include "terrain/scene/ground_recolor.h"
 #include "terrain/scene/ground_tint.h"
 
 namespace stereonav {
@@ -64,9 +65,11 @@ struct TerrainScene {
     std::unique_ptr<LandmarkSet> landmarks;  // null when there are none
     // Null without baked light. What is lit by it is `color`, which changes when the sun moves.
     std::unique_ptr<TerrainIllumination> illumination;
-    // Where `color` is the tint under the plain sun: what it was made of, beside ground and look.
+    // Where `color` is the tint under the plain sun, or paint in its place: what the tint is made of, beside
+    // ground and look.
     std::optional<TintPlace> tint;
-    std::unique_ptr<EarthPlaces> earth;  // null where its file does not say where it lies
+    std::optional<GroundColorSource> colorSource;  // none of a picture's
+    std::unique_ptr<EarthPlaces> earth;            // null where its file does not say where it lies
     Pose startPose;
     RecordedPath path;  // the scene's own flight
     StereoSetting stereo;

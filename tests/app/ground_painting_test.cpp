@@ -5,14 +5,20 @@
 #include <chrono>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <thread>
 
 #include "app/scene/terrain_loading.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/camera/stereo_rig.h"
+#include "engine/image/image_file.h"
+#include "engine/scene/capabilities.h"
 #include "engine/scene/line_measurer.h"
 #include "engine/scene/live_paint.h"
 #include "engine/scene/surface_paint.h"
+#include "terrain/light/terrain_light.h"
+#include "terrain/scene/terrain_scene.h"
 #include "tests/camera/temporary_folder.h"
 
 namespace stereonav {
@@ -144,14 +150,153 @@ TEST_F(GroundPaintingTest, WhatIsSeenFromAPlaceIsSaidInTheFilesCoordinates) {
     EXPECT_EQ(paint.now("paint"), "viewshed:312.5,210,3");
 }
 
-TEST_F(GroundPaintingTest, OtherColoursOfTheGroundNeedAnotherScene) {
-    const auto plain = loaded(), tinted = loaded([](SceneOptions&options) { options.paint = "slope"; });
-    EXPECT_FALSE(plain->offered<LivePaint>()->takes("paint", "slope"));
-    EXPECT_TRUE(plain->offered<LivePaint>()->takes("paint", "hours:2026-06-21"));
-    EXPECT_TRUE(plain->offered<LivePaint>()->takes("paint", ""));
-    EXPECT_FALSE(tinted->offered<LivePaint>()->takes("paint", ""));
-    EXPECT_TRUE(tinted->offered<LivePaint>()->takes("contours", "5"));
-    EXPECT_EQ(tinted->offered<LivePaint>()->now("paint"), "slope");
+TEST_F(GroundPaintingTest, ColoursOfTheGroundAreThoseOfASceneLoadedWithThem) {
+    const char* const all[] = {"", "slope", "aspect", "hillshade"};
+    const auto loadedAs = [&](const std::string& word) {
+        return loaded([&](SceneOptions& options) { options.paint = word; });
+    };
+    std::vector<Plane<PackedColor>> wanted;
+    std::vector<Facts> facts;
+    for (const char* const word : all) {
+        const auto scene = loadedAs(word);
+        wanted.push_back(pictureOf(*scene));
+        facts.push_back(scene->describe());
+    }
+    for (const char* const from : all) {
+        const auto scene = loadedAs(from);
+        LivePaint& paint = *scene->offered<LivePaint>();
+        for (const int to : {1, 0, 2, 3, 0, 3, 1}) {
+            ASSERT_TRUE(paint.takes("paint", all[to]));
+            paint.ask("paint", all[to]);
+            waitFor(paint);
+            EXPECT_EQ(paint.takeProblem(), "");
+            EXPECT_TRUE(same(pictureOf(*scene), wanted[to])) << from << " to " << all[to];
+            EXPECT_EQ(linesOf(scene->describe()), linesOf(facts[to])) << from << " to " << all[to];
+        }
+    }
+    EXPECT_FALSE(same(wanted[0], wanted[1]) || same(wanted[1], wanted[2]) || same(wanted[2], wanted[3]));
+}
+
+TEST_F(GroundPaintingTest, BothEyesHaveTheNewColours) {
+    const auto eyesOf = [](const Scene& scene) {
+        if (auto* const paint = scene.offered<LivePaint>()) paint->takeUp();
+        Lens lens = scene.lens;
+        lens.width = 120;
+        lens.height = 80;
+        const StereoViews views =
+            makeStereoViews(poseFromAngles({0, -420, 300}, 0, -0.5, 0), lens, StereoSetting{12, 500});
+        EyePair frame;
+        scene.frames().make(views, 0, FrameWay{}, frame);
+        return std::pair(std::move(frame.left.color), std::move(frame.right.color));
+    };
+    const auto scene = loaded();
+    LivePaint& paint = *scene->offered<LivePaint>();
+    const auto before = eyesOf(*scene);
+    paint.ask("paint", "aspect");
+    waitFor(paint);
+    const auto now = eyesOf(*scene);
+    const auto wanted = eyesOf(*loaded([](SceneOptions& options) { options.paint = "aspect"; }));
+    EXPECT_TRUE(same(now.first, wanted.first) && same(now.second, wanted.second));
+    EXPECT_FALSE(same(now.second, before.second));
+}
+
+TEST_F(GroundPaintingTest, ColoursFollowASunThatTurns) {
+    for (const char* const word : {"slope", "hillshade"}) {
+        const auto scene = loaded();
+        LivePaint& paint = *scene->offered<LivePaint>();
+        paint.ask("paint", word);
+        waitFor(paint);
+        pictureOf(*scene);
+        TurningLight& sun = *scene->offered<TurningLight>();
+        const SunPlace evening{4.5, 0.3};
+        sun.turnTo(evening);
+        pictureOf(*scene);  // asks for them
+        waitFor(paint);
+        const auto shown = pictureOf(*scene);
+        EXPECT_TRUE(same(shown, pictureOf(*loaded([&](SceneOptions& options) {
+                             options.paint = word;
+                             options.sun = LightPlace{evening.azimuth, evening.elevation};
+                         }))))
+            << word;
+        paint.ask("paint", "");
+        EXPECT_TRUE(same(pictureOf(*scene), pictureOf(*loaded()))) << "until light is worked out";
+    }
+}
+
+TEST_F(GroundPaintingTest, UnderWorkedOutLightTheOwnColoursComeBackLit) {
+    for (const char* const first : {"", "slope"}) {
+        const auto scene = loaded([&](SceneOptions& options) { options.paint = first; });
+        LivePaint& paint = *scene->offered<LivePaint>();
+        auto* const seen = scene->offered<SeenLight>();
+        ASSERT_NE(seen, nullptr);
+        const SunPlace sun = scene->offered<TurningLight>()->place();
+        const auto look = [&] {
+            scene->offered<TurningLight>()->turnTo(sun);
+            const auto picture = pictureOf(*scene);
+            seen->seen({}, {});
+            return picture;
+        };
+        const auto asked = [&](const char* word) {
+            paint.ask("paint", word);
+            waitFor(paint);
+            return look();
+        };
+        const auto slope = asked("slope");
+        if (*first) {
+            EXPECT_EQ(seen->changes(), 0u) << "nothing is worked out for what is not shown";
+        }
+        const auto plain = asked("");
+        while (seen->changes() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        const auto lit = look();
+        EXPECT_FALSE(same(lit, plain));
+        EXPECT_TRUE(same(asked("slope"), slope));
+        EXPECT_TRUE(same(asked(""), lit));
+    }
+}
+
+TEST_F(GroundPaintingTest, OverABakedLightColoursAreLitByIt) {
+    Progress progress;
+    const auto ground = loaded();
+    const TerrainScene& terrain = *ground->offered<const TerrainScene>();
+    TerrainLightSettings settings;
+    settings.order = 3;
+    settings.rays = 16;
+    const std::string file = (mFolder / "hill.light").string();
+    saveTerrainLight(file, bakeTerrainLight(terrain.ground, settings, progress));
+    const auto loadedAs = [&](const std::string& word, const std::optional<LightPlace>& sun) {
+        return loaded([&](SceneOptions& options) {
+            options.paint = word;
+            options.sun = sun;
+            options.light = LightChoice{LightChoice::Kind::File, file};
+        });
+    };
+    const auto scene = loadedAs("", {});
+    LivePaint& paint = *scene->offered<LivePaint>();
+    const SunPlace evening{4.5, 0.3};
+    for (const char* const word : {"slope", "hillshade", ""}) {
+        paint.ask("paint", word);
+        waitFor(paint);
+        EXPECT_TRUE(same(pictureOf(*scene), pictureOf(*loadedAs(word, {})))) << word;
+        const SunPlace noon = scene->offered<TurningLight>()->place();
+        scene->offered<TurningLight>()->turnTo(evening);
+        pictureOf(*scene);
+        waitFor(paint);
+        const LightPlace angle{evening.azimuth, evening.elevation};
+        EXPECT_TRUE(same(pictureOf(*scene), pictureOf(*loadedAs(word, angle)))) << word;
+        scene->offered<TurningLight>()->turnTo(noon);
+        pictureOf(*scene);
+        waitFor(paint);
+    }
+}
+
+TEST_F(GroundPaintingTest, APictureOfTheGroundIsNotPaintedOver) {
+    writeColorImage(mFolder / "photo.png", Plane<PackedColor>(8, 8));
+    const auto scene =
+        loaded([&](SceneOptions& options) { options.image = (mFolder / "photo.png").string(); });
+    const LivePaint& paint = *scene->offered<LivePaint>();
+    EXPECT_FALSE(paint.takes("paint", "slope"));
+    EXPECT_TRUE(paint.takes("paint", "viewshed:50,50,2"));
+    EXPECT_TRUE(paint.takes("paint", ""));
 }
 
 TEST_F(GroundPaintingTest, NamesAndLinesOfTracksAreTold) {

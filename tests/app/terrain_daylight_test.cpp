@@ -135,8 +135,9 @@ TEST(TerrainDaylight, ASunThatWasTurnedBeforeIsFollowed) {
 TEST(TerrainDaylight, ComesCoarseFirst) {
     const TerrainScene terrain = ridge(90);
     TerrainDaylight baker(terrain, SimdTarget::Auto);
-    baker.begin();
-    baker.begin();
+    const std::shared_ptr<const ColorTexture> plain(std::shared_ptr<void>(), &terrain.color);
+    baker.begin(plain);
+    baker.begin(plain);
     std::vector<int> widths;
     std::vector<ColorTexture> colors;
     ASSERT_TRUE(soon([&] {

@@ -93,6 +93,15 @@ TEST(WallMarks, ArePaintedByDepth) {
     EXPECT_GT(unpackColor(image.color.at(30, 3)).z, 0.4f);
     EXPECT_LT(unpackColor(image.color.at(30, 3)).x, 0.1f);
     EXPECT_EQ(image.color.at(30, 60), grey) << "below: not";
+    for (const int row : {20, 45}) {  // between walls, as a warped silhouette: as the nearer one in depth
+        EyeImage silhouette = image;
+        for (int x = 0; x < 65; ++x) silhouette.color.at(x, row) = grey;
+        silhouette.viewDepth.at(30, row) = 0.9f * silhouette.viewDepth.at(29, row);
+        silhouette.viewDepth.at(31, row) = 0.4f * silhouette.viewDepth.at(29, row);
+        painter.paint(view, silhouette);
+        EXPECT_EQ(silhouette.color.at(30, row), silhouette.color.at(29, row)) << row;
+        EXPECT_EQ(silhouette.color.at(30, row) == grey, row > 32) << row;
+    }
 }
 
 }  // namespace

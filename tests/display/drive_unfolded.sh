@@ -11,14 +11,17 @@ start_window "$study" --with "$study" --size 1000x640 --mode ml --separation 0.0
 first_picture
 settled start
 keys F10
-sleep 2
-settled below
-# A click on the wall, which is in the middle, flies there.
-press 530 540
-sleep 3
+settled below start
+# A click on the wall, which is in the middle, flies there: as soon as the wall is there.
+below=$(sed -n "s/^below //p" "$out/steps.txt")
+led() {
+    press 530 540
+    take
+    ! cmp -s "$below" "$picture"
+}
+until_true led
 settled flown below
 # The other study's place, and the flight goes on in it.
 keys F3
-sleep 1
-shot beside
+differing beside flown
 close_window

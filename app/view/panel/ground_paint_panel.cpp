@@ -48,7 +48,6 @@ void drawInterval(PanelHost& host, const LivePaint& paint) {
 void drawSeenFrom(PanelHost& host, LivePaint& paint) {
     static double height = 2;
     bool on = host.seesFromClicks().has_value();
-    ImGui::BeginDisabled(!paint.takes("paint", "viewshed:0,0"));
     bool changed = ImGui::Checkbox("Clicks paint what is seen", &on);
     tooltip(
         "From each place that is clicked on the ground, while nothing moves. What is hidden from there is "
@@ -63,7 +62,6 @@ void drawSeenFrom(PanelHost& host, LivePaint& paint) {
     if (changed) host.seeFromClicks(on ? std::optional(height) : std::nullopt);
     if (ImGui::Button("What is seen from here"))
         paint.askSeenFrom(glm::dvec2(host.session()->pose().position), height);
-    ImGui::EndDisabled();
     tooltip("From the ground under the eyes, so high above it.");
     if (paint.now("paint").empty()) return;
     ImGui::SameLine();
@@ -85,7 +83,7 @@ void drawHoursButton(PanelHost& host, const std::string& date) {
     const auto* const paint = scene.offered<LivePaint>();
     if (!paint || !scene.offered<OnEarth>()) return;
     const std::string text = "hours:" + date;
-    ImGui::BeginDisabled(!paint->takes("paint", text) || paint->now("paint") == text);
+    ImGui::BeginDisabled(paint->now("paint") == text);
     if (ImGui::Button("Paint hours of sun")) host.set("paint", text);
     ImGui::EndDisabled();
     tooltip(

@@ -23,7 +23,7 @@ void fileMenu(PanelHost& host, MenuWishes& wishes) {
     item(host, "Save picture", "P", ViewCommand::Screenshot);
     if (ImGui::MenuItem("Save picture as...", nullptr, false, shown)) wishes.picture = true;
     if (ImGui::MenuItem("Copy command line", nullptr, false, shown))
-        host.copy(commandLineOf(host.settings()));
+        host.copy(commandLineOf(host.settingsToOpen()));
     tooltip("The command that opens the window as it is set now.");
     ImGui::Separator();
     if (ImGui::MenuItem("Quit", "Ctrl+Q")) host.quit();

@@ -63,6 +63,8 @@ public:
     virtual const std::deque<FrameCost>& costs() const = 0;  // newest last
     virtual std::string sceneName() const = 0;
     virtual const SettingTexts& settings() const = 0;  // given and live; until something is set
+    // What opens all that is open again: with the study, too, that was opened beside the flight.
+    virtual SettingTexts settingsToOpen() const { return settings(); }
     // None where it is not known, or "" where the option is not given and has no default in the table.
     virtual std::optional<std::string> valueOf(const Option& option) const = 0;
     virtual bool applies(const Option& option) const = 0;  // to what is shown

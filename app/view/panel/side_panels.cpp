@@ -239,8 +239,8 @@ void drawSidePanels(PanelHost& host, SideTools& tools) {
     if (any(OptionPanel::Study) && heading("Study", false)) drawOptions(host, OptionPanel::Study);
     if (heading("Scene", false)) drawFacts(host);
     if (heading("Command line", false)) {
-        quietText(host, commandLineOf(host.settings()));
-        if (ImGui::Button("Copy##view")) host.copy(commandLineOf(host.settings()));
+        quietText(host, commandLineOf(host.settingsToOpen()));
+        if (ImGui::Button("Copy##view")) host.copy(commandLineOf(host.settingsToOpen()));
         tooltip("Opens the window as it is set now.");
         ImGui::SameLine();
         const std::string at = poseText(session->pose());

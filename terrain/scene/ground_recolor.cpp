@@ -1,0 +1,53 @@
+#include "terrain/scene/ground_recolor.h"
+
+#include <string_view>
+#include <utility>
+
+#include "terrain/scene/slope_color.h"
+
+namespace stereonav {
+void leaveOutLit(std::string& source) {
+    constexpr std::string_view kLit = ", lit";
+    if (source.ends_with(kLit)) source.resize(source.size() - kLit.size());
+}
+
+BuiltInTerrain builtInUnder(const BuiltInOrigin& origin, const TerrainLook& look, bool alone,
+                            Progress& progress) {
+    const TerrainLook usual;
+    const bool usualSun = look.sunAzimuth == usual.sunAzimuth && look.sunElevation == usual.sunElevation;
+    if (usualSun && !alone) return builtInTerrain(origin.seed, origin.size, progress);
+    return generateBuiltInTerrain(origin.seed, origin.size, progress,
+                                  alone ? std::nullopt : std::optional(look));
+}
+
+GroundColor colorsOfBuiltIn(const Heightfield& ground, const BuiltInTerrain& built) {
+    const glm::dvec2 cells(ground.width() - 1, ground.height() - 1);
+    const Plane<PackedColor>& texels = built.color;
+    return {ColorTexture(texels, glm::dvec2(0.0), cells / glm::dvec2(texels.width(), texels.height())),
+            "generated, lit", true};
+}
+
+bool turnsWithSun(GroundPaint paint, const GroundColorSource& source) {
+    const bool lit = !source.alone && source.look.ambient < 1;
+    return paint == GroundPaint::Hillshade || (paint != GroundPaint::None && lit);
+}
+
+GroundColor groundColorsAs(GroundPaint paint, const Heightfield& ground, const GroundColorSource& source,
+                           const SunAngles& sun, Progress& progress) {
+    TerrainLook look = source.look;
+    if (paint != GroundPaint::None) {
+        look.sunAzimuth = sun.azimuth;
+        look.sunElevation = sun.elevation;
+    }
+    if (source.alone) look.ambient = 1;
+    GroundColor color;
+    if (paint != GroundPaint::None)
+        color = paintedGround(ground, source.verticalScale, paint, look, progress);
+    else if (source.builtIn)
+        color = colorsOfBuiltIn(ground, builtInUnder(*source.builtIn, look, source.alone, progress));
+    else
+        color = tintedGround(ground, look, source.tint, progress);
+    return color;
+}
+
+}  // namespace stereonav

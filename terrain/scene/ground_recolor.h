@@ -1,0 +1,49 @@
+// The colours of ground that no picture lies on: its own, or those of a paint. The loader makes them, and so
+// does who exchanges them later; both make the same.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "terrain/built_in/built_in_terrain.h"
+#include "terrain/scene/ground_color.h"
+
+namespace stereonav {
+
+// The generated terrain, in the heights that it was generated with: it has colours of its own.
+struct BuiltInOrigin {
+    std::uint64_t seed = 1;
+    int size = 0;  // samples a side
+};
+
+// What colours are made of, beside the ground.
+struct GroundColorSource {
+    TerrainLook look;    // as the scene was loaded
+    bool alone = false;  // without the sun's light: whoever shows them lights them
+    double verticalScale = 1;
+    GroundPaint paint = GroundPaint::None;  // the scene was loaded with
+    std::optional<BuiltInOrigin> builtIn;
+    TintPlace tint;
+};
+
+// Of the words for colours, where somebody else lights them.
+void leaveOutLit(std::string& source);
+
+// From the cache where it is there.
+BuiltInTerrain builtInUnder(const BuiltInOrigin& origin, const TerrainLook& look, bool alone,
+                            Progress& progress);
+GroundColor colorsOfBuiltIn(const Heightfield& ground, const BuiltInTerrain& built);
+
+struct SunAngles {
+    double azimuth = 0, elevation = 0;  // radians, as a look's
+    bool operator==(const SunAngles&) const = default;
+};
+// Whether a scene's ground that is painted so is to be made again where the sun turns.
+bool turnsWithSun(GroundPaint paint, const GroundColorSource& source);
+// sun: that paint is made under; the ground's own colours are under that of source.look. Throws Error,
+// Cancelled.
+GroundColor groundColorsAs(GroundPaint paint, const Heightfield& ground, const GroundColorSource& source,
+                           const SunAngles& sun, Progress& progress);
+
+}  // namespace stereonav
