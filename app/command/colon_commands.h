@@ -32,7 +32,7 @@ struct FindingsOptions {
     bool candidates = false;                                 // places that look like polyps, too
     std::string comment;                                     // of the one place in `at`
     std::string file;                                        // .json that findings are kept in; "": none
-    std::string csv, page;                                   // .csv, .html, or -; "": not written
+    std::string csv, page, sr;                               // .csv, .html, .dcm, or -; "": not written
 };
 int runFindings(const FindingsOptions& options);
 

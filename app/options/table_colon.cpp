@@ -128,6 +128,12 @@ std::vector<Option> findingsOptions() {
          .help = "one .html page with pictures of each, or -",
          .commands = kFindings,
          .take = [](OptionTargets& to, const OptionValue& value) { to.findings->page = value.text; }},
+        {.key = "sr",
+         .value = fileValue(),
+         .help =
+             "the findings as a DICOM structured report, .dcm or -, with the names in the study's own heads",
+         .commands = kFindings,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.findings->sr = value.text; }},
     };
 }
 
