@@ -42,6 +42,9 @@ void checkFindingsOptions(const FindingsOptions& options) {
         throw Error("--at-truth", "",
                     "expected with the built-in colon, of other studies the truth is not known",
                     "give places with --at x,y,z");
+    if (!options.sr.empty() && options.candidates)
+        throw Error("--sr", "", "expected without --candidates, which nobody has looked at",
+                    "give those that are polyps with --at x,y,z");
     if (!options.candidates && !options.atTruth && options.at.empty() && options.between.empty() &&
         options.file.empty())
         throw Error("findings", "", "expected a place, found none", "add --at x,y,z, or --file");

@@ -148,6 +148,8 @@ void addContent(const StructuredReport& report, DSRDocument& document) {
           "the C-RADS class");
     check(tree.addQualitativeEvaluation(CODE_DCM_Comment, OFString(report.notice.c_str())), "the notice");
     check(document.setTreeFromRootTemplate(tree), "the content");
+    check(document.changeDocumentType(DSRTypes::DT_Comprehensive3DSR),
+          "places in space");  // the template's is plainer
     check(document.getCodingSchemeIdentification().addItem(kOwnScheme), "the coding scheme");
     check(document.getCodingSchemeIdentification().setCodingSchemeName("Codes of stereonav"),
           "the coding scheme");

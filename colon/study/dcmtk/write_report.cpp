@@ -113,12 +113,13 @@ std::string bytesOf(DcmFileFormat& file) {
 
 std::string structuredReportFile(const StructuredReport& report) {
     OFLog::configure(OFLogger::OFF_LOG_LEVEL);  // what is wrong is thrown
-    DSRDocument document(DSRTypes::DT_Comprehensive3DSR);
+    DSRDocument document;
     addAttributes(report, document);
     addContent(report, document);
     DcmFileFormat file;
     DcmDataset& set = *file.getDataset();
     check(document.write(set), "it");
+    if (!set.containsExtendedCharacters(OFTrue)) set.findAndDeleteElement(DCM_SpecificCharacterSet);
     put(set, DCM_SeriesInstanceUID, report.series);
     put(set, DCM_SOPInstanceUID, report.document);
     put(set, DCM_InstanceCreationDate, report.date);
