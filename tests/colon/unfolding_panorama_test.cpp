@@ -1,10 +1,9 @@
 // Panoramas from both ends: folds that hide wall from the one and show it to the other.
-#include "colon/instruments/panorama.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 
+#include "colon/instruments/panorama.h"
 #include "engine/base/error.h"
 #include "tests/colon/lumen_wall.h"
 #include "tests/support/analytic_lumen.h"
