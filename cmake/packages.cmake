@@ -32,6 +32,12 @@ if(STEREONAV_COLON)
   add_library(gdcm_libraries INTERFACE)
   target_include_directories(gdcm_libraries SYSTEM INTERFACE ${GDCM_INCLUDE})
   target_link_libraries(gdcm_libraries INTERFACE gdcmMSFF gdcmDSED gdcmCommon)
+  # Of DCMTK what structured reports need; its configuration file names all of its libraries, and what they need.
+  find_path(DCMTK_INCLUDE dcmtk/dcmsr/cmr/tid1500.h REQUIRED)  # from 3.6.3 on
+  file(STRINGS ${DCMTK_INCLUDE}/dcmtk/config/osconfig.h DCMTK_VERSION REGEX "define PACKAGE_VERSION ")
+  string(REGEX REPLACE "[^0-9.]" "" DCMTK_VERSION "${DCMTK_VERSION}")
+  add_library(dcmtk_libraries INTERFACE)
+  target_link_libraries(dcmtk_libraries INTERFACE cmr dcmsr dcmdata oflog ofstd)
 endif()
 
 if(STEREONAV_COLON AND STEREONAV_TESTS)

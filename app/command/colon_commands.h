@@ -32,7 +32,7 @@ struct FindingsOptions {
     bool candidates = false;                                 // places that look like polyps, too
     std::string comment;                                     // of the one place in `at`
     std::string file;                                        // .json that findings are kept in; "": none
-    std::string csv, page;                                   // .csv, .html, or -; "": not written
+    std::string csv, page, sr;                               // .csv, .html, .dcm, or -; "": not written
 };
 int runFindings(const FindingsOptions& options);
 
@@ -50,7 +50,7 @@ int runRegister(const RegisterOptions& options);
 struct UnfoldOptions {
     SceneOptions scene;
     Telling telling;
-    std::string out, distortion;            // pictures; distortion "": not written
+    std::string out, distortion, panorama;  // pictures; but for `out` "": not written
     double pixel_mm = 0.5;                  // of the wall, > 0
     std::vector<glm::dvec3> at;             // LPS, metres
     std::vector<std::pair<int, int>> pick;  // pixels

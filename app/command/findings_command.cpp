@@ -8,11 +8,13 @@
 #include "app/command/colon_commands.h"
 #include "app/command/colon_of.h"
 #include "app/command/findings_words.h"
+#include "app/options/built_without.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/scene_loading.h"
+#include "colon/instruments/findings_report.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
@@ -33,12 +35,16 @@ void checkFindingsOptions(const FindingsOptions& options) {
     expectColonName(options.scene.scene);
     checkPlace("--csv", options.csv, ".csv", options);
     checkPlace("--page", options.page, ".html", options);
+    checkPlace("--sr", options.sr, ".dcm", options);
     checkPlace("--file", options.file, ".json", options);
     if (!options.file.empty()) checkOutputToReadAgain("--file", options.file);
     if (options.atTruth && options.scene.scene != "colon")
         throw Error("--at-truth", "",
                     "expected with the built-in colon, of other studies the truth is not known",
                     "give places with --at x,y,z");
+    if (!options.sr.empty() && options.candidates)
+        throw Error("--sr", "", "expected without --candidates, which nobody has looked at",
+                    "give those that are polyps with --at x,y,z");
     if (!options.candidates && !options.atTruth && options.at.empty() && options.between.empty() &&
         options.file.empty())
         throw Error("findings", "", "expected a place, found none", "add --at x,y,z, or --file");
@@ -105,12 +111,23 @@ void tellFindings(CommandResult& result, const std::vector<Finding>& findings) {
     result.add("missed", missed);
 }
 
+// Of a study that is not DICOM its content tells which it is; of the built-in colon what it was made of.
+StructuredReport reportOn(const ColonOptions& reading, const std::vector<Finding>& findings) {
+    std::optional<StudySource> source;
+    if (!reading.study.empty()) source = sourceOf(reading.study, reading.reading);
+    std::string study = fmt::format("built-in colon {}", reading.builtIn.seed);
+    if (!reading.study.empty() && (!source || source->study.empty()))
+        study = fmt::format("{:016x}", studyKey(reading.study, reading.reading));
+    return reportOf(study, source, findings, std::string("stereonav ") + versionNumber(), std::time(nullptr));
+}
+
 }  // namespace
 
 int runFindings(const FindingsOptions& options) {
     checkFindingsOptions(options);
-    CommandResult result("findings", options.telling,
-                         {{"--csv", options.csv}, {"--page", options.page}, {"--file", options.file}});
+    CommandResult result(
+        "findings", options.telling,
+        {{"--csv", options.csv}, {"--page", options.page}, {"--file", options.file}, {"--sr", options.sr}});
     ProgressBar bar(!options.telling.quiet);
     checkSceneOptions(options.scene);
     ColonOptions reading = colonOptionsOf(options.scene);
@@ -118,7 +135,7 @@ int runFindings(const FindingsOptions& options) {
     const ColonScene colon = loadColon(reading, bar.progress());
     if (!colon.isColon())
         throw Error(options.scene.scene, "", "no colon was found", "give --seed x,y,z inside it");
-    checkNotRead({{"--csv", options.csv}, {"--page", options.page}});
+    checkNotRead({{"--csv", options.csv}, {"--page", options.page}, {"--sr", options.sr}});
     const FindingTool tool(colon, joinedWall(colon, bar.progress()));
     const std::vector<Finding> findings = collect(options, tool, bar.progress());
     bar.clear();
@@ -132,8 +149,10 @@ int runFindings(const FindingsOptions& options) {
     if (!options.csv.empty()) writeTextFile(options.csv, csvOf(findings));
     if (!options.page.empty())
         writeTextFile(options.page, findingsPage(colon, colon.study, findings, bar.progress()));
+    if (!options.sr.empty()) writeTextFile(options.sr, structuredReportFile(reportOn(reading, findings)));
     for (const auto& [key, file] :
-         {std::pair("kept", options.file), std::pair("table", options.csv), std::pair("page", options.page)})
+         {std::pair("kept", options.file), std::pair("table", options.csv), std::pair("page", options.page),
+          std::pair("structured_report", options.sr)})
         if (!file.empty()) result.addFile(key, file);
     result.finish();
     return 0;

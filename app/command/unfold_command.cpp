@@ -12,6 +12,7 @@
 #include "app/scene/scene_loading.h"
 #include "colon/instruments/candidates.h"
 #include "colon/instruments/finding.h"
+#include "colon/instruments/panorama.h"
 #include "colon/instruments/unfolding.h"
 #include "engine/base/error.h"
 #include "engine/image/image_file.h"
@@ -28,7 +29,8 @@ void checkUnfoldOptions(const UnfoldOptions& options) {
     std::vector<NamedPlace> inputs = inputsOf(options.scene);
     if (!options.findings.empty()) inputs.push_back({"--findings", options.findings});
     for (const auto& [option, file] :
-         {std::pair("--out", options.out), std::pair("--distortion", options.distortion)}) {
+         {std::pair("--out", options.out), std::pair("--distortion", options.distortion),
+          std::pair("--panorama", options.panorama)}) {
         if (file.empty()) continue;
         checkOutputPicture(option, file);
         checkNoInput({option, file}, inputs);
@@ -137,15 +139,34 @@ void tellPlaces(CommandResult& result, const UnfoldOptions& options, const Flatt
     if (!list.empty()) result.add("places", std::move(list));
 }
 
+void drawPanorama(CommandResult& result, const UnfoldOptions& options, const Flattened& of,
+                  const LineOfSight& sight, Progress& progress) {
+    const Panorama panorama(of.colon.volume.field, of.colon.centreline, sight, 1e-3 * options.pixel_mm,
+                            progress);
+    writeColorImage(options.panorama, panorama.picture(of.colon.volume.look, progress));
+    const Panorama::Shares shares = panorama.shares(of.wall, progress);
+    result.say(
+        fmt::format("{}: from the rectum's end {:.1f} % of the wall is seen, from the caecum's {:.1f} %, "
+                    "from one of both "
+                    "{:.1f} %\n",
+                    options.panorama, 100 * shares.rectum, 100 * shares.caecum, 100 * shares.either));
+    result.addFile("panorama", options.panorama);
+    result.add("from_rectum_percent", 100 * shares.rectum);
+    result.add("from_caecum_percent", 100 * shares.caecum);
+    result.add("from_either_percent", 100 * shares.either);
+}
+
 }  // namespace
 
 int runUnfold(const UnfoldOptions& options) {
     checkUnfoldOptions(options);
-    CommandResult result("unfold", options.telling,
-                         {{"--out", options.out}, {"--distortion", options.distortion}});
+    CommandResult result(
+        "unfold", options.telling,
+        {{"--out", options.out}, {"--distortion", options.distortion}, {"--panorama", options.panorama}});
     ProgressBar bar(!options.telling.quiet);
     const std::unique_ptr<Scene> scene = loadScene(options.scene, SizeOption{}, bar.progress(), kNoPicture);
-    checkNotRead({{"--out", options.out}, {"--distortion", options.distortion}});
+    checkNotRead(
+        {{"--out", options.out}, {"--distortion", options.distortion}, {"--panorama", options.panorama}});
     const ColonScene& colon = colonOf(*scene, options.scene);
     const WallMesh wall = wallMesh(colon.volume.field, colon.volume.cells, colon.lumen.lumen, bar.progress());
     const WallNeighbours neighbours = neighboursOf(wall);
@@ -160,6 +181,7 @@ int runUnfold(const UnfoldOptions& options) {
     tellPlaces(result, options, of);
     writeColorImage(options.out, flat.picture(colon.volume.look, marked.marks()));
     if (!options.distortion.empty()) writeColorImage(options.distortion, flat.distortionMap());
+    if (!options.panorama.empty()) drawPanorama(result, options, of, sight, bar.progress());
     bar.clear();
     const UnfoldedWall::AreaError error = flat.areaError();
     const double hides = 100 * flat.hiddenShare(kShownWithin);

@@ -62,7 +62,8 @@ constexpr std::array kFiles{
     Entry{"stereonav_0001_sbsl.png, flight_0001.gltf",
           "Pictures and flights that keys of the window save, in the folder that --shots names."},
     Entry{"../lib/stereonav",
-          "From the program's own folder: its modules, for GDAL, GDCM and OpenCV, loaded when first used."},
+          "From the program's own folder: its modules, for GDAL, GDCM, DCMTK and OpenCV, loaded when first "
+          "used."},
 };
 
 constexpr std::array kEnvironment{

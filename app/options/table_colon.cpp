@@ -128,6 +128,12 @@ std::vector<Option> findingsOptions() {
          .help = "one .html page with pictures of each, or -",
          .commands = kFindings,
          .take = [](OptionTargets& to, const OptionValue& value) { to.findings->page = value.text; }},
+        {.key = "sr",
+         .value = fileValue(),
+         .help =
+             "the findings as a DICOM structured report, .dcm or -, with the names in the study's own heads",
+         .commands = kFindings,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.findings->sr = value.text; }},
     };
 }
 
@@ -192,6 +198,12 @@ std::vector<Option> unfoldOptions() {
          .help = "a picture of how true its areas are: red is drawn too large, blue too small",
          .commands = kUnfold,
          .take = [](OptionTargets& to, const OptionValue& value) { to.unfold->distortion = value.text; }},
+        {.key = "panorama",
+         .value = fileValue(),
+         .help = "a picture of the wall as it is seen along the line, ahead from the rectum and back from "
+                 "the caecum",
+         .commands = kUnfold,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.unfold->panorama = value.text; }},
         {.key = "pixel",
          .value = numberValue(within(0.1, 10, "mm")),
          .help = "of the wall, the side of a pixel",

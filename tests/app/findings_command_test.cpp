@@ -53,6 +53,19 @@ TEST_F(ColonInstruments, FindingsMeasureAndAreKept) {
     EXPECT_EQ(Json::parse(contentOf(place() / "f.json")).at("findings").size(), 2u);
 }
 
+TEST_F(ColonInstruments, FindingsBecomeAStructuredReport) {
+    const Json json =
+        documentOf({"findings", withPolyp(), "--at", kPolyp, "--comment", "seen twice", "--sr", "f.dcm"});
+    EXPECT_EQ(json.at("structured_report").at("path"), "f.dcm");
+    const std::string bytes = contentOf(place() / "f.dcm");
+    EXPECT_EQ(json["structured_report"].at("bytes"), bytes.size());
+    ASSERT_GT(bytes.size(), 132u);
+    EXPECT_EQ(bytes.substr(128, 4), "DICM");
+    for (const char* words :
+         {"1.2.840.10008.5.1.4.1.1.88.34", "stereonav is not a medical device", "seen twice"})
+        EXPECT_NE(bytes.find(words), std::string::npos) << words;
+}
+
 TEST_F(ColonInstruments, FindingsTellDistances) {
     const Json json = documentOf({"findings", withPolyp(), "--between", "0,0,-10,3,4,-10"});
     EXPECT_NEAR(json.at("distances")[0].at("straight_mm").get<double>(), 5, 1e-9);
@@ -94,6 +107,8 @@ TEST_F(ColonInstruments, FindingsRefuseBadInput) {
     expectRefused({"findings", mask, "--comment", "a", "--at-truth"}, {"--at-truth"});
     expectRefused({"findings", mask, "--comment", "a", "--between", "1,2,3,4,5,6"}, {"--comment"});
     expectRefused({"findings", mask, "--at", "1,2,3", "--page", "a.txt"}, {"--page", ".html"});
+    expectRefused({"findings", mask, "--at", "1,2,3", "--sr", "a.txt"}, {"--sr", ".dcm"});
+    expectRefused({"findings", mask, "--candidates", "--sr", "a.dcm"}, {"--sr", "--candidates"});
     expectRefused({"findings", hills(), "--at", "1,2,3"}, {"hills.asc", "CT study"});
     for (const char* text :
          {"{", "{\"document\": 3}", "[]",
@@ -130,7 +145,11 @@ TEST_F(ColonInstruments, StudiesAreRegistered) {
 
 TEST_F(ColonInstruments, TheWallIsUnfolded) {
     const std::string study = withPolyp();
-    const Json json = documentOf({"unfold", study, "--out", "wall.png", "--distortion", "map.png"});
+    const Json json = documentOf(
+        {"unfold", study, "--out", "wall.png", "--distortion", "map.png", "--panorama", "ends.png"});
+    EXPECT_GE(json.at("from_either_percent").get<double>(), json.at("from_rectum_percent").get<double>());
+    EXPECT_GT(json.at("from_either_percent").get<double>(), 40);
+    EXPECT_GT(readColorImage(place() / "ends.png").width(), 20);
     const auto size = json.at("size").get<std::vector<int>>();
     const Plane<PackedColor> picture = readColorImage(place() / "wall.png"),
                              map = readColorImage(place() / "map.png");
@@ -158,7 +177,7 @@ TEST_F(ColonInstruments, TheWallIsUnfolded) {
     for (int y = 0; y < picture.height(); ++y)
         for (int x = 0; x < picture.width(); ++x) changed += marked.at(x, y) != picture.at(x, y);
     EXPECT_GT(changed, 30);
-    for (const char* file : {"wall.png", "map.png", "marked.png", "f.json"})
+    for (const char* file : {"wall.png", "map.png", "marked.png", "ends.png", "f.json"})
         std::filesystem::remove(place() / file);
     expectRefused({"unfold", study, "--out", "a.obj"}, {"--out", "a.obj"});
     expectRefused({"unfold", study}, {"--out"});

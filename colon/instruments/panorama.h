@@ -1,0 +1,58 @@
+// The wall of a colon as it is seen from both ends: what lies behind a fold from the one shows from the
+// other.
+//
+// An eye goes along the line and looks, at each place, in a ring half way between ahead and aside: 45 degrees
+// off the line. The rings beside each other are a strip: as long as the line, as high as a turn around it,
+// where rays to the same side of the line are in the same row. The one strip looks ahead from the rectum's
+// end, the other one back from the caecum's. Both keep a place of a straight wall in the same column. Unlike
+// the unfolded wall (unfolding.h) these are views: wall is hidden as it is hidden in flight, areas are not
+// true, and in bends a place may be seen twice or not at all, as with any rays from a line.
+#pragma once
+
+#include "colon/centreline/centreline.h"
+#include "colon/instruments/unfolding_line.h"
+#include "colon/wall/line_of_sight.h"
+#include "colon/wall/wall_mesh.h"
+#include "engine/base/progress.h"
+#include "engine/image/packed_color.h"
+#include "engine/image/plane.h"
+#include "engine/volume/volume_look.h"
+
+namespace stereonav {
+
+class Panorama {
+public:
+    enum class End { Rectum = 0, Caecum = 1 };  // that the eye looks from
+
+    // All must outlive it. pixel: metres along the line, > 0. The same on any number of threads. Throws Error
+    // (no line, too large a picture), Cancelled.
+    Panorama(const GreyVolume& field, const Centreline& line, const LineOfSight& sight, double pixel,
+             Progress& progress);
+
+    int width() const { return mWidth; }
+    int height() const { return mHeight; }
+    // Both strips, that from the rectum above, lit by the eye's own lamp; white where there is no eye.
+    // Between them a mark each centimetre of the line, a longer one every ten.
+    Plane<PackedColor> picture(const VolumeLook& look, Progress& progress) const;
+
+    // Whether the ring of some eye passes through a place (in the lumen, metres) with nothing between.
+    bool shows(End from, const glm::dvec3& place) const;
+
+    // Of the wall's area: what the strip from each end shows, and what one of both shows.
+    struct Shares {
+        double rectum = 0, caecum = 0, either = 0;
+    };
+    Shares shares(const WallMesh& wall, Progress& progress) const;
+
+private:
+    double eyeAt(End from, int x) const;  // metres along the line
+
+    const GreyVolume& mField;
+    const LineOfSight& mSight;
+    UnfoldingLine mLine;
+    double mPixel;
+    double mRadius = 0;  // metres: mean, of the wall around the line
+    int mWidth = 0, mHeight = 0;
+};
+
+}  // namespace stereonav
