@@ -71,8 +71,8 @@ auto inTheNameOf(const ColonOptions& options, const Work& work) {
     }
 }
 
-// The colon in a study that was read.
-FoundColon findColon(const Study& study, const ColonOptions& options, Progress& progress) {
+// The colon in a study that was read, whose values go as soon as nobody asks for them.
+FoundColon findColon(Study& study, const ColonOptions& options, Progress& progress) {
     FoundColon found;
     found.format = study.format;
     found.ofMask = study.isMask;
@@ -80,6 +80,8 @@ FoundColon findColon(const Study& study, const ColonOptions& options, Progress& 
     found.notes = study.notes;
     found.lumen = study.isMask ? lumenFromMask(study.mask, options.segmentation, progress)
                                : lumenOfGrey(study, options, found.notes, progress);
+    study.mask = {};
+    if (!options.keepsStudy) study.grey = {};
     found.values = wholeRangeOf(found.lumen.field);
     const DistanceVolume distance = distanceToOutside(found.lumen.lumen);
     found.centreline = findCentreline(found.lumen, distance, options.centreline, progress);
@@ -263,7 +265,7 @@ ColonScene sharing(const ColonScene& scene) {
 Study readOrMake(const ColonOptions& options, std::vector<Polyp>& polyps, Progress& progress) {
     if (!options.study.empty()) {
         StudyOptions reading = options.reading;
-        if (options.isosurface) reading.working = kSurfaceWorking;
+        if (options.isosurface) reading.working = surfaceWorking;
         return readStudy(options.study, reading, progress);
     }
     BuiltInColon colon = builtInColon(options.builtIn, progress);
@@ -343,7 +345,6 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
                     "name the study that it was made from, or leave it out");
     FoundColon found = inTheNameOf(options, [&] { return findColon(study, options, progress); });
     found.polyps = std::move(polyps);
-    if (!options.keepsStudy) study = {};
     if (options.cache) writeColonCache(key, found);
     ColonScene scene = sceneOf(std::move(found), options, progress);
     scene.name = name;

@@ -5,15 +5,20 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <mutex>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "colon/scene/transfer_presets.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
+#include "engine/base/parallel.h"
 #include "engine/camera/orbit.h"
 #include "engine/math/constants.h"
 
@@ -29,13 +34,47 @@ float storedIsovalue(const GreyVolume& grey, double value) {
     return static_cast<float>((value - grey.offset) / grey.scale);
 }
 
+// Calls use(k, its values, how many) for every slice, on all threads.
+template <typename Use>
+void forSlices(const GreyVolume& grey, const Use& use) {
+    const std::size_t perSlice = static_cast<std::size_t>(grey.frame.size.x) * grey.frame.size.y;
+    parallelFor(grey.frame.size.z, [&](int k) { use(k, grey.values.data() + perSlice * k, perSlice); });
+}
+
+struct Range16 {
+    std::int16_t lowest = 0, highest = 0;  // stored numbers
+};
+Range16 storedRangeOf(const GreyVolume& grey) {
+    std::vector<Range16> parts(static_cast<std::size_t>(grey.frame.size.z));
+    forSlices(grey, [&](int k, const std::int16_t* values, std::size_t count) {
+        Range16 part{values[0], values[0]};
+        for (std::size_t n = 0; n < count; ++n) {
+            part.lowest = std::min(part.lowest, values[n]);
+            part.highest = std::max(part.highest, values[n]);
+        }
+        parts[k] = part;
+    });
+    Range16 range = parts.at(0);
+    for (const Range16& part : parts) {
+        range.lowest = std::min(range.lowest, part.lowest);
+        range.highest = std::max(range.highest, part.highest);
+    }
+    return range;
+}
+
 struct Histogram {
     std::array<std::uint64_t, 65536> counts{};
     int lowest = 0, highest = 0;  // stored numbers that occur
 };
 Histogram histogramOf(const GreyVolume& grey) {
     Histogram histogram;
-    for (std::size_t n = 0; n < grey.frame.count(); ++n) ++histogram.counts[grey.values[n] + 32768];
+    std::mutex adding;
+    forSlices(grey, [&](int, const std::int16_t* values, std::size_t count) {
+        std::vector<std::uint32_t> counts(histogram.counts.size());
+        for (std::size_t n = 0; n < count; ++n) ++counts[values[n] + 32768];
+        const std::lock_guard lock(adding);
+        for (std::size_t n = 0; n < counts.size(); ++n) histogram.counts[n] += counts[n];
+    });
     const auto some = [](std::uint64_t count) { return count > 0; };
     const auto& counts = histogram.counts;
     histogram.lowest = static_cast<int>(std::ranges::find_if(counts, some) - counts.begin()) - 32768;
@@ -68,19 +107,26 @@ double otsu(const Histogram& histogram) {
     return threshold;
 }
 
-// One layer of the smallest value around, so that surfaces are closed where they leave the study.
-GreyVolume padded(const GreyVolume& grey) {
+// One layer of the smallest value around, so that surfaces are closed where they leave the study. Slices of
+// the study go as they are copied.
+GreyVolume padded(GreyVolume grey) {
     VolumeFrame frame = grey.frame;
     frame.origin = grey.frame.worldFromVoxel(glm::dvec3(-1));
     frame.size += 2;
     GreyVolume out(frame);
     out.scale = grey.scale;
     out.offset = grey.offset;
-    const auto smallest = *std::min_element(grey.values.data(), grey.values.data() + grey.frame.count());
-    std::fill_n(out.values.data(), frame.count(), smallest);
-    for (int k = 0; k < grey.frame.size.z; ++k)
-        for (int j = 0; j < grey.frame.size.y; ++j)
-            std::copy_n(&grey.values[grey.frame.index(0, j, k)], grey.frame.size.x, &out.at(1, j + 1, k + 1));
+    const std::int16_t smallest = storedRangeOf(grey).lowest;
+    const glm::ivec3 size = grey.frame.size;
+    const std::size_t perSlice = static_cast<std::size_t>(size.x) * size.y;
+    parallelFor(frame.size.z, [&](int slice) {
+        const int k = slice - 1;
+        std::fill_n(&out.at(0, 0, slice), static_cast<std::size_t>(frame.size.x) * frame.size.y, smallest);
+        if (k < 0 || k >= size.z) return;
+        for (int j = 0; j < size.y; ++j)
+            std::copy_n(&grey.values[grey.frame.index(0, j, k)], size.x, &out.at(1, j + 1, slice));
+        grey.values.release(perSlice * k, perSlice);
+    });
     return out;
 }
 
@@ -91,13 +137,20 @@ struct Ball {
 // Around the box of the voxels that reach the isovalue.
 Ball ballAround(const GreyVolume& field, float isovalue) {
     glm::ivec3 low = field.frame.size, high(-1);
-    for (int k = 0; k < field.frame.size.z; ++k)
-        for (int j = 0; j < field.frame.size.y; ++j)
-            for (int i = 0; i < field.frame.size.x; ++i)
-                if (static_cast<float>(field.at(i, j, k)) >= isovalue) {
-                    low = glm::min(low, glm::ivec3(i, j, k));
-                    high = glm::max(high, glm::ivec3(i, j, k));
+    const glm::ivec3 size = field.frame.size;
+    std::mutex joining;
+    forSlices(field, [&](int k, const std::int16_t* values, std::size_t) {
+        glm::ivec3 first = size, last(-1);
+        for (int j = 0; j < size.y; ++j, values += size.x)
+            for (int i = 0; i < size.x; ++i)
+                if (static_cast<float>(values[i]) >= isovalue) {
+                    first = glm::min(first, glm::ivec3(i, j, k));
+                    last = glm::max(last, glm::ivec3(i, j, k));
                 }
+        const std::lock_guard lock(joining);
+        low = glm::min(low, first);
+        high = glm::max(high, last);
+    });
     const glm::dvec3 a = field.frame.worldFromVoxel(glm::dvec3(low)),
                      b = field.frame.worldFromVoxel(glm::dvec3(high));
     return {0.5 * (a + b), std::max(0.5 * glm::length(b - a), 1e-6)};
@@ -150,10 +203,10 @@ SurfaceCells cellsAt(const GreyVolume& field, double isovalue, const TransferFun
     if (cells.records.empty() && !transfer.empty())
         cells = findSurfaceCells(field, cellsShown(field, isovalue, {}), progress);
     if (!cells.records.empty()) return cells;
-    const auto [low, high] =
-        std::minmax_element(field.values.data(), field.values.data() + field.frame.count());
+    const Range16 range = storedRangeOf(field);
     throw Error("--isovalue", "", fmt::format("expected a value inside the volume's, got {:g}", isovalue),
-                fmt::format("values go from {:g} to {:g}", valueOf(field, *low), valueOf(field, *high)));
+                fmt::format("values go from {:g} to {:g}", valueOf(field, range.lowest),
+                            valueOf(field, range.highest)));
 }
 }  // namespace
 
@@ -165,16 +218,28 @@ bool looksLikeHounsfield(const GreyVolume& grey) {
 }
 
 IsovalueChoice chooseIsovalue(const GreyVolume& grey) {
-    const auto most = *std::max_element(grey.values.data(), grey.values.data() + grey.frame.count());
-    if (!looksLikeHounsfield(grey) || valueOf(grey, most) <= kSkin) {  // of air alone there is no skin
+    if (!looksLikeHounsfield(grey) ||
+        valueOf(grey, storedRangeOf(grey).highest) <= kSkin) {  // of air alone there is no skin
         const double value = valueOf(grey, otsu(histogramOf(grey)));
         return {value, "between the two kinds of values that differ most"};
     }
-    std::size_t bone = 0;
-    for (std::size_t n = 0; n < grey.frame.count(); ++n) bone += valueOf(grey, grey.values[n]) >= kBone;
-    if (static_cast<double>(bone) >= kBoneShare * static_cast<double>(grey.frame.count()))
+    std::atomic<std::size_t> bone = 0;
+    forSlices(grey, [&](int, const std::int16_t* values, std::size_t count) {
+        std::size_t here = 0;
+        for (std::size_t n = 0; n < count; ++n) here += valueOf(grey, values[n]) >= kBone;
+        bone += here;
+    });
+    if (static_cast<double>(bone.load()) >= kBoneShare * static_cast<double>(grey.frame.count()))
         return {kBone, "bone"};
     return {kSkin, "skin"};
+}
+
+double surfaceWorking(double voxels) {
+    // Flags of cells, distances and their squares; of large volumes codes and what groups of cells take, and
+    // the same of one block (leap_blocks.h).
+    constexpr double kAtOnce = 8.5, kByBlocks = 1.2, kBlock = 11.0 * 288 * 288 * 288;
+    if (voxels <= static_cast<double>(SurfaceSetting::kCellsAtOnce)) return kAtOnce * voxels;
+    return kByBlocks * voxels + kBlock;
 }
 
 ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress) {
@@ -194,10 +259,9 @@ ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progres
     look.diffuse = 0.88f;
     look.background = {0.012f, 0.014f, 0.018f};
     look.transfer = transferOf(options, isovalue, look.surface);
-    checkMemory("the surface of a volume", kSurfaceWorking * static_cast<double>(grey.frame.count()),
+    checkMemory("the surface of a volume", surfaceWorking(static_cast<double>(grey.frame.count())),
                 "crop the volume or make it coarser");
-    scene.volume.field = padded(grey);
-    grey = {};
+    scene.volume.field = padded(std::move(grey));
     scene.volume.cells = cellsAt(scene.volume.field, isovalue, look.transfer, progress);
     placeViewer(scene);
     scene.clearance = options.clearance > 0 ? options.clearance : 0.01 * scene.extent;

@@ -21,10 +21,10 @@ bool looksLikeHounsfield(const GreyVolume& grey);
 // 1979).
 IsovalueChoice chooseIsovalue(const GreyVolume& grey);
 
-// Bytes a voxel that isosurfaceScene() takes at once beside the values: the volume with a border, flags of
-// cells, distances and their squares. What rays need of the cells that hold surface comes after that, and is
-// checked when they are counted.
-constexpr double kSurfaceWorking = 9.5;
+// Bytes that isosurfaceScene() takes at once beside the values of so many voxels: a border, and what leaps
+// are measured with. What rays need of the cells that hold surface comes after that, and is checked when they
+// are counted.
+double surfaceWorking(double voxels);
 
 // Throws Error when nothing or all of the volume reaches the isovalue, and where memory does not suffice;
 // Cancelled.

@@ -191,11 +191,14 @@ LumenCrop cropAround(glm::ivec3 first, glm::ivec3 last, int margin, const Volume
 }
 
 void checkLumenMemory(const LumenCrop& crop) {
-    // The field, the lumen, marks or cells, distances and their squares.
-    constexpr double kBytes = 2 + 1 + 1 + 2 + 4;
+    // The field, the lumen, marks or cells, distances; and squares of these, of some lines at a time
+    // (distance_transform.cpp).
+    constexpr double kBytes = 2 + 1 + 1 + 2, kSquares = 1 << 24, kFewestLines = 64;
     const glm::ivec3 size = crop.frame.size;
+    const double voxels = static_cast<double>(crop.frame.count());
+    const double squares = std::max(kSquares, kFewestLines * size.x * size.z);
     checkMemory(fmt::format("a lumen of {} x {} x {} voxels", size.x, size.y, size.z),
-                kBytes * static_cast<double>(crop.frame.count()),
+                kBytes * voxels + sizeof(float) * std::min(voxels, squares),
                 "name its pieces with --seed x,y,z, or make the study coarser");
 }
 

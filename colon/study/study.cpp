@@ -8,6 +8,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <set>
+#include <utility>
 
 #include "colon/study/study_header.h"
 #include "colon/study/study_mapped.h"
@@ -61,8 +62,9 @@ std::uint64_t hashOfFile(const fs::path& file) {
     const MappedFile mapped(file);
     std::vector<std::uint64_t> blocks((mapped.size() + kHashBlock - 1) / kHashBlock);
     parallelFor(static_cast<int>(blocks.size()), [&](int n) {
-        const std::size_t start = kHashBlock * n;
-        blocks[n] = Hash().add(mapped.data() + start, std::min(kHashBlock, mapped.size() - start)).value();
+        const std::size_t start = kHashBlock * n, count = std::min(kHashBlock, mapped.size() - start);
+        blocks[n] = Hash().add(mapped.data() + start, count).value();
+        mapped.release(start, count);
     });
     Hash hash;
     hash.add(static_cast<std::int64_t>(mapped.size()));
@@ -186,7 +188,7 @@ Study readStudy(const fs::path& path, const StudyOptions& options, Progress& pro
     study.format = file.format;
     study.description = file.description;
     study.notes = std::move(file.notes);
-    takeValues(file.raw, path.string(), options, study);
+    takeValues(std::move(file.raw), path.string(), options, study);
     progress.report(0.95, "computing the key");
     study.key = studyKey(path, options);
     progress.report(1, "read " + path.filename().string());

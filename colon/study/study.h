@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,8 +22,9 @@ struct StudyOptions {
     std::string series;     // of a DICOM folder with several: its number in the list (1, 2, ...) or its UID
     bool resample = false;  // mend uneven or tilted slices onto an even upright grid
     std::optional<int> label;  // the one label of a mask with several
-    // Bytes a voxel that the caller will take beside the values: what does not fit with them is not read.
-    double working = 0;
+    // Bytes that the caller will take beside the values of so many voxels: what does not fit with them is not
+    // read. Empty: none.
+    std::function<double(double voxels)> working;
 };
 
 struct Study {

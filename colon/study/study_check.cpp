@@ -18,6 +18,13 @@ std::string bytesText(double bytes) {
     return fmt::format("{:.3g} {}", bytes, units[unit]);
 }
 
+// In floating point, so that no product overflows.
+double voxelsOf(const std::vector<std::uint64_t>& size) {
+    double voxels = 1;
+    for (const std::uint64_t n : size) voxels *= static_cast<double>(n);
+    return voxels;
+}
+
 }  // namespace
 
 int bytesOf(SampleType type) {
@@ -41,32 +48,29 @@ std::string sizeText(const std::vector<std::uint64_t>& size) {
     return fmt::format("{}", fmt::join(size, " x "));
 }
 
-double bytesHeld(int sampleBytes, const StudyOptions& options) {
-    constexpr double kValue = sizeof(std::int16_t);
-    return kValue + std::max<double>(sampleBytes, options.working);
+double bytesHeld(const std::vector<std::uint64_t>& size, int sampleBytes, const StudyOptions& options) {
+    const double voxels = voxelsOf(size), values = voxels * sizeof(std::int16_t);
+    return std::max(voxels * sampleBytes, values + (options.working ? options.working(voxels) : 0.0));
 }
 
-void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, double bytesPerVoxel) {
-    // In floating point, so that no product overflows.
-    double voxels = 1;
-    for (const std::uint64_t n : size) voxels *= static_cast<double>(n);
+void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, double bytes) {
     for (const std::uint64_t n : size)
         if (n < 2)
             throw Error(file, "",
                         fmt::format("expected a volume with 2 or more voxels along each axis, found {}",
                                     sizeText(size)),
                         "a single slice has no depth: give the whole series");
-    const double needed = voxels * bytesPerVoxel, there = availableMemoryFor(needed);
+    const double there = availableMemoryFor(bytes);
     bool tooLong = false;
     for (const std::uint64_t n : size) tooLong |= n > std::numeric_limits<int>::max();
-    if (!tooLong && needed <= there) return;
-    const double share = std::cbrt(std::min(1.0, there / needed));
+    if (!tooLong && bytes <= there) return;
+    const double share = std::cbrt(std::min(1.0, there / bytes));
     std::vector<std::uint64_t> fits;
     for (const std::uint64_t n : size)
         fits.push_back(static_cast<std::uint64_t>(std::max(1.0, share * static_cast<double>(n))));
     throw Error(file, "",
                 fmt::format("{} voxels need {} of memory, and {} can be had", sizeText(size),
-                            bytesText(needed), bytesText(there)),
+                            bytesText(bytes), bytesText(there)),
                 fmt::format("crop the volume or make it coarser: {} would fit", sizeText(fits)));
 }
 

@@ -106,7 +106,8 @@ std::size_t decodeAll(const DicomSeries& series, RawStudy& raw, Progress& progre
     checkSize(series.slices.front().file.parent_path().string(),
               {static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y),
                static_cast<std::uint64_t>(size.z)},
-              sizeof(float));  // beside the whole numbers, which are given back then
+              sizeof(float) * static_cast<double>(
+                                  raw.frame.count()));  // beside the whole numbers, which are given back then
     raw.bytes = {};
     raw.type = SampleType::Float32;
     takeSlices<float>(series, raw, fractions, progress);
@@ -230,10 +231,10 @@ VolumeFile readDicom(const fs::path& place, const StudyOptions& options, Progres
     const SlicePlaces places = placeSlices(place, series.slices, options.resample, series.strangers);
     const DicomSlice& first = series.slices.front();
     const glm::ivec3 size = places.frame.size;
-    checkSize(place.string(),
-              {static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y),
-               static_cast<std::uint64_t>(size.z)},
-              bytesHeld(sizeof(std::int16_t), options));
+    const std::vector<std::uint64_t> voxels = {static_cast<std::uint64_t>(size.x),
+                                               static_cast<std::uint64_t>(size.y),
+                                               static_cast<std::uint64_t>(size.z)};
+    checkSize(place.string(), voxels, bytesHeld(voxels, sizeof(std::int16_t), options));
     progress.report(0.1, fmt::format("reading {} slices", size.z));
     VolumeFile result;
     result.format = "DICOM";

@@ -57,12 +57,12 @@ decltype(auto) withSamples(const RawStudy& raw, Use&& use) {
 }
 
 // --- study_check.cpp
-// Throws Error unless there are two or more voxels along each axis and `bytesPerVoxel` a voxel fit into the
-// memory that can be had; it says what would fit.
-void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, double bytesPerVoxel);
-// Bytes a voxel that are held at once from samples of so many bytes to values, and with what the caller takes
-// beside those.
-double bytesHeld(int sampleBytes, const StudyOptions& options);
+// Throws Error unless there are two or more voxels along each axis and so many bytes fit into the memory that
+// can be had; it says what would fit.
+void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, double bytes);
+// Bytes that are held at once: samples of so many bytes, which go as values come, or values with what the
+// caller takes beside those.
+double bytesHeld(const std::vector<std::uint64_t>& size, int sampleBytes, const StudyOptions& options);
 // "512 x 512 x 20"
 std::string sizeText(const std::vector<std::uint64_t>& size);
 
@@ -148,8 +148,9 @@ void decodeSlices(const std::vector<const DicomSlice*>& slices, PictureDecoder& 
 RawStudy resampleSlices(const RawStudy& raw, const SlicePlaces& places, const std::string& file);
 
 // --- study_values.cpp
-// Fills mask or grey (which have the samples' frame), and the notes. Throws Error about labels and values
-// that are not numbers.
-void takeValues(const RawStudy& raw, const std::string& file, const StudyOptions& options, Study& study);
+// Fills mask or grey (which have the samples' frame), and the notes. Values that stay as they are take over
+// the samples' memory, others come slice by slice, and the samples' memory goes. Throws Error about labels
+// and values that are not numbers.
+void takeValues(RawStudy raw, const std::string& file, const StudyOptions& options, Study& study);
 
 }  // namespace stereonav

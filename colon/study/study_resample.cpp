@@ -115,7 +115,9 @@ RawStudy resampleSlices(const RawStudy& raw, const SlicePlaces& places, const st
     out.intercept = raw.intercept;
     out.frame = coveringFrame(places, corner);
     const auto extent = [&](int axis) { return static_cast<std::uint64_t>(out.frame.size[axis]); };
-    checkSize(file, {extent(0), extent(1), extent(2)}, 2 * bytesOf(raw.type) + 2);
+    const double voxels =
+        static_cast<double>(extent(0)) * static_cast<double>(extent(1)) * static_cast<double>(extent(2));
+    checkSize(file, {extent(0), extent(1), extent(2)}, voxels * (2 * bytesOf(raw.type) + 2));
     out.bytes = LazyArray<unsigned char>(out.frame.count() * bytesOf(raw.type));
     withSamples(raw,
                 [&](const auto* samples) { resampleInto(samples, raw.frame.size, places, corner, out); });

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
+#include <type_traits>
+#include <utility>
 
 #include "colon/study/study_parts.h"
 #include "engine/base/parallel.h"
@@ -37,8 +40,30 @@ void addDistinct(Facts& facts, double value) {
     facts.many = facts.distinct.size() > kMostLabels;
 }
 
+// Of whole numbers among which too many differ to be labels: loops without branches.
+template <typename T>
+void addWholeRow(const T* row, int count, Facts& facts) {
+    T lowest = row[0], highest = row[0];
+    std::uint32_t pairs = 0, equalPairs = 0;
+    for (int i = 0; i < count; ++i) {
+        lowest = std::min(lowest, row[i]);
+        highest = std::max(highest, row[i]);
+    }
+    for (int i = 1; i < count; ++i) {
+        const bool some = (row[i] | row[i - 1]) != 0;
+        pairs += some;
+        equalPairs += some & (row[i] == row[i - 1]);
+    }
+    facts.lowest = std::min(facts.lowest, static_cast<double>(lowest));
+    facts.highest = std::max(facts.highest, static_cast<double>(highest));
+    facts.pairs += pairs;
+    facts.equalPairs += equalPairs;
+}
+
 template <typename T>
 void addRow(const T* row, int count, Facts& facts) {
+    if constexpr (std::is_integral_v<T>)
+        if (facts.many) return addWholeRow(row, count, facts);
     T last = row[0];
     bool known = false;
     for (int i = 0; i < count; ++i) {
@@ -151,13 +176,24 @@ std::optional<double> chosenLabel(const std::string& file, const Facts& facts, c
     return static_cast<double>(*options.label);
 }
 
+// Calls use(k, its samples) for every slice; the samples' memory is given back behind it.
+template <typename T, typename Use>
+void consumeSlices(RawStudy& raw, const Use& use) {
+    const std::size_t perSlice = static_cast<std::size_t>(raw.frame.size.x) * raw.frame.size.y;
+    const T* samples = reinterpret_cast<const T*>(raw.bytes.data());
+    parallelFor(raw.frame.size.z, [&](int k) {
+        use(k, samples + perSlice * k);
+        raw.bytes.release(sizeof(T) * perSlice * k, sizeof(T) * perSlice);
+    });
+    raw.bytes = {};
+}
+
 template <typename T>
-void takeMask(const T* samples, const VolumeFrame& frame, double sample, MaskVolume& mask) {
-    mask = MaskVolume(frame);
-    const std::size_t perSlice = static_cast<std::size_t>(frame.size.x) * frame.size.y;
+void takeMask(RawStudy& raw, double sample, MaskVolume& mask) {
+    mask = MaskVolume(raw.frame);
+    const std::size_t perSlice = static_cast<std::size_t>(raw.frame.size.x) * raw.frame.size.y;
     const T wanted = static_cast<T>(sample);
-    parallelFor(frame.size.z, [&](int k) {
-        const T* from = samples + perSlice * k;
+    consumeSlices<T>(raw, [&](int k, const T* from) {
         std::uint8_t* to = mask.values.data() + perSlice * k;
         for (std::size_t n = 0; n < perSlice; ++n)
             if (from[n] == wanted) to[n] = 1;  // pages of zeros are not taken
@@ -203,15 +239,18 @@ void chooseScale(const Facts& facts, const Facts& samples, const RawStudy& raw, 
 }
 
 template <typename T>
-void takeGrey(const T* samples, const RawStudy& raw, const Facts& facts, GreyVolume& grey) {
-    const VolumeFrame& frame = raw.frame;
+void takeGrey(RawStudy& raw, const Facts& facts, GreyVolume& grey) {
     const double scale = grey.scale, offset = grey.offset;
-    static_cast<Volume<std::int16_t>&>(grey) = Volume<std::int16_t>(frame);
-    const std::size_t perSlice = static_cast<std::size_t>(frame.size.x) * frame.size.y;
     const bool asTheyAre =
         !raw.isScaled() && scale == 1 && offset == 0 && facts.fractions == 0 && facts.notNumbers == 0;
-    parallelFor(frame.size.z, [&](int k) {
-        const T* from = samples + perSlice * k;
+    if (asTheyAre && std::is_integral_v<T> && sizeof(T) == sizeof(std::int16_t)) {
+        grey.frame = raw.frame;
+        grey.values = std::move(raw.bytes).template as<std::int16_t>();
+        return;
+    }
+    static_cast<Volume<std::int16_t>&>(grey) = Volume<std::int16_t>(raw.frame);
+    const std::size_t perSlice = static_cast<std::size_t>(raw.frame.size.x) * raw.frame.size.y;
+    consumeSlices<T>(raw, [&](int k, const T* from) {
         std::int16_t* to = grey.values.data() + perSlice * k;
         if (asTheyAre) {
             for (std::size_t n = 0; n < perSlice; ++n) to[n] = static_cast<std::int16_t>(from[n]);
@@ -228,8 +267,9 @@ void takeGrey(const T* samples, const RawStudy& raw, const Facts& facts, GreyVol
 
 }  // namespace
 
-void takeValues(const RawStudy& raw, const std::string& file, const StudyOptions& options, Study& study) {
+void takeValues(RawStudy raw, const std::string& file, const StudyOptions& options, Study& study) {
     withSamples(raw, [&](const auto* samples) {
+        using Sample = std::remove_cvref_t<decltype(*samples)>;
         const Facts stored = factsOf(samples, raw.frame.size);
         if (stored.lowest > stored.highest)
             throw Error(file, "", "no voxel holds a number (all are NaN or infinite)",
@@ -242,13 +282,13 @@ void takeValues(const RawStudy& raw, const std::string& file, const StudyOptions
                 "correct the scale in the header");
         const auto label = chosenLabel(file, facts, options);
         study.isMask = label.has_value();
-        if (label) return takeMask(samples, raw.frame, sampleOf(*label, facts, stored, raw), study.mask);
+        if (label) return takeMask<Sample>(raw, sampleOf(*label, facts, stored, raw), study.mask);
         if (facts.notNumbers > 0)
             study.notes.push_back(
                 fmt::format("{} voxels that are not numbers were set to the least value, {:g}",
                             facts.notNumbers, facts.lowest));
         chooseScale(facts, stored, raw, study.grey, study.notes);
-        takeGrey(samples, raw, facts, study.grey);
+        takeGrey<Sample>(raw, facts, study.grey);
     });
 }
 

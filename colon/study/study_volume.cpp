@@ -91,7 +91,7 @@ VolumeHeader readVolumeHeader(const fs::path& file) {
 VolumeFile readVolumeFile(const fs::path& file, const StudyOptions& options, Progress& progress) {
     progress.report(0, "reading " + file.filename().string());
     const VolumeHeader header = readVolumeHeader(file);
-    checkSize(file.string(), header.size, bytesHeld(bytesOf(header.type), options));
+    checkSize(file.string(), header.size, bytesHeld(header.size, bytesOf(header.type), options));
     VolumeFile result;
     result.format = header.format;
     result.description = header.description;

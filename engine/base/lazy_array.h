@@ -3,8 +3,10 @@
 #pragma once
 
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -44,6 +46,27 @@ public:
         return same;
     }
 
+    // The same memory as elements of another type and of the same size; this array is empty then.
+    template <typename U>
+    LazyArray<U> as() && {
+        static_assert(sizeof(U) % sizeof(T) == 0 && alignof(U) <= 64);
+        LazyArray<U> same;
+        same.mData = std::shared_ptr<U>(mData, reinterpret_cast<U*>(mData.get()));
+        same.mCount = mCount / (sizeof(U) / sizeof(T));
+        mData = nullptr;
+        mCount = 0;
+        return same;
+    }
+
+    // Gives memory back in whole pages: these elements are not read any more, they may be zeros from now on.
+    void release(std::size_t first, std::size_t count) {
+        const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+        const auto start = reinterpret_cast<std::uintptr_t>(mData.get() + first);
+        const std::uintptr_t from = (start + page - 1) / page * page;
+        const std::uintptr_t to = (start + count * sizeof(T)) / page * page;
+        if (from < to) madvise(reinterpret_cast<void*>(from), to - from, MADV_DONTNEED);
+    }
+
     // Asks for large pages: fewer address translations where rays jump about, but memory in steps of 2 MB.
     void preferLargePages() {
         if (mData) madvise(mData.get(), bytes(), MADV_HUGEPAGE);
@@ -57,6 +80,9 @@ public:
     const T& operator[](std::size_t i) const { return mData.get()[i]; }
 
 private:
+    template <typename U>
+    friend class LazyArray;
+
     std::size_t bytes() const { return mCount * sizeof(T) + kPadding; }
     void swap(LazyArray& other) noexcept {
         std::swap(mData, other.mData);

@@ -59,25 +59,25 @@ STEREONAV_INLINE I inUnits(F squared, const DistanceUnits& units) {
 }  // namespace
 
 void combineDistances(const DistancePlane& plane, float* to, std::ptrdiff_t stride) {
-    for (int line = 0; line < plane.lines; ++line)
+    for (int line = plane.begin; line < plane.end; ++line)
         for (int column = 0; column < plane.columns; column += kLanes) {
             const float* at = plane.from + static_cast<std::ptrdiff_t>(line) * plane.columns + column;
             const F own = loadF(at);
             if (!any(own > F(0.0f))) continue;
-            store(to + line * stride + column, leastOverLines(plane, at, line, own));
+            store(to + (line - plane.begin) * stride + column, leastOverLines(plane, at, line, own));
         }
 }
 
 void finishDistances(const DistancePlane& plane, const DistanceUnits& units, std::uint16_t* to,
                      std::ptrdiff_t stride, int width) {
-    for (int line = 0; line < plane.lines; ++line)
+    for (int line = plane.begin; line < plane.end; ++line)
         for (int column = 0; column < width; column += kLanes) {
             const float* at = plane.from + static_cast<std::ptrdiff_t>(line) * plane.columns + column;
             const F own = loadF(at);
             if (!any(own > F(0.0f))) continue;
             std::int32_t results[kLanes];
             store(results, inUnits(leastOverLines(plane, at, line, own), units));
-            std::uint16_t* out = to + line * stride + column;
+            std::uint16_t* out = to + (line - plane.begin) * stride + column;
             const int count = width - column < kLanes ? width - column : kLanes;
             for (int n = 0; n < count; ++n) out[n] = static_cast<std::uint16_t>(results[n]);
         }

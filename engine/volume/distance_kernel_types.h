@@ -11,7 +11,9 @@ namespace stereonav {
 // above and below.
 struct DistancePlane {
     const float* from = nullptr;  // columns a line, gap-free, columns a multiple of kDistanceChunk
-    int lines = 0, columns = 0;
+    int lines = 0;
+    int begin = 0, end = 0;  // the lines that are wanted
+    int columns = 0;
     float weight = 1;                           // squared distance of neighbouring lines
     bool seedsBelow = true, seedsAbove = true;  // whether line -1, and line `lines`, is all seeds
 };
@@ -27,9 +29,11 @@ struct DistanceUnits {
 };
 
 struct DistanceKernels {
-    // to + line * stride: squared distances again. Where a chunk holds no more than 0, nothing is written.
+    // to + (line - begin) * stride: squared distances again. Where a chunk holds no more than 0, nothing is
+    // written.
     void (*combine)(const DistancePlane& plane, float* to, std::ptrdiff_t stride);
-    // to + line * stride: in units; of the columns `width` are written, and nothing where all are 0.
+    // to + (line - begin) * stride: in units; of the columns `width` are written, and nothing where all are
+    // 0.
     void (*finish)(const DistancePlane& plane, const DistanceUnits& units, std::uint16_t* to,
                    std::ptrdiff_t stride, int width);
 };

@@ -1,6 +1,6 @@
 // Exact distances in three passes within the mask's bounding box: runs along i give squared distances;
 // planes along i and j, then along i and k, are combined line by line (distance_kernel.cpp), and the last
-// pass writes units.
+// pass writes units. Squares are held for a block of lines along j at a time.
 #include "engine/volume/distance_transform.h"
 
 #include <fmt/format.h>
@@ -66,8 +66,12 @@ Range rangeOf(const std::uint8_t* row, int count) {
 
 class Transform {
 public:
-    Transform(const MaskVolume& mask, bool outsideIsSeed, double unit, SimdTarget target)
-        : mMask(mask), mOutsideIsSeed(outsideIsSeed), mUnit(unit), mKernels(distanceKernels(target)) {}
+    Transform(const MaskVolume& mask, bool outsideIsSeed, double unit, double atMost, SimdTarget target)
+        : mMask(mask),
+          mOutsideIsSeed(outsideIsSeed),
+          mUnit(unit),
+          mAtMost(atMost),
+          mKernels(distanceKernels(target)) {}
 
     DistanceVolume run() {
         DistanceVolume result;
@@ -81,16 +85,35 @@ public:
             const double ratio = spacing[axis] / mSmallest;
             mWeight[axis] = static_cast<float>(ratio * ratio);
         }
+        const double most = mAtMost / mSmallest;
+        mMostSquared = static_cast<float>(most * most);
         // Chunks begin at the box; the rows of squares have room for the last one.
         mStride = (mBox[0].size() + kDistanceChunk - 1) / kDistanceChunk * kDistanceChunk;
-        mSquares = LazyArray<float>(static_cast<std::size_t>(mStride) * mBox[1].size() * mBox[2].size());
-        mSquares.preferLargePages();
-        parallelFor(mBox[2].size(), [&](int k) { firstTwoPasses(mBox[2].begin + k); });
-        parallelFor(mBox[1].size(), [&](int j) { lastPass(mBox[1].begin + j, result); });
+        const int lines = linesAtOnce();
+        for (int j = mBox[1].begin; j < mBox[1].end; j += lines)
+            measureLines({j, std::min(j + lines, mBox[1].end)}, result);
         return result;
     }
 
 private:
+    // All passes for some lines of every plane.
+    void measureLines(const Range& block, DistanceVolume& result) {
+        mBlock = block;
+        mSquares = {};  // before the next ones, which begin as zeros
+        mSquares = LazyArray<float>(static_cast<std::size_t>(mStride) * block.size() * mBox[2].size());
+        mSquares.preferLargePages();
+        parallelFor(mBox[2].size(), [&](int k) { firstTwoPasses(mBox[2].begin + k); });
+        parallelFor(block.size(), [&](int j) { lastPass(block.begin + j, result); });
+    }
+
+    // Of large masks no more than a part of the squares is held.
+    int linesAtOnce() const {
+        constexpr std::size_t kSquares = std::size_t{1} << 24, kFewest = 64;
+        const std::size_t perLine = static_cast<std::size_t>(mStride) * mBox[2].size();
+        return static_cast<int>(
+            std::min(std::max(kSquares / perLine, kFewest), static_cast<std::size_t>(mBox[1].size())));
+    }
+
     Range& rowRange(int j, int k) {
         return mRows[static_cast<std::size_t>(k) * mMask.frame.size.y + static_cast<std::size_t>(j)];
     }
@@ -119,7 +142,7 @@ private:
 
     float* squares(int j, int k) {
         return mSquares.data() +
-               (static_cast<std::size_t>(k - mBox[2].begin) * mBox[1].size() + (j - mBox[1].begin)) * mStride;
+               (static_cast<std::size_t>(k - mBox[2].begin) * mBlock.size() + (j - mBlock.begin)) * mStride;
     }
 
     // Chunks that cover a range of columns, as columns from the box's begin.
@@ -129,11 +152,11 @@ private:
         return {begin, (end + kDistanceChunk - 1) / kDistanceChunk * kDistanceChunk};
     }
 
-    // Squared distances to the ends of each run of set voxels.
-    void measureRuns(int j, int k) {
+    // Squared distances to the ends of each run of set voxels, from column `first` on; gives the largest.
+    float measureRuns(int j, int k, int first, float* to) {
         const int count = mMask.frame.size.x;
         const std::uint8_t* row = mMask.values.data() + mMask.frame.index(0, j, k);
-        float* out = squares(j, k) - mBox[0].begin;
+        float *out = to - first, largest = 0;
         for (int begin = rowRange(j, k).begin; begin < count;) {
             const int end = findNext(row, begin, count, false);
             const bool low = mOutsideIsSeed || begin > 0, high = mOutsideIsSeed || end < count;
@@ -142,28 +165,65 @@ private:
                 const float left = low ? static_cast<float>(i - begin + 1) : kFar;
                 const float right = high ? static_cast<float>(end - i) : kFar;
                 const float least = std::min(left, right);
-                out[i] = least * least * mWeight[0];
+                out[i] = std::min(least * least * mWeight[0], mMostSquared);
+                largest = std::max(largest, out[i]);
             }
             begin = findNext(row, end, count, true);
         }
+        return largest;
+    }
+
+    // Rows that hold something, and the columns where.
+    struct Extent {
+        Range columns, lines;
+    };
+    Extent extentOf(int k, const Range& within) {
+        Extent extent;
+        for (int j = within.begin; j < within.end; ++j) {
+            if (rowRange(j, k).empty()) continue;
+            extent.columns.join(rowRange(j, k));
+            extent.lines.join({j, j + 1});
+        }
+        return extent;
+    }
+
+    // Lines around the block's that may be nearer to something of it than what lies in its own rows.
+    Range linesAround(const Range& own, const Range& all, float largest) const {
+        const double reach = std::ceil(std::sqrt(static_cast<double>(largest / mWeight[1])));
+        const int most = reach < all.size() ? static_cast<int>(reach) : all.size();
+        return {std::max(own.begin - most, all.begin), std::min(own.end + most, all.end)};
     }
 
     void firstTwoPasses(int k) {
-        Range columns, lines;
-        for (int j = mBox[1].begin; j < mBox[1].end; ++j) {
-            if (rowRange(j, k).empty()) continue;
-            measureRuns(j, k);
-            columns.join(rowRange(j, k));
-            lines.join({j, j + 1});
-        }
-        if (lines.empty()) return;
-        const Range chunks = chunksOf(columns);
-        std::vector<float> copy;
-        copy.reserve(static_cast<std::size_t>(lines.size()) * chunks.size());
-        for (int j = lines.begin; j < lines.end; ++j) appendLine(copy, j, k, chunks);
-        const DistancePlane plane{copy.data(), lines.size(),      chunks.size(),
-                                  mWeight[1],  seedsBelow(lines), seedsAbove(lines, 1)};
-        mKernels.combine(plane, squares(lines.begin, k) + chunks.begin, mStride);
+        const Extent all = extentOf(k, mBox[1]);
+        const Range own = extentOf(k, mBlock).lines;
+        if (own.empty()) return;
+        const Range chunks = chunksOf(all.columns);
+        const int first = mBox[0].begin + chunks.begin;
+        const auto width = static_cast<std::size_t>(chunks.size());
+        float largest = 0;
+        const auto measure = [&](int j, std::vector<float>& rows, int line) {
+            if (rowRange(j, k).empty()) return;
+            const float most = measureRuns(j, k, first, rows.data() + width * static_cast<std::size_t>(line));
+            largest = std::max(largest, most);
+        };
+        std::vector<float> ownRows(width * static_cast<std::size_t>(own.size()), 0.0f);
+        for (int j = own.begin; j < own.end; ++j) measure(j, ownRows, j - own.begin);
+        const Range lines = linesAround(own, all.lines, largest);
+        std::vector<float> rows(width * static_cast<std::size_t>(lines.size()), 0.0f);
+        std::copy(ownRows.begin(), ownRows.end(),
+                  rows.begin() + static_cast<std::ptrdiff_t>(width) * (own.begin - lines.begin));
+        for (int j = lines.begin; j < own.begin; ++j) measure(j, rows, j - lines.begin);
+        for (int j = own.end; j < lines.end; ++j) measure(j, rows, j - lines.begin);
+        const DistancePlane plane{rows.data(),
+                                  lines.size(),
+                                  own.begin - lines.begin,
+                                  own.end - lines.begin,
+                                  chunks.size(),
+                                  mWeight[1],
+                                  lines.begin == all.lines.begin && seedsBelow(lines),
+                                  lines.end == all.lines.end && seedsAbove(lines, 1)};
+        mKernels.combine(plane, squares(own.begin, k) + chunks.begin, mStride);
     }
 
     void lastPass(int j, DistanceVolume& result) {
@@ -178,8 +238,9 @@ private:
         std::vector<float> copy;
         copy.reserve(static_cast<std::size_t>(lines.size()) * chunks.size());
         for (int k = lines.begin; k < lines.end; ++k) appendLine(copy, j, k, chunks);
-        const DistancePlane plane{copy.data(), lines.size(),      chunks.size(),
-                                  mWeight[2],  seedsBelow(lines), seedsAbove(lines, 2)};
+        const DistancePlane plane{copy.data(),       lines.size(),        0,
+                                  lines.size(),      chunks.size(),       mWeight[2],
+                                  seedsBelow(lines), seedsAbove(lines, 2)};
         const int first = mBox[0].begin + chunks.begin;
         const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(mMask.frame.size.x) * mMask.frame.size.y;
         mKernels.finish(plane, units(), result.values.data() + result.frame.index(first, j, lines.begin),
@@ -209,18 +270,21 @@ private:
 
     const MaskVolume& mMask;
     bool mOutsideIsSeed;
-    double mUnit, mSmallest = 1;
+    double mUnit, mAtMost, mSmallest = 1;
+    float mMostSquared = 0;  // in smallest spacings
     DistanceKernels mKernels;
     std::vector<Range> mRows;  // columns of set voxels, by row
     Range mBox[3];             // of set voxels, by axis
     float mWeight[3] = {1, 1, 1};
     int mStride = 0;
-    LazyArray<float> mSquares;  // of the box
+    Range mBlock;               // lines of the box
+    LazyArray<float> mSquares;  // of these
 };
 
 }  // namespace
 
-DistanceVolume distanceToOutside(const MaskVolume& mask, bool outsideIsSeed, double unit, SimdTarget target) {
+DistanceVolume distanceToOutside(const MaskVolume& mask, bool outsideIsSeed, double unit, SimdTarget target,
+                                 double atMost) {
     const glm::dvec3 spacing = mask.frame.spacing;
     const double smallest = std::min({spacing.x, spacing.y, spacing.z});
     if (unit == 0) unit = smallest / 64;
@@ -228,7 +292,10 @@ DistanceVolume distanceToOutside(const MaskVolume& mask, bool outsideIsSeed, dou
         throw Error("", "distance transform",
                     fmt::format("expected a unit and spacings above 0, got {} and {} m", unit, smallest),
                     "check the volume's spacing");
-    return Transform(mask, outsideIsSeed, unit, target).run();
+    if (!(atMost > 0))
+        throw Error("", "distance transform", fmt::format("expected a distance above 0, got {} m", atMost),
+                    "leave it out for all distances");
+    return Transform(mask, outsideIsSeed, unit, atMost, target).run();
 }
 
 }  // namespace stereonav

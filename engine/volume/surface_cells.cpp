@@ -6,129 +6,52 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/base/pages.h"
 #include "engine/base/parallel.h"
+#include "engine/volume/cell_rows.h"
 #include "engine/volume/distance_transform.h"
+#include "engine/volume/leap_blocks.h"
 
 namespace stereonav {
 namespace {
 
-constexpr int kBrick = 16;
-constexpr int kLargestCode = 255;
+constexpr int kBrick = 16, kBrickCells = kBrick * kBrick * kBrick;
 
 // One flag a cell, in a volume of the cells' own frame.
 struct CellFlags {
     MaskVolume active;  // holds surface
-    MaskVolume region;  // rays are followed here
-};
+    MaskVolume region;  // rays are followed here; empty: everywhere
+    std::vector<std::uint8_t> everywhere;
 
-VolumeFrame cellFrameOf(const VolumeFrame& voxels) {
-    VolumeFrame cells = voxels;
-    cells.size = voxels.size - 1;
-    cells.origin = voxels.worldFromVoxel(glm::dvec3(0.5));
-    return cells;
-}
-
-bool anySet(const std::uint8_t* row, int count) {
-    int i = 0;
-    for (; i + 8 <= count; i += 8) {
-        std::uint64_t eight;
-        std::memcpy(&eight, row + i, 8);
-        if (eight != 0) return true;
-    }
-    for (; i < count; ++i)
-        if (row[i]) return true;
-    return false;
-}
-
-// The four rows of voxels around a row of cells.
-template <typename T>
-struct FourRows {
-    const T* rows[4];
-    FourRows(const Volume<T>& volume, int j, int k) {
-        for (int n = 0; n < 4; ++n)
-            rows[n] = volume.values.data() + volume.frame.index(0, j + (n & 1), k + (n >> 1));
+    const std::uint8_t* regionRow(int j, int k) const {
+        return region.empty() ? everywhere.data() : region.values.data() + region.frame.index(0, j, k);
     }
 };
-
-// Flags of one row of cells; false when nothing of the region is in it.
-bool flagRegion(const SurfaceSetting& setting, int j, int k, int cells, std::uint8_t* region) {
-    if (!setting.region) {
-        std::memset(region, 1, static_cast<std::size_t>(cells));
-        return true;
-    }
-    const FourRows<std::uint8_t> m(*setting.region, j, k);
-    if (std::none_of(std::begin(m.rows), std::end(m.rows),
-                     [&](const std::uint8_t* row) { return anySet(row, cells + 1); }))
-        return false;
-    for (int i = 0; i < cells; ++i) {
-        const int any = m.rows[0][i] | m.rows[0][i + 1] | m.rows[1][i] | m.rows[1][i + 1] | m.rows[2][i] |
-                        m.rows[2][i + 1] | m.rows[3][i] | m.rows[3][i + 1];
-        region[i] = any != 0;
-    }
-    return true;
-}
-
-// Values of a cell along a ray are off by less than this in single precision: some roundings of 2^-24 of the
-// 65,535 that two 16-bit numbers may lie apart.
-constexpr float kValueRounding = 0x1p-4f;
-
-// Whether any voxel of the cell or of those around it is at most `value`.
-bool anyAround(const GreyVolume& volume, int i, int j, int k, int value) {
-    const glm::ivec3 first = glm::max(glm::ivec3(i, j, k) - 1, 0),
-                     last = glm::min(glm::ivec3(i, j, k) + 2, volume.frame.size - 1);
-    for (int z = first.z; z <= last.z; ++z)
-        for (int y = first.y; y <= last.y; ++y)
-            for (int x = first.x; x <= last.x; ++x)
-                if (volume.at(x, y, z) <= value) return true;
-    return false;
-}
-
-void flagActive(const GreyVolume& volume, const SurfaceSetting& setting, int j, int k, int cells,
-                const std::uint8_t* region, std::uint8_t* active) {
-    const FourRows<std::int16_t> v(volume, j, k);
-    const bool surfaceAlone = setting.lowest == setting.highest;
-    // As 16-bit numbers: maximum >= lowest, minimum <= highest (< for the surface alone, where a cell at or
-    // above it throughout holds none).
-    const int lowest = static_cast<int>(std::clamp(std::ceil(setting.lowest), -32768.0f, 32767.0f));
-    const float top = surfaceAlone ? std::ceil(setting.highest) - 1.0f : std::floor(setting.highest);
-    const int highest = static_cast<int>(std::clamp(top, -32769.0f, 32767.0f));
-    const auto lowOf = [&](int i) {
-        const auto least = [&](int n) { return std::min(v.rows[n][i], v.rows[n][i + 1]); };
-        return static_cast<int>(std::min(std::min(least(0), least(1)), std::min(least(2), least(3))));
-    };
-    unsigned touching = 0;
-    for (int i = 0; i < cells; ++i) {
-        const auto most = [&](int n) { return std::max(v.rows[n][i], v.rows[n][i + 1]); };
-        const int low = lowOf(i);
-        const int high = std::max(std::max(most(0), most(1)), std::max(most(2), most(3)));
-        active[i] = (region[i] != 0) & (high >= lowest) & (low <= highest);
-        touching |= (region[i] != 0) & (low == highest + 1);
-    }
-    // A cell of such values that begins at the surface itself, where it lies beside lower ones: rounding may
-    // carry a ray past the crossing on the face between the two, and it must not go on through what is solid.
-    const bool mayBePassed = surfaceAlone && std::ceil(setting.highest) - setting.highest < kValueRounding;
-    if (!touching || !mayBePassed) return;
-    for (int i = 0; i < cells; ++i)
-        if (region[i] && lowOf(i) == highest + 1 && anyAround(volume, i, j, k, highest)) active[i] = 1;
-}
 
 CellFlags flagCells(const GreyVolume& volume, const SurfaceSetting& setting, const VolumeFrame& frame) {
-    CellFlags flags{MaskVolume(frame), MaskVolume(frame)};
     const glm::ivec3 size = frame.size;
+    CellFlags flags{MaskVolume(frame), {}, {}};
+    if (setting.region)
+        flags.region = MaskVolume(frame);
+    else
+        flags.everywhere.assign(static_cast<std::size_t>(size.x), 1);
     parallelFor(size.z, [&](int k) {
         for (int j = 0; j < size.y; ++j) {
             const std::size_t row = frame.index(0, j, k);
-            std::uint8_t* region = flags.region.values.data() + row;
-            if (!flagRegion(setting, j, k, size.x, region)) continue;
-            flagActive(volume, setting, j, k, size.x, region, flags.active.values.data() + row);
+            if (setting.region &&
+                !flagRegion(*setting.region, j, k, size.x, flags.region.values.data() + row))
+                continue;
+            flagActive(volume, setting, j, k, size.x, flags.regionRow(j, k),
+                       flags.active.values.data() + row);
         }
     });
     return flags;
@@ -144,7 +67,7 @@ MaskVolume farCells(const CellFlags& flags) {
     parallelFor(size.z, [&](int k) {
         std::vector<std::uint8_t> any(static_cast<std::size_t>(size.x) + 2);
         for (int j = 0; j < size.y; ++j) {
-            const std::uint8_t* region = flags.region.values.data() + frame.index(0, j, k);
+            const std::uint8_t* region = flags.regionRow(j, k);
             if (!anySet(region, size.x)) continue;
             std::fill(any.begin(), any.end(), std::uint8_t{0});
             for (int z = std::max(k - 1, 0); z <= std::min(k + 1, size.z - 1); ++z)
@@ -180,7 +103,7 @@ void encodeLeaps(const CellFlags& flags, const DistanceVolume& distance, int div
     parallelFor(frame.size.z, [&](int k) {
         for (int j = 0; j < frame.size.y; ++j) {
             const std::size_t row = frame.index(0, j, k);
-            const std::uint8_t* region = flags.region.values.data() + row;
+            const std::uint8_t* region = flags.regionRow(j, k);
             if (!anySet(region, frame.size.x)) continue;
             const std::uint8_t* active = flags.active.values.data() + row;
             const std::uint16_t* d = distance.values.data() + row;
@@ -191,6 +114,21 @@ void encodeLeaps(const CellFlags& flags, const DistanceVolume& distance, int div
             }
         }
     });
+}
+
+// Codes by distances between all cells; gives the active ones.
+MaskVolume codeLeapsAtOnce(const GreyVolume& volume, const SurfaceSetting& setting, const VolumeFrame& frame,
+                           Progress& progress, SurfaceCells& cells) {
+    CellFlags flags = flagCells(volume, setting, frame);
+    progress.report(0.3, "measuring distances to the surface");
+    const glm::dvec3 spacing = volume.frame.spacing;
+    cells.leapUnit = 0.25 * std::min({spacing.x, spacing.y, spacing.z});
+    const DistanceVolume distance = distanceToOutside(farCells(flags), false, cells.leapUnit);
+    const int coarser = leapDivisor(largestOf(distance));
+    cells.leapUnit *= coarser;
+    cells.codes = LazyArray<std::uint8_t>(cells.layout.count());
+    encodeLeaps(flags, distance, coarser, cells);
+    return std::move(flags.active);
 }
 
 // The gradient at a voxel of the values smoothed by a tricubic B-spline: weights 1/6, 4/6, 1/6 across and
@@ -226,17 +164,17 @@ class BrickRecords {
 public:
     explicit BrickRecords(const GreyVolume& volume) : mVolume(volume), mNormals(17 * 17 * 17) {}
 
-    void write(const glm::ivec3& brick, const MaskVolume& active, std::uint32_t first, SurfaceCells& cells) {
+    // active: in the order of BrickLayout.
+    void write(const glm::ivec3& brick, const std::uint8_t* active, std::uint32_t first,
+               SurfaceCells& cells) {
         std::fill(mNormals.begin(), mNormals.end(), 0u);
         const glm::ivec3 low = brick * kBrick;
-        const glm::ivec3 high = glm::min(low + kBrick, active.frame.size);
-        for (int k = low.z; k < high.z; ++k)
-            for (int j = low.y; j < high.y; ++j)
-                for (int i = low.x; i < high.x; ++i) {
-                    if (!active.at(i, j, k)) continue;
-                    cells.cells[cells.layout.index(i, j, k)] = first + 1;
-                    fill(low, {i, j, k}, cells.records[first++]);
-                }
+        for (int n = 0; n < kBrickCells; ++n) {
+            if (!active[n]) continue;
+            const glm::ivec3 at = low + glm::ivec3(n & 15, n >> 4 & 15, n >> 8);
+            cells.cells[cells.layout.index(at.x, at.y, at.z)] = first + 1;
+            fill(low, at, cells.records[first++]);
+        }
     }
 
 private:
@@ -261,21 +199,31 @@ glm::ivec3 brickAt(const BrickLayout& layout, int n) {
             n / (layout.bricks.x * layout.bricks.y)};
 }
 
-std::uint32_t countActive(const MaskVolume& active, const glm::ivec3& brick) {
-    const glm::ivec3 low = brick * kBrick, high = glm::min(low + kBrick, active.frame.size);
+// Flags of a brick's active cells in the order of BrickLayout; how many there are.
+using BrickActivity = std::function<std::uint32_t(const glm::ivec3& brick, std::uint8_t* active)>;
+
+// By a flag a cell of the cells' frame.
+template <typename IsActive>
+std::uint32_t flagBrick(const glm::ivec3& size, const glm::ivec3& brick, std::uint8_t* active,
+                        const IsActive& isActive) {
+    const glm::ivec3 low = brick * kBrick, high = glm::min(low + kBrick, size);
+    std::fill_n(active, kBrickCells, std::uint8_t{0});
     std::uint32_t count = 0;
     for (int k = low.z; k < high.z; ++k)
         for (int j = low.y; j < high.y; ++j) {
-            const std::uint8_t* row = active.values.data() + active.frame.index(0, j, k);
-            for (int i = low.x; i < high.x; ++i) count += row[i];
+            std::uint8_t* row = active + ((k & 15) << 8 | (j & 15) << 4);
+            for (int i = low.x; i < high.x; ++i) count += row[i & 15] = isActive(i, j, k);
         }
     return count;
 }
 
-void writeRecords(const GreyVolume& volume, const MaskVolume& active, SurfaceCells& cells) {
+void writeRecords(const GreyVolume& volume, const BrickActivity& activity, SurfaceCells& cells) {
     const int bricks = cells.layout.bricks.x * cells.layout.bricks.y * cells.layout.bricks.z;
     std::vector<std::uint32_t> first(static_cast<std::size_t>(bricks) + 1, 0);
-    parallelFor(bricks, [&](int n) { first[n + 1] = countActive(active, brickAt(cells.layout, n)); });
+    parallelFor(bricks, [&](int n) {
+        std::uint8_t active[kBrickCells];
+        first[n + 1] = activity(brickAt(cells.layout, n), active);
+    });
     std::uint64_t total = 0;
     for (const std::uint32_t count : first) total += count;
     // Kernels count records in 4-byte steps with 32-bit numbers.
@@ -287,13 +235,16 @@ void writeRecords(const GreyVolume& volume, const MaskVolume& active, SurfaceCel
     for (int n = 0; n < bricks; ++n) bricksHeld += first[n] != first[n + 1];
     checkMemory(fmt::format("a surface of {} cells", total),
                 static_cast<double>(total) * sizeof(CellRecord) +
-                    static_cast<double>(bricksHeld) * kBrick * kBrick * kBrick * sizeof(std::uint32_t),
+                    static_cast<double>(bricksHeld) * kBrickCells * sizeof(std::uint32_t),
                 "choose another isovalue, a transfer function that shows less, or a smaller volume");
     cells.records = LazyArray<CellRecord>(first.back());
     cells.records.preferLargePages();
     parallelFor(bricks, [&](int n) {
         if (first[n] == first[n + 1]) return;
-        BrickRecords(volume).write(brickAt(cells.layout, n), active, first[n], cells);
+        const glm::ivec3 brick = brickAt(cells.layout, n);
+        std::uint8_t active[kBrickCells];
+        activity(brick, active);
+        BrickRecords(volume).write(brick, active, first[n], cells);
     });
 }
 
@@ -303,8 +254,8 @@ void checkSize(const VolumeFrame& frame, const BrickLayout& layout) {
     if (size.x < 2 || size.y < 2 || size.z < 2)
         throw Error("", "volume", "expected at least 2 voxels along each axis, got " + got,
                     "a single slice has no surface");
-    if (layout.count() > (1ull << 31) - 64)
-        throw Error("", "volume", "expected at most 2^31 voxels, got " + got, "crop or resample it");
+    if (layout.count() > 1ull << 32)
+        throw Error("", "volume", "expected at most 2^32 voxels, got " + got, "crop or resample it");
 }
 
 }  // namespace
@@ -345,20 +296,31 @@ SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& se
     checkSize(volume.frame, cells.layout);
     const VolumeFrame frame = cellFrameOf(volume.frame);
     progress.report(0.0, "finding the surface");
-    CellFlags flags = flagCells(volume, setting, frame);
-    progress.report(0.3, "measuring distances to the surface");
-    const MaskVolume far = farCells(flags);
-    const glm::dvec3 spacing = volume.frame.spacing;
-    cells.leapUnit = 0.25 * std::min({spacing.x, spacing.y, spacing.z});
-    DistanceVolume distance = distanceToOutside(far, false, cells.leapUnit);
-    const int largest = largestOf(distance);
-    const int coarser = std::max(1, (largest + kLargestCode - 2) / (kLargestCode - 1));
-    cells.leapUnit *= coarser;
-    progress.report(0.7, "storing what rays need");
-    cells.codes = LazyArray<std::uint8_t>(cells.layout.count());
-    cells.cells = LazyArray<std::uint32_t>(cells.layout.count());
-    encodeLeaps(flags, distance, coarser, cells);
-    writeRecords(volume, flags.active, cells);
+    if (!setting.region && frame.count() > setting.atOnce) {
+        codeLeapsByBlocks(volume, setting, progress, cells);
+        progress.report(0.7, "storing what rays need");
+        cells.cells = LazyArray<std::uint32_t>(cells.layout.count());
+        const auto active = [&](int i, int j, int k) {
+            return cells.codes[cells.layout.index(i, j, k)] == kCellActive;
+        };
+        writeRecords(
+            volume,
+            [&](const glm::ivec3& brick, std::uint8_t* flags) {
+                return flagBrick(frame.size, brick, flags, active);
+            },
+            cells);
+    } else {
+        const MaskVolume flags = codeLeapsAtOnce(volume, setting, frame, progress, cells);
+        progress.report(0.7, "storing what rays need");
+        cells.cells = LazyArray<std::uint32_t>(cells.layout.count());
+        const auto active = [&](int i, int j, int k) { return flags.at(i, j, k) != 0; };
+        writeRecords(
+            volume,
+            [&](const glm::ivec3& brick, std::uint8_t* out) {
+                return flagBrick(frame.size, brick, out, active);
+            },
+            cells);
+    }
     progress.report(1.0, "storing what rays need");
     return cells;
 }

@@ -71,6 +71,10 @@ struct SurfaceSetting {
     // If given (same frame as the volume): cells without a corner inside do not count, and leaps are
     // known only in cells with one.
     const MaskVolume* region = nullptr;
+    // Without a region, leaps of more cells than these are measured in blocks: in a byte or so a cell instead
+    // of eight, and no leap beyond 16 of the smallest spacing is as long as it may be (leap_blocks.h).
+    std::size_t atOnce = kCellsAtOnce;
+    static constexpr std::size_t kCellsAtOnce = std::size_t{1} << 25;
 };
 
 // Rays must start below the isovalue: a volume that is seen from outside has a border of values below it.

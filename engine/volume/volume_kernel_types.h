@@ -14,8 +14,11 @@ struct CellData {
     const std::uint32_t* cells = nullptr;
     const std::uint32_t* records = nullptr;
     std::int32_t bricks[2] = {};  // along x and y
-    std::int32_t last[3] = {};    // the last cell along each axis
-    float leapUnit = 0;           // metres
+    // The number of the first brick, so that cells of up to 2^20 bricks have indices of 32 bits with a sign:
+    // codes and cells begin so many bricks before the pointers.
+    std::int32_t firstBrick = 0;
+    std::int32_t last[3] = {};  // the last cell along each axis
+    float leapUnit = 0;         // metres
     float isovalue = 0;
     bool leaping = true;
 };

@@ -26,8 +26,10 @@ const VolumeKernels& kernelsFor(SimdTarget target) {
 
 CellData cellDataOf(const SurfaceCells& cells, bool leaping) {
     CellData d;
-    d.codes = cells.codes.data();
-    d.cells = cells.cells.data();
+    const std::size_t count = cells.layout.count(), before = count > (1ull << 31) - 64 ? 1ull << 31 : 0;
+    d.firstBrick = -static_cast<std::int32_t>(before >> 12);
+    d.codes = cells.codes.data() + before;
+    d.cells = cells.cells.data() + before;
     d.records = reinterpret_cast<const std::uint32_t*>(cells.records.data());
     d.bricks[0] = cells.layout.bricks.x;
     d.bricks[1] = cells.layout.bricks.y;

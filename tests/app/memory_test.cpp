@@ -61,11 +61,11 @@ protected:
 TEST_F(Memory, OfAStudyIsCheckedByItsHeader) {
     const std::string study = nrrd("ct.nrrd", {160, 160, 160, 1, "short", ""},
                                    [](int i, int j, int k) { return (i * j + k) % 500; });
-    allow("3e7");  // 160^3 voxels of 2 bytes, twice, are 16.4 MB; a surface takes 47 MB
+    allow("3e7");  // 160^3 voxels of 2 bytes are 8.2 MB; a surface takes 43 MB
     expectTooMuch({study, "--isosurface"},
-                  {"ct.nrrd", "160 x 160 x 160 voxels need 47.1 MB of memory", "would fit"});
-    allow("1.8e7");
-    expectTooMuch({study}, {"ct.nrrd", "160 x 160 x 160 voxels need 16.4 MB", "would fit"});
+                  {"ct.nrrd", "160 x 160 x 160 voxels need 43 MB of memory", "would fit"});
+    allow("8e6");
+    expectTooMuch({study}, {"ct.nrrd", "160 x 160 x 160 voxels need 8.19 MB", "would fit"});
     allow("2e9");
     EXPECT_EQ(run({"render", study, "--isosurface", "--size", "32x24", "--out", "out.png"}).status, 0);
 }
@@ -158,6 +158,18 @@ TEST_F(Memory, OfAKeptColonIsChecked) {
     std::filesystem::remove(place() / "out.png");
     allow("5e7");
     expectRefused(render, {"a colon of 200 x 200 x 200 voxels", "of memory"});
+}
+
+// A surface of so many voxels is found in blocks. 20 MB are the program's own.
+TEST_F(Memory, OfALargeSurfaceIsNoMoreThanWasAskedFor) {
+    const std::string study = nrrd("ct.nrrd", {330, 330, 320, 1, "short", ""}, [](int i, int j, int k) {
+        return 1000 - 7 * std::max({std::abs(i - 165), std::abs(j - 165), std::abs(k - 160)});
+    });
+    const Taken taken =
+        taking({"render", study, "--isosurface", "--isovalue", "100", "--size", "64x64", "--out", "a.png"});
+    const double samples = 2.0 * 330 * 330 * 320;
+    EXPECT_GT(taken.most, samples);
+    EXPECT_LT(taken.most, taken.asked + 2e7);
 }
 
 // A bake's paths leap over fields of blocks, one for each isovalue that is lit: most of what a whole bake of

@@ -160,6 +160,57 @@ TEST(DistanceTransform, IsTheSameForEveryInstructionSet) {
     }
 }
 
+TEST(DistanceTransform, UpToADistanceIsTheSame) {
+    for (const glm::dvec3& spacing : {glm::dvec3(1.0), glm::dvec3(0.8, 1.1, 0.7)})
+        for (const bool outside : {true, false}) {
+            const MaskVolume mask = randomMask({50, 41, 33}, spacing, 0.9997, 11);
+            const DistanceVolume all = distanceToOutside(mask, outside);
+            const double atMost = 6.3;
+            const DistanceVolume some = distanceToOutside(mask, outside, 0, SimdTarget::Auto, atMost);
+            const int most = static_cast<int>(atMost / all.unit);
+            int beyond = 0;
+            for (std::size_t n = 0; n < all.values.size(); ++n) {
+                if (all.values[n] < most - 1)
+                    ASSERT_EQ(some.values[n], all.values[n]) << n;
+                else
+                    ASSERT_NEAR(some.values[n], most, 1) << n;
+                beyond += all.values[n] > most + 1;
+            }
+            EXPECT_GT(beyond, 100);
+        }
+    MaskVolume full(VolumeFrame{{5, 5, 5}});
+    std::fill_n(full.values.data(), full.values.size(), std::uint8_t{1});
+    EXPECT_EQ(distanceToOutside(full, false, 1, SimdTarget::Auto, 3.5).at(2, 2, 2), 3);
+    EXPECT_THROW(distanceToOutside(full, false, 1, SimdTarget::Auto, 0), Error);
+    EXPECT_THROW(distanceToOutside(full, false, 1, SimdTarget::Auto, std::nan("")), Error);
+}
+
+// So large that squares are held for some lines at a time.
+TEST(DistanceTransform, OfALargeMaskIsExact) {
+    MaskVolume mask(VolumeFrame{{256, 150, 1040}});
+    std::fill_n(mask.values.data(), mask.values.size(), std::uint8_t{1});
+    Random random(5);
+    for (int n = 0; n < 20000; ++n) {
+        const glm::ivec3 v(random.below(256), random.below(150), random.below(1040));
+        const glm::ivec3 away = glm::abs(v - glm::ivec3(120, 65, 520));  // a hollow across blocks of lines
+        if (std::max({away.x, away.y, away.z}) > 25) mask.at(v) = 0;
+    }
+    const DistanceVolume distance = distanceToOutside(mask, true, 0.25);
+    for (int n = 0; n < 400; ++n) {
+        glm::ivec3 v(random.below(256), random.below(150), random.below(1040));
+        if (n % 2) v = {100 + random.below(40), 40 + random.below(50), 500 + random.below(40)};  // in it
+        const int reach = distance.at(v) / 4 + 2;
+        const glm::ivec3 low = glm::max(v - reach, 0), high = glm::min(v + reach, mask.frame.size - 1);
+        double least = std::min({v.x + 1, v.y + 1, v.z + 1, 256 - v.x, 150 - v.y, 1040 - v.z});
+        for (int k = low.z; k <= high.z; ++k)
+            for (int j = low.y; j <= high.y; ++j)
+                for (int i = low.x; i <= high.x; ++i)
+                    if (!mask.at(i, j, k))
+                        least = std::min(least, glm::length(glm::dvec3(v - glm::ivec3(i, j, k))));
+        ASSERT_EQ(distance.at(v), static_cast<int>(4 * least)) << v.x << " " << v.y << " " << v.z;
+    }
+}
+
 TEST(DistanceTransform, RefusesUnitsAndSpacingsThatAreNotPositive) {
     MaskVolume mask(VolumeFrame{{4, 4, 4}});
     for (const double unit :

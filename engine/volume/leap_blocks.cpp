@@ -1,0 +1,194 @@
+#include "engine/volume/leap_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <vector>
+
+#include "engine/base/parallel.h"
+#include "engine/volume/cell_rows.h"
+#include "engine/volume/distance_transform.h"
+
+namespace stereonav {
+namespace {
+
+constexpr int kGroup = 4;         // cells along each side of a group
+constexpr int kLeapBlock = 256;   // cells along each side of a block: whole bricks and groups
+constexpr double kUnitShare = 4;  // distances are counted in quarters of the smallest spacing
+
+glm::ivec3 groupsOf(const glm::ivec3& cells) {
+    return (cells + (kGroup - 1)) / kGroup;
+}
+
+// 1 where neither the place nor one of those around it is set. setRow(j, k, row): flags of a row of `size.x`
+// places and one beyond either end, for j and k from -1 to size.
+template <typename SetRow>
+MaskVolume awayFrom(const VolumeFrame& frame, const SetRow& setRow) {
+    MaskVolume away(frame);
+    const glm::ivec3 size = frame.size;
+    parallelFor(size.z, [&](int k) {
+        const std::size_t width = static_cast<std::size_t>(size.x) + 2;
+        std::vector<std::uint8_t> row(width), lines(width * (static_cast<std::size_t>(size.y) + 2), 0);
+        for (int j = -1; j <= size.y; ++j) {
+            std::uint8_t* line = lines.data() + width * static_cast<std::size_t>(j + 1);
+            for (int z = k - 1; z <= k + 1; ++z) {
+                setRow(j, z, row.data());
+                for (std::size_t i = 0; i < width; ++i) line[i] |= row[i];
+            }
+        }
+        for (int j = 0; j < size.y; ++j) {
+            const std::uint8_t* line = lines.data() + width * static_cast<std::size_t>(j);
+            for (std::size_t i = 0; i < width; ++i) row[i] = line[i] | line[i + width] | line[i + 2 * width];
+            std::uint8_t* out = away.values.data() + frame.index(0, j, k);
+            for (int i = 0; i < size.x; ++i) out[i] = !(row[i] | row[i + 1] | row[i + 2]);
+        }
+    });
+    return away;
+}
+
+class LeapBlocks {
+public:
+    LeapBlocks(const GreyVolume& volume, const SurfaceSetting& setting, SurfaceCells& cells)
+        : mVolume(volume),
+          mSetting(setting),
+          mCells(cells),
+          mFrame(cellFrameOf(volume.frame)),
+          mGroups(groupsOf(mFrame.size)) {
+        const glm::dvec3& s = mFrame.spacing;
+        mSmallest = std::min({s.x, s.y, s.z});
+        mUnit = mSmallest / kUnitShare;
+    }
+
+    void run(Progress& progress) {
+        measureFar(flagAll());
+        mDivisor = leapDivisor(std::max(largestFar(), reach()));
+        mCells.leapUnit = mUnit * mDivisor;
+        const glm::ivec3 blocks = (mFrame.size + (kLeapBlock - 1)) / kLeapBlock;
+        const int count = blocks.x * blocks.y * blocks.z;
+        for (int n = 0; n < count; ++n) {
+            progress.report(0.3 + 0.4 * n / count, "measuring distances to the surface");
+            codeBlock(kLeapBlock *
+                      glm::ivec3(n % blocks.x, n / blocks.x % blocks.y, n / (blocks.x * blocks.y)));
+        }
+    }
+
+private:
+    static int reach() { return static_cast<int>(kExactReach * kUnitShare); }  // units
+
+    std::uint8_t* codesAt(int i, int j, int k) { return mCells.codes.data() + mCells.layout.index(i, j, k); }
+
+    // Codes that tell what is active and what not; the groups that hold something active.
+    MaskVolume flagAll() {
+        mCells.codes = LazyArray<std::uint8_t>(mCells.layout.count());
+        VolumeFrame frame = mFrame;
+        frame.size = mGroups;
+        frame.spacing *= static_cast<double>(kGroup);
+        MaskVolume groups(frame);
+        const glm::ivec3 size = mFrame.size;
+        const std::vector<std::uint8_t> everywhere(static_cast<std::size_t>(size.x), 1);
+        parallelFor(mGroups.z, [&](int group) {
+            std::vector<std::uint8_t> active(static_cast<std::size_t>(size.x));
+            for (int k = group * kGroup; k < std::min((group + 1) * kGroup, size.z); ++k)
+                for (int j = 0; j < size.y; ++j) {
+                    flagActive(mVolume, mSetting, j, k, size.x, everywhere.data(), active.data());
+                    std::uint8_t* of = &groups.at(0, j / kGroup, group);
+                    for (int i = 0; i < size.x; ++i) of[i / kGroup] |= active[i];
+                    for (int first = 0; first < size.x; first += 16) {
+                        std::uint8_t* codes = codesAt(first, j, k);
+                        for (int i = 0; i < std::min(16, size.x - first); ++i)
+                            codes[i] = active[first + i] ? kCellActive : kCellNear;
+                    }
+                }
+        });
+        return groups;
+    }
+
+    void measureFar(const MaskVolume& groups) {
+        const auto setRow = [&](int j, int k, std::uint8_t* row) {
+            std::fill_n(row, mGroups.x + 2, std::uint8_t{0});
+            if (j < 0 || k < 0 || j >= mGroups.y || k >= mGroups.z) return;
+            std::copy_n(groups.values.data() + groups.frame.index(0, j, k), mGroups.x, row + 1);
+        };
+        mFar = distanceToOutside(awayFrom(groups.frame, setRow), false, mUnit);
+    }
+
+    int largestFar() const {
+        std::vector<int> largest(static_cast<std::size_t>(mGroups.z), 0);
+        parallelFor(mGroups.z, [&](int k) {
+            const std::uint16_t* far = mFar.values.data() + mFar.frame.index(0, 0, k);
+            for (int n = 0; n < mGroups.x * mGroups.y; ++n)
+                if (far[n] != DistanceVolume::kNoSeed) largest[k] = std::max<int>(largest[k], far[n]);
+        });
+        return *std::max_element(largest.begin(), largest.end());
+    }
+
+    // Whether something active may be within the exact reach of the block.
+    bool isNear(const glm::ivec3& first, const glm::ivec3& end) const {
+        const glm::ivec3 low = first / kGroup, high = groupsOf(end);
+        for (int k = low.z; k < high.z; ++k)
+            for (int j = low.y; j < high.y; ++j)
+                for (int i = low.x; i < high.x; ++i)
+                    if (mFar.at(i, j, k) < reach()) return true;
+        return false;
+    }
+
+    // Distances in the block, and as far around it as they reach: up to there they are exact.
+    DistanceVolume measureNear(const glm::ivec3& low, const glm::ivec3& high) {
+        const VolumeFrame frame = mFrame.cropped(low, high - low);
+        const auto setRow = [&](int j, int k, std::uint8_t* row) {
+            std::fill_n(row, frame.size.x + 2, std::uint8_t{0});
+            const int y = low.y + j, z = low.z + k;
+            if (y < 0 || z < 0 || y >= mFrame.size.y || z >= mFrame.size.z) return;
+            const int end = std::min(high.x + 1, mFrame.size.x);
+            for (int i = std::max(low.x - 1, 0); i < end;) {
+                const std::uint8_t* codes = codesAt(i, y, z);
+                const int stop = std::min((i | 15) + 1, end);
+                for (std::uint8_t* out = row + (i - low.x + 1); i < stop; ++i)
+                    *out++ = *codes++ == kCellActive;
+            }
+        };
+        return distanceToOutside(awayFrom(frame, setRow), false, mUnit, SimdTarget::Auto,
+                                 kExactReach * mSmallest);
+    }
+
+    void codeBlock(const glm::ivec3& first) {
+        const glm::ivec3 end = glm::min(first + kLeapBlock, mFrame.size);
+        const glm::ivec3 around(glm::ceil(kExactReach * mSmallest / mFrame.spacing));
+        const glm::ivec3 low = glm::max(first - around, 0), high = glm::min(end + around, mFrame.size);
+        DistanceVolume near;
+        if (isNear(first, end)) near = measureNear(low, high);
+        parallelFor(end.z - first.z, [&](int slice) {
+            const int k = first.z + slice;
+            for (int j = first.y; j < end.y; ++j) {
+                const std::uint16_t* far = mFar.values.data() + mFar.frame.index(0, j / kGroup, k / kGroup);
+                const std::uint16_t* here =
+                    near.empty() ? nullptr
+                                 : near.values.data() + near.frame.index(0, j - low.y, k - low.z) - low.x;
+                for (int i = first.x; i < end.x; ++i) {
+                    std::uint8_t& code = *codesAt(i, j, k);
+                    if (code == kCellActive) continue;
+                    const int free = std::max<int>(far[i / kGroup], here ? here[i] : reach());
+                    code = static_cast<std::uint8_t>(std::min(1 + free / mDivisor, kLargestCode));
+                }
+            }
+        });
+    }
+
+    const GreyVolume& mVolume;
+    const SurfaceSetting& mSetting;
+    SurfaceCells& mCells;
+    VolumeFrame mFrame;  // of cells
+    glm::ivec3 mGroups;
+    double mSmallest = 1, mUnit = 1;  // metres
+    DistanceVolume mFar;              // of groups
+    int mDivisor = 1;
+};
+
+}  // namespace
+
+void codeLeapsByBlocks(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress,
+                       SurfaceCells& cells) {
+    LeapBlocks(volume, setting, cells).run(progress);
+}
+
+}  // namespace stereonav

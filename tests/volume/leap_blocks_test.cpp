@@ -1,0 +1,150 @@
+// Leaps measured in blocks against leaps measured at once: the same cells, never further than is free, and as
+// far where the surface is near.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "engine/base/parallel.h"
+#include "engine/camera/stereo_rig.h"
+#include "engine/render/eye_renderer.h"
+#include "engine/volume/surface_cells.h"
+#include "engine/volume/volume_renderer.h"
+#include "test_volumes.h"
+
+namespace stereonav {
+namespace {
+
+using test::greyVolume;
+using test::slantedFrame;
+
+constexpr double kReach = 16, kGroupSide = 4;  // of leap_blocks.h
+
+SurfaceCells cellsOf(const GreyVolume& volume, float isovalue, bool blocks) {
+    Progress progress;
+    SurfaceSetting setting{isovalue, isovalue, isovalue, nullptr};
+    if (blocks) setting.atOnce = 0;
+    return findSurfaceCells(volume, setting, progress);
+}
+
+// Two balls far apart, longer than a block.
+GreyVolume balls(const VolumeFrame& frame) {
+    const glm::dvec3 a = glm::dvec3(frame.size) * glm::dvec3(0.1, 0.5, 0.4),
+                     b = glm::dvec3(frame.size) * glm::dvec3(0.93, 0.4, 0.6);
+    return greyVolume(frame, [&](const glm::dvec3& v) {
+        return std::max(600 - 60 * glm::distance(v, a), 400 - 50 * glm::distance(v, b));
+    });
+}
+
+void expectSameCells(const SurfaceCells& blocks, const SurfaceCells& once) {
+    ASSERT_EQ(blocks.records.size(), once.records.size());
+    ASSERT_GT(once.records.size(), 100u);
+    EXPECT_EQ(
+        std::memcmp(blocks.records.data(), once.records.data(), once.records.size() * sizeof(CellRecord)), 0);
+    EXPECT_EQ(std::memcmp(blocks.cells.data(), once.cells.data(), once.layout.count() * 4), 0);
+}
+
+void expectLeapsBelow(const SurfaceCells& blocks, const SurfaceCells& once) {
+    const glm::dvec3& s = once.frame.spacing;
+    const double smallest = std::min({s.x, s.y, s.z}), group = 2 * kGroupSide * glm::length(s);
+    int beyond = 0;
+    for (int k = 0; k < once.frame.size.z - 1; ++k)
+        for (int j = 0; j < once.frame.size.y - 1; ++j)
+            for (int i = 0; i < once.frame.size.x - 1; ++i) {
+                const std::size_t n = once.layout.index(i, j, k);
+                const int exact = once.codes[n], code = blocks.codes[n];
+                ASSERT_EQ(exact == kCellActive, code == kCellActive);
+                if (exact == kCellActive) continue;
+                // Both are rounded down by less than a unit.
+                const double least = (exact - 1) * once.leapUnit, most = exact * once.leapUnit;
+                const double free = (code - 1) * blocks.leapUnit;
+                ASSERT_LT(free, most) << i << " " << j << " " << k;
+                const double known = std::min(least, std::max(kReach * smallest, least - group));
+                ASSERT_GT(free + blocks.leapUnit, known * (1 - 1e-9)) << i << " " << j << " " << k;
+                beyond += least > kReach * smallest;
+            }
+    EXPECT_GT(beyond, 1000);
+}
+
+TEST(LeapBlocks, AreTheSameCellsAndLeapNoFurther) {
+    VolumeFrame frame;
+    frame.size = {300, 45, 50};
+    frame.spacing = glm::dvec3(0.7e-3);
+    const GreyVolume volume = balls(frame);
+    const SurfaceCells once = cellsOf(volume, 100, false), blocks = cellsOf(volume, 100, true);
+    expectSameCells(blocks, once);
+    expectLeapsBelow(blocks, once);
+}
+
+TEST(LeapBlocks, OfUnevenSpacing) {
+    const GreyVolume volume = balls(slantedFrame({47, 41, 290}));
+    const SurfaceCells once = cellsOf(volume, 50, false), blocks = cellsOf(volume, 50, true);
+    expectSameCells(blocks, once);
+    expectLeapsBelow(blocks, once);
+}
+
+TEST(LeapBlocks, WithoutSurfaceLeapAsFarAsACodeCan) {
+    VolumeFrame frame;
+    frame.size = {40, 20, 30};
+    const SurfaceCells cells = cellsOf(GreyVolume(frame), 100, true);
+    EXPECT_TRUE(cells.records.empty());
+    EXPECT_EQ(cells.codes[cells.layout.index(20, 10, 15)], 255);
+}
+
+TEST(LeapBlocks, OfTwoVoxels) {
+    VolumeFrame frame;
+    frame.size = glm::ivec3(2);
+    GreyVolume volume(frame);
+    volume.at(1, 1, 1) = 200;
+    const SurfaceCells cells = cellsOf(volume, 100, true);
+    ASSERT_EQ(cells.records.size(), 1u);
+    EXPECT_EQ(cells.record({0, 0, 0})->values[7], 200);
+}
+
+TEST(LeapBlocks, DoNotDependOnThreads) {
+    VolumeFrame frame;
+    frame.size = {60, 70, 50};
+    const GreyVolume volume = balls(frame);
+    const int threads = threadCount();
+    const SurfaceCells many = cellsOf(volume, 100, true);
+    setThreadCount(threads == 1 ? 3 : 1);
+    const SurfaceCells other = cellsOf(volume, 100, true);
+    setThreadCount(threads);
+    EXPECT_EQ(std::memcmp(many.codes.data(), other.codes.data(), many.layout.count()), 0);
+    expectSameCells(many, other);
+}
+
+TEST(LeapBlocks, ShowTheSamePicture) {
+    VolumeFrame frame;
+    frame.size = {120, 60, 60};
+    frame.spacing = glm::dvec3(1e-3);
+    frame.origin = glm::dvec3(-0.06, -0.03, -0.03);
+    VolumeScene scene;
+    scene.field = balls(frame);
+    Lens lens;
+    lens.width = 160;
+    lens.height = 120;
+    lens.nearDepth = 0.001;
+    const EyeView view =
+        makeStereoViews(poseFromAngles({0.01, -0.13, 0.01}, 0, 0, 0), lens, {0.004, 0.13}).left;
+    EyeImage pictures[2];
+    for (int n = 0; n < 2; ++n) {
+        scene.cells = cellsOf(scene.field, 100, n == 1);
+        const VolumeRenderer renderer(scene);
+        pictures[n].resize(view.width, view.height, renderer.viewDependence());
+        renderEye(renderer, view, pictures[n]);
+    }
+    int hits = 0;
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            ASSERT_EQ(pictures[0].viewDepth.at(x, y), pictures[1].viewDepth.at(x, y)) << x << " " << y;
+            ASSERT_EQ(pictures[0].color.at(x, y), pictures[1].color.at(x, y)) << x << " " << y;
+            hits += std::isfinite(pictures[0].viewDepth.at(x, y));
+        }
+    EXPECT_GT(hits, 200);
+}
+
+}  // namespace
+}  // namespace stereonav
