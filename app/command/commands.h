@@ -128,8 +128,8 @@ struct SceneOptions {
     // Of a terrain's shading below its samples: on where pictures are shown, off where they are measured.
     bool groundDetail = false;
     double levelOfDetail = 0;  // share of a pixel that far ground may be off; 0: exact
-    bool lightLater = true;  // a window works out sky light of ground that has none (ShownTerrain)
-    bool skyTurns = false;   // set by a window: keep what turning the sky over baked transfer takes
+    bool lightLater = true;    // a window works out sky light of ground that has none (ShownTerrain)
+    bool skyTurns = false;     // set by a window: keep what turning the sky over baked transfer takes
 };
 
 // What commands that show pictures begin with.
