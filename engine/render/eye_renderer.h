@@ -25,8 +25,8 @@ class EyeRenderer {
 public:
     virtual ~EyeRenderer() = default;
 
-    // Pictures from this eye, and from others close beside it, come next: what is chosen by where the eyes are
-    // (the level of detail) is chosen now, and stays for all of them. Not while a picture is cast.
+    // Pictures from this eye, and from others close beside it, come next: what is chosen by where the eyes
+    // are (the level of detail) is chosen now, and stays for all of them. Not while a picture is cast.
     virtual void lookFrom(const EyeView&) const {}
 
     // The scene chooses how a picture is cut into tiles (bands of columns for terrain). Together the

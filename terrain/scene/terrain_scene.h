@@ -59,9 +59,9 @@ struct TerrainScene {
     double verticalScale = 1;  // of its heights: so many times those of the file
     ColorTexture color;
     SkyMap sky;
-    bool detail = false;  // of its shading, below the sample spacing (terrain/cast/ground_detail.h)
+    bool detail = false;       // of its shading, below the sample spacing (terrain/cast/ground_detail.h)
     double levelOfDetail = 0;  // share of a pixel that far ground may be off (RingWish::share); 0: none is
-    TerrainLook look;     // fog, specular, sun
+    TerrainLook look;          // fog, specular, sun
     std::unique_ptr<LandmarkSet> landmarks;  // null when there are none
     // Null without baked light. What is lit by it is `color`, which changes when the sun moves.
     std::unique_ptr<TerrainIllumination> illumination;

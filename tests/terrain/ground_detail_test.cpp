@@ -82,8 +82,7 @@ TEST(GroundDetail, EachSetShadesAsThePlainStatementSays) {
                     const double north = (h01 - h00 + hit.u * (h11 - h01 - h10 + h00)) / ground.spacing().y;
                     const double approach = std::abs(ray.z - ray.x * east - ray.y * north);
                     const double footprint = hit.t * pixel * std::max(1.0, glm::length(ray) / approach);
-                    const double light =
-                        detailAt(data, hit.i, hit.j, hit.u, hit.v, footprint);
+                    const double light = detailAt(data, hit.i, hit.j, hit.u, hit.v, footprint);
                     const glm::vec3 is = rootsOf(after.color.at(x, y));
                     const glm::vec3 expected =
                         rootsOf(before.color.at(x, y)) * static_cast<float>(std::sqrt(1 + light));
@@ -154,10 +153,8 @@ TEST(GroundDetail, HasNoSeams) {
     const DetailData data = detail.forKernels(TerrainLook());
     for (int k = 0; k < 200; ++k) {
         const double v = k / 200.0;
-        EXPECT_NEAR(detailAt(data, 30, 20, 1 - 1e-9, v, 0.01), detailAt(data, 31, 20, 0, v, 0.01),
-                    1e-5);
-        EXPECT_NEAR(detailAt(data, 30, 20, v, 1 - 1e-9, 0.01), detailAt(data, 30, 21, v, 0, 0.01),
-                    1e-5);
+        EXPECT_NEAR(detailAt(data, 30, 20, 1 - 1e-9, v, 0.01), detailAt(data, 31, 20, 0, v, 0.01), 1e-5);
+        EXPECT_NEAR(detailAt(data, 30, 20, v, 1 - 1e-9, 0.01), detailAt(data, 30, 21, v, 0, 0.01), 1e-5);
         const double footprint = 0.02 * std::pow(1.05, k);
         EXPECT_NEAR(detailAt(data, 30, 20, 0.3, 0.6, footprint),
                     detailAt(data, 30, 20, 0.3, 0.6, footprint * 1.0001), 1e-3);
