@@ -1,28 +1,46 @@
 // A ground at coarser and coarser sampling, with a bound of how far each level lies from the ground itself.
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "terrain/ground/heightfield.h"
+#include "terrain/ground/level_step.h"
 
 namespace stereonav {
+
+// A ground whose levels lie elsewhere, as on disk (terrain/tiles). Sizes of its levels follow from the first.
+struct StoredLevels {
+    glm::ivec2 size{0};                      // samples of the ground itself
+    glm::dvec2 spacing{1.0};                 // metres between them
+    float low = 0, high = 0;                 // metres, of all samples that are known
+    std::vector<std::vector<float>> bounds;  // of each level's blocks, row by row; metres
+    // Samples low to low + size - 1 of a level; from several threads at once.
+    std::function<void(int level, const glm::ivec2& low, const glm::ivec2& size, float* heights)> read;
+};
 
 // Sample (i, j) of level k lies at sample (i, j) * 2^k of the ground. From one level to the next heights are
 // averaged with the weights 1 2 1 each way, over the samples that are known; a sample that is missing stays
 // so. A level ends at its last sample: up to 2^k - 1 cells at the ground's north and east are not part of it.
 class GroundLevels {
 public:
-    static constexpr int kBlock = 64;  // cells of a level along each side of a block
+    static constexpr int kBlock = kLevelBlock;  // cells of a level along each side of a block
 
     // ground must outlive this. Levels end before one that would have less than a block each way.
     explicit GroundLevels(const Heightfield& ground);
+    explicit GroundLevels(StoredLevels stored);
 
-    const Heightfield& ground() const { return mGround; }
     int count() const { return static_cast<int>(mLevels.size()); }  // level 0 is the ground
     glm::ivec2 size(int level) const { return mLevels[level].size; }
-    const float* heights(int level) const;  // row 0 southernmost; as many as size() says
-    glm::dvec2 spacing(int level) const { return mGround.spacing() * double(1 << level); }
+    glm::dvec2 spacing(int level) const { return mSpacing * double(1 << level); }
+    glm::dvec2 originWorld() const { return mOrigin; }  // of sample (0, 0) of every level
+    float minHeight() const { return mLow; }            // metres, of the ground
+    float maxHeight() const { return mHigh; }
+    glm::dvec2 gridFromWorld(const glm::dvec2& world) const { return (world - mOrigin) / mSpacing; }
+    bool contains(const glm::dvec2& world) const;
+    bool stored() const { return mGround == nullptr; }  // elsewhere than in memory
 
     glm::ivec2 blocks(int level) const { return mLevels[level].blocks; }
     // Metres: the surface of that level is nowhere further from the ground's, above or below, over that
@@ -30,23 +48,28 @@ public:
     float errorBound(int level, int blockI, int blockJ) const {
         return mLevels[level].bounds[static_cast<std::size_t>(blockJ) * mLevels[level].blocks.x + blockI];
     }
-    float errorBound(int level) const;  // the largest of a level
+    float errorBound(int level) const { return mLevels[level].most; }  // the largest of a level
 
-    // Samples low to low + size - 1 of a level.
-    Heightfield part(int level, const glm::ivec2& low, const glm::ivec2& size) const;
-    std::size_t byteCount() const;  // beside the ground
+    // Samples low to low + size - 1 of a level. None where no cell of them is known. Throws Error where they
+    // are stored and can not be read.
+    std::optional<Heightfield> part(int level, const glm::ivec2& low, const glm::ivec2& size) const;
+    std::size_t byteCount() const;  // in memory, beside the ground
 
 private:
     struct Level {
         glm::ivec2 size{0}, blocks{0};
-        std::vector<float> heights;  // empty at level 0
+        std::vector<float> heights;  // empty at level 0, and where they are stored
         std::vector<float> bounds;
+        float most = 0;
     };
     void addLevel();
-    float boundOf(const Level& made, int blockI, int blockJ) const;
+    LevelRows rowsOf(int level) const;
 
-    const Heightfield& mGround;
+    const Heightfield* mGround = nullptr;  // null: stored
+    glm::dvec2 mSpacing{1.0}, mOrigin{0.0};
+    float mLow = 0, mHigh = 0;
     std::vector<Level> mLevels;
+    std::function<void(int, const glm::ivec2&, const glm::ivec2&, float*)> mRead;
 };
 
 }  // namespace stereonav

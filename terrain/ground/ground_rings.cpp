@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <optional>
+#include <utility>
 
 namespace stereonav {
 namespace {
@@ -23,17 +24,17 @@ struct Span {
 class Planner {
 public:
     Planner(const GroundLevels& levels, const RingWish& wish)
-        : mLevels(levels), mWish(wish), mEye(levels.ground().gridFromWorld(glm::dvec2(wish.eye))) {
-        const Heightfield& ground = levels.ground();
-        mOver = std::max({0.0, wish.eye.z - ground.maxHeight(), ground.minHeight() - wish.eye.z});
+        : mLevels(levels), mWish(wish), mEye(levels.gridFromWorld(glm::dvec2(wish.eye))) {
+        mOver = std::max({0.0, wish.eye.z - levels.maxHeight(), levels.minHeight() - wish.eye.z});
     }
 
     // Blocks of that level that must be finer; none where all may be of it.
     std::optional<Span> tooCoarse(int level) const {
         std::optional<Span> all;
-        const glm::ivec2 blocks = mLevels.blocks(level);
-        for (int j = 0; j < blocks.y; ++j)
-            for (int i = 0; i < blocks.x; ++i) {
+        glm::ivec2 low, end;
+        if (!blocksWithin(level, low, end)) return all;
+        for (int j = low.y; j < end.y; ++j)
+            for (int i = low.x; i < end.x; ++i) {
                 const Span block = spanOf(level, i, j);
                 if (mLevels.errorBound(level, i, j) <= mWish.share * mWish.pixelAngle * distanceTo(block))
                     continue;
@@ -48,6 +49,17 @@ public:
     }
 
 private:
+    // Where the level's largest bound is too much: blocks low to end - 1. False: nowhere.
+    bool blocksWithin(int level, glm::ivec2& low, glm::ivec2& end) const {
+        const double reach = mLevels.errorBound(level) / (mWish.share * mWish.pixelAngle);
+        if (!(reach > mOver)) return false;
+        const glm::dvec2 block = double(kBlock) * mLevels.spacing(level),
+                         eye = mEye * mLevels.spacing(0) / block, aside = reach / block + 1.0,
+                         blocks(mLevels.blocks(level));
+        low = glm::ivec2(glm::clamp(glm::floor(eye - aside), glm::dvec2(0), blocks));
+        end = glm::ivec2(glm::clamp(glm::ceil(eye + aside), glm::dvec2(0), blocks));
+        return low.x < end.x && low.y < end.y;
+    }
     Span spanOf(int level, int i, int j) const {
         const glm::ivec2 low = kBlock * glm::ivec2(i, j), last = mLevels.size(level) - 1;
         return {low * (1 << level), glm::min(low + kBlock, last) * (1 << level)};
@@ -55,7 +67,7 @@ private:
     // Metres at least, to anything of the ground within it.
     double distanceTo(const Span& block) const {
         const glm::dvec2 aside = glm::max(glm::dvec2(block.low) - mEye, mEye - glm::dvec2(block.high));
-        const glm::dvec2 metres = glm::max(aside, glm::dvec2(0)) * mLevels.ground().spacing();
+        const glm::dvec2 metres = glm::max(aside, glm::dvec2(0)) * mLevels.spacing(0);
         return std::hypot(metres.x, metres.y, mOver);
     }
 
@@ -89,7 +101,7 @@ std::vector<RingBox> planRings(const GroundLevels& levels, const RingWish& wish)
     const int last = levels.count() - 1;
     if (!(wish.share > 0 && wish.pixelAngle > 0)) return {wholeOf(levels, 0)};
     const Planner planner(levels, wish);
-    if (!levels.ground().contains(glm::dvec2(wish.eye))) {
+    if (!levels.contains(glm::dvec2(wish.eye))) {
         for (int level = last; level > 0; --level)
             if (!planner.tooCoarse(level)) return {wholeOf(levels, level)};
         return {wholeOf(levels, 0)};
@@ -122,9 +134,11 @@ std::shared_ptr<const GroundRings> makeRings(const GroundLevels& levels, const s
             for (const auto& kept : before->rings)
                 if (kept->box == box) ring = kept;
         if (!ring) {
+            std::optional<Heightfield> part = levels.part(box.level, box.low, box.size);
+            if (!part) continue;  // a hole, which the levels above have too
             auto fresh = std::make_shared<GroundRing>();
             fresh->box = box;
-            fresh->ground = levels.part(box.level, box.low, box.size);
+            fresh->ground = std::move(*part);
             fresh->maxima = HeightPyramid(fresh->ground);
             ring = std::move(fresh);
         }

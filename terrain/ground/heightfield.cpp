@@ -85,6 +85,15 @@ Heightfield::Heightfield(int width, int height, glm::dvec2 spacing, std::vector<
     if (mHasHoles) mMaxSlope = std::numeric_limits<double>::infinity();
 }
 
+bool Heightfield::anyCell(int width, int height, const float* heights) {
+    for (int j = 0; j + 1 < height; ++j)
+        for (int i = 0; i + 1 < width; ++i) {
+            const float *south = heights + static_cast<std::ptrdiff_t>(j) * width + i, *north = south + width;
+            if (std::isfinite(south[0] + south[1] + north[0] + north[1])) return true;
+        }
+    return false;
+}
+
 bool Heightfield::contains(const glm::dvec2& world) const {
     const glm::dvec2 g = gridFromWorld(world);
     return g.x >= 0 && g.y >= 0 && g.x <= mWidth - 1 && g.y <= mHeight - 1;

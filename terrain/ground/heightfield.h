@@ -30,6 +30,9 @@ public:
         mOrigin = originWorld;
     }
 
+    // Whether there is a cell whose four samples are known: without one there is no ground.
+    static bool anyCell(int width, int height, const float* heights);
+
     int width() const { return mWidth; }    // samples, >= 2
     int height() const { return mHeight; }  // samples, >= 2
     glm::dvec2 spacing() const { return mSpacing; }

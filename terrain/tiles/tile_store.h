@@ -1,0 +1,50 @@
+// Heights of a ground of any size, on disk, at all levels: what is near an eye is read from here.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "terrain/tiles/tile_file.h"
+
+namespace stereonav {
+
+// Levels, bounds and blocks are those of GroundLevels. Bounds are in memory: 4 bytes for 4,096 samples. Any
+// number of threads may read.
+class TileStore {
+public:
+    // content: names what the heights must be of. Throws Error named by the file where it is of something
+    // else, is cut off, or its index is damaged.
+    TileStore(const std::filesystem::path& file, std::uint64_t content);
+    ~TileStore();
+    TileStore(const TileStore&) = delete;
+    TileStore& operator=(const TileStore&) = delete;
+
+    int levels() const { return static_cast<int>(mPlan.levels().size()); }
+    glm::ivec2 size(int level) const { return mPlan.levels()[level].size; }
+    float low() const { return mHead.low; }  // metres, of all samples
+    float high() const { return mHead.high; }
+    long long missing() const { return mHead.missing; }
+    // Of a level, by rows of blocks; metres.
+    const std::vector<float>& bounds(int level) const { return mBounds[level]; }
+
+    // Samples low to low + size - 1 of a level, which has them; rows of size.x, the southernmost first.
+    // Throws Error named by the file where a tile can not be read or is damaged.
+    void read(int level, const glm::ivec2& low, const glm::ivec2& size, float* heights) const;
+
+    const std::filesystem::path& file() const { return mFile; }
+    std::uint64_t byteCount() const { return mPlan.byteCount(); }  // on disk
+
+private:
+    void readTile(int level, const glm::ivec2& tile, float* heights) const;
+
+    std::filesystem::path mFile;
+    int mDescriptor = -1;
+    TileFileHead mHead;
+    TileFilePlan mPlan{glm::ivec2(2)};
+    std::vector<std::vector<float>> mBounds;
+    std::vector<std::vector<std::uint64_t>> mChecks;
+};
+
+}  // namespace stereonav
