@@ -107,6 +107,8 @@ struct SceneOptions {
     std::string scene;
     double verticalScale = 0;  // 0: as the scene says
     bool openHoles = false;
+    TilesChoice tiles = TilesChoice::Auto;
+    double memory_bytes = 0;            // that the program may take; 0: what the system says
     std::string image, sky;             // pictures; "": as the scene says
     bool physicalSky = false;           // by scattering in the air
     double visibility_m = 0;            // of it; 0: as usual

@@ -99,6 +99,7 @@ Facts factsOfTerrain(const Scene& scene) {
     list.json("open_samples", std::int64_t{report.openSamples});
     list.text("missing", missingText(report));
     list.json("open_holes", ground.hasHoles());
+    wherePresent("tiles", report.tiles, "tiles");
     list.both("color", report.colorSource, "colour", orNone(report.colorSource));
     const bool colored = terrain.color.levelCount() > 0;
     list.json("color_size", FactIntegers{colored ? terrain.color.level(0).width() : 0,

@@ -79,6 +79,9 @@ struct ValueRange {
     double low = 0, high = 0;  // of the volume's values, low <= high
 };
 
+// --tiles: whether an elevation model goes into tiles on disk; as GroundTiles of a terrain.
+enum class TilesChoice : std::uint8_t { Auto, On, Off };
+
 // --sweep: where a medium is swept.
 enum class SweepChoice : std::uint8_t {
     Auto,  // what makes a scene's first frame faster; under a software renderer the processor, unasked

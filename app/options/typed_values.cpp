@@ -5,6 +5,7 @@
 
 #include "app/options/option_numbers.h"
 #include "engine/math/constants.h"
+#include "engine/text/number.h"
 
 namespace stereonav {
 
@@ -46,6 +47,25 @@ LightChoice lightChoiceOf(const OptionValue& value) {
     if (value.text == "lazy-transfer") return {Kind::LazyTransfer, ""};
     if (value.text == "traced") return {Kind::Traced, ""};
     return {Kind::File, value.text};
+}
+
+double bytesOfMemoryText(const std::string& text) {
+    constexpr double kLeast = 10e6;
+    std::string number = text;
+    double unit = 1;
+    if (!number.empty()) {
+        const char last = number.back();
+        unit = last == 'G' ? 1e9 : last == 'M' ? 1e6 : last == 'k' ? 1e3 : 1;
+        if (unit > 1) number.pop_back();
+    }
+    const auto value = numberOf(number);
+    const double bytes = value ? *value * unit : 0;
+    return bytes >= kLeast && std::isfinite(bytes) ? bytes : 0;
+}
+
+std::optional<ValueProblem> problemOfMemory(const std::string& text) {
+    if (bytesOfMemoryText(text) > 0) return std::nullopt;
+    return ValueProblem{"expected bytes, 10 MB or more, got \"" + text + "\"", "write 2G, 500M or 2e9"};
 }
 
 UpAxis upAxisOf(const OptionValue& value) {

@@ -10,6 +10,10 @@
 
 namespace stereonav {
 
+// "2G", "500M" or bytes, of 10 MB and more. For what that cannot be of, the problem; 0 bytes.
+std::optional<ValueProblem> problemOfMemory(const std::string& text);
+double bytesOfMemoryText(const std::string& text);
+
 // Of a Word: the enumerator in its place.
 template <typename Enum>
 Enum choiceOf(const OptionValue& value) {

@@ -17,7 +17,7 @@ std::shared_ptr<const ColorTexture> GroundColors::texture() const {
     return mWorn ? mWorn : std::shared_ptr<const ColorTexture>(std::shared_ptr<void>(), &mTerrain.color);
 }
 
-void GroundColors::wear(std::shared_ptr<const ColorTexture> texture, bool painted) {
+void GroundColors::wear(std::shared_ptr<const ColorTexture> texture, bool painted, PartColors parts) {
     // What is cast until others are.
     const std::shared_ptr<const ColorTexture> before = std::exchange(mWorn, std::move(texture));
     const ColorTexture litBefore = std::exchange(mLit, ColorTexture());
@@ -29,7 +29,7 @@ void GroundColors::wear(std::shared_ptr<const ColorTexture> texture, bool painte
     } else if (illumination) {
         illumination->apply(mTerrain.look, mTerrain.color);
     }
-    mRenderer.showColors(illumination && mWorn ? mLit : *this->texture(), illumination);
+    mRenderer.showColors(illumination && mWorn ? mLit : *this->texture(), illumination, std::move(parts));
 }
 
 void GroundColors::turnSun(const SunPlace& to) {

@@ -17,8 +17,8 @@ public:
     GroundColors(TerrainScene& terrain, TerrainRenderer& renderer);
 
     // texture: as a scene would be loaded with it, null: as this one was. painted: it is paint in the place
-    // of the ground's own colours.
-    void wear(std::shared_ptr<const ColorTexture> texture, bool painted);
+    // of the ground's own colours. parts: as TerrainRenderer::showColors() has them.
+    void wear(std::shared_ptr<const ColorTexture> texture, bool painted, PartColors parts);
     bool painted() const { return mPainted; }
     // What the terrain was loaded with, or what it wears.
     std::shared_ptr<const ColorTexture> texture() const;

@@ -85,6 +85,7 @@ std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
 void checkSceneOptions(const SceneOptions& options) {
     for (const NamedPlace& input : inputsOf(options)) checkSource(input);
     if (options.threads > 0) setThreadCount(options.threads);
+    limitMemory(options.memory_bytes);
     shownAs(options).check(options);
 }
 

@@ -23,9 +23,10 @@ namespace {
 constexpr double kCrossingSeconds = 45.0;  // to cross the terrain at normal speed
 
 FlightSetting flightSettingOf(const TerrainScene& terrain) {
-    const glm::dvec2 spacing = terrain.ground.spacing();
+    const glm::dvec2 held = terrain.ground.spacing(),
+                     spacing = terrain.tiled ? terrain.tiled->levels->spacing(0) : held;
     const double extent =
-        std::max(spacing.x * (terrain.ground.width() - 1), spacing.y * (terrain.ground.height() - 1));
+        std::max(held.x * (terrain.ground.width() - 1), held.y * (terrain.ground.height() - 1));
     FlightSetting setting;
     setting.clearance = terrain.clearance;
     setting.followHeight = std::max(4 * terrain.clearance, extent / 150);
@@ -37,7 +38,7 @@ FlightSetting flightSettingOf(const TerrainScene& terrain) {
 }  // namespace
 
 std::unique_ptr<Flight> flightOver(const TerrainScene& terrain) {
-    const auto ground = [&terrain](const glm::dvec2& place) { return terrain.ground.heightAt(place); };
+    const auto ground = [&terrain](const glm::dvec2& place) { return terrain.heightAt(place); };
     return std::make_unique<Navigator>(ground, terrain.startPose, flightSettingOf(terrain));
 }
 
@@ -167,6 +168,17 @@ private:
     TerrainDaylight mBaker;
 };
 
+// Pictures that did not wait for tiles are drawn again when these are there.
+class ShownTerrain::LateTiles final : public SeenLight {
+public:
+    explicit LateTiles(const TerrainRenderer& renderer) : mRenderer(renderer) {}
+    void seen(const EyeView&, const EyeImage&) override {}
+    std::uint64_t changes() const override { return mRenderer.arrivals(); }
+
+private:
+    const TerrainRenderer& mRenderer;
+};
+
 ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsItself)
     : mTerrain(std::move(terrain)),
       mSurvey(mTerrain),
@@ -185,6 +197,10 @@ ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsI
         offer<TurningLight>(*mDaylight);
         offer<SeenLight>(*mDaylight);
     }
+    if (mTerrain.ringsMayBeLate) {
+        mTiles = std::make_unique<LateTiles>(mRenderer);
+        offer<SeenLight>(*mTiles);
+    }
     if (!mTerrain.illumination) return;
     mSun = std::make_unique<Sun>(mColors);
     offer<TurningLight>(*mSun);
@@ -194,7 +210,8 @@ ShownTerrain::~ShownTerrain() = default;
 
 void ShownTerrain::paintGround(const SceneOptions& options, Progress& progress) {
     const auto wear = [this](const GroundWorn& worn) {
-        mColors.wear(worn.texture, worn.paint != GroundPaint::None);
+        mColors.wear(worn.texture, worn.paint != GroundPaint::None,
+                     worn.texture ? partColorsOf(mTerrain, worn.paint, worn.sun) : partColorsOf(mTerrain));
         if (mDaylight) mDaylight->colorsChanged();
     };
     mPainting = std::make_unique<GroundPainting>(mTerrain, mRenderer.fog(), options, mPaint, wear);

@@ -76,6 +76,7 @@ public:
 private:
     class Sun;
     class Daylight;
+    class LateTiles;
 
     TerrainScene mTerrain;
     TerrainSurvey mSurvey;
@@ -88,6 +89,7 @@ private:
     std::unique_ptr<GroundPainting> mPainting;   // null before paintGround()
     std::unique_ptr<TurningLight> mSun;          // null: it stands in the colours
     std::unique_ptr<Daylight> mDaylight;
+    std::unique_ptr<LateTiles> mTiles;  // null: pictures wait for all they need
 };
 
 }  // namespace stereonav

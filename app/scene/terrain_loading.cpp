@@ -34,11 +34,18 @@ void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
                     "name one with --image, or leave it out");
 }
 
+GroundTiles tilesOf(TilesChoice choice) {
+    return choice == TilesChoice::Auto ? GroundTiles::Auto
+           : choice == TilesChoice::On ? GroundTiles::On
+                                       : GroundTiles::Off;
+}
+
 // The scene's file with what the options change.
 SceneFile describeTerrain(const SceneOptions& options) {
     SceneFile scene = sceneFileFromName(options.scene);
     if (options.verticalScale > 0.0) scene.verticalScale = options.verticalScale;
     if (options.openHoles) scene.openHoles = true;
+    scene.tiles = tilesOf(options.tiles);
     if (!options.image.empty()) scene.image = options.image;
     scene.paint = groundPaintOf(options);
     if (options.shadeImage) scene.look.shadeImage = true;
@@ -86,7 +93,9 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
         terrain.path = followedTrack(terrain, options.ground.follow, options.ground.followHeight_m);
         if (!terrain.eyesGiven) terrain.stereo = followedEyes(options.ground.followHeight_m);
     }
-    terrain.detail = options.groundDetail && !shownAs(options).swept;
+    // Tiled ground has its own detail near the eye.
+    terrain.detail = options.groundDetail && !shownAs(options).swept && !terrain.tiled;
+    terrain.ringsMayBeLate = terrain.tiled && options.lightLater;
     terrain.levelOfDetail = options.levelOfDetail;
     return terrain;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -67,18 +68,29 @@ double taken() {
     return 1024 * valueIn("/proc/self/status", "RssAnon:", 0);
 }
 
-// Of the user's own limit.
+std::atomic<double> limitOfAll = 0;  // 0: none
+
+double leftOf(double limit) {
+    return std::max(0.0, limit - taken());
+}
+
+// Of the user's own limits.
 double leftOfWish() {
+    const double limit = limitOfAll, left = limit > 0 ? leftOf(limit) : kUnlimited;
     const char* text = std::getenv("STEREONAV_MEMORY");
-    if (!text) return kUnlimited;
+    if (!text) return left;
     char* end = nullptr;
     const double most = std::strtod(text, &end);
     if (end == text || *end != '\0' || !(most >= 0))
         throw Error("STEREONAV_MEMORY", "", fmt::format("expected bytes, got \"{}\"", text), "2e9 are 2 GB");
-    return std::max(0.0, most - taken());
+    return std::min(left, leftOf(most));
 }
 
 }  // namespace
+
+void limitMemory(double bytes) {
+    limitOfAll = bytes;
+}
 
 double availableMemory(const fs::path& root) {
     const double kilobytes = valueIn(root / "proc/meminfo", "MemAvailable:", kUnlimited);

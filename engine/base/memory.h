@@ -12,6 +12,10 @@ namespace stereonav {
 // root: where proc and sys are; another one for tests.
 double availableMemory(const std::filesystem::path& root = "/");
 
+// From now on no more than these bytes are taken in all, for what is asked for here; 0: what the system
+// gives.
+void limitMemory(double bytes);
+
 // The same, where `bytes` are about to be taken. The file that the environment variable
 // STEREONAV_MEMORY_ASKED names gets a line for each such question: the bytes that the process has taken, and
 // those asked for.

@@ -1,16 +1,44 @@
 #include "terrain/cast/ring_scenes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
 
+#include "engine/base/lone_loops.h"
 #include "engine/base/memory.h"
+#include "engine/base/thread_priority.h"
 #include "terrain/cast/caster_scene.h"
 
 namespace stereonav {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+constexpr double kMaxima = 4.0 / 3;       // of what the finest level of them takes, and of a texture's
+constexpr int kMargin = 8;                // samples around a part that its colours look at
+constexpr double kColored = 4 * kMaxima;  // bytes a sample
+constexpr double kColoring = 24;          // and meanwhile
+constexpr double kOfFree = 0.6;           // of the memory that can be had, for rings
+
 double bytesBeside(const Heightfield& ground) {
-    constexpr double kLevels = 4.0 / 3, kBoxes = 4 * (1 + 4.0 / 3) * 4.0 / 3;  // a sample
+    constexpr double kLevels = 4.0 / 3, kBoxes = 4 * (1 + kMaxima) * 4.0 / 3;  // a sample
     return (kLevels + 2 * kBoxes) * ground.width() * ground.height();
+}
+
+double samplesOf(const RingBox& box) {
+    return double(box.size.x) * box.size.y;
+}
+
+// Held by rings, and those before them until these are there.
+double bytesOf(const std::vector<RingBox>& boxes, bool colored) {
+    double samples = 0, most = 0;
+    for (const RingBox& box : boxes) {
+        samples += samplesOf(box);
+        most = std::max(most, samplesOf(box));
+    }
+    return 2 * (4 * (1 + kMaxima) + (colored ? kColored : 0)) * samples + (colored ? kColoring * most : 0);
 }
 
 }  // namespace
@@ -18,40 +46,182 @@ double bytesBeside(const Heightfield& ground) {
 // Levels, and boxes of the finest ones, whose maxima are a third more; those before them are held until they
 // are there.
 RingScenes::RingScenes(const Heightfield& ground, double share)
-    : mLevels((checkMemory("--level-of-detail", bytesBeside(ground), "leave it out"), ground)),
-      mShare(share) {}
+    : mLevels((checkMemory("--level-of-detail", bytesBeside(ground), "leave it out"),
+               std::make_shared<GroundLevels>(ground))),
+      mShare(share),
+      mShareNow(share) {}
+
+RingScenes::RingScenes(std::shared_ptr<const GroundLevels> levels, int whole, double share)
+    : mLevels(std::move(levels)),
+      mWhole(whole),
+      mBudget(kOfFree * availableMemory()),
+      mShare(share),
+      mShareNow(share) {}
+
+RingScenes::~RingScenes() = default;
+
+void RingScenes::colorParts(PartColors colors) {
+    mColors = std::move(colors);
+    ++mColorVersion;
+}
+
+// Stored levels that would not fit are taken coarser.
+std::vector<RingBox> RingScenes::plan(const EyeView& view, const glm::dvec3& way) {
+    RingWish wish{view.eye, std::max(view.pixelWidth(), view.pixelHeight()), mShare, way};
+    std::vector<RingBox> boxes = planRings(*mLevels, wish);
+    if (mLevels->stored()) {
+        constexpr double kCoarser = 1.25, kMostShare = 1e6;
+        while (bytesOf(boxes, mColors != nullptr) > mBudget && wish.share < kMostShare) {
+            wish.share *= kCoarser;
+            boxes = planRings(*mLevels, wish);
+        }
+    }
+    mShareNow = wish.share;
+    return boxes;
+}
 
 void RingScenes::lookFrom(const EyeView& view) {
-    const RingWish wish{view.eye, std::max(view.pixelWidth(), view.pixelHeight()), mShare};
-    std::vector<RingBox> boxes = planRings(mLevels, wish);
-    if (boxes == mBoxes) return;
-    const bool itself = boxes.size() == 1 && boxes.front().level == 0;
-    mRings = itself ? nullptr : makeRings(mLevels, boxes, mRings.get());
+    mMayBeLate&& any() ? lookLater(view) : lookNow(view);
+}
+
+void RingScenes::lookNow(const EyeView& view) {
+    std::vector<RingBox> boxes = plan(view, glm::dvec3(0.0));
+    if (boxes == mBoxes && mSetColors == mColorVersion) return;
+    const bool itself = !mLevels->stored() && boxes.size() == 1 && boxes.front().level == 0;
+    Set set = itself ? Set() : make(boxes, mSet, mColors, mColorVersion);
+    mSetColors = mColorVersion;
+    show(std::move(set), std::move(boxes));
+    mShown = mSet;
+}
+
+// The rings are made for some way ahead, and again when they do not reach that far any more.
+void RingScenes::lookLater(const EyeView& view) {
+    constexpr double kSoon = 2, kAhead = 6;  // seconds
+    if (mWork.valid() && mWork.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        Set set = mWork.get();
+        mSetColors = mComingColors;
+        show(std::move(set), std::exchange(mComing, {}));
+    }
+    const glm::dvec3 soon = wayOf(view.eye, kSoon);
+    const bool covered = coverRings(mBoxes, plan(view, soon)) && mSetColors == mColorVersion;
+    mLate = !coverRings(mBoxes, plan(view, glm::dvec3(0.0)));
+    if (!covered && !mWork.valid()) begin(plan(view, soon * (kAhead / kSoon)));
+    showAround(view.eye);
+}
+
+// Of the last pictures, which may stand still, or jump: none then.
+glm::dvec3 RingScenes::wayOf(const glm::dvec3& eye, double seconds) {
+    constexpr double kJump = 1, kSmooth = 0.8;  // seconds without pictures; share of what was there
+    const Clock::time_point now = Clock::now();
+    if (mSeen) {
+        const double passed = std::chrono::duration<double>(now - mSeen->when).count();
+        const glm::dvec3 velocity = (eye - mSeen->eye) / std::max(passed, 1e-3);
+        mVelocity = passed > kJump ? glm::dvec3(0.0) : glm::mix(velocity, mVelocity, kSmooth);
+    }
+    mSeen = Seen{eye, now};
+    return seconds * mVelocity;
+}
+
+void RingScenes::begin(std::vector<RingBox> boxes) {
+    if (boxes == mBoxes && mSetColors == mColorVersion) return;
+    mComing = std::move(boxes);
+    mComingColors = mColorVersion;
+    mWork = std::async(std::launch::async, [this, boxes = mComing, before = mSet, colors = mColors,
+                                            version = mColorVersion, arrivals = mArrivals] {
+        loopOnThisThreadAlone();
+        stepBehindTheWindow();
+        Set set = make(boxes, before, colors, version);
+        ++*arrivals;
+        return set;
+    });
+}
+
+void RingScenes::show(Set set, std::vector<RingBox> boxes) {
+    mSet = std::move(set);
     mBoxes = std::move(boxes);
 }
 
-void RingScenes::dress(const CasterScene& foggy, const CasterScene& clear) {
-    if (!any()) return;
-    mFoggy = dressed(foggy);
-    mClear = dressed(clear);
+// What the eye has left of the set is not cast: rays start in the finest ring that is.
+void RingScenes::showAround(const glm::dvec3& eye) {
+    std::vector<RingBox> held;
+    for (const auto& ring : mSet.rings->rings) held.push_back(ring->box);
+    const std::vector<RingBox> around = ringsAround(*mLevels, held, eye);
+    if (around.size() == held.size()) {
+        mShown = mSet;
+        return;
+    }
+    auto rings = std::make_shared<GroundRings>();
+    Set shown;
+    for (std::size_t n = 0; n < held.size(); ++n) {
+        if (std::find(around.begin(), around.end(), held[n]) == around.end()) continue;
+        rings->rings.push_back(mSet.rings->rings[n]);
+        shown.colors.push_back(mSet.colors[n]);
+    }
+    rings->steepest = mSet.rings->steepest;
+    rings->errorBound = mSet.rings->errorBound;
+    shown.rings = std::move(rings);
+    mShown = std::move(shown);
 }
 
-std::vector<CasterScene> RingScenes::dressed(const CasterScene& whole) const {
-    const auto& rings = mRings->rings;
+RingScenes::Set RingScenes::make(const std::vector<RingBox>& boxes, const Set& before,
+                                 const PartColors& colors, int version) const {
+    Set set;
+    set.rings = makeRings(*mLevels, boxes, before.rings.get());
+    for (const auto& ring : set.rings->rings) {
+        std::shared_ptr<const Color> color;
+        if (colors && ring->box.level < mWhole) {
+            for (std::size_t n = 0; before.rings && n < before.colors.size(); ++n)
+                if (before.rings->rings[n]->box == ring->box && before.colors[n] &&
+                    before.colors[n]->version == version)
+                    color = before.colors[n];
+            if (!color) color = colorOf(ring->box, colors, version);
+        }
+        set.colors.push_back(std::move(color));
+    }
+    return set;
+}
+
+std::shared_ptr<const RingScenes::Color> RingScenes::colorOf(const RingBox& box, const PartColors& colors,
+                                                             int version) const {
+    const glm::ivec2 low = glm::max(box.low - kMargin, glm::ivec2(0)),
+                     end = glm::min(box.low + box.size + kMargin, mLevels->size(box.level));
+    const std::optional<Heightfield> part = mLevels->part(box.level, low, end - low);
+    auto made = std::make_shared<Color>();
+    made->first = glm::dvec2(box.low - low);
+    made->texture = colors(part.value());  // a ring has a cell at least
+    made->version = version;
+    return made;
+}
+
+void RingScenes::dress(const CasterScene& foggy, const CasterScene& clear, const GroundFilter& filter) {
+    if (!any()) return;
+    mFoggy = dressed(foggy, filter);
+    mClear = dressed(clear, filter);
+}
+
+std::vector<CasterScene> RingScenes::dressed(const CasterScene& whole, const GroundFilter& filter) const {
+    const auto& rings = mShown.rings->rings;
     std::vector<CasterScene> scenes(rings.size(), whole);
-    const auto steepest = static_cast<float>(mRings->steepest * (1 + 1e-6));
+    const auto steepest = static_cast<float>(mShown.rings->steepest * (1 + 1e-6));
     for (std::size_t n = 0; n < rings.size(); ++n) {
         const RingBox& box = rings[n]->box;
         CasterScene& scene = scenes[n];
         scene.ground = groundData(rings[n]->ground, rings[n]->maxima);
         // A ray's way is proven free by others that may have gone over any of the rings.
         scene.ground.maxSlope = steepest;
-        const auto step = static_cast<float>(1 << box.level);
         TextureData& texture = scene.texture;
-        texture.shiftX += static_cast<float>(box.low.x) * step * texture.scaleX;
-        texture.shiftY += static_cast<float>(box.low.y) * step * texture.scaleY;
-        texture.scaleX *= step;
-        texture.scaleY *= step;
+        glm::vec2 first, step(1.0f);
+        if (mShown.colors[n]) {
+            texture = textureData(mShown.colors[n]->texture, rings[n]->ground.spacing(), filter);
+            first = mShown.colors[n]->first;
+        } else {
+            step = glm::vec2(std::ldexp(1.0f, box.level - mWhole));
+            first = glm::vec2(box.low) * step;
+        }
+        texture.shiftX += first.x * texture.scaleX;
+        texture.shiftY += first.y * texture.scaleY;
+        texture.scaleX *= step.x;
+        texture.scaleY *= step.y;
         if (box.level > 0)
             scene.detail = {};
         else if (scene.detail.octaves > 0)
@@ -67,11 +237,12 @@ std::vector<CasterScene> RingScenes::dressed(const CasterScene& whole) const {
 }
 
 std::size_t RingScenes::byteCount() const {
-    std::size_t bytes = mLevels.byteCount();
-    if (mRings)
-        for (const auto& ring : mRings->rings)
-            bytes += ring->maxima.byteCount() +
-                     sizeof(float) * static_cast<std::size_t>(ring->box.size.x) * ring->box.size.y;
+    std::size_t bytes = mLevels->byteCount();
+    if (!mSet.rings) return bytes;
+    for (const auto& ring : mSet.rings->rings)
+        bytes += ring->maxima.byteCount() +
+                 sizeof(float) * static_cast<std::size_t>(ring->box.size.x) * ring->box.size.y;
+    for (const auto& color : mSet.colors) bytes += color ? color->texture.byteCount() : 0;
     return bytes;
 }
 

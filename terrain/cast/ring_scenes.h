@@ -1,43 +1,108 @@
 // Ground in rings as the casting kernels read it: the level of detail of a renderer, chosen for each frame.
 #pragma once
 
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <future>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/camera/eye_view.h"
+#include "engine/image/color_texture.h"
 #include "terrain/cast/caster_types.h"
 #include "terrain/ground/ground_rings.h"
+#include "terrain/scene/part_colors.h"
 
 namespace stereonav {
+
+struct GroundFilter;  // terrain_renderer.h
 
 class RingScenes {
 public:
     // ground must outlive this. share: RingWish::share, above 0. Throws Error where there is not enough
     // memory.
     RingScenes(const Heightfield& ground, double share);
+    // Of stored levels. The scenes that are given to dress() are of the samples of one of them, `whole`;
+    // there is nothing but rings then. Where they need more memory than can be had the share is made larger.
+    RingScenes(std::shared_ptr<const GroundLevels> levels, int whole, double share);
+    ~RingScenes();
 
-    // Chooses the rings for pictures of this view.
+    // That rings finer than the whole ground's samples are shown in, of what is chosen from now on; null: in
+    // the whole ground's.
+    void colorParts(PartColors colors);
+    // Whether rings may come later than the first picture they are for, from a thread of their own: what is
+    // there is cast meanwhile, from further and further away. Else lookFrom() waits for them.
+    void mayBeLate(bool may) { mMayBeLate = may; }
+
+    // Chooses the rings for pictures of this view. Throws Error where levels are stored and can not be read.
     void lookFrom(const EyeView& view);
     // Whether what was chosen differs from the ground itself.
-    bool any() const { return mRings != nullptr; }
-    const GroundRings& rings() const { return *mRings; }                         // where any()
-    const Heightfield& ground() const { return mRings->rings.front()->ground; }  // the finest
+    bool any() const { return mShown.rings != nullptr; }
+    const GroundRings& rings() const { return *mShown.rings; }                         // where any()
+    const Heightfield& ground() const { return mShown.rings->rings.front()->ground; }  // the finest
+    // Of the pictures that are cast now: the wish's, or more; whether finer rings are on their way.
+    double share() const { return mShareNow; }
+    bool late() const { return mLate; }
+    // Counts up, from any thread, when rings that were late are there.
+    std::uint64_t arrivals() const { return *mArrivals; }
 
     // As the scenes of the ground itself are, with and without fog, in all but the ground. Those must outlive
     // this, or others be given; what they point to, too.
-    void dress(const CasterScene& foggy, const CasterScene& clear);
+    void dress(const CasterScene& foggy, const CasterScene& clear, const GroundFilter& filter);
     const CasterScene& first(bool withoutFog) const { return (withoutFog ? mClear : mFoggy).front(); }
 
     std::size_t byteCount() const;
 
 private:
-    std::vector<CasterScene> dressed(const CasterScene& whole) const;
+    struct Color {
+        glm::dvec2 first{0.0};  // of the ring's sample (0, 0), in the grid of what was coloured
+        ColorTexture texture;
+        int version = 0;
+    };
+    // Rings, and the colours of each; null: the whole ground's.
+    struct Set {
+        std::shared_ptr<const GroundRings> rings;
+        std::vector<std::shared_ptr<const Color>> colors;
+    };
 
-    GroundLevels mLevels;
-    double mShare;
-    std::vector<RingBox> mBoxes;
-    std::shared_ptr<const GroundRings> mRings;  // null: the ground itself
-    std::vector<CasterScene> mFoggy, mClear;    // finest first
+    std::vector<RingBox> plan(const EyeView& view, const glm::dvec3& way);
+    Set make(const std::vector<RingBox>& boxes, const Set& before, const PartColors& colors,
+             int version) const;
+    std::shared_ptr<const Color> colorOf(const RingBox& box, const PartColors& colors, int version) const;
+    void lookNow(const EyeView& view);
+    void lookLater(const EyeView& view);
+    void begin(std::vector<RingBox> boxes);
+    void show(Set set, std::vector<RingBox> boxes);
+    void showAround(const glm::dvec3& eye);
+    glm::dvec3 wayOf(const glm::dvec3& eye, double seconds);
+    std::vector<CasterScene> dressed(const CasterScene& whole, const GroundFilter& filter) const;
+
+    std::shared_ptr<const GroundLevels> mLevels;
+    int mWhole = 0;      // level of the scenes that are dressed
+    double mBudget = 0;  // bytes of rings of stored levels
+    double mShare, mShareNow;
+    PartColors mColors;
+    int mColorVersion = 0;
+    bool mMayBeLate = false, mLate = false;
+
+    std::vector<RingBox> mBoxes;  // of mSet
+    Set mSet, mShown;    // all that is there; what of it is cast from here. null rings: the ground itself
+    int mSetColors = 0;  // version of the set's colours
+    std::vector<CasterScene> mFoggy, mClear;  // finest first
+
+    // Of rings that may be late.
+    std::shared_ptr<std::atomic<std::uint64_t>> mArrivals = std::make_shared<std::atomic<std::uint64_t>>(0);
+    std::vector<RingBox> mComing;
+    int mComingColors = 0;
+    std::future<Set> mWork;
+    struct Seen {
+        glm::dvec3 eye;
+        std::chrono::steady_clock::time_point when;
+    };
+    std::optional<Seen> mSeen;
+    glm::dvec3 mVelocity{0.0};  // metres a second
 };
 
 }  // namespace stereonav

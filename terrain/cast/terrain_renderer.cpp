@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -109,7 +110,15 @@ struct TerrainRenderer::State {
         return withoutFog ? clear : scene;
     }
     void ringsChanged() {
-        if (rings) rings->dress(scene, clear);
+        if (rings) rings->dress(scene, clear, filter);
+    }
+
+    // The finest of what is cast at that place.
+    const Heightfield& groundAt(const glm::dvec2& place, const Heightfield& whole) const {
+        if (rings && rings->any())
+            for (const auto& ring : rings->rings().rings)
+                if (ring->ground.contains(place)) return ring->ground;
+        return whole;
     }
 
     CasterView viewOver(const EyeView& view, const Heightfield& ground) const {
@@ -134,7 +143,23 @@ std::size_t TerrainRenderer::byteCount() const {
 }
 
 void TerrainRenderer::takeCoarser(double share) {
-    mState->rings = share > 0 ? std::make_unique<RingScenes>(mScene.ground, share) : nullptr;
+    if (!mScene.tiled) {
+        mState->rings = share > 0 ? std::make_unique<RingScenes>(mScene.ground, share) : nullptr;
+        return;
+    }
+    mState->rings = std::make_unique<RingScenes>(mScene.tiled->levels, mScene.tiled->level,
+                                                 share > 0 ? share : TerrainScene::kTiledShare);
+    mState->rings->mayBeLate(mScene.ringsMayBeLate);
+    mState->rings->colorParts(partColorsOf(mScene));
+}
+
+std::uint64_t TerrainRenderer::arrivals() const {
+    return mState->rings ? mState->rings->arrivals() : 0;
+}
+
+TerrainRenderer::Detail TerrainRenderer::ringDetail() const {
+    if (!rings()) return {};
+    return {mState->rings->share(), mState->rings->late()};
 }
 
 const GroundRings* TerrainRenderer::rings() const {
@@ -171,8 +196,8 @@ void TerrainRenderer::finish(const EyeView& view, std::span<const PixelIndex> pi
         image.baseColor.at(p.x, p.y) = image.color.at(p.x, p.y);
         const glm::dvec3 point = view.pointAt(p.x + 0.5, p.y + 0.5, std::isfinite(depth) ? depth : 0.0);
         // Landmarks are matt: a normal turned from the sun has no highlight.
-        const glm::dvec3 normal =
-            onLandmark[k] ? -mState->specular.toSun() : mScene.ground.normalAt(glm::dvec2(point));
+        const glm::dvec3 normal = onLandmark[k] ? -mState->specular.toSun()
+                                                : mState->groundAt(point, mScene.ground).normalAt(point);
         image.normal.at(p.x, p.y) = packNormal(normal);
         shadeAgain(view, p.y, p.x, p.x + 1, image);
     }
@@ -265,7 +290,9 @@ void TerrainRenderer::sunMoved() {
     mState->ringsChanged();
 }
 
-void TerrainRenderer::showColors(const ColorTexture& lit, const TerrainIllumination* light) {
+void TerrainRenderer::showColors(const ColorTexture& lit, const TerrainIllumination* light,
+                                 PartColors parts) {
+    if (mState->rings) mState->rings->colorParts(std::move(parts));
     mState->light = light;
     mState->scene.texture = mState->clear.texture = textureData(lit, mScene.ground.spacing(), mState->filter);
     sunMoved();
@@ -389,7 +416,9 @@ bool TerrainRenderer::mayHitBeyondEdgeFrom(const EyeView& view, PixelRect rect, 
                                            double parallaxScale, double& freeDepth) const {
     if (rect.x1 >= column) return true;
     const double end = parallaxScale / (column - rect.x1);
-    const double coarser = rings() ? rings()->errorBound : 0;  // than the ground itself
+    // What is cast, and the ground that is looked at here, may each be off the ground itself.
+    double coarser = rings() ? rings()->errorBound : 0;
+    if (mScene.tiled) coarser += mScene.tiled->levels->errorBound(mScene.tiled->level);
     const Box corners = cornerBox(view, rect);
     double& from = freeDepth;
     from = std::max(from, view.nearDepth);

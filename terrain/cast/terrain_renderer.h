@@ -1,6 +1,7 @@
 // Casts rays at a terrain for any view: the engine's door into a terrain scene.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "engine/simd/simd_target.h"
 #include "terrain/cast/caster_types.h"
 #include "terrain/ground/ground_rings.h"
+#include "terrain/scene/part_colors.h"
 #include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
@@ -36,6 +38,14 @@ public:
     void takeCoarser(double share);
     // That the next pictures are of; null: the ground itself.
     const GroundRings* rings() const;
+    // Counts up, from any thread, when tiles that pictures did not wait for are there.
+    std::uint64_t arrivals() const;
+    // Of rings: the share of a pixel that they keep to, and whether finer ones are on their way.
+    struct Detail {
+        double share = 0;
+        bool late = false;
+    };
+    Detail ringDetail() const;
 
     void lookFrom(const EyeView& view) const override;
     int tileCount(const EyeView& view) const override;
@@ -62,7 +72,8 @@ public:
     void sunMoved();
     // Casts the ground in these colours from now on, in place of the scene's own. light: that they are lit
     // by, null: the plain sun, or none. Both must live until others are shown. Not while a picture is cast.
-    void showColors(const ColorTexture& lit, const TerrainIllumination* light);
+    // parts: of rings of a tiled ground that are finer than it; null: as the rest.
+    void showColors(const ColorTexture& lit, const TerrainIllumination* light, PartColors parts = {});
 
     // That the ground is seen through now; lives as long as the renderer, and changes with sunMoved().
     const Fog& fog() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <optional>
 #include <utility>
 
@@ -24,8 +25,13 @@ struct Span {
 class Planner {
 public:
     Planner(const GroundLevels& levels, const RingWish& wish)
-        : mLevels(levels), mWish(wish), mEye(levels.gridFromWorld(glm::dvec2(wish.eye))) {
-        mOver = std::max({0.0, wish.eye.z - levels.maxHeight(), levels.minHeight() - wish.eye.z});
+        : mLevels(levels),
+          mWish(wish),
+          mEye(levels.gridFromWorld(glm::dvec2(wish.eye))),
+          mWay(glm::dvec2(wish.way) / levels.spacing(0)) {
+        const double low = std::min(wish.eye.z, wish.eye.z + wish.way.z),
+                     high = std::max(wish.eye.z, wish.eye.z + wish.way.z);
+        mOver = std::max({0.0, low - levels.maxHeight(), levels.minHeight() - high});
     }
 
     // Blocks of that level that must be finer; none where all may be of it.
@@ -44,8 +50,10 @@ public:
     }
 
     Span below() const {
-        const glm::ivec2 cell(glm::clamp(glm::floor(mEye), glm::dvec2(0), glm::dvec2(mLevels.size(0) - 2)));
-        return {cell, cell + 1};
+        const glm::dvec2 most(mLevels.size(0) - 2);
+        const glm::ivec2 a(glm::clamp(glm::floor(mEye), glm::dvec2(0), most)),
+            b(glm::clamp(glm::floor(mEye + mWay), glm::dvec2(0), most));
+        return {glm::min(a, b), glm::max(a, b) + 1};
     }
 
 private:
@@ -54,27 +62,30 @@ private:
         const double reach = mLevels.errorBound(level) / (mWish.share * mWish.pixelAngle);
         if (!(reach > mOver)) return false;
         const glm::dvec2 block = double(kBlock) * mLevels.spacing(level),
-                         eye = mEye * mLevels.spacing(0) / block, aside = reach / block + 1.0,
-                         blocks(mLevels.blocks(level));
-        low = glm::ivec2(glm::clamp(glm::floor(eye - aside), glm::dvec2(0), blocks));
-        end = glm::ivec2(glm::clamp(glm::ceil(eye + aside), glm::dvec2(0), blocks));
+                         eye = mEye * mLevels.spacing(0) / block, way = mWay * mLevels.spacing(0) / block,
+                         aside = reach / block + 1.0, blocks(mLevels.blocks(level));
+        const glm::dvec2 first = glm::min(eye, eye + way) - aside, last = glm::max(eye, eye + way) + aside;
+        low = glm::ivec2(glm::clamp(glm::floor(first), glm::dvec2(0), blocks));
+        end = glm::ivec2(glm::clamp(glm::ceil(last), glm::dvec2(0), blocks));
         return low.x < end.x && low.y < end.y;
     }
     Span spanOf(int level, int i, int j) const {
         const glm::ivec2 low = kBlock * glm::ivec2(i, j), last = mLevels.size(level) - 1;
         return {low * (1 << level), glm::min(low + kBlock, last) * (1 << level)};
     }
-    // Metres at least, to anything of the ground within it.
+    // Metres at least, to anything of the ground within it, from the box around the way.
     double distanceTo(const Span& block) const {
-        const glm::dvec2 aside = glm::max(glm::dvec2(block.low) - mEye, mEye - glm::dvec2(block.high));
+        const glm::dvec2 end = mEye + mWay;
+        const glm::dvec2 aside = glm::max(glm::dvec2(block.low) - glm::max(mEye, end),
+                                          glm::min(mEye, end) - glm::dvec2(block.high));
         const glm::dvec2 metres = glm::max(aside, glm::dvec2(0)) * mLevels.spacing(0);
         return std::hypot(metres.x, metres.y, mOver);
     }
 
     const GroundLevels& mLevels;
     const RingWish& mWish;
-    glm::dvec2 mEye;   // grid of the ground
-    double mOver = 0;  // metres from the eye's height to the nearest of the ground's
+    glm::dvec2 mEye, mWay;  // grid of the ground
+    double mOver = 0;       // metres from the eye's height to the nearest of the ground's
 };
 
 // Around the span, in steps of several blocks: a box stays the same for a while as the eye moves.
@@ -97,9 +108,11 @@ Span spanOf(const RingBox& box) {
 
 }  // namespace
 
-std::vector<RingBox> planRings(const GroundLevels& levels, const RingWish& wish) {
+std::vector<RingBox> planRings(const GroundLevels& levels, const RingWish& asked) {
     const int last = levels.count() - 1;
-    if (!(wish.share > 0 && wish.pixelAngle > 0)) return {wholeOf(levels, 0)};
+    if (!(asked.share > 0 && asked.pixelAngle > 0)) return {wholeOf(levels, 0)};
+    RingWish wish = asked;
+    if (!levels.contains(glm::dvec2(wish.eye + wish.way))) wish.way = glm::dvec3(0.0);
     const Planner planner(levels, wish);
     if (!levels.contains(glm::dvec2(wish.eye))) {
         for (int level = last; level > 0; --level)
@@ -123,6 +136,30 @@ std::vector<RingBox> planRings(const GroundLevels& levels, const RingWish& wish)
     }
     boxes.push_back(wholeOf(levels, last));
     return boxes;
+}
+
+bool coverRings(const std::vector<RingBox>& boxes, const std::vector<RingBox>& needed) {
+    return std::all_of(needed.begin(), needed.end(), [&](const RingBox& wanted) {
+        const Span span = spanOf(wanted);
+        return std::any_of(boxes.begin(), boxes.end(), [&](const RingBox& box) {
+            const Span has = spanOf(box);
+            return box.level <= wanted.level && glm::all(glm::lessThanEqual(has.low, span.low)) &&
+                   glm::all(glm::greaterThanEqual(has.high, span.high));
+        });
+    });
+}
+
+std::vector<RingBox> ringsAround(const GroundLevels& levels, const std::vector<RingBox>& boxes,
+                                 const glm::dvec3& eye) {
+    const glm::dvec2 at = levels.gridFromWorld(glm::dvec2(eye));
+    std::vector<RingBox> around;
+    for (const RingBox& box : boxes) {
+        const Span span = spanOf(box);
+        const bool within = glm::all(glm::lessThanEqual(glm::dvec2(span.low), at)) &&
+                            glm::all(glm::lessThanEqual(at, glm::dvec2(span.high)));
+        if (within || &box == &boxes.back()) around.push_back(box);
+    }
+    return around;
 }
 
 std::shared_ptr<const GroundRings> makeRings(const GroundLevels& levels, const std::vector<RingBox>& boxes,

@@ -21,6 +21,7 @@ struct RingWish {
     glm::dvec3 eye{0.0};    // world, metres
     double pixelAngle = 0;  // radians: metres that a pixel covers, for a metre of distance
     double share = 0.5;     // of that, which a level may be off; 0: the ground itself
+    glm::dvec3 way{0.0};    // and for eyes along this way, from `eye`
 };
 
 // Finest first. All but the last hold the place below the eye, and lie within the next, but for what that one
@@ -28,6 +29,10 @@ struct RingWish {
 // there is one. A level is taken for a block where its bound there is at most the share of what a pixel
 // covers at the block's nearest place; between boxes the surface has steps of that size.
 std::vector<RingBox> planRings(const GroundLevels& levels, const RingWish& wish);
+
+// Whether the boxes are at least as fine as those that are needed, wherever those are. Of the same ground,
+// both as planRings() gives them.
+bool coverRings(const std::vector<RingBox>& boxes, const std::vector<RingBox>& needed);
 
 struct GroundRing {
     RingBox box;
@@ -42,7 +47,12 @@ struct GroundRings {
     float errorBound = 0;  // metres, of their levels: the ground itself is nowhere further away
 };
 
-// before: what there is of it is taken over; null for none.
+// Those that hold the place below the eye, and the last: what is to be cast where the eye has left some.
+std::vector<RingBox> ringsAround(const GroundLevels& levels, const std::vector<RingBox>& boxes,
+                                 const glm::dvec3& eye);
+
+// before: what there is of it is taken over; null for none. Throws Error where levels are stored and can not
+// be read.
 std::shared_ptr<const GroundRings> makeRings(const GroundLevels& levels, const std::vector<RingBox>& boxes,
                                              const GroundRings* before);
 

@@ -14,6 +14,10 @@
 
 namespace stereonav {
 
+// Samples that are read at once at most: a side, and in all.
+constexpr int kMostDemSide = 65536;
+constexpr long long kMostDemSamples = 1ll << 28;
+
 struct DemGrid {
     int width = 0, height = 0;     // samples, each >= 2
     glm::dvec2 spacing{1.0};       // metres

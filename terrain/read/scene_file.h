@@ -34,6 +34,10 @@ struct TerrainLook {
 // By what ground without a picture is coloured: its tints, or how it lies (terrain/scene/slope_color.h).
 enum class GroundPaint { None, Slope, Aspect, Hillshade };
 
+// Whether an elevation model's samples go into tiles on disk (terrain/scene/tiled_ground.h): where they would
+// not fit into memory, always, or never.
+enum class GroundTiles { Auto, On, Off };
+
 struct LandmarkFile {
     std::filesystem::path mesh;     // .gltf or .glb
     glm::dvec2 positionWorld{0.0};  // metres from the world's origin
@@ -48,7 +52,8 @@ struct SceneFile {
     std::uint64_t seed = 1;      // of the generated terrain
     int builtInSize = 513;       // its samples a side
     std::filesystem::path dem;
-    double verticalScale = 1.0;             // > 0
+    double verticalScale = 1.0;  // > 0
+    GroundTiles tiles = GroundTiles::Auto;
     bool openHoles = false;                 // leave nodata open instead of filling it
     std::filesystem::path image;            // "" for hypsometric tint
     GroundPaint paint = GroundPaint::None;  // not with an image

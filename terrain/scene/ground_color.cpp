@@ -45,7 +45,9 @@ double knownHeightAt(const Heightfield& ground, const glm::dvec2& grid) {
 class Tint {
 public:
     Tint(const Heightfield& ground, const TerrainLook& look, const TintPlace& place)
-        : mGround(ground), mLight(look), mTint(ground, place) {}
+        : Tint(ground, ground, look, place) {}
+    Tint(const Heightfield& part, const Heightfield& whole, const TerrainLook& look, const TintPlace& place)
+        : mGround(part), mLight(look), mTint(part, place, whole) {}
 
     // Linear colour of the ground at a grid position, lit.
     glm::vec3 at(const glm::dvec2& grid) const {
@@ -155,6 +157,13 @@ GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, con
     const GroundTextureSize size = groundTextureSize(ground, glm::dvec2(kLitDensity));
     const auto color = [&](int, int, const glm::dvec2& grid) { return tint.at(grid); };
     return {groundTexture(ground, size, color, progress), "tint by height and slope, lit", look.ambient < 1};
+}
+
+ColorTexture tintedPart(const Heightfield& part, const Heightfield& whole, const TerrainLook& look,
+                        const TintPlace& place, double density, Progress& progress) {
+    const Tint tint(part, whole, look, place);
+    const auto color = [&](int, int, const glm::dvec2& grid) { return tint.at(grid); };
+    return groundTexture(part, groundTextureSize(part, glm::dvec2(density)), color, progress);
 }
 
 GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& dem, const Heightfield& ground,

@@ -41,6 +41,10 @@ double bytesOfTint(double samples);
 GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, const TintPlace& place,
                          Progress& progress);
 
+// Of a part of a ground, so many texels a sample each way; place: of the whole.
+ColorTexture tintedPart(const Heightfield& part, const Heightfield& whole, const TerrainLook& look,
+                        const TintPlace& place, double density, Progress& progress);
+
 // An image with a georeference (its own, or a world file's beside it, then in the elevation model's
 // system) is laid where it belongs; one without covers the extent of the elevation file, whatever
 // its aspect. Masked and uncovered places get the tint. 8 or 16 bits, gray, colour or palette, taken

@@ -3,13 +3,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "terrain/scene/fine_heights.h"
 #include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 
 std::optional<GroundPlace> groundPlaceAt(const TerrainScene& terrain, const glm::dvec2& world) {
-    const Heightfield& ground = terrain.ground;
-    if (!ground.contains(world)) return std::nullopt;
+    if (!terrain.ground.contains(world)) return std::nullopt;
+    const auto part = terrain.tiled ? terrain.tiled->fine->around(world) : nullptr;
+    if (terrain.tiled && !part) return std::nullopt;
+    const Heightfield& ground = part ? *part : terrain.ground;
     const double height = ground.heightAt(world);
     if (!std::isfinite(height)) return std::nullopt;
     GroundPlace place;

@@ -32,14 +32,23 @@ bool turnsWithSun(GroundPaint paint, const GroundColorSource& source) {
     return paint == GroundPaint::Hillshade || (paint != GroundPaint::None && lit);
 }
 
-GroundColor groundColorsAs(GroundPaint paint, const Heightfield& ground, const GroundColorSource& source,
-                           const SunAngles& sun, Progress& progress) {
+namespace {
+
+TerrainLook lookUnder(const SunAngles& sun, GroundPaint paint, const GroundColorSource& source) {
     TerrainLook look = source.look;
     if (paint != GroundPaint::None) {
         look.sunAzimuth = sun.azimuth;
         look.sunElevation = sun.elevation;
     }
     if (source.alone) look.ambient = 1;
+    return look;
+}
+
+}  // namespace
+
+GroundColor groundColorsAs(GroundPaint paint, const Heightfield& ground, const GroundColorSource& source,
+                           const SunAngles& sun, Progress& progress) {
+    const TerrainLook look = lookUnder(sun, paint, source);
     GroundColor color;
     if (paint != GroundPaint::None)
         color = paintedGround(ground, source.verticalScale, paint, look, progress);
@@ -48,6 +57,16 @@ GroundColor groundColorsAs(GroundPaint paint, const Heightfield& ground, const G
     else
         color = tintedGround(ground, look, source.tint, progress);
     return color;
+}
+
+ColorTexture colorsOfPart(const Heightfield& part, const Heightfield& whole, GroundPaint paint,
+                          const GroundColorSource& source, const SunAngles& sun) {
+    const TerrainLook look = lookUnder(sun, paint, source);
+    constexpr double kDensity = 1;
+    Progress progress;
+    if (paint != GroundPaint::None)
+        return paintedGround(part, source.verticalScale, paint, look, progress, kDensity).texture;
+    return tintedPart(part, whole, look, source.tint, kDensity, progress);
 }
 
 }  // namespace stereonav

@@ -46,4 +46,9 @@ bool turnsWithSun(GroundPaint paint, const GroundColorSource& source);
 GroundColor groundColorsAs(GroundPaint paint, const Heightfield& ground, const GroundColorSource& source,
                            const SunAngles& sun, Progress& progress);
 
+// The same for a part of the ground, coarser or finer than that, with a texel a sample each way: as much as
+// can be made while one flies towards it. Not for ground that was generated in colours of its own.
+ColorTexture colorsOfPart(const Heightfield& part, const Heightfield& whole, GroundPaint paint,
+                          const GroundColorSource& source, const SunAngles& sun);
+
 }  // namespace stereonav

@@ -166,20 +166,26 @@ GrowthLines growthLines(double latitude) {
     return {at(kTree), at(kSnowLine)};
 }
 
-GroundTint::GroundTint(const Heightfield& ground, const TintPlace& place)
-    : mGround(ground), mUnscale(1 / place.verticalScale), mFine(72) {
+GroundTint::GroundTint(const Heightfield& ground, const TintPlace& place, const Heightfield& whole)
+    : mGround(ground), mWhole(whole), mUnscale(1 / place.verticalScale), mFine(72) {
     const glm::dvec2 spacing = ground.spacing();
+    if (&ground != &whole) {
+        mFirst = whole.gridFromWorld(ground.originWorld());
+        mStep = spacing / whole.spacing();
+    }
     mMetresPerStep = std::max(spacing.x, spacing.y);
     const int reach = std::clamp(std::min(ground.width(), ground.height()) / 4, 1, int(kReach));
     mSites.resize(static_cast<std::size_t>(ground.width()) * ground.height());
     const Noise broad(71);
     parallelFor(ground.height(), [&](int j) {
-        for (int i = 0; i < ground.width(); ++i)
+        for (int i = 0; i < ground.width(); ++i) {
+            const glm::vec2 at(inWhole({i, j}));
             mSites[static_cast<std::size_t>(j) * ground.width() + i] = {
                 glm::vec2(ground.gradientAtSample(i, j)), hollowOf(ground, reach, i, j),
-                broad.fractal(static_cast<float>(i) / 23, static_cast<float>(j) / 23, 4)};
+                broad.fractal(at.x / 23, at.y / 23, 4)};
+        }
     });
-    const double low = ground.minHeight() * mUnscale, high = ground.maxHeight() * mUnscale;
+    const double low = whole.minHeight() * mUnscale, high = whole.maxHeight() * mUnscale;
     mLow = low;
     mPerMetre = high > low ? 1 / (high - low) : 0;
     mPlaced = !place.latitudes.empty();
@@ -211,7 +217,7 @@ GroundTint::GroundTint(const Heightfield& ground, const TintPlace& place)
         mZones.push_back({{}, 0, tableOf(0, 0.4f, 0)});
     }
     // Ground that spans little of the scale shows more of it, as far as its relief is one and no noise.
-    const double side = std::min(ground.width() * spacing.x, ground.height() * spacing.y);
+    const double side = std::min(whole.width() * whole.spacing().x, whole.height() * whole.spacing().y);
     const double relief = rangeStep(0, 0.03, (high - low) / side);
     const GrowthLines middle = mZones[mZones.size() / 2].lines;
     const double from = scaleHeight(middle, low), to = scaleHeight(middle, high);
@@ -272,20 +278,22 @@ GroundTint::Site GroundTint::siteAt(const glm::dvec2& grid) const {
 }
 
 glm::vec3 GroundTint::at(const glm::dvec2& grid, double height, const Site& site) const {
-    const double metres = (std::isfinite(height) ? height : double(mGround.minHeight())) * mUnscale;
+    const double metres = (std::isfinite(height) ? height : double(mWhole.minHeight())) * mUnscale;
     if (mSeaFloor && metres < 0) {
         const auto deep = static_cast<float>(std::sqrt(std::clamp(metres / mLow, 0.0, 1.0)));
         return glm::mix(kShallow, kDeep, deep);
     }
     if (mPlaced && metres == 0 && seaAt(grid)) return kSea;
-    const double north = std::clamp(grid.y / (mGround.height() - 1), 0.0, 1.0) * double(mZones.size() - 1);
+    const glm::dvec2 place = inWhole(grid);
+    const double north = std::clamp(place.y / (mWhole.height() - 1), 0.0, 1.0) * double(mZones.size() - 1);
     const auto node = static_cast<std::size_t>(north);
     const Zone &a = mZones[node], &b = mZones[std::min(node + 1, mZones.size() - 1)];
     const double t = north - double(node);
     const GrowthLines lines{std::lerp(a.lines.tree, b.lines.tree, t),
                             std::lerp(a.lines.snow, b.lines.snow, t)};
     const float hollow = site.hollow, broad = site.broad;
-    const float fine = 0.7f * mFine.at(static_cast<float>(grid.x) / 2.9f, static_cast<float>(grid.y) / 2.9f);
+    const float fine =
+        0.7f * mFine.at(static_cast<float>(place.x) / 2.9f, static_cast<float>(place.y) / 2.9f);
     const double on = mMiddle + (scaleHeight(lines, metres) - mMiddle) * mStretch + mShift;
     // A share of how high it is on the scale, so that lowlands do not leave their colours.
     const double some = std::clamp(0.25 * on, 30.0, 400.0);

@@ -41,7 +41,10 @@ GrowthLines growthLines(double latitude);
 class GroundTint {
 public:
     // ground must outlive it.
-    GroundTint(const Heightfield& ground, const TintPlace& place);
+    GroundTint(const Heightfield& ground, const TintPlace& place) : GroundTint(ground, place, ground) {}
+    // Of a part of a ground, finer than that or not: in the colours that it has as a part of the whole, which
+    // must outlive this. place: of the whole.
+    GroundTint(const Heightfield& part, const TintPlace& place, const Heightfield& whole);
 
     // What is kept at the samples and bilinear between them; beyond the edge it counts on.
     struct Site {
@@ -66,8 +69,11 @@ private:
     };
     double scaleHeight(const GrowthLines& lines, double metres) const;
     bool seaAt(const glm::dvec2& grid) const;
+    // From grid coordinates of the part to those of the whole.
+    glm::dvec2 inWhole(const glm::dvec2& grid) const { return mFirst + grid * mStep; }
 
-    const Heightfield& mGround;
+    const Heightfield &mGround, &mWhole;
+    glm::dvec2 mFirst{0.0}, mStep{1.0};
     double mUnscale = 1;        // metres above the sea for one of the ground's
     double mMetresPerStep = 1;  // the wider spacing
     bool mPlaced = false, mSeaFloor = false;

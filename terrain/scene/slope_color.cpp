@@ -13,7 +13,6 @@
 #include "engine/image/packed_color.h"
 #include "engine/math/constants.h"
 #include "terrain/light/sun_and_sky.h"
-#include "terrain/scene/ground_texture.h"
 
 namespace stereonav {
 namespace {
@@ -134,7 +133,7 @@ glm::vec3 aspectColor(const glm::dvec2& gradient) {
 }
 
 GroundColor paintedGround(const Heightfield& ground, double verticalScale, GroundPaint paint,
-                          const TerrainLook& look, Progress& progress) {
+                          const TerrainLook& look, Progress& progress, double density) {
     const bool shade = paint == GroundPaint::Hillshade;
     const Gradients gradients(ground, shade);
     const GroundLight light(look);
@@ -147,7 +146,7 @@ GroundColor paintedGround(const Heightfield& ground, double verticalScale, Groun
         return light.at(normalOf(shown)) * (paint == GroundPaint::Slope ? slopeColor(own) : aspectColor(own));
     };
     ColorTexture texture =
-        groundTexture(ground, groundTextureSize(ground, glm::dvec2(kLitDensity)), color, progress);
+        groundTexture(ground, groundTextureSize(ground, glm::dvec2(density)), color, progress);
     const char* const source = shade                         ? "a hillshade"
                                : paint == GroundPaint::Slope ? "slope, lit"
                                                              : "aspect and slope, lit";

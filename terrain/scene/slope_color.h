@@ -17,15 +17,16 @@
 #include "engine/render/paint_legend.h"
 #include "terrain/read/scene_file.h"
 #include "terrain/scene/ground_color.h"
+#include "terrain/scene/ground_texture.h"
 
 namespace stereonav {
 
 // "slope", "aspect", "hillshade"; none of anything else.
 std::optional<GroundPaint> groundPaintNamed(const std::string& word);
 
-// paint: not None. look: its light falls on slope and aspect.
+// paint: not None. look: its light falls on slope and aspect. density: texels a sample each way.
 GroundColor paintedGround(const Heightfield& ground, double verticalScale, GroundPaint paint,
-                          const TerrainLook& look, Progress& progress);
+                          const TerrainLook& look, Progress& progress, double density = kLitDensity);
 
 Legend legendOfPaint(GroundPaint paint);
 

@@ -22,6 +22,7 @@
 #include "terrain/scene/landmark.h"
 #include "terrain/scene/scene_flight.h"
 #include "terrain/scene/terrain_illumination.h"
+#include "terrain/scene/tiled_ground.h"
 
 namespace stereonav {
 namespace {
@@ -67,11 +68,7 @@ double bytesOfGround(double samples, bool tinted) {
     return (kHeights + kMaxima) * samples + (tinted ? bytesOfTint(samples) : 0);
 }
 
-LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progress) {
-    const bool tinted = file.image.empty();
-    DemGrid dem = readDem(file.dem, file.verticalScale, progress,
-                          [tinted](double samples) { return bytesOfGround(samples, tinted); });
-    TerrainReport& report = scene.report;
+void reportDem(const DemGrid& dem, TerrainReport& report) {
     report.driver = dem.driver;
     report.sourceCrs = dem.crs;
     report.projection = dem.projection;
@@ -90,11 +87,28 @@ LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progr
     report.sourceSamples = static_cast<long long>(dem.source.width) * dem.source.height;
     report.missingSamples = dem.sourceMissing;
     report.outsideSamples = dem.outside;
+}
+
+double bytesOfTintedGround(double samples) {
+    return bytesOfGround(samples, true);
+}
+double bytesOfPicturedGround(double samples) {
+    return bytesOfGround(samples, false);
+}
+
+LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progress) {
+    const auto bytesOf = file.image.empty() ? bytesOfTintedGround : bytesOfPicturedGround;
+    const bool tiled = goesIntoTiles(file, bytesOf);
+    DemGrid dem = tiled ? readTiledGround(file, scene, progress)
+                        : readDem(file.dem, file.verticalScale, progress, bytesOf);
+    TerrainReport& report = scene.report;
+    reportDem(dem, report);
+    if (dem.georeferenced) scene.earth = earthPlaces(dem.grid, dem.spacing);
+    if (tiled) return {std::move(dem), std::nullopt};
     if (file.openHoles)
         report.openSamples = countMissing(dem.heights);
     else
         report.filledSamples = fillMissing(dem.heights, dem.width, dem.height, dem.spacing, progress);
-    if (dem.georeferenced) scene.earth = earthPlaces(dem.grid, dem.spacing);
     scene.ground = Heightfield(dem.width, dem.height, dem.spacing, std::move(dem.heights), file.dem.string());
     return {std::move(dem), std::nullopt};
 }
@@ -136,7 +150,8 @@ GroundColor colorOf(const SceneFile& file, const LoadedGround& loaded, TerrainSc
                                progress);
     }
     const GroundColorSource& source = scene.colorSource.emplace(colorSourceOf(file, loaded, scene));
-    if (!loaded.built && !litLater(file)) scene.tint = source.tint;
+    // Light that is worked out for the whole would take the place of finer parts' own.
+    if (!loaded.built && !litLater(file) && !scene.tiled) scene.tint = source.tint;
     if (loaded.built && file.paint == GroundPaint::None) return colorsOfBuiltIn(scene.ground, *loaded.built);
     return groundColorsAs(file.paint, scene.ground, source, {file.look.sunAzimuth, file.look.sunElevation},
                           progress);
@@ -168,15 +183,15 @@ void loadLight(const SceneFile& file, TerrainScene& scene, Progress& progress) {
 }
 
 // The highest ground within a cell of a place, for standing above it where the place is a hole.
-double groundHeight(const Heightfield& ground, const glm::dvec2& world) {
-    const double height = ground.heightAt(world);
-    return std::isfinite(height) ? height : ground.maxHeight();
+double groundHeight(const TerrainScene& scene, const glm::dvec2& world) {
+    const double height = scene.heightAt(world);
+    return std::isfinite(height) ? height : scene.ground.maxHeight();
 }
 
 Pose startPoseOf(const SceneFile& file, const TerrainScene& scene) {
     if (!file.startPosition) return defaultStartPose(scene.ground, scene.clearance, kDefaultPitch);
     glm::dvec3 position = *file.startPosition;
-    if (file.startAboveGround) position.z += groundHeight(scene.ground, glm::dvec2(position));
+    if (file.startAboveGround) position.z += groundHeight(scene, glm::dvec2(position));
     return poseFromAngles(position, file.startHeading, file.startPitch, file.startRoll);
 }
 
@@ -249,7 +264,7 @@ TerrainScene loadTerrain(const SceneFile& file, Progress& progress) {
     scene.verticalScale = file.verticalScale;
     scene.look = file.look;
     loadColor(file, loaded, scene, progress);
-    const glm::dvec2 spacing = scene.ground.spacing();
+    const glm::dvec2 spacing = scene.tiled ? scene.tiled->levels->spacing(0) : scene.ground.spacing();
     scene.clearance =
         file.clearance > 0 ? file.clearance : kClearancePerSpacing * std::max(spacing.x, spacing.y);
     scene.lens.verticalFov = file.verticalFov;

@@ -10,6 +10,7 @@
 #include "engine/camera/recorded_path.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/image/color_texture.h"
+#include "terrain/ground/ground_levels.h"
 #include "terrain/ground/heightfield.h"
 #include "terrain/light/sky_map.h"
 #include "terrain/raster/earth_places.h"
@@ -19,6 +20,7 @@
 
 namespace stereonav {
 
+class FineHeights;          // terrain/scene/fine_heights.h
 class LandmarkSet;          // terrain/scene/landmark.h: meshes cast with Embree
 class TerrainIllumination;  // terrain/scene/terrain_illumination.h: baked light
 
@@ -47,6 +49,14 @@ struct TerrainReport {
     bool colorHoldsSun = false;    // some of the colours hold the light of the look's sun
     std::string skySource;
     std::string lightSource;  // of baked light, "" without
+    std::string tiles;        // of a tiled ground: what lies where; "" of others
+};
+
+// The ground's finer levels, which lie in tiles on disk (terrain/tiles).
+struct TiledGround {
+    std::shared_ptr<const GroundLevels> levels;
+    int level = 0;  // of TerrainScene::ground
+    std::shared_ptr<const FineHeights> fine;
 };
 
 struct TerrainScene {
@@ -55,13 +65,21 @@ struct TerrainScene {
     TerrainScene(TerrainScene&&) noexcept;
     TerrainScene& operator=(TerrainScene&&) noexcept;
 
-    Heightfield ground;
-    double verticalScale = 1;  // of its heights: so many times those of the file
+    // Metres at a place, of the finest samples: NaN in holes, clamped to the border.
+    double heightAt(const glm::dvec2& world) const;
+
+    Heightfield ground;                // all of it; of a tiled one at a level that fits into memory
+    std::optional<TiledGround> tiled;  // none: `ground` has all samples
+    bool ringsMayBeLate = false;       // pictures do not wait for tiles: for who shows one after another
+    double verticalScale = 1;          // of its heights: so many times those of the file
     ColorTexture color;
     SkyMap sky;
-    bool detail = false;       // of its shading, below the sample spacing (terrain/cast/ground_detail.h)
-    double levelOfDetail = 0;  // share of a pixel that far ground may be off (RingWish::share); 0: none is
-    TerrainLook look;          // fog, specular, sun
+    bool detail = false;  // of its shading, below the sample spacing (terrain/cast/ground_detail.h)
+    // Share of a pixel that far ground may be off (RingWish::share); 0: none is, but where it is tiled, of
+    // which no more than kTiledShare is.
+    double levelOfDetail = 0;
+    static constexpr double kTiledShare = 0.5;
+    TerrainLook look;                        // fog, specular, sun
     std::unique_ptr<LandmarkSet> landmarks;  // null when there are none
     // Null without baked light. What is lit by it is `color`, which changes when the sun moves.
     std::unique_ptr<TerrainIllumination> illumination;

@@ -1,0 +1,132 @@
+#include "terrain/scene/tiled_ground.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+#include "engine/base/memory.h"
+#include "terrain/read/dem_rows.h"
+#include "terrain/scene/fine_heights.h"
+#include "terrain/scene/ground_color.h"
+#include "terrain/scene/terrain_scene.h"
+#include "terrain/tiles/stored_levels.h"
+#include "terrain/tiles/tile_maker.h"
+
+namespace stereonav {
+namespace {
+
+std::filesystem::path tilesPlace(std::uint64_t content) {
+    return cacheFolder() / fmt::format("ground_{:016x}.tiles", content);
+}
+
+void checkRoom(const std::filesystem::path& place, const glm::ivec2& size) {
+    const auto bytes = static_cast<double>(TileFilePlan(size).byteCount());
+    std::filesystem::path folder = place.parent_path();
+    std::error_code failed;
+    while (!std::filesystem::exists(folder, failed) && folder.has_relative_path())
+        folder = folder.parent_path();
+    const std::filesystem::space_info room = std::filesystem::space(folder, failed);
+    if (failed || bytes <= static_cast<double>(room.available)) return;
+    throw Error(place.parent_path().string(), "tiles of the ground",
+                fmt::format("need {} of disk, and {} are free", memoryText(bytes),
+                            memoryText(static_cast<double>(room.available))),
+                "make room, or name another place for the cache with XDG_CACHE_HOME");
+}
+
+// Anew; twice where only all samples tell which of them are missing.
+void makeStore(DemRows& rows, const TileSource& source, const std::filesystem::path& place,
+               Progress& progress) {
+    checkRoom(place, source.size);
+    checkMemory("tiles of the ground", bytesOfMaking(source.size, source.rows), "give more memory");
+    writeFileAtomically(
+        place,
+        [&](const std::filesystem::path& temporary) {
+            makeTiles(source, temporary, progress);
+            if (rows.mustBeReadAgain()) makeTiles(source, temporary, progress);
+        },
+        Over::Anything);
+}
+
+struct OpenedStore {
+    std::shared_ptr<const TileStore> store;
+    bool made = false;  // now
+};
+
+OpenedStore openStore(DemRows& rows, double verticalScale, Progress& progress) {
+    TileSource source;
+    const DemGrid& dem = rows.place();
+    source.size = {dem.width, dem.height};
+    source.content = Hash().add(static_cast<std::int64_t>(rows.identity())).value();
+    source.rows = rows.runOfRows();
+    source.read = [&rows](int first, int count, float* heights) { rows.read(first, count, heights); };
+    const std::filesystem::path place = tilesPlace(source.content);
+    try {
+        return {std::make_shared<TileStore>(place, source.content), false};
+    } catch (const Error&) {  // not there, or of no use: it is made
+    }
+    makeStore(rows, source, place, progress);
+    rows.checkHeights(verticalScale);
+    return {std::make_shared<TileStore>(place, source.content), true};
+}
+
+// A share of the memory; the rest is for rings, pictures, and all else. More than some 16 million samples
+// would only take longer to open.
+int levelInMemory(const GroundLevels& levels) {
+    constexpr double kShare = 0.25, kMostSamples = 1 << 24, kHeightAndMaxima = 4 + 4 * 4.0 / 3;
+    const double most = kShare * availableMemory();
+    for (int level = 0; level + 1 < levels.count(); ++level) {
+        const double samples = double(levels.size(level).x) * levels.size(level).y;
+        if (samples <= kMostSamples && kHeightAndMaxima * samples + bytesOfTint(samples) <= most)
+            return level;
+    }
+    return levels.count() - 1;
+}
+
+// More than readDem() takes, whatever the memory.
+bool isBeyondMemory(const DemGrid& dem) {
+    return dem.width > kMostDemSide || dem.height > kMostDemSide ||
+           1ll * dem.width * dem.height > kMostDemSamples;
+}
+
+}  // namespace
+
+bool goesIntoTiles(const SceneFile& file, double (*bytesOfSamples)(double samples)) {
+    if (file.tiles == GroundTiles::Off) return false;
+    if (file.tiles == GroundTiles::On) return true;
+    const DemRows rows(file.dem);
+    const double samples = double(rows.place().width) * rows.place().height;
+    return isBeyondMemory(rows.place()) || bytesOfSamples(samples) > availableMemory();
+}
+
+DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& progress) {
+    DemRows rows(file.dem);
+    const OpenedStore opened = openStore(rows, file.verticalScale, progress);
+    DemGrid dem = rows.place();
+    TiledGround tiled;
+    tiled.levels =
+        std::make_shared<GroundLevels>(storedLevels(opened.store, dem.spacing, file.verticalScale));
+    tiled.level = levelInMemory(*tiled.levels);
+    tiled.fine = std::make_shared<FineHeights>(tiled.levels);
+    std::optional<Heightfield> ground =
+        tiled.levels->part(tiled.level, glm::ivec2(0), tiled.levels->size(tiled.level));
+    if (!ground)
+        throw Error(file.dem.string(), "", "no cell with four known heights",
+                    "check the file's nodata value");
+    scene.ground = std::move(*ground);
+    scene.report.openSamples = dem.sourceMissing = opened.store->missing();
+    scene.report.tiles = fmt::format("{} x {} samples in {} levels, {} on disk{}; in memory 1 of {} each way",
+                                     dem.width, dem.height, tiled.levels->count(),
+                                     memoryText(static_cast<double>(opened.store->byteCount())),
+                                     opened.made ? ", made now" : "", 1 << tiled.level);
+    scene.tiled = std::move(tiled);
+    return dem;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,23 @@
+// Ground whose samples do not all fit into memory: they lie in tiles on disk, which are made when such a file
+// is first opened.
+#pragma once
+
+#include "engine/base/progress.h"
+#include "terrain/read/dem_reader.h"
+#include "terrain/read/scene_file.h"
+
+namespace stereonav {
+
+struct TerrainScene;
+
+// Whether the file's ground goes into tiles: where it was wished, or where it takes more memory than can be
+// had and that was not ruled out. bytesOfSamples: that a scene of so many samples holds. Throws Error as
+// readDem() does.
+bool goesIntoTiles(const SceneFile& file, double (*bytesOfSamples)(double samples));
+
+// Sets scene.tiled, and scene.ground to the finest level that leaves room for what lies around an eye.
+// Missing samples stay open. Gives what readDem() does, without heights. Throws Error: as readDem() does, and
+// where the cache has no room for the tiles; Cancelled.
+DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& progress);
+
+}  // namespace stereonav
