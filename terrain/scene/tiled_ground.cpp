@@ -65,6 +65,7 @@ OpenedStore openStore(DemRows& rows, double verticalScale, Progress& progress) {
     source.size = {dem.width, dem.height};
     source.content = Hash().add(static_cast<std::int64_t>(rows.identity())).value();
     source.rows = rows.runOfRows();
+    source.firstRows = rows.firstRun();
     source.read = [&rows](int first, int count, float* heights) { rows.read(first, count, heights); };
     const std::filesystem::path place = tilesPlace(source.content);
     try {

@@ -100,7 +100,8 @@ public:
         const int rows = finest.plan.size.y;
         while (!finest.whole()) {
             progress.report(double(finest.end) / rows, "making tiles");
-            const int count = std::min(std::max(mSource.rows, 1), rows - finest.end), from = finest.end;
+            const int wanted = finest.end == 0 && mSource.firstRows > 0 ? mSource.firstRows : mSource.rows;
+            const int from = finest.end, count = std::min(std::max(wanted, 1), rows - from);
             float* const heights = finest.added(count);
             mSource.read(from, count, heights);
             tally(heights, count);

@@ -15,6 +15,7 @@ struct TileSource {
     glm::ivec2 size{0};         // samples, each >= 2
     std::uint64_t content = 0;  // names the heights
     int rows = 1;               // that are read best at once, >= 1
+    int firstRows = 0;          // so many before; 0: none
     // Rows first to first + count - 1, counted from the south: metres, NaN where missing.
     std::function<void(int first, int count, float* heights)> read;
 };

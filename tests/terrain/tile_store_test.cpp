@@ -32,7 +32,7 @@ std::vector<float> roughHeights(const glm::ivec2& size, double missing) {
 }
 
 TileSource sourceOf(const std::vector<float>& heights, const glm::ivec2& size, int rows) {
-    return {size, 77, rows, [&heights, size](int first, int count, float* to) {
+    return {size, 77, rows, 0, [&heights, size](int first, int count, float* to) {
                 std::copy_n(heights.data() + static_cast<std::ptrdiff_t>(first) * size.x,
                             static_cast<std::ptrdiff_t>(count) * size.x, to);
             }};

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 #include "terrain/read/gdal/height_band.h"
 #include "terrain/read/height_limits.h"
 
@@ -41,85 +43,22 @@ std::vector<unsigned char> gsiBytes(GDALDataset& dataset) {
     return bytes;
 }
 
-std::vector<float> gsiSamples(GDALDataset& dataset) {
-    const std::vector<unsigned char> bytes = gsiBytes(dataset);
-    std::vector<float> heights(static_cast<std::size_t>(kGsiSide) * kGsiSide);
-    for (std::size_t k = 0; k < heights.size(); ++k)
-        heights[k] = static_cast<float>(gsiHeight(bytes[3 * k], bytes[3 * k + 1], bytes[3 * k + 2]));
-    return heights;
-}
-
-// Heights of the rows that were read, and what is to be known of all.
-struct Tally {
-    double low = std::numeric_limits<double>::infinity(), high = -low;  // metres
-    double rounded = 0;                                                 // the most that a float lost, metres
-    long long customary = 0;   // of the value that often stands for missing samples
-    double lowestOther = low;  // without those
-};
-
 constexpr double kCustomary = -9999;
+constexpr const char* kCustomaryMissing =
+    "-9999, as is customary: the file names none, and no other height is near it";
 
-void tally(double metres, float kept, Tally& all) {
-    all.low = std::min(all.low, metres), all.high = std::max(all.high, metres);
-    all.rounded = std::max(all.rounded, std::abs(metres - kept));
-    if (metres == kCustomary)
-        ++all.customary;
-    else
-        all.lowestOther = std::min(all.lowestOther, metres);
-}
-
-// Relief that floats would turn to steps: refused, as it would be other ground.
-void checkPrecision(const std::filesystem::path& file, const Tally& all) {
-    constexpr double kLeastLoss_m = 0.01, kShare = 1e-3;
-    if (all.rounded <= std::max(kLeastLoss_m, kShare * (all.high - all.low))) return;
-    throw Error(
-        file.string(), "heights",
-        fmt::format(
-            "expected relief that single precision holds, got {:.12g} to {:.12g} m, rounded by {:.2g} m",
-            all.low, all.high, all.rounded),
-        "subtract a constant from all heights");
-}
-
-// -9999 alone far below all other ground, in a file that names no value for missing samples, is one.
-void dropCustomary(const Tally& all, const HeightBand& band, DemSamples& samples) {
-    constexpr double kFarBelow_m = 1000;
-    if (all.customary == 0 || band.nodata || band.masked || !(all.lowestOther > kCustomary + kFarBelow_m))
-        return;
-    for (float& h : samples.heights)
-        if (h == static_cast<float>(kCustomary)) h = kMissing;
-    samples.missing = "-9999, as is customary: the file names none, and no other height is near it";
-}
-
-DemSamples readBand(GDALDataset& dataset, const HeightBand& heightBand, GdalMessages& messages,
-                    const std::filesystem::path& file, Tally& all, Progress& progress) {
-    GDALRasterBand& band = *dataset.GetRasterBand(heightBand.number);
-    const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
-    int blockWidth = 0, blockHeight = 0;
-    band.GetBlockSize(&blockWidth, &blockHeight);
-    const int run = std::clamp(blockHeight, 16, 256);
-    messages.clear();  // a georeference that GDAL could not make sense of is no damage to the samples
-    std::vector<double> stored(static_cast<std::size_t>(width) * run);
-    std::vector<unsigned char> mask(heightBand.masked ? stored.size() : 0);
-    std::vector<float> heights(static_cast<std::size_t>(width) * height);
-    for (int row = 0; row < height; row += run) {
-        progress.report(double(row) / height, "reading " + file.filename().string());
-        const int rows = std::min(run, height - row);
-        CPLErr failed = band.RasterIO(GF_Read, 0, row, width, rows, stored.data(), width, rows, GDT_Float64,
-                                      0, 0, nullptr);
-        if (heightBand.masked && failed == CE_None)
-            failed = band.GetMaskBand()->RasterIO(GF_Read, 0, row, width, rows, mask.data(), width, rows,
-                                                  GDT_Byte, 0, 0, nullptr);
-        if (failed != CE_None || messages.hasError()) throwCutOff(file, row, height, messages);
-        float* out = &heights[static_cast<std::size_t>(row) * width];
-        for (std::size_t k = 0; k < static_cast<std::size_t>(width) * rows; ++k) {
-            const bool hidden = heightBand.masked && mask[k] == 0;
-            const double metres =
-                hidden ? std::numeric_limits<double>::quiet_NaN() : heightBand.metres(stored[k]);
-            out[k] = static_cast<float>(metres);
-            if (!std::isnan(metres)) tally(metres, out[k], all);
-        }
+// Whether floats hold all values of the type, and the band's numbers are metres as they are.
+bool floatsHold(GDALRasterBand& band, const HeightBand& heights) {
+    if (heights.scale != 1 || heights.offset != 0 || heights.signedBytes) return false;
+    switch (band.GetRasterDataType()) {
+        case GDT_Byte:
+        case GDT_UInt16:
+        case GDT_Int16:
+        case GDT_Float32:
+            return true;
+        default:
+            return false;
     }
-    return {std::move(heights), heightBand.chosen, heightBand.unit, heightBand.missing};
 }
 
 }  // namespace
@@ -137,21 +76,135 @@ bool isGsiTile(GDALDataset& dataset) {
     return !bytes.empty();
 }
 
+std::vector<float> gsiSamples(GDALDataset& dataset) {
+    const std::vector<unsigned char> bytes = gsiBytes(dataset);
+    std::vector<float> heights(static_cast<std::size_t>(kGsiSide) * kGsiSide);
+    for (std::size_t k = 0; k < heights.size(); ++k)
+        heights[k] = static_cast<float>(gsiHeight(bytes[3 * k], bytes[3 * k + 1], bytes[3 * k + 2]));
+    return heights;
+}
+
+void SampleRows::Tally::add(double metres, float kept) {
+    low = std::min(low, metres), high = std::max(high, metres);
+    rounded = std::max(rounded, std::abs(metres - kept));
+    if (metres == kCustomary)
+        ++customary;
+    else
+        lowestOther = std::min(lowestOther, metres);
+}
+
+void SampleRows::Tally::add(const Tally& other) {
+    low = std::min(low, other.low), high = std::max(high, other.high);
+    rounded = std::max(rounded, other.rounded);
+    customary += other.customary;
+    lowestOther = std::min(lowestOther, other.lowestOther);
+}
+
+SampleRows::SampleRows(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file)
+    : SampleRows(dataset, messages, file, heightBandOf(dataset, file)) {}
+
+SampleRows::SampleRows(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
+                       HeightBand heights)
+    : mDataset(dataset), mMessages(messages), mFile(file), mBand(std::move(heights)) {
+    GDALRasterBand& band = *dataset.GetRasterBand(mBand.number);
+    int blockWidth = 0, blockHeight = 0;
+    band.GetBlockSize(&blockWidth, &blockHeight);
+    // Whole blocks where they are not too high.
+    mRun = blockHeight < 16 ? 16 / std::max(blockHeight, 1) * std::max(blockHeight, 1) : blockHeight;
+    mRun = std::clamp(mRun, 1, 256);
+    mFloats = floatsHold(band, mBand);
+    messages.clear();  // a georeference that GDAL could not make sense of is no damage to the samples
+}
+
+void SampleRows::read(int row, int rows, float* heights) {
+    mFloats ? readAs(row, rows, heights, mStoredFloats) : readAs(row, rows, heights, mStored);
+}
+
+template <typename Stored>
+void SampleRows::readAs(int row, int rows, float* heights, std::vector<Stored>& stored) {
+    GDALRasterBand& band = *mDataset.GetRasterBand(mBand.number);
+    const int width = mDataset.GetRasterXSize(), height = mDataset.GetRasterYSize();
+    const std::size_t count = static_cast<std::size_t>(width) * rows;
+    if (stored.size() < count) stored.resize(count);
+    if (mBand.masked && mMask.size() < count) mMask.resize(count);
+    constexpr GDALDataType kType = sizeof(Stored) == sizeof(float) ? GDT_Float32 : GDT_Float64;
+    CPLErr failed =
+        band.RasterIO(GF_Read, 0, row, width, rows, stored.data(), width, rows, kType, 0, 0, nullptr);
+    if (mBand.masked && failed == CE_None)
+        failed = band.GetMaskBand()->RasterIO(GF_Read, 0, row, width, rows, mMask.data(), width, rows,
+                                              GDT_Byte, 0, 0, nullptr);
+    if (failed != CE_None || mMessages.hasError()) throwCutOff(mFile, row, height, mMessages);
+    std::vector<Tally> tallies(static_cast<std::size_t>(rows));
+    parallelFor(rows, [&](int j) {
+        Tally tally;
+        const std::size_t first = static_cast<std::size_t>(j) * width;
+        for (std::size_t k = first; k < first + width; ++k) {
+            const bool hidden = mBand.masked && mMask[k] == 0;
+            double metres =
+                hidden ? std::numeric_limits<double>::quiet_NaN() : mBand.metres(double(stored[k]));
+            if (mLeavesOutCustomary && metres == kCustomary)
+                metres = std::numeric_limits<double>::quiet_NaN();
+            heights[k] = static_cast<float>(metres);
+            if (!std::isnan(metres)) tally.add(metres, heights[k]);
+        }
+        tallies[static_cast<std::size_t>(j)] = tally;
+    });
+    for (const Tally& tally : tallies) mTally.add(tally);
+}
+
+bool SampleRows::holdsCustomary() const {
+    constexpr double kFarBelow_m = 1000;
+    return mTally.customary > 0 && !mBand.nodata && !mBand.masked &&
+           mTally.lowestOther > kCustomary + kFarBelow_m && !mLeavesOutCustomary;
+}
+
+// Relief that floats would turn to steps is refused: it would be other ground.
+void SampleRows::check(double verticalScale) const {
+    constexpr double kLeastLoss_m = 0.01, kShare = 1e-3;
+    if (mTally.rounded > std::max(kLeastLoss_m, kShare * (mTally.high - mTally.low)))
+        throw Error(mFile.string(), "heights",
+                    fmt::format("expected relief that single precision holds, got {:.12g} to {:.12g} m, "
+                                "rounded by {:.2g} m",
+                                mTally.low, mTally.high, mTally.rounded),
+                    "subtract a constant from all heights");
+    if (anyKnown()) checkScaledHeights(mFile.string(), mTally.low, mTally.high, verticalScale);
+}
+
+namespace {
+
+DemSamples samplesOfBand(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
+                         double verticalScale, Progress& progress) {
+    SampleRows rows(dataset, messages, file);
+    const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
+    DemSamples samples{{}, rows.band().chosen, rows.band().unit, rows.band().missing};
+    samples.heights.resize(static_cast<std::size_t>(width) * height);
+    for (int row = 0; row < height; row += rows.runOfRows()) {
+        progress.report(double(row) / height, "reading " + file.filename().string());
+        rows.read(row, std::min(rows.runOfRows(), height - row),
+                  &samples.heights[static_cast<std::size_t>(row) * width]);
+    }
+    rows.check(verticalScale);
+    if (!rows.holdsCustomary()) return samples;
+    for (float& h : samples.heights)
+        if (h == static_cast<float>(kCustomary)) h = kMissing;
+    samples.missing = kCustomaryMissing;
+    return samples;
+}
+
+}  // namespace
+
 DemSamples readSamples(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
                        double verticalScale, Progress& progress) {
     DemSamples samples;
-    Tally all;
     if (isGsiTile(dataset)) {
         samples = {gsiSamples(dataset), "", "", "of the tile's own code"};
+        SampleRows::Tally all;
         for (const float h : samples.heights)
-            if (!std::isnan(h)) tally(h, h, all);
+            if (!std::isnan(h)) all.add(h, h);
+        if (all.low <= all.high) checkScaledHeights(file.string(), all.low, all.high, verticalScale);
     } else {
-        const HeightBand band = heightBandOf(dataset, file);
-        samples = readBand(dataset, band, messages, file, all, progress);
-        checkPrecision(file, all);
-        dropCustomary(all, band, samples);
+        samples = samplesOfBand(dataset, messages, file, verticalScale, progress);
     }
-    if (all.low <= all.high) checkScaledHeights(file.string(), all.low, all.high, verticalScale);
     if (verticalScale != 1)
         for (float& h : samples.heights) h = static_cast<float>(h * verticalScale);
     return samples;
