@@ -192,7 +192,7 @@ TEST_F(VolumeCommands, AMediumReadsItsStudyOnce) {
         std::ifstream lines(asked);
         int count = 0;
         for (double taken = 0, bytes = 0; lines >> taken >> bytes;)
-            count += bytes == 24.0 * 24 * 24 * 4;  // two bytes a voxel, twice
+            count += bytes == 24.0 * 24 * 24 * 2;  // two bytes a voxel
         return count;
     };
     EXPECT_EQ(readings(ct), 1);

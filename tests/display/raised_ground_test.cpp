@@ -91,9 +91,9 @@ TEST_F(RaisedGroundTest, WhatIsPaintedIsSaidAndGoesOnInTheNextScene) {
     EXPECT_EQ(withLive(session, {{"contours", {"5"}}}), (SettingTexts{{"contours", {"12"}}}));
     EXPECT_EQ(valueNow(session, "contours"), "12");
     // One that is to be loaded stays said.
-    EXPECT_FALSE(isLive(session, "paint", "slope"));
-    EXPECT_EQ(withLive(session, {{"paint", {"slope"}}}),
-              (SettingTexts{{"contours", {"12"}}, {"paint", {"slope"}}}));
+    EXPECT_FALSE(isLive(session, "image", "ground.png"));
+    EXPECT_EQ(withLive(session, {{"image", {"ground.png"}}}),
+              (SettingTexts{{"contours", {"12"}}, {"image", {"ground.png"}}}));
     session.replaceScene(raised);
     EXPECT_EQ(withLive(session, {}), (SettingTexts{{"contours", {"12"}}}));
     setLive(session, "contours", std::nullopt);
