@@ -6,13 +6,15 @@
 #include "app/scene/medium_of.h"
 #include "app/scene/scene_type.h"
 #include "app/scene/terrain_loading.h"
+#include "terrain/raster/elevation_folder.h"
 
 namespace stereonav {
 namespace {
 
+// Or a folder of elevation files.
 bool isAnyFile(const std::string& file) {
     std::error_code code;
-    return !std::filesystem::is_directory(file, code);
+    return !std::filesystem::is_directory(file, code) || !elevationFilesIn(file).empty();
 }
 
 std::vector<NamedPlace> filesOfScene(const SceneOptions& options) {

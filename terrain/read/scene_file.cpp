@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/camera/view_ranges.h"
 #include "engine/image/packed_color.h"
+#include "terrain/raster/elevation_folder.h"
 #include "terrain/read/scene_ranges.h"
 #include "terrain/read/toml_document.h"
 
@@ -163,11 +164,11 @@ SceneFile sceneFileFromName(const std::string& name) {
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     std::error_code code;
     const bool isFolder = fs::is_directory(name, code);
-    if (isFolder || !fs::exists(name, code))
-        throw Error(
-            name, "", isFolder ? "expected a file, found a folder" : "no such file",
-            "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png), or nothing for the "
-            "built-in terrain");
+    if (isFolder ? elevationFilesIn(name).empty() : !fs::exists(name, code))
+        throw Error(name, "", isFolder ? "found a folder without elevation files" : "no such file",
+                    "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png) or a folder of "
+                    "such, or nothing for the "
+                    "built-in terrain");
     if (extension == ".toml") return readSceneFile(name);
     scene.file = scene.dem = name;
     return scene;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <string_view>
@@ -13,6 +14,7 @@
 
 #include "engine/base/error.h"
 #include "engine/text/number.h"
+#include "terrain/raster/elevation_folder.h"
 #include "terrain/read/gdal/dem_samples.h"
 #include "terrain/read/gdal/reference_system.h"
 
@@ -80,6 +82,8 @@ void placeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGri
     dem.source = georeferenceOf(dataset, file, dem.georeferenced);
     dem.driver = dataset.GetDriver()->GetMetadataItem(GDAL_DMD_LONGNAME);
     if (std::string_view(dataset.GetDriverName()) == "GTiff") dem.driver = "GeoTIFF";
+    if (std::error_code failed; std::filesystem::is_directory(file, failed))
+        dem.driver = fmt::format("{} files of a folder", elevationFilesIn(file).size());
     dem.crs = systemName(dem.source.wkt);
     dem.verticalDatum = verticalDatumOf(dataset);
     if (dem.source.wkt.empty() && dem.georeferenced && looksLikeDegrees(dem.source)) {

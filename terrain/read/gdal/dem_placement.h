@@ -13,10 +13,6 @@
 
 namespace stereonav {
 
-// What openRaster() says of what is no elevation model.
-constexpr const char* kExpectedDem = "an elevation model";
-constexpr const char* kDemAdvice = "give a GeoTIFF, .hgt, USGS DEM, ESRI ASCII or 16-bit PNG file";
-
 // Fills in driver, crs, datum, source and georeferenced. Throws Error named by the file where its samples lie
 // nowhere or are less than 2x2.
 void describeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGrid& dem);

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
+#include "terrain/read/gdal/dem_open.h"
 #include "terrain/read/gdal/dem_placement.h"
 #include "terrain/read/gdal/dem_resample.h"
 #include "terrain/read/gdal/dem_samples.h"
@@ -77,7 +78,7 @@ void bringToGrid(const std::filesystem::path& file, const DemPlacement& placemen
 
 DemGlance glanceAtDem(const std::filesystem::path& file) {
     GdalMessages messages;
-    const GdalDataset dataset = openRaster(file, messages, kExpectedDem, kDemAdvice);
+    const GdalDataset dataset = openDem(file, messages);
     checkRasterSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
     DemGrid dem;
     describeSource(*dataset, file, dem);
@@ -101,7 +102,7 @@ DemGlance glanceAtDem(const std::filesystem::path& file) {
 DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
                 const BytesForSamples& after) {
     GdalMessages messages;
-    const GdalDataset dataset = openRaster(file, messages, kExpectedDem, kDemAdvice);
+    const GdalDataset dataset = openDem(file, messages);
     checkRasterSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
     DemGrid dem;
     describeSource(*dataset, file, dem);

@@ -12,25 +12,13 @@
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "terrain/read/dem_rows.h"
+#include "terrain/read/gdal/dem_open.h"
 #include "terrain/read/gdal/dem_placement.h"
 #include "terrain/read/gdal/dem_samples.h"
+#include "terrain/read/gdal/program_words.h"
 
 namespace stereonav {
 namespace {
-
-// Arguments as GDAL's programs take them.
-class Words {
-public:
-    Words& add(const std::string& word) {
-        mWords = CSLAddString(mWords, word.c_str());
-        return *this;
-    }
-    ~Words() { CSLDestroy(mWords); }
-    char** get() { return mWords; }
-
-private:
-    char** mWords = nullptr;
-};
 
 std::string exactly(double number) {
     return fmt::format("{:.17g}", number);
@@ -43,7 +31,7 @@ std::string exactly(double number) {
 
 // The band alone, as doubles: what the warper mixes is not rounded to the file's own type.
 GdalDataset bandOf(GDALDataset& dataset, const HeightBand& band) {
-    Words words;
+    ProgramWords words;
     words.add("-of").add("VRT").add("-b").add(std::to_string(band.number)).add("-ot").add("Float64");
     GDALTranslateOptions* const options = GDALTranslateOptionsNew(words.get(), nullptr);
     GdalDataset made(
@@ -56,7 +44,7 @@ GdalDataset warped(GDALDataset& dataset, const DemGrid& dem, const HeightBand& b
     const auto& t = dem.grid.transform;
     const double west = t[0], north = t[3], east = west + t[1] * dem.grid.width,
                  south = north + t[5] * dem.grid.height;
-    Words words;
+    ProgramWords words;
     words.add("-of").add("VRT").add("-r").add("bilinear").add("-et").add("0.125").add("-wm").add("64");
     if (!dem.source.wkt.empty()) words.add("-s_srs").add(dem.source.wkt).add("-t_srs").add(dem.grid.wkt);
     words.add("-te").add(exactly(west)).add(exactly(south)).add(exactly(east)).add(exactly(north));
@@ -73,7 +61,7 @@ GdalDataset warped(GDALDataset& dataset, const DemGrid& dem, const HeightBand& b
 class DemRowsReader final : public DemRows::Reader {
 public:
     explicit DemRowsReader(const std::filesystem::path& file)
-        : mFile(file), mDataset(openRaster(file, mMessages, kExpectedDem, kDemAdvice)) {
+        : mFile(file), mDataset(openDem(file, mMessages)) {
         checkRasterSize(file, mDataset->GetRasterXSize(), mDataset->GetRasterYSize(), kReadByRows);
         describeSource(*mDataset, file, mDem);
         mPlacement = placementOf(mDem.source, file, kReadByRows);

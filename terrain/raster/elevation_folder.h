@@ -1,0 +1,13 @@
+// A folder whose elevation files are one ground.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace stereonav {
+
+// Its files whose extension is one of elevation models (.tif, .tiff, .hgt, .dem, .asc, .dt0, .dt1, .dt2,
+// .img, .bil, .flt, .bt), sorted by name; those in folders of it do not count. None where it is no folder.
+std::vector<std::filesystem::path> elevationFilesIn(const std::filesystem::path& folder);
+
+}  // namespace stereonav

@@ -1,0 +1,17 @@
+// Opens what an elevation model is named by: its file, or a folder of files that are one ground.
+#pragma once
+
+#include <filesystem>
+
+#include "terrain/read/gdal/gdal_session.h"
+
+namespace stereonav {
+
+// Of a folder a virtual raster over all its elevation files (elevation_folder.h). They have one reference
+// system, stand north up, and mean their numbers alike. The finest samples count; files that are coarser, or
+// not on the grid of the first, are resampled (bilinear). Where files overlap the one whose name comes last
+// counts, but for its missing samples; where there is none samples are missing. Throws Error named by the
+// file that does not fit.
+GdalDataset openDem(const std::filesystem::path& place, const GdalMessages& messages);
+
+}  // namespace stereonav

@@ -1,0 +1,141 @@
+// Several files as one ground: the ground that was cut into them, and what does not fit.
+#include "terrain/raster/elevation_folder.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "raster_files.h"
+#include "terrain/read/dem_reader.h"
+#include "terrain/read/dem_rows.h"
+
+namespace stereonav::test {
+namespace {
+
+constexpr int kWidth = 190, kHeight = 140;
+
+double hillAt(int c, int r) {
+    return std::floor(500 + 200 * std::sin(0.05 * c) * std::cos(0.07 * r));
+}
+
+RasterSpec partSpec(int column, int row, int width, int height) {
+    RasterSpec spec;
+    spec.width = width, spec.height = height;
+    spec.transform = {500000 + 30. * column, 30, 0, 5000000 - 30. * row, 0, -30};
+    spec.value = [column, row](int c, int r, int) { return hillAt(column + c, row + r); };
+    return spec;
+}
+
+DemGrid read(const std::filesystem::path& file) {
+    Progress progress;
+    return readDem(file, 1, progress);
+}
+
+bool sameHeights(const std::vector<float>& a, const std::vector<float>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+class ElevationFolder : public testing::Test {
+protected:
+    ElevationFolder() { std::filesystem::create_directory(parts()); }
+    std::filesystem::path parts() const { return mFolder / "parts"; }
+    void write(const std::string& name, const RasterSpec& spec) { writeRaster(parts() / name, spec); }
+    std::string refusal() {
+        return errorOf([&] { read(parts()); });
+    }
+    // Of differing sizes; over: samples that they share with the next.
+    void cut(int over, bool all = true) {
+        for (int j = 0; j < kHeight; j += 50)
+            for (int i = 0; i < kWidth; i += 64)
+                if (all || i != 64 || j != 50)
+                    write("part_" + std::to_string(i) + "_" + std::to_string(j) + ".tif",
+                          partSpec(i, j, std::min(64 + over, kWidth - i), std::min(50 + over, kHeight - j)));
+    }
+
+    TempFolder mFolder;
+};
+
+TEST_F(ElevationFolder, IsTheGroundThatWasCut) {
+    const DemGrid whole = read(writeRaster(mFolder / "whole.tif", partSpec(0, 0, kWidth, kHeight)));
+    for (const int over : {0, 5}) {
+        cut(over);
+        std::ofstream(parts() / "part_0_0.txt") << "no raster";
+        const DemGrid dem = read(parts());
+        EXPECT_EQ(elevationFilesIn(parts()).size(), 9u);
+        EXPECT_EQ(dem.width, kWidth);
+        EXPECT_EQ(dem.sourceOffset, whole.sourceOffset);
+        EXPECT_TRUE(sameHeights(dem.heights, whole.heights)) << over;
+        EXPECT_EQ(dem.driver, "9 files of a folder");
+        DemRows rows(parts());
+        std::vector<float> heights(whole.heights.size());
+        rows.read(0, kHeight, heights.data());
+        EXPECT_TRUE(sameHeights(heights, whole.heights)) << over;
+    }
+}
+
+TEST_F(ElevationFolder, LeavesOutWhatNoFileHas) {
+    cut(0, false);
+    const DemGrid dem = read(parts());
+    EXPECT_EQ(dem.sourceMissing, 64 * 50);
+    const auto at = [&](int c, int r) {
+        return dem.heights[static_cast<std::size_t>(kHeight - 1 - r) * kWidth + c];
+    };
+    EXPECT_TRUE(std::isnan(at(64, 50)));
+    EXPECT_EQ(at(63, 50), hillAt(63, 50));
+}
+
+// The last by name counts, but where it has nothing itself.
+TEST_F(ElevationFolder, TakesTheLastWhereFilesOverlap) {
+    RasterSpec under = partSpec(0, 0, 40, 30), over = partSpec(20, 0, 40, 30);
+    under.type = over.type = GDT_Int16;
+    over.hasNodata = true, over.nodata = -1;
+    over.value = [](int c, int r, int) { return c == 3 && r == 4 ? -1.0 : 77.0; };
+    under.hasNodata = true, under.nodata = -32000;
+    write("a.tif", under), write("b.tif", over);
+    const DemGrid dem = read(parts());
+    ASSERT_EQ(dem.width, 60);
+    const auto at = [&](int c, int r) { return dem.heights[static_cast<std::size_t>(29 - r) * 60 + c]; };
+    EXPECT_EQ(at(10, 4), hillAt(10, 4));
+    EXPECT_EQ(at(30, 4), 77);
+    EXPECT_EQ(at(23, 4), hillAt(23, 4));
+    EXPECT_EQ(dem.sourceMissing, 0);
+}
+
+TEST_F(ElevationFolder, TakesTheFinestSamplesOfAll) {
+    RasterSpec coarse = partSpec(0, 0, 20, 20);
+    coarse.transform = {500000, 60, 0, 5000000, 0, -60};
+    coarse.value = [](int c, int, int) { return 10.0 * c; };
+    write("a.tif", coarse), write("b.tif", partSpec(40, 0, 40, 40));
+    const DemGrid dem = read(parts());
+    EXPECT_EQ(dem.spacing, glm::dvec2(30, 30));
+    ASSERT_EQ(dem.width, 80);
+    EXPECT_EQ(dem.heights[45], hillAt(45, 39));
+    EXPECT_NEAR(dem.heights[20], 10 * (20.5 / 2 - 0.5), 0.01) << "between the samples of the coarser one";
+}
+
+TEST_F(ElevationFolder, RefusesWhatDoesNotFit) {
+    write("a.tif", partSpec(0, 0, 40, 30));
+    RasterSpec other = partSpec(40, 0, 40, 30);
+    other.epsg = 32632;
+    write("b.tif", other);
+    EXPECT_THAT(refusal(), AllOf(HasSubstr("b.tif"), HasSubstr("reference system"), HasSubstr("a.tif"),
+                                 HasSubstr("gdalwarp"), Not(HasSubstr("\n"))));
+    other = partSpec(40, 0, 40, 30);
+    other.unit = "ft";
+    write("b.tif", other);
+    EXPECT_THAT(refusal(), AllOf(HasSubstr("b.tif"), HasSubstr("heights"), Not(HasSubstr("\n"))));
+    other = partSpec(40, 0, 40, 30);
+    other.transform = {501200, -30, 0, 5000000, 0, -30};
+    write("b.tif", other);
+    EXPECT_THAT(refusal(), AllOf(HasSubstr("b.tif"), HasSubstr("turned or mirrored")));
+    std::ofstream(parts() / "b.tif") << "cut off";
+    EXPECT_THAT(refusal(), HasSubstr("b.tif"));
+    write("b.tif", partSpec(40, 0, 400, 300));
+    std::filesystem::resize_file(parts() / "b.tif", 100000);
+    EXPECT_THAT(refusal(), AllOf(Not(HasSubstr("\n")), HasSubstr("cut off")));
+    std::filesystem::remove_all(parts());
+    std::filesystem::create_directory(parts());
+    EXPECT_THAT(refusal(), HasSubstr("without any"));
+}
+
+}  // namespace
+}  // namespace stereonav::test
