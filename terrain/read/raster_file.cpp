@@ -24,6 +24,12 @@ DemGlance glanceAtDem(const std::filesystem::path& file) {
     return gdal().glanceAtDem(file);
 }
 
+std::unique_ptr<DemRows::Reader> openDemRows(const std::filesystem::path& file) {
+    return gdal().openDemRows(file);
+}
+
+DemRows::DemRows(const std::filesystem::path& file) : mReader(openDemRows(file)) {}
+
 std::unique_ptr<RasterPicture> openRasterPicture(const std::filesystem::path& file,
                                                  const std::string& expected, const std::string& advice) {
     return gdal().openRasterPicture(file, expected, advice);

@@ -14,6 +14,7 @@
 #include "terrain/raster/track_line.h"
 #include "terrain/raster/written_raster.h"
 #include "terrain/read/dem_reader.h"
+#include "terrain/read/dem_rows.h"
 
 namespace stereonav {
 
@@ -59,6 +60,7 @@ std::vector<TrackLine> readTracks(const std::filesystem::path& file);
 struct RasterFunctions {
     decltype(&stereonav::readDem) readDem;
     decltype(&stereonav::glanceAtDem) glanceAtDem;
+    decltype(&stereonav::openDemRows) openDemRows;
     decltype(&stereonav::openRasterPicture) openRasterPicture;
     decltype(&stereonav::mapPixels) mapPixels;
     decltype(&stereonav::overlap) overlap;

@@ -1,213 +1,22 @@
-// Elevation models: opened and read (dem_samples), then placed on a grid in metres, by turning rows
-// over where that is enough and by resampling where it is not.
+// Elevation models read at once: opened, placed (dem_placement), read (dem_samples), and turned over or
+// resampled (dem_resample).
 #include "terrain/read/dem_reader.h"
 
 #include <fmt/format.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
-#include "engine/text/number.h"
+#include "terrain/read/gdal/dem_placement.h"
 #include "terrain/read/gdal/dem_resample.h"
 #include "terrain/read/gdal/dem_samples.h"
 #include "terrain/read/gdal/height_band.h"
 #include "terrain/read/gdal/reference_system.h"
-#include "terrain/read/raster_file.h"
 
 namespace stereonav {
 namespace {
-
-constexpr const char* kExpected = "an elevation model";
-constexpr const char* kAdvice = "give a GeoTIFF, .hgt, USGS DEM, ESRI ASCII or 16-bit PNG file";
-constexpr double kScaleTolerance = 0.01;  // a projection stretched by more is not metres on the ground
-
-// Metres a pixel of a web map tile whose path ends in zoom/x/y.ext; the second is its latitude.
-std::optional<double> tileSpacing(const std::filesystem::path& file) {
-    const auto y = wholeOf<int>(file.stem().string());
-    const auto x = wholeOf<int>(file.parent_path().filename().string());
-    const auto zoom = wholeOf<int>(file.parent_path().parent_path().filename().string());
-    if (!x || !y || !zoom || *x < 0 || *y < 0 || *zoom < 0 || *zoom > 24) return std::nullopt;
-    const double tiles = std::ldexp(1.0, *zoom);
-    if (*x >= tiles || *y >= tiles) return std::nullopt;
-    const double latitude = std::atan(std::sinh(std::numbers::pi * (1 - 2 * (*y + 0.5) / tiles)));
-    constexpr double kEquator_m = 40075016.68557849;
-    return kEquator_m * std::cos(latitude) / (256 * tiles);
-}
-
-// Coordinates without a reference system that can hardly be anything but degrees: fine steps inside
-// the globe's range, not starting at (0, 0) as measured surfaces do.
-bool looksLikeDegrees(const Georeference& raster) {
-    const glm::dvec2 a = raster.fromPixel({0, 0}), b = raster.fromPixel({raster.width, raster.height});
-    const auto within = [](const glm::dvec2& p) { return std::abs(p.x) <= 360 && std::abs(p.y) <= 90.01; };
-    const bool atZero = std::abs(std::min(a.x, b.x)) < 1e-9 && std::abs(std::min(a.y, b.y)) < 1e-9;
-    return within(a) && within(b) && !atZero && raster.axisAligned() &&
-           std::abs(raster.transform[1]) <= 0.02 && std::abs(raster.transform[5]) <= 0.02;
-}
-
-// Its name; files that leave it out get one from the datum and the projection.
-std::string systemName(const std::string& wkt) {
-    OGRSpatialReference system;
-    if (wkt.empty() || system.importFromWkt(wkt.c_str()) != OGRERR_NONE) return "";
-    const char* name = system.GetName();
-    if (name && std::string_view(name) != "unnamed" && std::string_view(name) != "unknown") return name;
-    const char *datum = system.GetAttrValue("GEOGCS"), *projection = system.GetAttrValue("PROJECTION");
-    int north = 0;
-    const int zone = system.GetUTMZone(&north);
-    std::string made = datum ? datum : "unnamed datum";
-    if (zone != 0)
-        made += fmt::format(" / UTM zone {}{}", zone, north ? 'N' : 'S');
-    else if (projection)
-        made += fmt::format(" / {}", projection);
-    return made;
-}
-
-// What its heights are counted from: the vertical part of its reference system, or the ellipsoid of one with
-// three axes.
-std::string verticalDatumOf(GDALDataset& dataset) {
-    const OGRSpatialReference* system = dataset.GetSpatialRef();
-    if (!system) system = dataset.GetGCPSpatialRef();
-    if (!system) return "";
-    const auto text = [](const char* word) { return std::string(word ? word : ""); };
-    if (!system->IsCompound())
-        return system->GetAxesCount() == 3 ? "the ellipsoid of " + text(system->GetName()) : "";
-    const std::string name = text(system->GetAttrValue("VERT_CS")),
-                      datum = text(system->GetAttrValue("VERT_DATUM"));
-    if (name.empty() || datum.empty() || name == datum) return name.empty() ? datum : name;
-    return name + ", " + datum;
-}
-
-void placeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGrid& dem) {
-    dem.source = georeferenceOf(dataset, file, dem.georeferenced);
-    dem.driver = dataset.GetDriver()->GetMetadataItem(GDAL_DMD_LONGNAME);
-    if (std::string_view(dataset.GetDriverName()) == "GTiff") dem.driver = "GeoTIFF";
-    dem.crs = systemName(dem.source.wkt);
-    dem.verticalDatum = verticalDatumOf(dataset);
-    if (dem.source.wkt.empty() && dem.georeferenced && looksLikeDegrees(dem.source)) {
-        OGRSpatialReference degrees;
-        degrees.importFromEPSG(4326);
-        dem.source.wkt = wktOf(degrees);
-        dem.crs = "WGS 84 (assumed: the file names none, its coordinates look like degrees)";
-    }
-    if (!isGsiTile(dataset)) return;
-    dem.driver = "GSI elevation tile (RGB-coded PNG)";
-    if (dem.georeferenced) return;
-    constexpr double kZoom14At36North_m = 40075016.68557849 / (256.0 * 16384.0) * 0.80901699437494742;
-    const auto spacing = tileSpacing(file);
-    const double step = spacing.value_or(kZoom14At36North_m);
-    dem.source.transform = {0, step, 0, 0, 0, -step};
-    dem.projection = fmt::format("tile of {:.4g} m a sample, {}", step,
-                                 spacing ? "from its path zoom/x/y" : "assumed: zoom 14 at 36 degrees north");
-}
-
-void resample(const std::filesystem::path& file, DemGrid& dem, bool ownSystem, std::vector<float>& samples,
-              Progress& progress) {
-    ResampledDem resampled = resampleDem(samples, dem.source, dem.grid, file, progress);
-    samples = std::move(resampled.heights);
-    dem.outside = resampled.outside;
-    dem.projection = fmt::format("{}, resampled from {}x{}",
-                                 dem.grid.wkt.empty() ? "turned level"
-                                 : ownSystem          ? "turned level in its own projection"
-                                                      : "local transverse Mercator",
-                                 dem.source.width, dem.source.height);
-}
-
-void flipRows(std::vector<float>& samples, int width, int height) {
-    for (int j = 0; j < height / 2; ++j)
-        std::swap_ranges(&samples[static_cast<std::size_t>(j) * width],
-                         &samples[static_cast<std::size_t>(j) * width] + width,
-                         &samples[static_cast<std::size_t>(height - 1 - j) * width]);
-}
-
-// Turns an axis-aligned raster north up and east right; dem.grid follows.
-void orient(DemGrid& dem, std::vector<float>& samples) {
-    dem.grid = dem.source;
-    auto& t = dem.grid.transform;
-    const int width = dem.grid.width, height = dem.grid.height;
-    if (t[1] < 0) {
-        for (int j = 0; j < height; ++j) {
-            const auto row = samples.begin() + static_cast<std::ptrdiff_t>(j) * width;
-            std::reverse(row, row + width);
-        }
-        t[0] += t[1] * width;
-        t[1] = -t[1];
-    }
-    if (t[5] > 0) {
-        flipRows(samples, width, height);
-        t[3] += t[5] * height;
-        t[5] = -t[5];
-    }
-    t[2] = t[4] = 0;
-}
-
-// The plane that ground lies in as it is.
-struct OwnPlane {
-    double metres = 0;    // on the ground, in a unit; 0: it has none, and is brought to another plane
-    bool stays = false;   // also where the raster has to be turned level
-    std::string stretch;  // of the plane over a pole, in words
-};
-
-// Over a pole no transverse Mercator is north up: the raster's own projection stays, in metres on the ground
-// at its middle.
-OwnPlane polarPlane(const Georeference& source, double unit, const std::filesystem::path& file) {
-    constexpr double kMostStretch = 1.2;  // a map of an arctic continent
-    constexpr int kPlaces = 9;
-    const auto mapScale = [&](const glm::dvec2& pixel) {
-        const glm::dvec2 ground = groundScale(source, pixel);
-        return 1 / std::sqrt(ground.x * ground.y);
-    };
-    const glm::dvec2 size(source.width, source.height);
-    const double middle = mapScale(0.5 * size);
-    double low = middle, high = middle;
-    for (int k = 0; k < kPlaces * kPlaces; ++k) {
-        const double scale = mapScale(size * glm::dvec2(k % kPlaces, k / kPlaces) / (kPlaces - 1.0));
-        low = std::min(low, scale), high = std::max(high, scale);
-    }
-    if (!(high <= kMostStretch * low))
-        throw Error(file.string(), "extent",
-                    fmt::format("expected a map over the pole whose scales differ by at most {:g} times, "
-                                "got {:.4g} to {:.4g}",
-                                kMostStretch, low, high),
-                    "cut out a part, for example with gdal_translate -projwin");
-    const bool onGround = std::abs(middle - 1) <= kScaleTolerance;
-    return {onGround ? unit : unit / middle, true,
-            fmt::format(", over the pole: map scale {:.4g} in its middle, {:.4g} to {:.4g} all over", middle,
-                        low, high)};
-}
-
-OwnPlane ownPlane(const Georeference& source, const std::filesystem::path& file) {
-    const double unit = metresPerUnit(source);
-    if (unit == 0) return {};
-    if (holdsPole(source)) return polarPlane(source, unit, file);
-    const glm::dvec2 scale = groundScale(source, 0.5 * glm::dvec2(source.width, source.height));
-    const bool onGround = std::max(std::abs(scale.x - 1), std::abs(scale.y - 1)) <= kScaleTolerance;
-    return {onGround ? unit : 0.0, !onEarth(source), ""};
-}
-
-std::string projectionAsItIs(const DemGrid& dem, double metres) {
-    if (!dem.georeferenced) return "none: 1 m a sample";
-    return metres == 1.0 ? "as it is" : fmt::format("as it is, {:.9g} m a unit", metres);
-}
-
-// How the samples get to a grid in metres: known before they are read.
-struct Placement {
-    OwnPlane plane;
-    bool asTheyAre = false;  // turned over at most; else resampled onto
-    Georeference grid;       // this
-};
-
-Placement placementOf(const Georeference& source, const std::filesystem::path& file) {
-    Placement placement{ownPlane(source, file), false, source};
-    placement.asTheyAre = placement.plane.metres > 0 && source.points.empty() && source.axisAligned();
-    if (placement.asTheyAre) return placement;
-    placement.grid = metricGrid(source, placement.plane.stays, file);
-    checkRasterSize(file, placement.grid.width, placement.grid.height);
-    return placement;
-}
 
 // Bytes at once: while the samples are read (a run of rows in double precision, GDAL's blocks), are
 // resampled, and afterwards.
@@ -219,8 +28,8 @@ double bytesFor(double width, double height, double resampled, const BytesForSam
     return std::max({reading, resampling, after ? after(target) : kHeight * target});
 }
 
-void checkMemoryFor(const std::filesystem::path& file, const Georeference& source, const Placement& placement,
-                    const BytesForSamples& after) {
+void checkMemoryFor(const std::filesystem::path& file, const Georeference& source,
+                    const DemPlacement& placement, const BytesForSamples& after) {
     const double grid = 1.0 * placement.grid.width * placement.grid.height,
                  perSample = placement.asTheyAre ? 0 : grid / (1.0 * source.width * source.height);
     const auto needed = [&](double share) {
@@ -243,68 +52,35 @@ void checkMemoryFor(const std::filesystem::path& file, const Georeference& sourc
             : "free memory");
 }
 
-// Brings the samples to a grid in metres; dem.grid, dem.projection and dem.spacing follow.
-void placeInMetres(const std::filesystem::path& file, const Placement& placement, DemGrid& dem,
-                   std::vector<float>& samples, Progress& progress) {
-    const OwnPlane& plane = placement.plane;
-    dem.grid = placement.grid;
-    const std::string given = dem.projection;
-    double unit = 1;
-    if (placement.asTheyAre) {
-        orient(dem, samples);
-        unit = plane.metres;
-        dem.projection = projectionAsItIs(dem, unit) + plane.stretch;
-    } else {
-        resample(file, dem, plane.stays, samples, progress);
-        if (plane.stays) unit = plane.metres;
-        dem.projection += plane.stretch;
+void flipRows(std::vector<float>& samples, int width, int height) {
+    for (int j = 0; j < height / 2; ++j)
+        std::swap_ranges(&samples[static_cast<std::size_t>(j) * width],
+                         &samples[static_cast<std::size_t>(j) * width] + width,
+                         &samples[static_cast<std::size_t>(height - 1 - j) * width]);
+}
+
+// Brings the file's samples onto dem.grid, south row first.
+void bringToGrid(const std::filesystem::path& file, const DemPlacement& placement, DemGrid& dem,
+                 std::vector<float>& samples, Progress& progress) {
+    if (!placement.asTheyAre) {
+        ResampledDem resampled = resampleDem(samples, dem.source, dem.grid, file, progress);
+        samples = std::move(resampled.heights);
+        dem.outside = resampled.outside;
     }
-    if (!given.empty()) dem.projection = given;
-    if (dem.georeferenced && (placement.asTheyAre || plane.stays)) dem.sourceUnit = unit;
-    dem.spacing = glm::dvec2(dem.grid.transform[1], -dem.grid.transform[5]) * unit;
-}
-
-// Placed by what is not read here; without, it would be taken for one that has no place.
-void checkPlacement(GDALDataset& dataset, const std::filesystem::path& file, bool georeferenced) {
-    if (georeferenced) return;
-    for (const auto& [domain, advice] :
-         {std::pair{"RPC", "bring it to a plane, for example with gdalwarp -rpc"},
-          {"GEOLOCATION", "bring it to a plane, for example with gdalwarp -geoloc"}})
-        if (dataset.GetMetadata(domain))
-            throw Error(file.string(), "georeference",
-                        fmt::format("expected a transform or control points, found {} alone",
-                                    std::string_view(domain) == "RPC" ? "rational polynomials (RPC)"
-                                                                      : "arrays of places"),
-                        advice);
-}
-
-void checkGrid(const std::filesystem::path& file, const DemGrid& dem) {
-    if (dem.source.width < 2 || dem.source.height < 2)
-        throw Error(
-            file.string(), "size",
-            fmt::format("expected at least 2x2 samples, got {}x{}", dem.source.width, dem.source.height),
-            "a surface needs two samples each way");
-    for (const double number : dem.source.transform)
-        if (!std::isfinite(number))
-            throw Error(file.string(), "georeference", "expected finite numbers, got others",
-                        "check the file's pixel size and corner");
-    const auto& t = dem.source.transform;
-    if (t[1] * t[5] - t[2] * t[4] == 0)
-        throw Error(file.string(), "georeference",
-                    fmt::format("expected pixel sizes that are not 0, got {:g} x {:g}", t[1], t[5]),
-                    "check the file's pixel size");
+    if (placement.westward)
+        for (auto row = samples.begin(); row != samples.end(); row += dem.width)
+            std::reverse(row, row + dem.width);
+    if (!placement.southFirst) flipRows(samples, dem.width, dem.height);
 }
 
 }  // namespace
 
 DemGlance glanceAtDem(const std::filesystem::path& file) {
     GdalMessages messages;
-    const GdalDataset dataset = openRaster(file, messages, kExpected, kAdvice);
+    const GdalDataset dataset = openRaster(file, messages, kExpectedDem, kDemAdvice);
     checkRasterSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
     DemGrid dem;
-    placeSource(*dataset, file, dem);
-    checkPlacement(*dataset, file, dem.georeferenced);
-    checkGrid(file, dem);
+    describeSource(*dataset, file, dem);
     DemGlance glance;
     glance.width = dem.source.width, glance.height = dem.source.height;
     const auto& t = dem.source.transform;
@@ -325,13 +101,11 @@ DemGlance glanceAtDem(const std::filesystem::path& file) {
 DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
                 const BytesForSamples& after) {
     GdalMessages messages;
-    const GdalDataset dataset = openRaster(file, messages, kExpected, kAdvice);
+    const GdalDataset dataset = openRaster(file, messages, kExpectedDem, kDemAdvice);
     checkRasterSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
     DemGrid dem;
-    placeSource(*dataset, file, dem);
-    checkPlacement(*dataset, file, dem.georeferenced);
-    checkGrid(file, dem);
-    const Placement placement = placementOf(dem.source, file);
+    describeSource(*dataset, file, dem);
+    const DemPlacement placement = placementOf(dem.source, file, kReadAtOnce);
     checkMemoryFor(file, dem.source, placement, after);
     DemSamples read = readSamples(*dataset, messages, file, verticalScale, progress);
     std::vector<float> samples = std::move(read.heights);
@@ -340,15 +114,9 @@ DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progres
     dem.missingValue = std::move(read.missing);
     dem.sourceMissing = std::count_if(samples.begin(), samples.end(), [](float h) { return std::isnan(h); });
     if (dem.sourceMissing == static_cast<long long>(samples.size()))
-        throw Error(file.string(), "",
-                    fmt::format("all {} samples are missing{}", samples.size(),
-                                dem.missingValue.empty() ? "" : " (nodata " + dem.missingValue + ")"),
-                    "check the file's nodata value");
-    placeInMetres(file, placement, dem, samples, progress);
-    dem.width = dem.grid.width;
-    dem.height = dem.grid.height;
-    dem.sourceOffset = dem.grid.fromPixel(0.5 * glm::dvec2(dem.width, dem.height));
-    flipRows(samples, dem.width, dem.height);
+        throwAllMissing(file, dem.sourceMissing, dem.missingValue);
+    placeOnGrid(placement, dem);
+    bringToGrid(file, placement, dem, samples, progress);
     dem.heights = std::move(samples);
     return dem;
 }

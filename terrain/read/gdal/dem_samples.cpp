@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "engine/base/error.h"
-#include "terrain/read/gdal/height_band.h"
 #include "terrain/read/height_limits.h"
 
 namespace stereonav {
@@ -49,77 +48,18 @@ std::vector<float> gsiSamples(GDALDataset& dataset) {
     return heights;
 }
 
-// Heights of the rows that were read, and what is to be known of all.
-struct Tally {
-    double low = std::numeric_limits<double>::infinity(), high = -low;  // metres
-    double rounded = 0;                                                 // the most that a float lost, metres
-    long long customary = 0;   // of the value that often stands for missing samples
-    double lowestOther = low;  // without those
-};
-
-constexpr double kCustomary = -9999;
-
-void tally(double metres, float kept, Tally& all) {
-    all.low = std::min(all.low, metres), all.high = std::max(all.high, metres);
-    all.rounded = std::max(all.rounded, std::abs(metres - kept));
-    if (metres == kCustomary)
-        ++all.customary;
-    else
-        all.lowestOther = std::min(all.lowestOther, metres);
-}
-
-// Relief that floats would turn to steps: refused, as it would be other ground.
-void checkPrecision(const std::filesystem::path& file, const Tally& all) {
-    constexpr double kLeastLoss_m = 0.01, kShare = 1e-3;
-    if (all.rounded <= std::max(kLeastLoss_m, kShare * (all.high - all.low))) return;
-    throw Error(
-        file.string(), "heights",
-        fmt::format(
-            "expected relief that single precision holds, got {:.12g} to {:.12g} m, rounded by {:.2g} m",
-            all.low, all.high, all.rounded),
-        "subtract a constant from all heights");
-}
-
-// -9999 alone far below all other ground, in a file that names no value for missing samples, is one.
-void dropCustomary(const Tally& all, const HeightBand& band, DemSamples& samples) {
-    constexpr double kFarBelow_m = 1000;
-    if (all.customary == 0 || band.nodata || band.masked || !(all.lowestOther > kCustomary + kFarBelow_m))
-        return;
-    for (float& h : samples.heights)
-        if (h == static_cast<float>(kCustomary)) h = kMissing;
-    samples.missing = "-9999, as is customary: the file names none, and no other height is near it";
-}
-
-DemSamples readBand(GDALDataset& dataset, const HeightBand& heightBand, GdalMessages& messages,
-                    const std::filesystem::path& file, Tally& all, Progress& progress) {
-    GDALRasterBand& band = *dataset.GetRasterBand(heightBand.number);
-    const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
-    int blockWidth = 0, blockHeight = 0;
-    band.GetBlockSize(&blockWidth, &blockHeight);
-    const int run = std::clamp(blockHeight, 16, 256);
-    messages.clear();  // a georeference that GDAL could not make sense of is no damage to the samples
-    std::vector<double> stored(static_cast<std::size_t>(width) * run);
-    std::vector<unsigned char> mask(heightBand.masked ? stored.size() : 0);
+// All of it, a run of rows at a time.
+std::vector<float> readAll(HeightSamples& samples, GdalMessages& messages, const std::filesystem::path& file,
+                           Progress& progress) {
+    const int width = samples.width(), height = samples.height(),
+              run = std::clamp(samples.blockHeight(), 16, 256);
     std::vector<float> heights(static_cast<std::size_t>(width) * height);
     for (int row = 0; row < height; row += run) {
         progress.report(double(row) / height, "reading " + file.filename().string());
-        const int rows = std::min(run, height - row);
-        CPLErr failed = band.RasterIO(GF_Read, 0, row, width, rows, stored.data(), width, rows, GDT_Float64,
-                                      0, 0, nullptr);
-        if (heightBand.masked && failed == CE_None)
-            failed = band.GetMaskBand()->RasterIO(GF_Read, 0, row, width, rows, mask.data(), width, rows,
-                                                  GDT_Byte, 0, 0, nullptr);
-        if (failed != CE_None || messages.hasError()) throwCutOff(file, row, height, messages);
-        float* out = &heights[static_cast<std::size_t>(row) * width];
-        for (std::size_t k = 0; k < static_cast<std::size_t>(width) * rows; ++k) {
-            const bool hidden = heightBand.masked && mask[k] == 0;
-            const double metres =
-                hidden ? std::numeric_limits<double>::quiet_NaN() : heightBand.metres(stored[k]);
-            out[k] = static_cast<float>(metres);
-            if (!std::isnan(metres)) tally(metres, out[k], all);
-        }
+        samples.read({0, row, width, std::min(run, height - row)}, messages,
+                     &heights[static_cast<std::size_t>(row) * width]);
     }
-    return {std::move(heights), heightBand.chosen, heightBand.unit, heightBand.missing};
+    return heights;
 }
 
 }  // namespace
@@ -137,24 +77,108 @@ bool isGsiTile(GDALDataset& dataset) {
     return !bytes.empty();
 }
 
+HeightSamples::HeightSamples(GDALDataset& dataset, const std::filesystem::path& file)
+    : mDataset(dataset),
+      mFile(file),
+      mBand(heightBandOf(dataset, file)),
+      mConversion(dataset.GetRasterBand(mBand.number)->GetRasterDataType(), mBand),
+      mMissing(mBand.missing),
+      mWidth(dataset.GetRasterXSize()),
+      mHeight(dataset.GetRasterYSize()) {
+    dataset.GetRasterBand(mBand.number)->GetBlockSize(&mBlockWidth, &mBlockHeight);
+}
+
+GDALRasterBand& HeightSamples::levelBand(int level) const {
+    GDALRasterBand& band = *mDataset.GetRasterBand(mBand.number);
+    return level < 0 ? band : *band.GetOverview(level);
+}
+
+void HeightSamples::read(const SampleWindow& window, GdalMessages& messages, float* heights) {
+    readBand(levelBand(-1), window, messages, heights, mTally);
+}
+
+void HeightSamples::readLevel(int level, const SampleWindow& window, GdalMessages& messages, float* heights,
+                              HeightTally& tally) {
+    readBand(levelBand(level), window, messages, heights, tally);
+}
+
+void HeightSamples::readBand(GDALRasterBand& band, const SampleWindow& window, GdalMessages& messages,
+                             float* heights, HeightTally& tally) {
+    messages.clear();  // a georeference that GDAL could not make sense of is no damage to the samples
+    const auto count = static_cast<std::size_t>(window.samples());
+    mStored.resize(count * mConversion.bytes());
+    mMask.resize(mBand.masked ? count : 0);
+    const auto fetch = [&](GDALRasterBand& from, void* out, GDALDataType type) {
+        return from.RasterIO(GF_Read, window.x, window.y, window.width, window.height, out, window.width,
+                             window.height, type, 0, 0, nullptr) == CE_None;
+    };
+    const bool fetched = fetch(band, mStored.data(), mConversion.type()) &&
+                         (!mBand.masked || fetch(*band.GetMaskBand(), mMask.data(), GDT_Byte));
+    if (!fetched || messages.hasError()) throwCutOff(mFile, window.y, band.GetYSize(), messages);
+    mConversion.convert(mStored.data(), mBand.masked ? mMask.data() : nullptr, count, heights, tally);
+    if (mCustomaryIsMissing) dropCustomary(heights, count);
+}
+
+bool HeightSamples::customaryIsMissing(const HeightTally& some) const {
+    constexpr double kFarBelow_m = 1000;
+    return some.customary && !mBand.nodata && !mBand.masked &&
+           some.lowestOther > kCustomaryMissing + kFarBelow_m;
+}
+
+bool HeightSamples::findCustomary() {
+    if (!customaryIsMissing(mTally)) return false;
+    mCustomaryIsMissing = true;
+    mMissing = "-9999, as is customary: the file names none, and no other height is near it";
+    return true;
+}
+
+void HeightSamples::dropCustomary(float* heights, std::size_t count) const {
+    for (float* h = heights; h != heights + count; ++h)
+        if (*h == static_cast<float>(kCustomaryMissing)) *h = kMissing;
+}
+
+void HeightSamples::checkPrecision() const {
+    constexpr double kLeastLoss_m = 0.01, kShare = 1e-3;
+    if (mTally.rounded <= std::max(kLeastLoss_m, kShare * (mTally.high - mTally.low))) return;
+    throw Error(
+        mFile.string(), "heights",
+        fmt::format(
+            "expected relief that single precision holds, got {:.12g} to {:.12g} m, rounded by {:.2g} m",
+            mTally.low, mTally.high, mTally.rounded),
+        "subtract a constant from all heights");
+}
+
+bool HeightSamples::allMissing() const {
+    return !mTally.anyKnown() || (mCustomaryIsMissing && !(mTally.lowestOther <= mTally.high));
+}
+
 DemSamples readSamples(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
                        double verticalScale, Progress& progress) {
     DemSamples samples;
-    Tally all;
+    HeightTally all;
     if (isGsiTile(dataset)) {
         samples = {gsiSamples(dataset), "", "", "of the tile's own code"};
         for (const float h : samples.heights)
-            if (!std::isnan(h)) tally(h, h, all);
+            if (!std::isnan(h)) all.count(h, h);
     } else {
-        const HeightBand band = heightBandOf(dataset, file);
-        samples = readBand(dataset, band, messages, file, all, progress);
-        checkPrecision(file, all);
-        dropCustomary(all, band, samples);
+        HeightSamples band(dataset, file);
+        samples.heights = readAll(band, messages, file, progress);
+        band.checkPrecision();
+        if (band.findCustomary()) band.dropCustomary(samples.heights.data(), samples.heights.size());
+        samples.band = band.band().chosen, samples.unit = band.band().unit, samples.missing = band.missing();
+        all = band.tally();
     }
-    if (all.low <= all.high) checkScaledHeights(file.string(), all.low, all.high, verticalScale);
+    if (all.anyKnown()) checkScaledHeights(file.string(), all.low, all.high, verticalScale);
     if (verticalScale != 1)
         for (float& h : samples.heights) h = static_cast<float>(h * verticalScale);
     return samples;
+}
+
+void throwAllMissing(const std::filesystem::path& file, long long samples, const std::string& missing) {
+    throw Error(file.string(), "",
+                fmt::format("all {} samples are missing{}", samples,
+                            missing.empty() ? "" : " (nodata " + missing + ")"),
+                "check the file's nodata value");
 }
 
 }  // namespace stereonav

@@ -17,9 +17,6 @@
 namespace stereonav {
 namespace {
 
-constexpr long long kMaxSide = 65536;
-constexpr long long kMaxSamples = 1ll << 28;  // 1 GiB of heights; as much again for the pyramid and colour
-
 // Only formats that hold their data themselves: none that fetches another file or address is there even for
 // what a virtual raster names.
 void registerDriversOnce() {
@@ -149,12 +146,14 @@ std::string planWkt(const OGRSpatialReference& system) {
     return wktOf(plan);
 }
 
-void checkRasterSize(const std::filesystem::path& file, long long width, long long height) {
-    if (width >= 1 && height >= 1 && width <= kMaxSide && height <= kMaxSide && width * height <= kMaxSamples)
+void checkRasterSize(const std::filesystem::path& file, long long width, long long height,
+                     const RasterLimits& limits) {
+    if (width >= 1 && height >= 1 && width <= limits.side && height <= limits.side &&
+        width * height <= limits.samples)
         return;
     throw Error(file.string(), "size",
-                fmt::format("expected at most {0} samples a side and {1} in all, got {2} x {3}", kMaxSide,
-                            kMaxSamples, width, height),
+                fmt::format("expected at most {} samples a side and {} in all, got {} x {}", limits.side,
+                            limits.samples, width, height),
                 "cut out a part or thin it out, for example with gdal_translate -outsize");
 }
 

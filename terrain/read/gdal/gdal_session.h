@@ -57,7 +57,17 @@ std::string wktOf(const OGRSpatialReference& system);
 // The same without the system of heights that a compound one has.
 std::string planWkt(const OGRSpatialReference& system);
 
-// Throws Error unless both sides lie in [1, 65536] and the product is at most 2^28.
-void checkRasterSize(const std::filesystem::path& file, long long width, long long height);
+// Samples that a raster may have: a side, and in all.
+struct RasterLimits {
+    long long side = 0, samples = 0;
+};
+// Read at once: 1 GiB of heights; as much again for the pyramid and colour.
+constexpr RasterLimits kReadAtOnce = {65536, 1ll << 28};
+// Read a run of rows at a time.
+constexpr RasterLimits kReadByRows = {1ll << 20, 1ll << 40};
+
+// Throws Error unless both sides are 1 or more, and within the limits.
+void checkRasterSize(const std::filesystem::path& file, long long width, long long height,
+                     const RasterLimits& limits = kReadAtOnce);
 
 }  // namespace stereonav

@@ -5,9 +5,9 @@
 namespace stereonav {
 namespace {
 
-constexpr RasterFunctions kFunctions = {readDem,         glanceAtDem,  openRasterPicture,
-                                        mapPixels,       overlap,      earthPlaces,
-                                        referencePlaces, writeGeoTiff, readTrackFile};
+constexpr RasterFunctions kFunctions = {readDem,      glanceAtDem,  openDemRows, openRasterPicture,
+                                        mapPixels,    overlap,      earthPlaces, referencePlaces,
+                                        writeGeoTiff, readTrackFile};
 
 }  // namespace
 

@@ -1,0 +1,82 @@
+// Elevation models read a run of rows at a time, for ground larger than memory: what readDem() reads at once.
+// The reader itself is in GDAL's module (terrain/read/gdal/dem_rows_reader.cpp).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "terrain/read/dem_reader.h"
+
+namespace stereonav {
+
+// To one thread at a time. At most 2^20 samples a side and 2^40 in all.
+//
+// Heights are those of readDem(), bit for bit, where its samples stay as they are. Ground that has to be
+// resampled (degrees, feet, turned, control points, web Mercator) is resampled alike, but summits and pits
+// that lie between two samples of the grid are not put back: that takes all samples at once. A height that
+// differs from readDem()'s is there one of the file's own summits or pits, and here what lies between the
+// samples around it.
+class DemRows {
+public:
+    // What the module gives; its functions are those below.
+    class Reader {
+    public:
+        virtual ~Reader() = default;
+        virtual const DemGrid& place() const = 0;
+        virtual int runOfRows() const = 0;
+        virtual int firstRun() const = 0;
+        virtual void read(int first, int rows, float* heights) = 0;
+        virtual bool mustBeReadAgain() = 0;
+        virtual void checkHeights(double verticalScale) const = 0;
+        virtual void glance(int width, int height, float* heights) = 0;
+        virtual std::uint64_t identity() const = 0;
+    };
+
+    // Opens it and reads no sample, but for the one tile of a GSI elevation tile. Throws Error as readDem()
+    // does for what can not be read.
+    explicit DemRows(const std::filesystem::path& file);
+
+    // As readDem() gives it, but for the heights and what is counted over samples (sourceMissing, outside:
+    // 0).
+    const DemGrid& place() const { return mReader->place(); }
+
+    // Rows that are best read at once: whole blocks of the file, at most 256.
+    int runOfRows() const { return mReader->runOfRows(); }
+    // Rows of the southernmost run, at most as many, from which on runs begin where blocks of the file begin:
+    // who reads firstRun(), then runOfRows() at a time, decodes no block twice.
+    int firstRun() const { return mReader->firstRun(); }
+
+    // Rows first .. first + rows - 1 counted from the south, of place().width heights each in metres (no
+    // vertical scale); NaN where missing. Throws Error ("row ... of ...: the file is cut off or damaged"),
+    // Cancelled.
+    void read(int first, int rows, float* heights) { mReader->read(first, rows, heights); }
+
+    // Only all samples tell, so after all rows were read: true where -9999 alone, far below all else, in a
+    // file that names no nodata value, stands for missing samples. Whoever keeps the heights then reads all
+    // rows again, in which they are missing. True once: afterwards they are missing in whatever is read.
+    bool mustBeReadAgain() { return mReader->mustBeReadAgain(); }
+
+    // After all rows were read: throws Error where heights are not what single precision holds, or all
+    // samples are missing, or heights times the vertical scale leave their range, as readDem() says it. Of
+    // ground that is resampled only samples around those of the grid count.
+    void checkHeights(double verticalScale) const { mReader->checkHeights(verticalScale); }
+
+    // A first look: width x height samples, 2 at least, spread evenly over the whole, corner samples on
+    // corners, south row first. Each is the nearest, of the coarsest overview that is fine enough where the
+    // file has overviews. Where it has none and is large, only as many of its blocks are read as take a
+    // second or two: the nearest of these.
+    void glance(int width, int height, float* heights) { mReader->glance(width, height, heights); }
+
+    // Names the content: path, size and time of change of each file that it is made of, overviews and the
+    // sources of virtual rasters among them.
+    std::uint64_t identity() const { return mReader->identity(); }
+
+private:
+    std::unique_ptr<Reader> mReader;
+};
+
+// The module's function.
+std::unique_ptr<DemRows::Reader> openDemRows(const std::filesystem::path& file);
+
+}  // namespace stereonav

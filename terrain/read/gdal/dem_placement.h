@@ -1,0 +1,41 @@
+// Where an elevation raster lies, and how its samples get to a grid in metres: what the header of its file
+// says, known before a sample is read. Shared by readDem(), glanceAtDem() and DemRows.
+#pragma once
+
+#include <gdal_priv.h>
+
+#include <filesystem>
+#include <string>
+
+#include "terrain/raster/georeference.h"
+#include "terrain/read/dem_reader.h"
+#include "terrain/read/gdal/gdal_session.h"
+
+namespace stereonav {
+
+// What openRaster() says of what is no elevation model.
+constexpr const char* kExpectedDem = "an elevation model";
+constexpr const char* kDemAdvice = "give a GeoTIFF, .hgt, USGS DEM, ESRI ASCII or 16-bit PNG file";
+
+// Fills in driver, crs, datum, source and georeferenced. Throws Error named by the file where its samples lie
+// nowhere or are less than 2x2.
+void describeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGrid& dem);
+
+struct DemPlacement {
+    bool asTheyAre = false;   // turned over at most; else resampled onto
+    Georeference grid;        // this, north up and east right
+    bool westward = false;    // as they are: rows of the file run from east to west,
+    bool southFirst = false;  // and its first row is the southernmost
+    double ownUnit_m = 0;  // metres on the ground in a unit of the plane that they lie in; 0: they leave it
+    bool staysInPlane = false;  // also where they are resampled
+    std::string stretch;        // of the plane over a pole, in words
+};
+
+// Throws Error named by the file where there is no way to metres or the grid is beyond the limits.
+DemPlacement placementOf(const Georeference& source, const std::filesystem::path& file,
+                         const RasterLimits& limits);
+
+// Fills in what follows from it: grid, sizes, spacing, projection, offset and unit.
+void placeOnGrid(const DemPlacement& placement, DemGrid& dem);
+
+}  // namespace stereonav
