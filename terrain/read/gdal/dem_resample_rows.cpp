@@ -27,25 +27,28 @@ void ResampledRows::read(int first, int rows, float* heights) {
     resample(map, mapFirst, {0, first, mTarget.width, rows}, heights);
 }
 
+// The map is bilinear between its nodes: the outermost places are those of the first and last samples between
+// them.
 ResampledRows::Box ResampledRows::boxOf(const PixelMap& map, int mapFirst, const SampleWindow& block) const {
-    const SampleReader reader(nullptr, {}, mSource.width, mSource.height);
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    std::vector<Box> boxes(block.height, Box{glm::dvec2(kInfinite), glm::dvec2(-kInfinite)});
-    parallelFor(block.height, [&](int k) {
-        Box& box = boxes[k];
-        for (int i = block.x; i < block.x + block.width; ++i) {
-            const glm::dvec2 pixel = map.at(i, block.y + k - mapFirst);
-            if (!reader.inside(pixel)) continue;
+    Box box{glm::dvec2(kInfinite), glm::dvec2(-kInfinite)};
+    const int step = mMap.step(), right = block.x + block.width - 1, top = block.y - mapFirst,
+              bottom = top + block.height - 1;
+    // From the first sample between two nodes to the last, from there to the next node.
+    const auto next = [&](int k, int last) {
+        const int end = std::min(k | (step - 1), last);
+        return k < end ? end : k + 1;
+    };
+    for (int j = top; j <= bottom; j = next(j, bottom))
+        for (int i = block.x; i <= right; i = next(i, right)) {
+            const glm::dvec2 pixel = map.at(i, j);
+            if (!std::isfinite(pixel.x + pixel.y)) continue;  // of the four nodes one has no place
             box.low = {std::min(box.low.x, pixel.x), std::min(box.low.y, pixel.y)};
             box.high = {std::max(box.high.x, pixel.x), std::max(box.high.y, pixel.y)};
         }
-    });
-    Box all = boxes.front();
-    for (const Box& box : boxes) {
-        all.low = {std::min(all.low.x, box.low.x), std::min(all.low.y, box.low.y)};
-        all.high = {std::max(all.high.x, box.high.x), std::max(all.high.y, box.high.y)};
-    }
-    return all;
+    const bool apart =
+        box.high.x < -1 || box.high.y < -1 || box.low.x > mSource.width + 1 || box.low.y > mSource.height + 1;
+    return apart ? Box{glm::dvec2(kInfinite), glm::dvec2(-kInfinite)} : box;
 }
 
 // heights: where the block's first row and the target's first column lie.

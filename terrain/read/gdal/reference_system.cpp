@@ -197,7 +197,9 @@ template <typename Exact>
 int nodeShift(const Georeference& target, const Exact& exact) {
     constexpr double kMapTolerance = 0.01;
     constexpr long long kMostNodes = 1 << 24;  // 256 MB; finer maps are not made
-    const long long pixels = static_cast<long long>(target.width) * target.height;
+    // More are mapped a run of rows at a time (PixelMapRows).
+    constexpr long long kMostAtOnce = 1 << 28;
+    const long long pixels = std::min(static_cast<long long>(target.width) * target.height, kMostAtOnce);
     for (const int shift : {4, 2})
         if (mapError(target, exact, 1 << shift) <= kMapTolerance || pixels >> (2 * shift - 4) > kMostNodes)
             return shift;
