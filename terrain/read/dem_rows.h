@@ -13,10 +13,10 @@ namespace stereonav {
 // To one thread at a time. At most 2^20 samples a side and 2^40 in all.
 //
 // Heights are those of readDem(), bit for bit, where its samples stay as they are. Ground that has to be
-// resampled (degrees, turned, web Mercator) goes onto the same grid by GDAL's bilinear warper: summits and
-// pits that lie between samples of the grid are not put back, which takes all samples at once, and what is
-// missing grows by up to a sample. Ground that is placed by control points, or masked and resampled, is
-// refused.
+// resampled (degrees, feet, turned, control points, web Mercator) is resampled alike, but summits and pits
+// that lie between two samples of the grid are not put back: that takes all samples at once. A height that
+// differs from readDem()'s is there one of the file's own summits or pits, and here what lies between the
+// samples around it.
 class DemRows {
 public:
     // What the module gives; its functions are those below.
@@ -29,6 +29,7 @@ public:
         virtual void read(int first, int rows, float* heights) = 0;
         virtual bool mustBeReadAgain() = 0;
         virtual void checkHeights(double verticalScale) const = 0;
+        virtual void glance(int width, int height, float* heights) = 0;
         virtual std::uint64_t identity() const = 0;
     };
 
@@ -60,6 +61,12 @@ public:
     // samples are missing, or heights times the vertical scale leave their range, as readDem() says it. Of
     // ground that is resampled only samples around those of the grid count.
     void checkHeights(double verticalScale) const { mReader->checkHeights(verticalScale); }
+
+    // A first look: width x height samples, 2 at least, spread evenly over the whole, corner samples on
+    // corners, south row first. Each is the nearest, of the coarsest overview that is fine enough where the
+    // file has overviews. Where it has none and is large, only as many of its blocks are read as take a
+    // second or two: the nearest of these.
+    void glance(int width, int height, float* heights) { mReader->glance(width, height, heights); }
 
     // Names the content: path, size and time of change of each file that it is made of, overviews and the
     // sources of virtual rasters among them.

@@ -1,125 +1,317 @@
-// Rows of elevation models against what readDem() reads at once.
+// Elevation models a run of rows at a time, held against the same files read at once.
 #include "terrain/read/dem_rows.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
-#include "raster_files.h"
+#include "tests/terrain/gdal_reading.h"
+#include "tests/terrain/raster_files.h"
 
-namespace stereonav::test {
+namespace stereonav {
 namespace {
 
-std::vector<float> byRows(DemRows& rows, int run) {
-    const DemGrid& dem = rows.place();
-    std::vector<float> heights(static_cast<std::size_t>(dem.width) * dem.height);
-    for (int row = 0; row < dem.height; row += run)
-        rows.read(row, std::min(run, dem.height - row),
-                  heights.data() + static_cast<std::ptrdiff_t>(row) * dem.width);
+using namespace test;
+
+std::vector<float> allRows(DemRows& rows, int run) {
+    const int width = rows.place().width, height = rows.place().height;
+    std::vector<float> heights(static_cast<std::size_t>(width) * height, -1.0f);
+    for (int first = 0; first < height; first += run)
+        rows.read(first, std::min(run, height - first), &heights[static_cast<std::size_t>(first) * width]);
     return heights;
 }
 
-RasterSpec hills(int width, int height) {
+bool sameBits(const std::vector<float>& a, const std::vector<float>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+void expectSamePlace(const DemGrid& got, const DemGrid& whole) {
+    EXPECT_EQ(got.width, whole.width);
+    EXPECT_EQ(got.height, whole.height);
+    EXPECT_EQ(got.spacing, whole.spacing);
+    EXPECT_EQ(got.driver, whole.driver);
+    EXPECT_EQ(got.crs, whole.crs);
+    EXPECT_EQ(got.projection, whole.projection);
+    EXPECT_EQ(got.sourceOffset, whole.sourceOffset);
+    EXPECT_EQ(got.sourceUnit, whole.sourceUnit);
+    EXPECT_EQ(got.band, whole.band);
+    EXPECT_EQ(got.heightUnit, whole.heightUnit);
+    EXPECT_EQ(got.missingValue, whole.missingValue);
+    EXPECT_EQ(got.grid.transform, whole.grid.transform);
+    EXPECT_EQ(got.source.transform, whole.source.transform);
+}
+
+// By runs of 1, 7 and all rows; a second time where the file turned out to need it.
+void expectAsReadAtOnce(const std::filesystem::path& file) {
+    const DemGrid whole = readGround(file);
+    for (const int run : {1, 7, whole.height}) {
+        DemRows rows(file);
+        std::vector<float> heights = allRows(rows, run);
+        if (rows.mustBeReadAgain()) heights = allRows(rows, run);
+        EXPECT_FALSE(rows.mustBeReadAgain());
+        EXPECT_NO_THROW(rows.checkHeights(1));
+        expectSamePlace(rows.place(), whole);
+        EXPECT_TRUE(sameBits(heights, whole.heights)) << "runs of " << run;
+    }
+}
+
+double hills(int column, int row, int) {
+    return 700 + 90 * std::sin(0.3 * column) * std::cos(0.2 * row) + 3 * column - row;
+}
+
+RasterSpec hillsSpec(GDALDataType type = GDT_Float32) {
     RasterSpec spec;
-    spec.width = width, spec.height = height;
-    spec.value = [](int c, int r, int) {
-        return std::floor(500 + 200 * std::sin(0.2 * c) * std::cos(0.15 * r));
-    };
+    spec.type = type, spec.width = 37, spec.height = 29, spec.value = hills;
     return spec;
 }
 
-void expectAsReadAtOnce(const RasterSpec& spec, const char* what) {
+TEST(DemRows, GivesTheRowsThatAreReadAtOnceWhicheverWayTheyLie) {
     const TempFolder folder;
-    const std::filesystem::path file = writeRaster(folder / "ground.tif", spec);
-    Progress progress;
-    const DemGrid dem = readDem(file, 1, progress);
-    for (const int run : {1, 7, 1000}) {
-        DemRows rows(file);
-        std::vector<float> heights = byRows(rows, run);
-        if (rows.mustBeReadAgain()) heights = byRows(rows, run);
-        EXPECT_FALSE(rows.mustBeReadAgain()) << what;
-        ASSERT_EQ(heights.size(), dem.heights.size()) << what;
-        EXPECT_EQ(std::memcmp(heights.data(), dem.heights.data(), heights.size() * sizeof(float)), 0)
-            << what << " in runs of " << run;
-        EXPECT_EQ(rows.place().spacing, dem.spacing) << what;
-        EXPECT_EQ(rows.place().sourceOffset, dem.sourceOffset) << what;
-        EXPECT_EQ(rows.place().projection, dem.projection) << what;
-        EXPECT_NO_THROW(rows.checkHeights(1)) << what;
-    }
+    for (const auto type : {GDT_Float32, GDT_Int16, GDT_Float64})
+        for (const double dx : {30.0, -30.0})
+            for (const double dy : {-30.0, 30.0}) {
+                RasterSpec spec = hillsSpec(type);
+                spec.transform = {500000, dx, 0, 5000000, 0, dy};
+                SCOPED_TRACE(testing::Message() << GDALGetDataTypeName(type) << " " << dx << " " << dy);
+                expectAsReadAtOnce(writeRaster(folder / "turned.tif", spec));
+            }
 }
 
-TEST(DemRows, AreThoseOfTheWhole) {
-    expectAsReadAtOnce(hills(37, 29), "north up");
-    RasterSpec spec = hills(37, 29);
-    spec.transform = {501110, -30, 0, 4999130, 0, 30};
-    expectAsReadAtOnce(spec, "south up and westward");
-    spec = hills(300, 290);
-    spec.type = GDT_Int16;
-    spec.hasNodata = true, spec.nodata = 500;
-    spec.options = {"TILED=YES", "BLOCKXSIZE=64", "BLOCKYSIZE=64", "COMPRESS=DEFLATE"};
-    expectAsReadAtOnce(spec, "whole numbers with a value for missing ones, in blocks");
-    spec = hills(37, 29);
-    spec.type = GDT_Float64;
-    spec.unit = "ft";
-    expectAsReadAtOnce(spec, "feet");
-    spec = hills(37, 29);
-    spec.value = [](int c, int r, int) { return c == 3 && r > 5 ? -9999.0 : 100.0 + c; };
-    expectAsReadAtOnce(spec, "-9999 without a word");
-    spec.value = [](int c, int, int) { return c % 5 == 0 ? std::nan("") : 1.5 * c; };
-    expectAsReadAtOnce(spec, "no numbers");
+TEST(DemRows, FindsTheSamplesThatAreMissing) {
+    const TempFolder folder;
+    RasterSpec shorts = hillsSpec(GDT_Int16);
+    shorts.value = [](int c, int r, int) { return (c + r) % 5 == 0 ? -32768 : (c + r) % 7 == 0 ? -9999 : c; };
+    expectAsReadAtOnce(writeRaster(folder / "unnamed.tif", shorts));
+    shorts.hasNodata = true, shorts.nodata = -9999;
+    expectAsReadAtOnce(writeRaster(folder / "named.tif", shorts));
+    shorts.nodata = 0.5;  // no sample has it
+    expectAsReadAtOnce(writeRaster(folder / "half.tif", shorts));
+
+    RasterSpec floats = hillsSpec();
+    floats.hasNodata = true, floats.nodata = -3.4e38;
+    floats.value = [](int c, int r, int) {
+        constexpr double kOdd[] = {NAN, INFINITY, -INFINITY, -3.4e38, 1e7, 1.01e7, -0.0, 1e-40, 5, 6, 7};
+        return kOdd[(c + 3 * r) % 11];
+    };
+    expectAsReadAtOnce(writeRaster(folder / "odd.tif", floats));
+    floats.nodata = NAN;
+    expectAsReadAtOnce(writeRaster(folder / "nan.tif", floats));
 }
 
-// A degree grid: the same grid, heights between those around, at most as far off as its summits are cut.
-TEST(DemRows, OfDegreesLieOnTheSameGrid) {
+TEST(DemRows, AppliesMasksScalesAndUnits) {
     const TempFolder folder;
-    RasterSpec spec;
-    spec.width = 80, spec.height = 70;
-    spec.epsg = 4326;
-    spec.transform = {7.0, 1.0 / 3600, 0, 46.0, 0, -1.0 / 3600};
-    spec.value = [](int c, int r, int) { return 500 + 20 * c + 10 * std::sin(0.2 * r); };
-    const std::filesystem::path file = writeRaster(folder / "degrees.tif", spec);
-    Progress progress;
-    const DemGrid dem = readDem(file, 1, progress);
+    RasterSpec masked = hillsSpec();
+    masked.adorn = [](GDALDataset& dataset) {
+        ASSERT_EQ(dataset.CreateMaskBand(GMF_PER_DATASET), CE_None);
+        std::vector<unsigned char> mask(37 * 29, 255);
+        for (std::size_t k = 0; k < mask.size(); k += 3) mask[k] = 0;
+        ASSERT_EQ(dataset.GetRasterBand(1)->GetMaskBand()->RasterIO(GF_Write, 0, 0, 37, 29, mask.data(), 37,
+                                                                    29, GDT_Byte, 0, 0, nullptr),
+                  CE_None);
+    };
+    const auto file = writeRaster(folder / "masked.tif", masked);
+    ASSERT_GT(readGround(file).sourceMissing, 0);
+    expectAsReadAtOnce(file);
+
+    RasterSpec scaled = hillsSpec(GDT_Int16);
+    scaled.adorn = [](GDALDataset& dataset) {
+        dataset.GetRasterBand(1)->SetScale(0.1);
+        dataset.GetRasterBand(1)->SetOffset(-50);
+    };
+    expectAsReadAtOnce(writeRaster(folder / "scaled.tif", scaled));
+    RasterSpec feet = hillsSpec();
+    feet.unit = "ft";
+    expectAsReadAtOnce(writeRaster(folder / "feet.tif", feet));
+}
+
+TEST(DemRows, SaysWhenTheCustomaryValueTurnsOutToBeNone) {
+    const TempFolder folder;
+    RasterSpec spec = hillsSpec();
+    spec.value = [](int c, int r, int) { return c == 5 && r > 3 ? -9999.0 : hills(c, r, 0); };
+    const auto file = writeRaster(folder / "customary.tif", spec);
     DemRows rows(file);
-    const std::vector<float> heights = byRows(rows, 16);
-    ASSERT_EQ(heights.size(), dem.heights.size());
-    double worst = 0;
-    long long known = 0;
-    for (std::size_t n = 0; n < heights.size(); ++n) {
-        if (!std::isfinite(heights[n]) || !std::isfinite(dem.heights[n])) continue;
-        ++known;
-        worst = std::max(worst, std::abs(double(heights[n]) - dem.heights[n]));
+    EXPECT_EQ(allRows(rows, 4)[5], -9999.0f);  // the south row
+    EXPECT_TRUE(rows.mustBeReadAgain());
+    EXPECT_TRUE(std::isnan(allRows(rows, 4)[5]));
+    expectAsReadAtOnce(file);
+    spec.value = [](int c, int r, int) { return c == 5 ? -9999.0 : c == 6 ? -9500.0 : hills(c, r, 0); };
+    DemRows deep(writeRaster(folder / "deep.tif", spec));
+    allRows(deep, 4);
+    EXPECT_FALSE(deep.mustBeReadAgain());
+}
+
+TEST(DemRows, RefusesHeightsAsReadingAtOnceDoes) {
+    const TempFolder folder;
+    const auto expectSameError = [&](const std::filesystem::path& file, double scale) {
+        Progress progress;
+        const std::string whole = errorOf([&] { readDem(file, scale, progress); });
+        EXPECT_NE(whole, "");
+        EXPECT_EQ(errorOf([&] {
+                      DemRows rows(file);
+                      allRows(rows, 8);
+                      rows.mustBeReadAgain();
+                      rows.checkHeights(scale);
+                  }),
+                  whole);
+    };
+    RasterSpec spec = hillsSpec(GDT_Float64);
+    spec.value = [](int c, int, int) { return 9e6 + 0.01 * c; };
+    expectSameError(writeRaster(folder / "steps.tif", spec), 1);
+    spec.value = [](int, int, int) { return -9999; };
+    expectSameError(writeRaster(folder / "missing.tif", spec), 1);
+    spec.value = [](int, int, int) { return NAN; };
+    expectSameError(writeRaster(folder / "none.tif", spec), 1);
+    spec.value = [](int, int, int) { return 5000; };
+    expectSameError(writeRaster(folder / "scaled.tif", spec), 1e6);
+    expectSameError(folder / "absent.tif", 1);
+    expectSameError(folder.text("text.tif", "no raster"), 1);
+}
+
+TEST(DemRows, NamesTheRowWhereAFileIsCutOff) {
+    const TempFolder folder;
+    RasterSpec spec = hillsSpec();
+    spec.options = {"BLOCKYSIZE=1"};
+    const auto file = writeRaster(folder / "cut.tif", spec);
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) - 37 * 4 * 3);
+    DemRows rows(file);
+    std::vector<float> row(37);
+    EXPECT_NO_THROW(rows.read(20, 1, row.data()));
+    EXPECT_THAT(errorOf([&] { rows.read(0, 1, row.data()); }),
+                AllOf(HasSubstr("row 29 of 29"), HasSubstr("cut off or damaged"), HasSubstr("cut.tif")));
+}
+
+// Heights that are not readDem()'s are its summits and pits, which lie between others here.
+void expectResampledAlike(const std::filesystem::path& file) {
+    const DemGrid whole = readGround(file);
+    DemRows rows(file);
+    const std::vector<float> heights = allRows(rows, whole.height);
+    expectSamePlace(rows.place(), whole);
+    EXPECT_TRUE(sameBits(allRows(rows, 7), heights));
+    ASSERT_EQ(heights.size(), whole.heights.size());
+    std::size_t others = 0;
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        ASSERT_EQ(std::isnan(heights[k]), std::isnan(whole.heights[k])) << k;
+        others += !std::isnan(heights[k]) && heights[k] != whole.heights[k];
     }
-    EXPECT_GT(known, 0.9 * double(heights.size()));
-    EXPECT_LT(worst, 20 * 0.6) << "more than half a sample of this slope";
+    EXPECT_LT(others, heights.size() / 8);
 }
 
-TEST(DemRows, RefuseWhatCanNotBeRead) {
+TEST(DemRows, ResamplesAsReadingAtOnceDoes) {
     const TempFolder folder;
-    const std::filesystem::path cut = writeRaster(folder / "cut.tif", hills(300, 290));
-    std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
-    EXPECT_THAT(errorOf([&] {
-                    DemRows rows(cut);
-                    byRows(rows, 64);
-                }),
-                AllOf(HasSubstr("cut.tif"), Not(HasSubstr("\n"))));
-    RasterSpec none = hills(20, 20);
-    none.hasNodata = true, none.nodata = 5;
-    none.value = [](int, int, int) { return 5.0; };
-    DemRows rows(writeRaster(folder / "none.tif", none));
-    byRows(rows, 20);
-    EXPECT_THAT(errorOf([&] { rows.checkHeights(1); }), HasSubstr("all 400 samples are missing"));
-    EXPECT_THAT(errorOf([&] { DemRows text(folder.text("text.tif", "no raster")); }), HasSubstr("text.tif"));
+    RasterSpec degrees = hillsSpec(GDT_Int16);
+    degrees.epsg = 4326, degrees.width = 90, degrees.height = 80;
+    degrees.transform = {10, 0.002, 0, 47, 0, -0.002};
+    degrees.hasNodata = true, degrees.nodata = 711;
+    expectResampledAlike(writeRaster(folder / "degrees.tif", degrees));
+    RasterSpec turned = hillsSpec();
+    turned.transform = {500000, 20, 12, 5000000, 12, -20};
+    expectResampledAlike(writeRaster(folder / "turned.tif", turned));
+    RasterSpec mercator = hillsSpec();
+    mercator.epsg = 3857, mercator.transform = {1e6, 30, 0, 6e6, 0, -30};
+    expectResampledAlike(writeRaster(folder / "mercator.tif", mercator));
+    RasterSpec plane = degrees;  // no summits: the same to the bit
+    plane.type = GDT_Float32, plane.hasNodata = false;
+    plane.value = [](int c, int r, int) { return 100 + 2 * c + 3 * r; };
+    const auto file = writeRaster(folder / "plane.tif", plane);
+    DemRows rows(file);
+    const std::vector<float> heights = allRows(rows, 13), whole = readGround(file).heights;
+    ASSERT_EQ(heights.size(), whole.size());
+    // The corners of the file alone are its highest and lowest.
+    std::size_t others = 0;
+    for (std::size_t k = 0; k < whole.size(); ++k) others += heights[k] != whole[k] && !std::isnan(whole[k]);
+    EXPECT_LE(others, 2u);
 }
 
-TEST(DemRows, AreNamedByTheirFile) {
+TEST(DemRows, RunsOfRowsAreWholeBlocksOfTheFile) {
     const TempFolder folder;
-    const std::filesystem::path file = writeRaster(folder / "ground.tif", hills(37, 29));
-    const std::uint64_t before = DemRows(file).identity();
-    EXPECT_EQ(DemRows(file).identity(), before);
-    std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(3));
-    EXPECT_NE(DemRows(file).identity(), before);
+    RasterSpec spec = hillsSpec();
+    spec.height = 300;
+    spec.options = {"TILED=YES", "BLOCKXSIZE=48", "BLOCKYSIZE=48"};
+    DemRows rows(writeRaster(folder / "tiled.tif", spec));
+    EXPECT_EQ(rows.runOfRows(), 240);
+    EXPECT_EQ(rows.firstRun(), 60);
+    spec.transform[5] = 30;
+    EXPECT_EQ(DemRows(writeRaster(folder / "south.tif", spec)).firstRun(), 240);
+    spec.options = {"BLOCKYSIZE=1"};
+    EXPECT_EQ(DemRows(writeRaster(folder / "strips.tif", spec)).runOfRows(), 256);
+}
+
+TEST(DemRows, AGlanceHasCornersOnCornersAndTheNearestBetween) {
+    const TempFolder folder;
+    RasterSpec spec = hillsSpec();
+    for (const double dx : {30.0, -30.0})
+        for (const double dy : {-30.0, 30.0}) {
+            spec.transform = {500000, dx, 0, 5000000, 0, dy};
+            const auto file = writeRaster(folder / "glance.tif", spec);
+            const DemGrid whole = readGround(file);
+            std::vector<float> seen(4 * 3);
+            DemRows(file).glance(4, 3, seen.data());
+            for (int j = 0; j < 3; ++j)
+                for (int i = 0; i < 4; ++i)
+                    EXPECT_EQ(seen[j * 4 + i], whole.heights[j * 14 * 37 + i * 12]) << i << ", " << j;
+        }
+    std::vector<float> finer(80 * 60);
+    DemRows(folder / "glance.tif").glance(80, 60, finer.data());
+    EXPECT_EQ(finer.back(), readGround(folder / "glance.tif").heights.back());
+}
+
+TEST(DemRows, AGlanceReadsOverviews) {
+    const TempFolder folder;
+    RasterSpec spec = hillsSpec();
+    spec.width = spec.height = 64;
+    const auto file = writeRaster(folder / "overviews.tif", spec);
+    {
+        const std::unique_ptr<GDALDataset, void (*)(GDALDataset*)> open(
+            GDALDataset::Open(file.string().c_str(), GDAL_OF_UPDATE),
+            [](GDALDataset* dataset) { GDALClose(dataset); });
+        int levels[] = {2, 4};
+        ASSERT_EQ(open->BuildOverviews("NEAREST", 2, levels, 0, nullptr, nullptr, nullptr), CE_None);
+        ASSERT_EQ(open->GetRasterBand(1)->GetOverview(1)->Fill(123), CE_None);
+    }
+    std::vector<float> seen(16 * 16);
+    DemRows rows(file);
+    rows.glance(16, 16, seen.data());
+    EXPECT_EQ(seen, std::vector<float>(16 * 16, 123.0f));
+    seen.resize(17 * 17);
+    rows.glance(17, 17, seen.data());
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 123.0f), 0);
+}
+
+TEST(DemRows, TheIdentityFollowsTheFilesOfAVirtualRaster) {
+    const TempFolder folder;
+    RasterSpec spec = hillsSpec();
+    writeRaster(folder / "source.tif", spec);
+    const std::string begin =
+                          "<VRTDataset rasterXSize=\"37\" rasterYSize=\"29\"><VRTRasterBand dataType="
+                          "\"Float32\" band=\"1\"><SimpleSource><SourceFilename relativeToVRT=\"1\">",
+                      end =
+                          "</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand>"
+                          "</VRTDataset>";
+    folder.text("inner.vrt", begin + "source.tif" + end);
+    const auto file = folder.text("outer.vrt", begin + "inner.vrt" + end);
+    const auto identity = [&] { return DemRows(file).identity(); };
+    const std::uint64_t before = identity();
+    EXPECT_EQ(identity(), before);
+    spec.options = {"COMPRESS=DEFLATE"};
+    writeRaster(folder / "source.tif", spec);
+    const std::uint64_t after = identity();
+    EXPECT_NE(after, before);
+    const auto time = std::filesystem::last_write_time(folder / "source.tif");
+    std::filesystem::last_write_time(folder / "source.tif", time + std::chrono::seconds(5));
+    EXPECT_NE(identity(), after);
+    EXPECT_NE(DemRows(folder / "inner.vrt").identity(), identity());
+}
+
+TEST(DemRows, RealGroundInDegreesDiffersAtSummitsAndPitsAlone) {
+    for (const char* name : {"mt_rainier_90m.tif", "ararat/agri-small-dem.tif", "SainteHelens.dem"}) {
+        const auto file = realData(name);
+        if (file.empty()) GTEST_SKIP() << "no real data";
+        SCOPED_TRACE(name);
+        expectResampledAlike(file);
+    }
 }
 
 }  // namespace
-}  // namespace stereonav::test
+}  // namespace stereonav

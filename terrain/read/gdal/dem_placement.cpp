@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <string_view>
@@ -82,8 +81,8 @@ void placeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGri
     dem.source = georeferenceOf(dataset, file, dem.georeferenced);
     dem.driver = dataset.GetDriver()->GetMetadataItem(GDAL_DMD_LONGNAME);
     if (std::string_view(dataset.GetDriverName()) == "GTiff") dem.driver = "GeoTIFF";
-    if (std::error_code failed; std::filesystem::is_directory(file, failed))
-        dem.driver = fmt::format("{} files of a folder", elevationFilesIn(file).size());
+    if (const std::size_t files = elevationFilesIn(file).size(); files > 0)
+        dem.driver = fmt::format("{} files of a folder", files);
     dem.crs = systemName(dem.source.wkt);
     dem.verticalDatum = verticalDatumOf(dataset);
     if (dem.source.wkt.empty() && dem.georeferenced && looksLikeDegrees(dem.source)) {

@@ -115,10 +115,7 @@ DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progres
     dem.missingValue = std::move(read.missing);
     dem.sourceMissing = std::count_if(samples.begin(), samples.end(), [](float h) { return std::isnan(h); });
     if (dem.sourceMissing == static_cast<long long>(samples.size()))
-        throw Error(file.string(), "",
-                    fmt::format("all {} samples are missing{}", samples.size(),
-                                dem.missingValue.empty() ? "" : " (nodata " + dem.missingValue + ")"),
-                    "check the file's nodata value");
+        throwAllMissing(file, dem.sourceMissing, dem.missingValue);
     placeOnGrid(placement, dem);
     bringToGrid(file, placement, dem, samples, progress);
     dem.heights = std::move(samples);

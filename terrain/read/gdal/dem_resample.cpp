@@ -3,83 +3,18 @@
 #include "terrain/read/gdal/dem_resample.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
 
 #include "engine/base/parallel.h"
+#include "terrain/read/gdal/sample_reader.h"
 #include "terrain/read/raster_file.h"
 
 namespace stereonav {
 namespace {
 
 constexpr int kResampleBand = 64;  // rows between two reports of progress
-
-// Catmull-Rom weights of the four samples around fraction u of the middle two.
-std::array<double, 4> cubicWeights(double u) {
-    return {((-0.5 * u + 1) * u - 0.5) * u, (1.5 * u - 2.5) * u * u + 1, ((-1.5 * u + 2) * u + 0.5) * u,
-            (0.5 * u - 0.5) * u * u};
-}
-
-// Samples read between: cubic where all sixteen around are known, else bilinear over the known ones of four.
-class SampleReader {
-public:
-    SampleReader(const std::vector<float>& samples, int width, int height)
-        : mSamples(samples), mWidth(width), mHeight(height) {}
-
-    float at(int i, int j) const { return mSamples[static_cast<std::size_t>(j) * mWidth + i]; }
-
-    // Whether there is ground: up to half a sample beyond the outer ones.
-    bool inside(const glm::dvec2& pixel) const {
-        constexpr double kSlack = 0.51;
-        const double x = pixel.x - 0.5, y = pixel.y - 0.5;
-        return x >= -kSlack && y >= -kSlack && x <= mWidth - 1 + kSlack && y <= mHeight - 1 + kSlack;
-    }
-
-    // At a place inside.
-    float between(const glm::dvec2& pixel) const {
-        const double x = std::clamp(pixel.x - 0.5, 0.0, mWidth - 1.0);
-        const double y = std::clamp(pixel.y - 0.5, 0.0, mHeight - 1.0);
-        const float nearest = at(static_cast<int>(x + 0.5), static_cast<int>(y + 0.5));
-        if (std::isnan(nearest)) return nearest;
-        const int i = std::min(static_cast<int>(x), mWidth - 2),
-                  j = std::min(static_cast<int>(y), mHeight - 2);
-        const double cubic = cubicAt(i, j, x - i, y - j);
-        return static_cast<float>(std::isnan(cubic) ? bilinearAt(i, j, x - i, y - j) : cubic);
-    }
-
-private:
-    // A cubic swings over beside a cliff, and over between two samples of a summit: heights that the file
-    // does not have. NaN where one of the sixteen is missing.
-    double cubicAt(int i, int j, double u, double v) const {
-        if (i < 1 || j < 1 || i + 2 >= mWidth || j + 2 >= mHeight)
-            return std::numeric_limits<double>::quiet_NaN();
-        const auto wx = cubicWeights(u), wy = cubicWeights(v);
-        double sum = 0;
-        for (int b = 0; b < 4; ++b)
-            for (int a = 0; a < 4; ++a) sum += wx[a] * wy[b] * at(i - 1 + a, j - 1 + b);
-        if (std::isnan(sum)) return sum;
-        const auto [low, high] = std::minmax({at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)});
-        return std::clamp(sum, double(low), double(high));
-    }
-
-    double bilinearAt(int i, int j, double u, double v) const {
-        double sum = 0, weights = 0;
-        for (int b = 0; b < 2; ++b)
-            for (int a = 0; a < 2; ++a) {
-                const float h = at(i + a, j + b);
-                if (std::isnan(h)) continue;
-                const double w = (a ? u : 1 - u) * (b ? v : 1 - v);
-                sum += w * h;
-                weights += w;
-            }
-        return sum / weights;  // the nearest of the four is known, so weights >= 1/4
-    }
-
-    const std::vector<float>& mSamples;
-    int mWidth, mHeight;
-};
 
 // Puts the source's summits and pits into the target's heights.
 class ExtremeKeeper {
@@ -189,7 +124,8 @@ ResampledDem resampleDem(const std::vector<float>& samples, const Georeference& 
                          const Georeference& target, const std::filesystem::path& file, Progress& progress) {
     const std::string doing = "bringing " + file.filename().string() + " to metres";
     const PixelMap toSource = mapPixels(target, source, file), toTarget = mapPixels(source, target, file);
-    const SampleReader reader(samples, source.width, source.height);
+    const SampleReader reader(samples.data(), {0, 0, source.width, source.height}, source.width,
+                              source.height);
     ResampledDem result;
     result.heights.resize(static_cast<std::size_t>(target.width) * target.height);
     std::atomic<long long> outside{0};

@@ -7,11 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
-#include <utility>
 
 #include "engine/base/error.h"
-#include "engine/base/parallel.h"
-#include "terrain/read/gdal/height_band.h"
 #include "terrain/read/height_limits.h"
 
 namespace stereonav {
@@ -43,22 +40,26 @@ std::vector<unsigned char> gsiBytes(GDALDataset& dataset) {
     return bytes;
 }
 
-constexpr double kCustomary = -9999;
-constexpr const char* kCustomaryMissing =
-    "-9999, as is customary: the file names none, and no other height is near it";
+std::vector<float> gsiSamples(GDALDataset& dataset) {
+    const std::vector<unsigned char> bytes = gsiBytes(dataset);
+    std::vector<float> heights(static_cast<std::size_t>(kGsiSide) * kGsiSide);
+    for (std::size_t k = 0; k < heights.size(); ++k)
+        heights[k] = static_cast<float>(gsiHeight(bytes[3 * k], bytes[3 * k + 1], bytes[3 * k + 2]));
+    return heights;
+}
 
-// Whether floats hold all values of the type, and the band's numbers are metres as they are.
-bool floatsHold(GDALRasterBand& band, const HeightBand& heights) {
-    if (heights.scale != 1 || heights.offset != 0 || heights.signedBytes) return false;
-    switch (band.GetRasterDataType()) {
-        case GDT_Byte:
-        case GDT_UInt16:
-        case GDT_Int16:
-        case GDT_Float32:
-            return true;
-        default:
-            return false;
+// All of it, a run of rows at a time.
+std::vector<float> readAll(HeightSamples& samples, GdalMessages& messages, const std::filesystem::path& file,
+                           Progress& progress) {
+    const int width = samples.width(), height = samples.height(),
+              run = std::clamp(samples.blockHeight(), 16, 256);
+    std::vector<float> heights(static_cast<std::size_t>(width) * height);
+    for (int row = 0; row < height; row += run) {
+        progress.report(double(row) / height, "reading " + file.filename().string());
+        samples.read({0, row, width, std::min(run, height - row)}, messages,
+                     &heights[static_cast<std::size_t>(row) * width]);
     }
+    return heights;
 }
 
 }  // namespace
@@ -76,138 +77,108 @@ bool isGsiTile(GDALDataset& dataset) {
     return !bytes.empty();
 }
 
-std::vector<float> gsiSamples(GDALDataset& dataset) {
-    const std::vector<unsigned char> bytes = gsiBytes(dataset);
-    std::vector<float> heights(static_cast<std::size_t>(kGsiSide) * kGsiSide);
-    for (std::size_t k = 0; k < heights.size(); ++k)
-        heights[k] = static_cast<float>(gsiHeight(bytes[3 * k], bytes[3 * k + 1], bytes[3 * k + 2]));
-    return heights;
+HeightSamples::HeightSamples(GDALDataset& dataset, const std::filesystem::path& file)
+    : mDataset(dataset),
+      mFile(file),
+      mBand(heightBandOf(dataset, file)),
+      mConversion(dataset.GetRasterBand(mBand.number)->GetRasterDataType(), mBand),
+      mMissing(mBand.missing),
+      mWidth(dataset.GetRasterXSize()),
+      mHeight(dataset.GetRasterYSize()) {
+    dataset.GetRasterBand(mBand.number)->GetBlockSize(&mBlockWidth, &mBlockHeight);
 }
 
-void SampleRows::Tally::add(double metres, float kept) {
-    low = std::min(low, metres), high = std::max(high, metres);
-    rounded = std::max(rounded, std::abs(metres - kept));
-    if (metres == kCustomary)
-        ++customary;
-    else
-        lowestOther = std::min(lowestOther, metres);
-}
-
-void SampleRows::Tally::add(const Tally& other) {
-    low = std::min(low, other.low), high = std::max(high, other.high);
-    rounded = std::max(rounded, other.rounded);
-    customary += other.customary;
-    lowestOther = std::min(lowestOther, other.lowestOther);
-}
-
-SampleRows::SampleRows(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file)
-    : SampleRows(dataset, messages, file, heightBandOf(dataset, file)) {}
-
-SampleRows::SampleRows(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
-                       HeightBand heights)
-    : mDataset(dataset), mMessages(messages), mFile(file), mBand(std::move(heights)) {
-    GDALRasterBand& band = *dataset.GetRasterBand(mBand.number);
-    int blockWidth = 0, blockHeight = 0;
-    band.GetBlockSize(&blockWidth, &blockHeight);
-    // Whole blocks where they are not too high.
-    mRun = blockHeight < 16 ? 16 / std::max(blockHeight, 1) * std::max(blockHeight, 1) : blockHeight;
-    mRun = std::clamp(mRun, 1, 256);
-    mFloats = floatsHold(band, mBand);
-    messages.clear();  // a georeference that GDAL could not make sense of is no damage to the samples
-}
-
-void SampleRows::read(int row, int rows, float* heights) {
-    mFloats ? readAs(row, rows, heights, mStoredFloats) : readAs(row, rows, heights, mStored);
-}
-
-template <typename Stored>
-void SampleRows::readAs(int row, int rows, float* heights, std::vector<Stored>& stored) {
+GDALRasterBand& HeightSamples::levelBand(int level) const {
     GDALRasterBand& band = *mDataset.GetRasterBand(mBand.number);
-    const int width = mDataset.GetRasterXSize(), height = mDataset.GetRasterYSize();
-    const std::size_t count = static_cast<std::size_t>(width) * rows;
-    if (stored.size() < count) stored.resize(count);
-    if (mBand.masked && mMask.size() < count) mMask.resize(count);
-    constexpr GDALDataType kType = sizeof(Stored) == sizeof(float) ? GDT_Float32 : GDT_Float64;
-    CPLErr failed =
-        band.RasterIO(GF_Read, 0, row, width, rows, stored.data(), width, rows, kType, 0, 0, nullptr);
-    if (mBand.masked && failed == CE_None)
-        failed = band.GetMaskBand()->RasterIO(GF_Read, 0, row, width, rows, mMask.data(), width, rows,
-                                              GDT_Byte, 0, 0, nullptr);
-    if (failed != CE_None || mMessages.hasError()) throwCutOff(mFile, row, height, mMessages);
-    std::vector<Tally> tallies(static_cast<std::size_t>(rows));
-    parallelFor(rows, [&](int j) {
-        Tally tally;
-        const std::size_t first = static_cast<std::size_t>(j) * width;
-        for (std::size_t k = first; k < first + width; ++k) {
-            const bool hidden = mBand.masked && mMask[k] == 0;
-            double metres =
-                hidden ? std::numeric_limits<double>::quiet_NaN() : mBand.metres(double(stored[k]));
-            if (mLeavesOutCustomary && metres == kCustomary)
-                metres = std::numeric_limits<double>::quiet_NaN();
-            heights[k] = static_cast<float>(metres);
-            if (!std::isnan(metres)) tally.add(metres, heights[k]);
-        }
-        tallies[static_cast<std::size_t>(j)] = tally;
-    });
-    for (const Tally& tally : tallies) mTally.add(tally);
+    return level < 0 ? band : *band.GetOverview(level);
 }
 
-bool SampleRows::holdsCustomary() const {
+void HeightSamples::read(const SampleWindow& window, GdalMessages& messages, float* heights) {
+    readBand(levelBand(-1), window, messages, heights, mTally);
+}
+
+void HeightSamples::readLevel(int level, const SampleWindow& window, GdalMessages& messages, float* heights,
+                              HeightTally& tally) {
+    readBand(levelBand(level), window, messages, heights, tally);
+}
+
+void HeightSamples::readBand(GDALRasterBand& band, const SampleWindow& window, GdalMessages& messages,
+                             float* heights, HeightTally& tally) {
+    messages.clear();  // a georeference that GDAL could not make sense of is no damage to the samples
+    const auto count = static_cast<std::size_t>(window.samples());
+    mStored.resize(count * mConversion.bytes());
+    mMask.resize(mBand.masked ? count : 0);
+    const auto fetch = [&](GDALRasterBand& from, void* out, GDALDataType type) {
+        return from.RasterIO(GF_Read, window.x, window.y, window.width, window.height, out, window.width,
+                             window.height, type, 0, 0, nullptr) == CE_None;
+    };
+    const bool fetched = fetch(band, mStored.data(), mConversion.type()) &&
+                         (!mBand.masked || fetch(*band.GetMaskBand(), mMask.data(), GDT_Byte));
+    if (!fetched || messages.hasError()) throwCutOff(mFile, window.y, band.GetYSize(), messages);
+    mConversion.convert(mStored.data(), mBand.masked ? mMask.data() : nullptr, count, heights, tally);
+    if (mCustomaryIsMissing) dropCustomary(heights, count);
+}
+
+bool HeightSamples::customaryIsMissing(const HeightTally& some) const {
     constexpr double kFarBelow_m = 1000;
-    return mTally.customary > 0 && !mBand.nodata && !mBand.masked &&
-           mTally.lowestOther > kCustomary + kFarBelow_m && !mLeavesOutCustomary;
+    return some.customary && !mBand.nodata && !mBand.masked &&
+           some.lowestOther > kCustomaryMissing + kFarBelow_m;
 }
 
-// Relief that floats would turn to steps is refused: it would be other ground.
-void SampleRows::check(double verticalScale) const {
+bool HeightSamples::findCustomary() {
+    if (!customaryIsMissing(mTally)) return false;
+    mCustomaryIsMissing = true;
+    mMissing = "-9999, as is customary: the file names none, and no other height is near it";
+    return true;
+}
+
+void HeightSamples::dropCustomary(float* heights, std::size_t count) const {
+    for (float* h = heights; h != heights + count; ++h)
+        if (*h == static_cast<float>(kCustomaryMissing)) *h = kMissing;
+}
+
+void HeightSamples::checkPrecision() const {
     constexpr double kLeastLoss_m = 0.01, kShare = 1e-3;
-    if (mTally.rounded > std::max(kLeastLoss_m, kShare * (mTally.high - mTally.low)))
-        throw Error(mFile.string(), "heights",
-                    fmt::format("expected relief that single precision holds, got {:.12g} to {:.12g} m, "
-                                "rounded by {:.2g} m",
-                                mTally.low, mTally.high, mTally.rounded),
-                    "subtract a constant from all heights");
-    if (anyKnown()) checkScaledHeights(mFile.string(), mTally.low, mTally.high, verticalScale);
+    if (mTally.rounded <= std::max(kLeastLoss_m, kShare * (mTally.high - mTally.low))) return;
+    throw Error(
+        mFile.string(), "heights",
+        fmt::format(
+            "expected relief that single precision holds, got {:.12g} to {:.12g} m, rounded by {:.2g} m",
+            mTally.low, mTally.high, mTally.rounded),
+        "subtract a constant from all heights");
 }
 
-namespace {
-
-DemSamples samplesOfBand(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
-                         double verticalScale, Progress& progress) {
-    SampleRows rows(dataset, messages, file);
-    const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
-    DemSamples samples{{}, rows.band().chosen, rows.band().unit, rows.band().missing};
-    samples.heights.resize(static_cast<std::size_t>(width) * height);
-    for (int row = 0; row < height; row += rows.runOfRows()) {
-        progress.report(double(row) / height, "reading " + file.filename().string());
-        rows.read(row, std::min(rows.runOfRows(), height - row),
-                  &samples.heights[static_cast<std::size_t>(row) * width]);
-    }
-    rows.check(verticalScale);
-    if (!rows.holdsCustomary()) return samples;
-    for (float& h : samples.heights)
-        if (h == static_cast<float>(kCustomary)) h = kMissing;
-    samples.missing = kCustomaryMissing;
-    return samples;
+bool HeightSamples::allMissing() const {
+    return !mTally.anyKnown() || (mCustomaryIsMissing && !(mTally.lowestOther <= mTally.high));
 }
-
-}  // namespace
 
 DemSamples readSamples(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
                        double verticalScale, Progress& progress) {
     DemSamples samples;
+    HeightTally all;
     if (isGsiTile(dataset)) {
         samples = {gsiSamples(dataset), "", "", "of the tile's own code"};
-        SampleRows::Tally all;
         for (const float h : samples.heights)
-            if (!std::isnan(h)) all.add(h, h);
-        if (all.low <= all.high) checkScaledHeights(file.string(), all.low, all.high, verticalScale);
+            if (!std::isnan(h)) all.count(h, h);
     } else {
-        samples = samplesOfBand(dataset, messages, file, verticalScale, progress);
+        HeightSamples band(dataset, file);
+        samples.heights = readAll(band, messages, file, progress);
+        band.checkPrecision();
+        if (band.findCustomary()) band.dropCustomary(samples.heights.data(), samples.heights.size());
+        samples.band = band.band().chosen, samples.unit = band.band().unit, samples.missing = band.missing();
+        all = band.tally();
     }
+    if (all.anyKnown()) checkScaledHeights(file.string(), all.low, all.high, verticalScale);
     if (verticalScale != 1)
         for (float& h : samples.heights) h = static_cast<float>(h * verticalScale);
     return samples;
+}
+
+void throwAllMissing(const std::filesystem::path& file, long long samples, const std::string& missing) {
+    throw Error(file.string(), "",
+                fmt::format("all {} samples are missing{}", samples,
+                            missing.empty() ? "" : " (nodata " + missing + ")"),
+                "check the file's nodata value");
 }
 
 }  // namespace stereonav

@@ -1,15 +1,15 @@
-// The samples of an elevation raster as stored: missing values found, units and scale applied.
-// The first part of readDem(); the others place them on a grid in metres.
+// The samples of an elevation raster as stored: missing values found, units and scale applied. The first part
+// of readDem() and of DemRows; the others place them on a grid in metres.
 #pragma once
 
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "engine/base/progress.h"
 #include "terrain/read/gdal/gdal_session.h"
 #include "terrain/read/gdal/height_band.h"
+#include "terrain/read/gdal/height_convert.h"
 
 namespace stereonav {
 
@@ -17,60 +17,63 @@ namespace stereonav {
 // pixel decodes to a height between -500 and 9,000 m or to nodata; a photo does not.
 bool isGsiTile(GDALDataset& dataset);
 
-// The heights of a raster's band, a run of rows at a time. To one thread.
-class SampleRows {
-public:
-    // messages, dataset: outlive it. Throws Error as heightBandOf().
-    SampleRows(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file);
-    // band: how its numbers are meant.
-    SampleRows(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
-               HeightBand band);
-
-    const HeightBand& band() const { return mBand; }
-    int runOfRows() const { return mRun; }  // whole blocks, 16 to 256 rows
-    // Rows row to row + rows - 1 of the raster, in its own order: metres, NaN where missing. Throws Error
-    // where the file is cut off.
-    void read(int row, int rows, float* heights);
-
-    // Of all rows that were read: whether -9999 alone, far below all else, in a file that names no value for
-    // missing samples, is one.
-    bool holdsCustomary() const;
-    // From now on it is missing in what is read.
-    void leaveOutCustomary() { mLeavesOutCustomary = true; }
-    // Throws Error where heights that were read are not what floats hold, or times the scale leave their
-    // range.
-    void check(double verticalScale) const;
-    bool anyKnown() const { return mTally.low <= mTally.high; }
-
-    // Heights of the rows that were read, and what is to be known of all.
-    struct Tally {
-        double low = std::numeric_limits<double>::infinity(), high = -low;  // metres
-        double rounded = 0;        // the most that a float lost, metres
-        long long customary = 0;   // of the value that often stands for missing samples
-        double lowestOther = low;  // without those
-        void add(double metres, float kept);
-        void add(const Tally& other);
-    };
-
-private:
-    template <typename Stored>
-    void readAs(int row, int rows, float* heights, std::vector<Stored>& stored);
-
-    GDALDataset& mDataset;
-    GdalMessages& mMessages;
-    std::filesystem::path mFile;
-    HeightBand mBand;
-    int mRun = 16;
-    bool mFloats = false;  // floats hold all that is stored
-    bool mLeavesOutCustomary = false;
-    std::vector<float> mStoredFloats;
-    std::vector<double> mStored;
-    std::vector<unsigned char> mMask;
-    Tally mTally;
+// A part of a raster, in its own samples: columns from x, rows from y.
+struct SampleWindow {
+    int x = 0, y = 0, width = 0, height = 0;
+    long long samples() const { return static_cast<long long>(width) * height; }
 };
 
-// Metres of a GSI elevation tile, which the raster is.
-std::vector<float> gsiSamples(GDALDataset& dataset);
+// The band of heights, a window at a time, in the raster's own row order. To one thread. What it reads is
+// counted for what only all samples tell.
+class HeightSamples {
+public:
+    // dataset must outlive it. Throws Error when the raster holds no elevations.
+    HeightSamples(GDALDataset& dataset, const std::filesystem::path& file);
+
+    const HeightBand& band() const { return mBand; }
+    // What marks missing samples, in words.
+    const std::string& missing() const { return mMissing; }
+    int width() const { return mWidth; }
+    int height() const { return mHeight; }
+    // Of the blocks that the file has.
+    int blockWidth() const { return mBlockWidth; }
+    int blockHeight() const { return mBlockHeight; }
+
+    // Metres, NaN where missing, for a window within the raster. Throws Error for a file that is cut off.
+    void read(const SampleWindow& window, GdalMessages& messages, float* heights);
+    // Of one of the band's overviews (GDAL's numbers, from 0), or of the band itself where level is -1;
+    // counted in the tally that is given alone.
+    void readLevel(int level, const SampleWindow& window, GdalMessages& messages, float* heights,
+                   HeightTally& tally);
+    GDALRasterBand& levelBand(int level) const;
+
+    // Whether -9999 alone far below all other ground was found in a file that names no value for missing
+    // samples: then it is one, and from here on missing where it is read. That is how it stays.
+    bool findCustomary();
+    // Whether that is so as far as some of its samples tell.
+    bool customaryIsMissing(const HeightTally& some) const;
+    // For heights that were read before.
+    void dropCustomary(float* heights, std::size_t count) const;
+
+    // After all was read. Throws Error for relief that floats would turn to steps: it would be other ground.
+    void checkPrecision() const;
+    const HeightTally& tally() const { return mTally; }
+    bool allMissing() const;
+
+private:
+    void readBand(GDALRasterBand& band, const SampleWindow& window, GdalMessages& messages, float* heights,
+                  HeightTally& tally);
+
+    GDALDataset& mDataset;
+    std::filesystem::path mFile;
+    HeightBand mBand;
+    HeightConversion mConversion;
+    std::string mMissing;
+    int mWidth, mHeight, mBlockWidth = 0, mBlockHeight = 0;
+    std::vector<unsigned char> mStored, mMask;  // of a window
+    HeightTally mTally;
+    bool mCustomaryIsMissing = false;
+};
 
 struct DemSamples {
     std::vector<float>
@@ -85,5 +88,9 @@ struct DemSamples {
 // are beyond what floats hold (height_limits.h); Cancelled.
 DemSamples readSamples(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
                        double verticalScale, Progress& progress);
+
+// Throws Error: all samples of so many are missing, which is marked so.
+[[noreturn]] void throwAllMissing(const std::filesystem::path& file, long long samples,
+                                  const std::string& missing);
 
 }  // namespace stereonav

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "terrain/raster/georeference.h"
+#include "terrain/read/dem_reader.h"
 
 namespace stereonav {
 
@@ -62,7 +63,7 @@ struct RasterLimits {
     long long side = 0, samples = 0;
 };
 // Read at once: 1 GiB of heights; as much again for the pyramid and colour.
-constexpr RasterLimits kReadAtOnce = {65536, 1ll << 28};
+constexpr RasterLimits kReadAtOnce = {kMostDemSide, kMostDemSamples};
 // Read a run of rows at a time.
 constexpr RasterLimits kReadByRows = {1ll << 20, 1ll << 40};
 

@@ -197,7 +197,9 @@ template <typename Exact>
 int nodeShift(const Georeference& target, const Exact& exact) {
     constexpr double kMapTolerance = 0.01;
     constexpr long long kMostNodes = 1 << 24;  // 256 MB; finer maps are not made
-    const long long pixels = static_cast<long long>(target.width) * target.height;
+    // More are mapped a run of rows at a time (PixelMapRows).
+    constexpr long long kMostAtOnce = 1 << 28;
+    const long long pixels = std::min(static_cast<long long>(target.width) * target.height, kMostAtOnce);
     for (const int shift : {4, 2})
         if (mapError(target, exact, 1 << shift) <= kMapTolerance || pixels >> (2 * shift - 4) > kMostNodes)
             return shift;
@@ -286,21 +288,38 @@ Georeference metricGrid(const Georeference& raster, bool ownSystem, const std::f
     return grid;
 }
 
-PixelMap mapPixels(const Georeference& target, const Georeference& source,
-                   const std::filesystem::path& file) {
-    const ReferenceTransform toSource(target.wkt, source.wkt, file);
-    const PixelPlacement from(target), to(source);
-    const glm::dvec2 near = to.fromPixel(middlePixel(source));
-    const auto exact = [&](double column, double row) {
-        return to.toPixel(toSource(from.fromPixel({column + 0.5, row + 0.5}), near));
+PixelMapRows::PixelMapRows(const Georeference& target, const Georeference& source,
+                           const std::filesystem::path& file)
+    : mWidth(target.width) {
+    // What one place goes through. On the heap: a placement refers to its raster.
+    struct Way {
+        Way(const Georeference& t, const Georeference& s, const std::filesystem::path& f)
+            : target(t), source(s), toSource(t.wkt, s.wkt, f), from(target), to(source) {
+            near = to.fromPixel(middlePixel(source));
+        }
+        Georeference target, source;
+        ReferenceTransform toSource;
+        PixelPlacement from, to;
+        glm::dvec2 near{0.0};
     };
-    const int shift = nodeShift(target, exact), step = 1 << shift;
-    const int nodesX = (target.width - 1) / step + 2, nodesY = (target.height - 1) / step + 2;
+    mExact = [way = std::make_shared<const Way>(target, source, file)](double column, double row) {
+        return way->to.toPixel(way->toSource(way->from.fromPixel({column + 0.5, row + 0.5}), way->near));
+    };
+    mShift = nodeShift(target, mExact);
+}
+
+PixelMap PixelMapRows::map(int first, int rows) const {
+    const int step = 1 << mShift, nodesX = (mWidth - 1) / step + 2, nodesY = (rows - 1) / step + 2;
     std::vector<glm::dvec2> nodes;
     nodes.reserve(static_cast<std::size_t>(nodesX) * nodesY);
     for (int j = 0; j < nodesY; ++j)
-        for (int i = 0; i < nodesX; ++i) nodes.push_back(exact(i * step, j * step));
-    return PixelMap(nodesX, std::move(nodes), shift);
+        for (int i = 0; i < nodesX; ++i) nodes.push_back(mExact(i * step, first + j * step));
+    return PixelMap(nodesX, std::move(nodes), mShift);
+}
+
+PixelMap mapPixels(const Georeference& target, const Georeference& source,
+                   const std::filesystem::path& file) {
+    return PixelMapRows(target, source, file).map(0, target.height);
 }
 
 bool overlap(const Georeference& a, const Georeference& b, const std::filesystem::path& file) {

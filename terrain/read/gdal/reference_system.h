@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <glm/vec2.hpp>
 
 #include "terrain/raster/georeference.h"
@@ -27,5 +28,23 @@ bool holdsPole(const Georeference& raster);
 // that keeps nine tenths of the area around it, else the rectangle around it. Throws Error named by
 // `file`.
 Georeference metricGrid(const Georeference& raster, bool ownSystem, const std::filesystem::path& file);
+
+// mapPixels() for a run of the target's rows at a time, whose places are the same: for targets larger than
+// memory. To one thread.
+class PixelMapRows {
+public:
+    // Throws Error as mapPixels() does.
+    PixelMapRows(const Georeference& target, const Georeference& source, const std::filesystem::path& file);
+    // Of rows from first, a multiple of PixelMap::kStep, on: row 0 of the map is first.
+    PixelMap map(int first, int rows) const;
+    // Pixels between its nodes.
+    int step() const { return 1 << mShift; }
+    // Of one place of the target, (0, 0) is the centre of its first pixel: exact.
+    glm::dvec2 at(double column, double row) const { return mExact(column, row); }
+
+private:
+    std::function<glm::dvec2(double column, double row)> mExact;  // of a pixel's centre
+    int mWidth, mShift;
+};
 
 }  // namespace stereonav

@@ -10,6 +10,8 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "engine/base/error.h"
 
@@ -41,7 +43,7 @@ class VrtWalk {
 public:
     explicit VrtWalk(const std::filesystem::path& file) : mFirst(file) {}
 
-    void check(const std::filesystem::path& file, int depth) const {
+    void check(const std::filesystem::path& file, int depth) {
         if (!isVirtualRaster(file)) return;
         if (depth > kDeepest)
             fail("expected files, found virtual rasters that name each other", "name files in them");
@@ -55,19 +57,21 @@ public:
         for (const CPLXMLNode* node = root.get(); node; node = node->psNext) walk(*node, file, false, depth);
     }
 
+    std::vector<std::filesystem::path> named() && { return std::move(mNamed); }
+
 private:
     [[noreturn]] void fail(const std::string& problem, const std::string& advice) const {
         throw Error(mFirst.string(), "", problem, advice);
     }
 
-    void walk(const CPLXMLNode& node, const std::filesystem::path& file, bool raw, int depth) const {
+    void walk(const CPLXMLNode& node, const std::filesystem::path& file, bool raw, int depth) {
         raw |= std::string_view(CPLGetXMLValue(&node, "subClass", "")) == "VRTRawRasterBand";
         if (node.eType == CXT_Element && namesFile(node.pszValue)) checkName(node, file, raw, depth);
         for (const CPLXMLNode* child = node.psChild; child; child = child->psNext)
             if (child->eType == CXT_Element) walk(*child, file, raw, depth);
     }
 
-    void checkName(const CPLXMLNode& node, const std::filesystem::path& file, bool raw, int depth) const {
+    void checkName(const CPLXMLNode& node, const std::filesystem::path& file, bool raw, int depth) {
         const std::string name = CPLGetXMLValue(&node, nullptr, "");
         if (name.empty()) return;
         if (namesNetwork(name))
@@ -78,6 +82,7 @@ private:
         if (!std::filesystem::is_regular_file(other))
             fail("names \"" + name + "\", and there is no such file",
                  "put it there, or make the virtual raster anew");
+        mNamed.push_back(other);
         if (raw) return;  // numbers without a format
         if (!GDALIdentifyDriverEx(other.string().c_str(), GDAL_OF_RASTER, rasterDrivers(), nullptr))
             fail("names \"" + name + "\", and that is no raster of a format read here",
@@ -86,6 +91,7 @@ private:
     }
 
     const std::filesystem::path& mFirst;
+    std::vector<std::filesystem::path> mNamed;
 };
 
 }  // namespace
@@ -101,6 +107,12 @@ bool namesNetwork(const std::filesystem::path& path) {
 
 void checkVirtualRaster(const std::filesystem::path& file) {
     VrtWalk(file).check(file, 0);
+}
+
+std::vector<std::filesystem::path> filesOfVirtualRaster(const std::filesystem::path& file) {
+    VrtWalk walk(file);
+    walk.check(file, 0);
+    return std::move(walk).named();
 }
 
 const char* const* rasterDrivers() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace stereonav {
 
@@ -13,6 +14,10 @@ bool namesNetwork(const std::filesystem::path& path);
 // Throws Error named by `file` unless it is no virtual raster, or all that it names, and so on, are local
 // files of the formats read here.
 void checkVirtualRaster(const std::filesystem::path& file);
+
+// All files that it names, and so on; none where it is no virtual raster. Throws Error as
+// checkVirtualRaster().
+std::vector<std::filesystem::path> filesOfVirtualRaster(const std::filesystem::path& file);
 
 // nullptr-terminated; of formats that hold their data themselves, and VRT.
 const char* const* rasterDrivers();
