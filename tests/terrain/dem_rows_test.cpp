@@ -304,6 +304,23 @@ TEST(DemRows, TheIdentityFollowsTheFilesOfAVirtualRaster) {
     EXPECT_NE(DemRows(folder / "inner.vrt").identity(), identity());
 }
 
+TEST(DemRows, TakesMoreThanReadingAtOnceAndStillHasALimit) {
+    const TempFolder folder;
+    const auto blank = [&](int width) {  // no source, so all 0
+        return folder.text("blank.vrt", "<VRTDataset rasterXSize=\"" + std::to_string(width) +
+                                            "\" rasterYSize=\"20\"><VRTRasterBand dataType=\"Float32\" "
+                                            "band=\"1\"></VRTRasterBand></VRTDataset>");
+    };
+    const auto wide = blank(70000);
+    EXPECT_THAT(errorOf([&] { readGround(wide); }), HasSubstr("at most 65536 samples a side"));
+    DemRows rows(wide);
+    EXPECT_EQ(rows.place().width, 70000);
+    EXPECT_EQ(allRows(rows, 20), std::vector<float>(70000 * 20, 0.0f));
+    EXPECT_NO_THROW(rows.checkHeights(1));
+    EXPECT_THAT(errorOf([&] { DemRows(blank((1 << 20) + 1)); }),
+                AllOf(HasSubstr("at most 1048576 samples a side"), HasSubstr("got 1048577 x 20")));
+}
+
 TEST(DemRows, RealGroundInDegreesDiffersAtSummitsAndPitsAlone) {
     for (const char* name : {"mt_rainier_90m.tif", "ararat/agri-small-dem.tif", "SainteHelens.dem"}) {
         const auto file = realData(name);
