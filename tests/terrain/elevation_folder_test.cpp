@@ -131,7 +131,7 @@ TEST_F(ElevationFolder, RefusesWhatDoesNotFit) {
     EXPECT_THAT(refusal(), HasSubstr("b.tif"));
     write("b.tif", partSpec(40, 0, 400, 300));
     std::filesystem::resize_file(parts() / "b.tif", 100000);
-    EXPECT_THAT(refusal(), AllOf(Not(HasSubstr("\n")), HasSubstr("cut off")));
+    EXPECT_THAT(refusal(), AllOf(Not(HasSubstr("\n")), HasSubstr("b.tif"), HasSubstr("cut off")));
     std::filesystem::remove_all(parts());
     std::filesystem::create_directory(parts());
     EXPECT_THAT(refusal(), HasSubstr("without any"));

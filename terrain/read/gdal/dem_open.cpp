@@ -4,7 +4,7 @@
 #include <gdal_utils.h>
 #include <ogr_spatialref.h>
 
-#include <cmath>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +14,7 @@
 #include "terrain/raster/elevation_folder.h"
 #include "terrain/read/gdal/height_band.h"
 #include "terrain/read/gdal/program_words.h"
+#include "terrain/read/gdal/vrt_check.h"
 
 namespace stereonav {
 namespace {
@@ -111,7 +112,29 @@ GdalDataset openFolder(const std::filesystem::path& folder, const GdalMessages& 
                 "join them with gdalwarp, and name what that gives");
 }
 
+bool isWhole(GDALDataset& dataset, const GdalMessages& messages) {
+    constexpr int kRows = 64;
+    const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
+    std::vector<float> rows(static_cast<std::size_t>(width) * kRows);
+    for (int row = 0; row < height; row += kRows) {
+        const int count = std::min(kRows, height - row);
+        const CPLErr failed = dataset.GetRasterBand(1)->RasterIO(GF_Read, 0, row, width, count, rows.data(),
+                                                                 width, count, GDT_Float32, 0, 0, nullptr);
+        if (failed != CE_None || messages.hasError()) return false;
+    }
+    return true;
+}
+
 }  // namespace
+
+std::filesystem::path damagedFileIn(const std::filesystem::path& folder) {
+    for (const std::filesystem::path& file : elevationFilesIn(folder)) {
+        const GdalMessages messages;
+        const GdalDataset dataset(GDALDataset::Open(file.string().c_str(), GDAL_OF_RASTER, rasterDrivers()));
+        if (!dataset || !isWhole(*dataset, messages)) return file;
+    }
+    return {};
+}
 
 GdalDataset openDem(const std::filesystem::path& place, const GdalMessages& messages) {
     std::error_code failed;

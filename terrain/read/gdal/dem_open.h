@@ -14,4 +14,8 @@ namespace stereonav {
 // file that does not fit.
 GdalDataset openDem(const std::filesystem::path& place, const GdalMessages& messages);
 
+// The first file of such a folder that can not be read to its end; "" where there is none, or it is no
+// folder.
+std::filesystem::path damagedFileIn(const std::filesystem::path& folder);
+
 }  // namespace stereonav

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "terrain/read/gdal/dem_open.h"
 #include "terrain/read/height_limits.h"
 
 namespace stereonav {
@@ -20,8 +21,11 @@ constexpr const char* kReadAgain = "fetch or export the file again";
 
 [[noreturn]] void throwCutOff(const std::filesystem::path& file, int row, int rows,
                               const GdalMessages& messages) {
+    const std::string reason = messages.reason(file);
+    if (const std::filesystem::path part = damagedFileIn(file); !part.empty())
+        throw Error(part.string(), "", "the file is cut off or damaged" + reason, kReadAgain);
     throw Error(file.string(), fmt::format("row {} of {}", row + 1, rows),
-                "the file is cut off or damaged" + messages.reason(file), kReadAgain);
+                "the file is cut off or damaged" + reason, kReadAgain);
 }
 
 // Height of one GSI pixel in metres; NaN for its nodata, (128, 0, 0).
