@@ -229,8 +229,23 @@ STEREONAV_INLINE float cellApproach(const GroundData& g, const int* cell, const 
                               direction[1] * (dv + position[0] * twist));
 }
 
+// Whether a ray is below ground at t, and where in the ground; not in a hole.
+inline bool belowGround(const GroundData& g, const double* origin, const double* direction, double t,
+                        int* cell, double* position) {
+    const double x = origin[0] + t * direction[0], y = origin[1] + t * direction[1];
+    cell[0] = clampInt(x, 0, g.width - 2), cell[1] = clampInt(y, 0, g.height - 2);
+    const double u = x - cell[0], v = y - cell[1];
+    position[0] = u < 0 ? 0 : u > 1 ? 1 : u, position[1] = v < 0 ? 0 : v > 1 ? 1 : v;
+    const float* south = g.heights + static_cast<std::int64_t>(cell[1]) * g.width + cell[0];
+    const float* north = south + g.width;
+    const double low = south[0] + position[0] * (double(south[1]) - south[0]),
+                 high = north[0] + position[0] * (double(north[1]) - north[0]);
+    return origin[2] + t * direction[2] < low + position[1] * (high - low);
+}
+
 // The plain walk in double precision, lane by lane, from a little before `from` (the float walk has
-// cleared what lies before, up to corners of cells), but not before `floor`.
+// cleared what lies before, up to corners of cells), but not before `floor`. A ray that came to this ground
+// there, and is below it by no more than single precision tells, has met it there.
 inline void castExactly(const Eye& eye, const Rays& rays, F from, F floor, M m, Hits& hits) {
     alignas(64) float t[kLanes], u[kLanes], v[kLanes], approach[kLanes], start[kLanes], least[kLanes];
     alignas(64) std::int32_t i[kLanes], j[kLanes];
@@ -250,7 +265,10 @@ inline void castExactly(const Eye& eye, const Rays& rays, F from, F floor, M m, 
         const double tMin = __builtin_fmax(start[k] - back, static_cast<double>(least[k]));
         int cell[2] = {};
         double position[2] = {};
-        t[k] = static_cast<float>(g.exactHit(g.context, origin, direction, tMin, cell, position));
+        const bool entered = least[k] > eye.nearDepth && tMin == static_cast<double>(least[k]);
+        t[k] = entered && belowGround(g, origin, direction, tMin, cell, position)
+                   ? least[k]
+                   : static_cast<float>(g.exactHit(g.context, origin, direction, tMin, cell, position));
         i[k] = cell[0], j[k] = cell[1];
         u[k] = static_cast<float>(position[0]), v[k] = static_cast<float>(position[1]);
         if (t[k] < __builtin_inff()) approach[k] = cellApproach(g, cell, position, direction);

@@ -184,5 +184,46 @@ TEST_P(RingCaster, HitsWhatThePlainWalkHits) {
 
 INSTANTIATE_TEST_SUITE_P(Holes, RingCaster, testing::Bool());
 
+// Rays that come to the coarser ground just at its surface: above or below by what single precision tells.
+TEST(GroundRings, AreMetWhereOneEnds) {
+    const TerrainScene scene = test::makeScene(roughGround(1400, 1201));
+    for (const SimdTarget target : simdTargets()) {
+        TerrainRenderer renderer(scene, target);
+        renderer.takeCoarser(1);
+        const Lens lens{1, 1, 0.003, 1.0, 0.1};
+        const glm::dvec3 eye(500, -300, scene.ground.heightAt({500, -300}) + 900);
+        renderer.lookFrom(makeEyeView(poseFromAngles(eye, 0, -0.3, 0), Lens{40, 30, 1.1, 1.0, 0.1}));
+        ASSERT_GT(renderer.rings()->rings.size(), 1u);
+        const GroundRing &inner = *renderer.rings()->rings[0], &outer = *renderer.rings()->rings[1];
+        std::mt19937 random(8);
+        std::uniform_real_distribution<double> along(0.05, 0.95), off(-1e-6, 1e-6);
+        int tried = 0, lost = 0;
+        for (int k = 0; k < 6000; ++k) {
+            const glm::dvec2 size(inner.ground.width() - 1, inner.ground.height() - 1);
+            const double u = along(random);
+            const glm::dvec2 grid = k % 2 ? glm::dvec2(u * size.x, k % 4 == 1 ? 0 : size.y)
+                                          : glm::dvec2(k % 4 == 0 ? 0 : size.x, u * size.y);
+            const glm::dvec2 place = inner.ground.worldFromGrid(grid);
+            const double away = glm::distance(eye, glm::dvec3(place, outer.ground.heightAt(place)));
+            const glm::dvec3 aim(place, outer.ground.heightAt(place) + off(random) * away);
+            const glm::dvec3 way = aim - eye;
+            const EyeView view = makeEyeView(
+                poseFromAngles(eye, std::atan2(way.x, way.y), std::atan2(way.z, std::hypot(way.x, way.y)), 0),
+                lens);
+            // As wide as the rings were chosen for: one look is all.
+            EyeImage image;
+            image.resize(1, 1);
+            renderer.renderTile(view, 0, image);
+            const RingHit hit =
+                castPlainRings(*renderer.rings(), eye, view.rayDirection(0.5, 0.5), view.nearDepth);
+            if (hit.ring == 0 || !std::isfinite(hit.hit.t)) continue;
+            ++tried;
+            lost += !(std::abs(image.viewDepth.at(0, 0) - hit.hit.t) <= 0.02 * hit.hit.t);
+        }
+        EXPECT_GT(tried, 1000);
+        EXPECT_EQ(lost, 0) << "of " << tried << ", target " << static_cast<int>(target);
+    }
+}
+
 }  // namespace
 }  // namespace stereonav
