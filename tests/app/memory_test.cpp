@@ -89,7 +89,9 @@ TEST_F(Memory, OfALumenIsCheckedByItsBox) {
 TEST_F(Memory, OfGroundIsCheckedByItsHeader) {
     const std::string ground = grid("large.asc", 1500, 1500, 30.0, [](int i, int j) { return (i * j) % 7; });
     allow("6e7");  // with colours 105 MB
-    const Outcome outcome = run({"render", ground, "--size", "32x24", "--out", "out.png"});
+    const Outcome tiled = run({"render", ground, "--size", "32x24", "--out", "out.png"});
+    EXPECT_EQ(tiled.status, 0) << "goes into tiles; " << tiled.err;
+    const Outcome outcome = run({"render", ground, "--tiles", "off", "--size", "32x24", "--out", "out.png"});
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.err.find("large.asc"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("1500 x 1500 samples need 1"), std::string::npos) << outcome.err;
@@ -100,7 +102,7 @@ TEST_F(Memory, OfGroundIsCheckedByItsHeader) {
     // What is said to fit does.
     const std::string smaller =
         grid("small.asc", width - 20, height - 20, 30.0, [](int i, int j) { return (i * j) % 7; });
-    const Outcome fits = run({"render", smaller, "--size", "32x24", "--out", "out.png"});
+    const Outcome fits = run({"render", smaller, "--tiles", "off", "--size", "32x24", "--out", "out.png"});
     EXPECT_EQ(fits.status, 0) << fits.err;
 }
 

@@ -34,6 +34,7 @@ std::string sampleOf(const Option& option) {
     const ValueType& type = option.value;
     if (type.kind == ValueKind::Word) return type.words.front();
     if (option.key == std::string_view("mode")) return "sbsl";
+    if (option.key == std::string_view("memory")) return "2G";
     if (!type.takesNumbers()) return option.key == std::string_view("at") ? "2026-06-21" : "some";
     for (const char* text : {"1", "0.5", "1,2", "1,2,3", "1,2,3,4,5,6", "8", "64x48"}) {
         try {

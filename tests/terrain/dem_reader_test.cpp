@@ -325,7 +325,9 @@ TEST(DemReader, MissingEmptyAndFolder) {
     const auto none = folder / "none.tif", empty = folder.text("empty.tif", "");
     expectOneLine(errorOf([&] { read(none); }), none, "no such file");
     expectOneLine(errorOf([&] { read(empty); }), empty, "the file is empty");
-    expectOneLine(errorOf([&] { read(folder / ""); }), folder / "", "found a folder");
+    std::filesystem::create_directory(folder / "nothing");
+    expectOneLine(errorOf([&] { read(folder / "nothing"); }), folder / "nothing",
+                  "found a folder without any");
 }
 
 TEST(DemReader, NotAnElevationModel) {

@@ -293,10 +293,11 @@ TEST_F(SceneFileTest, NamesOfScenes) {
     };
     EXPECT_EQ(messageOf("no/such.tif"),
               "no/such.tif: no such file; name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, "
-              ".png), or "
-              "nothing for the built-in terrain");
+              ".png) or a folder of such, or nothing for the built-in terrain");
     EXPECT_THAT(messageOf("no/such.toml"), StartsWith("no/such.toml: no such file"));
-    EXPECT_THAT(messageOf(mFolder.string()), HasSubstr("expected a file, found a folder"));
+    EXPECT_EQ(sceneFileFromName(mFolder.string()).dem, mFolder) << "its elevation files are one ground";
+    fs::create_directory(mFolder / "none");
+    EXPECT_THAT(messageOf((mFolder / "none").string()), HasSubstr("found a folder without elevation files"));
 }
 
 }  // namespace
