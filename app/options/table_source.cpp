@@ -53,7 +53,6 @@ std::vector<Option> sourceOptions() {
          .fallback = "auto",
          .commands = kShowing | kMesh | kSurveying | kBake,
          .scenes = kTerrains,
-         .panel = OptionPanel::Material,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->tiles = choiceOf<TilesChoice>(value); }},
         {.key = "memory",
