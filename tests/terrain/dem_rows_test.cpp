@@ -238,6 +238,25 @@ TEST(DemRows, RunsOfRowsAreWholeBlocksOfTheFile) {
     EXPECT_EQ(DemRows(writeRaster(folder / "strips.tif", spec)).runOfRows(), 256);
 }
 
+// Text of so many rows as one could not call for within one another; and one whose header alone is there.
+TEST(DemRows, FindsTheRowsOfText) {
+    const TempFolder folder;
+    std::string text = "ncols 2\nnrows 200000\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+    for (int row = 0; row < 200000; ++row) text += std::to_string(row % 97) + " 5\n";
+    DemRows rows(folder.text("long.asc", text));
+    float heights[4];
+    rows.read(0, 2, heights);
+    EXPECT_EQ(heights[0], 199999 % 97);
+    EXPECT_EQ(heights[2], 199998 % 97);
+    const auto cut =
+        folder.text("cut.asc", "ncols 100000\nnrows 100000\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n");
+    EXPECT_THAT(errorOf([&] {
+                    std::vector<float> row(100000);
+                    DemRows(cut).read(0, 1, row.data());
+                }),
+                HasSubstr("cut off"));
+}
+
 TEST(DemRows, AGlanceHasCornersOnCornersAndTheNearestBetween) {
     const TempFolder folder;
     RasterSpec spec = hillsSpec();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -152,6 +153,7 @@ public:
         }
         GdalMessages messages;  // of this thread, whichever opened the file
         mMessages = &messages;
+        findRows();
         const int fromNorth = mDem.height - first - rows;
         if (mResampled)
             mResampled->read(fromNorth, rows, heights);
@@ -234,6 +236,21 @@ private:
         mDem.sourceMissing = mDem.outside = 0;
     }
 
+    // Text is read from its beginning on. Where its rows lie GDAL finds out as they are first read: in their
+    // order one after the other, else by a call within a call for each row before.
+    void findRows() {
+        if (mRowsFound) return;
+        mRowsFound = true;
+        const std::string_view driver = mDataset->GetDriverName();
+        if (driver != "AAIGrid" && driver != "GRASSASCIIGrid" && driver != "GSAG") return;
+        float first = 0;
+        HeightTally tally;
+        for (int row = 0; row < mSamples->height(); ++row) {
+            throwIfStopped();
+            mSamples->readLevel(-1, {0, row, 1, 1}, *mMessages, &first, tally);
+        }
+    }
+
     // Rows of the grid, north first or as the file has them, to rows eastward from the south.
     void orient(float* heights, int rows) const {
         const std::size_t width = mDem.width;
@@ -261,7 +278,7 @@ private:
     std::unique_ptr<ResampledRows> mResampled;  // null where samples stay as they are
     GdalMessages* mMessages = nullptr;          // of the call that reads
     std::vector<float> mWhole;
-    bool mFoundCustomary = false;
+    bool mFoundCustomary = false, mRowsFound = false;
 };
 
 }  // namespace
