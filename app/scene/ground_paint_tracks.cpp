@@ -93,7 +93,11 @@ RecordedPath followedTrack(const TerrainScene& terrain, const std::string& file,
                     fmt::format("{} of {} places lie outside the ground", all - line.size(), all),
                     trackAdvice(terrain));
     if (read.lines.front().closed && line.size() > 2) line.push_back(line.front());
-    return followTrack(terrain.ground, line, height, file);
+    if (!terrain.tiled) return followTrack(terrain.ground, line, height, file);
+    const GroundLevels& levels = *terrain.tiled->levels;
+    const int level = terrain.tiled->level;
+    return followTrack(terrain.ground, line, height, file,
+                       [&](const glm::dvec2& place) { return levels.errorBoundAt(level, place); });
 }
 
 }  // namespace stereonav

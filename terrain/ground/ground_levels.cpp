@@ -65,6 +65,13 @@ bool GroundLevels::contains(const glm::dvec2& world) const {
     return grid.x >= 0 && grid.y >= 0 && grid.x <= last.x && grid.y <= last.y;
 }
 
+float GroundLevels::errorBoundAt(int level, const glm::dvec2& world) const {
+    const glm::dvec2 block = gridFromWorld(world) / double(kBlock << level);
+    const glm::ivec2 last = blocks(level) - 1;
+    return errorBound(level, std::clamp(static_cast<int>(block.x), 0, last.x),
+                      std::clamp(static_cast<int>(block.y), 0, last.y));
+}
+
 std::optional<Heightfield> GroundLevels::part(int level, const glm::ivec2& low,
                                               const glm::ivec2& size) const {
     std::vector<float> samples(static_cast<std::size_t>(size.x) * size.y);

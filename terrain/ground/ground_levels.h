@@ -48,6 +48,8 @@ public:
     float errorBound(int level, int blockI, int blockJ) const {
         return mLevels[level].bounds[static_cast<std::size_t>(blockJ) * mLevels[level].blocks.x + blockI];
     }
+    // Of the block that a place lies in; world, clamped to the border.
+    float errorBoundAt(int level, const glm::dvec2& world) const;
     float errorBound(int level) const { return mLevels[level].most; }  // the largest of a level
 
     // Samples low to low + size - 1 of a level. None where no cell of them is known. Throws Error where they

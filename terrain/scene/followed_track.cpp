@@ -88,12 +88,14 @@ double highestAlong(const Heightfield& ground, const glm::dvec2& from, const glm
 }
 
 // Of the highest ground from one sample to those beside it; holes count as what came before.
-std::vector<double> groundUnder(const Heightfield& ground, const std::vector<glm::dvec2>& places) {
+std::vector<double> groundUnder(const Heightfield& ground, const std::vector<glm::dvec2>& places,
+                                const GroundRises& rises) {
     std::vector<double> heights(places.size(), double(ground.minHeight()));
     double known = ground.maxHeight();
     for (std::size_t n = 0; n + 1 < places.size(); ++n) {
+        const double rise = rises ? std::max(rises(places[n]), rises(places[n + 1])) : 0;
         if (const double high = highestAlong(ground, places[n], places[n + 1]); std::isfinite(high))
-            known = high;
+            known = high + rise;
         heights[n] = std::max(heights[n], known);
         heights[n + 1] = std::max(heights[n + 1], known);
     }
@@ -103,7 +105,7 @@ std::vector<double> groundUnder(const Heightfield& ground, const std::vector<glm
 }  // namespace
 
 RecordedPath followTrack(const Heightfield& ground, const std::vector<glm::dvec2>& places, double height,
-                         const std::string& source) {
+                         const std::string& source, const GroundRises& rises) {
     const Measured line(places, source);
     const double seconds = std::clamp(line.length() / height, 2 * kFollowStep, kLongestFollow);
     const int count = static_cast<int>(std::ceil(seconds / kFollowStep)) + 1;
@@ -115,7 +117,7 @@ RecordedPath followTrack(const Heightfield& ground, const std::vector<glm::dvec2
                        at[static_cast<std::size_t>(std::max(0, n - 1))]);
     ways = averaged(averaged(ways, kTurnSamples), kTurnSamples);
     const std::vector<double> heights =
-        averaged(highestAround(groundUnder(ground, at), kClimbSamples), kClimbSamples);
+        averaged(highestAround(groundUnder(ground, at, rises), kClimbSamples), kClimbSamples);
     std::vector<PathSample> samples;
     double heading = std::atan2(at.back().x - at.front().x, at.back().y - at.front().y);
     for (std::size_t n = 0; n < at.size(); ++n) {

@@ -1,6 +1,7 @@
 // A flight along a line of the plan, such as a walker's track.
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <string>
 #include <vector>
@@ -19,10 +20,12 @@ constexpr double kLongestFollow = 900;
 // At even speed over the plan, looking along the line as it goes within two seconds before and behind, twice
 // averaged, so that corners and the jitter of receivers become turns. Above the ground by `height` metres and
 // more, at its samples and between them: over the highest ground within a second's way, averaged. Holes are
-// passed at the height beside them. places: two or more that differ, world metres, on the ground. Throws
-// Error named `source` where they do not differ.
+// passed at the height beside them. places: two or more that differ, world metres, on the ground. rises:
+// metres at most, at a place, that the real ground may lie above `ground`, which is coarser; null: it does
+// not. Throws Error named `source` where places do not differ.
+using GroundRises = std::function<double(const glm::dvec2& place)>;
 RecordedPath followTrack(const Heightfield& ground, const std::vector<glm::dvec2>& places, double height,
-                         const std::string& source);
+                         const std::string& source, const GroundRises& rises = {});
 
 // Eyes for such a flight: level ground in the middle of the picture lies in the screen, a thirtieth of its
 // distance between the eyes.

@@ -11,6 +11,7 @@
 #include "engine/camera/stereo_rig.h"
 #include "raster_files.h"
 #include "terrain/cast/terrain_renderer.h"
+#include "terrain/scene/followed_track.h"
 #include "terrain/scene/ground_place.h"
 #include "terrain/scene/terrain_loader.h"
 #include "tests/support/own_cache.h"
@@ -148,6 +149,24 @@ TEST_F(TiledScene, IsTakenWhereMemoryDoesNotSuffice) {
     SceneFile file = mFile;
     Progress progress;
     EXPECT_FALSE(loadTerrain(file, progress).tiled);
+}
+
+// A track is flown over the finest samples, not those that are in memory.
+TEST_F(TiledScene, IsFollowedAboveItsFinestSamples) {
+    const TerrainScene scene = load(GroundTiles::On);
+    const GroundLevels& levels = *scene.tiled->levels;
+    const RecordedPath path =
+        followTrack(scene.ground, {{-4500, -3000}, {4700, 3300}}, 3, "track",
+                    [&](const glm::dvec2& place) { return levels.errorBoundAt(scene.tiled->level, place); });
+    double lowest = 1e9, under = 1e9;
+    for (double t = 0; t <= path.duration(); t += 0.05) {
+        const glm::dvec3 eye = path.at(t).position;
+        lowest = std::min(lowest, eye.z - scene.heightAt(glm::dvec2(eye)));
+        under = std::min(under, eye.z - levels.errorBoundAt(scene.tiled->level, glm::dvec2(eye)) -
+                                    scene.heightAt(glm::dvec2(eye)));
+    }
+    EXPECT_GE(lowest, 3);
+    EXPECT_LT(under, 3) << "that there are bounds matters";
 }
 
 // What is late is on its way: the picture is there at once, and in time as fine as one that waits.
