@@ -171,9 +171,17 @@ bool looksLikeStudy(const fs::path& path) {
     std::error_code code;
     if (!fs::is_directory(path, code))
         return isVolumeName(path) || isDicomFile(path) || !ownerOf(path).empty();
-    for (const auto& entry : fs::directory_iterator(path, code))
-        if (entry.is_regular_file(code) && isSliceName(entry.path())) return true;
-    return false;
+    // Beside files of other kinds a name without an extension may be anything: README, LICENSE.
+    std::vector<fs::path> bare;
+    bool others = false;
+    for (const auto& entry : fs::directory_iterator(path, code)) {
+        if (!entry.is_regular_file(code)) continue;
+        const bool slice = isSliceName(entry.path()), named = entry.path().has_extension();
+        if (slice && named) return true;
+        if (slice) bare.push_back(entry.path());
+        others |= !slice;
+    }
+    return others ? std::any_of(bare.begin(), bare.end(), isDicomFile) : !bare.empty();
 }
 
 std::uint64_t studyKey(const fs::path& path, const StudyOptions& options) {

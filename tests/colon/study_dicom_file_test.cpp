@@ -182,6 +182,15 @@ TEST(StudyDicomSingle, OneSliceIsAskedForItsSeries) {
     expectError(folder / "s/s0.dcm", {"2 or more slices, found 1", "give the folder that holds the series"});
     fs::rename(folder / "s/s0.dcm", folder / "s/IMG0");
     EXPECT_TRUE(looksLikeStudy(folder / "s/IMG0"));
+    EXPECT_TRUE(looksLikeStudy(folder / "s"));
+    // A name without an extension is a slice beside files of other kinds only where it begins as one.
+    std::filesystem::create_directory(folder / "ground");
+    writeTextFile(folder / "ground/README", "of the ground");
+    EXPECT_TRUE(looksLikeStudy(folder / "ground"));
+    writeTextFile(folder / "ground/part.tif", "no picture");
+    EXPECT_FALSE(looksLikeStudy(folder / "ground"));
+    std::filesystem::copy_file(folder / "s/IMG0", folder / "ground/IMG0");
+    EXPECT_TRUE(looksLikeStudy(folder / "ground"));
     writeBytes(folder / "s/x.dcm", "hello");
     expectError(folder / "s/x.dcm", {"expected a DICOM image"});
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "raster_files.h"
 #include "terrain/read/dem_reader.h"
@@ -98,6 +99,35 @@ TEST_F(ElevationFolder, TakesTheLastWhereFilesOverlap) {
     EXPECT_EQ(at(30, 4), 77);
     EXPECT_EQ(at(23, 4), hillAt(23, 4));
     EXPECT_EQ(dem.sourceMissing, 0);
+}
+
+// As each file says it, or its custom, whatever the others say.
+TEST_F(ElevationFolder, FindsWhatIsMissingInEachFile) {
+    const auto low = [&](GDALDataType type, std::optional<double> a, std::optional<double> b, double holdsA,
+                         double holdsB, double step = 30) {
+        RasterSpec first = partSpec(0, 0, 40, 30), second = partSpec(step < 30 ? 80 : 40, 0, 40, 30);
+        first.type = second.type = type;
+        first.hasNodata = a.has_value(), first.nodata = a.value_or(0);
+        second.hasNodata = b.has_value(), second.nodata = b.value_or(0);
+        if (step != 30) first.transform[1] = step, first.transform[5] = -step;
+        first.value = [holdsA](int c, int r, int) { return c == 5 && r == 7 ? holdsA : hillAt(c, r); };
+        second.value = [holdsB](int c, int r, int) { return c == 9 && r == 3 ? holdsB : hillAt(40 + c, r); };
+        write("a.tif", first), write("b.tif", second);
+        const DemGrid dem = read(parts());
+        double least = 1e9;
+        for (const float h : dem.heights)
+            if (std::isfinite(h)) least = std::min(least, double(h));
+        return std::pair{least, dem.sourceMissing};
+    };
+    const auto none = std::optional<double>();
+    EXPECT_EQ(low(GDT_Int16, -9999, none, -9999, -32768).second, 2) << "named by one, customary of the other";
+    EXPECT_GT(low(GDT_Int16, -9999, none, -9999, -32768).first, 299);
+    EXPECT_EQ(low(GDT_Int16, 0, -1, 0, 0).second, 1) << "a true 0 of the second";
+    EXPECT_EQ(low(GDT_Int16, 0, -1, 0, 0).first, 0);
+    EXPECT_EQ(low(GDT_Float32, none, none, -9999, 400).second, 1) << "-9999 that nobody names";
+    EXPECT_GT(low(GDT_Float32, none, none, -9999, 400).first, 299);
+    EXPECT_EQ(low(GDT_UInt16, none, none, 400, 400).second, 0);
+    EXPECT_GT(low(GDT_Int16, none, none, -32768, 400, 60).first, 299) << "of a coarser file, mixed with none";
 }
 
 TEST_F(ElevationFolder, TakesTheFinestSamplesOfAll) {

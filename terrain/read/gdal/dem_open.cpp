@@ -5,8 +5,8 @@
 #include <ogr_spatialref.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +32,6 @@ struct Common {
     std::filesystem::path file;  // the first
     std::unique_ptr<OGRSpatialReference> system;
     HeightBand band;
-    GDALDataType type = GDT_Unknown;
 };
 
 std::unique_ptr<OGRSpatialReference> systemOf(GDALDataset& dataset) {
@@ -65,14 +64,29 @@ void checkFits(GDALDataset& dataset, const std::filesystem::path& file, const Co
                     "make them alike, for example with gdal_translate -unscale");
 }
 
-// What stands for missing samples of all, where no file is too.
-std::string missingValueOf(const std::filesystem::path& folder, const std::optional<double>& named,
-                           GDALDataType type) {
-    if (type == GDT_Float32 || type == GDT_Float64) return "nan";
-    if (named) return fmt::format("{:.17g}", *named);
-    if (type == GDT_Int16 || type == GDT_Int32) return "-32768";
-    throwMisfit(folder, "missing samples", "no file names a value for them",
-                "name one, for example with gdal_edit.py -a_nodata");
+// Doubles where floats do not hold what some file has stored.
+bool needsDoubles(GDALDataType type) {
+    return type != GDT_Byte && type != GDT_UInt16 && type != GDT_Int16 && type != GDT_Float32;
+}
+
+// The file's band in floats, which says what stands for missing samples also where the file leaves it to
+// custom: what mixes files looks at what they say alone. In memory, a few hundred bytes, until the program
+// ends.
+std::string wrapped(const std::filesystem::path& file, GDALDataset& dataset, const HeightBand& band,
+                    const char* type) {
+    static std::atomic<int> count = 0;
+    const std::string name = fmt::format("/vsimem/stereonav_part_{}.vrt", count++);
+    ProgramWords words;
+    words.add("-of").add("VRT").add("-b").add(std::to_string(band.number)).add("-ot").add(type);
+    if (band.nodata) words.add("-a_nodata").add(fmt::format("{:.17g}", *band.nodata));
+    GDALTranslateOptions* const options = GDALTranslateOptionsNew(words.get(), nullptr);
+    const GdalDataset made(GDALDataset::FromHandle(
+        GDALTranslate(name.c_str(), GDALDataset::ToHandle(&dataset), options, nullptr)));
+    GDALTranslateOptionsFree(options);
+    if (!made)
+        throwMisfit(file, "", "can not be laid beside others",
+                    "bring it to GeoTIFF, for example with gdal_translate");
+    return name;
 }
 
 GdalDataset openFolder(const std::filesystem::path& folder, const GdalMessages& messages) {
@@ -80,29 +94,31 @@ GdalDataset openFolder(const std::filesystem::path& folder, const GdalMessages& 
     if (files.empty())
         throwMisfit(folder, "", "expected elevation files, found a folder without any", kAdvice);
     Common common;
-    std::optional<double> missing;
+    bool doubles = false;
     for (const std::filesystem::path& file : files) {
         const GdalDataset dataset = openRaster(file, messages, kExpected, kAdvice);
         checkStandsNorthUp(*dataset, file);
         if (common.file.empty()) {
-            common = {file, systemOf(*dataset), heightBandOf(*dataset, file), GDT_Unknown};
-            common.type = dataset->GetRasterBand(common.band.number)->GetRasterDataType();
-            if (common.band.scale != 1 || common.band.offset != 0 || common.band.masked)
+            common = {file, systemOf(*dataset), heightBandOf(*dataset, file)};
+            if (common.band.scale != 1 || common.band.offset != 0 || common.band.masked ||
+                common.band.signedBytes)
                 throwMisfit(file, "heights",
                             "have a scale, a unit or a mask, which a folder of files can not",
                             "make them metres, for example with gdal_translate -unscale");
         } else {
             checkFits(*dataset, file, common);
         }
-        const HeightBand band = heightBandOf(*dataset, file);
-        if (!missing && band.nodata) missing = band.nodata;
+        doubles |= needsDoubles(dataset->GetRasterBand(common.band.number)->GetRasterDataType());
+    }
+    ProgramWords names;
+    for (const std::filesystem::path& file : files) {
+        const std::filesystem::path whole = std::filesystem::absolute(file);
+        const GdalDataset dataset = openRaster(whole, messages, kExpected, kAdvice);
+        names.add(wrapped(whole, *dataset, heightBandOf(*dataset, file), doubles ? "Float64" : "Float32"));
     }
     ProgramWords words;
     words.add("-strict").add("-resolution").add("highest").add("-r").add("bilinear");
-    words.add("-b").add(std::to_string(common.band.number));
-    words.add("-vrtnodata").add(missingValueOf(folder, missing, common.type));
-    ProgramWords names;
-    for (const std::filesystem::path& file : files) names.add(file.string());
+    words.add("-vrtnodata").add("nan");
     GDALBuildVRTOptions* const options = GDALBuildVRTOptionsNew(words.get(), nullptr);
     GdalDataset made(GDALDataset::FromHandle(
         GDALBuildVRT("", static_cast<int>(files.size()), nullptr, names.get(), options, nullptr)));

@@ -10,8 +10,9 @@ namespace stereonav {
 // Of a folder a virtual raster over all its elevation files (elevation_folder.h). They have one reference
 // system, stand north up, and mean their numbers alike. The finest samples count; files that are coarser, or
 // not on the grid of the first, are resampled (bilinear). Where files overlap the one whose name comes last
-// counts, but for its missing samples; where there is none samples are missing. Throws Error named by the
-// file that does not fit.
+// counts, but for its missing samples; where there is none samples are missing. Missing is what each file
+// says, or its type's custom; a -9999 that a file does not name is found where it stands alone, not where it
+// was mixed with others. Throws Error named by the file that does not fit.
 GdalDataset openDem(const std::filesystem::path& place, const GdalMessages& messages);
 
 // The first file of such a folder that can not be read to its end; "" where there is none, or it is no

@@ -81,10 +81,24 @@ bool isGsiTile(GDALDataset& dataset) {
     return !bytes.empty();
 }
 
+namespace {
+
+// What stands for missing samples of a folder is the reader's own, not a value that somebody named.
+HeightBand bandAsNamed(GDALDataset& dataset, const std::filesystem::path& file) {
+    HeightBand band = heightBandOf(dataset, file);
+    std::error_code failed;
+    if (!std::filesystem::is_directory(file, failed)) return band;
+    band.nodata.reset();
+    band.missing.clear();
+    return band;
+}
+
+}  // namespace
+
 HeightSamples::HeightSamples(GDALDataset& dataset, const std::filesystem::path& file)
     : mDataset(dataset),
       mFile(file),
-      mBand(heightBandOf(dataset, file)),
+      mBand(bandAsNamed(dataset, file)),
       mConversion(dataset.GetRasterBand(mBand.number)->GetRasterDataType(), mBand),
       mMissing(mBand.missing),
       mWidth(dataset.GetRasterXSize()),
