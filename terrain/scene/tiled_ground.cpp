@@ -13,6 +13,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/memory.h"
 #include "terrain/read/dem_rows.h"
+#include "terrain/read/height_limits.h"
 #include "terrain/scene/fine_heights.h"
 #include "terrain/scene/ground_color.h"
 #include "terrain/scene/terrain_scene.h"
@@ -50,6 +51,7 @@ void makeStore(DemRows& rows, const TileSource& source, const std::filesystem::p
         [&](const std::filesystem::path& temporary) {
             makeTiles(source, temporary, progress);
             if (rows.mustBeReadAgain()) makeTiles(source, temporary, progress);
+            rows.checkHeights(1);  // before it is kept: who opens it later reads no row
         },
         Over::Anything);
 }
@@ -59,7 +61,7 @@ struct OpenedStore {
     bool made = false;  // now
 };
 
-OpenedStore openStore(DemRows& rows, double verticalScale, Progress& progress) {
+OpenedStore openStore(DemRows& rows, Progress& progress) {
     TileSource source;
     const DemGrid& dem = rows.place();
     source.size = {dem.width, dem.height};
@@ -73,7 +75,6 @@ OpenedStore openStore(DemRows& rows, double verticalScale, Progress& progress) {
     } catch (const Error&) {  // not there, or of no use: it is made
     }
     makeStore(rows, source, place, progress);
-    rows.checkHeights(verticalScale);
     return {std::make_shared<TileStore>(place, source.content), true};
 }
 
@@ -108,7 +109,8 @@ bool goesIntoTiles(const SceneFile& file, double (*bytesOfSamples)(double sample
 
 DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& progress) {
     DemRows rows(file.dem);
-    const OpenedStore opened = openStore(rows, file.verticalScale, progress);
+    const OpenedStore opened = openStore(rows, progress);
+    checkScaledHeights(file.dem.string(), opened.store->low(), opened.store->high(), file.verticalScale);
     DemGrid dem = rows.place();
     TiledGround tiled;
     tiled.levels =

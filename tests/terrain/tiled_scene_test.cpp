@@ -151,6 +151,24 @@ TEST_F(TiledScene, IsTakenWhereMemoryDoesNotSuffice) {
     EXPECT_FALSE(loadTerrain(file, progress).tiled);
 }
 
+// What is refused is refused again: nothing of it was kept as good.
+TEST_F(TiledScene, IsRefusedAsOftenAsItIsOpened) {
+    RasterSpec spec;
+    spec.width = spec.height = 40;
+    spec.type = GDT_Float64;
+    spec.value = [](int c, int, int) { return 9e6 + 0.01 * c; };
+    const fs::path fine = writeRaster(mFolder / "fine.tif", spec), hills = mFile.dem;
+    for (int time = 0; time < 2; ++time) {
+        mFile.dem = fine;
+        EXPECT_THAT(errorOf([&] { load(GroundTiles::On); }), HasSubstr("single precision")) << time;
+        mFile.dem = hills;
+        mFile.verticalScale = 1e6;
+        EXPECT_THAT(errorOf([&] { load(GroundTiles::On); }), HasSubstr("within 10,000 km")) << time;
+        mFile.verticalScale = 1;
+    }
+    EXPECT_TRUE(load(GroundTiles::On).tiled);
+}
+
 // A track is flown over the finest samples, not those that are in memory.
 TEST_F(TiledScene, IsFollowedAboveItsFinestSamples) {
     const TerrainScene scene = load(GroundTiles::On);
