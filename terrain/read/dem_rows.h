@@ -29,7 +29,6 @@ public:
         virtual void read(int first, int rows, float* heights) = 0;
         virtual bool mustBeReadAgain() = 0;
         virtual void checkHeights(double verticalScale) const = 0;
-        virtual void glance(int width, int height, float* heights) = 0;
         virtual std::uint64_t identity() const = 0;
     };
 
@@ -61,12 +60,6 @@ public:
     // samples are missing, or heights times the vertical scale leave their range, as readDem() says it. Of
     // ground that is resampled only samples around those of the grid count.
     void checkHeights(double verticalScale) const { mReader->checkHeights(verticalScale); }
-
-    // A first look: width x height samples, 2 at least, spread evenly over the whole, corner samples on
-    // corners, south row first. Each is the nearest, of the coarsest overview that is fine enough where the
-    // file has overviews. Where it has none and is large, only as many of its blocks are read as take a
-    // second or two: the nearest of these.
-    void glance(int width, int height, float* heights) { mReader->glance(width, height, heights); }
 
     // Names the content: path, size and time of change of each file that it is made of, overviews and the
     // sources of virtual rasters among them.

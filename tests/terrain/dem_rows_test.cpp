@@ -257,47 +257,6 @@ TEST(DemRows, FindsTheRowsOfText) {
                 HasSubstr("cut off"));
 }
 
-TEST(DemRows, AGlanceHasCornersOnCornersAndTheNearestBetween) {
-    const TempFolder folder;
-    RasterSpec spec = hillsSpec();
-    for (const double dx : {30.0, -30.0})
-        for (const double dy : {-30.0, 30.0}) {
-            spec.transform = {500000, dx, 0, 5000000, 0, dy};
-            const auto file = writeRaster(folder / "glance.tif", spec);
-            const DemGrid whole = readGround(file);
-            std::vector<float> seen(4 * 3);
-            DemRows(file).glance(4, 3, seen.data());
-            for (int j = 0; j < 3; ++j)
-                for (int i = 0; i < 4; ++i)
-                    EXPECT_EQ(seen[j * 4 + i], whole.heights[j * 14 * 37 + i * 12]) << i << ", " << j;
-        }
-    std::vector<float> finer(80 * 60);
-    DemRows(folder / "glance.tif").glance(80, 60, finer.data());
-    EXPECT_EQ(finer.back(), readGround(folder / "glance.tif").heights.back());
-}
-
-TEST(DemRows, AGlanceReadsOverviews) {
-    const TempFolder folder;
-    RasterSpec spec = hillsSpec();
-    spec.width = spec.height = 64;
-    const auto file = writeRaster(folder / "overviews.tif", spec);
-    {
-        const std::unique_ptr<GDALDataset, void (*)(GDALDataset*)> open(
-            GDALDataset::Open(file.string().c_str(), GDAL_OF_UPDATE),
-            [](GDALDataset* dataset) { GDALClose(dataset); });
-        int levels[] = {2, 4};
-        ASSERT_EQ(open->BuildOverviews("NEAREST", 2, levels, 0, nullptr, nullptr, nullptr), CE_None);
-        ASSERT_EQ(open->GetRasterBand(1)->GetOverview(1)->Fill(123), CE_None);
-    }
-    std::vector<float> seen(16 * 16);
-    DemRows rows(file);
-    rows.glance(16, 16, seen.data());
-    EXPECT_EQ(seen, std::vector<float>(16 * 16, 123.0f));
-    seen.resize(17 * 17);
-    rows.glance(17, 17, seen.data());
-    EXPECT_EQ(std::count(seen.begin(), seen.end(), 123.0f), 0);
-}
-
 TEST(DemRows, TheIdentityFollowsTheFilesOfAVirtualRaster) {
     const TempFolder folder;
     RasterSpec spec = hillsSpec();

@@ -24,9 +24,6 @@ public:
     // Rows of the target from first on, counted from its own first. Throws what reading throws, Cancelled.
     void read(int first, int rows, float* heights);
 
-    // In the source, of a place of the target: (0, 0) is its first sample.
-    glm::dvec2 placeOf(double column, double row) const { return mMap.at(column, row); }
-
 private:
     struct Box {
         glm::dvec2 low, high;

@@ -1,7 +1,5 @@
 // Elevation models a run of rows at a time: DemRows' side of GDAL.
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -22,82 +20,6 @@ namespace stereonav {
 namespace {
 
 constexpr int kMostRunOfRows = 256;
-
-// Of a band's levels the coarsest that has so many samples; -1: the band itself.
-int levelFor(const HeightSamples& samples, int width, int height) {
-    int best = -1, bestWidth = samples.width();
-    for (int k = 0; k < samples.levelBand(-1).GetOverviewCount(); ++k) {
-        GDALRasterBand& level = samples.levelBand(k);
-        const int w = level.GetXSize(), h = level.GetYSize();
-        if (w >= width && h >= height && w < bestWidth) best = k, bestWidth = w;
-    }
-    return best;
-}
-
-// The nearest of `count` samples to step k of `steps` that lead from the first to the last.
-int spread(int k, int steps, int count) {
-    return steps < 2 ? 0 : static_cast<int>(std::lround(static_cast<double>(k) * (count - 1) / (steps - 1)));
-}
-
-// Samples of a level, spread evenly over it, in its own row order.
-class Knots {
-public:
-    Knots(HeightSamples& samples, int width, int height, GdalMessages& messages) {
-        const int level = levelFor(samples, width, height);
-        GDALRasterBand& band = samples.levelBand(level);
-        const int levelWidth = band.GetXSize(), levelHeight = band.GetYSize();
-        chooseCounts(band, width, height);
-        mHeights.resize(static_cast<std::size_t>(mColumns) * mRows);
-        int blockWidth = 0, blockHeight = 0;
-        band.GetBlockSize(&blockWidth, &blockHeight);
-        const bool wholeRows = static_cast<long long>(mColumns) * blockWidth >= levelWidth;
-        std::vector<float> row(wholeRows ? levelWidth : 1);
-        for (int j = 0; j < mRows; ++j) {
-            throwIfStopped();
-            const int y = spread(j, mRows, levelHeight);
-            float* out = &mHeights[static_cast<std::size_t>(j) * mColumns];
-            if (wholeRows) samples.readLevel(level, {0, y, levelWidth, 1}, messages, row.data(), mTally);
-            for (int i = 0; i < mColumns; ++i) {
-                const int x = spread(i, mColumns, levelWidth);
-                if (!wholeRows) samples.readLevel(level, {x, y, 1, 1}, messages, row.data(), mTally);
-                out[i] = row[wholeRows ? x : 0];
-            }
-        }
-    }
-
-    // u, v: from 0 at the first sample's place to 1 at the last's.
-    float at(double u, double v) const {
-        const auto nearest = [](double t, int count) {
-            return static_cast<std::size_t>(std::lround(std::clamp(t, 0.0, 1.0) * (count - 1)));
-        };
-        return mHeights[nearest(v, mRows) * mColumns + nearest(u, mColumns)];
-    }
-
-    // Where the customary value stands for missing samples, as far as these tell.
-    void dropCustomary(const HeightSamples& samples) {
-        if (samples.customaryIsMissing(mTally)) samples.dropCustomary(mHeights.data(), mHeights.size());
-    }
-
-private:
-    int mColumns = 0, mRows = 0;
-    std::vector<float> mHeights;
-    HeightTally mTally;
-
-    // As many as are asked for, where the blocks that they lie in are not too many to be read at once.
-    void chooseCounts(GDALRasterBand& band, int width, int height) {
-        constexpr double kMostRead = 1 << 27;  // samples: a second or two of most files
-        int blockWidth = 0, blockHeight = 0;
-        band.GetBlockSize(&blockWidth, &blockHeight);
-        mColumns = std::clamp(width, 2, band.GetXSize()), mRows = std::clamp(height, 2, band.GetYSize());
-        const auto read = [&] {
-            const double across = std::min<double>(mColumns, std::ceil(1.0 * band.GetXSize() / blockWidth)),
-                         down = std::min<double>(mRows, std::ceil(1.0 * band.GetYSize() / blockHeight));
-            return across * down * blockWidth * blockHeight;
-        };
-        while (read() > kMostRead && std::max(mColumns, mRows) > 2)
-            mColumns = std::max(2, mColumns / 2), mRows = std::max(2, mRows / 2);
-    }
-};
 
 class GdalRows final : public DemRows::Reader {
 public:
@@ -177,30 +99,6 @@ public:
         checkScaledHeights(mFile.string(), mSamples->tally().low, mSamples->tally().high, verticalScale);
     }
 
-    void glance(int width, int height, float* heights) override {
-        if (!mWhole.empty()) {
-            for (int j = 0; j < height; ++j)
-                for (int i = 0; i < width; ++i)
-                    heights[static_cast<std::size_t>(j) * width + i] =
-                        mWhole[static_cast<std::size_t>(spread(j, height, mDem.height)) * mDem.width +
-                               spread(i, width, mDem.width)];
-            return;
-        }
-        GdalMessages messages;
-        Knots knots(*mSamples, width, height, messages);
-        knots.dropCustomary(*mSamples);
-        for (int j = 0; j < height; ++j)
-            for (int i = 0; i < width; ++i) {
-                const glm::dvec2 place =
-                    glanceAt(i / std::max(width - 1.0, 1.0), j / std::max(height - 1.0, 1.0));
-                const glm::dvec2 half = 0.5 / (glm::dvec2(mDem.source.width, mDem.source.height) - 1.0);
-                const bool inside = place.x >= -half.x && place.y >= -half.y && place.x <= 1 + half.x &&
-                                    place.y <= 1 + half.y;
-                heights[static_cast<std::size_t>(j) * width + i] =
-                    inside ? knots.at(place.x, place.y) : std::numeric_limits<float>::quiet_NaN();
-            }
-    }
-
     std::uint64_t identity() const override {
         const GdalMessages messages;
         std::vector<std::filesystem::path> files = elevationFilesIn(mFile);
@@ -244,10 +142,9 @@ private:
         const std::string_view driver = mDataset->GetDriverName();
         if (driver != "AAIGrid" && driver != "GRASSASCIIGrid" && driver != "GSAG") return;
         float first = 0;
-        HeightTally tally;
         for (int row = 0; row < mSamples->height(); ++row) {
             throwIfStopped();
-            mSamples->readLevel(-1, {0, row, 1, 1}, *mMessages, &first, tally);
+            mSamples->readUncounted({0, row, 1, 1}, *mMessages, &first);
         }
     }
 
@@ -260,14 +157,6 @@ private:
         for (int j = 0; j < rows / 2; ++j)
             std::swap_ranges(heights + j * width, heights + (j + 1) * width,
                              heights + (rows - 1 - j) * width);
-    }
-
-    // Where a place of the grid lies in the file, both from 0 at the first sample to 1 at the last; u, v from
-    // the south-western sample.
-    glm::dvec2 glanceAt(double u, double v) const {
-        if (!mResampled) return {mPlacement.westward ? 1 - u : u, mPlacement.southFirst ? v : 1 - v};
-        const glm::dvec2 pixel = mResampled->placeOf(u * (mDem.width - 1), (1 - v) * (mDem.height - 1));
-        return (pixel - 0.5) / (glm::dvec2(mDem.source.width, mDem.source.height) - 1.0);
     }
 
     std::filesystem::path mFile;

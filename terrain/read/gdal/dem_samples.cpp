@@ -106,22 +106,18 @@ HeightSamples::HeightSamples(GDALDataset& dataset, const std::filesystem::path& 
     dataset.GetRasterBand(mBand.number)->GetBlockSize(&mBlockWidth, &mBlockHeight);
 }
 
-GDALRasterBand& HeightSamples::levelBand(int level) const {
-    GDALRasterBand& band = *mDataset.GetRasterBand(mBand.number);
-    return level < 0 ? band : *band.GetOverview(level);
-}
-
 void HeightSamples::read(const SampleWindow& window, GdalMessages& messages, float* heights) {
-    readBand(levelBand(-1), window, messages, heights, mTally);
+    readInto(window, messages, heights, mTally);
 }
 
-void HeightSamples::readLevel(int level, const SampleWindow& window, GdalMessages& messages, float* heights,
-                              HeightTally& tally) {
-    readBand(levelBand(level), window, messages, heights, tally);
+void HeightSamples::readUncounted(const SampleWindow& window, GdalMessages& messages, float* heights) {
+    HeightTally none;
+    readInto(window, messages, heights, none);
 }
 
-void HeightSamples::readBand(GDALRasterBand& band, const SampleWindow& window, GdalMessages& messages,
-                             float* heights, HeightTally& tally) {
+void HeightSamples::readInto(const SampleWindow& window, GdalMessages& messages, float* heights,
+                             HeightTally& tally) {
+    GDALRasterBand& band = *mDataset.GetRasterBand(mBand.number);
     messages.clear();  // a georeference that GDAL could not make sense of is no damage to the samples
     const auto count = static_cast<std::size_t>(window.samples());
     mStored.resize(count * mConversion.bytes());
@@ -137,14 +133,11 @@ void HeightSamples::readBand(GDALRasterBand& band, const SampleWindow& window, G
     if (mCustomaryIsMissing) dropCustomary(heights, count);
 }
 
-bool HeightSamples::customaryIsMissing(const HeightTally& some) const {
-    constexpr double kFarBelow_m = 1000;
-    return some.customary && !mBand.nodata && !mBand.masked &&
-           some.lowestOther > kCustomaryMissing + kFarBelow_m;
-}
-
 bool HeightSamples::findCustomary() {
-    if (!customaryIsMissing(mTally)) return false;
+    constexpr double kFarBelow_m = 1000;
+    if (!mTally.customary || mBand.nodata || mBand.masked ||
+        !(mTally.lowestOther > kCustomaryMissing + kFarBelow_m))
+        return false;
     mCustomaryIsMissing = true;
     mMissing = "-9999, as is customary: the file names none, and no other height is near it";
     return true;

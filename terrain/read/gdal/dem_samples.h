@@ -41,17 +41,12 @@ public:
 
     // Metres, NaN where missing, for a window within the raster. Throws Error for a file that is cut off.
     void read(const SampleWindow& window, GdalMessages& messages, float* heights);
-    // Of one of the band's overviews (GDAL's numbers, from 0), or of the band itself where level is -1;
-    // counted in the tally that is given alone.
-    void readLevel(int level, const SampleWindow& window, GdalMessages& messages, float* heights,
-                   HeightTally& tally);
-    GDALRasterBand& levelBand(int level) const;
+    // The same, not counted.
+    void readUncounted(const SampleWindow& window, GdalMessages& messages, float* heights);
 
     // Whether -9999 alone far below all other ground was found in a file that names no value for missing
     // samples: then it is one, and from here on missing where it is read. That is how it stays.
     bool findCustomary();
-    // Whether that is so as far as some of its samples tell.
-    bool customaryIsMissing(const HeightTally& some) const;
     // For heights that were read before.
     void dropCustomary(float* heights, std::size_t count) const;
 
@@ -61,8 +56,7 @@ public:
     bool allMissing() const;
 
 private:
-    void readBand(GDALRasterBand& band, const SampleWindow& window, GdalMessages& messages, float* heights,
-                  HeightTally& tally);
+    void readInto(const SampleWindow& window, GdalMessages& messages, float* heights, HeightTally& tally);
 
     GDALDataset& mDataset;
     std::filesystem::path mFile;
