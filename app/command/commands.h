@@ -131,7 +131,9 @@ struct SceneOptions {
     bool groundDetail = false;
     double levelOfDetail = 0;  // share of a pixel that far ground may be off; 0: exact
     bool lightLater = true;    // a window works out sky light of ground that has none (ShownTerrain)
-    bool skyTurns = false;     // set by a window: keep what turning the sky over baked transfer takes
+    // Set by a window: pictures do not wait for detail; ground whose tiles are not made yet is shown coarse.
+    bool detailLater = false, standInFirst = false;
+    bool skyTurns = false;  // set by a window: keep what turning the sky over baked transfer takes
 };
 
 // What commands that show pictures begin with.

@@ -169,14 +169,27 @@ private:
 };
 
 // Pictures that did not wait for tiles are drawn again when these are there.
-class ShownTerrain::LateTiles final : public SeenLight {
+class ShownTerrain::LateTiles final : public SeenLight, public LateDetail {
 public:
-    explicit LateTiles(const TerrainRenderer& renderer) : mRenderer(renderer) {}
+    explicit LateTiles(TerrainRenderer& renderer) : mRenderer(renderer) {}
     void seen(const EyeView&, const EyeImage&) override {}
     std::uint64_t changes() const override { return mRenderer.arrivals(); }
+    bool late() const override { return mRenderer.ringDetail().late; }
+    void waitForAll() override { mRenderer.ringsMayBeLate(false); }
 
 private:
-    const TerrainRenderer& mRenderer;
+    TerrainRenderer& mRenderer;
+};
+
+class ShownTerrain::CoarseGround final : public StandIn {
+public:
+    explicit CoarseGround(const StandInGround& ground) : mGround(ground) {}
+    const std::string& name() const override { return mGround.tiles; }
+    std::string what() const override { return "making tiles; until then the ground is coarse"; }
+    void prepare(Progress& progress) const override { mGround.makeTiles(progress); }
+
+private:
+    const StandInGround& mGround;
 };
 
 ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsItself)
@@ -200,6 +213,11 @@ ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsI
     if (mTerrain.ringsMayBeLate) {
         mTiles = std::make_unique<LateTiles>(mRenderer);
         offer<SeenLight>(*mTiles);
+        offer<LateDetail>(*mTiles);
+    }
+    if (mTerrain.standIn) {
+        mCoarse = std::make_unique<CoarseGround>(*mTerrain.standIn);
+        offer<const StandIn>(*mCoarse);
     }
     if (!mTerrain.illumination) return;
     mSun = std::make_unique<Sun>(mColors);

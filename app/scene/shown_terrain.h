@@ -77,6 +77,7 @@ private:
     class Sun;
     class Daylight;
     class LateTiles;
+    class CoarseGround;
 
     TerrainScene mTerrain;
     TerrainSurvey mSurvey;
@@ -90,6 +91,7 @@ private:
     std::unique_ptr<TurningLight> mSun;          // null: it stands in the colours
     std::unique_ptr<Daylight> mDaylight;
     std::unique_ptr<LateTiles> mTiles;  // null: pictures wait for all they need
+    std::unique_ptr<CoarseGround> mCoarse;
 };
 
 }  // namespace stereonav

@@ -18,6 +18,8 @@
 namespace stereonav {
 namespace {
 
+constexpr int kStandInSide = 2048;  // samples: two seconds of a wait, and pictures that tell where one is
+
 // Options that this terrain would not show.
 void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
     if (options.openHoles && scene.builtIn)
@@ -46,6 +48,7 @@ SceneFile describeTerrain(const SceneOptions& options) {
     if (options.verticalScale > 0.0) scene.verticalScale = options.verticalScale;
     if (options.openHoles) scene.openHoles = true;
     scene.tiles = tilesOf(options.tiles);
+    if (options.standInFirst) scene.standInSide = kStandInSide;
     if (!options.image.empty()) scene.image = options.image;
     scene.paint = groundPaintOf(options);
     if (options.shadeImage) scene.look.shadeImage = true;
@@ -94,8 +97,8 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
         if (!terrain.eyesGiven) terrain.stereo = followedEyes(options.ground.followHeight_m);
     }
     // Tiled ground has its own detail near the eye.
-    terrain.detail = options.groundDetail && !shownAs(options).swept && !terrain.tiled;
-    terrain.ringsMayBeLate = terrain.tiled && options.lightLater;
+    terrain.detail = options.groundDetail && !shownAs(options).swept && !terrain.tiled && !terrain.standIn;
+    terrain.ringsMayBeLate = terrain.tiled && options.detailLater;
     terrain.levelOfDetail = options.levelOfDetail;
     return terrain;
 }

@@ -182,6 +182,7 @@ void ViewBench::cast(const ViewFrame& frame) {
     mScale.push_back(scale);
     mGuard.push_back(areaOf(frame.request) - 1);
     mCast.push_back(frame.timings.both_ms);
+    mCoarse += frame.lacksDetail;
 }
 
 void ViewBench::shown(const ShownPicture& picture, const FrameRequest& now, double at) {
@@ -210,6 +211,7 @@ void ViewBench::keepSample(const ShownPicture& picture, const FrameRequest& now,
 
 void ViewBench::judge(const Scene& scene, Progress& progress) {
     ErrorMean moving, movingTrue, present;
+    if (auto* const detail = scene.offered<LateDetail>()) detail->waitForAll();
     EyePair pair;
     const bool fine = scene.offered<RayCast>() != nullptr;
     for (std::size_t n = 0; n < mSamples.size(); n += fine ? 1 : kSweptSamples) {
@@ -264,6 +266,7 @@ Facts ViewBench::facts() const {
     list.json("age_p95_ms", quantile(mAge, 0.95));
     list.json("delay_p95_ms", quantile(mDelay, 0.95));
     list.json("pose_age_p95_ms", quantile(mShownAge, 0.95));
+    list.json("cast_coarse", static_cast<std::int64_t>(mCoarse));
     list.json("cast_p50_ms", quantile(mCast, 0.5));
     list.json("cast_p95_ms", quantile(mCast, 0.95));
     list.json("scale_mean", meanOf(mScale));

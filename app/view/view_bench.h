@@ -60,6 +60,7 @@ private:
     Stage mStage = Stage::Wait;
     double mReadySince = -1, mStarted = 0, mStopped = 0, mDuration = 0, mLast = -1;
     std::vector<double> mBetween, mAge, mDelay, mShownAge;  // milliseconds
+    int mCoarse = 0;                                        // pictures cast that lacked detail
     std::vector<double> mCast;                              // milliseconds a cast picture took
     std::vector<double> mScale, mGuard;  // of cast pictures; the second: share of pixels beyond what is shown
     int mSizeChanges = 0;

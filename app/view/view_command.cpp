@@ -15,6 +15,8 @@ int runView(const ViewOptions& options) {
     checkNoInput({"--json", options.json}, inputsOf(options.scene));
     ViewOptions shown = options;
     shown.scene.skyTurns = !shownAs(options.scene).swept;  // a medium's keys turn its own light
+    shown.scene.detailLater = true;
+    shown.scene.standInFirst = !options.bench;
     // What is measured does not depend on how far light is that is worked out meanwhile.
     if (options.bench) shown.scene.lightLater = false;
     if (options.bench && !shown.scene.given.has("ground-detail")) shown.scene.groundDetail = false;

@@ -21,6 +21,7 @@
 #include "app/view/panel/panels.h"
 #include "app/view/picture_place.h"
 #include "app/view/place_labels.h"
+#include "app/view/scene_preparation.h"
 #include "app/view/screenshots.h"
 #include "app/view/second_study.h"
 #include "app/view/session.h"
@@ -104,6 +105,8 @@ public:
     std::optional<double> seesFromClicks() const override { return mSeesFrom; }
     void seeFromClicks(const std::optional<double>& height) override { mSeesFrom = height; }
     std::optional<PaintWork> painting() const override;
+    std::optional<PaintWork> preparing() const override { return mPreparation.work(); }
+    void cancelPreparing() override { mPreparation.cancel(); }
     bool canUndo() const override { return mSession && (mKeyframes.canUndo() || mHistory.canUndo()); }
     bool canRedo() const override { return mSession && (mKeyframes.canRedo() || mHistory.canRedo()); }
     void undo() override;
@@ -152,6 +155,8 @@ private:
     void drawPanels(const std::function<void()>& drawn);
     void usePointer();
     void followWishes();
+    void followPreparation();
+    void loadAgain();
     void followKeyframes();
     void takeStudy();
     void readConfig();
@@ -300,6 +305,8 @@ private:
     long long mKeyframesSeen = 0, mKeyframesPath = 0;  // versions: of them, and of the path beside them
     bool mKeyframesFlown = false;                      // that path is theirs
     std::optional<ViewSession> mSession;
+    ScenePreparation mPreparation{[] { Window::wake(); }};
+    bool mPrepared = false;                                        // what is shown is to be loaded again
     SecondStudy mSecond{[] { Window::wake(); }};                   // after the window, as the worker
     Made mSecondMade;                                              // what it is, or is being, made of
     std::optional<Pose> mSwapTo;                                   // where the flight goes on in it

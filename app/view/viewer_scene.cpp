@@ -15,6 +15,7 @@
 #include "app/view/viewer.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/scene/capabilities.h"
 
 namespace stereonav {
 
@@ -109,6 +110,8 @@ void Viewer::load(const ViewOptions& options, bool another) {
     ViewOptions shown = options;
     const bool swept = shownAs(shown.scene).swept;
     shown.scene.skyTurns = !swept;
+    shown.scene.detailLater = true;
+    shown.scene.standInFirst = !mBench;
     checkMethod(shown.scene, shown.method);
     checkSize(windowSize(), shown.scene, kViewBytes);
     mDisplay.follow(shown);
@@ -290,6 +293,28 @@ const Facts* Viewer::facts() {
     return mFacts->facts ? &*mFacts->facts : nullptr;
 }
 
+// The same settings.
+void Viewer::loadAgain() {
+    mWorker->reload([options = mChanged, size = windowSize(), sweep = mSweep.get()](Progress& progress) {
+        return openScene(options, false, size, sweep, progress);
+    });
+}
+
+// A coarser scene stands in until what it lacks is there; not while another one is being loaded.
+void Viewer::followPreparation() {
+    try {
+        mPreparation.follow(mScene);
+        mPrepared = mPreparation.take() || mPrepared;
+    } catch (const Cancelled&) {
+        mSession->notify("the ground stays coarse until it is opened again");
+    } catch (const std::exception& error) {
+        mFailure = error.what();
+    }
+    if (!mPrepared || mWorker->loading().busy) return;
+    mPrepared = false;
+    if (mScene->scene->offered<const StandIn>()) loadAgain();
+}
+
 // What the session wants that takes longer than a frame.
 void Viewer::followWishes() {
     if (const auto change = mSession->takeSceneChange()) {
@@ -301,16 +326,14 @@ void Viewer::followWishes() {
                     return changedScene(now, surface, options, progress);
                 });
         else
-            mWorker->reload(
-                [options = mChanged, size = windowSize(), sweep = mSweep.get()](Progress& progress) {
-                    return openScene(options, false, size, sweep, progress);
-                });
+            loadAgain();
     }
     if (const std::string problem = mWorker->takeReloadProblem(); !problem.empty()) {
         mSession->forgetSceneChange();
         mFailure = problem;
         keepBefore();
     }
+    followPreparation();
     takeStudy();
 }
 

@@ -120,6 +120,8 @@ void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& tr
     prepareLate(scene, frame);
     // Not between the eyes, which are to be lit alike.
     if (auto* const light = scene.offered<SeenLight>()) light->seen(view, frame.left);
+    const auto* const detail = scene.offered<LateDetail>();
+    frame.lacksDetail = detail && detail->late();
     const auto* const place = scene.offered<SweepPlace>();
     frame.sweep = place ? place->name() : "";
 }

@@ -90,6 +90,7 @@ struct ViewFrame : EyePair {
     int rays = 1;
     double effort = 1;  // of a medium: times the slices that the scene asks for
     double expected_db = 0;
+    bool lacksDetail = false;     // that comes later (LateDetail)
     std::array<LateEye, 2> late;  // to be warped; not ready where nobody asked for that
 };
 

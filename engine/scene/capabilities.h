@@ -63,6 +63,28 @@ public:
     virtual bool beginsDark() const { return false; }
 };
 
+// A coarser scene in the place of one that takes long to prepare.
+class StandIn {
+public:
+    virtual ~StandIn() = default;
+    // Names what is prepared: of the same name is the same.
+    virtual const std::string& name() const = 0;
+    virtual std::string what() const = 0;  // for a person
+    // Prepares it, so that the scene loaded again is the whole one. On any thread, beside frames. Throws
+    // Error, Cancelled.
+    virtual void prepare(Progress& progress) const = 0;
+};
+
+// Detail that may come later than the picture that it is for.
+class LateDetail {
+public:
+    virtual ~LateDetail() = default;
+    // Whether the frame that was made last lacks some. Both to the thread that makes frames.
+    virtual bool late() const = 0;
+    // From now on frames wait for it.
+    virtual void waitForAll() = 0;
+};
+
 // Light of a picture worked out at every pixel, once both eyes were cast in full.
 class PictureLight {
 public:

@@ -65,6 +65,16 @@ void RingScenes::colorParts(PartColors colors) {
     ++mColorVersion;
 }
 
+void RingScenes::mayBeLate(bool may) {
+    if (mMayBeLate && !may) {
+        if (mWork.valid()) mWork.wait();
+        mWork = {};
+        mBoxes.clear();  // what is shown may be a part of the set: it is chosen again
+        mLate = false;
+    }
+    mMayBeLate = may;
+}
+
 // Stored levels that would not fit are taken coarser.
 std::vector<RingBox> RingScenes::plan(const EyeView& view, const glm::dvec3& way) {
     RingWish wish{view.eye, std::max(view.pixelWidth(), view.pixelHeight()), mShare, way};

@@ -34,7 +34,7 @@ public:
     void colorParts(PartColors colors);
     // Whether rings may come later than the first picture they are for, from a thread of their own: what is
     // there is cast meanwhile, from further and further away. Else lookFrom() waits for them.
-    void mayBeLate(bool may) { mMayBeLate = may; }
+    void mayBeLate(bool may);
 
     // Chooses the rings for pictures of this view. Throws Error where levels are stored and can not be read.
     void lookFrom(const EyeView& view);

@@ -153,6 +153,10 @@ void TerrainRenderer::takeCoarser(double share) {
     mState->rings->colorParts(partColorsOf(mScene));
 }
 
+void TerrainRenderer::ringsMayBeLate(bool may) {
+    if (mState->rings) mState->rings->mayBeLate(may);
+}
+
 std::uint64_t TerrainRenderer::arrivals() const {
     return mState->rings ? mState->rings->arrivals() : 0;
 }

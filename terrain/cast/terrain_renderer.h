@@ -38,6 +38,8 @@ public:
     void takeCoarser(double share);
     // That the next pictures are of; null: the ground itself.
     const GroundRings* rings() const;
+    // Whether pictures wait for tiles; TerrainScene::ringsMayBeLate at first. Not while a picture is cast.
+    void ringsMayBeLate(bool may);
     // Counts up, from any thread, when tiles that pictures did not wait for are there.
     std::uint64_t arrivals() const;
     // Of rings: the share of a pixel that they keep to, and whether finer ones are on their way.

@@ -35,6 +35,9 @@ public:
     // Opens it and reads no sample, but for the one tile of a GSI elevation tile. Throws Error as readDem()
     // does for what can not be read.
     explicit DemRows(const std::filesystem::path& file);
+    // At most so many samples of it, >= 4, spread over all of the ground; of the file's overviews where it
+    // has them. Text has all.
+    DemRows(const std::filesystem::path& file, long long most);
 
     // As readDem() gives it, but for the heights and what is counted over samples (sourceMissing, outside:
     // 0).
@@ -69,7 +72,7 @@ private:
     std::unique_ptr<Reader> mReader;
 };
 
-// The module's function.
-std::unique_ptr<DemRows::Reader> openDemRows(const std::filesystem::path& file);
+// The module's function. most: 0: all.
+std::unique_ptr<DemRows::Reader> openDemRows(const std::filesystem::path& file, long long most);
 
 }  // namespace stereonav

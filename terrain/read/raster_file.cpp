@@ -24,11 +24,12 @@ DemGlance glanceAtDem(const std::filesystem::path& file) {
     return gdal().glanceAtDem(file);
 }
 
-std::unique_ptr<DemRows::Reader> openDemRows(const std::filesystem::path& file) {
-    return gdal().openDemRows(file);
+std::unique_ptr<DemRows::Reader> openDemRows(const std::filesystem::path& file, long long most) {
+    return gdal().openDemRows(file, most);
 }
 
-DemRows::DemRows(const std::filesystem::path& file) : mReader(openDemRows(file)) {}
+DemRows::DemRows(const std::filesystem::path& file) : mReader(openDemRows(file, 0)) {}
+DemRows::DemRows(const std::filesystem::path& file, long long most) : mReader(openDemRows(file, most)) {}
 
 std::unique_ptr<RasterPicture> openRasterPicture(const std::filesystem::path& file,
                                                  const std::string& expected, const std::string& advice) {

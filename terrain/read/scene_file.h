@@ -54,6 +54,8 @@ struct SceneFile {
     std::filesystem::path dem;
     double verticalScale = 1.0;  // > 0
     GroundTiles tiles = GroundTiles::Auto;
+    // Where tiles have to be made, coarser ground of so many samples a side is given until they are; 0: none.
+    int standInSide = 0;
     bool openHoles = false;                 // leave nodata open instead of filling it
     std::filesystem::path image;            // "" for hypsometric tint
     GroundPaint paint = GroundPaint::None;  // not with an image

@@ -151,7 +151,7 @@ GroundColor colorOf(const SceneFile& file, const LoadedGround& loaded, TerrainSc
     }
     const GroundColorSource& source = scene.colorSource.emplace(colorSourceOf(file, loaded, scene));
     // Light that is worked out for the whole would take the place of finer parts' own.
-    if (!loaded.built && !litLater(file) && !scene.tiled) scene.tint = source.tint;
+    if (!loaded.built && !litLater(file) && !scene.tiled && !scene.standIn) scene.tint = source.tint;
     if (loaded.built && file.paint == GroundPaint::None) return colorsOfBuiltIn(scene.ground, *loaded.built);
     return groundColorsAs(file.paint, scene.ground, source, {file.look.sunAzimuth, file.look.sunElevation},
                           progress);
@@ -264,7 +264,9 @@ TerrainScene loadTerrain(const SceneFile& file, Progress& progress) {
     scene.verticalScale = file.verticalScale;
     scene.look = file.look;
     loadColor(file, loaded, scene, progress);
-    const glm::dvec2 spacing = scene.tiled ? scene.tiled->levels->spacing(0) : scene.ground.spacing();
+    const glm::dvec2 spacing = scene.tiled     ? scene.tiled->levels->spacing(0)
+                               : scene.standIn ? scene.standIn->spacing
+                                               : scene.ground.spacing();
     scene.clearance =
         file.clearance > 0 ? file.clearance : kClearancePerSpacing * std::max(spacing.x, spacing.y);
     scene.lens.verticalFov = file.verticalFov;

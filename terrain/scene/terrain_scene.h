@@ -2,11 +2,13 @@
 // baked light.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/base/progress.h"
 #include "engine/camera/recorded_path.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/image/color_texture.h"
@@ -59,6 +61,13 @@ struct TiledGround {
     std::shared_ptr<const FineHeights> fine;
 };
 
+// Coarser ground in the place of one in tiles, which are not made yet (terrain/scene/stand_in_ground.h).
+struct StandInGround {
+    std::string tiles;                         // the file that they will lie in
+    glm::dvec2 spacing{1.0};                   // metres, of the finest samples
+    std::function<void(Progress&)> makeTiles;  // on any thread. Throws Error, Cancelled
+};
+
 struct TerrainScene {
     TerrainScene();
     ~TerrainScene();
@@ -68,10 +77,11 @@ struct TerrainScene {
     // Metres at a place, of the finest samples: NaN in holes, clamped to the border.
     double heightAt(const glm::dvec2& world) const;
 
-    Heightfield ground;                // all of it; of a tiled one at a level that fits into memory
-    std::optional<TiledGround> tiled;  // none: `ground` has all samples
-    bool ringsMayBeLate = false;       // pictures do not wait for tiles: for who shows one after another
-    double verticalScale = 1;          // of its heights: so many times those of the file
+    Heightfield ground;                    // all of it; of a tiled one at a level that fits into memory
+    std::optional<TiledGround> tiled;      // none: `ground` has all samples
+    std::optional<StandInGround> standIn;  // none: `ground` is what it is to be
+    bool ringsMayBeLate = false;           // pictures do not wait for tiles: for who shows one after another
+    double verticalScale = 1;              // of its heights: so many times those of the file
     ColorTexture color;
     SkyMap sky;
     bool detail = false;  // of its shading, below the sample spacing (terrain/cast/ground_detail.h)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "terrain/read/height_limits.h"
 #include "terrain/scene/fine_heights.h"
 #include "terrain/scene/ground_color.h"
+#include "terrain/scene/stand_in_ground.h"
 #include "terrain/scene/terrain_scene.h"
 #include "terrain/tiles/stored_levels.h"
 #include "terrain/tiles/tile_maker.h"
@@ -56,12 +58,13 @@ void makeStore(DemRows& rows, const TileSource& source, const std::filesystem::p
         Over::Anything);
 }
 
-struct OpenedStore {
-    std::shared_ptr<const TileStore> store;
-    bool made = false;  // now
+// What tiles are made of, and where they lie.
+struct StorePlan {
+    TileSource source;
+    std::filesystem::path place;
 };
 
-OpenedStore openStore(DemRows& rows, Progress& progress) {
+StorePlan storeOf(DemRows& rows) {
     TileSource source;
     const DemGrid& dem = rows.place();
     source.size = {dem.width, dem.height};
@@ -70,12 +73,34 @@ OpenedStore openStore(DemRows& rows, Progress& progress) {
     source.firstRows = rows.firstRun();
     source.read = [&rows](int first, int count, float* heights) { rows.read(first, count, heights); };
     const std::filesystem::path place = tilesPlace(source.content);
+    return {std::move(source), place};
+}
+
+// Null where there is none, or it is of no use.
+std::shared_ptr<const TileStore> storeThere(const StorePlan& plan) {
     try {
-        return {std::make_shared<TileStore>(place, source.content), false};
-    } catch (const Error&) {  // not there, or of no use: it is made
+        return std::make_shared<TileStore>(plan.place, plan.source.content);
+    } catch (const Error&) {
+        return nullptr;
     }
-    makeStore(rows, source, place, progress);
-    return {std::make_shared<TileStore>(place, source.content), true};
+}
+
+// The store itself is made by a reader of its own, on whatever thread.
+bool standsIn(const SceneFile& file, const StorePlan& plan, const DemGrid& dem, TerrainScene& scene) {
+    std::optional<Heightfield> ground = standInGround(file, dem);
+    if (!ground) return false;
+    scene.ground = std::move(*ground);
+    const std::size_t samples = std::size_t(scene.ground.width()) * scene.ground.height();
+    scene.report.openSamples = std::count_if(scene.ground.data(), scene.ground.data() + samples,
+                                             [](float height) { return std::isnan(height); });
+    scene.report.tiles = fmt::format("not there yet: {} x {} of {} x {} samples are shown",
+                                     scene.ground.width(), scene.ground.height(), dem.width, dem.height);
+    scene.standIn = {plan.place.string(), dem.spacing, [dem = file.dem](Progress& progress) {
+                         DemRows rows(dem);
+                         const StorePlan now = storeOf(rows);
+                         if (!storeThere(now)) makeStore(rows, now.source, now.place, progress);
+                     }};
+    return true;
 }
 
 // A share of the memory; the rest is for rings, pictures, and all else. More than some 16 million samples
@@ -109,12 +134,18 @@ bool goesIntoTiles(const SceneFile& file, double (*bytesOfSamples)(double sample
 
 DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& progress) {
     DemRows rows(file.dem);
-    const OpenedStore opened = openStore(rows, progress);
-    checkScaledHeights(file.dem.string(), opened.store->low(), opened.store->high(), file.verticalScale);
+    const StorePlan plan = storeOf(rows);
     DemGrid dem = rows.place();
+    std::shared_ptr<const TileStore> store = storeThere(plan);
+    const bool made = !store;
+    if (made && file.standInSide > 0 && standsIn(file, plan, dem, scene)) return dem;
+    if (made) {
+        makeStore(rows, plan.source, plan.place, progress);
+        store = std::make_shared<TileStore>(plan.place, plan.source.content);
+    }
+    checkScaledHeights(file.dem.string(), store->low(), store->high(), file.verticalScale);
     TiledGround tiled;
-    tiled.levels =
-        std::make_shared<GroundLevels>(storedLevels(opened.store, dem.spacing, file.verticalScale));
+    tiled.levels = std::make_shared<GroundLevels>(storedLevels(store, dem.spacing, file.verticalScale));
     tiled.level = levelInMemory(*tiled.levels);
     tiled.fine = std::make_shared<FineHeights>(tiled.levels);
     std::optional<Heightfield> ground =
@@ -123,11 +154,11 @@ DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& pr
         throw Error(file.dem.string(), "", "no cell with four known heights",
                     "check the file's nodata value");
     scene.ground = std::move(*ground);
-    scene.report.openSamples = dem.sourceMissing = opened.store->missing();
-    scene.report.tiles = fmt::format("{} x {} samples in {} levels, {} on disk{}; in memory 1 of {} each way",
-                                     dem.width, dem.height, tiled.levels->count(),
-                                     memoryText(static_cast<double>(opened.store->byteCount())),
-                                     opened.made ? ", made now" : "", 1 << tiled.level);
+    scene.report.openSamples = dem.sourceMissing = store->missing();
+    scene.report.tiles =
+        fmt::format("{} x {} samples in {} levels, {} on disk{}; in memory 1 of {} each way", dem.width,
+                    dem.height, tiled.levels->count(), memoryText(static_cast<double>(store->byteCount())),
+                    made ? ", made now" : "", 1 << tiled.level);
     scene.tiled = std::move(tiled);
     return dem;
 }

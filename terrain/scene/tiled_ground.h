@@ -15,9 +15,10 @@ struct TerrainScene;
 // readDem() does.
 bool goesIntoTiles(const SceneFile& file, double (*bytesOfSamples)(double samples));
 
-// Sets scene.tiled, and scene.ground to the finest level that leaves room for what lies around an eye.
-// Missing samples stay open. Gives what readDem() does, without heights. Throws Error: as readDem() does, and
-// where the cache has no room for the tiles; Cancelled.
+// Sets scene.tiled, and scene.ground to the finest level that leaves room for what lies around an eye. Where
+// tiles are not there yet and file.standInSide wishes so, and the file gives some samples of all of it soon:
+// scene.standIn and scene.ground. Missing samples stay open. Gives what readDem() does, without heights.
+// Throws Error: as readDem() does, and where the cache has no room for the tiles; Cancelled.
 DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& progress);
 
 }  // namespace stereonav

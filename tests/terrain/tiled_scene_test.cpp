@@ -11,8 +11,10 @@
 #include "engine/camera/stereo_rig.h"
 #include "raster_files.h"
 #include "terrain/cast/terrain_renderer.h"
+#include "terrain/read/dem_rows.h"
 #include "terrain/scene/followed_track.h"
 #include "terrain/scene/ground_place.h"
+#include "terrain/scene/stand_in_ground.h"
 #include "terrain/scene/terrain_loader.h"
 #include "tests/support/own_cache.h"
 
@@ -208,6 +210,111 @@ TEST_F(TiledScene, ShowsWhatThereIsUntilTheRestHasCome) {
     EXPECT_GT(shows.arrivals(), 0u);
     for (int x = 0; x < got.width(); ++x)
         ASSERT_EQ(got.viewDepth.at(x, 199), wanted.viewDepth.at(x, 199)) << x;
+}
+
+// What had coarse rings waits again when it is to: the picture is that of one that always waited.
+TEST_F(TiledScene, WaitsAgainWhenItIsTo) {
+    const TerrainScene patient = load(GroundTiles::On);
+    TerrainScene hasty = load(GroundTiles::On);
+    hasty.ringsMayBeLate = true;
+    const TerrainRenderer waits(patient);
+    TerrainRenderer shows(hasty);
+    pictureOf(shows, viewAt(hasty, {-4500, -3700}, 0, 40));
+    const EyeView view = viewAt(hasty, {4500, 3500}, 3, 40);
+    pictureOf(shows, view);
+    ASSERT_TRUE(shows.ringDetail().late);
+    shows.ringsMayBeLate(false);
+    const EyeImage got = pictureOf(shows, view), wanted = pictureOf(waits, view);
+    EXPECT_FALSE(shows.ringDetail().late);
+    for (int y = 0; y < got.height(); ++y)
+        for (int x = 0; x < got.width(); ++x)
+            ASSERT_EQ(got.viewDepth.at(x, y), wanted.viewDepth.at(x, y)) << x << " " << y;
+}
+
+// Some more samples than what stands in for it has, with a hole.
+RasterSpec largeGround() {
+    RasterSpec spec;
+    spec.width = 1300, spec.height = 950;
+    spec.type = GDT_Float32;
+    spec.transform = {400000, 10, 0, 5000000, 0, -10};
+    spec.hasNodata = true, spec.nodata = -32768;
+    spec.value = [](int c, int r, int) {
+        return c > 500 && c < 600 && r > 350 && r < 400 ? -32768. : 800 + 0.5 * c - 0.25 * r;
+    };
+    return spec;
+}
+
+TEST_F(TiledScene, IsCoarseUntilTilesAreMade) {
+    mFile.dem = writeRaster(mFolder / "large.tif", largeGround());
+    mFile.tiles = GroundTiles::On;
+    mFile.standInSide = 300;
+    mFile.verticalScale = 2;
+    Progress progress;
+    const TerrainScene first = loadTerrain(mFile, progress);
+    ASSERT_TRUE(first.standIn);
+    EXPECT_FALSE(first.tiled);
+    EXPECT_FALSE(fs::exists(mFolder / "cache" / "stereonav")) << "nothing is made before it is asked for";
+    const Heightfield& ground = first.ground;
+    EXPECT_LE(1.0 * ground.width() * ground.height(), 300. * 300);
+    EXPECT_GT(1.0 * ground.width() * ground.height(), 290. * 290);
+    EXPECT_EQ(first.standIn->spacing, glm::dvec2(10));
+    // A sample stands for its surroundings: within half a step in x and y, of twice the slope.
+    const double off = 2 * (0.5 + 0.25) * 0.5 * ground.spacing().x / 10 + 1e-3;
+    for (double x = -6000; x <= 6000; x += 497)
+        for (double y = -4500; y <= 4500; y += 513) {
+            const double c = x / 10 + 649.5, r = 474.5 - y / 10;
+            if (c > 490 && c < 610 && r > 340 && r < 410) continue;
+            ASSERT_NEAR(first.heightAt({x, y}), 2 * (800 + 0.5 * c - 0.25 * r), off) << c << " " << r;
+        }
+    EXPECT_TRUE(std::isnan(first.heightAt({-995, 995})));
+    EXPECT_NEAR(double(first.report.openSamples), 99. * 49 * 100 / (ground.spacing().x * ground.spacing().y),
+                0.15 * 99 * 49);
+    EXPECT_NE(first.report.tiles.find("not there yet"), std::string::npos);
+
+    Progress ended;
+    ended.cancel();
+    EXPECT_THROW(first.standIn->makeTiles(ended), Cancelled);
+    EXPECT_TRUE(tilesFile().empty());
+    first.standIn->makeTiles(progress);
+    ASSERT_EQ(tilesFile(), fs::path(first.standIn->tiles));
+    const auto made = fs::last_write_time(tilesFile());
+    first.standIn->makeTiles(progress);
+    EXPECT_EQ(fs::last_write_time(tilesFile()), made) << "they were there";
+    const TerrainScene then = loadTerrain(mFile, progress);
+    EXPECT_FALSE(then.standIn);
+    ASSERT_TRUE(then.tiled);
+    EXPECT_EQ(then.report.tiles.find("made now"), std::string::npos);
+    EXPECT_EQ(then.clearance, first.clearance);
+    EXPECT_EQ(then.lens.nearDepth, first.lens.nearDepth);
+    EXPECT_EQ(then.heightAt({-6000, 4500}), 2 * (800 + 0.5 * 49.5 - 0.25 * 24.5));
+}
+
+// In degrees too it lies where all of the samples lie, to half a step of its own.
+TEST_F(TiledScene, StandsInWhereTheWholeLies) {
+    RasterSpec spec = largeGround();
+    spec.width = 700, spec.height = 500;
+    spec.epsg = 4326;
+    spec.transform = {10, 1e-3, 0, 46, 0, -1e-3};
+    mFile.dem = writeRaster(mFolder / "degrees.tif", spec);
+    const DemGrid whole = DemRows(mFile.dem).place();
+    mFile.standInSide = 600;
+    EXPECT_FALSE(standInGround(mFile, whole)) << "there are no more samples";
+    mFile.standInSide = 200;
+    const std::optional<Heightfield> coarse = standInGround(mFile, whole);
+    ASSERT_TRUE(coarse);
+    EXPECT_LE(coarse->width() * coarse->height(), 2 * 200 * 200);
+    const TerrainScene tiled = load(GroundTiles::On);
+    const double step = std::max(coarse->spacing().x, coarse->spacing().y);
+    int compared = 0;
+    for (double x = -25000; x <= 25000; x += 1700)
+        for (double y = -25000; y <= 25000; y += 1300) {
+            const double fine = tiled.heightAt({x, y}), few = coarse->heightAt({x, y});
+            if (std::isnan(fine) || std::isnan(few)) continue;
+            ++compared;
+            // 0.5 m a sample of some 77 m, and 0.25 m in 111 m.
+            ASSERT_NEAR(few, fine, (0.5 / 77 + 0.25 / 111) * 0.75 * step) << x << " " << y;
+        }
+    EXPECT_GT(compared, 800);
 }
 
 }  // namespace

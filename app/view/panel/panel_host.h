@@ -146,6 +146,9 @@ public:
     virtual void seeFromClicks(const std::optional<double>& /*height*/) {}
     // Paint that is being worked out, once one waits for it.
     virtual std::optional<PaintWork> painting() const { return std::nullopt; }
+    // What a coarser scene is shown for (StandIn), while it is prepared.
+    virtual std::optional<PaintWork> preparing() const { return std::nullopt; }
+    virtual void cancelPreparing() {}
     virtual bool canUndo() const = 0;
     virtual bool canRedo() const = 0;
     virtual void undo() = 0;

@@ -92,6 +92,13 @@ void askForScreen(PanelHost& host, float wrap) {
     tooltip("It is not asked again.");
 }
 
+void drawPreparing(PanelHost& host, const PaintWork& work, float wrap) {
+    wrappedText(work.what, wrap);
+    ImGui::ProgressBar(static_cast<float>(work.fraction), {std::min(wrap, 20 * ImGui::GetFontSize()), 0});
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel##prepare")) host.cancelPreparing();
+}
+
 void drawPainting(PanelHost& host, const PaintWork& work, float wrap) {
     wrappedText(work.what.empty() ? "painting the ground" : work.what, wrap);
     // What does not tell how far it is has no figure.
@@ -125,6 +132,8 @@ float drawStatusBar(PanelHost& host, float left, float right) {
             row.text(age,
                      "since the picture was asked for that is shown, warped to where the eyes are now; and "
                      "how much of the width and height it was cast in");
+        if (frame->lacksDetail)
+            row.text("coarse ground", "Finer tiles are on their way: the picture is drawn again with them.");
         placePieces(host, row);
         row.text(costText(*frame), frameText(*frame, rate));
         if (frame->request.twoEyes && row.room(comfortMeterWidth())) drawComfortMeter(host, *frame);
@@ -158,7 +167,8 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
     const Job* const job = host.job() && host.job()->running() ? host.job() : nullptr;
     const bool asks = asksForScreen(host);
     const std::optional<PaintWork> painting = host.painting();
-    const bool works = waits || job || host.readingSlices() || painting;
+    const std::optional<PaintWork> preparing = host.preparing();
+    const bool works = waits || job || host.readingSlices() || painting || preparing;
     if (notice.empty() && host.failure().empty() && !works && !asks) return;
     const float wrap =
         std::max(std::min(width - 2 * margin, 46 * ImGui::GetFontSize()) - 4 * ImGui::GetFontSize(), 60.0f);
@@ -192,6 +202,7 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
         if (ImGui::Button("Cancel##slices")) host.cancelSlices();
     }
     if (painting) drawPainting(host, *painting, wrap);
+    if (preparing) drawPreparing(host, *preparing, wrap);
     if (asks) askForScreen(host, wrap);
     if (job) {
         wrappedText(job->what(), wrap);

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -150,6 +152,29 @@ std::filesystem::path damagedFileIn(const std::filesystem::path& folder) {
         if (!dataset || !isWhole(*dataset, messages)) return file;
     }
     return {};
+}
+
+bool isTextGrid(GDALDataset& dataset) {
+    const std::string_view driver = dataset.GetDriverName();
+    return driver == "AAIGrid" || driver == "GRASSASCIIGrid" || driver == "GSAG";
+}
+
+GdalDataset thinnedDem(GDALDataset& whole, long long most, const std::filesystem::path& place) {
+    const int width = whole.GetRasterXSize(), height = whole.GetRasterYSize();
+    const double share = std::sqrt(double(most) / (double(width) * height));
+    if (share >= 1 || isTextGrid(whole)) return nullptr;
+    const auto thinned = [share](int size) {
+        return std::to_string(std::max(static_cast<int>(size * share), 2));
+    };
+    ProgramWords words;
+    words.add("-of").add("VRT").add("-r").add("nearest").add("-outsize");
+    words.add(thinned(width)).add(thinned(height));
+    GDALTranslateOptions* const options = GDALTranslateOptionsNew(words.get(), nullptr);
+    GdalDataset made(
+        GDALDataset::FromHandle(GDALTranslate("", GDALDataset::ToHandle(&whole), options, nullptr)));
+    GDALTranslateOptionsFree(options);
+    if (!made) throwMisfit(place, "", "can not be read in coarser steps", kAdvice);
+    return made;
 }
 
 GdalDataset openDem(const std::filesystem::path& place, const GdalMessages& messages) {

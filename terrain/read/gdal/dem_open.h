@@ -15,6 +15,14 @@ namespace stereonav {
 // was mixed with others. Throws Error named by the file that does not fit.
 GdalDataset openDem(const std::filesystem::path& place, const GdalMessages& messages);
 
+// The dataset with at most so many samples, at least 2 each way, as a virtual raster over it: one sample of
+// each few, or of its overviews where it has them. It must be closed before `whole`. Null where all are no
+// more than that, and where rows are found by reading all before them (text). Throws Error.
+GdalDataset thinnedDem(GDALDataset& whole, long long most, const std::filesystem::path& place);
+
+// Whether rows of the file are found by reading all before them.
+bool isTextGrid(GDALDataset& dataset);
+
 // The first file of such a folder that can not be read to its end; "" where there is none, or it is no
 // folder.
 std::filesystem::path damagedFileIn(const std::filesystem::path& folder);

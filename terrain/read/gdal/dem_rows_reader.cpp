@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -23,13 +24,18 @@ constexpr int kMostRunOfRows = 256;
 
 class GdalRows final : public DemRows::Reader {
 public:
-    explicit GdalRows(const std::filesystem::path& file) : mFile(file) {
+    // most: samples; 0: all.
+    GdalRows(const std::filesystem::path& file, long long most) : mFile(file) {
         GdalMessages messages;
         mDataset = openDem(file, messages);
         checkRasterSize(file, mDataset->GetRasterXSize(), mDataset->GetRasterYSize(), kReadByRows);
         if (isGsiTile(*mDataset)) {
             readWhole();
             return;
+        }
+        if (GdalDataset thinned = most > 0 ? thinnedDem(*mDataset, most, file) : nullptr) {
+            mThinnedFrom = std::move(mDataset);
+            mDataset = std::move(thinned);
         }
         describeSource(*mDataset, file, mDem);
         mPlacement = placementOf(mDem.source, file, kReadByRows);
@@ -139,8 +145,7 @@ private:
     void findRows() {
         if (mRowsFound) return;
         mRowsFound = true;
-        const std::string_view driver = mDataset->GetDriverName();
-        if (driver != "AAIGrid" && driver != "GRASSASCIIGrid" && driver != "GSAG") return;
+        if (!isTextGrid(*mDataset)) return;
         float first = 0;
         for (int row = 0; row < mSamples->height(); ++row) {
             throwIfStopped();
@@ -160,6 +165,7 @@ private:
     }
 
     std::filesystem::path mFile;
+    GdalDataset mThinnedFrom;  // null where all samples are read
     GdalDataset mDataset;
     DemGrid mDem;
     DemPlacement mPlacement;
@@ -172,8 +178,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<DemRows::Reader> openDemRows(const std::filesystem::path& file) {
-    return std::make_unique<GdalRows>(file);
+std::unique_ptr<DemRows::Reader> openDemRows(const std::filesystem::path& file, long long most) {
+    return std::make_unique<GdalRows>(file, most);
 }
 
 }  // namespace stereonav

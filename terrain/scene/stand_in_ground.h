@@ -1,0 +1,18 @@
+// Ground to be shown while the tiles of a large one are made: some of its samples.
+#pragma once
+
+#include <optional>
+
+#include "terrain/ground/heightfield.h"
+#include "terrain/read/dem_reader.h"
+#include "terrain/read/scene_file.h"
+
+namespace stereonav {
+
+// At most file.standInSide, squared, samples of the whole ground, missing ones left open; fewer where they
+// would take more than some two seconds to read. None where few are slow too (a file of compressed tiles
+// without overviews), where all are no more than that, or where it can not be read: making the tiles then
+// says why. whole: what DemRows gives of all of it.
+std::optional<Heightfield> standInGround(const SceneFile& file, const DemGrid& whole);
+
+}  // namespace stereonav
