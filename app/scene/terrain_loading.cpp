@@ -18,7 +18,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kStandInSide = 2048;  // samples: two seconds of a wait, and pictures that tell where one is
+constexpr int kStandInSide = 1536;  // samples: read and coloured in a second or two
 
 // Options that this terrain would not show.
 void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {

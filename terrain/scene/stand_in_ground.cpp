@@ -1,8 +1,6 @@
 #include "terrain/scene/stand_in_ground.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -14,60 +12,82 @@
 namespace stereonav {
 namespace {
 
-constexpr int kFewer = 8;  // samples each way, where all are too many
-constexpr double kMost_ms = 2000;
+constexpr int kFewest = 8;  // every eighth row first, and where there is time those between, three times
+constexpr double kTime_ms = 1500;
 
-long long samplesOf(int side) {
-    return 1ll * side * side;
-}
+// Some rows of a ground, spread over all of it: every eighth, fourth, second or all, as there is time.
+class SomeRows {
+public:
+    explicit SomeRows(DemRows& rows)
+        : mRows(rows),
+          mWidth(rows.place().width),
+          mHeight(rows.place().height),
+          mHeights(static_cast<std::size_t>(mWidth) * mHeight) {}
 
-// Of all rows, from two of them that are far apart.
-double expected_ms(DemRows& rows) {
-    const int width = rows.place().width, height = rows.place().height;
-    std::vector<float> row(static_cast<std::size_t>(width));
-    rows.read(height / 3, 1, row.data());  // opens what is read first
-    const Stopwatch watch;
-    rows.read(2 * (height / 3), 1, row.data());
-    return watch.elapsed_ms() * height;
-}
+    // False where it would take too long for the fewest.
+    bool read() {
+        const Stopwatch watch;
+        int count = 0;
+        for (int row = 0; row < mHeight; row += kFewest) {
+            readRow(row);
+            ++count;
+            if (isSlow(watch.elapsed_ms(), count)) return false;
+        }
+        for (mStep = kFewest; mStep > 1; mStep /= 2) {
+            // As many again as there are so far.
+            if (2 * watch.elapsed_ms() > kTime_ms) break;
+            for (int row = mStep / 2; row < mHeight; row += mStep) readRow(row);
+        }
+        if (mRows.mustBeReadAgain())
+            for (int row = 0; row < mHeight; row += mStep) readRow(row);
+        return true;
+    }
 
-Heightfield readAll(DemRows& rows, const SceneFile& file) {
-    const int width = rows.place().width, height = rows.place().height;
-    std::vector<float> heights(static_cast<std::size_t>(width) * height);
-    const auto read = [&] {
-        int run = rows.firstRun();
-        for (int j = 0; j < height; j += std::exchange(run, rows.runOfRows()))
-            rows.read(j, std::min(run, height - j), heights.data() + static_cast<std::size_t>(j) * width);
-    };
-    read();
-    if (rows.mustBeReadAgain()) read();
-    rows.checkHeights(file.verticalScale);
-    for (float& height_m : heights) height_m = static_cast<float>(height_m * file.verticalScale);
-    return Heightfield(width, height, rows.place().spacing, std::move(heights), file.dem.string());
-}
+    Heightfield ground(const SceneFile& file) const {
+        const int width = (mWidth - 1) / mStep + 1, height = (mHeight - 1) / mStep + 1;
+        std::vector<float> heights;
+        heights.reserve(static_cast<std::size_t>(width) * height);
+        for (int j = 0; j < mHeight; j += mStep)
+            for (int i = 0; i < mWidth; i += mStep)
+                heights.push_back(static_cast<float>(at(j)[i] * file.verticalScale));
+        const glm::dvec2 spacing = mRows.place().spacing;
+        return Heightfield(width, height, double(mStep) * spacing, std::move(heights), file.dem.string(),
+                           -0.5 * glm::dvec2(mWidth - 1, mHeight - 1) * spacing);
+    }
+
+private:
+    // After some patience: the first rows wait for more than a row.
+    bool isSlow(double passed_ms, int count) const {
+        constexpr double kPatience_ms = 400, kMuchMore = 3;
+        const double rows = (mHeight - 1.0) / kFewest + 1;
+        return passed_ms > kPatience_ms && passed_ms / count * rows > kMuchMore * kTime_ms;
+    }
+    const float* at(int row) const { return mHeights.data() + static_cast<std::size_t>(row) * mWidth; }
+    void readRow(int row) { mRows.read(row, 1, mHeights.data() + static_cast<std::size_t>(row) * mWidth); }
+
+    DemRows& mRows;
+    int mWidth, mHeight, mStep = kFewest;
+    std::vector<float> mHeights;
+};
 
 }  // namespace
 
 std::optional<Heightfield> standInGround(const SceneFile& file, const DemGrid& whole) {
-    const int most = file.standInSide;
     constexpr double kBytes = 64;  // a sample, with all that is made of it
-    if (1ll * whole.width * whole.height <= samplesOf(most)) return std::nullopt;
+    const long long most = 1ll * file.standInSide * file.standInSide;
+    if (1ll * whole.width * whole.height <= most) return std::nullopt;
     try {
-        for (int side = most; side >= most / kFewer; side /= 2) {
-            DemRows rows(file.dem, samplesOf(side));
-            const long long samples = 1ll * rows.place().width * rows.place().height;
-            if (samples > 2 * samplesOf(side)) return std::nullopt;  // not thinned
-            if (kBytes * static_cast<double>(samples) > availableMemory()) continue;
-            const double time = expected_ms(rows);
-            if (time <= kMost_ms) return readAll(rows, file);
-            // A row takes as long when there are fewer of them, but where there are overviews.
-            if (time > kMost_ms * kFewer) return std::nullopt;
-        }
-    } catch (const Cancelled&) {
-        throw;
+        DemRows rows(file.dem, most);
+        const long long samples = 1ll * rows.place().width * rows.place().height;
+        if (samples > 2 * most) return std::nullopt;  // it could not be thinned
+        if (kBytes * static_cast<double>(samples) > availableMemory()) return std::nullopt;
+        SomeRows some(rows);
+        if (!some.read()) return std::nullopt;
+        rows.checkHeights(file.verticalScale);
+        return some.ground(file);
     } catch (const Error&) {  // of the samples that were read: all of them may tell more
+        return std::nullopt;
     }
-    return std::nullopt;
 }
 
 }  // namespace stereonav
