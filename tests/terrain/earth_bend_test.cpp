@@ -18,6 +18,7 @@
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/paint/contour_painter.h"
 #include "terrain/paint/ground_view.h"
+#include "terrain/paint/track_painter.h"
 #include "terrain/survey/viewshed.h"
 #include "tests/support/test_grounds.h"
 
@@ -341,6 +342,38 @@ TEST(EarthBend, PaintersSeeTheGroundItself) {
         }
     EXPECT_GT(seen, 3000);
     EXPECT_GT(far, 500);
+}
+
+// A line over the plan is drawn where its ground is seen: nowhere else, and all along it.
+TEST(EarthBend, TracksLieOnTheGroundThatIsSeen) {
+    const TerrainScene scene = test::makeScene(groundOf(120, 120, glm::dvec2(1000), [](int i, int j) {
+        return 200 + 30 * std::sin(0.3 * i) + 30 * std::cos(0.2 * j);
+    }));
+    const TerrainRenderer renderer(scene);
+    const Fog fog;
+    const glm::dvec2 from(-8000, 1e4), to(9000, 1.2e4);
+    const Lens lens{300, 160, 0.12, 1.0, 1.0, kUsualFall};
+    const EyeView view = makeEyeView(poseFromAngles({0, -5.5e4, 4000}, 0, -0.065, 0), lens);
+    EyeImage image, drawn;
+    image.resize(view.width, view.height);
+    renderEye(renderer, view, image);
+    drawn = image;
+    TrackPainter(scene.ground, fog, {{from, to}}, {}).paint(view, drawn);
+    int columns = 0;
+    for (int x = 0; x < view.width; ++x) {
+        bool any = false;
+        for (int y = 0; y < view.height; ++y) {
+            if (image.color.at(x, y) == drawn.color.at(x, y)) continue;
+            any = true;
+            const glm::dvec2 place(view.pointAt(x + 0.5, y + 0.5, image.viewDepth.at(x, y)));
+            const double share = (place.x - from.x) / (to.x - from.x);
+            const glm::dvec2 on = from + share * (to - from);
+            const glm::dvec3 seen = view.project(view.bend().apparent({on, scene.ground.heightAt(on)}));
+            ASSERT_LT(std::abs(seen.y - (y + 0.5)), 3.5) << x << "," << y;
+        }
+        columns += any;
+    }
+    EXPECT_GT(columns, 150);
 }
 
 // A slope with one line of height: where it is drawn, the ground is as high as that.
