@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "engine/camera/stereo_rig.h"
 #include "engine/simd/simd_target.h"
@@ -108,6 +111,19 @@ TEST(EarthBend, WhatDoesNotBendIsAsItWas) {
     }
 }
 
+// From the water's surface nothing of it is seen, and from under it rays come up where the model says.
+TEST(EarthBend, EyesInTheSeaAndUnderIt) {
+    const Heightfield sea = groundOf(65, 65, glm::dvec2(2000), [](int, int) { return 0.0; });
+    const EarthBend bend{{0, 0}, kUsualFall};
+    EXPECT_FALSE(std::isfinite(castPlain(sea, {0, 0, 0}, {1, 0, 0}, 1, bend).t));
+    EXPECT_FALSE(std::isfinite(castPlain(sea, {0, 0, 0}, {0.6, 0.8, 1e-3}, 1, bend).t));
+    EXPECT_NEAR(castPlain(sea, {0, 0, 0}, {0.6, 0.8, -1e-3}, 1, bend).t, 1e-3 / kUsualFall, 1e-3);
+    EXPECT_NEAR(castPlain(sea, {0, 0, -100}, {0, 1, 0}, 1, bend).t, std::sqrt(100 / kUsualFall), 1e-3);
+    EXPECT_FALSE(std::isfinite(castPlain(sea, {0, 0, 100}, {0, 1, 0}, 1, bend).t));
+    const glm::dvec3 nowhere(std::nan(""), 0, 100);
+    EXPECT_FALSE(std::isfinite(castPlain(sea, nowhere, {0, 1, -1}, 1, bend).t));
+}
+
 // Over a sea at height 0 the horizon of an eye at h lies at sqrt(h / fall), 2 sqrt(h fall) below level. The
 // row of a picture that shows it, and its depths, by every instruction set.
 TEST(EarthBend, TheSeaEndsAtItsHorizon) {
@@ -190,7 +206,8 @@ struct Tally {
     }
 };
 
-// Level, pitched and rolled, near the ground and high over it, over it and beside it; eyes far from the head.
+// Level, pitched, straight up and down, and rolled, near the ground and high over it, over it and beside it;
+// eyes far from the head.
 EyeView someView(const Heightfield& ground, std::mt19937& random, int k, double fall, double over = 0.01) {
     std::uniform_real_distribution<double> unit(0, 1);
     const glm::dvec2 extent = ground.spacing() * glm::dvec2(ground.width() - 1, ground.height() - 1);
@@ -199,7 +216,10 @@ EyeView someView(const Heightfield& ground, std::mt19937& random, int k, double 
     const double height = ground.heightAt(world);
     const glm::dvec3 eye(world, (std::isfinite(height) ? height : 500) + 2 +
                                     (k % 4 == 3 ? 0.2 : over) * extent.x * unit(random) * unit(random));
-    const double heading = 7 * unit(random), pitch = k % 3 == 0 ? 0 : 0.1 - 0.8 * unit(random),
+    const double heading = 7 * unit(random),
+                 pitch = k % 3 == 0     ? 0
+                         : k % 11 == 10 ? (k % 2 ? 0.5 : -0.5) * std::numbers::pi
+                                        : 0.1 - 0.8 * unit(random),
                  roll = k % 5 == 4 ? 7 * unit(random) : 0;
     const Lens lens{40, 30, 0.2 + unit(random), 1.0, 0.1, fall};
     for (double raised = 0;; raised += 0.002 * extent.x) {
@@ -374,6 +394,44 @@ TEST(EarthBend, TracksLieOnTheGroundThatIsSeen) {
         columns += any;
     }
     EXPECT_GT(columns, 150);
+}
+
+// The air is that on the way to the place itself, not to where it is seen: by kernels and painters alike.
+TEST(EarthBend, AirIsThatUpToThePlace) {
+    TerrainScene scene = test::makeScene(groundOf(120, 120, glm::dvec2(2000), [](int, int) { return 20.0; }));
+    const Lens lens{64, 48, 0.2, 1.0, 1.0, kUsualFall};
+    const EyeView view = makeEyeView(poseFromAngles({0, -1.1e5, 9000}, 0, -0.12, 0), lens);
+    const auto cast = [&](SimdTarget target) {
+        EyeImage image;
+        image.resize(view.width, view.height);
+        renderEye(TerrainRenderer(scene, target), view, image);
+        return image;
+    };
+    const EyeImage clear = cast(SimdTarget::Plain);
+    scene.look.physicalSky = true;
+    const Fog fog(scene.look);
+    for (const SimdTarget target : simdTargets()) {
+        const EyeImage aired = cast(target);
+        double off = 0, offStraight = 0;
+        int pixels = 0;
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x) {
+                const double depth = aired.viewDepth.at(x, y);
+                if (!std::isfinite(depth) || depth < 1e5) continue;
+                ++pixels;
+                const glm::vec3 base = unpackColor(clear.color.at(x, y));
+                const glm::dvec3 ray = view.rayDirection(x + 0.5, y + 0.5);
+                const auto against = [&](const glm::dvec3& way) {
+                    return glm::length(unpackColor(aired.color.at(x, y)) -
+                                       fog.seen(base, view.eye, way, depth));
+                };
+                off = std::max<double>(off, against(view.bend().wayToPlace(view.eye, ray, depth)));
+                offStraight = std::max<double>(offStraight, against(ray));
+            }
+        EXPECT_GT(pixels, 100);
+        EXPECT_LT(off, 0.003);
+        EXPECT_GT(offStraight, 0.01);
+    }
 }
 
 // A slope with one line of height: where it is drawn, the ground is as high as that.
