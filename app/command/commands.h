@@ -16,6 +16,7 @@
 #include "engine/image/stereo_compose.h"
 #include "engine/light/bake/bake_sums.h"
 #include "engine/light/occlusion/occlusion.h"
+#include "engine/math/earth_bend.h"
 #include "engine/medium/model/medium_look.h"
 #include "engine/simd/simd_target.h"
 #include "engine/volume/volume_up.h"
@@ -130,7 +131,10 @@ struct SceneOptions {
     // Of a terrain's shading below its samples: on where pictures are shown, off where they are measured.
     bool groundDetail = false;
     double levelOfDetail = 0;  // share of a pixel that far ground may be off; 0: exact
-    bool lightLater = true;    // a window works out sky light of ground that has none (ShownTerrain)
+    // Of ground that is cast: a round Earth, and the share of its curvature that light follows.
+    bool curvature = false;
+    double refraction = kUsualRefraction;
+    bool lightLater = true;  // a window works out sky light of ground that has none (ShownTerrain)
     // Set by a window: pictures do not wait for detail; ground whose tiles are not made yet is shown coarse.
     bool detailLater = false, standInFirst = false;
     bool skyTurns = false;  // set by a window: keep what turning the sky over baked transfer takes

@@ -12,6 +12,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
+#include "engine/math/earth_bend.h"
 #include "terrain/survey/viewshed.h"
 
 namespace stereonav {

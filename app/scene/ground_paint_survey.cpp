@@ -46,6 +46,7 @@ std::shared_ptr<const EyePainter> viewshedPainter(const TerrainScene& terrain, c
     setting.eye = survey.gridAt({numbers[0], numbers[1]}, "--paint");
     survey.heightAt(setting.eye, "--paint");
     setting.eyeHeight = numbers.size() > 2 ? numbers[2] : kUsualEyeHeight;
+    setting.fall = terrain.lens.fall / terrain.verticalScale;
     const Viewshed shed = viewshedOf(survey.ground, setting, progress);
     Plane<float> hidden(shed.seen.width(), shed.seen.height());
     for (int j = 0; j < hidden.height(); ++j)

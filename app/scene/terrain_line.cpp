@@ -50,7 +50,7 @@ MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bo
     return measured;
 }
 
-// As `viewshed --to` has it, without the curvature.
+// As `viewshed --to` has it; over a round Earth where pictures are (--curvature).
 Facts TerrainSurvey::sight(const glm::dvec3& from, const glm::dvec3& to, double height) const {
     glm::dvec2 shift;
     const Heightfield cut =
@@ -62,7 +62,8 @@ Facts TerrainSurvey::sight(const glm::dvec3& from, const glm::dvec3& to, double 
     const glm::dvec3 eye = above(from), target = above(to);
     if (!std::isfinite(eye.z) || !std::isfinite(target.z)) return {};
     const HeightPyramid maxima(cut);
-    const Sight sight = SightLines(cut, maxima, 0).measure(eye, target);
+    const Sight sight =
+        SightLines(cut, maxima, mTerrain.lens.fall / mTerrain.verticalScale).measure(eye, target);
     FactList list;
     list.both(
         "sees", sight.seen, fmt::format("line of sight, {:.4g} m up", height),

@@ -10,6 +10,7 @@
 #include "app/scene/shown_terrain.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
+#include "engine/math/earth_bend.h"
 #include "terrain/read/scene_file.h"
 #include "terrain/scene/followed_track.h"
 #include "terrain/scene/terrain_illumination.h"
@@ -31,6 +32,9 @@ void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
     if (scene.paint != GroundPaint::None && !scene.image.empty())
         throw Error("--paint", "", "the scene's file gives the ground a picture: both say what colour it has",
                     "leave one of them out");
+    if (options.curvature && !scene.landmarks.empty())
+        throw Error("--curvature", "", "does not go with landmarks, which would stand on level ground",
+                    "leave it out, or the landmarks of the scene's file");
     if (options.shadeImage && scene.image.empty())
         throw Error("--shade-image", "", "there is no picture to light",
                     "name one with --image, or leave it out");
@@ -100,6 +104,8 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
     terrain.detail = options.groundDetail && !shownAs(options).swept && !terrain.tiled && !terrain.standIn;
     terrain.ringsMayBeLate = terrain.tiled && options.detailLater;
     terrain.levelOfDetail = options.levelOfDetail;
+    // Raised heights sink as much more: what hides what stays as it is.
+    if (options.curvature) terrain.lens.fall = curvatureFall(options.refraction) * terrain.verticalScale;
     return terrain;
 }
 

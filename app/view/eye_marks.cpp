@@ -60,12 +60,13 @@ std::optional<glm::dvec3> worldUnder(const StereoViews& views, const Plane<float
     if (!isInside(view, place)) return std::nullopt;
     const DepthPixel pixel = pixelAt(view, viewDepth, guard, place);
     if (!(pixel.depth > 0 && std::isfinite(pixel.depth))) return std::nullopt;
-    return view.eye + pixel.depth * view.rayDirection(pixel.middle.x, pixel.middle.y);
+    return view.bend().placeOf(view.pointAt(pixel.middle.x, pixel.middle.y, pixel.depth));
 }
 
 std::optional<PointMark> markOf(const StereoViews& views, const Plane<float>& viewDepth,
                                 const glm::dvec3& world, const glm::ivec2& guard) {
-    const glm::dvec3 left = views.left.project(world), right = views.right.project(world);
+    const glm::dvec3 seenAt = views.left.bend().apparent(world);  // both eyes have one head
+    const glm::dvec3 left = views.left.project(seenAt), right = views.right.project(seenAt);
     if (!(left.z >= views.left.nearDepth && std::isfinite(left.z))) return std::nullopt;
     const PointMark point{{glm::dvec2(left), glm::dvec2(right)}, left.z};
     if (!isInside(views.left, point.mark.left) || !isInside(views.right, point.mark.right))

@@ -35,8 +35,8 @@ struct PointMark {
     EyeMark mark;
     double depth = 0;  // of the view, metres
 };
-// A point of the world. None where it is nearer than the eyes see or behind them, outside the picture of one
-// of them, or behind what is seen there.
+// A point of the world, where it is seen over a round Earth. None where it is nearer than the eyes see or
+// behind them, outside the picture of one of them, or behind what is seen there.
 std::optional<PointMark> markOf(const StereoViews& views, const Plane<float>& viewDepth,
                                 const glm::dvec3& world, const glm::ivec2& guard = glm::ivec2(0));
 

@@ -5,6 +5,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/math/earth_bend.h"
+
 namespace stereonav {
 
 struct EyeView {
@@ -14,9 +16,11 @@ struct EyeView {
     double xMin = -1, xMax = 1, yMin = -1, yMax = 1;            // the window at view depth 1
     int width = 0, height = 0;                                  // pixels
     double nearDepth = 0.1;                                     // metres, > 0: nothing nearer is seen
+    double fall = 0;                                            // of EarthBend, for who casts ground
 
     double pixelWidth() const { return (xMax - xMin) / width; }    // at view depth 1
     double pixelHeight() const { return (yMax - yMin) / height; }  // at view depth 1
+    EarthBend bend() const { return {glm::dvec2(head), fall}; }
 
     // x, y: continuous image coordinates, y downwards; (0, 0) is the outer corner of the top left
     // pixel, whose centre is (0.5, 0.5). The result has unit length along `forward`.

@@ -50,6 +50,7 @@ EyeView makeEyeView(const Pose& head, const Lens& lens) {
     view.width = lens.width;
     view.height = lens.height;
     view.nearDepth = lens.nearDepth;
+    view.fall = lens.fall;
     const double halfHeight = std::tan(lens.verticalFov / 2);
     const double halfWidth = halfHeight * lens.width * lens.pixelAspect / lens.height;
     view.xMin = -halfWidth;

@@ -14,6 +14,7 @@ struct Lens {
     double verticalFov = 0.8;   // radians, in (0, pi)
     double pixelAspect = 1.0;   // width / height of a pixel
     double nearDepth = 0.1;     // metres
+    double fall = 0;            // of EarthBend: 0 where the Earth is level
 };
 
 struct StereoSetting {

@@ -80,6 +80,7 @@ STEREONAV_INLINE int lookBack(double drift, float maxSlope) {
     return kMaxBack;
 }
 
+template <bool kBent>
 class Band {
 public:
     STEREONAV_INLINE Band(const CasterScene& scene, const CasterView& view, const CasterBand& band,
@@ -88,7 +89,7 @@ public:
           mView(view),
           mBand(band),
           mTarget(target),
-          mEye(makeEye(scene.ground, view)),
+          mEye(makeEye<kBent>(scene.ground, view)),
           mOffsets(laneOffsets(view)),
           mRing(scratch + kMargin + kLanes),
           mPitch(view.lanes + 2 * (kMargin + kLanes)) {}
@@ -115,9 +116,9 @@ private:
             const M lanes = firstLanes(count);
             const Rays rays = raysOfRow(mView, mOffsets, a, mBand.firstStep);
             const M shaded = mScene.beyond.scene != nullptr ? maskFromBits(0) : lanes;
-            Columns columns(mEye, rays, lanes);
+            Columns<kBent> columns(mEye, rays, lanes);
             for (int q = mBand.firstStep; q < mBand.endStep; ++q) {
-                const Hits hits = columns.cast(slopeOf(q), lanes);
+                const Hits hits = columns.cast(slopeOf(a, q), lanes);
                 const M colored = shaded | (hits.t < infinity());
                 put(a, q, count, lanes, hits.t,
                     any(colored) ? shadePacket(mScene, mView, columns.rays(), hits, lanes & colored) : I(0));
@@ -126,7 +127,16 @@ private:
         }
     }
 
-    double slopeOf(int q) const { return mView.base[2] + q * mView.perStep[2]; }
+    // Upright columns of a row rise alike, but what a round Earth turns them by.
+    STEREONAV_INLINE RowSlope slopeOf(int a, int q) const {
+        const double z = mView.base[2] + q * mView.perStep[2];
+        if constexpr (kBent) {
+            const D exact = D(z + a * mView.perLane[2]) + mOffsets.z;
+            return {exact, toFloat(exact)};
+        } else {
+            return {D(z), F(static_cast<float>(z))};
+        }
+    }
 
     // The columns' rays that met nothing, over each coarser ground in turn: again from the lowest up. What is
     // met is told by the depths that are stored. Columns are upright, lanes lie beside each other.
@@ -141,15 +151,15 @@ private:
             rays = scaledRays(rays, beyond.scale);
             scene = beyond.scene;
             const bool last = scene->beyond.scene == nullptr;
-            const Eye eye = makeEyeAt(scene->ground, mView, x, y);
-            Columns columns(eye, rays, lanes, border);
+            const Eye<kBent> eye = makeEyeAt<kBent>(scene->ground, mView, x, y);
+            Columns<kBent> columns(eye, rays, lanes, border);
             for (int q = mBand.firstStep; q < mBand.endStep; ++q) {
                 const std::int64_t row = mView.firstY + static_cast<std::int64_t>(q) * mView.stepY;
                 float* depth = mTarget.depth + row * mTarget.depthStride + mView.firstX + a;
                 std::uint32_t* color = mTarget.color + row * mTarget.colorStride + mView.firstX + a;
                 const M left = lanes & (loadF(depth) >= infinity());
                 if (!any(left)) continue;
-                const Hits hits = columns.cast(slopeOf(q), left);
+                const Hits hits = columns.cast(slopeOf(a, q), left);
                 const M met = left & (hits.t < infinity()), shaded = last ? left : met;
                 if (!any(shaded)) continue;
                 store(color, shadePacket(*scene, mView, columns.rays(), hits, shaded), shaded);
@@ -246,7 +256,7 @@ private:
     const CasterView& mView;
     const CasterBand& mBand;
     const CasterTarget& mTarget;
-    const Eye mEye;
+    const Eye<kBent> mEye;
     const LaneOffsets mOffsets;
     float* const mRing;
     const std::int64_t mPitch;
@@ -254,16 +264,20 @@ private:
 
 void castBand(const CasterScene& scene, const CasterView& view, const CasterBand& band,
               const CasterTarget& target, float* scratch) {
-    Band(scene, view, band, target, scratch).cast();
+    view.fall > 0 ? Band<true>(scene, view, band, target, scratch).cast()
+                  : Band<false>(scene, view, band, target, scratch).cast();
 }
 
 void castPixels(const CasterScene& scene, const CasterView& view, const CasterBatch& batch,
                 const CasterTarget& target) {
-    RayStream(scene, view, batch, target).cast();
+    view.fall > 0 ? RayStream<true>(scene, view, batch, target).cast()
+                  : RayStream<false>(scene, view, batch, target).cast();
 }
 
 // What shading needs to know of points at known depths.
-STEREONAV_INLINE Hits hitsAt(const GroundData& ground, const Eye& eye, const Rays& rays, F t, M lanes) {
+template <bool kBent>
+STEREONAV_INLINE Hits hitsAt(const GroundData& ground, const Eye<kBent>& eye, const Rays& rays, F t,
+                             M lanes) {
     Hits hits;
     hits.t = t;
     const M below = lanes & (t < infinity());
@@ -278,13 +292,20 @@ STEREONAV_INLINE Hits hitsAt(const GroundData& ground, const Eye& eye, const Ray
     const FPair north = gatherPair(ground.heights + ground.width, index, below);
     const F du = south.second - south.first, dv = north.first - south.first;
     const F twist = (north.second - north.first) - du;
-    hits.approach = rays.z - rays.x * mulAdd(hits.v, twist, du) - rays.y * mulAdd(hits.u, twist, dv);
+    F rise = rays.z;
+    if constexpr (kBent)
+        rise = mulAdd(F(2.0f) * safe,
+                      F(static_cast<float>(eye.bend.bendX)) * rays.x * rays.x +
+                          F(static_cast<float>(eye.bend.bendY)) * rays.y * rays.y,
+                      rise);
+    hits.approach = rise - rays.x * mulAdd(hits.v, twist, du) - rays.y * mulAdd(hits.u, twist, dv);
     hits.free = F(0.0f);
     return hits;
 }
 
-void shadeRow(const CasterScene& scene, const CasterView& view, int y, const CasterTarget& target) {
-    const Eye eye = makeEye(scene.ground, view);
+template <bool kBent>
+void shadeRowOf(const CasterScene& scene, const CasterView& view, int y, const CasterTarget& target) {
+    const Eye<kBent> eye = makeEye<kBent>(scene.ground, view);
     const int q = (y - view.firstY) * view.stepY;
     const LaneOffsets offsets = laneOffsets(view);
     float* depth = target.depth + y * target.depthStride;
@@ -295,6 +316,10 @@ void shadeRow(const CasterScene& scene, const CasterView& view, int y, const Cas
         const Hits hits = hitsAt(scene.ground, eye, rays, loadF(depth + x), lanes);
         store(color + x, shadePacket(scene, view, rays, hits, lanes), lanes);
     }
+}
+
+void shadeRow(const CasterScene& scene, const CasterView& view, int y, const CasterTarget& target) {
+    view.fall > 0 ? shadeRowOf<true>(scene, view, y, target) : shadeRowOf<false>(scene, view, y, target);
 }
 
 }  // namespace

@@ -9,13 +9,14 @@
 namespace stereonav {
 namespace {
 
-double exactHit(const void* context, const double* origin, const double* direction, double tMin, int* cell,
-                double* position) {
+double exactHit(const void* context, const double* origin, const double* direction, double fall, double tMin,
+                int* cell, double* position) {
     const auto& ground = *static_cast<const Heightfield*>(context);
     const glm::dvec2 spacing = ground.spacing();
     const glm::dvec3 world(ground.worldFromGrid({origin[0], origin[1]}), origin[2]);
     const GroundHit hit =
-        castPlain(ground, world, {direction[0] * spacing.x, direction[1] * spacing.y, direction[2]}, tMin);
+        castPlain(ground, world, {direction[0] * spacing.x, direction[1] * spacing.y, direction[2]}, tMin,
+                  {glm::dvec2(world), fall});
     cell[0] = hit.i, cell[1] = hit.j;
     position[0] = hit.u, position[1] = hit.v;
     return hit.t;

@@ -21,9 +21,10 @@ struct GroundData {
     float maxSlope = 0;  // metres a metre; infinite with open holes
     double spacingX = 1, spacingY = 1;
     // The plain cell walk in double precision (plain_caster.h), for lanes that float can not decide.
-    // cell: i, j; position: u, v. Returns the parameter, infinite for a miss.
-    double (*exactHit)(const void* context, const double* origin, const double* direction, double tMin,
-                       int* cell, double* position) = nullptr;
+    // fall: of an EarthBend around the origin; cell: i, j; position: u, v. Returns the parameter, infinite
+    // for a miss.
+    double (*exactHit)(const void* context, const double* origin, const double* direction, double fall,
+                       double tMin, int* cell, double* position) = nullptr;
     const void* context = nullptr;
 };
 
@@ -81,6 +82,8 @@ struct CasterScene {
 // A view turned so that `step` leads from steeper to higher rays (rows from bottom to top in an upright
 // picture) and `lane` runs across. Direction of pixel (lane a, step q), in grid units and metres for a
 // unit of view depth: base + a * perLane + q * perStep.
+// With a fall rays are parabolas over level ground (engine/math/earth_bend.h). That is around the head; what
+// it is more around the eye grows with the distance, and is in originZ and the directions' z already.
 struct CasterView {
     double originX = 0, originY = 0, originZ = 0;           // the eye: grid, grid, metres
     double base[3] = {}, perLane[3] = {}, perStep[3] = {};  // x, y in grid units, z in metres
@@ -91,6 +94,7 @@ struct CasterView {
     double lowA = 0, lowQ = -1, lowW = 0;
     bool verticalColumns = false;  // each lane's rays lie in one vertical plane: the paper's rule is exact
     bool coherent = false;         // a lower ray's free length may be used for a higher one at all
+    double fall = 0;               // of the view's EarthBend, around the eye; 0: rays are straight
     float nearDepth = 0;
     float pixelWidth = 0, pixelHeight = 0;  // at unit view depth
     AirEye air;                             // of a physical sky

@@ -5,95 +5,9 @@
 
 #include "engine/simd/simd.h"
 #include "terrain/cast/caster_types.h"
+#include "terrain/cast/kernel_walk.h"
 
 namespace stereonav::STEREONAV_ISA {
-
-// Ray directions for a unit of view depth: grid units for x and y, metres for z.
-struct Rays {
-    D exactX, exactY, exactZ;
-    F x, y, z;
-};
-
-// Where rays meet the ground. t is infinite for a miss; then the rest means nothing.
-struct Hits {
-    F t;
-    I i, j;      // cell
-    F u, v;      // position in the cell
-    F approach;  // rate of height over ground along the ray, metres a unit of t (negative from above)
-    F free;      // the ray is above the ground (where there is ground) up to here; 0: not known
-};
-
-// What is the same for all rays of a view.
-struct Eye {
-    const GroundData& ground;
-    double x, y, z;    // grid, grid, metres
-    int baseI, baseJ;  // grid cell that single-precision coordinates are relative to
-    F relativeX, relativeY;
-    // Metres: its height as a float and what that leaves over. Heights of the ground are taken from the
-    // first, which is exact where both are far from 0, and only then is the rest added: ground at 10,000 km
-    // is as exact as ground at 0.
-    F height, rest;
-    F margin;  // metres: bound of the rounding error of a ray's height (see below)
-    I lastI, lastJ;
-    float nearDepth;
-};
-
-STEREONAV_INLINE int clampInt(double x, int low, int high) {
-    return x < low ? low : x > high ? high : static_cast<int>(x);
-}
-
-// x, y: of the eye, in grid coordinates of this ground.
-STEREONAV_INLINE Eye makeEyeAt(const GroundData& ground, const CasterView& view, double x, double y) {
-    const int baseI = clampInt(x, 0, ground.width - 2);
-    const int baseJ = clampInt(y, 0, ground.height - 2);
-    // Heights take part as (eye - sample) + rest + t * slope, beside differences of samples: each term is
-    // rounded once, and each is at most the largest of these in size; 2^-21 of it covers the few roundings of
-    // 2^-24.
-    const float height = static_cast<float>(view.originZ);
-    const auto size = [](double z) { return static_cast<float>(z < 0 ? -z : z); };
-    float largest = ground.maxHeight - ground.minHeight;
-    if (size(view.originZ - ground.minHeight) > largest) largest = size(view.originZ - ground.minHeight);
-    if (size(view.originZ - ground.maxHeight) > largest) largest = size(view.originZ - ground.maxHeight);
-    return {ground,
-            x,
-            y,
-            view.originZ,
-            baseI,
-            baseJ,
-            F(static_cast<float>(x - baseI)),
-            F(static_cast<float>(y - baseJ)),
-            F(height),
-            F(static_cast<float>(view.originZ - height)),
-            F(largest * 0x1p-21f),
-            I(ground.width - 2),
-            I(ground.height - 2),
-            view.nearDepth};
-}
-
-STEREONAV_INLINE Eye makeEye(const GroundData& ground, const CasterView& view) {
-    return makeEyeAt(ground, view, view.originX, view.originY);
-}
-
-STEREONAV_INLINE F infinity() {
-    return F(__builtin_inff());
-}
-
-// A direction component that may be divided by: its size is kept above 1e-18.
-STEREONAV_INLINE F divisible(F d) {
-    return select(abs(d) < F(1e-18f), select(d < F(0.0f), F(-1e-18f), F(1e-18f)), d);
-}
-
-struct Walk {
-    Rays rays;
-    F inverseX, inverseY;
-    M eastward, northward, downward;
-    F t;
-    F floor;  // no hit lies before: the near distance, or where the ray came to this ground
-    I i, j, level;
-    M active;
-    M risen;  // above all ground and rising: free for good
-    F over;   // height of the eye over the highest sample, metres, and the margin
-};
 
 // Parameters at which the ray leaves the block of 2^level cells around (i, j), and the block's border.
 struct BlockExit {
@@ -101,7 +15,9 @@ struct BlockExit {
     F tx, ty, t;
 };
 
-STEREONAV_INLINE BlockExit blockExit(const Eye& eye, const Walk& w, I blockI, I blockJ, I level) {
+template <bool kBent>
+STEREONAV_INLINE BlockExit blockExit(const Eye<kBent>& eye, const Walk<kBent>& w, I blockI, I blockJ,
+                                     I level) {
     BlockExit e;
     e.borderI = shiftLeft(blockI + select(w.eastward, I(1), I(0)), level);
     e.borderJ = shiftLeft(blockJ + select(w.northward, I(1), I(0)), level);
@@ -112,8 +28,9 @@ STEREONAV_INLINE BlockExit blockExit(const Eye& eye, const Walk& w, I blockI, I 
 }
 
 // Moves the lanes `move` to the cell behind the block's border.
-STEREONAV_INLINE void leaveBlock(const Eye& eye, Walk& w, const BlockExit& e, I blockI, I blockJ, I level,
-                                 M move) {
+template <bool kBent>
+STEREONAV_INLINE void leaveBlock(const Eye<kBent>& eye, Walk<kBent>& w, const BlockExit& e, I blockI,
+                                 I blockJ, I level, M move) {
     const I last = shiftLeft(I(1), level) - I(1);
     const I firstI = shiftLeft(blockI, level), firstJ = shiftLeft(blockJ, level);
     const I alongI =
@@ -134,7 +51,8 @@ STEREONAV_INLINE void leaveBlock(const Eye& eye, Walk& w, const BlockExit& e, I 
 constexpr int kColdLevel = 3;
 
 // The same for single cells: nothing to round, the other index stays.
-STEREONAV_INLINE BlockExit cellExit(const Eye& eye, const Walk& w) {
+template <bool kBent>
+STEREONAV_INLINE BlockExit cellExit(const Eye<kBent>& eye, const Walk<kBent>& w) {
     BlockExit e;
     e.borderI = w.i + select(w.eastward, I(1), I(0));
     e.borderJ = w.j + select(w.northward, I(1), I(0));
@@ -144,7 +62,8 @@ STEREONAV_INLINE BlockExit cellExit(const Eye& eye, const Walk& w) {
     return e;
 }
 
-STEREONAV_INLINE void leaveCell(const Eye& eye, Walk& w, const BlockExit& e, M move) {
+template <bool kBent>
+STEREONAV_INLINE void leaveCell(const Eye<kBent>& eye, Walk<kBent>& w, const BlockExit& e, M move) {
     const M crossX = e.tx < e.ty;
     w.i = select(move & crossX, e.borderI + e.borderI - w.i - I(1), w.i);
     w.j = select(andNot(move, crossX), e.borderJ + e.borderJ - w.j - I(1), w.j);
@@ -159,10 +78,20 @@ struct CellHit {
     F h00, h10, h01, h11;
 };
 
+// Of the height over a cell's ground along a ray: half its second derivative.
+template <bool kBent>
+STEREONAV_INLINE F curvatureOf(const Walk<kBent>& w, F twist) {
+    if constexpr (kBent)
+        return w.sink - w.rays.x * w.rays.y * twist;
+    else
+        return F(0.0f) - w.rays.x * w.rays.y * twist;
+}
+
 // The first meeting with the surface of cell (i, j) at or behind w.t, for lanes m. The height over
 // ground is c + b s + a s^2 with s = t - w.t. `unsure`: already below at entry, so that a corner of
 // another cell was passed over, or the eye is below ground.
-STEREONAV_INLINE CellHit hitCell(const Eye& eye, const Walk& w, const BlockExit& e, M m) {
+template <bool kBent>
+STEREONAV_INLINE CellHit hitCell(const Eye<kBent>& eye, const Walk<kBent>& w, const BlockExit& e, M m) {
     CellHit c;
     const I index = w.j * I(eye.ground.width) + w.i;
     const FPair south = gatherPair(eye.ground.heights, index, m);
@@ -172,10 +101,10 @@ STEREONAV_INLINE CellHit hitCell(const Eye& eye, const Walk& w, const BlockExit&
     const F u = mulAdd(w.t, w.rays.x, eye.relativeX - toFloat(w.i - I(eye.baseI)));
     const F v = mulAdd(w.t, w.rays.y, eye.relativeY - toFloat(w.j - I(eye.baseJ)));
     const F slopeU = mulAdd(v, twist, du), slopeV = mulAdd(u, twist, dv);
-    F height = mulAdd(w.t, w.rays.z, (eye.height - c.h00) + eye.rest);
+    F height = heightAt(w, w.t, (eye.height - c.h00) + eye.rest);
     height = height - mulAdd(u, slopeU, v * dv);
-    const F b = w.rays.z - mulAdd(w.rays.x, slopeU, w.rays.y * slopeV);
-    const F a = F(0.0f) - w.rays.x * w.rays.y * twist;
+    const F b = riseAt(w, w.t) - mulAdd(w.rays.x, slopeU, w.rays.y * slopeV);
+    const F a = curvatureOf(w, twist);
     c.unsure = m & (height < F(0.0f) - eye.margin - eye.margin);
     height = max(height, F(0.0f));
     const F discriminant = mulAdd(b, b, F(-4.0f) * a * height);
@@ -194,14 +123,19 @@ STEREONAV_INLINE CellHit hitCell(const Eye& eye, const Walk& w, const BlockExit&
 
 // One Newton step from the single-precision hit, with the height over ground taken in double precision.
 // Lanes whose hit is not settled by it, or lies outside the cell, are returned.
-STEREONAV_INLINE M refine(const Eye& eye, const Walk& w, const CellHit& c, M m, Hits& hits) {
+template <bool kBent>
+STEREONAV_INLINE M refine(const Eye<kBent>& eye, const Walk<kBent>& w, const CellHit& c, M m, Hits& hits) {
     const D t = toDouble(c.t);
     const D u = (D(eye.x) - toDouble(w.i)) + t * w.rays.exactX;
     const D v = (D(eye.y) - toDouble(w.j)) + t * w.rays.exactY;
     const D h00 = toDouble(c.h00);
     const D du = toDouble(c.h10) - h00, dv = toDouble(c.h01) - h00;
     const D twist = (toDouble(c.h11) - toDouble(c.h01)) - du;
-    const F height = toFloat(((D(eye.z) - h00) + t * w.rays.exactZ) - (u * (du + v * twist) + v * dv));
+    D slope = w.rays.exactZ;
+    if constexpr (kBent)
+        slope = slope + t * (D(eye.bend.bendX) * w.rays.exactX * w.rays.exactX +
+                             D(eye.bend.bendY) * w.rays.exactY * w.rays.exactY);
+    const F height = toFloat(((D(eye.z) - h00) + t * slope) - (u * (du + v * twist) + v * dv));
     const F step = F(0.0f) - height * approxReciprocal(c.approach);
     const F settledU = mulAdd(step, w.rays.x, toFloat(u)), settledV = mulAdd(step, w.rays.y, toFloat(v));
     const M inside =
@@ -218,20 +152,21 @@ STEREONAV_INLINE M refine(const Eye& eye, const Walk& w, const CellHit& c, M m, 
     return andNot(m, good);
 }
 
-// Rate of height over ground along a ray at a point of a cell, metres for a unit of t.
+// Rate of height over ground along a ray at a point of a cell, metres for a unit of t. rise: of the ray
+// there.
 STEREONAV_INLINE float cellApproach(const GroundData& g, const int* cell, const double* position,
-                                    const double* direction) {
+                                    const double* direction, double rise) {
     const float* south = g.heights + static_cast<std::int64_t>(cell[1]) * g.width + cell[0];
     const float* north = south + g.width;
     const double du = double(south[1]) - south[0], dv = double(north[0]) - south[0];
     const double twist = (double(north[1]) - north[0]) - du;
-    return static_cast<float>(direction[2] - direction[0] * (du + position[1] * twist) -
+    return static_cast<float>(rise - direction[0] * (du + position[1] * twist) -
                               direction[1] * (dv + position[0] * twist));
 }
 
-// Whether a ray is below ground at t, and where in the ground; not in a hole.
-inline bool belowGround(const GroundData& g, const double* origin, const double* direction, double t,
-                        int* cell, double* position) {
+// Whether a ray is below ground at t, and where in the ground; not in a hole. slope: of the way there.
+inline bool belowGround(const GroundData& g, const double* origin, const double* direction, double slope,
+                        double t, int* cell, double* position) {
     const double x = origin[0] + t * direction[0], y = origin[1] + t * direction[1];
     cell[0] = clampInt(x, 0, g.width - 2), cell[1] = clampInt(y, 0, g.height - 2);
     const double u = x - cell[0], v = y - cell[1];
@@ -240,13 +175,14 @@ inline bool belowGround(const GroundData& g, const double* origin, const double*
     const float* north = south + g.width;
     const double low = south[0] + position[0] * (double(south[1]) - south[0]),
                  high = north[0] + position[0] * (double(north[1]) - north[0]);
-    return origin[2] + t * direction[2] < low + position[1] * (high - low);
+    return origin[2] + t * slope < low + position[1] * (high - low);
 }
 
 // The plain walk in double precision, lane by lane, from a little before `from` (the float walk has
 // cleared what lies before, up to corners of cells), but not before `floor`. A ray that came to this ground
 // there, and is below it by no more than single precision tells, has met it there.
-inline void castExactly(const Eye& eye, const Rays& rays, F from, F floor, M m, Hits& hits) {
+template <bool kBent>
+inline void castExactly(const Eye<kBent>& eye, const Rays& rays, F from, F floor, M m, Hits& hits) {
     alignas(64) float t[kLanes], u[kLanes], v[kLanes], approach[kLanes], start[kLanes], least[kLanes];
     alignas(64) std::int32_t i[kLanes], j[kLanes];
     alignas(64) double x[kLanes], y[kLanes], z[kLanes];
@@ -264,20 +200,55 @@ inline void castExactly(const Eye& eye, const Rays& rays, F from, F floor, M m, 
         const double origin[3] = {eye.x, eye.y, eye.z}, direction[3] = {x[k], y[k], z[k]};
         const double tMin = __builtin_fmax(start[k] - back, static_cast<double>(least[k]));
         int cell[2] = {};
-        double position[2] = {};
+        double position[2] = {}, fall = 0, sink = 0;
+        if constexpr (kBent) {
+            fall = eye.bend.bendX / (g.spacingX * g.spacingX);
+            sink = eye.bend.bendX * x[k] * x[k] + eye.bend.bendY * y[k] * y[k];
+        }
         const bool entered = least[k] > eye.nearDepth && tMin == static_cast<double>(least[k]);
-        t[k] = entered && belowGround(g, origin, direction, tMin, cell, position)
+        t[k] = entered && belowGround(g, origin, direction, z[k] + tMin * sink, tMin, cell, position)
                    ? least[k]
-                   : static_cast<float>(g.exactHit(g.context, origin, direction, tMin, cell, position));
+                   : static_cast<float>(g.exactHit(g.context, origin, direction, fall, tMin, cell, position));
         i[k] = cell[0], j[k] = cell[1];
         u[k] = static_cast<float>(position[0]), v[k] = static_cast<float>(position[1]);
-        if (t[k] < __builtin_inff()) approach[k] = cellApproach(g, cell, position, direction);
+        if (t[k] < __builtin_inff())
+            approach[k] =
+                cellApproach(g, cell, position, direction, z[k] + 2 * static_cast<double>(t[k]) * sink);
     }
     hits = {loadF(t), loadI(i), loadI(j), loadF(u), loadF(v), loadF(approach), hits.free};
 }
 
-STEREONAV_INLINE Walk startWalk(const Eye& eye, const Rays& rays, F start, I level, M lanes) {
-    Walk w;
+// Of over + t z + t^2 sink, which is 0 where a bent ray comes down to the highest sample, and where it leaves
+// that again. Where it is near 0 the ray is level there: what rounding makes of that is within the margin.
+struct Discriminant {
+    F value, slack;
+};
+STEREONAV_INLINE Discriminant discriminantOf(const Walk<true>& w) {
+    const F square = w.rays.z * w.rays.z;
+    return {mulAdd(F(-4.0f) * w.sink, w.over, square), F(0x1p-20f) * square};
+}
+
+// Falling rays from above all ground that bend up before they come down to it.
+STEREONAV_INLINE M staysAbove(const Walk<true>& w) {
+    const Discriminant d = discriminantOf(w);
+    return (w.over > F(0.0f)) & (d.value < F(0.0f) - d.slack);
+}
+
+// Where falling rays come down to the highest sample, or a little before.
+template <bool kBent>
+STEREONAV_INLINE F comesDown(const Walk<kBent>& w) {
+    if constexpr (kBent) {
+        const Discriminant d = discriminantOf(w);
+        const F root = sqrt(max(d.value, F(0.0f)) + d.slack);
+        return F(0.999999f) * (w.over + w.over) / max(root - w.rays.z, F(1e-30f));
+    } else {
+        return F(0.999999f) * w.over / max(F(0.0f) - w.rays.z, F(1e-30f));
+    }
+}
+
+template <bool kBent>
+STEREONAV_INLINE Walk<kBent> startWalk(const Eye<kBent>& eye, const Rays& rays, F start, I level, M lanes) {
+    Walk<kBent> w;
     w.floor = F(eye.nearDepth);
     w.rays = rays;
     w.inverseX = approxReciprocal(divisible(rays.x));
@@ -285,7 +256,10 @@ STEREONAV_INLINE Walk startWalk(const Eye& eye, const Rays& rays, F start, I lev
     // By the sign of what is divided by: a direction of exactly 0 has the positive one.
     w.eastward = w.inverseX > F(0.0f);
     w.northward = w.inverseY > F(0.0f);
-    w.downward = rays.z < F(0.0f);
+    if constexpr (kBent)
+        w.sink = mulAdd(F(static_cast<float>(eye.bend.bendX)) * rays.x, rays.x,
+                        F(static_cast<float>(eye.bend.bendY)) * rays.y * rays.y);
+    takeSlope(w, rays.z);
     const F west = (toFloat(I(-eye.baseI)) - eye.relativeX) * w.inverseX;
     const F east = (toFloat(eye.lastI + I(1 - eye.baseI)) - eye.relativeX) * w.inverseX;
     const F south = (toFloat(I(-eye.baseJ)) - eye.relativeY) * w.inverseY;
@@ -295,9 +269,9 @@ STEREONAV_INLINE Walk startWalk(const Eye& eye, const Rays& rays, F start, I lev
     const F end = min(max(west, east), max(south, north));
     // Above all ground: a falling ray starts where it comes down to the highest sample.
     w.over = (eye.height - F(eye.ground.maxHeight)) + (eye.rest - eye.margin);
-    const F down = F(0.999999f) * w.over / max(F(0.0f) - rays.z, F(1e-30f));
-    t = select(w.downward & (w.over > F(0.0f)), max(t, down), t);
-    w.risen = andNot(mulAdd(min(t, F(1e30f)), rays.z, w.over) > F(0.0f), w.downward);
+    t = select(w.downward & (w.over > F(0.0f)), max(t, comesDown(w)), t);
+    w.risen = hasRisenAt(w, min(t, F(kBent ? 1e12f : 1e30f)));
+    if constexpr (kBent) w.risen = w.risen | (w.downward & staysAbove(w));
     w.active = andNot(lanes & (t <= end) & (t < infinity()), w.risen);
     w.t = t;
     t = select(w.active, t, F(0.0f));
@@ -309,8 +283,8 @@ STEREONAV_INLINE Walk startWalk(const Eye& eye, const Rays& rays, F start, I lev
 
 // Leaps with the lanes `move` until all (patient) or most have left the ground or stand in a cell they may
 // hit: the latter are returned. Waiting for the last leaves the others idle where lanes differ much.
-template <bool patient>
-STEREONAV_INLINE M leap(const Eye& eye, Walk& w, M move) {
+template <bool patient, bool kBent>
+STEREONAV_INLINE M leap(const Eye<kBent>& eye, Walk<kBent>& w, M move) {
     const I top(eye.ground.levels - 1);
     M parked = maskFromBits(0);
     while (any(move)) {
@@ -319,8 +293,8 @@ STEREONAV_INLINE M leap(const Eye& eye, Walk& w, M move) {
                         blockJ * lookup16(eye.ground.maximaPitch, w.level) + blockI;
         const F highest = gather(eye.ground.maxima, index, move, F(0.0f));
         const BlockExit e = blockExit(eye, w, blockI, blockJ, w.level);
-        const F lowestAt = select(w.downward, e.t, w.t);
-        const M near = move & (mulAdd(lowestAt, w.rays.z, eye.rest - eye.margin) <= highest - eye.height);
+        const F lowestAt = lowestUntil(w, e.t);
+        const M near = move & (heightAt(w, lowestAt, eye.rest - eye.margin) <= highest - eye.height);
         const M arrived = near & (w.level == I(0));
         parked = parked | arrived;
         const M over = andNot(move, near);
@@ -330,7 +304,7 @@ STEREONAV_INLINE M leap(const Eye& eye, Walk& w, M move) {
                                  blockJ + select(w.northward, I(1), I(0)));
         const I up = (crossed & I(1)) ^ I(1);
         w.level = clamp(w.level + select(near, I(-1), up), I(0), top);
-        const M risen = andNot(over & (mulAdd(w.t, w.rays.z, w.over) > F(0.0f)), w.downward);
+        const M risen = over & hasRisenAt(w, w.t);
         w.risen = w.risen | risen;
         w.active = andNot(w.active, risen);
         move = andNot(move, arrived) & w.active;
@@ -353,7 +327,8 @@ STEREONAV_INLINE void keep(CellHit& found, const CellHit& c) {
 }
 
 // Tries the cells that the lanes `m` stand in, and moves on those that miss.
-STEREONAV_INLINE void tryCells(const Eye& eye, Walk& w, M m, CellHit& found) {
+template <bool kBent>
+STEREONAV_INLINE void tryCells(const Eye<kBent>& eye, Walk<kBent>& w, M m, CellHit& found) {
     const BlockExit e = cellExit(eye, w);
     const CellHit c = hitCell(eye, w, e, m);
     keep(found, c);
@@ -363,7 +338,8 @@ STEREONAV_INLINE void tryCells(const Eye& eye, Walk& w, M m, CellHit& found) {
 }
 
 // The last word on a packet's hits, once all its lanes are done.
-STEREONAV_INLINE Hits settle(const Eye& eye, const Walk& w, const CellHit& found) {
+template <bool kBent>
+STEREONAV_INLINE Hits settle(const Eye<kBent>& eye, const Walk<kBent>& w, const CellHit& found) {
     Hits hits;
     hits.t = infinity();
     hits.i = hits.j = I(0);
@@ -381,7 +357,8 @@ STEREONAV_INLINE Hits settle(const Eye& eye, const Walk& w, const CellHit& found
 }
 
 // The rest of a walk that was started.
-STEREONAV_INLINE Hits walkOn(const Eye& eye, Walk w) {
+template <bool kBent>
+STEREONAV_INLINE Hits walkOn(const Eye<kBent>& eye, Walk<kBent> w) {
     const I level = w.level;
     CellHit found;
     found.hit = found.unsure = maskFromBits(0);
@@ -402,7 +379,8 @@ STEREONAV_INLINE Hits walkOn(const Eye& eye, Walk w) {
 // First hits of the rays `lanes` at or behind `start` (and the near distance). level: pyramid level to
 // begin with; 0 where the hit is thought to be close: then two cells are tried outright, which is all
 // that most rays need.
-STEREONAV_INLINE Hits castPacket(const Eye& eye, const Rays& rays, F start, I level, M lanes) {
+template <bool kBent>
+STEREONAV_INLINE Hits castPacket(const Eye<kBent>& eye, const Rays& rays, F start, I level, M lanes) {
     return walkOn(eye, startWalk(eye, rays, start, level, lanes));
 }
 

@@ -9,11 +9,19 @@
 
 namespace stereonav::STEREONAV_ISA {
 
+// Rise of a row's rays for a unit of depth.
+struct RowSlope {
+    D exact;
+    F rough;
+};
+
+template <bool kBent>
 class Columns {
 public:
-    // rays: the lowest ray of each column; all slopes of a row are equal.
+    // rays: the lowest ray of each column.
     // border: where they come from a finer ground; 0: they come from the eye.
-    STEREONAV_INLINE Columns(const Eye& eye, const Rays& rays, M lanes, F border = F(0.0f)) : mEye(eye) {
+    STEREONAV_INLINE Columns(const Eye<kBent>& eye, const Rays& rays, M lanes, F border = F(0.0f))
+        : mEye(eye) {
         mWalk = startWalk(eye, rays, border, I(0), lanes);
         mEntering = border > F(0.0f);
         mWalk.floor = max(mWalk.floor, border);
@@ -22,11 +30,10 @@ public:
         mStarted = false;
     }
 
-    // Hits of the lanes' rays in the next row: z is their slope, not below that of the rows before.
-    STEREONAV_INLINE Hits cast(double z, M lanes) {
-        mWalk.rays.exactZ = D(z);
-        mWalk.rays.z = F(static_cast<float>(z));
-        mWalk.downward = mWalk.rays.z < F(0.0f);
+    // Hits of the lanes' rays in the next row, none of them flatter than that before.
+    STEREONAV_INLINE Hits cast(const RowSlope& slope, M lanes) {
+        mWalk.rays.exactZ = slope.exact;
+        takeSlope(mWalk, slope.rough);
         if (!mStarted) start();
         CellHit found;
         found.hit = found.unsure = maskFromBits(0);
@@ -85,18 +92,18 @@ private:
         // The eye above it.
         mGround0 = (mEye.height - mH00) + (mEye.rest - mulAdd(u, slopeU, v * dv));
         mGround1 = mulAdd(mWalk.rays.x, slopeU, mWalk.rays.y * slopeV);
-        mCurvature = F(0.0f) - mWalk.rays.x * mWalk.rays.y * twist;
+        mCurvature = curvatureOf(mWalk, twist);
         mExit = cellExit(mEye, mWalk);
         mLength = mulAdd(mExit.t, F(0x1p-21f), mExit.t - mWalk.t);
     }
 
     STEREONAV_INLINE void solve(M m, CellHit& found) {
-        F height = mulAdd(mWalk.t, mWalk.rays.z, mGround0);
+        F height = heightAt(mWalk, mWalk.t, mGround0);
         const M unsure = m & (height < F(0.0f) - mEye.margin - mEye.margin);
         const M step = unsure & mEntering & (mWalk.t <= mWalk.floor);
         mSunk = mSunk | step;
         height = max(height, F(0.0f));
-        const F b = mWalk.rays.z - mGround1;
+        const F b = riseAt(mWalk, mWalk.t) - mGround1;
         const F discriminant = mulAdd(b, b, F(-4.0f) * mCurvature * height);
         const F root = discriminant * approxRsqrt(max(discriminant, F(1e-30f)));
         const M rising = b > F(0.0f);
@@ -125,8 +132,8 @@ private:
         return hits;
     }
 
-    const Eye& mEye;
-    Walk mWalk;
+    const Eye<kBent>& mEye;
+    Walk<kBent> mWalk;
     BlockExit mExit;
     F mH00{0.0f}, mH10{0.0f}, mH01{0.0f}, mH11{0.0f};
     F mGround0{0.0f}, mGround1{0.0f}, mCurvature{0.0f}, mLength{0.0f};

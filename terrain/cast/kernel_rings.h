@@ -18,7 +18,8 @@ STEREONAV_INLINE Rays scaledRays(const Rays& rays, double scale) {
 }
 
 // Where the rays leave the ground. They come from inside it, or above its border.
-STEREONAV_INLINE F borderExit(const Eye& eye, const Rays& rays) {
+template <bool kBent>
+STEREONAV_INLINE F borderExit(const Eye<kBent>& eye, const Rays& rays) {
     const F inverseX = approxReciprocal(divisible(rays.x)), inverseY = approxReciprocal(divisible(rays.y));
     const F west = (toFloat(I(-eye.baseI)) - eye.relativeX) * inverseX;
     const F east = (toFloat(eye.lastI + I(1 - eye.baseI)) - eye.relativeX) * inverseX;
@@ -34,7 +35,8 @@ struct Standing {
     F approach;  // as of a hit
 };
 
-STEREONAV_INLINE Standing standingAt(const Eye& eye, const Walk& w, M m) {
+template <bool kBent>
+STEREONAV_INLINE Standing standingAt(const Eye<kBent>& eye, const Walk<kBent>& w, M m) {
     Standing s;
     const I index = w.j * I(eye.ground.width) + w.i;
     const FPair south = gatherPair(eye.ground.heights, index, m);
@@ -44,17 +46,19 @@ STEREONAV_INLINE Standing standingAt(const Eye& eye, const Walk& w, M m) {
     s.u = clamp(mulAdd(w.t, w.rays.x, eye.relativeX - toFloat(w.i - I(eye.baseI))), F(0.0f), F(1.0f));
     s.v = clamp(mulAdd(w.t, w.rays.y, eye.relativeY - toFloat(w.j - I(eye.baseJ))), F(0.0f), F(1.0f));
     const F slopeU = mulAdd(s.v, twist, du), slopeV = mulAdd(s.u, twist, dv);
-    s.height = mulAdd(w.t, w.rays.z, (eye.height - south.first) + eye.rest) - mulAdd(s.u, slopeU, s.v * dv);
-    s.approach = w.rays.z - mulAdd(w.rays.x, slopeU, w.rays.y * slopeV);
+    s.height = heightAt(w, w.t, (eye.height - south.first) + eye.rest) - mulAdd(s.u, slopeU, s.v * dv);
+    s.approach = riseAt(w, w.t) - mulAdd(w.rays.x, slopeU, w.rays.y * slopeV);
     return s;
 }
 
 // Below the ground by more than rounding makes of nothing. False in a hole, whose heights are NaN.
-STEREONAV_INLINE M sunk(const Eye& eye, F height) {
+template <bool kBent>
+STEREONAV_INLINE M sunk(const Eye<kBent>& eye, F height) {
     return height < F(0.0f) - eye.margin - eye.margin;
 }
 
-STEREONAV_INLINE void meetAt(const Walk& w, const Standing& s, M m, Hits& hits) {
+template <bool kBent>
+STEREONAV_INLINE void meetAt(const Walk<kBent>& w, const Standing& s, M m, Hits& hits) {
     hits.t = select(m, w.t, hits.t);
     hits.i = select(m, w.i, hits.i);
     hits.j = select(m, w.j, hits.j);
@@ -65,16 +69,17 @@ STEREONAV_INLINE void meetAt(const Walk& w, const Standing& s, M m, Hits& hits) 
 }
 
 // First hits of rays that come from the finer ground at `border`; start: as of castPacket.
-STEREONAV_INLINE Hits castEntering(const Eye& eye, const Rays& rays, F border, F start, M lanes) {
+template <bool kBent>
+STEREONAV_INLINE Hits castEntering(const Eye<kBent>& eye, const Rays& rays, F border, F start, M lanes) {
     const M entering = start <= border;
     const I cold(kColdLevel < eye.ground.levels ? kColdLevel : 0);
-    Walk w = startWalk(eye, rays, max(start, border), select(entering, cold, I(0)), lanes);
+    Walk<kBent> w = startWalk(eye, rays, max(start, border), select(entering, cold, I(0)), lanes);
     w.floor = border;
     const M atBorder = w.active & entering & (w.t <= border);
     if (!any(atBorder)) return walkOn(eye, w);
     const Standing standing = standingAt(eye, w, atBorder);
     const M below = atBorder & sunk(eye, standing.height);
-    const Walk entry = w;
+    const Walk<kBent> entry = w;
     w.active = andNot(w.active, below);
     Hits hits = walkOn(eye, w);
     meetAt(entry, standing, below, hits);
@@ -83,7 +88,8 @@ STEREONAV_INLINE Hits castEntering(const Eye& eye, const Rays& rays, F border, F
 
 // For rays `lanes` that did not meet the ground `inner`: what they meet beyond it, and its colour, or the
 // sky's. start: as of castPacket.
-inline void castBeyond(const CasterScene& inner, const CasterView& view, const Eye& innerEye,
+template <bool kBent>
+inline void castBeyond(const CasterScene& inner, const CasterView& view, const Eye<kBent>& innerEye,
                        const Rays& innerRays, F start, M lanes, Hits& hits, I& color) {
     const CasterScene* scene = &inner;
     double x = innerEye.x, y = innerEye.y;
@@ -96,7 +102,7 @@ inline void castBeyond(const CasterScene& inner, const CasterView& view, const E
         y = (y - beyond.originY) * beyond.scale;
         rays = scaledRays(rays, beyond.scale);
         scene = beyond.scene;
-        const Eye eye = makeEyeAt(scene->ground, view, x, y);
+        const Eye<kBent> eye = makeEyeAt<kBent>(scene->ground, view, x, y);
         const Hits met = castEntering(eye, rays, border, start, left);
         const M here = left & (met.t < infinity());
         const M shaded = scene->beyond.scene != nullptr ? here : left;
@@ -110,7 +116,8 @@ inline void castBeyond(const CasterScene& inner, const CasterView& view, const E
 
 // Colours of rays `lanes` that were cast at the scene's first ground; hits become those beyond it where they
 // met nothing there.
-STEREONAV_INLINE I shadeThrough(const CasterScene& scene, const CasterView& view, const Eye& eye,
+template <bool kBent>
+STEREONAV_INLINE I shadeThrough(const CasterScene& scene, const CasterView& view, const Eye<kBent>& eye,
                                 const Rays& rays, F start, M lanes, Hits& hits) {
     if (scene.beyond.scene == nullptr) return shadePacket(scene, view, rays, hits, lanes);
     const M here = lanes & (hits.t < infinity());

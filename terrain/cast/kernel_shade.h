@@ -200,7 +200,12 @@ STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view,
         if (scene.fog.perMetre > 0) {
             color = fogged(scene.fog, color, expMinus(t * length * F(scene.fog.perMetre)));
         }
-        if (scene.air.any) color = aired(scene.air, view.air, color, x, y, rays.z, length, t);
+        if (scene.air.any) {
+            // That up to the place that is seen (EarthBend::wayToPlace).
+            F z = rays.z;
+            if (view.fall > 0) z = mulAdd(F(static_cast<float>(view.fall)) * mulAdd(x, x, y * y), t, z);
+            color = aired(scene.air, view.air, color, x, y, z, length, t);
+        }
     }
     I packed = closeColor(color);
     if (any(sky)) packed = select(sky, closeColor(skyColor(scene.sky, x, y, rays.z, sky)), packed);

@@ -9,17 +9,23 @@
 
 namespace stereonav::STEREONAV_ISA {
 
+template <bool kBent>
 class RayStream {
 public:
     STEREONAV_INLINE RayStream(const CasterScene& scene, const CasterView& view, const CasterBatch& batch,
                                const CasterTarget& target)
-        : mScene(scene), mView(view), mBatch(batch), mTarget(target), mEye(makeEye(scene.ground, view)) {
+        : mScene(scene),
+          mView(view),
+          mBatch(batch),
+          mTarget(target),
+          mEye(makeEye<kBent>(scene.ground, view)) {
         for (int k = 0; k < kLanes; ++k) mPixel[k] = 0, mX[k] = mY[k] = mZ[k] = 0, mStart[k] = 0;
         mFound.hit = mFound.unsure = mTaken = mWalk.active = mWalk.risen = maskFromBits(0);
         mFound.t = mWalk.t = F(0.0f);
         mFound.approach = F(-1.0f);
         mFound.curvature = mFound.h00 = mFound.h10 = mFound.h01 = mFound.h11 = F(0.0f);
         mWalk.i = mWalk.j = mWalk.level = I(0);
+        if constexpr (kBent) mWalk.sink = mWalk.lowest = F(0.0f);
     }
 
     void cast() {
@@ -60,8 +66,8 @@ private:
         const F start = loadF(mStart);
         const M known = start > F(0.0f);
         const I cold(kColdLevel < mScene.ground.levels ? kColdLevel : 0);
-        const Walk next = startWalk(mEye, rays(), start, select(known, I(0), cold), fresh);
-        const Walk old = mWalk;
+        const Walk<kBent> next = startWalk(mEye, rays(), start, select(known, I(0), cold), fresh);
+        const Walk<kBent> old = mWalk;
         mWalk = next;
         mWalk.t = select(fresh, next.t, old.t);
         mWalk.i = select(fresh, next.i, old.i);
@@ -112,8 +118,8 @@ private:
     const CasterView& mView;
     const CasterBatch& mBatch;
     const CasterTarget& mTarget;
-    const Eye mEye;
-    Walk mWalk;
+    const Eye<kBent> mEye;
+    Walk<kBent> mWalk;
     CellHit mFound;
     M mTaken;
     int mNext = 0;

@@ -9,10 +9,10 @@
 namespace stereonav {
 namespace {
 
-// A ray in grid coordinates; z stays in metres.
+// A ray in grid coordinates; z stays in metres. Over level ground it is z + t dz + t^2 sink.
 struct GridRay {
     glm::dvec2 origin, direction;
-    double z, dz;
+    double z, dz, sink;
     double x(double t) const { return origin.x + t * direction.x; }
     double y(double t) const { return origin.y + t * direction.y; }
 };
@@ -55,19 +55,41 @@ double hitInCell(const Heightfield& ground, const GridRay& ray, int i, int j, do
     const double u = ray.x(t) - i, v = ray.y(t) - j;
     const glm::dvec2 d = ray.direction;
     // Eye and ground are subtracted first, which is exact where both are far from 0.
-    const double c = (ray.z - h00) + t * ray.dz - (u * du + v * dv + u * v * twist);
-    const double b = ray.dz - (d.x * (du + v * twist) + d.y * (dv + u * twist));
-    const double a = -d.x * d.y * twist;
+    const double c = (ray.z - h00) + t * (ray.dz + t * ray.sink) - (u * du + v * dv + u * v * twist);
+    const double b = (ray.dz + 2 * t * ray.sink) - (d.x * (du + v * twist) + d.y * (dv + u * twist));
+    const double a = ray.sink - d.x * d.y * twist;
     return t + firstRoot(a, b, c, end - t);
+}
+
+GridRay gridRay(const Heightfield& ground, const glm::dvec3& origin, const glm::dvec3& direction,
+                const EarthBend& bend) {
+    const glm::dvec2 way(direction), off = glm::dvec2(origin) - bend.middle;
+    return {ground.gridFromWorld(glm::dvec2(origin)), way / ground.spacing(),
+            origin.z + bend.sinkAt(glm::dvec2(origin)), direction.z + 2 * bend.fall * glm::dot(off, way),
+            bend.fall * glm::dot(way, way)};
+}
+
+// Where a ray has passed all heights, and meets nothing any more: a straight one over or under them; one that
+// bends up over them, before which it may come down twice. That of a level straight ray is infinite.
+double passedAll(const Heightfield& ground, const GridRay& ray) {
+    constexpr double kRounding = 1e-12;
+    if (ray.sink > 0) {
+        const double over = ray.z - ground.maxHeight();
+        const double square = ray.dz * ray.dz, discriminant = square - 4 * ray.sink * over;
+        if (discriminant < -kRounding * square) return -kInfinity;
+        const double root = std::sqrt(std::max(0.0, discriminant));
+        return ray.dz > 0 ? -2 * over / (ray.dz + root) : (root - ray.dz) / (2 * ray.sink);
+    }
+    if (ray.dz == 0) return kInfinity;
+    return ((ray.dz < 0 ? ground.minHeight() : ground.maxHeight()) - ray.z) / ray.dz;
 }
 
 }  // namespace
 
 GroundHit castPlain(const Heightfield& ground, const glm::dvec3& origin, const glm::dvec3& direction,
-                    double tMin) {
+                    double tMin, const EarthBend& bend) {
     const GroundHit miss{kInfinity, 0, 0, 0, 0};
-    const GridRay ray{ground.gridFromWorld(glm::dvec2(origin)), glm::dvec2(direction) / ground.spacing(),
-                      origin.z, direction.z};
+    const GridRay ray = gridRay(ground, origin, direction, bend);
     const int lastI = ground.width() - 2, lastJ = ground.height() - 2;
     const Interval x = insideSlab(ray.origin.x, ray.direction.x, lastI + 1);
     const Interval y = insideSlab(ray.origin.y, ray.direction.y, lastJ + 1);
@@ -77,10 +99,8 @@ GroundHit castPlain(const Heightfield& ground, const glm::dvec3& origin, const g
     int i = std::clamp(static_cast<int>(std::floor(ray.x(t))), 0, lastI);
     int j = std::clamp(static_cast<int>(std::floor(ray.y(t))), 0, lastJ);
     const int stepI = ray.direction.x > 0 ? 1 : -1, stepJ = ray.direction.y > 0 ? 1 : -1;
-    // A ray straight up or down stays in its cell and ends where it has passed all heights.
-    const double depthLimit =
-        ray.dz != 0 ? (ray.dz < 0 ? ground.minHeight() : ground.maxHeight()) - ray.z : 0;
-    const double last = ray.dz != 0 ? std::max(t, depthLimit / ray.dz * (1 + 1e-12) + 1e-9) : kInfinity;
+    // A ray straight up or down stays in its cell and ends there.
+    const double last = std::max(t, passedAll(ground, ray) * (1 + 1e-12) + 1e-9);
     while (i >= 0 && j >= 0 && i <= lastI && j <= lastJ) {
         const double tx =
             ray.direction.x != 0 ? (i + (stepI > 0) - ray.origin.x) / ray.direction.x : kInfinity;

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/math/earth_bend.h"
 #include "terrain/ground/heightfield.h"
 
 namespace stereonav {
@@ -16,8 +17,9 @@ struct GroundHit {
 };
 
 // First t >= tMin at which origin + t * direction (world) meets the bilinear surface, from either
-// side. direction: any length, not zero. Cells with a hole are passed through.
+// side. direction: any length, not zero. Cells with a hole are passed through. bend: of the ground, as the
+// ray sees it.
 GroundHit castPlain(const Heightfield& ground, const glm::dvec3& origin, const glm::dvec3& direction,
-                    double tMin);
+                    double tMin, const EarthBend& bend = {});
 
 }  // namespace stereonav

@@ -32,17 +32,17 @@ GroundHit entryInto(const Heightfield& ground, const glm::dvec2& world, double t
 }  // namespace
 
 RingHit castPlainRings(const GroundRings& rings, const glm::dvec3& origin, const glm::dvec3& direction,
-                       double tMin) {
+                       double tMin, const EarthBend& bend) {
     double border = -kInfinity;
     for (int n = 0; n < static_cast<int>(rings.rings.size()); ++n) {
         const Heightfield& ground = rings.rings[n]->ground;
         const double start = std::max(tMin, border);
         if (!(start < kInfinity)) break;
-        const glm::dvec3 place = origin + start * direction;
+        const glm::dvec3 place = bend.placeOf(origin + start * direction);
         if (n > 0 && tMin <= border && ground.contains(glm::dvec2(place)) &&
             place.z < ground.heightAt(glm::dvec2(place)))
             return {n, entryInto(ground, glm::dvec2(place), start)};
-        const GroundHit hit = castPlain(ground, origin, direction, start);
+        const GroundHit hit = castPlain(ground, origin, direction, start, bend);
         if (hit.t < kInfinity) return {n, hit};
         border = std::max(border, exitOf(ground, origin, direction));
     }

@@ -12,8 +12,8 @@ struct RingHit {
 };
 
 // First t >= tMin at which origin + t * direction (world) meets a ring's surface, or the step up to the next
-// ring's where it enters that. direction: any length, not zero.
+// ring's where it enters that. direction: any length, not zero. bend: of the ground, as the ray sees it.
 RingHit castPlainRings(const GroundRings& rings, const glm::dvec3& origin, const glm::dvec3& direction,
-                       double tMin);
+                       double tMin, const EarthBend& bend = {});
 
 }  // namespace stereonav

@@ -77,7 +77,7 @@ void RingScenes::mayBeLate(bool may) {
 
 // Stored levels that would not fit are taken coarser.
 std::vector<RingBox> RingScenes::plan(const EyeView& view, const glm::dvec3& way) {
-    RingWish wish{view.eye, std::max(view.pixelWidth(), view.pixelHeight()), mShare, way};
+    RingWish wish{view.eye, std::max(view.pixelWidth(), view.pixelHeight()), mShare, way, view.fall > 0};
     std::vector<RingBox> boxes = planRings(*mLevels, wish);
     if (mLevels->stored()) {
         constexpr double kCoarser = 1.25, kMostShare = 1e6;

@@ -246,8 +246,8 @@ void TerrainRenderer::shadeAgain(const EyeView& view, int y, int x0, int x1, Eye
         } else {
             highlight *= sunShownAt(view.eye + depth * ray);
         }
-        image.color.at(x, y) =
-            packColor(mState->fog.seen(unpackColor(base) + highlight, view.eye, ray, depth));
+        image.color.at(x, y) = packColor(mState->fog.seen(
+            unpackColor(base) + highlight, view.eye, view.bend().wayToPlace(view.eye, ray, depth), depth));
     }
 }
 
@@ -420,7 +420,8 @@ bool TerrainRenderer::mayHitBeyondEdgeFrom(const EyeView& view, PixelRect rect, 
                                            double parallaxScale, double& freeDepth) const {
     if (rect.x1 >= column) return true;
     const double end = parallaxScale / (column - rect.x1);
-    // What is cast, and the ground that is looked at here, may each be off the ground itself.
+    // What is cast, and the ground that is looked at here, may each be off the ground itself. Over a round
+    // Earth it is seen lower yet.
     double coarser = rings() ? rings()->errorBound : 0;
     if (mScene.tiled) coarser += mScene.tiled->levels->errorBound(mScene.tiled->level);
     const Box corners = cornerBox(view, rect);

@@ -56,6 +56,18 @@ void setDirections(CasterView& v, const EyeView& view, const glm::dvec2& spacing
     v.verticalColumns = std::hypot(perStep.x, perStep.y) <= 1e-13 * std::abs(perStep.z);
 }
 
+// From around the head to around the eye: (d + e)^2 - d^2 = 2 d e + e^2, where e leads from the head to the
+// eye.
+void bendAroundEye(CasterView& v, const EyeView& view, const glm::dvec2& spacing) {
+    const glm::dvec2 e(view.eye - view.head);
+    const auto turn = [&](double(&way)[3]) {
+        way[2] += 2 * view.fall * (e.x * way[0] * spacing.x + e.y * way[1] * spacing.y);
+    };
+    v.fall = view.fall;
+    v.originZ += view.bend().sinkAt(glm::dvec2(view.eye));
+    turn(v.base), turn(v.perLane), turn(v.perStep);
+}
+
 // Slope of the band line through lane a at step q: lanes it moves for each step up.
 double lineSlope(const CasterView& v, double a, double q) {
     const double lowQ = v.lowQ - q * v.lowW;
@@ -98,6 +110,7 @@ CasterView makeCasterView(const EyeView& view, const Heightfield& ground) {
     const Nadir nadir = nadirOf(view);
     orient(v, view, nadir);
     setDirections(v, view, ground.spacing());
+    if (view.fall > 0) bendAroundEye(v, view, ground.spacing());
     v.nearDepth = static_cast<float>(view.nearDepth);
     v.pixelWidth = static_cast<float>(view.pixelWidth());
     v.pixelHeight = static_cast<float>(view.pixelHeight());

@@ -31,7 +31,7 @@ public:
           mWay(glm::dvec2(wish.way) / levels.spacing(0)) {
         const double low = std::min(wish.eye.z, wish.eye.z + wish.way.z),
                      high = std::max(wish.eye.z, wish.eye.z + wish.way.z);
-        mOver = std::max({0.0, low - levels.maxHeight(), levels.minHeight() - high});
+        mOver = std::max({0.0, low - levels.maxHeight(), wish.sinks ? 0.0 : levels.minHeight() - high});
     }
 
     // Blocks of that level that must be finer; none where all may be of it.

@@ -22,6 +22,7 @@ struct RingWish {
     double pixelAngle = 0;  // radians: metres that a pixel covers, for a metre of distance
     double share = 0.5;     // of that, which a level may be off; 0: the ground itself
     glm::dvec3 way{0.0};    // and for eyes along this way, from `eye`
+    bool sinks = false;     // the ground is seen lower than it lies, over a round Earth
 };
 
 // Finest first. All but the last hold the place below the eye, and lie within the next, but for what that one

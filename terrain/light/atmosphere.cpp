@@ -20,7 +20,7 @@ constexpr double kRed = 13.5e-6 / kGreenOfRed;    // molecules' extinction at th
 constexpr double kHazeAlbedo = 0.9, kForward = 0.76;
 constexpr double kContrastLeft = 3.912;  // -ln 0.02
 constexpr double kLeastVisibility = 10;  // metres
-constexpr double kEarthRadius = 6371e3;
+constexpr double kGlobeRadius = 6371e3;
 constexpr double kSpace = 80e3;  // metres up: air above it is left out of the sky
 constexpr double kSunOfWhite = 45 * kPi / 180;
 constexpr double kLeastLevelLight = 0.02;       // below it the exposure no longer follows
@@ -39,15 +39,15 @@ glm::dvec2 densityAt(double height) {
 // Height above the sea of a point `way` along a ray that starts at a height with a sine of its elevation. By
 // the difference of squares: heights are small beside the Earth.
 double heightAlong(double height, double sine, double way) {
-    const double r = kEarthRadius + height;
+    const double r = kGlobeRadius + height;
     const double square = way * (way + 2 * r * sine);
     return height + square / (r + std::sqrt(std::max(0.0, r * r + square)));
 }
 // How far a ray goes until it is at a height; negative: it never is. From below upwards the far meeting, and
 // the near one from above.
 double wayTo(double height, double sine, double target) {
-    const double r = kEarthRadius + height;
-    const double c = (height - target) * (2 * kEarthRadius + height + target), b = r * sine;
+    const double r = kGlobeRadius + height;
+    const double c = (height - target) * (2 * kGlobeRadius + height + target), b = r * sine;
     const double discriminant = b * b - c;
     if (discriminant < 0) return -1;
     const double root = std::sqrt(discriminant);
@@ -80,7 +80,7 @@ void Atmosphere::makeSunlight(double elevation) {
     const double sine = std::sin(elevation);
     parallelFor(kHeights, [&](int k) {
         const double height = kSpace * std::pow(k / (kHeights - 1.0), 2.0);
-        const double dip = std::acos(kEarthRadius / (kEarthRadius + height));
+        const double dip = std::acos(kGlobeRadius / (kGlobeRadius + height));
         const double share = sunUp(std::sin(std::clamp(elevation + dip, -kPi / 2, kPi / 2)));
         if (share <= 0) return;
         constexpr int kSteps = 200;
@@ -119,7 +119,7 @@ void Atmosphere::makeElevations() {
         double from = 0, end = atSea ? 0 : toGround ? down : wayTo(mSeenFrom, sine, kSpace);
         if (mSeenFrom > kSpace) from = std::max(wayTo(mSeenFrom, sine, kSpace), 0.0);
         if (mSeenFrom > kSpace && !toGround)
-            end = from > 0 ? -2 * (kEarthRadius + mSeenFrom) * sine - from : from;
+            end = from > 0 ? -2 * (kGlobeRadius + mSeenFrom) * sine - from : from;
         constexpr int kSteps = 160;
         glm::dvec3 tau(0.0), molecules(0.0), haze(0.0), ambient(0.0);
         for (int n = 0; n < kSteps; ++n) {

@@ -57,8 +57,12 @@ public:
             const double first = view.rayDirection(0.5, row + 0.5).z, step = view.right.z * view.pixelWidth();
             const float* const depth = image.viewDepth.row(row);
             double* const heights = at(k);
+            const EarthBend bend = view.bend();
             for (int x = 0; x < mWidth; ++x) {
-                const double height = view.eye.z + static_cast<double>(depth[x]) * (first + step * x);
+                double height = view.eye.z + static_cast<double>(depth[x]) * (first + step * x);
+                if (bend.fall > 0)
+                    height += bend.sinkAt(
+                        glm::dvec2(view.pointAt(x + 0.5, row + 0.5, static_cast<double>(depth[x]))));
                 heights[x] = depth[x] > 0 && depth[x] < kMissDepth ? height : std::nan("");
             }
         }

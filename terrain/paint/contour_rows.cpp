@@ -45,7 +45,7 @@ ContourRows::ContourRows(const Heightfield& ground, const Fog& fog, const Contou
     const glm::ivec2 size(ground.width(), ground.height());
     const double tallest = std::max(
         {std::abs(double(ground.minHeight())), std::abs(double(ground.maxHeight())), std::abs(view.eye.z)});
-    mFits = double(size.x) * size.y < kMostCells && std::abs(cell.x) < kMostCells &&
+    mFits = view.fall == 0 && double(size.x) * size.y < kMostCells && std::abs(cell.x) < kMostCells &&
             std::abs(cell.y) < kMostCells && tallest < kMostLines * interval * scale;
     if (!mFits) return;
     mRow.shape = shapeOfLines();

@@ -14,7 +14,7 @@ public:
                 SimdTarget target);
 
     // Whether floats and 32-bit numbers hold the ground: not beyond some 1000 million samples, nor where
-    // lines lie closer than its heights have digits.
+    // lines lie closer than its heights have digits. Nor do they know of a round Earth.
     bool fits() const { return mFits; }
     void paint(EyeImage& image, int y) const;
 

@@ -17,6 +17,7 @@ constexpr double kMostPixelsOff = 2, kMostShareOff = 1e-3;
 GroundView::GroundView(const Heightfield& ground, const EyeView& view)
     : mGround(ground),
       mView(view),
+      mBend(view.bend()),
       mRight(view.right * view.pixelWidth()),
       mUp(view.up * view.pixelHeight()) {}
 
@@ -35,6 +36,8 @@ bool GroundView::cellAt(const glm::dvec3& place, Cell& cell) const {
     const double south = sw + u * (se - sw), north = nw + u * (ne - nw);
     cell.height = south + v * (north - south);
     cell.gradient = glm::dvec2((se - sw) * (1 - v) + (ne - nw) * v, north - south) / mGround.spacing();
+    cell.seenHeight = cell.height - mBend.sinkAt(glm::dvec2(place));
+    cell.seenGradient = cell.gradient - 2 * mBend.fall * (glm::dvec2(place) - mBend.middle);
     return std::isfinite(cell.height);
 }
 
@@ -46,19 +49,19 @@ bool GroundView::at(int x, int y, float depth, GroundSeen& seen) const {
         const glm::dvec3 place = mView.eye + t * ray;
         Cell cell;
         if (!cellAt(place, cell)) return false;
-        const glm::dvec3 normal(-cell.gradient, 1.0);
+        const glm::dvec3 normal(-cell.seenGradient, 1.0);
         const double into = glm::dot(normal, ray);
         if (into == 0) return false;
         const double perX = -t * glm::dot(normal, mRight) / into, perY = t * glm::dot(normal, mUp) / into;
-        const double move = (cell.height - place.z) / into;
+        const double move = (cell.seenHeight - place.z) / into;
         const double pixel = std::max(std::abs(perX), std::abs(perY));
         t += move;
         if (!(t > 0) || !(std::abs(t - depth) <= kMostPixelsOff * pixel + kMostShareOff * depth))
             return false;
         if (std::abs(move) > kNear * pixel && step + 1 < kMostNewtonSteps) continue;
         seen.depth = t;
-        seen.direction = ray;
-        seen.place = mView.eye + t * ray;
+        seen.direction = mBend.wayToPlace(mView.eye, ray, t);
+        seen.place = mBend.placeOf(mView.eye + t * ray);
         seen.gradient = cell.gradient;
         seen.perX = t * mRight + perX * ray;
         seen.perY = -t * mUp + perY * ray;

@@ -13,13 +13,14 @@ namespace stereonav {
 struct GroundSeen {
     glm::dvec3 place{0.0};      // world, metres, on the ground
     double depth = 0;           // along the view
-    glm::dvec3 direction{0.0};  // of the ray, as EyeView::rayDirection() has it
+    glm::dvec3 direction{0.0};  // from the eye to the place, of a unit of depth
     glm::dvec2 gradient{0.0};   // of the bilinear surface there, metres a metre
-    // Of the place, from this pixel to the next one at the right and below, on the tangent plane.
+    // Of where it is seen, from this pixel to the next one at the right and below, on the tangent plane.
     glm::dvec3 perX{0.0}, perY{0.0};
 };
 
-// Both must outlive it.
+// Both must outlive it. Of a view over a round Earth the ray meets the ground as it is seen
+// (engine/math/earth_bend.h), and places and gradients are those of the ground.
 class GroundView {
 public:
     GroundView(const Heightfield& ground, const EyeView& view);
@@ -35,11 +36,14 @@ private:
     struct Cell {
         double height;
         glm::dvec2 gradient;
+        double seenHeight;
+        glm::dvec2 seenGradient;
     };
     bool cellAt(const glm::dvec3& place, Cell& cell) const;
 
     const Heightfield& mGround;
     const EyeView& mView;
+    EarthBend mBend;
     glm::dvec3 mRight, mUp;  // a pixel's width and height at view depth 1
 };
 

@@ -195,8 +195,9 @@ void TrackPainter::paint(const EyeView& view, EyeImage& image) const {
     const GroundView ground(mGround, view);
     std::vector<ScreenChord> chords;
     const double perPixel = std::min(view.pixelWidth(), view.pixelHeight());
+    const EarthBend bend = view.bend();
     for (const Piece& piece : mPieces) {
-        glm::dvec3 a = piece.from, b = piece.to;
+        glm::dvec3 a = bend.apparent(piece.from), b = bend.apparent(piece.to);
         if (!cutAtNear(view, a, b)) continue;
         // Chords follow the ground's parabola as finely as it is seen.
         const double nearest = std::max(view.nearDepth, std::min(glm::dot(a - view.eye, view.forward),
@@ -204,11 +205,12 @@ void TrackPainter::paint(const EyeView& view, EyeImage& image) const {
         const double sag = piece.sag / (nearest * perPixel);
         const int count =
             static_cast<int>(std::clamp(std::ceil(std::sqrt(sag / kMostSag)), 1.0, double(kMostChords)));
+        a = bend.placeOf(a), b = bend.placeOf(b);
         glm::dvec3 before = a;
         for (int n = 1; n <= count; ++n) {
             glm::dvec3 after = glm::mix(a, b, double(n) / count);
             if (n < count) after.z = mGround.heightAt(glm::dvec2(after));
-            glm::dvec3 p = before, q = after;
+            glm::dvec3 p = bend.apparent(before), q = bend.apparent(after);
             before = after;
             if (!cutAtNear(view, p, q)) continue;
             const ScreenChord chord{glm::dvec2(view.project(p)), glm::dvec2(view.project(q)), glm::dvec2(p),
@@ -233,7 +235,7 @@ void TrackPainter::paint(const EyeView& view, EyeImage& image) const {
                 const TrackShares& share = shares.at(x, y);
                 if (share.casing <= 0) continue;
                 const double t = image.viewDepth.at(x, y);
-                const glm::dvec3 ray = view.rayDirection(x + 0.5, y + 0.5);
+                const glm::dvec3 ray = bend.wayToPlace(view.eye, view.rayDirection(x + 0.5, y + 0.5), t);
                 PackedColor& color = image.color.at(x, y);
                 glm::vec3 seen = unpackColor(color);
                 seen = glm::mix(seen, mFog.seen(glm::vec3(0.0f), view.eye, ray, t),

@@ -6,20 +6,11 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/math/earth_bend.h"
 #include "terrain/ground/height_pyramid.h"
 #include "terrain/ground/heightfield.h"
 
 namespace stereonav {
-
-constexpr double kEarthRadius = 6371008.8;  // metres: the mean one of WGS 84 (IUGG)
-constexpr double kUsualRefraction = 0.13;   // of the curvature: Gauss's coefficient
-
-// What the ground sinks by at a distance d: fall * d^2, metres.
-// refraction: the share of the curvature that light follows, 0 to below 1. A parabola in the place of the
-// sphere: 100 km away the two are 8 cm apart.
-constexpr double curvatureFall(double refraction) {
-    return (1 - refraction) / (2 * kEarthRadius);
-}
 
 // A line of sight. Distances are metres over the plan.
 struct Sight {

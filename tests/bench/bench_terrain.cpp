@@ -14,6 +14,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
+#include "engine/math/earth_bend.h"
 #include "engine/simd/simd_target.h"
 #include "engine/stereo/right_eye.h"
 #include "terrain/built_in/built_in_terrain.h"
@@ -45,7 +46,7 @@ const TerrainScene& scene() {
 enum class Attitude { Level, Pitched };
 
 // Views from four sides, high over the ground's border, towards its middle.
-std::vector<StereoViews> views(Attitude attitude, int width, int height) {
+std::vector<StereoViews> views(Attitude attitude, int width, int height, double fall = 0) {
     std::vector<StereoViews> all;
     const double pi = std::numbers::pi;
     const Heightfield& ground = scene().ground;
@@ -56,7 +57,7 @@ std::vector<StereoViews> views(Attitude attitude, int width, int height) {
         const double z = ground.heightAt(away) + 0.06 * extent;
         const bool pitched = attitude == Attitude::Pitched;
         const Pose pose = poseFromAngles({away, z}, heading, pitched ? -pi / 6 : 0, pitched ? pi / 9 : 0);
-        const Lens lens{width, height, 0.8, 1.0, 1.0};
+        const Lens lens{width, height, 0.8, 1.0, 1.0, fall};
         all.push_back(makeStereoViews(pose, lens, {0.25 * extent / 30, 0.25 * extent}));
     }
     return all;
@@ -177,9 +178,10 @@ int printMarks() {
     return 0;
 }
 
-void BM_LeftEye(benchmark::State& state, SimdTarget target) {
+// fall: of a round Earth.
+void BM_LeftEye(benchmark::State& state, SimdTarget target, double fall) {
     setThreadCount(1);
-    const auto all = views(static_cast<Attitude>(state.range(0)), kWidth, kHeight);
+    const auto all = views(static_cast<Attitude>(state.range(0)), kWidth, kHeight, fall);
     const TerrainRenderer renderer(scene(), target);
     EyeImage image;
     image.resize(kWidth, kHeight);
@@ -242,12 +244,14 @@ BENCHMARK(BM_PlainWalk)->Unit(benchmark::kMillisecond)->Iterations(3);
 // attitude: 0 level, 1 pitched by 30 and rolled by 20 degrees; geometry: 0 grid, 1 triangles; shaded: 0
 // traversal alone.
 void registerCasts() {
-    for (const SimdTarget target : simdTargets())
-        benchmark::RegisterBenchmark(("BM_LeftEye/" + std::string(nameOf(target))).c_str(), BM_LeftEye,
-                                     target)
-            ->ArgNames({"attitude"})
-            ->ArgsProduct({{0, 1}})
-            ->Unit(benchmark::kMillisecond);
+    for (const double fall : {0.0, curvatureFall(kUsualRefraction)})
+        for (const SimdTarget target : simdTargets())
+            benchmark::RegisterBenchmark(
+                ((fall > 0 ? "BM_BentLeftEye/" : "BM_LeftEye/") + std::string(nameOf(target))).c_str(),
+                BM_LeftEye, target, fall)
+                ->ArgNames({"attitude"})
+                ->ArgsProduct({{0, 1}})
+                ->Unit(benchmark::kMillisecond);
     for (const int width : embreeWidths())
         benchmark::RegisterBenchmark(("BM_Embree" + std::to_string(width)).c_str(), BM_Embree, width)
             ->ArgNames({"attitude", "geometry", "shaded"})

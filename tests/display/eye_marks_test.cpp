@@ -37,6 +37,23 @@ void expectNear(const glm::dvec2& a, const glm::dvec2& b) {
     EXPECT_NEAR(a.y, b.y, 0.1);
 }
 
+// Over a round Earth a pixel 60 km away shows ground that lies 246 m higher than it is seen.
+TEST(EyeMarks, AreOfTheGroundItself) {
+    FrameRequest far = request();
+    far.lens.fall = 6.8e-8;
+    const StereoViews views = viewsOf(far);
+    const Plane<float> seen = everywhere(6e4f);
+    const auto world = worldUnder(views, seen, glm::dvec2(0.5));
+    ASSERT_TRUE(world);
+    const glm::dvec3 apparent = views.left.pointAt(160.5, 100.5, 6e4);
+    EXPECT_NEAR(world->x, apparent.x, 1e-6);
+    EXPECT_NEAR(world->z - apparent.z, 6.8e-8 * 3.6e9 * (1 - std::pow(std::sin(0.2), 2)), 1);
+    const auto mark = markOf(views, seen, *world);
+    ASSERT_TRUE(mark);
+    expectNear(mark->mark.left, {160.5, 100.5});
+    expectNear(mark->mark.right, {views.rightColumn(160.5, 6e4), 100.5});
+}
+
 TEST(EyeMarks, LieWhereBothEyesSeeThePoint) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> share(0, 0.999), logDepth(std::log(5.0), std::log(1e5));

@@ -1,0 +1,48 @@
+// The Earth's curvature, and the air that bends light after it, as an eye sees them: ground lies lower by
+// fall * d^2, where d is its distance from the eye over the plan. A place of the world is kept as it is, over
+// level ground. Where it is seen, in pictures and by their depths, is its apparent place.
+//
+// Bending the ray is the same as lowering the ground: a straight line of sight that has come a distance d
+// over the plan is fall * d^2 higher over level ground than it looks.
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace stereonav {
+
+constexpr double kEarthRadius = 6371008.8;  // metres: the mean one of WGS 84 (IUGG)
+constexpr double kUsualRefraction = 0.13;   // of the curvature: Gauss's coefficient
+
+// What the ground sinks by at a distance d: fall * d^2, metres.
+// refraction: the share of the curvature that light follows, 0 to 1; with 1 nothing sinks. A parabola in the
+// place of the sphere: 100 km away the two are 8 cm apart.
+constexpr double curvatureFall(double refraction) {
+    return (1 - refraction) / (2 * kEarthRadius);
+}
+
+struct EarthBend {
+    glm::dvec2 middle{0.0};  // world: below the head, so that both eyes see one surface
+    double fall = 0;         // 1 / metres, >= 0; 0: the Earth is level
+
+    double sinkAt(const glm::dvec2& place) const {
+        const glm::dvec2 way = place - middle;
+        return fall * glm::dot(way, way);
+    }
+    // Where a place of the world is seen.
+    glm::dvec3 apparent(const glm::dvec3& place) const {
+        return {place.x, place.y, place.z - sinkAt(glm::dvec2(place))};
+    }
+    // The place of the world that is seen there.
+    glm::dvec3 placeOf(const glm::dvec3& apparent) const {
+        return {apparent.x, apparent.y, apparent.z + sinkAt(glm::dvec2(apparent))};
+    }
+    // From an eye towards the place of the world that it sees at eye + t * direction: also at that t, which
+    // is not 0.
+    glm::dvec3 wayToPlace(const glm::dvec3& eye, const glm::dvec3& direction, double t) const {
+        return {direction.x, direction.y, direction.z + sinkAt(glm::dvec2(eye + t * direction)) / t};
+    }
+};
+
+}  // namespace stereonav

@@ -1,0 +1,180 @@
+// Rays of a packet, the eye that they come from, and their walk over a ground. Included by kernels only.
+//
+// Over a round Earth (CasterView::fall) rays are parabolas that open upwards: kBent. What is straight has no
+// part in that, and costs what it did.
+#pragma once
+
+#include "engine/simd/simd.h"
+#include "terrain/cast/caster_types.h"
+
+namespace stereonav::STEREONAV_ISA {
+
+// Ray directions for a unit of view depth: grid units for x and y, metres for z.
+struct Rays {
+    D exactX, exactY, exactZ;
+    F x, y, z;
+};
+
+// Where rays meet the ground. t is infinite for a miss; then the rest means nothing.
+struct Hits {
+    F t;
+    I i, j;      // cell
+    F u, v;      // position in the cell
+    F approach;  // rate of height over ground along the ray, metres a unit of t (negative from above)
+    F free;      // the ray is above the ground (where there is ground) up to here; 0: not known
+};
+
+// What a round Earth adds. Metres that a ray rises by over level ground: that for a direction of 1 along x or
+// y, times the square of its parameter.
+template <bool kBent>
+struct EyeBend {};
+template <>
+struct EyeBend<true> {
+    double bendX, bendY;
+};
+
+// What is the same for all rays of a view.
+template <bool kBent>
+struct Eye {
+    const GroundData& ground;
+    double x, y, z;    // grid, grid, metres
+    int baseI, baseJ;  // grid cell that single-precision coordinates are relative to
+    F relativeX, relativeY;
+    // Metres: its height as a float and what that leaves over. Heights of the ground are taken from the
+    // first, which is exact where both are far from 0, and only then is the rest added: ground at 10,000 km
+    // is as exact as ground at 0.
+    F height, rest;
+    F margin;  // metres: bound of the rounding error of a ray's height (see below)
+    I lastI, lastJ;
+    float nearDepth;
+    EyeBend<kBent> bend;
+};
+
+STEREONAV_INLINE int clampInt(double x, int low, int high) {
+    return x < low ? low : x > high ? high : static_cast<int>(x);
+}
+
+// Metres at most that a ray bends up by over this ground.
+STEREONAV_INLINE double largestRise(const GroundData& ground, double fall, double x, double y) {
+    const double east = ground.width - 1 - x, north = ground.height - 1 - y;
+    const double wide = (x > east ? x : east) * ground.spacingX,
+                 high = (y > north ? y : north) * ground.spacingY;
+    return fall * (wide * wide + high * high);
+}
+
+// x, y: of the eye, in grid coordinates of this ground.
+template <bool kBent>
+STEREONAV_INLINE Eye<kBent> makeEyeAt(const GroundData& ground, const CasterView& view, double x, double y) {
+    const int baseI = clampInt(x, 0, ground.width - 2);
+    const int baseJ = clampInt(y, 0, ground.height - 2);
+    // Heights take part as (eye - sample) + rest + t * slope, beside differences of samples: each term is
+    // rounded once, and each is at most the largest of these in size; 2^-21 of it covers the few roundings of
+    // 2^-24.
+    const float height = static_cast<float>(view.originZ);
+    const auto size = [](double z) { return static_cast<float>(z < 0 ? -z : z); };
+    float largest = ground.maxHeight - ground.minHeight;
+    if (size(view.originZ - ground.minHeight) > largest) largest = size(view.originZ - ground.minHeight);
+    if (size(view.originZ - ground.maxHeight) > largest) largest = size(view.originZ - ground.maxHeight);
+    EyeBend<kBent> bend;
+    if constexpr (kBent) {
+        bend.bendX = view.fall * ground.spacingX * ground.spacingX;
+        bend.bendY = view.fall * ground.spacingY * ground.spacingY;
+        // Its factor alone is off by 2^-22.
+        largest += 4 * static_cast<float>(largestRise(ground, view.fall, x, y));
+    }
+    return {ground,
+            x,
+            y,
+            view.originZ,
+            baseI,
+            baseJ,
+            F(static_cast<float>(x - baseI)),
+            F(static_cast<float>(y - baseJ)),
+            F(height),
+            F(static_cast<float>(view.originZ - height)),
+            F(largest * 0x1p-21f),
+            I(ground.width - 2),
+            I(ground.height - 2),
+            view.nearDepth,
+            bend};
+}
+
+template <bool kBent>
+STEREONAV_INLINE Eye<kBent> makeEye(const GroundData& ground, const CasterView& view) {
+    return makeEyeAt<kBent>(ground, view, view.originX, view.originY);
+}
+
+STEREONAV_INLINE F infinity() {
+    return F(__builtin_inff());
+}
+
+// A direction component that may be divided by: its size is kept above 1e-18.
+STEREONAV_INLINE F divisible(F d) {
+    return select(abs(d) < F(1e-18f), select(d < F(0.0f), F(-1e-18f), F(1e-18f)), d);
+}
+
+// A ray's height over level ground is z + t dz + t^2 sink, least at `lowest`.
+template <bool kBent>
+struct WalkBend {};
+template <>
+struct WalkBend<true> {
+    F sink, lowest;
+};
+
+template <bool kBent>
+struct Walk : WalkBend<kBent> {
+    Rays rays;
+    F inverseX, inverseY;
+    M eastward, northward, downward;
+    F t;
+    F floor;  // no hit lies before: the near distance, or where the ray came to this ground
+    I i, j, level;
+    M active;
+    M risen;  // above all ground and rising: free for good
+    F over;   // height of the eye over the highest sample, metres, and the margin
+};
+
+// Of a ray at t, over what lies so much below the eye.
+template <bool kBent>
+STEREONAV_INLINE F heightAt(const Walk<kBent>& w, F t, F eye) {
+    if constexpr (kBent)
+        return mulAdd(t, mulAdd(t, w.sink, w.rays.z), eye);
+    else
+        return mulAdd(t, w.rays.z, eye);
+}
+
+// ... and how fast it rises there.
+template <bool kBent>
+STEREONAV_INLINE F riseAt(const Walk<kBent>& w, F t) {
+    if constexpr (kBent)
+        return mulAdd(t, w.sink + w.sink, w.rays.z);
+    else
+        return w.rays.z;
+}
+
+// Where a ray is lowest from where it stands to `end`.
+template <bool kBent>
+STEREONAV_INLINE F lowestUntil(const Walk<kBent>& w, F end) {
+    if constexpr (kBent)
+        return max(w.t, min(end, w.lowest));
+    else
+        return select(w.downward, end, w.t);
+}
+
+// Above all ground for good.
+template <bool kBent>
+STEREONAV_INLINE M hasRisenAt(const Walk<kBent>& w, F t) {
+    if constexpr (kBent)
+        return (t >= w.lowest) & (heightAt(w, t, w.over) > F(0.0f));
+    else
+        return andNot(heightAt(w, t, w.over) > F(0.0f), w.downward);
+}
+
+template <bool kBent>
+STEREONAV_INLINE void takeSlope(Walk<kBent>& w, F z) {
+    w.rays.z = z;
+    w.downward = z < F(0.0f);
+    if constexpr (kBent) w.lowest = (F(0.0f) - z) * approxReciprocal(max(w.sink + w.sink, F(1e-30f)));
+}
+
+}  // namespace stereonav::STEREONAV_ISA
