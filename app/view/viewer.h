@@ -20,7 +20,7 @@
 #include "app/view/panel/panel_host.h"
 #include "app/view/panel/panels.h"
 #include "app/view/picture_place.h"
-#include "app/view/place_labels.h"
+#include "app/output/place_labels.h"
 #include "app/view/screenshots.h"
 #include "app/view/second_study.h"
 #include "app/view/session.h"

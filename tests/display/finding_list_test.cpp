@@ -12,7 +12,8 @@
 #include <sstream>
 #include <thread>
 
-#include "app/view/eye_marks.h"
+#include "app/output/eye_marks.h"
+#include "app/view/frame_views.h"
 #include "app/view/finding_marks.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"

@@ -10,7 +10,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/view/eye_marks.h"
+#include "app/output/eye_marks.h"
+#include "app/view/frame_views.h"
 #include "app/view/panel/controls.h"
 #include "engine/base/error.h"
 #include "engine/display/window.h"
