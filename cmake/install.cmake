@@ -22,7 +22,7 @@ install(TARGETS ${rooms} EXPORT stereonav_targets ARCHIVE DESTINATION ${CMAKE_IN
 install(EXPORT stereonav_targets NAMESPACE stereonav:: DESTINATION ${package_dir} ${development})
 
 # Headers of what was built. Those of modules and helpers are for them alone.
-set(folders engine/base engine/peers engine/math engine/simd engine/text engine/image engine/camera engine/render engine/stereo engine/sampling
+set(folders engine/base engine/peers engine/math engine/simd engine/text engine/image engine/letters engine/camera engine/render engine/stereo engine/sampling
   engine/frame engine/late engine/volume engine/light engine/nav engine/metrics)
 foreach(part TERRAIN terrain COLON colon MEDIUM engine/medium DISPLAY engine/display)
   if(part MATCHES "^[A-Z]+$")

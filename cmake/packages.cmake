@@ -13,6 +13,9 @@ find_package(MPI QUIET COMPONENTS C)  # without it there is no module for severa
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavformat>=59 libavcodec>=59 libavutil>=57)
 pkg_check_modules(JXL REQUIRED IMPORTED_TARGET libjxl>=0.7)
 find_path(JXL_BUTTERAUGLI jxl/butteraugli.h REQUIRED)  # later versions have no such header
+find_path(STB_TRUETYPE stb/stb_truetype.h REQUIRED)
+find_library(STB_LIBRARY stb REQUIRED)
+find_file(STEREONAV_FONT DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truetype/dejavu dejavu TTF REQUIRED)
 if(STEREONAV_TERRAIN)
   find_package(GDAL CONFIG REQUIRED)
   find_package(toml11 CONFIG REQUIRED)
@@ -21,7 +24,6 @@ if(STEREONAV_DISPLAY)
   find_package(glfw3 3.3 CONFIG REQUIRED)
   pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
   pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
-  find_file(STEREONAV_FONT DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truetype/dejavu dejavu TTF REQUIRED)
 endif()
 
 if(STEREONAV_COLON)

@@ -4,7 +4,7 @@ stereonav_module(video app/ffmpeg LINK engine_image PkgConfig::FFMPEG)
 add_library(program STATIC)
 add_dependencies(program stereonav_video)
 target_link_libraries(program PUBLIC engine_light engine_mesh engine_metrics engine_peers engine_scene
-  engine_late   CLI11::CLI11 nlohmann_json::nlohmann_json)
+  engine_late engine_letters CLI11::CLI11 nlohmann_json::nlohmann_json)
 
 set(left_out "")   # sources of app/ that need what is left out
 set(without "")    # its names; app/without/<name>.cpp stands in for it

@@ -8,13 +8,11 @@
 #include "app/command/colon_commands.h"
 #include "app/command/colon_of.h"
 #include "app/command/findings_words.h"
-#include "app/options/built_without.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/scene_loading.h"
-#include "colon/instruments/findings_report.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
@@ -111,16 +109,6 @@ void tellFindings(CommandResult& result, const std::vector<Finding>& findings) {
     result.add("missed", missed);
 }
 
-// Of a study that is not DICOM its content tells which it is; of the built-in colon what it was made of.
-StructuredReport reportOn(const ColonOptions& reading, const std::vector<Finding>& findings) {
-    std::optional<StudySource> source;
-    if (!reading.study.empty()) source = sourceOf(reading.study, reading.reading);
-    std::string study = fmt::format("built-in colon {}", reading.builtIn.seed);
-    if (!reading.study.empty() && (!source || source->study.empty()))
-        study = fmt::format("{:016x}", studyKey(reading.study, reading.reading));
-    return reportOf(study, source, findings, std::string("stereonav ") + versionNumber(), std::time(nullptr));
-}
-
 }  // namespace
 
 int runFindings(const FindingsOptions& options) {
@@ -149,7 +137,7 @@ int runFindings(const FindingsOptions& options) {
     if (!options.csv.empty()) writeTextFile(options.csv, csvOf(findings));
     if (!options.page.empty())
         writeTextFile(options.page, findingsPage(colon, colon.study, findings, bar.progress()));
-    if (!options.sr.empty()) writeTextFile(options.sr, structuredReportFile(reportOn(reading, findings)));
+    if (!options.sr.empty()) writeTextFile(options.sr, findingsReport(reading, findings));
     for (const auto& [key, file] :
          {std::pair("kept", options.file), std::pair("table", options.csv), std::pair("page", options.page),
           std::pair("structured_report", options.sr)})

@@ -1,4 +1,5 @@
-// Findings as words and as files: a table, a document that is read back, a page with pictures.
+// Findings as words and as files: a table, a document that is read back, a page with pictures, a DICOM
+// report.
 #pragma once
 
 #include <filesystem>
@@ -40,5 +41,9 @@ void writeFindings(const std::filesystem::path& file, const std::string& study,
 // that is empty. Throws Cancelled.
 std::string findingsPage(const ColonScene& colon, const GreyVolume& study,
                          const std::vector<Finding>& findings, Progress& progress);
+
+// The bytes of a DICOM structured report (colon/study/structured_report.h). reading: the study that they are
+// of. Reads heads of its files. Throws Error.
+std::string findingsReport(const ColonOptions& reading, const std::vector<Finding>& findings);
 
 }  // namespace stereonav

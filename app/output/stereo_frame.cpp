@@ -64,6 +64,8 @@ void StereoFrame::render(const Pose& head, double time) {
 
 void StereoFrame::paint() {
     paintEyes(mScene, mViews, mFrame);
+    if (const auto* const legend = mScene.offered<const PaintLegend>())
+        mNames.draw(legend->places, mViews, mFrame);
 }
 
 void StereoFrame::makeMany(const StereoViews& views, double time, EyePair& made) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/command/narrowed_eyes.h"
+#include "app/output/place_names.h"
 #include "app/scene/scene_loading.h"
 #include "engine/base/hash.h"
 #include "engine/frame/refined_frames.h"
@@ -30,7 +31,8 @@ public:
     void render(const Pose& head, double time = 0);
     // Flies past without a picture: eyes come together as they would have with one.
     void passBy(const Pose& head, double time) { mStereo = mEyes.at(head, time); }
-    // What the scene's surfaces are painted with (engine/scene/surface_paint.h), over the last picture; once.
+    // What the scene's surfaces are painted with (engine/scene/surface_paint.h), over the last picture, and
+    // the names of places that it marks; once.
     void paint();
 
     // Those of the last picture.
@@ -68,6 +70,7 @@ private:
     StereoViews mViews;  // with the size asked for
     RayOptions mRays;
     RefinedFrames mRefined;
+    PlaceNames mNames;
     EyePair mFrame, mSmall;  // mSmall: as made, where that is in fewer pixels
 };
 

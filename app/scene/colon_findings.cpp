@@ -5,6 +5,7 @@
 #include "app/command/colon_of.h"
 #include "app/command/findings_words.h"
 #include "colon/instruments/polyp_view.h"
+#include "engine/base/module.h"
 
 namespace stereonav {
 namespace {
@@ -131,6 +132,16 @@ std::string ColonFindings::pageOf(const FindingRefs& list, const std::shared_ptr
     const GreyVolume none;
     const bool values = study && !study->ofMask;
     return findingsPage(mColon, values ? study->grey : none, findingsOf(list), progress);
+}
+
+std::string ColonFindings::whyNoReport() const {
+    if (mColon.format != "DICOM") return "the study is not DICOM: a report would name no patient";
+    if (!hasModule("dcmtk")) return "the module stereonav_dcmtk is not installed";
+    return "";
+}
+
+std::string ColonFindings::reportOf(const FindingRefs& list) const {
+    return findingsReport(mReading, findingsOf(list));
 }
 
 }  // namespace stereonav

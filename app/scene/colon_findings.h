@@ -13,8 +13,9 @@ namespace stereonav {
 // Holds nothing until something is measured.
 class ColonFindings final : public SurfaceFindings {
 public:
-    // A colon and its wall, which must outlive it.
-    ColonFindings(const ColonScene& colon, const SharedWall& wall) : mColon(colon), mWall(wall) {}
+    // A colon, its wall, and what it was read by, which must outlive it.
+    ColonFindings(const ColonScene& colon, const SharedWall& wall, const ColonOptions& reading)
+        : mColon(colon), mWall(wall), mReading(reading) {}
 
     SurfaceFinding at(const glm::dvec3& place, const std::string& comment) const override;
     SurfaceFinding measured(const SurfaceFinding& finding, const std::shared_ptr<const SliceStudy>& study,
@@ -29,6 +30,8 @@ public:
                                        const std::filesystem::path& name) const override;
     std::string pageOf(const FindingRefs& list, const std::shared_ptr<const SliceStudy>& study,
                        Progress& progress) const override;
+    std::string whyNoReport() const override;
+    std::string reportOf(const FindingRefs& list) const override;
 
 private:
     FindingTool& tool(const std::shared_ptr<const SliceStudy>& study, Progress& progress) const;
@@ -36,6 +39,7 @@ private:
 
     const ColonScene& mColon;
     const SharedWall& mWall;
+    const ColonOptions& mReading;
     mutable std::mutex mMutex;  // of what follows, which is made by the first measuring
     mutable std::unique_ptr<FindingTool> mTool;
     mutable std::shared_ptr<const SliceStudy> mStudy;  // that mTool tells values of

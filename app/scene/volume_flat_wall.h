@@ -1,4 +1,4 @@
-// A colon's wall laid flat, for the window.
+// A colon's wall laid flat, and seen from both ends, for the window.
 #pragma once
 
 #include "colon/instruments/shared_wall.h"
@@ -11,6 +11,7 @@ public:
     // A colon, which must outlive it and its pictures, and its wall.
     VolumeFlatWall(const ColonScene& colon, const SharedWall& wall) : mColon(colon), mWall(wall) {}
     std::shared_ptr<const FlatPicture> makeFlat(Progress& progress) const override;
+    std::shared_ptr<const FlatPicture> makePanorama(Progress& progress) const override;
 
 private:
     const ColonScene& mColon;

@@ -80,7 +80,7 @@ private:
     SceneBox mBox;
     // Where it is a colon:
     SharedWall mSharedWall{mColon};
-    ColonFindings mFindings{mColon, mSharedWall};
+    ColonFindings mFindings{mColon, mSharedWall, mOptions};
     VolumeFlatWall mFlatWall{mColon, mSharedWall};
     VolumeLine mLine{mColon};
 };

@@ -20,6 +20,12 @@ auto rowOf(std::vector<FindingList::Row>& rows, int id) {
     return std::find_if(rows.begin(), rows.end(), [id](const auto& row) { return row.id == id; });
 }
 
+FindingRefs refsOf(const std::vector<SurfaceFinding>& list) {
+    FindingRefs refs;
+    for (const SurfaceFinding& finding : list) refs.push_back(&finding);
+    return refs;
+}
+
 }  // namespace
 
 std::filesystem::path findingsFile(const std::filesystem::path& places) {
@@ -35,7 +41,7 @@ void FindingList::open(std::shared_ptr<const Scene> scene, const std::filesystem
     mRows.clear();
     mCandidates.clear();
     mRemoved.clear();
-    mPage.clear();
+    mPage.clear(), mReport.clear();
     mUsed = mStopped = mClicks = mFindsCandidates = false;
     mSummary.clear(), mTold.clear(), mProblem.clear();
     if (mFile.empty()) return;
@@ -52,6 +58,12 @@ void FindingList::open(std::shared_ptr<const Scene> scene, const std::filesystem
 
 void FindingList::replaceScene(std::shared_ptr<const Scene> scene) {
     mScene = std::move(scene);
+}
+
+std::vector<SurfaceFinding> FindingList::findings() const {
+    std::vector<SurfaceFinding> list;
+    for (const Row& row : mRows) list.push_back(row.finding);
+    return list;
 }
 
 FindingRefs FindingList::refs() const {
@@ -110,6 +122,20 @@ void FindingList::writePage(const std::filesystem::path& file) {
     mPage = place;
 }
 
+void FindingList::writeReport(const std::filesystem::path& file) {
+    if (file.extension() != ".dcm")
+        throw Error("report", "", fmt::format("expected a file named .dcm, got \"{}\"", file.string()),
+                    "name it findings.dcm");
+    const std::string why = maker() ? maker()->whyNoReport() : "findings are measured in colons";
+    if (!why.empty()) throw Error("report", "", why, "write the page");
+    if (!std::all_of(mRows.begin(), mRows.end(), [](const Row& row) { return row.finding.measured; }))
+        throw Error("report", "", "expected findings that are measured", "let them be measured first");
+    const std::filesystem::path place = std::filesystem::absolute(file).lexically_normal();
+    checkOutputFile("report", place.string());
+    checkNotRead({{"report", place.string()}});
+    mReport = place;
+}
+
 void FindingList::changed() {
     mProblem.clear();
     mTold.clear();
@@ -140,7 +166,7 @@ void FindingList::judge() {
 void FindingList::cancel() {
     if (mProgress) mProgress->cancel();
     mFindsCandidates = false;
-    mPage.clear();
+    mPage.clear(), mReport.clear();
 }
 
 // Those that are to be measured: first of all, or again for the values of a study that has come.
@@ -193,16 +219,29 @@ bool FindingList::begin(const std::shared_ptr<const SliceStudy>& study) {
               });
         return true;
     }
+    return beginPage(study) || beginReport();
+}
+
+bool FindingList::beginPage(const std::shared_ptr<const SliceStudy>& study) {
     if (mPage.empty()) return false;
-    std::vector<SurfaceFinding> list;
-    for (const Row& row : mRows) list.push_back(row.finding);
     start("the page", false,
-          [list = std::move(list), study, page = std::exchange(mPage, {})](
-              const SurfaceFindings& maker, Progress& progress, Outcome& outcome) {
-              FindingRefs refs;
-              for (const SurfaceFinding& finding : list) refs.push_back(&finding);
-              writeTextFile(page, maker.pageOf(refs, study, progress));
+          [list = findings(), study, page = std::exchange(mPage, {})](const SurfaceFindings& maker,
+                                                                      Progress& progress, Outcome& outcome) {
+              writeTextFile(page, maker.pageOf(refsOf(list), study, progress));
               outcome.told = "written to " + page.string();
+          });
+    return true;
+}
+
+bool FindingList::beginReport() {
+    if (mReport.empty()) return false;
+    start("the DICOM report", false,
+          [list = findings(), file = std::exchange(mReport, {})](const SurfaceFindings& maker, Progress&,
+                                                                 Outcome& outcome) {
+              const std::string report = maker.reportOf(refsOf(list));
+              checkNotRead({{"report", file.string()}});  // a slice of the study
+              writeTextFile(file, report);
+              outcome.told = "written to " + file.string();
           });
     return true;
 }

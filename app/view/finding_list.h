@@ -1,5 +1,6 @@
 // The window's list of findings: what a person clicked on the surface, what the scene measures there, and
-// candidates that it proposes. Measured beside the window, and kept for the scene's file as it is made.
+// candidates that it proposes; pages and reports of it. Measured beside the window, and kept for the scene's
+// file as it is made.
 #pragma once
 
 #include <atomic>
@@ -66,6 +67,8 @@ public:
     void keep(int id);  // a candidate becomes a finding
     // An .html file. Throws Error where it can not be.
     void writePage(const std::filesystem::path& file);
+    // A DICOM structured report, a .dcm file. Throws Error where it can not be.
+    void writeReport(const std::filesystem::path& file);
 
     // Looks whether something is done, and begins the next. study: whose values are told, null while it is
     // not there. True: there is something new.
@@ -87,16 +90,19 @@ private:
     };
     using Job = std::function<void(const SurfaceFindings&, Progress&, Outcome&)>;
     FindingRefs refs() const;
+    std::vector<SurfaceFinding> findings() const;
     std::vector<std::pair<int, SurfaceFinding>> unmeasured(bool values) const;
     bool begin(const std::shared_ptr<const SliceStudy>& study);
     void start(const std::string& doing, bool values, Job job);
     void take(Outcome outcome);
+    bool beginPage(const std::shared_ptr<const SliceStudy>& study);
+    bool beginReport();
     void judge();
     void changed();
 
     std::function<void()> mWake;
     std::shared_ptr<const Scene> mScene;
-    std::filesystem::path mFile, mPage;
+    std::filesystem::path mFile, mPage, mReport;
     std::vector<Row> mRows, mCandidates;
     std::vector<std::pair<std::size_t, Row>> mRemoved;  // with the places that they had
     int mNext = 1, mOpened = 0, mWorksFor = 0;

@@ -2,7 +2,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/view/eye_marks.h"
+#include "app/output/eye_marks.h"
+#include "app/view/frame_views.h"
 
 namespace stereonav {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/view/eye_marks.h"
+#include "app/view/frame_views.h"
 #include "engine/base/parallel.h"
 #include "engine/late/late_guard.h"
 

@@ -9,6 +9,7 @@
 
 #include "app/command/commands.h"
 #include "app/output/command_result.h"
+#include "app/output/place_labels.h"
 #include "app/view/control_window.h"
 #include "app/view/frame_governor.h"
 #include "app/view/frame_rate.h"
@@ -20,7 +21,6 @@
 #include "app/view/panel/panel_host.h"
 #include "app/view/panel/panels.h"
 #include "app/view/picture_place.h"
-#include "app/view/place_labels.h"
 #include "app/view/scene_preparation.h"
 #include "app/view/screenshots.h"
 #include "app/view/second_study.h"
@@ -95,6 +95,7 @@ public:
     FindingList* findings() override { return mSession && mFindings.maker() ? &mFindings : nullptr; }
     void addFinding(const glm::dvec3& place) override;
     void writeFindingsPage(const std::filesystem::path& file) override;
+    void writeFindingsReport(const std::filesystem::path& file) override;
     void markWorld(const std::optional<glm::dvec3>& place) override { mMarked = place; }
     std::optional<glm::dvec3> pointedWorld() const override;
     std::vector<FlatMark> flatMarks() const override;

@@ -1,5 +1,5 @@
 // The viewer's part of coverage: the wall is looked at from what is shown, and what was not seen is flown to.
-#include "app/view/eye_marks.h"
+#include "app/view/frame_views.h"
 #include "app/view/viewer.h"
 
 namespace stereonav {

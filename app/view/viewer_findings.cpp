@@ -54,4 +54,8 @@ void Viewer::writeFindingsPage(const std::filesystem::path& file) {
     tryTo([&] { mFindings.writePage(file); });
 }
 
+void Viewer::writeFindingsReport(const std::filesystem::path& file) {
+    tryTo([&] { mFindings.writeReport(file); });
+}
+
 }  // namespace stereonav

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/view/eye_marks.h"
+#include "app/view/frame_views.h"
 #include "app/view/viewer.h"
 #include "engine/display/renderer_name.h"
 

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 
-#include "app/view/eye_marks.h"
+#include "app/output/eye_marks.h"
+#include "app/output/place_labels.h"
 #include "app/view/finding_marks.h"
-#include "app/view/place_labels.h"
+#include "app/view/frame_views.h"
 #include "app/view/pointed_place.h"
 #include "app/view/viewer.h"
 
@@ -111,7 +112,8 @@ std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
     if (mLabels && !mPanels.hidden() && !mPanels.startShown()) {
         const auto sizeOf = [this](const std::string& text) { return glm::dvec2(mInterface.textSize(text)); };
         const double margin = 0.3 * sizeOf("0").y;
-        for (const PlaceLabel& label : labelsInView(mPicture.of, depth, namedPlaces(), sizeOf, margin, guard))
+        for (const PlaceLabel& label :
+             labelsInView(viewsOf(mPicture.of), depth, namedPlaces(), sizeOf, margin, guard))
             marks.push_back({glm::vec2(label.mark.left), glm::vec2(label.mark.right), label.text,
                              glm::vec2(label.textAt)});
     }

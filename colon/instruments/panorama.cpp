@@ -15,10 +15,10 @@ namespace stereonav {
 namespace {
 
 constexpr double kWholeTurn = 2 * std::numbers::pi;
-constexpr double kFarthest = 0.2;         // metres that a ray goes
-constexpr double kNearLine = 0.09;        // metres of a place from eyes that may see it
-constexpr int kRays = 16, kEvery = 20;    // that the mean radius is taken from; frames between them
-constexpr int kGap = 14, kLongMark = 10;  // pixels between the strips, of a long mark
+constexpr double kFarthest = 0.2;       // metres that a ray goes
+constexpr double kNearLine = 0.09;      // metres of a place from eyes that may see it
+constexpr int kRays = 16, kEvery = 20;  // that the mean radius is taken from; frames between them
+constexpr int kLongMark = 10;           // pixels
 constexpr int kWidest = 32768;
 constexpr int kOneTask = 512;  // vertices
 
@@ -64,30 +64,45 @@ double Panorama::eyeAt(End from, int x) const {
     return x * mPixel - signOf(from) * mRadius;
 }
 
+std::optional<Panorama::Ray> Panorama::rayOf(int x, int y) const {
+    if (x < 0 || x >= mWidth || y < 0 || y >= rows() || (y >= mHeight && y < mHeight + kGap))
+        return std::nullopt;
+    const End end = y < mHeight ? End::Rectum : End::Caecum;
+    const double along = eyeAt(end, x);
+    if (along < 0 || along > mLine.length()) return std::nullopt;
+    const int row = end == End::Rectum ? y : y - mHeight - kGap;
+    const double turn = kWholeTurn * (row + 0.5) / mHeight;
+    Ray ray{mLine.at(along), {}};
+    const glm::dvec3 aside = std::cos(turn) * ray.from.across + std::sin(turn) * ray.from.over;
+    ray.way = glm::normalize(aside + signOf(end) * ray.from.tangent);
+    return ray;
+}
+
+glm::dvec3 Panorama::meets(const Ray& ray) const {
+    return ray.from.place + mSight.reach(ray.from.place, ray.way, kFarthest) * ray.way;
+}
+
+std::optional<Panorama::Place> Panorama::placeAt(int x, int y) const {
+    const auto ray = rayOf(x, y);
+    if (!ray) return std::nullopt;
+    return Place{meets(*ray), ray->from.place};
+}
+
 Plane<PackedColor> Panorama::picture(const VolumeLook& look, Progress& progress) const {
-    Plane<PackedColor> picture(mWidth, 2 * mHeight + kGap);
+    Plane<PackedColor> picture(mWidth, rows());
     const PackedColor white = packColor(glm::vec3(1)), black = packColor(glm::vec3(0));
     parallelFor(mWidth, [&](int x) {
         if (x % 64 == 0) progress.report(0.5, "drawing the panorama");
         if (progress.cancelled()) throw Cancelled();
-        for (int y = 0; y < picture.height(); ++y) picture.at(x, y) = white;
-        for (const End from : {End::Rectum, End::Caecum}) {
-            const double along = eyeAt(from, x);
-            if (along < 0 || along > mLine.length()) continue;
-            const UnfoldingLine::Frame frame = mLine.at(along);
-            const int top = from == End::Rectum ? 0 : mHeight + kGap;
-            for (int y = 0; y < mHeight; ++y) {
-                const double turn = kWholeTurn * (y + 0.5) / mHeight;
-                const glm::dvec3 aside = std::cos(turn) * frame.across + std::sin(turn) * frame.over;
-                const glm::dvec3 way = glm::normalize(aside + signOf(from) * frame.tangent);
-                const double reach = mSight.reach(frame.place, way, kFarthest);
-                const glm::dvec3 place = frame.place + reach * way,
-                                 voxel = mField.frame.voxelFromWorld(place);
-                const glm::dvec3 inside = glm::clamp(voxel, glm::dvec3(0), glm::dvec3(mField.frame.size - 1));
-                picture.at(x, top + y) =
-                    packColor(glm::vec3(shadePlain(look, place, plainNormal(mField, inside), frame.place,
-                                                   frame.place, glm::dvec3(look.surface))));
-            }
+        for (int y = 0; y < picture.height(); ++y) {
+            picture.at(x, y) = white;
+            const auto ray = rayOf(x, y);
+            if (!ray) continue;
+            const glm::dvec3 place = meets(*ray), voxel = mField.frame.voxelFromWorld(place);
+            const glm::dvec3 inside = glm::clamp(voxel, glm::dvec3(0), glm::dvec3(mField.frame.size - 1));
+            picture.at(x, y) =
+                packColor(glm::vec3(shadePlain(look, place, plainNormal(mField, inside), ray->from.place,
+                                               ray->from.place, glm::dvec3(look.surface))));
         }
         const int marks = static_cast<int>(std::floor(x * mPixel / 0.01 + 1e-9));
         const bool isMark = x == 0 || marks != static_cast<int>(std::floor((x - 1) * mPixel / 0.01 + 1e-9));
@@ -99,7 +114,7 @@ Plane<PackedColor> Panorama::picture(const VolumeLook& look, Progress& progress)
 
 // The ring of a frame passes through a place that is as far aside of the line as ahead of the frame: where
 // the difference of both changes its sign from one frame to the next.
-bool Panorama::shows(End from, const glm::dvec3& place) const {
+std::optional<double> Panorama::eyeThatSees(End from, const glm::dvec3& place) const {
     const std::vector<UnfoldingLine::Frame>& frames = mLine.frames();
     double before = 0;
     bool known = false;
@@ -116,11 +131,28 @@ bool Panorama::shows(End from, const glm::dvec3& place) const {
         if (known && (off >= 0) != (before >= 0)) {
             const double t = before / (before - off);  // their signs differ
             const glm::dvec3 eye = frames[n - 1].place + t * (frames[n].place - frames[n - 1].place);
-            if (mSight.clear(eye, place)) return true;
+            if (mSight.clear(eye, place)) return along - (1 - t) * UnfoldingLine::kStep;
         }
         before = off, known = true;
     }
-    return false;
+    return std::nullopt;
+}
+
+std::array<std::optional<glm::dvec2>, 2> Panorama::pixelsOf(const glm::dvec3& place) const {
+    std::array<std::optional<glm::dvec2>, 2> pixels;
+    for (const End end : {End::Rectum, End::Caecum}) {
+        const auto along = eyeThatSees(end, place);
+        if (!along) continue;
+        const UnfoldingLine::Frame frame = mLine.at(*along);
+        const glm::dvec3 to = place - frame.place;
+        const double turn = std::atan2(glm::dot(to, frame.over), glm::dot(to, frame.across));
+        const double row = mHeight * (turn < 0 ? turn + kWholeTurn : turn) / kWholeTurn;
+        // A column's eye is that of its left border.
+        const glm::dvec2 at((*along + signOf(end) * mRadius) / mPixel + 0.5,
+                            row + (end == End::Rectum ? 0 : mHeight + kGap));
+        if (at.x >= 0 && at.x < mWidth) pixels[static_cast<std::size_t>(end)] = at;
+    }
+    return pixels;
 }
 
 Panorama::Shares Panorama::shares(const WallMesh& wall, Progress& progress) const {

@@ -9,6 +9,11 @@
 // true, and in bends a place may be seen twice or not at all, as with any rays from a line.
 #pragma once
 
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
 #include "colon/centreline/centreline.h"
 #include "colon/instruments/unfolding_line.h"
 #include "colon/wall/line_of_sight.h"
@@ -35,8 +40,21 @@ public:
     // Between them a mark each centimetre of the line, a longer one every ten.
     Plane<PackedColor> picture(const VolumeLook& look, Progress& progress) const;
 
+    int rows() const { return 2 * mHeight + kGap; }  // of picture()
+    double pixel() const { return mPixel; }          // metres along the line
+
+    // What a pixel of picture() shows, and the eye that sees it; nothing between the strips and where there
+    // is no eye. World, metres.
+    struct Place {
+        glm::dvec3 wall{0.0}, eye{0.0};
+    };
+    std::optional<Place> placeAt(int x, int y) const;
+
     // Whether the ring of some eye passes through a place (in the lumen, metres) with nothing between.
-    bool shows(End from, const glm::dvec3& place) const;
+    bool shows(End from, const glm::dvec3& place) const { return eyeThatSees(from, place).has_value(); }
+    // Where it lies in picture(), continuous pixels: from the rectum's end, from the caecum's; none where it
+    // does not show. Of several eyes that see it the one nearest to the rectum.
+    std::array<std::optional<glm::dvec2>, 2> pixelsOf(const glm::dvec3& place) const;
 
     // Of the wall's area: what the strip from each end shows, and what one of both shows.
     struct Shares {
@@ -45,7 +63,18 @@ public:
     Shares shares(const WallMesh& wall, Progress& progress) const;
 
 private:
-    double eyeAt(End from, int x) const;  // metres along the line
+    static constexpr int kGap = 14;  // pixels between the strips
+
+    // The eye of a column, and where its ring is looked at.
+    struct Ray {
+        UnfoldingLine::Frame from;
+        glm::dvec3 way{0.0};
+    };
+    std::optional<Ray> rayOf(int x, int y) const;
+    glm::dvec3 meets(const Ray& ray) const;
+
+    double eyeAt(End from, int x) const;                                         // metres along the line
+    std::optional<double> eyeThatSees(End from, const glm::dvec3& place) const;  // metres along the line
 
     const GreyVolume& mField;
     const LineOfSight& mSight;

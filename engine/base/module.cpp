@@ -60,6 +60,11 @@ const void* moduleTable(const std::string& name, const std::string& purpose, std
     return module.functions;
 }
 
+bool hasModule(const std::string& name) {
+    std::error_code code;
+    return fs::is_regular_file(moduleFolder() / ("stereonav_" + name + ".so"), code);
+}
+
 void setModuleFolder(const fs::path& folder) {
     chosenFolder() = folder;
 }

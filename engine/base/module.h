@@ -42,6 +42,9 @@ const Functions& moduleFunctions(const std::string& name, const std::string& pur
     return *static_cast<const Functions*>(moduleTable(name, purpose, sizeof(Functions)));
 }
 
+// Whether its file is there; nothing is loaded.
+bool hasModule(const std::string& name);
+
 // Where modules are: ../lib/stereonav from the program's own folder, so that it can be moved as a whole.
 std::filesystem::path moduleFolder();
 // For programs that lie elsewhere: before the first call of a module's function, while no other thread runs.

@@ -2,24 +2,9 @@
 
 #include <imgui.h>
 
-// The assembler puts the file into the program as it is: a compiler takes seconds for an array of that size.
-asm(R"(
-    .section .rodata
-    .balign 16
-stereonavFontBegin:
-    .incbin ")" STEREONAV_FONT R"("
-stereonavFontEnd:
-    .byte 0
-    .previous
-)");
-extern const unsigned char kFontBegin[] asm("stereonavFontBegin");
-extern const unsigned char kFontEnd[] asm("stereonavFontEnd");
+#include "engine/letters/letter_font.h"
 
 namespace stereonav {
-
-std::span<const unsigned char> interfaceFontFile() {
-    return {kFontBegin, kFontEnd};
-}
 
 void useInterfaceFont(ImFontAtlas& atlas, float pixels) {
     static constexpr ImWchar kLetters[] = {
@@ -33,7 +18,7 @@ void useInterfaceFont(ImFontAtlas& atlas, float pixels) {
     ImFontConfig config;
     config.FontDataOwnedByAtlas = false;
     config.OversampleH = 2;
-    const auto file = interfaceFontFile();
+    const auto file = letterFontFile();
     atlas.Clear();
     atlas.Flags |= ImFontAtlasFlags_NoPowerOfTwoHeight;
     atlas.AddFontFromMemoryTTF(const_cast<unsigned char*>(file.data()), static_cast<int>(file.size()), pixels,

@@ -1,4 +1,5 @@
-// The wall of a scene laid flat along the line through it: a picture in which places are found, and back.
+// The wall of a scene as a picture along the line through it, in which places are found, and back: laid flat,
+// or as it is seen from both ends of the line.
 #pragma once
 
 #include <functional>
@@ -7,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/base/progress.h"
 #include "engine/image/packed_color.h"
@@ -14,7 +16,7 @@
 
 namespace stereonav {
 
-// A place of the wall, and the place of the line that it lies at.
+// A place of the wall, and the place of the line that it lies at or is seen from.
 struct FlatPlace {
     glm::dvec3 wall{0.0}, line{0.0};  // world, metres
     double along = 0;                 // metres from the line's start
@@ -34,14 +36,15 @@ class FlatPicture {
 public:
     virtual ~FlatPicture() = default;
     virtual int width() const = 0;     // pixels
-    virtual int height() const = 0;    // of the wall, without the scale
+    virtual int height() const = 0;    // of the wall, without the scale below it
     virtual double pixel() const = 0;  // metres of the wall, the side of a pixel
-    // The wall in its light, then its scale below. tint: null where nothing is painted.
+    // The wall in its light, and its scale. tint: null where nothing is painted.
     virtual Plane<PackedColor> picture(const FlatTint& tint) const = 0;
     // Nothing beside the wall.
     virtual std::optional<FlatPlace> placeAt(int x, int y) const = 0;
-    // Where the wall next to a place lies; none where that is farther than `within` metres.
-    virtual std::optional<glm::dvec2> pixelOf(const glm::dvec3& world, double within) const = 0;
+    // Where the wall next to a place shows: once, more often, or not at all; nowhere if that wall is farther
+    // than `within` metres.
+    virtual std::vector<glm::dvec2> pixelsOf(const glm::dvec3& world, double within) const = 0;
     virtual double columnAt(double along) const = 0;
 };
 
@@ -52,6 +55,8 @@ public:
     // Takes seconds, on any thread, also while frames are made. What it makes lives no longer than the scene.
     // Throws Error, Cancelled.
     virtual std::shared_ptr<const FlatPicture> makeFlat(Progress& progress) const = 0;
+    // The same wall seen along the line, twice: ahead from its start, above; below back from its end.
+    virtual std::shared_ptr<const FlatPicture> makePanorama(Progress& progress) const = 0;
 };
 
 }  // namespace stereonav

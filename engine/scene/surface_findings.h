@@ -62,6 +62,10 @@ public:
     // One HTML page of a list. Throws Error, Cancelled.
     virtual std::string pageOf(const FindingRefs& list, const std::shared_ptr<const SliceStudy>& study,
                                Progress& progress) const = 0;
+    // Why there can be no DICOM structured report of a list; "": there can. Quick.
+    virtual std::string whyNoReport() const = 0;
+    // The bytes of that report's file. Throws Error.
+    virtual std::string reportOf(const FindingRefs& list) const = 0;
 };
 
 }  // namespace stereonav

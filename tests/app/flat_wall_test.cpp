@@ -39,20 +39,49 @@ TEST_F(OfferedLine, APlaceOfTheFlatWallIsFoundAgain) {
             ++places;
             EXPECT_NEAR(flat->columnAt(there->along), x, 1);
             EXPECT_NEAR(through->placeOnLine(there->line).along, there->along, 0.003);
-            const auto pixel = flat->pixelOf(there->wall, 0.01);
-            ASSERT_TRUE(pixel);
+            const auto pixels = flat->pixelsOf(there->wall, 0.01);
+            ASSERT_EQ(pixels.size(), 1u);
             // To the next vertex, one in each voxel of 2 mm; above and below what is cut open it is the same.
-            EXPECT_NEAR(pixel->x, x, 0.003 / flat->pixel());
+            EXPECT_NEAR(pixels[0].x, x, 0.003 / flat->pixel());
         }
     EXPECT_GT(places, 50);
     EXPECT_FALSE(flat->placeAt(-1, 0));
-    EXPECT_FALSE(flat->pixelOf({1, 1, 1}, 0.02)) << "a metre beside it";
+    EXPECT_TRUE(flat->pixelsOf({1, 1, 1}, 0.02).empty()) << "a metre beside it";
     const Plane<PackedColor> plain = flat->picture(nullptr),
                              red = flat->picture(
                                  [](const glm::dvec3&, const glm::vec3&) { return glm::vec3(1, 0, 0); });
     const int x = flat->width() / 2, y = flat->height() / 2;
     EXPECT_NE(plain.at(x, y), red.at(x, y));
     EXPECT_EQ(plain.at(x, plain.height() - 1), red.at(x, red.height() - 1)) << "the scale is not painted";
+}
+
+TEST_F(OfferedLine, APlaceOfThePanoramaIsFoundAgain) {
+    const auto scene = opened(maskedTube());
+    Progress progress;
+    const auto both = scene->offered<const FlatWall>()->makePanorama(progress);
+    int places = 0, found = 0;
+    for (int y = 1; y < both->height(); y += 5)
+        for (int x = 1; x < both->width(); x += 5) {
+            const auto there = both->placeAt(x, y);
+            if (!there) continue;
+            ++places;
+            EXPECT_NEAR(both->columnAt(there->along), x, 1e-6);
+            // The next vertex, one in each voxel of 2 mm, shows in both strips or in one.
+            for (const glm::dvec2& pixel : both->pixelsOf(there->wall, 0.01))
+                found += std::abs(pixel.x - x) < 0.004 / both->pixel() &&
+                         (pixel.y < 0.5 * both->height()) == (y < 0.5 * both->height());
+        }
+    EXPECT_GT(places, 50);
+    EXPECT_GT(found, 0.8 * places);
+    EXPECT_FALSE(both->placeAt(-1, 0));
+    EXPECT_FALSE(both->placeAt(0, both->height()));
+    EXPECT_TRUE(both->pixelsOf({1, 1, 1}, 0.02).empty());
+    const auto red = [](const glm::dvec3&, const glm::vec3&) { return glm::vec3(1, 0, 0); };
+    const Plane<PackedColor> plain = both->picture(nullptr), painted = both->picture(red);
+    const int x = both->width() / 2, middle = both->height() / 2;
+    EXPECT_NE(plain.at(x, 5), painted.at(x, 5));
+    EXPECT_NE(plain.at(x, both->height() - 5), painted.at(x, both->height() - 5));
+    EXPECT_EQ(plain.at(x, middle), painted.at(x, middle)) << "between the strips nothing is painted";
 }
 
 TEST_F(OfferedLine, MatchesItselfAndNoOtherSurface) {

@@ -28,8 +28,13 @@ volume() {  # volume NAME TYPE EXPRESSION
 volume caves.nrrd short 'int(1500 + 400 * (sin(0.7 * i) + cos(0.6 * j) + sin(0.5 * k)))'
 volume tube.nrrd uchar '(i - 9.5 - 3 * sin(0.3 * k)) ^ 2 + (j - 9.5) ^ 2 < 12 && k > 1 && k < 18 ? 1 : 0'
 
-# Frames 3 to 8 of the built-in flight.
-play() { echo "play --size 64x48 --threads 1 --quiet --hash --frames 3..8 --out $1 --video $1.mkv"; }
+# Frames 3 to 8 of the built-in flight, with names on the ground.
+points=$(for x in -7 -5 -3 -1 1 3 5; do for y in -7 -5 -3 -1 1 3 5; do printf ',[%d000,%d000]' $x $y; done; done)
+printf '{"type":"Feature","properties":{"name":"Here"},"geometry":{"type":"MultiPoint","coordinates":[%s]}}' \
+  "${points#,}" > named.geojson
+play() {
+  echo "play --size 64x48 --threads 1 --quiet --hash --frames 3..8 --tracks named.geojson --out $1 --video $1.mkv"
+}
 # shellcheck disable=SC2046
 "$program" $(play one) > one.hash
 # shellcheck disable=SC2046

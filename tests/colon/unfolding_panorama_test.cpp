@@ -104,6 +104,46 @@ TEST(Panorama, IsTwoStripsOfTheLine) {
         for (int x = 0; x < width; ++x) ASSERT_EQ(picture.at(x, y), again.at(x, y));
 }
 
+TEST(Panorama, TellsWhatAPixelShowsAndWhereAPlaceLies) {
+    const Seen plain(false), folded(true);
+    const int width = plain.panorama.width(), height = plain.panorama.height(), rows = plain.panorama.rows();
+    int places = 0;
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < width; x += 7) {
+            const auto there = plain.panorama.placeAt(x, y);
+            const bool upper = y < height, lower = y >= rows - height;
+            if (!there) {
+                EXPECT_TRUE(!(upper || lower) || (upper ? x < 14 : x > width - 15)) << x << " " << y;
+                continue;
+            }
+            ++places;
+            EXPECT_NEAR(std::hypot(there->wall.x, there->wall.y), kTubeRadius, 0.0004);
+            // 45 degrees off the line, ahead or back: in the column of its place on the line.
+            const double ahead = there->wall.z - there->eye.z;
+            EXPECT_NEAR(std::abs(ahead), kTubeRadius, 0.0005);
+            EXPECT_EQ(ahead > 0, upper);
+            EXPECT_NEAR(there->wall.z, -0.045 + 0.001 * x, 0.0006);
+            const glm::dvec3 before = there->wall + 0.03 * (there->eye - there->wall);
+            const auto pixel = plain.panorama.pixelsOf(before)[upper ? 0 : 1];
+            ASSERT_TRUE(pixel) << x << " " << y;
+            EXPECT_NEAR(pixel->x, x + 0.5, 0.05);
+            EXPECT_NEAR(pixel->y, y + 0.5, 0.05);
+        }
+    EXPECT_GT(places, 1500);
+    for (const auto& [x, y] : {std::pair(-1, 5), std::pair(width, 5), std::pair(40, -1), std::pair(40, rows),
+                               std::pair(40, height), std::pair(40, rows - height - 1)})
+        EXPECT_FALSE(plain.panorama.placeAt(x, y)) << x << " " << y;
+    // What a fold hides from the one end lies in the other strip alone.
+    const auto hidden = folded.panorama.pixelsOf(besideWall(0.003, 1.7));
+    EXPECT_FALSE(hidden[0]);
+    ASSERT_TRUE(hidden[1]);
+    EXPECT_GT(hidden[1]->y, height);
+    const auto far = plain.panorama.pixelsOf({0, 0, 5});
+    EXPECT_FALSE(far[0] || far[1]);
+    const auto none = plain.panorama.pixelsOf(glm::dvec3(std::nan(""), 0, 0));
+    EXPECT_FALSE(none[0] || none[1]);
+}
+
 TEST(Panorama, RefusesWhatIsTooLarge) {
     EXPECT_THROW(Seen(false, 1e-6), Error);
     Seen small(false, 0.02);

@@ -1,6 +1,6 @@
 // Marks over the picture: both eyes see them where the point in space is that they mark, and no mark leaves
 // the picture.
-#include "app/view/eye_marks.h"
+#include "app/output/eye_marks.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,8 @@
 #include <limits>
 #include <random>
 
-#include "app/view/place_labels.h"
+#include "app/output/place_labels.h"
+#include "app/view/frame_views.h"
 
 namespace stereonav {
 namespace {
@@ -167,7 +168,7 @@ protected:
         const auto sizeOf = [](const std::string& text) {
             return glm::dvec2(6.0 * static_cast<double>(text.size()), 12);
         };
-        return labelsInView(mRequest, mDepth, mPlaces, sizeOf, 3);
+        return labelsInView(viewsOf(mRequest), mDepth, mPlaces, sizeOf, 3);
     }
     // In each eye's picture.
     static void expectInside(const PlaceLabel& label) {
@@ -226,7 +227,7 @@ TEST_F(PlaceLabelsTest, LongNamesAreCutBetweenLetters) {
     for (int n = 0; n < 40; ++n) name += "\u5c71";
     keep(name, 160, 100, 60);
     const auto sizeOf = [](const std::string&) { return glm::dvec2(50, 12); };
-    const auto all = labelsInView(mRequest, mDepth, mPlaces, sizeOf, 3);
+    const auto all = labelsInView(viewsOf(mRequest), mDepth, mPlaces, sizeOf, 3);
     ASSERT_EQ(all.size(), 1u);
     EXPECT_EQ(all[0].text, name.substr(0, std::size_t{3} * 32) + "\u2026");
 }

@@ -12,8 +12,9 @@
 #include <sstream>
 #include <thread>
 
-#include "app/view/eye_marks.h"
+#include "app/output/eye_marks.h"
 #include "app/view/finding_marks.h"
+#include "app/view/frame_views.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "tests/camera/temporary_folder.h"
@@ -92,6 +93,12 @@ public:
         return "page of " + std::to_string(list.size());
     }
 
+    std::string whyNoReport() const override { return noReport; }
+    std::string reportOf(const FindingRefs& list) const override {
+        return "report of " + std::to_string(list.size());
+    }
+
+    std::string noReport;
     mutable std::atomic<int> measurings = 0;
     std::atomic<bool> waits = false;
 };
@@ -280,6 +287,38 @@ TEST_F(FindingListTest, APageIsWritten) {
     settle(mList);
     EXPECT_EQ(readTextFile(mFolder / "page.html"), "page of 1");
     EXPECT_THAT(mList.told(), testing::HasSubstr("page.html"));
+}
+
+TEST_F(FindingListTest, AReportIsWrittenOfWhatIsMeasured) {
+    const std::filesystem::path file = mFolder / "report.dcm";
+    mList.open(mScene, mFile);
+    mList.add({3, 0, 0});
+    EXPECT_THROW(mList.writeReport(file), Error) << "nothing is measured yet";
+    settle(mList);
+    EXPECT_THROW(mList.writeReport(mFolder / "report.txt"), Error);
+    EXPECT_THROW(mList.writeReport(mFolder / "none/report.dcm"), Error);
+    mScene->noReport = "it is no study";
+    try {
+        mList.writeReport(file);
+        ADD_FAILURE() << "expected an error";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("it is no study"));
+    }
+    settle(mList);
+    EXPECT_FALSE(std::filesystem::exists(file));
+    mScene->noReport.clear();
+    mList.writePage(mFolder / "page.html");
+    mList.writeReport(file);
+    settle(mList);
+    EXPECT_EQ(readTextFile(mFolder / "page.html"), "page of 1") << "one after the other";
+    EXPECT_EQ(readTextFile(file), "report of 1");
+    EXPECT_THAT(mList.told(), testing::HasSubstr("report.dcm"));
+    // Of a scene that is gone none is written.
+    std::filesystem::remove(file);
+    mList.writeReport(file);
+    mList.open(mScene, mFolder / "findings/other.json");
+    settle(mList);
+    EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST_F(FindingListTest, ADamagedFileIsSetAside) {

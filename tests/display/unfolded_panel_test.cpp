@@ -27,6 +27,7 @@ constexpr int kWide = 300, kHigh = 60;  // of the wall
 // A wall in the plane y = 0.01: a pixel is a millimetre, its rows go up along z; the line is the x axis.
 class StraightFlat final : public FlatPicture {
 public:
+    explicit StraightFlat(double away = 0.01) : mAway(away) {}
     int width() const override { return kWide; }
     int height() const override { return kHigh; }
     double pixel() const override { return 0.001; }
@@ -40,12 +41,15 @@ public:
     }
     std::optional<FlatPlace> placeAt(int x, int y) const override {
         if (x < 0 || y < 0 || x >= kWide || y >= kHigh) return std::nullopt;
-        return FlatPlace{{0.001 * x, 0.01, 0.001 * y}, {0.001 * x, 0, 0}, 0.001 * x};
+        return FlatPlace{{0.001 * x, mAway, 0.001 * y}, {0.001 * x, 0, 0}, 0.001 * x};
     }
-    std::optional<glm::dvec2> pixelOf(const glm::dvec3& world, double) const override {
-        return glm::dvec2(1000 * world.x, 1000 * world.z);
+    std::vector<glm::dvec2> pixelsOf(const glm::dvec3& world, double) const override {
+        return {glm::dvec2(1000 * world.x, 1000 * world.z)};
     }
     double columnAt(double along) const override { return 1000 * along; }
+
+private:
+    double mAway;
 };
 
 class CountedPainter final : public EyePainter {
@@ -81,7 +85,18 @@ public:
         return std::make_shared<const StraightFlat>();
     }
 
-    mutable std::atomic<int> made = 0;
+    // Another place of the wall in each pixel.
+    std::shared_ptr<const FlatPicture> makePanorama(Progress& progress) const override {
+        ++panoramas;
+        while (waits) {
+            progress.report(0.5, "looking");
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return std::make_shared<const StraightFlat>(0.02);
+    }
+
+    mutable std::atomic<int> made = 0, panoramas = 0;
+    std::atomic<bool> waits = false;
     std::shared_ptr<CountedPainter> painter = std::make_shared<CountedPainter>();
     SurfacePaint paint;
     bool fails = false;
@@ -119,6 +134,15 @@ protected:
             layOut();
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
+    }
+    // The box in the upper left corner: the other view.
+    void otherView() {
+        mInterface->pointerAt({0.05, 0.05});
+        layOut();
+        mInterface->takesButton(0, true);
+        layOut();
+        mInterface->takesButton(0, false);
+        layOut();
     }
     void pointAtMiddle() {
         mInterface->pointerAt({0.5, 0.6});
@@ -182,6 +206,55 @@ TEST_F(UnfoldedPanelTest, MarksWhatIsUnderThePointerAndFliesThere) {
     EXPECT_GT(glm::dot(glm::normalize(to), mSession.pose().forward()), 0.999) << "it looks at that wall";
     mPanel->hide(mHost);
     EXPECT_FALSE(mHost.marked);
+}
+
+TEST_F(UnfoldedPanelTest, BothViewsAreMadeOnceTheyAreShown) {
+    make();
+    ASSERT_TRUE(mPanel->flat());
+    EXPECT_EQ(mScene->panoramas, 0) << "nothing before it is shown";
+    otherView();
+    ASSERT_TRUE(mPanel->fromBothEnds());
+    make();
+    ASSERT_TRUE(mPanel->flat());
+    pointAtMiddle();
+    ASSERT_TRUE(mHost.marked);
+    EXPECT_NEAR(mHost.marked->y, 0.02, 1e-9) << "the place that this view shows there";
+    otherView();
+    EXPECT_FALSE(mPanel->fromBothEnds());
+    ASSERT_TRUE(mPanel->flat()) << "it is still there";
+    pointAtMiddle();
+    ASSERT_TRUE(mHost.marked);
+    EXPECT_NEAR(mHost.marked->y, 0.01, 1e-9);
+    otherView();
+    EXPECT_TRUE(mPanel->flat());
+    EXPECT_EQ(mScene->made, 1);
+    EXPECT_EQ(mScene->panoramas, 1);
+    EXPECT_GT(mScene->painter->painted, kWide * kHigh) << "both are painted";
+}
+
+TEST_F(UnfoldedPanelTest, AViewThatIsLeftIsNotWaitedFor) {
+    make();
+    mScene->waits = true;
+    otherView();
+    EXPECT_FALSE(mPanel->flat());
+    for (int n = 0; n < 5000 && mScene->panoramas == 0; ++n) {
+        layOut();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ASSERT_EQ(mScene->panoramas, 1);
+    otherView();
+    EXPECT_TRUE(mPanel->flat());
+    for (int n = 0; n < 50; ++n) {
+        layOut();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    mScene->waits = false;
+    otherView();
+    make();
+    EXPECT_TRUE(mPanel->fromBothEnds());
+    EXPECT_TRUE(mPanel->flat()) << "asked for again it is made again";
+    EXPECT_EQ(mScene->panoramas, 2);
+    EXPECT_EQ(mScene->made, 1);
 }
 
 TEST_F(UnfoldedPanelTest, SaysWhyThereIsNone) {

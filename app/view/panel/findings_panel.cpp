@@ -150,6 +150,14 @@ void FindingsPanel::drawFiles(PanelHost& host, FindingList& list) {
         host.copy(fmt::format("stereonav findings '{}' --file '{}' --page findings.html",
                               host.session()->open().scene->name, list.file().string()));
     tooltip(fmt::format("Goes on with the list without a window. It is kept in {}", list.file().string()));
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    ImGui::InputTextWithHint("##report", "findings.dcm", &mReport);
+    const std::string why = list.maker()->whyNoReport();
+    ImGui::BeginDisabled(list.busy() || !why.empty());
+    if (ImGui::Button("Write DICOM report")) host.writeFindingsReport(mReport);
+    ImGui::EndDisabled();
+    tooltip(why.empty() ? "A DICOM structured report of the list, for archives."
+                        : "Can not be had: " + why + ".");
     quietText(host, "kept in " + list.file().string());
 }
 

@@ -26,7 +26,7 @@ private:
 
     int mCommenting = 0;  // the row whose comment is edited; 0: none
     bool mFocus = false;  // the field for it was just opened
-    std::string mComment, mPage = "findings.html";
+    std::string mComment, mPage = "findings.html", mReport = "findings.dcm";
     std::optional<glm::dvec3> mChosen;
 };
 

@@ -137,7 +137,8 @@ public:
     // Findings of this scene; null before a scene is there, or where it measures none.
     virtual FindingList* findings() { return nullptr; }
     virtual void addFinding(const glm::dvec3& /*place*/) {}
-    virtual void writeFindingsPage(const std::filesystem::path& /*file*/) {}  // failures are told
+    virtual void writeFindingsPage(const std::filesystem::path& /*file*/) {}    // failures are told
+    virtual void writeFindingsReport(const std::filesystem::path& /*file*/) {}  // the same
     // Into a file of what is measured, by its name: .csv and .svg of the profile, .geojson. Failures are
     // told.
     virtual void saveMeasured(const std::string& /*file*/) {}

@@ -10,7 +10,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/view/eye_marks.h"
+#include "app/output/eye_marks.h"
+#include "app/view/frame_views.h"
 #include "app/view/panel/controls.h"
 #include "engine/base/error.h"
 #include "engine/display/window.h"
@@ -71,43 +72,73 @@ void UnfoldedPanel::mark(PanelHost& host, const std::optional<glm::dvec3>& world
     mMarked = world.has_value();
 }
 
+void UnfoldedPanel::forgetPicture() {
+    mTexture.reset();
+    mAhead = mPointed = {};
+    mMarks.clear();
+}
+
 // A scene that is gone is not kept for its wall.
 void UnfoldedPanel::hide(PanelHost& host) {
     mark(host, std::nullopt);
     const ViewSession* const session = host.session();
     if (!session || mOf.lock() == session->open().scene) return;
     mWork.cancel();
-    mMade = {};
-    mTexture.reset();
+    mViews = {};
+    forgetPicture();
     mOf.reset();
 }
 
-// Another scene's wall is not begun before the thread of the last one has ended.
+// What is not looked at any more is not waited for.
+void UnfoldedPanel::show(ViewOfWall view) {
+    if (view == mView) return;
+    mView = view;
+    forgetPicture();
+    if (!mWork.busy() || mMaking == view) return;
+    mWork.cancel();
+    mViews[mMaking].begun = false;
+}
+
+// What was made for a scene that is gone, or cancelled for another view, is dropped.
+void UnfoldedPanel::takeMade(const std::shared_ptr<const Scene>& scene) {
+    View& view = mViews[mMaking];
+    const auto tell = [&](const std::string& problem) {
+        if (mMakingOf.lock() == scene && view.begun) view.problem = problem;
+    };
+    try {
+        auto made = mWork.take();
+        if (!made || mMakingOf.lock() != scene) return;
+        view.made = std::move(*made);
+        view.begun = true;
+        if (mMaking == mView) forgetPicture();
+    } catch (const Cancelled&) {
+        tell("not made");
+    } catch (const std::exception& error) {
+        tell(error.what());
+    }
+}
+
+// Nothing is begun before the thread of the last one has ended.
 void UnfoldedPanel::make(PanelHost& host) {
     const std::shared_ptr<const OpenScene>& open = host.session()->openShared();
-    const bool other = mOf.lock() != open->scene;
-    if (other) mWork.cancel();
-    try {
-        if (auto made = mWork.take(); made && !other) {
-            mMade = std::move(*made);
-            mTexture.reset();
-            mAhead = mPointed = {};
-            mMarks.clear();
-        }
-    } catch (const Cancelled&) {
-        mProblem = "not made";
-    } catch (const std::exception& error) {
-        mProblem = error.what();
+    if (mOf.lock() != open->scene) {
+        mWork.cancel();
+        mViews = {};
+        forgetPicture();
+        mZoom = 1;
+        mOf = open->scene;
     }
-    if (!other || mWork.busy()) return;
-    mMade = {};
-    mProblem.clear();
-    mZoom = 1;
-    mOf = open->scene;
-    mPaint = host.session()->paint();
+    takeMade(open->scene);
+    View& view = mViews[mView];
+    if (view.begun || mWork.busy()) return;
+    view.begun = true;
+    view.problem.clear();
+    mMaking = mView;
+    mMakingOf = open->scene;
     mWork.start(
-        [open, paint = mPaint](Progress& progress) {
-            Made made{open, open->scene->offered<const FlatWall>()->makeFlat(progress), {}};
+        [open, panorama = fromBothEnds(), paint = host.session()->paint()](Progress& progress) {
+            const FlatWall& wall = *open->scene->offered<const FlatWall>();
+            Made made{open, panorama ? wall.makePanorama(progress) : wall.makeFlat(progress), {}, paint};
             made.picture = made.flat->picture(tintOf(*open->scene, paint));
             return made;
         },
@@ -116,17 +147,18 @@ void UnfoldedPanel::make(PanelHost& host) {
 
 // What was seen changes while one flies; the last picture stays until the next is there.
 void UnfoldedPanel::repaint(PanelHost& host) {
-    if (auto painted = mPainting.take(); painted && painted->flat == mMade.flat) {
-        mMade = std::move(*painted);
-        mTexture.reset();
-    }
+    if (auto painted = mPainting.take())
+        for (View& view : mViews)
+            if (painted->flat == view.made.flat) {
+                view.made = *painted;
+                mTexture.reset();
+            }
     const std::shared_ptr<const EyePainter>& paint = host.session()->paint();
-    if (!mMade.flat || mPainting.busy() || paint == mPaint || Window::now() < mPaintNext) return;
-    mPaint = paint;
+    if (!made().flat || mPainting.busy() || paint == made().paint || Window::now() < mPaintNext) return;
     mPaintNext = Window::now() + kBetweenPaints;
     mPainting.start(
-        [open = mMade.open, flat = mMade.flat, paint](Progress&) {
-            return Made{open, flat, flat->picture(tintOf(*open->scene, paint))};
+        [open = made().open, flat = made().flat, paint](Progress&) {
+            return Made{open, flat, flat->picture(tintOf(*open->scene, paint)), paint};
         },
         [] { Window::wake(); });
 }
@@ -134,27 +166,32 @@ void UnfoldedPanel::repaint(PanelHost& host) {
 void UnfoldedPanel::draw(PanelHost& host) {
     make(host);
     repaint(host);
-    if (mMade.flat) {
-        if (!mTexture.any()) {  // the window's context is another one
-            const int longest = std::max(mMade.picture.width(), mMade.picture.height());
-            mTexture.set(mMade.picture, true, (longest + kMostTexels - 1) / kMostTexels);
-        }
-        drawControls(host);
-        return drawWall(host);
+    if (made().flat && !mTexture.any()) {  // another picture, or the window's context is another one
+        const int longest = std::max(made().picture.width(), made().picture.height());
+        mTexture.set(made().picture, true, (longest + kMostTexels - 1) / kMostTexels);
     }
+    drawControls(host);
+    if (made().flat) return drawWall(host);
+    mark(host, std::nullopt);
+    drawMaking(host);
+}
+
+void UnfoldedPanel::drawMaking(PanelHost& host) {
     if (mWork.busy()) {
-        quietLine(host, fmt::format("unfolding the wall  {:.0f} %", 100 * mWork.fraction()));
+        quietLine(host, fmt::format("{}  {:.0f} %",
+                                    mMaking == kBothEnds ? "looking along the wall" : "unfolding the wall",
+                                    100 * mWork.fraction()));
         ImGui::SameLine();
         if (ImGui::Button("Cancel")) mWork.cancel();
         return;
     }
-    quietText(host, mProblem);
-    if (ImGui::Button("Unfold")) mOf.reset();
+    quietText(host, mViews[mView].problem);
+    if (ImGui::Button(fromBothEnds() ? "Look" : "Unfold")) mViews[mView].begun = false;
 }
 
 void UnfoldedPanel::save(PanelHost& host) {
     mSaving.start(
-        [flat = mMade, file = mFile](Progress&) {
+        [flat = made(), file = mFiles[mView]](Progress&) {
             try {
                 writeColorImage(file, flat.picture);
                 return "saved " + file;
@@ -163,28 +200,42 @@ void UnfoldedPanel::save(PanelHost& host) {
             }
         },
         [] { Window::wake(); });
-    host.session()->notify("saving " + mFile);
+    host.session()->notify("saving " + mFiles[mView]);
 }
 
 void UnfoldedPanel::drawControls(PanelHost& host) {
     if (const auto said = mSaving.take()) host.session()->notify(*said);
+    bool ends = fromBothEnds();
+    if (ImGui::Checkbox("from both ends", &ends)) show(ends ? kBothEnds : kLaidFlat);
+    tooltip(
+        "The wall as it is seen along the line: above ahead from the rectum's end, below back from the "
+        "caecum's. What a fold hides in the one strip lies open in the other.");
+    if (!made().flat) return;
+    ImGui::SameLine();
     ImGui::Checkbox("follow the eye", &mFollows);
     tooltip("The wall scrolls with the flight; the wheel and dragging end it.");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
-    ImGui::InputTextWithHint("##file", "unfolded.png", &mFile);
+    ImGui::InputTextWithHint("##file", "unfolded.png", &mFiles[mView]);
     ImGui::SameLine();
-    ImGui::BeginDisabled(mFile.empty() || mSaving.busy());
+    ImGui::BeginDisabled(mFiles[mView].empty() || mSaving.busy());
     if (ImGui::Button("Save picture")) save(host);
     ImGui::EndDisabled();
-    tooltip("All of the wall, with a mark for each centimetre of the line, and a square centimetre.");
+    tooltip(fromBothEnds()
+                ? "Both strips, with a mark for each centimetre of the line."
+                : "All of the wall, with a mark for each centimetre of the line, and a square centimetre.");
+}
+
+// With what of the scale below the wall is seen too.
+double UnfoldedPanel::rowsSeen() const {
+    const double scale = made().picture.height() - made().flat->height();
+    return made().flat->height() + std::min(kScaleRows, scale);
 }
 
 UnfoldedPanel::Part UnfoldedPanel::partSeen(const glm::dvec2& from, const glm::dvec2& size,
                                             double eyeColumn) {
-    const FlatPicture& flat = *mMade.flat;
-    Part part{from, size, mZoom * size.y / (flat.height() + kScaleRows), mCorner};
-    const glm::dvec2 all(flat.width(), flat.height() + kScaleRows), seen = size / part.scale;
+    Part part{from, size, mZoom * size.y / rowsSeen(), mCorner};
+    const glm::dvec2 all(made().flat->width(), rowsSeen()), seen = size / part.scale;
     if (mFollows) mCorner.x = eyeColumn - 0.5 * seen.x;
     const auto inside = [&](double corner, double whole, double shown) {
         return shown >= whole ? 0.5 * (whole - shown) : std::clamp(corner, 0.0, whole - shown);
@@ -199,14 +250,14 @@ void UnfoldedPanel::drawWall(PanelHost& host) {
     const glm::dvec2 from(corner.x, corner.y), size(std::max(room.x, 16.0f), std::max(room.y, 16.0f));
     const Pose eye = host.session()->pose();
     const LineThrough* const through = host.session()->open().scene->offered<const LineThrough>();
-    const double column = through ? mMade.flat->columnAt(through->placeOnLine(eye.position).along) : 0;
+    const double column = through ? made().flat->columnAt(through->placeOnLine(eye.position).along) : 0;
     const Part part = partSeen(from, size, column);
     ImGui::InvisibleButton("##wall", unitsPoint(size));
     ImGui::SetItemUsingMouseWheel();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect(unitsPoint(from), unitsPoint(from + size), true);
     list.AddImage(mTexture.id(), unitsPoint(part.unitsOf(glm::dvec2(0))),
-                  unitsPoint(part.unitsOf({mMade.picture.width(), mMade.picture.height()})));
+                  unitsPoint(part.unitsOf({made().picture.width(), made().picture.height()})));
     if (through) drawEye(host, part, column);
     drawMarks(host, part);
     usePointer(host, part);
@@ -221,9 +272,9 @@ void UnfoldedPanel::drawWall(PanelHost& host) {
     list.PopClipRect();
 }
 
-std::optional<glm::dvec2> UnfoldedPanel::find(Found& found, const glm::dvec3& world) const {
-    if (!found.known || found.world != world) found = {world, mMade.flat->pixelOf(world, kOnWall), true};
-    return found.pixel;
+const std::vector<glm::dvec2>& UnfoldedPanel::find(Found& found, const glm::dvec3& world) const {
+    if (!found.known || found.world != world) found = {world, made().flat->pixelsOf(world, kOnWall), true};
+    return found.pixels;
 }
 
 // A line where the eye is, with an arrow the way that it looks, and a ring around what it looks at.
@@ -246,8 +297,8 @@ void UnfoldedPanel::drawEye(PanelHost& host, const Part& part, double column) {
     const auto seen =
         worldUnder(viewsOf(frame->request), frame->left.viewDepth, glm::dvec2(0.5), frame->request.guard);
     if (!seen) return;
-    if (const auto at = find(mAhead, *seen))
-        drawRing(list, part.unitsOf(*at), 0.45f * ImGui::GetFontSize(), kFlatEyeColor);
+    for (const glm::dvec2& at : find(mAhead, *seen))
+        drawRing(list, part.unitsOf(at), 0.45f * ImGui::GetFontSize(), kFlatEyeColor);
 }
 
 void UnfoldedPanel::drawMarks(PanelHost& host, const Part& part) {
@@ -256,16 +307,16 @@ void UnfoldedPanel::drawMarks(PanelHost& host, const Part& part) {
     mMarks.resize(marks.size());
     const float radius = 0.4f * ImGui::GetFontSize();
     for (std::size_t n = 0; n < marks.size(); ++n) {
-        const auto at = find(mMarks[n], marks[n].world);
-        if (!at) continue;
-        const glm::dvec2 units = part.unitsOf(*at);
-        drawRing(list, units, radius, kFlatMarkColor);
-        list.AddText(unitsPoint(units + glm::dvec2(1.3 * radius, -1.3 * radius)), kFlatMarkColor,
-                     marks[n].label.c_str());
+        for (const glm::dvec2& at : find(mMarks[n], marks[n].world)) {
+            const glm::dvec2 units = part.unitsOf(at);
+            drawRing(list, units, radius, kFlatMarkColor);
+            list.AddText(unitsPoint(units + glm::dvec2(1.3 * radius, -1.3 * radius)), kFlatMarkColor,
+                         marks[n].label.c_str());
+        }
     }
     if (const auto pointed = host.pointedWorld())
-        if (const auto at = find(mPointed, *pointed))
-            drawRing(list, part.unitsOf(*at), 0.45f * ImGui::GetFontSize(), kFlatSeenColor);
+        for (const glm::dvec2& at : find(mPointed, *pointed))
+            drawRing(list, part.unitsOf(at), 0.45f * ImGui::GetFontSize(), kFlatSeenColor);
 }
 
 void UnfoldedPanel::usePointer(PanelHost& host, const Part& part) {
@@ -288,8 +339,8 @@ void UnfoldedPanel::usePointer(PanelHost& host, const Part& part) {
         mFollows = false;
         mCorner -= glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) / part.scale;
     }
-    const auto place = hovered ? mMade.flat->placeAt(static_cast<int>(std::floor(pixel.x)),
-                                                     static_cast<int>(std::floor(pixel.y)))
+    const auto place = hovered ? made().flat->placeAt(static_cast<int>(std::floor(pixel.x)),
+                                                      static_cast<int>(std::floor(pixel.y)))
                                : std::nullopt;
     mark(host, place ? std::optional(place->wall) : std::nullopt);
     mUnder = place ? fmt::format("{:.0f} mm along, click: fly there", 1e3 * place->along) : "";

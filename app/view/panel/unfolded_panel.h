@@ -1,7 +1,8 @@
-// The wall laid flat along the line, below the flight: what is looked at is marked in both, and a click flies
-// there. Made beside the window when it is first shown.
+// The wall along the line, below the flight, laid flat or as it is seen from both ends: what is looked at is
+// marked in both, and a click flies there. Each view is made beside the window when it is first shown.
 #pragma once
 
+#include <array>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
@@ -25,14 +26,22 @@ public:
     void draw(PanelHost& host);
     void hide(PanelHost& host);  // it is not drawn: its mark in the flight goes, and what is of another scene
     void forget();               // what belongs to the window's context
-    // Null until it is there.
-    const FlatPicture* flat() const { return mMade.flat.get(); }
+    // Of the view that is chosen; null until it is there.
+    const FlatPicture* flat() const { return made().flat.get(); }
+    bool fromBothEnds() const { return mView == kBothEnds; }
 
 private:
     struct Made {
         std::shared_ptr<const OpenScene> open;  // outlives the picture
         std::shared_ptr<const FlatPicture> flat;
         Plane<PackedColor> picture;
+        std::shared_ptr<const EyePainter> paint;  // over the scene's own, that it has
+    };
+    enum ViewOfWall : std::size_t { kLaidFlat, kBothEnds, kViews };
+    struct View {
+        Made made;
+        bool begun = false;   // it is not begun again by itself
+        std::string problem;  // why there is none, one line
     };
     // Which part is seen: units of the interface for a pixel, and the pixel in the upper left corner.
     struct Part {
@@ -42,34 +51,42 @@ private:
         glm::dvec2 pixelAt(const glm::dvec2& at) const { return corner + (at - from) / scale; }
         glm::dvec2 unitsOf(const glm::dvec2& pixel) const { return from + (pixel - corner) * scale; }
     };
-    // Where the wall next to a place lies, kept until another one is asked for.
+    // Where the wall next to a place shows, kept until another one is asked for.
     struct Found {
         glm::dvec3 world{0.0};
-        std::optional<glm::dvec2> pixel;
+        std::vector<glm::dvec2> pixels;
         bool known = false;
     };
 
+    const Made& made() const { return mViews[mView].made; }
     void make(PanelHost& host);
+    void takeMade(const std::shared_ptr<const Scene>& scene);
+    void show(ViewOfWall view);
+    void forgetPicture();
     void repaint(PanelHost& host);
+    void drawMaking(PanelHost& host);
     void drawControls(PanelHost& host);
     void drawWall(PanelHost& host);
     Part partSeen(const glm::dvec2& from, const glm::dvec2& size, double eyeColumn);
     void usePointer(PanelHost& host, const Part& part);
     void drawEye(PanelHost& host, const Part& part, double column);
     void drawMarks(PanelHost& host, const Part& part);
-    std::optional<glm::dvec2> find(Found& found, const glm::dvec3& world) const;
+    double rowsSeen() const;
+    const std::vector<glm::dvec2>& find(Found& found, const glm::dvec3& world) const;
     void mark(PanelHost& host, const std::optional<glm::dvec3>& world);
     void save(PanelHost& host);
 
     BesideWork<Made> mWork, mPainting;
-    std::shared_ptr<const EyePainter> mPaint;  // over the scene's own: that the picture has, or gets
-    double mPaintNext = 0;                     // of the window's clock
-    std::weak_ptr<const Scene> mOf;            // that was made, or is being made, of
-    Made mMade;
-    PanelTexture mTexture;
-    std::string mProblem, mUnder;  // one line each
+    ViewOfWall mMaking = kLaidFlat;        // by mWork
+    std::weak_ptr<const Scene> mMakingOf;  // the same
+    double mPaintNext = 0;                 // of the window's clock
+    std::weak_ptr<const Scene> mOf;        // whose views there are
+    std::array<View, kViews> mViews;
+    ViewOfWall mView = kLaidFlat;
+    PanelTexture mTexture;  // of the picture that is shown
+    std::string mUnder;     // one line
     BesideWork<std::string> mSaving;
-    std::string mFile = "unfolded.png";
+    std::array<std::string, kViews> mFiles{"unfolded.png", "panorama.png"};
     double mZoom = 1;         // 1: as high as the box
     glm::dvec2 mCorner{0.0};  // pixels
     bool mFollows = true, mDragged = false, mMarked = false;

@@ -1,5 +1,6 @@
-#include "app/view/eye_marks.h"
+#include "app/output/eye_marks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 
@@ -36,14 +37,23 @@ double depthAt(const EyeView& view, const Plane<float>& viewDepth, const glm::iv
     return pixelAt(view, viewDepth, guard, place).depth;
 }
 
-}  // namespace
-
-StereoViews viewsOf(const FrameRequest& request) {
-    if (request.twoEyes) return makeStereoViews(request.pose, request.lens, request.stereo);
-    StereoViews views;
-    views.left = views.right = makeEyeView(request.pose, request.lens);
-    return views;
+// Whether the pixel there and all beside it show what is nearer. Ground that is seen at a low angle has other
+// depths within a pixel: what stands on it is not hidden by it.
+bool isHidden(const EyeView& view, const Plane<float>& viewDepth, const glm::ivec2& guard,
+              const glm::dvec2& place, double depth) {
+    const glm::dvec2 pixel(static_cast<double>(view.width) / std::max(1, viewDepth.width() - 2 * guard.x),
+                           static_cast<double>(view.height) / std::max(1, viewDepth.height() - 2 * guard.y));
+    for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) {
+            const double seen = depthAt(view, viewDepth, guard, place + glm::dvec2(i, j) * pixel);
+            const bool nearer = seen > 0 && seen < depth * (1 - kBehind);
+            const bool outside = std::isnan(seen) && (i != 0 || j != 0);
+            if (!nearer && !outside) return false;
+        }
+    return true;
 }
+
+}  // namespace
 
 EyeMark markUnder(const StereoViews& views, const Plane<float>& viewDepth, const glm::dvec2& share,
                   const glm::ivec2& guard) {
@@ -71,8 +81,7 @@ std::optional<PointMark> markOf(const StereoViews& views, const Plane<float>& vi
     const PointMark point{{glm::dvec2(left), glm::dvec2(right)}, left.z};
     if (!isInside(views.left, point.mark.left) || !isInside(views.right, point.mark.right))
         return std::nullopt;
-    const double seen = depthAt(views.left, viewDepth, guard, point.mark.left);
-    if (seen > 0 && seen < left.z * (1 - kBehind)) return std::nullopt;
+    if (isHidden(views.left, viewDepth, guard, point.mark.left, left.z)) return std::nullopt;
     return point;
 }
 

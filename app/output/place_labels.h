@@ -1,4 +1,4 @@
-// The names of kept places that are in view, as labels over both eyes' pictures.
+// The names of places that are in view, as labels over both eyes' pictures.
 #pragma once
 
 #include <functional>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/view/eye_marks.h"
+#include "app/output/eye_marks.h"
 
 namespace stereonav {
 
@@ -26,7 +26,7 @@ using TextSize = std::function<glm::dvec2(const std::string&)>;
 
 // Nearest first; none that would lie over another one, or that has no room in the picture. Places that would
 // stand far before the screen have none: one is nearly there. margin: pixels kept around texts.
-std::vector<PlaceLabel> labelsInView(const FrameRequest& request, const Plane<float>& viewDepth,
+std::vector<PlaceLabel> labelsInView(const StereoViews& views, const Plane<float>& viewDepth,
                                      const std::vector<LabelledPlace>& places, const TextSize& sizeOf,
                                      double margin, const glm::ivec2& guard = glm::ivec2(0));
 

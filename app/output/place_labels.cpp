@@ -1,8 +1,11 @@
-#include "app/view/place_labels.h"
+#include "app/output/place_labels.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/common.hpp>
 #include <utility>
+
+#include "engine/text/utf8.h"
 
 namespace stereonav {
 namespace {
@@ -17,15 +20,8 @@ struct Box {
     }
 };
 
-bool continues(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;  // of UTF-8
-}
-
-std::string shortened(const std::string& name) {
-    std::size_t letters = 0;
-    for (std::size_t n = 0; n < name.size(); ++n)
-        if (!continues(name[n]) && letters++ == kLongestLabel) return name.substr(0, n) + "\u2026";
-    return name;
+bool isTaken(const std::vector<Box>& taken, const Box& box) {
+    return std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return other.meets(box); });
 }
 
 // The text's corner from the mark: above it, or below where there is no room, and aside as both eyes need it.
@@ -42,12 +38,11 @@ std::optional<glm::dvec2> placed(const EyeMark& mark, const glm::dvec2& size, co
 
 }  // namespace
 
-std::vector<PlaceLabel> labelsInView(const FrameRequest& request, const Plane<float>& viewDepth,
+std::vector<PlaceLabel> labelsInView(const StereoViews& views, const Plane<float>& viewDepth,
                                      const std::vector<LabelledPlace>& places, const TextSize& sizeOf,
                                      double margin, const glm::ivec2& guard) {
     std::vector<PlaceLabel> labels;
     if (places.empty()) return labels;
-    const StereoViews views = viewsOf(request);
     const glm::dvec2 picture(views.left.width, views.left.height);
     std::vector<std::pair<PointMark, const LabelledPlace*>> seen;
     for (const LabelledPlace& place : places) {
@@ -57,18 +52,20 @@ std::vector<PlaceLabel> labelsInView(const FrameRequest& request, const Plane<fl
     }
     std::stable_sort(seen.begin(), seen.end(),
                      [](const auto& a, const auto& b) { return a.first.depth < b.first.depth; });
-    std::vector<Box> taken;
+    std::array<std::vector<Box>, 2> taken;  // in each eye
     for (const auto& [point, place] : seen) {
         if (labels.size() == kMostLabels) break;
-        PlaceLabel label{point.mark, shortened(place->name), {}};
+        PlaceLabel label{point.mark, firstLetters(place->name, kLongestLabel), {}};
         const glm::dvec2 size = sizeOf(label.text);
         const auto at = placed(label.mark, size, picture, margin);
         if (!at) continue;
         label.textAt = *at;
-        const Box box{label.mark.left + *at - margin, label.mark.left + *at + size + margin};
-        if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return other.meets(box); }))
-            continue;
-        taken.push_back(box);
+        const auto boxAt = [&](const glm::dvec2& mark) {
+            return Box{mark + *at - margin, mark + *at + size + margin};
+        };
+        const std::array boxes{boxAt(label.mark.left), boxAt(label.mark.right)};
+        if (isTaken(taken[0], boxes[0]) || isTaken(taken[1], boxes[1])) continue;
+        for (std::size_t eye : {0u, 1u}) taken[eye].push_back(boxes[eye]);
         labels.push_back(std::move(label));
     }
     return labels;

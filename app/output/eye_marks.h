@@ -6,7 +6,6 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "app/view/worker.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/image/plane.h"
 
@@ -16,9 +15,6 @@ namespace stereonav {
 struct EyeMark {
     glm::dvec2 left{0.0}, right{0.0};
 };
-
-// The eyes that a frame was made with; of one eye that one twice.
-StereoViews viewsOf(const FrameRequest& request);
 
 // A place of the left eye's picture, shares of its size, on the surface that is seen there (viewDepth: of the
 // left eye); in the plane of the screen where nothing is hit or known, or the place lies beside the picture.

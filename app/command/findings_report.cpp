@@ -1,0 +1,24 @@
+// Findings as a DICOM structured report, for the command and the window.
+#include "colon/instruments/findings_report.h"
+
+#include <fmt/format.h>
+
+#include <ctime>
+
+#include "app/command/findings_words.h"
+#include "app/options/built_without.h"
+
+namespace stereonav {
+
+// Of a study that is not DICOM its content tells which it is; of the built-in colon what it was made of.
+std::string findingsReport(const ColonOptions& reading, const std::vector<Finding>& findings) {
+    std::optional<StudySource> source;
+    if (!reading.study.empty()) source = sourceOf(reading.study, reading.reading);
+    std::string study = fmt::format("built-in colon {}", reading.builtIn.seed);
+    if (!reading.study.empty() && (!source || source->study.empty()))
+        study = fmt::format("{:016x}", studyKey(reading.study, reading.reading));
+    return structuredReportFile(
+        reportOf(study, source, findings, std::string("stereonav ") + versionNumber(), std::time(nullptr)));
+}
+
+}  // namespace stereonav

@@ -1,0 +1,24 @@
+// Letters of UTF-8 text, one after the other.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace stereonav {
+
+constexpr char32_t kNoLetter = 0xfffd;  // U+FFFD stands for what is none
+
+struct Letter {
+    char32_t code = kNoLetter;
+    std::size_t bytes = 0;  // it takes so many; 0 at the end of the text
+};
+
+// The one that starts at a byte of the text. A byte that starts none, a form longer than need be, a surrogate
+// and what lies beyond U+10FFFF are kNoLetter, of one byte.
+Letter letterAt(std::string_view text, std::size_t at);
+
+// The text up to so many letters, with an ellipsis in the place of those that were cut off.
+std::string firstLetters(const std::string& text, std::size_t most);
+
+}  // namespace stereonav
