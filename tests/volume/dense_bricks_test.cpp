@@ -128,7 +128,7 @@ TEST(DenseBricks, ShowTheSamePicture) {
     lens.height = 64;
     lens.nearDepth = 0.001;
     const EyeView view =
-        makeStereoViews(poseFromAngles({0.005, -0.09, 0.01}, 0, -3, 0), lens, {0.004, 0.1}).left;
+        makeStereoViews(poseFromAngles({0.005, -0.09, 0.01}, 0, -0.05, 0), lens, {0.004, 0.1}).left;
     for (const bool translucent : {false, true})
         for (const SimdTarget target : simdTargets()) {
             if (translucent)
