@@ -106,36 +106,43 @@ GreyVolume cutField(const GreyVolume& study, const LumenCrop& crop, const SliceD
 // Marks pieces of air in the crop: the colon's, and all others.
 void markAir(const AirPieces& air, const LumenCrop& crop, MaskVolume& marks) {
     const glm::ivec3 size = crop.frame.size;
-    for (int k = 1; k < size.z - 1; ++k)
+    const VoxelRuns& runs = air.pieces.runs;
+    parallelFor(size.z - 2, [&](int slice) {
+        const int k = slice + 1;
         for (int j = 1; j < size.y - 1; ++j) {
             const glm::ivec3 at = glm::ivec3(0, j, k) + crop.first;
-            if (at.y < 0 || at.z < 0 || at.y >= air.pieces.runs.size.y || at.z >= air.pieces.runs.size.z)
-                continue;
-            const std::size_t row = air.pieces.runs.rowNumber(at.y, at.z);
-            for (std::uint32_t n = air.pieces.runs.rowStart[row]; n < air.pieces.runs.rowStart[row + 1];
-                 ++n) {
+            if (at.y < 0 || at.z < 0 || at.y >= runs.size.y || at.z >= runs.size.z) continue;
+            const std::size_t row = runs.rowNumber(at.y, at.z);
+            for (std::uint32_t n = runs.rowStart[row]; n < runs.rowStart[row + 1]; ++n) {
                 const AirKind kind = air.kinds[air.pieces.parts.ofRun[n]];
                 if (kind == AirKind::Small) continue;  // not worth a wall of its own
-                const int first = std::max(1, air.pieces.runs.runs[n].first - at.x);
-                const int end = std::min(size.x - 1, air.pieces.runs.runs[n].end - at.x);
+                const int first = std::max(1, runs.runs[n].first - at.x);
+                const int end = std::min(size.x - 1, runs.runs[n].end - at.x);
                 for (int i = first; i < end; ++i) marks.at(i, j, k) = kind == AirKind::Colon ? kColon : kElse;
             }
         }
+    });
 }
 
+// In the order of voxels.
 std::vector<glm::ivec3> markedBorder(const MaskVolume& marks) {
-    std::vector<glm::ivec3> border;
     const glm::ivec3 size = marks.frame.size;
-    for (int k = 1; k < size.z - 1; ++k)
+    std::vector<std::vector<glm::ivec3>> slices(static_cast<std::size_t>(std::max(0, size.z - 2)));
+    parallelFor(size.z - 2, [&](int slice) {
         for (int j = 1; j < size.y - 1; ++j)
             for (int i = 1; i < size.x - 1; ++i) {
-                if (!marks.at(i, j, k)) continue;
+                const glm::ivec3 voxel(i, j, slice + 1);
+                if (!marks.at(voxel)) continue;
                 for (const glm::ivec3& step : kNeighbours)
-                    if (!marks.at(glm::ivec3(i, j, k) + step)) {
-                        border.push_back({i, j, k});
+                    if (!marks.at(voxel + step)) {
+                        slices[static_cast<std::size_t>(slice)].push_back(voxel);
                         break;
                     }
             }
+    });
+    std::vector<glm::ivec3> border;
+    for (const std::vector<glm::ivec3>& slice : slices)
+        border.insert(border.end(), slice.begin(), slice.end());
     return border;
 }
 
@@ -164,13 +171,15 @@ std::int16_t walledOff(double wall) {
 void wallOff(const MaskVolume& marks, double wall, GreyVolume& field) {
     const glm::ivec3 size = marks.frame.size;
     const std::int16_t above = walledOff(wall);
-    for (int k = 1; k < size.z - 1; ++k)
+    parallelFor(size.z - 2, [&](int slice) {
+        const int k = slice + 1;
         for (int j = 1; j < size.y - 1; ++j)
             for (int i = 1; i < size.x - 1; ++i) {
                 if (marks.at(i, j, k) != kElse) continue;
                 for (const glm::ivec3& step : kNeighbours)
                     if (marks.at(glm::ivec3(i, j, k) + step) == kColon) field.at(i, j, k) = above;
             }
+    });
 }
 
 Pieces markedPieces(const MaskVolume& marks) {
