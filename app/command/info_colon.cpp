@@ -156,7 +156,7 @@ Facts factsOfVolume(const Scene& scene) {
     const double length = inside ? kMm * colon.centreline.length() : 0.0;
     ofColon("centreline_mm", length, "centreline", fmt::format("{:.0f} mm", length), "mm");
     list.json("polyps", polypFacts(colon));
-    list.json("records", countOf(colon.volume.cells.records.size()));
+    list.json("records", countOf(colon.volume.cells.active));
     const std::string memory = addHeld(list.facts(), heldBy(colon));
     const bool flies = colon.path.samples().size() > 1;
     const double flight = flies ? colon.path.duration() : 0.0;

@@ -68,7 +68,7 @@ WayChart normalsChart(ReportRun& run) {
     const SurfaceCells cells = findSurfaceCells(volume, {surface, surface, surface, nullptr}, quiet);
     const auto ofCorners = [&](const glm::dvec3& voxel, bool nearest) {
         const glm::ivec3 cell = glm::ivec3(voxel);
-        const CellRecord* const record = cells.record(cell);
+        const std::optional<CellRecord> record = cells.record(cell);
         if (!record) return glm::dvec3(0, 0, 1);
         const glm::dvec3 f = voxel - glm::dvec3(cell);
         if (nearest) {

@@ -46,7 +46,7 @@ GreyVolume greyOf(const MaskVolume& mask) {
 }
 
 // The lumen that was kept for this study and setting; found anew, and kept, where there is none.
-LumenField lumenOfGrey(const Study& study, const ColonOptions& options, std::vector<std::string>& notes,
+LumenField lumenOfGrey(Study& study, const ColonOptions& options, std::vector<std::string>& notes,
                        Progress& progress) {
     const bool keeps = options.cache && !options.study.empty();
     const std::uint64_t key = savedLumenKey(study.key, options.segmentation);
@@ -55,7 +55,9 @@ LumenField lumenOfGrey(const Study& study, const ColonOptions& options, std::vec
         notes.insert(notes.end(), saved.notes.begin(), saved.notes.end());
         if (saved.lumen) return std::move(*saved.lumen);
     }
-    LumenField lumen = segmentColon(study.grey, options.segmentation, progress);
+    LumenField lumen = options.keepsStudy
+                           ? segmentColon(study.grey, options.segmentation, progress)
+                           : segmentColon(std::move(study.grey), options.segmentation, progress);
     if (keeps) notes.push_back(saveLumen(lumen.lumen, key));
     return lumen;
 }

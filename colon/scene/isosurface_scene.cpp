@@ -200,9 +200,9 @@ SurfaceCells cellsAt(const GreyVolume& field, double isovalue, const TransferFun
                     "300 shows bone in CT");
     SurfaceCells cells = findSurfaceCells(field, cellsShown(field, isovalue, transfer), progress);
     // A function that shows none of the values that there are shows the background.
-    if (cells.records.empty() && !transfer.empty())
+    if (cells.active == 0 && !transfer.empty())
         cells = findSurfaceCells(field, cellsShown(field, isovalue, {}), progress);
-    if (!cells.records.empty()) return cells;
+    if (cells.active > 0) return cells;
     const Range16 range = storedRangeOf(field);
     throw Error("--isovalue", "", fmt::format("expected a value inside the volume's, got {:g}", isovalue),
                 fmt::format("values go from {:g} to {:g}", valueOf(field, range.lowest),

@@ -73,21 +73,32 @@ LumenCrop cropOf(const GreyVolume& study, const AirPieces& air, const FluidPools
     return cropAround(first, last, kLumenMargin + kGrowth, study.frame);
 }
 
+using SliceDone = std::function<void(int k)>;  // of the study: it is not read any more
+
 // HU in the crop's frame; tissue beyond the study and on the outermost voxels, which closes the lumen.
-GreyVolume cutField(const GreyVolume& study, const LumenCrop& crop) {
+GreyVolume cutField(const GreyVolume& study, const LumenCrop& crop, const SliceDone& done) {
     checkLumenMemory(crop);
     GreyVolume field(crop.frame);
     const glm::ivec3 size = crop.frame.size;
+    const bool asStored = study.scale == 1 && study.offset == 0;
+    const int first = std::max(1, -crop.first.x),
+              end = std::min(size.x - 1, study.frame.size.x - crop.first.x);
     parallelFor(size.z, [&](int k) {
-        for (int j = 0; j < size.y; ++j)
-            for (int i = 0; i < size.x; ++i) {
-                const glm::ivec3 at = glm::ivec3(i, j, k) + crop.first;
-                const bool face =
-                    i == 0 || j == 0 || k == 0 || i == size.x - 1 || j == size.y - 1 || k == size.z - 1;
-                double hu = kBodyTissue;
-                if (!face && study.frame.contains(at)) hu = std::clamp(huAt(study, at), -32768.0, 32767.0);
-                field.at(i, j, k) = static_cast<std::int16_t>(std::lround(hu));
-            }
+        for (int j = 0; j < size.y; ++j) {
+            std::int16_t* row = &field.at(0, j, k);
+            std::fill_n(row, size.x, kBodyTissue);
+            const glm::ivec3 at = glm::ivec3(first, j, k) + crop.first;
+            const bool face = j == 0 || k == 0 || j == size.y - 1 || k == size.z - 1;
+            if (face || first >= end || !study.frame.contains(at)) continue;
+            const std::int16_t* from = &study.values[study.frame.index(at)];
+            if (asStored)
+                std::copy_n(from, end - first, row + first);
+            else
+                for (int i = 0; i < end - first; ++i)
+                    row[first + i] = static_cast<std::int16_t>(
+                        std::lround(std::clamp(from[i] * study.scale + study.offset, -32768.0, 32767.0)));
+        }
+        done(k + crop.first.z);
     });
     return field;
 }
@@ -95,36 +106,43 @@ GreyVolume cutField(const GreyVolume& study, const LumenCrop& crop) {
 // Marks pieces of air in the crop: the colon's, and all others.
 void markAir(const AirPieces& air, const LumenCrop& crop, MaskVolume& marks) {
     const glm::ivec3 size = crop.frame.size;
-    for (int k = 1; k < size.z - 1; ++k)
+    const VoxelRuns& runs = air.pieces.runs;
+    parallelFor(size.z - 2, [&](int slice) {
+        const int k = slice + 1;
         for (int j = 1; j < size.y - 1; ++j) {
             const glm::ivec3 at = glm::ivec3(0, j, k) + crop.first;
-            if (at.y < 0 || at.z < 0 || at.y >= air.pieces.runs.size.y || at.z >= air.pieces.runs.size.z)
-                continue;
-            const std::size_t row = air.pieces.runs.rowNumber(at.y, at.z);
-            for (std::uint32_t n = air.pieces.runs.rowStart[row]; n < air.pieces.runs.rowStart[row + 1];
-                 ++n) {
+            if (at.y < 0 || at.z < 0 || at.y >= runs.size.y || at.z >= runs.size.z) continue;
+            const std::size_t row = runs.rowNumber(at.y, at.z);
+            for (std::uint32_t n = runs.rowStart[row]; n < runs.rowStart[row + 1]; ++n) {
                 const AirKind kind = air.kinds[air.pieces.parts.ofRun[n]];
                 if (kind == AirKind::Small) continue;  // not worth a wall of its own
-                const int first = std::max(1, air.pieces.runs.runs[n].first - at.x);
-                const int end = std::min(size.x - 1, air.pieces.runs.runs[n].end - at.x);
+                const int first = std::max(1, runs.runs[n].first - at.x);
+                const int end = std::min(size.x - 1, runs.runs[n].end - at.x);
                 for (int i = first; i < end; ++i) marks.at(i, j, k) = kind == AirKind::Colon ? kColon : kElse;
             }
         }
+    });
 }
 
+// In the order of voxels.
 std::vector<glm::ivec3> markedBorder(const MaskVolume& marks) {
-    std::vector<glm::ivec3> border;
     const glm::ivec3 size = marks.frame.size;
-    for (int k = 1; k < size.z - 1; ++k)
+    std::vector<std::vector<glm::ivec3>> slices(static_cast<std::size_t>(std::max(0, size.z - 2)));
+    parallelFor(size.z - 2, [&](int slice) {
         for (int j = 1; j < size.y - 1; ++j)
             for (int i = 1; i < size.x - 1; ++i) {
-                if (!marks.at(i, j, k)) continue;
+                const glm::ivec3 voxel(i, j, slice + 1);
+                if (!marks.at(voxel)) continue;
                 for (const glm::ivec3& step : kNeighbours)
-                    if (!marks.at(glm::ivec3(i, j, k) + step)) {
-                        border.push_back({i, j, k});
+                    if (!marks.at(voxel + step)) {
+                        slices[static_cast<std::size_t>(slice)].push_back(voxel);
                         break;
                     }
             }
+    });
+    std::vector<glm::ivec3> border;
+    for (const std::vector<glm::ivec3>& slice : slices)
+        border.insert(border.end(), slice.begin(), slice.end());
     return border;
 }
 
@@ -153,13 +171,15 @@ std::int16_t walledOff(double wall) {
 void wallOff(const MaskVolume& marks, double wall, GreyVolume& field) {
     const glm::ivec3 size = marks.frame.size;
     const std::int16_t above = walledOff(wall);
-    for (int k = 1; k < size.z - 1; ++k)
+    parallelFor(size.z - 2, [&](int slice) {
+        const int k = slice + 1;
         for (int j = 1; j < size.y - 1; ++j)
             for (int i = 1; i < size.x - 1; ++i) {
                 if (marks.at(i, j, k) != kElse) continue;
                 for (const glm::ivec3& step : kNeighbours)
                     if (marks.at(glm::ivec3(i, j, k) + step) == kColon) field.at(i, j, k) = above;
             }
+    });
 }
 
 Pieces markedPieces(const MaskVolume& marks) {
@@ -287,6 +307,41 @@ void noteFluid(std::size_t pools, const SegmentationSetting& setting, LumenField
         lumen.notes.push_back(fmt::format("took {} pool(s) of tagged fluid for lumen", pools));
 }
 
+LumenField segmentStudy(const GreyVolume& study, const SegmentationSetting& setting, const SliceDone& done,
+                        Progress& progress) {
+    checkSetting(setting);
+    progress.report(0, "looking for air");
+    AirPieces air = findAir(study, setting, progress);
+    takeSeeds(study, setting, air);
+    progress.report(0.4, "looking for tagged fluid");
+    FluidPools fluid = findFluid(study, setting, air);
+    const std::size_t pools = fluid.pools.size();
+    if (setting.leavesFluid) fluid.pools.clear();
+    LumenField lumen;
+    lumen.notes = air.notes;
+    const LumenCrop crop = cropOf(study, air, fluid);
+    for (int k = 0; k < study.frame.size.z; ++k)
+        if (k < crop.first.z || k >= crop.first.z + crop.frame.size.z) done(k);
+    lumen.field = cutField(study, crop, done);
+    lumen.isovalue = setting.wall;
+    Pieces pieces;
+    {
+        MaskVolume marks(crop.frame);
+        cleanseFluid(fluid, setting, crop.first, lumen.field, marks);
+        fluid = {};
+        progress.report(0.7, "following the wall");
+        markAir(air, crop, marks);
+        air = {};
+        growMarks(lumen.field, setting.wall, marks);
+        wallOff(marks, setting.wall, lumen.field);
+        pieces = markedPieces(marks);
+    }
+    setSegments(pieces, orderOf(pieces, worthKeeping(pieces, crop.frame), crop.frame), lumen);
+    noteFluid(pools, setting, lumen);
+    progress.report(1, "found the lumen");
+    return lumen;
+}
+
 }  // namespace
 
 std::optional<LumenField> restoreLumen(const GreyVolume& study, MaskVolume lumen,
@@ -301,7 +356,7 @@ std::optional<LumenField> restoreLumen(const GreyVolume& study, MaskVolume lumen
     if (found.segments.empty()) return std::nullopt;
     FluidPools fluid;
     if (!setting.leavesFluid) fluid = poolsInside(study, setting, airInside(study, setting, inside), inside);
-    found.field = cutField(study, *crop);
+    found.field = cutField(study, *crop, [](int) {});
     found.isovalue = setting.wall;
     MaskVolume marks(crop->frame);
     cleanseFluid(fluid, setting, crop->first, found.field, marks);
@@ -312,30 +367,16 @@ std::optional<LumenField> restoreLumen(const GreyVolume& study, MaskVolume lumen
 }
 
 LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress) {
-    checkSetting(setting);
-    progress.report(0, "looking for air");
-    AirPieces air = findAir(study, setting, progress);
-    takeSeeds(study, setting, air);
-    progress.report(0.4, "looking for tagged fluid");
-    FluidPools fluid = findFluid(study, setting, air);
-    const std::size_t pools = fluid.pools.size();
-    if (setting.leavesFluid) fluid.pools.clear();
-    LumenField lumen;
-    lumen.notes = air.notes;
-    const LumenCrop crop = cropOf(study, air, fluid);
-    lumen.field = cutField(study, crop);
-    lumen.isovalue = setting.wall;
-    MaskVolume marks(crop.frame);
-    cleanseFluid(fluid, setting, crop.first, lumen.field, marks);
-    progress.report(0.7, "following the wall");
-    markAir(air, crop, marks);
-    growMarks(lumen.field, setting.wall, marks);
-    wallOff(marks, setting.wall, lumen.field);
-    const Pieces pieces = markedPieces(marks);
-    setSegments(pieces, orderOf(pieces, worthKeeping(pieces, crop.frame), crop.frame), lumen);
-    noteFluid(pools, setting, lumen);
-    progress.report(1, "found the lumen");
-    return lumen;
+    return segmentStudy(
+        study, setting, [](int) {}, progress);
+}
+
+LumenField segmentColon(GreyVolume&& study, const SegmentationSetting& setting, Progress& progress) {
+    const std::size_t perSlice = static_cast<std::size_t>(study.frame.size.x) * study.frame.size.y;
+    const auto release = [&](int k) {
+        if (k >= 0 && k < study.frame.size.z) study.values.release(perSlice * k, perSlice);
+    };
+    return segmentStudy(study, setting, release, progress);
 }
 
 }  // namespace stereonav

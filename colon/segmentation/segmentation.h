@@ -41,6 +41,8 @@ struct LumenField {
 // it is left; it ties the air above it to the colon all the same.
 // Throws Error (no air, all air, seeds outside, nothing like a colon), Cancelled.
 LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress);
+// The same of a study that nobody asks for behind it: its values go slice by slice as the field's come.
+LumenField segmentColon(GreyVolume&& study, const SegmentationSetting& setting, Progress& progress);
 
 // The field and the segments of a lumen (numbered from 1) that was found in this study with this setting and
 // kept: what segmentColon gives, without judging any air again. Nothing where they do not fit together.

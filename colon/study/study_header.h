@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <string>
@@ -53,9 +54,10 @@ VolumeHeader readVolumeHeader(const std::filesystem::path& file);  // study_volu
 // --- study_samples.cpp
 // Throws Error when the files can not hold as many samples as the header says.
 void checkSampleFiles(const std::filesystem::path& file, const VolumeHeader& header);
-// All of them into `to`, in this machine's byte order. Throws Error, Cancelled.
+// All of them into `to`, in this machine's byte order. come(bytes): so many have come, in the file's order.
+// Throws Error, Cancelled.
 void readSamples(const std::filesystem::path& file, const VolumeHeader& header, unsigned char* to,
-                 Progress& progress);
+                 Progress& progress, const std::function<void(std::uint64_t bytes)>& come);
 
 // True where the file's name is one of a pair of .hdr and .img (each also with .gz) whose header is NIfTI's.
 bool isNiftiPair(const std::filesystem::path& file);  // study_nifti.cpp

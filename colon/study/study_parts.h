@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -66,11 +67,23 @@ double bytesHeld(const std::vector<std::uint64_t>& size, int sampleBytes, const 
 // "512 x 512 x 20"
 std::string sizeText(const std::vector<std::uint64_t>& size);
 
+// --- study_facts.cpp
+// What some of the samples are like.
+struct ValueFacts {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    std::size_t notNumbers = 0, fractions = 0;
+    std::size_t pairs = 0, equalPairs = 0;  // neighbours along i, not both 0
+    bool many = false;                      // more distinct values than a map of labels has
+    std::vector<double> distinct;           // sorted
+};
+
 // --- study_volume.cpp
 struct VolumeFile {
     RawStudy raw;
     std::string format, description;
     std::vector<std::string> notes;
+    std::vector<ValueFacts>
+        facts;  // of the first slices, as far as they were looked at while others were read
 };
 // NRRD, NIfTI or MetaImage. Throws Error, Cancelled.
 VolumeFile readVolumeFile(const std::filesystem::path& file, const StudyOptions& options, Progress& progress);
@@ -148,9 +161,10 @@ void decodeSlices(const std::vector<const DicomSlice*>& slices, PictureDecoder& 
 RawStudy resampleSlices(const RawStudy& raw, const SlicePlaces& places, const std::string& file);
 
 // --- study_values.cpp
-// Fills mask or grey (which have the samples' frame), and the notes. Values that stay as they are take over
-// the samples' memory, others come slice by slice, and the samples' memory goes. Throws Error about labels
-// and values that are not numbers.
-void takeValues(RawStudy raw, const std::string& file, const StudyOptions& options, Study& study);
+// Fills mask or grey (which have the samples' frame), and the notes. slices: VolumeFile::facts. Values that
+// stay as they are take over the samples' memory, others come slice by slice, and the samples' memory goes.
+// Throws Error about labels and values that are not numbers.
+void takeValues(RawStudy raw, std::vector<ValueFacts> slices, const std::string& file,
+                const StudyOptions& options, Study& study);
 
 }  // namespace stereonav

@@ -57,10 +57,12 @@ struct Reading {
     const fs::path& file;
     const VolumeHeader& header;
     Progress& progress;
+    const std::function<void(std::uint64_t)>& come;
     std::uint64_t expected = 0, done = 0;
 
     void add(std::uint64_t bytes) {
         done += bytes;
+        come(done);
         const double share =
             static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(expected, 1));
         progress.report(0.7 * share, "reading " + file.filename().string());
@@ -256,9 +258,10 @@ void checkSampleFiles(const fs::path& file, const VolumeHeader& header) {
     }
 }
 
-void readSamples(const fs::path& file, const VolumeHeader& header, unsigned char* to, Progress& progress) {
+void readSamples(const fs::path& file, const VolumeHeader& header, unsigned char* to, Progress& progress,
+                 const std::function<void(std::uint64_t bytes)>& come) {
     const SamplePlace& place = header.place;
-    Reading reading{file, header, progress, bytesExpected(header)};
+    Reading reading{file, header, progress, come, bytesExpected(header)};
     const std::uint64_t share = reading.expected / place.files.size();
     for (const fs::path& data : place.files) {
         const auto stream = openStream(file, data, startOf(data, place, share), place.encoding);

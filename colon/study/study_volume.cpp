@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "colon/study/study_facts.h"
 #include "colon/study/study_header.h"
 #include "colon/study/study_text.h"
 
@@ -103,7 +104,12 @@ VolumeFile readVolumeFile(const fs::path& file, const StudyOptions& options, Pro
     checkSampleFiles(file, header);  // before anything is taken for as many slices as the header says
     const SlicePlaces places = placesOfGrid(file, result.raw.frame, options.resample);
     result.raw.bytes = LazyArray<unsigned char>(result.raw.frame.count() * bytesOf(header.type));
-    readSamples(file, header, result.raw.bytes.data(), progress);
+    const bool asTheyCome = places.upright && !header.place.turned;
+    FactsBeside facts(result.raw);
+    readSamples(file, header, result.raw.bytes.data(), progress, [&](std::uint64_t bytes) {
+        if (asTheyCome) facts.come(bytes);
+    });
+    result.facts = facts.take();
     progress.report(0.7, "reading " + file.filename().string());
     if (!places.upright) {
         result.raw = resampleSlices(result.raw, places, file.string());

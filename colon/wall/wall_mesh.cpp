@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <optional>
 
 #include "engine/base/memory.h"
 #include "engine/base/parallel.h"
@@ -38,10 +39,10 @@ private:
         parallelFor(count, [&](int brick) {
             const glm::ivec3 low =
                 16 * glm::ivec3(brick % bricks.x, brick / bricks.x % bricks.y, brick / (bricks.x * bricks.y));
-            const std::uint32_t* records = &mCells.cells[static_cast<std::size_t>(brick) * 4096];
+            const std::uint16_t* places = &mCells.places[static_cast<std::size_t>(brick) * 4096];
             for (int n = 0; n < 4096; ++n) {
                 const glm::ivec3 cell = low + glm::ivec3(n & 15, n >> 4 & 15, n >> 8);
-                if (records[n] && holdsWall(cell)) found[brick].push_back(cell);
+                if (places[n] && holdsWall(cell)) found[brick].push_back(cell);
             }
         });
         std::size_t vertices = 0;
@@ -56,14 +57,11 @@ private:
         mMesh.cells.reserve(vertices);
         for (const auto& part : found)
             for (const glm::ivec3& cell : part) {
-                mVertexOf[recordOf(cell)] = static_cast<std::uint32_t>(mMesh.cells.size());
+                mVertexOf[*mCells.recordNumber(cell)] = static_cast<std::uint32_t>(mMesh.cells.size());
                 mMesh.cells.push_back(cell);
             }
     }
 
-    std::size_t recordOf(const glm::ivec3& cell) const {
-        return mCells.cells[mCells.layout.index(cell.x, cell.y, cell.z)] - 1;
-    }
     bool inside(const glm::ivec3& voxel) const { return mLumen.at(voxel) != 0; }
 
     bool holdsWall(const glm::ivec3& cell) const {
@@ -134,9 +132,9 @@ private:
             glm::ivec3 of = cell;
             of[b] -= n == 1 || n == 2;
             of[c] -= n >= 2;
-            const std::uint32_t record = mCells.cells[mCells.layout.index(of.x, of.y, of.z)];
-            if (!record || mVertexOf[record - 1] == kNone) return;
-            around[n] = mVertexOf[record - 1];
+            const std::optional<std::size_t> record = mCells.recordNumber(of);
+            if (!record || mVertexOf[*record] == kNone) return;
+            around[n] = mVertexOf[*record];
         }
         // Counter-clockwise as seen from the edge's end, where axes are right-handed.
         if (starts == rightHanded()) std::swap(around[1], around[3]);

@@ -3,7 +3,7 @@
 // looked for between its extrema. Included by kernels only.
 #pragma once
 
-#include "engine/volume/kernel_rays.h"
+#include "engine/volume/kernel_places.h"
 
 namespace stereonav::STEREONAV_ISA {
 
@@ -13,26 +13,6 @@ struct Cubic {
     STEREONAV_INLINE F at(F s) const { return mulAdd(mulAdd(mulAdd(c3, s, c2), s, c1), s, c0); }
     STEREONAV_INLINE F slope(F s) const { return mulAdd(mulAdd(F(3.0f) * c3, s, c2 + c2), s, c1); }
 };
-
-// Values at a cell's corners less the isovalue: corner x + 2 y + 4 z.
-struct Corners {
-    F v[8];
-};
-
-STEREONAV_INLINE Corners cornersOf(const CellData& cells, I word, M m) {
-    Corners corners;
-    for (int pair = 0; pair < 4; pair += 2) {
-        const IPair two = gatherPair(cells.records + pair, word, m);
-        const I words[2] = {two.first, two.second};
-        for (int k = 0; k < 2; ++k) {
-            const I both = words[k];
-            const int n = 2 * (pair + k);
-            corners.v[n] = toFloat(shiftRight<16>(shiftLeft<16>(both))) - F(cells.isovalue);
-            corners.v[n + 1] = toFloat(shiftRight<16>(both)) - F(cells.isovalue);
-        }
-    }
-    return corners;
-}
 
 // The value along start + s * way, s from 0 to 1.
 STEREONAV_INLINE Cubic cubicAlong(const Corners& c, const V3& start, const V3& way) {
@@ -127,7 +107,7 @@ STEREONAV_INLINE Root firstRoot(const Cubic& f, M m) {
 struct Hits {
     F t;       // view depth; infinite where nothing is hit
     V3 local;  // in the cell, 0..1
-    I word;    // of the cell's record
+    I word;    // Places::word
     M hit;
 };
 
@@ -164,11 +144,9 @@ STEREONAV_INLINE Hits noHits() {
 STEREONAV_INLINE void tryCells(const Grid& grid, const Rays& r, F nearest, const Parked& parked, Walk& w,
                                Hits& hits) {
     if (!any(parked.lanes)) return;
-    const I record = gather(grid.data.cells, parked.index, parked.lanes);
-    const M known = parked.lanes & (I(0) < record);
-    const I word = shiftLeft<4>(record - I(1));
+    const auto [word, known] = placesOf(grid.data, parked.index, parked.lanes);
     const Crossing c = crossingOf(grid, r, w.at, nearest);
-    const Root root = firstRoot(cubicAlong(cornersOf(grid.data, word, known), c.start, c.way), known);
+    const Root root = firstRoot(cubicAlong(cornersOf(grid, word, w.at, known), c.start, c.way), known);
     hits.t = select(root.found, mulAdd(root.s, c.out - c.in, c.in), hits.t);
     hits.local = {select(root.found, mulAdd(root.s, c.way.x, c.start.x), hits.local.x),
                   select(root.found, mulAdd(root.s, c.way.y, c.start.y), hits.local.y),

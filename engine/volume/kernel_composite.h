@@ -39,7 +39,7 @@ STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, 
     const V3 local{inCell(grid.eyeX, w.t, r.direction.x, w.at.x),
                    inCell(grid.eyeY, w.t, r.direction.y, w.at.y),
                    inCell(grid.eyeZ, w.t, r.direction.z, w.at.z)};
-    const F value = valueAt(cornersOf(grid.data, word, m), local) + F(grid.data.isovalue);
+    const F value = valueAt(cornersOf(grid, word, w.at, m), local) + F(grid.data.isovalue);
     const TransferData& transfer = data.transfer;
     const F at =
         clamp((value - F(transfer.first)) * F(transfer.scale), F(0.0f), F(TransferData::kEntries - 0.01f));
@@ -54,7 +54,7 @@ STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, 
     const I color = gather(transfer.color, entry, seen);
     // Lanes that are not seen have a share of 0, and light that is finite: nothing of it stays.
     const Falling lit = fallingOn(data, view, r, w.t, seen, kLeastKnown, [&] {
-        const V3 n = directionOf(mixCorners(grid.data.records + 4, word, local, seen));
+        const V3 n = directionOf(normalIn(grid.data, word, local, seen));
         return litBy(data, view, r, w.t, n, F(1.0f));
     });
     const F passes = exp2(density * F(-1.44269504f * transfer.step));
@@ -90,10 +90,9 @@ STEREONAV_INLINE Composite compositePacket(const VolumeData& data, const VolumeV
         const I code = gatherByte(grid.data.codes, index, w.active);
         const M here = w.active & (code == I(0));
         if (any(here)) {
-            const I record = gather(grid.data.cells, index, here);
-            const M known = here & (I(0) < record);
+            const auto [word, known] = placesOf(grid.data, index, here);
             w.active = andNot(w.active, andNot(here, known));
-            addSample(data, view, grid, r, w, shiftLeft<4>(record - I(1)), known, sum);
+            addSample(data, view, grid, r, w, word, known, sum);
             w.active = w.active & (sum.through >= F(kEnoughLeft));
         }
         // From the middle between two samples, so that rounding can not repeat one.

@@ -30,14 +30,34 @@ STEREONAV_INLINE I weightOf(F t) {
 }
 
 // The eight corners' words from `first` on, mixed at a place in the cell.
-STEREONAV_INLINE Channels mixCorners(const std::uint32_t* first, I word, const V3& local, M m) {
+template <typename Ends>
+STEREONAV_INLINE Channels mixCorners(const Ends& endsOf, const V3& local) {
     const I x = weightOf(local.x), y = weightOf(local.y), z = weightOf(local.z);
     Channels edges[4];
     for (int n = 0; n < 4; ++n) {
-        const IPair ends = gatherPair(first + 2 * n, word, m);
+        const IPair ends = endsOf(n);
         edges[n] = mix(openChannels(ends.first), openChannels(ends.second), x);
     }
     return mix(mix(edges[0], edges[1], y), mix(edges[2], edges[3], y), z);
+}
+STEREONAV_INLINE Channels mixCorners(const std::uint32_t* first, I word, const V3& local, M m) {
+    return mixCorners([&](int n) { return gatherPair(first + 2 * n, word, m); }, local);
+}
+
+// The normal at a place in the cell, mixed of its corners'.
+STEREONAV_INLINE Channels normalIn(const CellData& cells, I word, const V3& local, M m) {
+    const M dense = cells.normals ? m & isDense(word) : maskFromBits(0);
+    if (!any(dense)) return mixCorners(cells.records + 4, word, local, m);
+    const M sparse = andNot(m, dense);
+    const I first = word & I(kNotDense);
+    return mixCorners(
+        [&](int n) {
+            const IPair kept = gatherPair(cells.records + 4 + 2 * n, word, sparse);
+            const IPair corner =
+                gatherPair(cells.normals + (n & 1 ? kSide : 0) + (n & 2 ? kSide * kSide : 0), first, dense);
+            return IPair{select(dense, corner.first, kept.first), select(dense, corner.second, kept.second)};
+        },
+        local);
 }
 
 STEREONAV_INLINE F signedChannel(I fourteenBits) {

@@ -96,8 +96,9 @@ struct Grid {
     // Index of cells inside the volume.
     STEREONAV_INLINE I index(const Cells& c) const {
         const I x = c.x + baseX, y = c.y + baseY, z = c.z + baseZ;
-        const I brick = (shiftRight<4>(z) * I(data.bricks[1]) + shiftRight<4>(y)) * I(data.bricks[0]) +
-                        shiftRight<4>(x) + I(data.firstBrick);
+        const I brick =
+            (shiftRight<4>(z) * I(data.brickCount[1]) + shiftRight<4>(y)) * I(data.brickCount[0]) +
+            shiftRight<4>(x) + I(data.firstBrick);
         const I low(15);
         return shiftLeft<12>(brick) | shiftLeft<8>(z & low) | shiftLeft<4>(y & low) | (x & low);
     }

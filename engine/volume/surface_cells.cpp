@@ -17,14 +17,13 @@
 #include "engine/base/memory.h"
 #include "engine/base/pages.h"
 #include "engine/base/parallel.h"
+#include "engine/volume/cell_records.h"
 #include "engine/volume/cell_rows.h"
 #include "engine/volume/distance_transform.h"
 #include "engine/volume/leap_blocks.h"
 
 namespace stereonav {
 namespace {
-
-constexpr int kBrick = 16, kBrickCells = kBrick * kBrick * kBrick;
 
 // One flag a cell, in a volume of the cells' own frame.
 struct CellFlags {
@@ -131,123 +130,6 @@ MaskVolume codeLeapsAtOnce(const GreyVolume& volume, const SurfaceSetting& setti
     return std::move(flags.active);
 }
 
-// The gradient at a voxel of the values smoothed by a tricubic B-spline: weights 1/6, 4/6, 1/6 across and
-// -1/2, 0, 1/2 along. In stored numbers a metre along i, j, k. Summed in whole numbers, so that what is the
-// same all around has none, whatever its value.
-glm::dvec3 gradientAt(const GreyVolume& volume, const glm::ivec3& at) {
-    const glm::ivec3 last = volume.frame.size - 1;
-    const int x[3] = {std::max(at.x - 1, 0), at.x, std::min(at.x + 1, last.x)};
-    constexpr int kSmooth[3] = {1, 4, 1};  // sixths
-    int gx = 0, gy = 0, gz = 0;            // 72nds
-    for (int c = 0; c < 3; ++c)
-        for (int b = 0; b < 3; ++b) {
-            const std::int16_t* row =
-                volume.values.data() + volume.frame.index(0, std::clamp(at.y + b - 1, 0, last.y),
-                                                          std::clamp(at.z + c - 1, 0, last.z));
-            const int v0 = row[x[0]], v1 = row[x[1]], v2 = row[x[2]];
-            const int across = v0 + 4 * v1 + v2;
-            gx += kSmooth[b] * kSmooth[c] * (v2 - v0);
-            gy += (b - 1) * kSmooth[c] * across;
-            gz += kSmooth[b] * (c - 1) * across;
-        }
-    return glm::dvec3(gx, gy, gz) / (72.0 * volume.frame.spacing);
-}
-
-std::uint32_t normalAt(const GreyVolume& volume, const glm::ivec3& at) {
-    const glm::dvec3 down = -(volume.frame.axes * gradientAt(volume, at));
-    const double length = glm::length(down);
-    return packCornerNormal(length > 0 ? down / length : glm::dvec3(0, 0, 1));
-}
-
-// Writes the records of one brick's active cells; corners that cells share are computed once.
-class BrickRecords {
-public:
-    explicit BrickRecords(const GreyVolume& volume) : mVolume(volume), mNormals(17 * 17 * 17) {}
-
-    // active: in the order of BrickLayout.
-    void write(const glm::ivec3& brick, const std::uint8_t* active, std::uint32_t first,
-               SurfaceCells& cells) {
-        std::fill(mNormals.begin(), mNormals.end(), 0u);
-        const glm::ivec3 low = brick * kBrick;
-        for (int n = 0; n < kBrickCells; ++n) {
-            if (!active[n]) continue;
-            const glm::ivec3 at = low + glm::ivec3(n & 15, n >> 4 & 15, n >> 8);
-            cells.cells[cells.layout.index(at.x, at.y, at.z)] = first + 1;
-            fill(low, at, cells.records[first++]);
-        }
-    }
-
-private:
-    void fill(const glm::ivec3& low, const glm::ivec3& cell, CellRecord& record) {
-        for (int n = 0; n < 8; ++n) {
-            const glm::ivec3 corner = cell + glm::ivec3(n & 1, n >> 1 & 1, n >> 2);
-            record.values[n] = mVolume.at(corner);
-            const glm::ivec3 local = corner - low;
-            std::uint32_t& normal =
-                mNormals[static_cast<std::size_t>((local.z * 17 + local.y) * 17 + local.x)];
-            if (normal == 0) normal = normalAt(mVolume, corner);  // no packed unit vector is 0
-            record.normals[n] = normal;
-        }
-    }
-
-    const GreyVolume& mVolume;
-    std::vector<std::uint32_t> mNormals;
-};
-
-glm::ivec3 brickAt(const BrickLayout& layout, int n) {
-    return {n % layout.bricks.x, n / layout.bricks.x % layout.bricks.y,
-            n / (layout.bricks.x * layout.bricks.y)};
-}
-
-// Flags of a brick's active cells in the order of BrickLayout; how many there are.
-using BrickActivity = std::function<std::uint32_t(const glm::ivec3& brick, std::uint8_t* active)>;
-
-// By a flag a cell of the cells' frame.
-template <typename IsActive>
-std::uint32_t flagBrick(const glm::ivec3& size, const glm::ivec3& brick, std::uint8_t* active,
-                        const IsActive& isActive) {
-    const glm::ivec3 low = brick * kBrick, high = glm::min(low + kBrick, size);
-    std::fill_n(active, kBrickCells, std::uint8_t{0});
-    std::uint32_t count = 0;
-    for (int k = low.z; k < high.z; ++k)
-        for (int j = low.y; j < high.y; ++j) {
-            std::uint8_t* row = active + ((k & 15) << 8 | (j & 15) << 4);
-            for (int i = low.x; i < high.x; ++i) count += row[i & 15] = isActive(i, j, k);
-        }
-    return count;
-}
-
-void writeRecords(const GreyVolume& volume, const BrickActivity& activity, SurfaceCells& cells) {
-    const int bricks = cells.layout.bricks.x * cells.layout.bricks.y * cells.layout.bricks.z;
-    std::vector<std::uint32_t> first(static_cast<std::size_t>(bricks) + 1, 0);
-    parallelFor(bricks, [&](int n) {
-        std::uint8_t active[kBrickCells];
-        first[n + 1] = activity(brickAt(cells.layout, n), active);
-    });
-    std::uint64_t total = 0;
-    for (const std::uint32_t count : first) total += count;
-    // Kernels count records in 4-byte steps with 32-bit numbers.
-    if (total > (1ull << 31) / (sizeof(CellRecord) / 4) - 1)
-        throw Error("", "isosurface", fmt::format("{} cells hold surface, more than 134 million", total),
-                    "choose another isovalue or a smaller volume");
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::size_t bricksHeld = 0;
-    for (int n = 0; n < bricks; ++n) bricksHeld += first[n] != first[n + 1];
-    checkMemory(fmt::format("a surface of {} cells", total),
-                static_cast<double>(total) * sizeof(CellRecord) +
-                    static_cast<double>(bricksHeld) * kBrickCells * sizeof(std::uint32_t),
-                "choose another isovalue, a transfer function that shows less, or a smaller volume");
-    cells.records = LazyArray<CellRecord>(first.back());
-    cells.records.preferLargePages();
-    parallelFor(bricks, [&](int n) {
-        if (first[n] == first[n + 1]) return;
-        const glm::ivec3 brick = brickAt(cells.layout, n);
-        std::uint8_t active[kBrickCells];
-        activity(brick, active);
-        BrickRecords(volume).write(brick, active, first[n], cells);
-    });
-}
-
 void checkSize(const VolumeFrame& frame, const BrickLayout& layout) {
     const glm::ivec3 size = frame.size;
     const std::string got = fmt::format("{}x{}x{}", size.x, size.y, size.z);
@@ -260,32 +142,49 @@ void checkSize(const VolumeFrame& frame, const BrickLayout& layout) {
 
 }  // namespace
 
-std::uint32_t packCornerNormal(const glm::dvec3& unit) {
-    const auto channel = [](double v) {
-        return static_cast<std::uint32_t>(std::lround(std::clamp(v, -1.0, 1.0) * 511.5 + 511.5));
-    };
-    return channel(unit.x) | channel(unit.y) << 10 | channel(unit.z) << 20;
-}
-
-glm::dvec3 unpackCornerNormal(std::uint32_t packed) {
-    const auto channel = [&](int shift) { return (packed >> shift & 1023u) / 511.5 - 1.0; };
-    return {channel(0), channel(10), channel(20)};
-}
-
 SurfaceCells SurfaceCells::share() const {
     SurfaceCells same;
     same.frame = frame;
     same.layout = layout;
     same.leapUnit = leapUnit;
     same.codes = codes.share();
-    same.cells = cells.share();
+    same.bricks = bricks.share();
+    same.places = places.share();
     same.records = records.share();
+    same.normals = normals.share();
+    same.values = values.share();
+    same.active = active;
     same.isovalue = isovalue;
     return same;
 }
 
 std::size_t SurfaceCells::bytesHeld() const {
-    return residentBytes(codes) + residentBytes(cells) + records.size() * sizeof(CellRecord);
+    return residentBytes(codes) + residentBytes(bricks) + residentBytes(places) +
+           records.size() * sizeof(CellRecord) + normals.size() * sizeof(std::uint32_t);
+}
+
+std::optional<std::size_t> SurfaceCells::recordNumber(const glm::ivec3& cell) const {
+    const std::size_t n = layout.index(cell.x, cell.y, cell.z);
+    if (places[n] == 0) return std::nullopt;
+    return std::size_t{bricks[n >> 12]} + places[n] - 1;
+}
+
+std::optional<CellRecord> SurfaceCells::record(const glm::ivec3& cell) const {
+    const std::size_t n = layout.index(cell.x, cell.y, cell.z);
+    const std::uint32_t brick = bricks[n >> 12];
+    if (!(brick & kDenseBrick)) {
+        if (places[n] == 0) return std::nullopt;
+        return records[std::size_t{brick} + places[n] - 1];
+    }
+    if (codes[n] != kCellActive) return std::nullopt;
+    CellRecord record{};
+    const std::uint32_t* corners = normals.data() + std::size_t{brick & ~kDenseBrick} * kDenseCorners;
+    for (int c = 0; c < 8; ++c) {
+        const glm::ivec3 corner = cell + glm::ivec3(c & 1, c >> 1 & 1, c >> 2), local = corner - (cell & ~15);
+        record.values[c] = values[frame.index(corner)];
+        record.normals[c] = corners[(local.z * kDenseSide + local.y) * kDenseSide + local.x];
+    }
+    return record;
 }
 
 SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress) {
@@ -299,25 +198,20 @@ SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& se
     if (!setting.region && frame.count() > setting.atOnce) {
         codeLeapsByBlocks(volume, setting, progress, cells);
         progress.report(0.7, "storing what rays need");
-        cells.cells = LazyArray<std::uint32_t>(cells.layout.count());
-        const auto active = [&](int i, int j, int k) {
-            return cells.codes[cells.layout.index(i, j, k)] == kCellActive;
-        };
         writeRecords(
-            volume,
-            [&](const glm::ivec3& brick, std::uint8_t* flags) {
-                return flagBrick(frame.size, brick, flags, active);
+            volume, setting,
+            [&](const glm::ivec3& first, int count, std::uint8_t* active) {
+                const std::uint8_t* codes = &cells.codes[cells.layout.index(first.x, first.y, first.z)];
+                for (int i = 0; i < count; ++i) active[i] = codes[i] == kCellActive;
             },
             cells);
     } else {
         const MaskVolume flags = codeLeapsAtOnce(volume, setting, frame, progress, cells);
         progress.report(0.7, "storing what rays need");
-        cells.cells = LazyArray<std::uint32_t>(cells.layout.count());
-        const auto active = [&](int i, int j, int k) { return flags.at(i, j, k) != 0; };
         writeRecords(
-            volume,
-            [&](const glm::ivec3& brick, std::uint8_t* out) {
-                return flagBrick(frame.size, brick, out, active);
+            volume, setting,
+            [&](const glm::ivec3& first, int count, std::uint8_t* active) {
+                std::copy_n(&flags.values[flags.frame.index(first)], count, active);
             },
             cells);
     }

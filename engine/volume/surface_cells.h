@@ -1,11 +1,13 @@
 // What a ray caster needs of a volume, in the order it needs it: how far a ray may leap from a cell, and,
 // in the cells that hold the surface (or anything that is not transparent), the cell's eight values and
-// normals in one cache line.
+// normals in one cache line. Where most cells are such ones, normals are kept for each corner once, and
+// values are the volume's own: a ninth of the memory, for some more places in it that a ray asks for.
 //
 // Cell (i, j, k) is the box between voxels (i, j, k) and (i + 1, j + 1, k + 1).
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/base/progress.h"
@@ -45,20 +47,28 @@ constexpr std::uint8_t kCellActive = 0;  // holds surface: see the record
 constexpr std::uint8_t kCellNear = 1;    // none, but the next cell may: walk on cell by cell
 // code c > 1: from any point of the cell, nothing active lies within (c - 1) * leapUnit metres.
 
+constexpr std::uint32_t kDenseBrick = 1u << 31;
+constexpr int kDenseSide = 17, kDenseCorners = kDenseSide * kDenseSide * kDenseSide;
+
 struct SurfaceCells {
     VolumeFrame frame;  // of the voxels
     BrickLayout layout;
-    double leapUnit = 0;             // metres; a quarter of the smallest spacing, more where leaps are long
-    LazyArray<std::uint8_t> codes;   // by layout. kCellActive without a record: outside the region
-    LazyArray<std::uint32_t> cells;  // by layout: record number + 1, 0 where there is none
+    double leapUnit = 0;            // metres; a quarter of the smallest spacing, more where leaps are long
+    LazyArray<std::uint8_t> codes;  // by layout. kCellActive without a record: outside the region
+    // Of each brick: the number of its first record; or, with kDenseBrick, its place among the dense ones.
+    LazyArray<std::uint32_t> bricks;
+    LazyArray<std::uint16_t> places;  // by layout: 1, 2, ... among its brick's records, 0 where there is none
     LazyArray<CellRecord> records;
-    float isovalue = 0;  // the surface is where the trilinear value reaches it, in stored numbers
+    LazyArray<std::uint32_t>
+        normals;  // of dense bricks, kDenseCorners each, x fastest; 0 where none is asked for
+    LazyArray<std::int16_t> values;  // the volume's, where there are dense bricks
+    std::size_t active = 0;          // cells with a record
+    float isovalue = 0;              // the surface is where the trilinear value reaches it, in stored numbers
 
-    // The record of a cell, null where it has none. The cell must lie in the volume.
-    const CellRecord* record(const glm::ivec3& cell) const {
-        const std::uint32_t n = cells[layout.index(cell.x, cell.y, cell.z)];
-        return n ? &records[n - 1] : nullptr;
-    }
+    // What is kept of a cell, nothing where it is not active. The cell must lie in the volume.
+    std::optional<CellRecord> record(const glm::ivec3& cell) const;
+    // Its number in `records`; nothing where it has none there.
+    std::optional<std::size_t> recordNumber(const glm::ivec3& cell) const;
     std::size_t bytesHeld() const;  // pages in use
     SurfaceCells share() const;     // the same in the same memory (LazyArray::share)
 };
@@ -75,6 +85,9 @@ struct SurfaceSetting {
     // of eight, and no leap beyond 16 of the smallest spacing is as long as it may be (leap_blocks.h).
     std::size_t atOnce = kCellsAtOnce;
     static constexpr std::size_t kCellsAtOnce = std::size_t{1} << 25;
+    // Without a region, bricks with so many active cells are dense ones.
+    std::uint32_t denseFrom = kDenseFrom;
+    static constexpr std::uint32_t kDenseFrom = 640, kNeverDense = 4097;
 };
 
 // Rays must start below the isovalue: a volume that is seen from outside has a border of values below it.

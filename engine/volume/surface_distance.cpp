@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "engine/volume/surface_cells.h"
@@ -122,7 +123,7 @@ public:
 
     double run() {
         const std::uint8_t code = codeOf(mHome);
-        const CellRecord* own = mCells.record(mHome);
+        const std::optional<CellRecord> own = mCells.record(mHome);
         if (code == kCellActive && !own) return 0;  // outside the region
         if (own && boxOf(mHome, *own).valueAt(mPoint) >= 0) return 0;
         const double known = code > kCellNear ? (code - 1) * mCells.leapUnit : 0.0;
@@ -167,7 +168,7 @@ private:
             if (best == cell) return;
             cell = best;
         }
-        const CellRecord* record = mCells.record(cell);
+        const std::optional<CellRecord> record = mCells.record(cell);
         if (record && holdsSurface(*record))
             mMost = std::min(mMost, boundsOf(boxOf(cell, *record), mPoint, mTolerance).most);
     }
@@ -238,7 +239,7 @@ private:
 
     void visitCell(const glm::ivec3& cell) {
         if (squaredTo(cell) > mMost * mMost) return;
-        const CellRecord* record = mCells.record(cell);
+        const std::optional<CellRecord> record = mCells.record(cell);
         if (record && holdsSurface(*record)) consider({boxOf(cell, *record), cell, 0});
     }
 

@@ -137,7 +137,7 @@ struct Packet {
     STEREONAV_INLINE Result shaded(const Rays& r, const Hits& hits, bool wantNormal) const {
         Channels n = openChannels(I(kNoNormal));
         const I color = surfaceColor(data, view, r, hits.t, hits.hit, behind, [&](F t) {
-            n = mixCorners(grid.data.records + 4, hits.word, hits.local, hits.hit);
+            n = normalIn(grid.data, hits.word, hits.local, hits.hit);
             return litBy(data, view, r, t, directionOf(n), litShare(r, hits));
         });
         return {hits.t, color, wantNormal ? closeChannels(n) : I(0), F(0.0f)};

@@ -11,12 +11,19 @@ namespace stereonav {
 // Layout as in surface_cells.h: bricks of 16^3 cells; records of 64 bytes, 16 words: 4 of values, 8 normals.
 struct CellData {
     const std::uint8_t* codes = nullptr;
-    const std::uint32_t* cells = nullptr;
     const std::uint32_t* records = nullptr;
-    std::int32_t bricks[2] = {};  // along x and y
+    const std::uint32_t* bricks = nullptr;
+    const std::uint16_t* places = nullptr;
+    std::int32_t brickCount[2] = {};  // along x and y
     // The number of the first brick, so that cells of up to 2^20 bricks have indices of 32 bits with a sign:
-    // codes and cells begin so many bricks before the pointers.
+    // codes, bricks and places begin so many bricks before the pointers.
     std::int32_t firstBrick = 0;
+    // Dense bricks: normals of corners (null: there are none), and the volume's values, which begin
+    // firstVoxel voxels before the pointer.
+    const std::uint32_t* normals = nullptr;
+    const std::int16_t* values = nullptr;
+    std::int32_t row = 0, slice = 0;  // voxels from one to the next along y and z, the latter mod 2^32
+    std::int32_t firstVoxel = 0;
     std::int32_t last[3] = {};  // the last cell along each axis
     float leapUnit = 0;         // metres
     float isovalue = 0;

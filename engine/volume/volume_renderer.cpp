@@ -24,15 +24,27 @@ const VolumeKernels& kernelsFor(SimdTarget target) {
     return kernelsOf(target, plain::kVolumeKernels, avx2::kVolumeKernels, avx512::kVolumeKernels);
 }
 
+void addDenseBricks(const SurfaceCells& cells, CellData& d) {
+    const std::size_t first = cells.frame.count() > (1ull << 31) - 64 ? 1ull << 31 : 0;
+    const glm::uvec3 size(cells.frame.size);
+    d.normals = cells.normals.data();
+    d.values = cells.values.data() + first;
+    d.firstVoxel = static_cast<std::int32_t>(static_cast<std::uint32_t>(first));
+    d.row = cells.frame.size.x;
+    d.slice = static_cast<std::int32_t>(size.x * size.y);
+}
+
 CellData cellDataOf(const SurfaceCells& cells, bool leaping) {
     CellData d;
     const std::size_t count = cells.layout.count(), before = count > (1ull << 31) - 64 ? 1ull << 31 : 0;
     d.firstBrick = -static_cast<std::int32_t>(before >> 12);
     d.codes = cells.codes.data() + before;
-    d.cells = cells.cells.data() + before;
+    d.places = cells.places.data() + before;
+    d.bricks = cells.bricks.data() + (before >> 12);
     d.records = reinterpret_cast<const std::uint32_t*>(cells.records.data());
-    d.bricks[0] = cells.layout.bricks.x;
-    d.bricks[1] = cells.layout.bricks.y;
+    d.brickCount[0] = cells.layout.bricks.x;
+    d.brickCount[1] = cells.layout.bricks.y;
+    if (!cells.normals.empty()) addDenseBricks(cells, d);
     for (int k = 0; k < 3; ++k) d.last[k] = cells.frame.size[k] - 2;
     // Rounded down a little: leaps are measured in float.
     d.leapUnit = static_cast<float>(cells.leapUnit * (1 - 1e-5));

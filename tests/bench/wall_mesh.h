@@ -62,13 +62,14 @@ private:
         for (int k = 0; k <= last.z; ++k)
             for (int j = 0; j <= last.y; ++j)
                 for (int i = 0; i <= last.x; ++i) {
-                    const CellRecord* record = cells.record({i, j, k});
-                    if (!record) continue;
+                    const std::optional<std::size_t> number = cells.recordNumber({i, j, k});
+                    if (!number) continue;
+                    const CellRecord& record = cells.records[*number];
                     const glm::vec3 place(cells.frame.worldFromVoxel(
-                        glm::dvec3(i, j, k) + glm::dvec3(middleOf(*record, cells.isovalue))));
-                    float* to = vertices + 3 * (record - cells.records.data());
+                        glm::dvec3(i, j, k) + glm::dvec3(middleOf(record, cells.isovalue))));
+                    float* to = vertices + 3 * *number;
                     to[0] = place.x, to[1] = place.y, to[2] = place.z;
-                    for (int axis = 0; axis < 3; ++axis) addEdge(cells, {i, j, k}, *record, axis);
+                    for (int axis = 0; axis < 3; ++axis) addEdge(cells, {i, j, k}, record, axis);
                 }
     }
 
@@ -98,9 +99,9 @@ private:
         unsigned corner[4];
         for (int n = 0; n < 4; ++n) {
             if (around[n].x < 0 || around[n].y < 0 || around[n].z < 0) return;
-            const CellRecord* one = cells.record(around[n]);
+            const std::optional<std::size_t> one = cells.recordNumber(around[n]);
             if (!one) return;
-            corner[n] = static_cast<unsigned>(one - cells.records.data());
+            corner[n] = static_cast<unsigned>(*one);
         }
         for (const int n : {0, 1, 2, 0, 2, 3}) mTriangles.push_back(corner[n]);
     }

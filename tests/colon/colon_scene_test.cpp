@@ -113,7 +113,7 @@ TEST_F(ColonSceneTest, VolumesThatAreNotCtAreShownFromOutside) {
         if (!fs::exists(options.study)) GTEST_SKIP() << options.study << " is not there";
         const ColonScene scene = open(options);
         EXPECT_FALSE(scene.isColon()) << name;
-        EXPECT_GT(scene.volume.cells.records.size(), 1000u) << name;
+        EXPECT_GT(scene.volume.cells.active, 1000u) << name;
         ASSERT_FALSE(scene.notes.empty());
         for (const std::string& note : scene.notes) std::printf("%s: %s\n", name, note.c_str());
         for (const PathSample& sample : scene.path.samples())
@@ -189,7 +189,7 @@ TEST(IsosurfaceScene, SurfaceIsClosedAtTheVolumesFaces) {
     full.at(0, 0, 0) = 20;
     const ColonScene scene = isosurfaceScene(std::move(full), {}, progress);
     // Six faces of a box of 24 x 20 x 22 voxels, one cell each and more along the edges.
-    EXPECT_GT(scene.volume.cells.records.size(), 2u * (23 * 19 + 23 * 21 + 19 * 21));
+    EXPECT_GT(scene.volume.cells.active, 2u * (23 * 19 + 23 * 21 + 19 * 21));
 }
 
 }  // namespace

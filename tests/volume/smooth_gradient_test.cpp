@@ -50,13 +50,13 @@ TEST(SmoothGradient, OfWhatIsTheSameAllAroundThereIsNone) {
         setting.highest = setting.isovalue + 1;
         Progress progress;
         const SurfaceCells cells = findSurfaceCells(volume, setting, progress);
-        ASSERT_FALSE(cells.records.empty());
+        ASSERT_GT(cells.active, 0u);
         const std::uint32_t up = packCornerNormal({0, 0, 1});
         for (int k = 0; k < 7; ++k)
             for (int j = 0; j < 5; ++j)
                 for (int i = 0; i < 6; ++i) {
-                    const CellRecord* record = cells.record({i, j, k});
-                    ASSERT_NE(record, nullptr);
+                    const std::optional<CellRecord> record = cells.record({i, j, k});
+                    ASSERT_TRUE(record);
                     for (const std::uint32_t normal : record->normals) ASSERT_EQ(normal, up) << value;
                     EXPECT_EQ(plainNormal(volume, {i + 0.3, j + 0.6, k + 0.1}), glm::dvec3(0, 0, 1)) << value;
                 }
