@@ -216,9 +216,8 @@ std::vector<Option> viewOptions() {
          .take = [](OptionTargets& to, const OptionValue& value) { to.view->target_ms = value.number(); }},
         {.key = "bench",
          .value = flagValue(),
-         .help =
-             "flies --path, or the scene's own flight, for 20 s at most, rests for 10 s, tells how evenly "
-             "pictures came, how old and how right they were, and closes",
+         .help = "flies --path, or 20 s of the scene's own flight at most, rests for 10 s, tells how evenly "
+                 "pictures came, how old and how right they were, and closes",
          .commands = kView,
          .inFile = false,
          .take = [](OptionTargets& to, const OptionValue&) { to.view->bench = true; }},

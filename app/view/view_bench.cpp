@@ -152,7 +152,7 @@ ViewBench::Wish ViewBench::step(double now, bool ready, bool flying, double dura
             if (!ready || now - mReadySince < kSettling) return Wish::None;
             mStage = Stage::Fly;
             mStarted = now;
-            mDuration = std::min(duration, kLongestFlight);
+            mDuration = mWhole ? duration : std::min(duration, kLongestFlight);
             return Wish::Fly;
         case Stage::Fly:
             if (flying && now - mStarted < mDuration) return Wish::None;

@@ -26,9 +26,11 @@ struct ShownPicture {
 
 class ViewBench {
 public:
-    // Of the flight, seconds; a longer one is broken off.
-    static constexpr double kLongestFlight = 20, kRest = 10.2;
+    static constexpr double kLongestFlight = 20, kRest = 10.2;  // seconds
     static constexpr int kSamples = 24;  // pictures in motion that are held against their truth
+
+    // whole: the flight is flown to its end; else it is broken off where it is longer than the longest.
+    explicit ViewBench(bool whole = false) : mWhole(whole) {}
 
     enum class Wish { None, Fly, Stop, Judge };
     // What the window is to do now; each once. ready: a picture is there and rests; flying: the flight goes
@@ -57,6 +59,7 @@ private:
     void keepRest(double now);
     void judgeRest(const Scene& scene, Progress& progress);
 
+    bool mWhole;
     Stage mStage = Stage::Wait;
     double mReadySince = -1, mStarted = 0, mStopped = 0, mDuration = 0, mLast = -1;
     std::vector<double> mBetween, mAge, mDelay, mShownAge;  // milliseconds

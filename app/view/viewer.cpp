@@ -59,7 +59,7 @@ Viewer::Viewer(const ViewOptions& options)
     if (shownAs(options.scene).swept) mSweep = std::make_unique<ViewSweep>(options.sweep);
     checkSize(windowSize(), options.scene, kViewBytes);
     mPanels.showStart(options.startPage);
-    if (options.bench) mBench = std::make_shared<ViewBench>();
+    if (options.bench) mBench = std::make_shared<ViewBench>(!options.path.empty());
     readConfig();
     mWorker = std::make_unique<ViewWorker>(
         [options, size = windowSize(), sweep = mSweep.get()](Progress& progress) {

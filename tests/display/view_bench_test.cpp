@@ -83,6 +83,14 @@ TEST(ViewBench, BreaksOffALongFlight) {
     EXPECT_EQ(bench.step(3 + ViewBench::kLongestFlight + 0.1, true, true, 1000), ViewBench::Wish::Stop);
 }
 
+TEST(ViewBench, FliesAFlightThatWasGivenToItsEnd) {
+    ViewBench bench(true);
+    bench.step(0, true, false, 1000);
+    ASSERT_EQ(bench.step(3, true, false, 1000), ViewBench::Wish::Fly);
+    EXPECT_EQ(bench.step(1002.9, true, true, 1000), ViewBench::Wish::None);
+    EXPECT_EQ(bench.step(1003.1, true, true, 1000), ViewBench::Wish::Stop);
+}
+
 // Pictures 20 ms apart, but every tenth, which is 50 ms late; each asked for 100 ms before it is shown, for a
 // moment 70 ms ahead; off by a grey level in motion, half a one a second later, and right after ten.
 TEST(ViewBench, TellsWhatWasShown) {

@@ -77,6 +77,7 @@ TEST(DemValues, OtherFormats) {
     as("GSBG", "surfer6.grd", GDT_Float32);
     as("BT", "binary.bt", GDT_Float32);
     as("AAIGrid", "esri.asc", GDT_Float32);
+    as("GPKG", "package.gpkg", GDT_Float32, {"TILE_FORMAT=TIFF"});
     as("JP2OpenJPEG", "lossless.jp2", GDT_Int16, {"QUALITY=100", "REVERSIBLE=YES"});
 }
 

@@ -95,6 +95,48 @@ TEST(GroundColor, PlacedImageIsCutToTheGround) {
     expectPixelForPixel(color);
 }
 
+TEST(GroundColor, PackagedImageIsAsTheSameInAGeoTiff) {
+    const TempFolder folder;
+    const Place place = flatPlace(folder);
+    RasterSpec spec = pictureSpec(7 + 40 + 5, 3 + 20 + 2);
+    spec.transform = {500000 - 7 * 15.0, 15, 0, 5000000 + 3 * 15.0, 0, -15};
+    spec.value = [](int c, int r, int band) { return codeOf(c - 7, r - 3, band); };
+    spec.driver = "GPKG";
+    spec.options = {"TILE_FORMAT=PNG"};
+    const GroundColor color = lay(writeRaster(folder / "placed.gpkg", spec), place);
+    EXPECT_EQ(color.source, "image placed.gpkg 52x25, by its georeference");
+    expectPixelForPixel(color);
+}
+
+// Tiles of a web map, which are of powers of two in their own projection: red in the west, blue in the east.
+TEST(GroundColor, TilesOfAWebMapAreReprojected) {
+    const TempFolder folder;
+    const Place place = flatPlace(folder);
+    RasterSpec spec = pictureSpec(900, 500);
+    spec.epsg = 3857;
+    const double pixel = 156543.03392804097 / (1 << 17), middle = 15 * 111319.49079327358;
+    spec.transform = {middle - 50 * pixel, pixel, 0, 5640000, 0, -pixel};
+    const double stretch = 1.41543;  // of the projection at 45.15 N along its x
+    spec.transform[3] =
+        6378137 * std::log(std::tan(0.25 * 3.14159265358979 + 0.5 * 45.1537 * 3.14159265358979 / 180));
+    spec.value = [&](int c, int, int band) {
+        const bool west = (c + 0.5 - 50) * pixel < 300 * stretch;
+        return band == (west ? 0 : 2) ? 255.0 : 0.0;
+    };
+    spec.driver = "MBTiles";
+    spec.options = {"TILE_FORMAT=PNG"};
+    const GroundColor color = lay(writeRaster(folder / "map.mbtiles", spec), place);
+    EXPECT_THAT(color.source, HasSubstr("by its georeference"));
+    const auto& level = color.texture.level(0);
+    ASSERT_GE(level.width(), 100);
+    for (int r = 0; r < level.height(); ++r)
+        for (int c = 0; c < level.width(); ++c) {
+            const double x = (c + 0.5) * 600 / level.width();
+            if (std::abs(x - 300) < 8) continue;
+            EXPECT_GE(srgbOf(level.at(c, r))[x < 300 ? 0 : 2], 250) << c << " " << r;
+        }
+}
+
 TEST(GroundColor, WorldFileIsInTheElevationModelsSystem) {
     const TempFolder folder;
     const Place place = flatPlace(folder);

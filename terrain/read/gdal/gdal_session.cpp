@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gdal_frmts.h>
 #include <ogr_spatialref.h>
+#include <ogrsf_frmts.h>
 
 #include <mutex>
 #include <string_view>
@@ -45,6 +46,8 @@ void registerDriversOnce() {
                                     GDALRegister_PNG,
                                     GDALRegister_JPEG,
                                     GDALRegister_BMP,
+                                    RegisterOGRGeoPackage,
+                                    GDALRegister_MBTiles,
                                     GDALRegister_VRT})
             add();
     });
@@ -110,6 +113,10 @@ GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& me
     GdalDataset dataset(GDALDataset::Open(
         file.string().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, rasterDrivers()));
     if (dataset && dataset->GetRasterCount() > 0) return dataset;
+    char** const several = dataset ? dataset->GetMetadata("SUBDATASETS") : nullptr;
+    if (CSLCount(several) > 2)  // a name and a description each
+        throw Error(file.string(), "", "expected " + expected + ", found several rasters in one file",
+                    "take one of them out, for example with gdal_translate, and name that");
     std::string reason = messages.reason(file);
     if (reason.find("not recognized") != std::string::npos) reason.clear();
     throw Error(file.string(), "", "expected " + expected + ", found something else" + reason, advice);
