@@ -35,9 +35,14 @@ std::vector<GroundFigure> figuresOfArea(const Heightfield& ground, const std::ve
             {"highest_m", "highest", "m", m.highest, e.highest}};
 }
 
+// Two digits, and zeros in the place of an exponent: "+- 210" as the figure before it, not "2.1e+02".
 std::string errorText(const GroundFigure& figure) {
+    constexpr double kNoExponent = 1e15;
     if (figure.error == 0) return "";
-    return std::isfinite(figure.error) ? fmt::format(" +- {:.2g}", figure.error) : " (error not known)";
+    if (!std::isfinite(figure.error)) return " (error not known)";
+    if (!(figure.error >= 99.5 && figure.error < kNoExponent)) return fmt::format(" +- {:.2g}", figure.error);
+    const double step = std::pow(10.0, std::floor(std::log10(figure.error)) - 1);
+    return fmt::format(" +- {:.0f}", std::round(figure.error / step) * step);
 }
 
 }  // namespace stereonav

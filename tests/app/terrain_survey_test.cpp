@@ -7,6 +7,7 @@
 #include <glm/vector_relational.hpp>
 #include <numbers>
 
+#include "app/scene/ground_figures.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/terrain_loading.h"
 #include "engine/base/error.h"
@@ -209,6 +210,20 @@ TEST(TerrainSurvey, LevelGroundHasNoAspect) {
     EXPECT_EQ(placeNumber(level, "slope_degrees"), 0);
     EXPECT_TRUE(std::isnan(placeNumber(level, "aspect_degrees")));
     EXPECT_TRUE(scene->offered<PlaceReader>()->readPlace({20, -20, 5}).empty());
+}
+
+TEST(GroundFigures, TellErrorsWithoutExponents) {
+    const auto told = [](double error) { return errorText({"key", "name", "m", 1, error}); };
+    EXPECT_EQ(told(0), "");
+    EXPECT_EQ(told(std::nan("")), " (error not known)");
+    EXPECT_EQ(told(0.0123), " +- 0.012");
+    EXPECT_EQ(told(7.61), " +- 7.6");
+    EXPECT_EQ(told(11.2), " +- 11");
+    EXPECT_EQ(told(99.4), " +- 99");
+    EXPECT_EQ(told(99.6), " +- 100");
+    EXPECT_EQ(told(213.4), " +- 210");
+    EXPECT_EQ(told(123456789), " +- 120000000");
+    EXPECT_EQ(told(1.23e20), " +- 1.2e+20");
 }
 
 }  // namespace
