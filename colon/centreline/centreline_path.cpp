@@ -19,6 +19,9 @@ using Node = VoxelGraph::Node;
 
 // Lumens of more voxels are coarsened.
 constexpr std::size_t kMostFineNodes = 400000;
+// Of lumens of more voxels blocks are of two along all axes: the search for the way takes as long as it has
+// nodes.
+constexpr std::size_t kMostUneven = 50'000'000;
 
 // A step costs (largest distance / distance)^2 a metre: twice as near to the wall, four times as dear.
 constexpr double kWallPower = 2.0;
@@ -26,6 +29,7 @@ constexpr double kWallPower = 2.0;
 // Blocks of two voxels along the axes that are finely sampled, so that blocks are no longer than needed.
 glm::ivec3 blockOf(const glm::dvec3& spacing, std::size_t voxels) {
     if (voxels <= kMostFineNodes) return glm::ivec3(1);
+    if (voxels > kMostUneven) return glm::ivec3(2);
     const double smallest = std::min({spacing.x, spacing.y, spacing.z});
     glm::ivec3 block(1);
     for (int axis = 0; axis < 3; ++axis)

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the file's form, or what is found in the same study, changes.
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 constexpr int kBrick = 8;
 
 struct Header {
