@@ -19,36 +19,25 @@ namespace stereonav {
 namespace {
 
 // Only formats that hold their data themselves: none that fetches another file or address is there even for
-// what a virtual raster names.
+// what a virtual raster names. MBTiles are read through SQLite.
 void registerDriversOnce() {
     static std::once_flag once;
     std::call_once(once, [] {
         // Else a twentieth of the machine's memory, some of which the heap keeps after a file is closed.
         if (!CPLGetConfigOption("GDAL_CACHEMAX", nullptr)) GDALSetCacheMax64(kGdalBlocks);
-        for (void (*const add)() : {GDALRegister_GTiff,
-                                    GDALRegister_SRTMHGT,
-                                    GDALRegister_USGSDEM,
-                                    GDALRegister_AAIGrid,
-                                    GDALRegister_GRASSASCIIGrid,
-                                    GDALRegister_DTED,
-                                    GDALRegister_EHdr,
-                                    GDALRegister_HFA,
-                                    GDALRegister_ENVI,
-                                    GDALRegister_SAGA,
-                                    GDALRegister_GSAG,
-                                    GDALRegister_GSBG,
-                                    GDALRegister_GS7BG,
-                                    GDALRegister_BT,
+        for (void (*const add)() : {GDALRegister_GTiff,          GDALRegister_SRTMHGT,
+                                    GDALRegister_USGSDEM,        GDALRegister_AAIGrid,
+                                    GDALRegister_GRASSASCIIGrid, GDALRegister_DTED,
+                                    GDALRegister_EHdr,           GDALRegister_HFA,
+                                    GDALRegister_ENVI,           GDALRegister_SAGA,
+                                    GDALRegister_GSAG,           GDALRegister_GSBG,
+                                    GDALRegister_GS7BG,          GDALRegister_BT,
 
-                                    GDALRegister_WEBP,
-                                    GDALRegister_GIF,
-                                    GDALRegister_JP2OpenJPEG,
-                                    GDALRegister_PNG,
-                                    GDALRegister_JPEG,
-                                    GDALRegister_BMP,
-                                    RegisterOGRGeoPackage,
-                                    GDALRegister_MBTiles,
-                                    GDALRegister_VRT})
+                                    GDALRegister_WEBP,           GDALRegister_GIF,
+                                    GDALRegister_JP2OpenJPEG,    GDALRegister_PNG,
+                                    GDALRegister_JPEG,           GDALRegister_BMP,
+                                    RegisterOGRGeoPackage,       RegisterOGRSQLite,
+                                    GDALRegister_MBTiles,        GDALRegister_VRT})
             add();
     });
 }
