@@ -92,6 +92,11 @@ void addExact(const Scene& scene, const FrameRequest& request, const ShownPictur
     addPair(pair, picture, error);
 }
 
+// A truth has the detail of the picture that is held against it.
+void lookFrom(const Scene& scene, const StereoViews& views) {
+    if (const auto* const rays = scene.offered<RayCast>()) rays->renderer->lookFrom(views.left, views.right);
+}
+
 Plane<PackedColor> fineEye(const Scene& scene, const EyeView& view, double time, Progress& progress,
                            int side = kTruthSide) {
     if (const auto* const rays = scene.offered<RayCast>())
@@ -118,6 +123,7 @@ void addFine(const Scene& scene, const ShownPicture& picture, ErrorMean& error, 
     auto* const swept = scene.offered<SweptFrames>();
     if (swept) swept->setEffort(kTruthEffort);
     const StereoViews views = viewsAt(picture.of, picture);
+    lookFrom(scene, views);
     const Plane<PackedColor> left = fineEye(scene, views.left, picture.of.time, progress);
     error.add(left, picture.left);
     if (other) ofOther.add(left, other->left);
@@ -133,6 +139,7 @@ void addFine(const Scene& scene, const ShownPicture& picture, ErrorMean& error, 
 void addMovingTruth(const Scene& scene, const ShownPicture& picture, ErrorMean& error, Progress& progress) {
     setLight(scene, picture.of);
     const StereoViews views = viewsAt(picture.of, picture);
+    lookFrom(scene, views);
     error.add(fineEye(scene, views.left, picture.of.time, progress, kMovingTruthSide), picture.left);
     if (picture.of.twoEyes)
         error.add(fineEye(scene, views.right, picture.of.time, progress, kMovingTruthSide), picture.right);

@@ -40,7 +40,7 @@ std::vector<std::string_view> CastFrames::compared() const {
 
 void CastFrames::make(const StereoViews& views, double, const FrameWay& way, EyePair& frame) {
     const WarpSetting setting = settingOf(way);
-    mRenderer.lookFrom(views.left);
+    mRenderer.lookFrom(views.left, views.right);
     frame.left.resize(views.left.width, views.left.height, mRenderer.viewDependence());
     const Stopwatch watch;
     renderEye(mRenderer, views.left, frame.left);

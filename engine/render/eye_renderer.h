@@ -25,9 +25,11 @@ class EyeRenderer {
 public:
     virtual ~EyeRenderer() = default;
 
-    // Pictures from this eye, and from others close beside it, come next: what is chosen by where the eyes
-    // are (the level of detail) is chosen now, and stays for all of them. Not while a picture is cast.
-    virtual void lookFrom(const EyeView&) const {}
+    // Pictures from these two eyes come next: what is chosen by where they are (the level of detail) is
+    // chosen now, and stays for both. Not while a picture is cast.
+    virtual void lookFrom(const EyeView& /*left*/, const EyeView& /*right*/) const {}
+    // The same for pictures from one.
+    void lookFrom(const EyeView& eye) const { lookFrom(eye, eye); }
 
     // The scene chooses how a picture is cut into tiles (bands of columns for terrain). Together the
     // tiles 0 .. tileCount(view) - 1 cover every pixel once.

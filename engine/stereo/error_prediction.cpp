@@ -140,7 +140,7 @@ ErrorCalibration calibrateError(const EyeRenderer& renderer, std::span<const Ste
     ErrorCalibrator calibrator;
     for (const StereoViews& view : views) {
         left.resize(view.left.width, view.left.height, renderer.viewDependence());
-        renderer.lookFrom(view.left);
+        renderer.lookFrom(view.left, view.right);
         renderEye(renderer, view.left, left);
         eye.render(renderer, view, left, full, cast);
         eye.render(renderer, view, left, warp, warped);

@@ -25,7 +25,7 @@ struct Bench {
 
     Sample run(const StereoViews& views) {
         left.resize(views.left.width, views.left.height, renderer.viewDependence());
-        renderer.lookFrom(views.left);
+        renderer.lookFrom(views.left, views.right);
         renderEye(renderer, views.left, left);
         WarpSetting full = setting;
         full.method = RightEyeMethod::Full;

@@ -183,7 +183,7 @@ MeasuredWarps measureWarps(const EyeRenderer& renderer, std::span<const StereoVi
         double left_ms = 1e300;
         for (int r = 0; r < repeats; ++r) {
             const Stopwatch watch;
-            renderer.lookFrom(view.left);
+            renderer.lookFrom(view.left, view.right);
             renderEye(renderer, view.left, left);
             left_ms = std::min(left_ms, watch.elapsed_ms());
         }

@@ -76,8 +76,10 @@ void RingScenes::mayBeLate(bool may) {
 }
 
 // Stored levels that would not fit are taken coarser.
-std::vector<RingBox> RingScenes::plan(const EyeView& view, const glm::dvec3& way) {
-    RingWish wish{view.eye, std::max(view.pixelWidth(), view.pixelHeight()), mShare, way, view.fall > 0};
+std::vector<RingBox> RingScenes::plan(const Looking& from, const glm::dvec3& way) {
+    const EyeView& view = from.view;
+    RingWish wish{view.eye,  std::max(view.pixelWidth(), view.pixelHeight()), mShare, way, view.fall > 0,
+                  from.other};
     std::vector<RingBox> boxes = planRings(*mLevels, wish);
     if (mLevels->stored()) {
         constexpr double kCoarser = 1.25, kMostShare = 1e6;
@@ -90,12 +92,13 @@ std::vector<RingBox> RingScenes::plan(const EyeView& view, const glm::dvec3& way
     return boxes;
 }
 
-void RingScenes::lookFrom(const EyeView& view) {
-    mMayBeLate&& any() ? lookLater(view) : lookNow(view);
+void RingScenes::lookFrom(const EyeView& left, const EyeView& right) {
+    const Looking from{left, right.eye};
+    mMayBeLate&& any() ? lookLater(from) : lookNow(from);
 }
 
-void RingScenes::lookNow(const EyeView& view) {
-    std::vector<RingBox> boxes = plan(view, glm::dvec3(0.0));
+void RingScenes::lookNow(const Looking& from) {
+    std::vector<RingBox> boxes = plan(from, glm::dvec3(0.0));
     if (boxes == mBoxes && mSetColors == mColorVersion) return;
     const bool itself = !mLevels->stored() && boxes.size() == 1 && boxes.front().level == 0;
     Set set = itself ? Set() : make(boxes, mSet, mColors, mColorVersion);
@@ -105,18 +108,18 @@ void RingScenes::lookNow(const EyeView& view) {
 }
 
 // The rings are made for some way ahead, and again when they do not reach that far any more.
-void RingScenes::lookLater(const EyeView& view) {
+void RingScenes::lookLater(const Looking& from) {
     constexpr double kSoon = 2, kAhead = 6;  // seconds
     if (mWork.valid() && mWork.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
         Set set = mWork.get();
         mSetColors = mComingColors;
         show(std::move(set), std::exchange(mComing, {}));
     }
-    const glm::dvec3 soon = wayOf(view.eye, kSoon);
-    const bool covered = coverRings(mBoxes, plan(view, soon)) && mSetColors == mColorVersion;
-    mLate = !coverRings(mBoxes, plan(view, glm::dvec3(0.0)));
-    if (!covered && !mWork.valid()) begin(plan(view, soon * (kAhead / kSoon)));
-    showAround(view.eye);
+    const glm::dvec3 soon = wayOf(from.view.eye, kSoon);
+    const bool covered = coverRings(mBoxes, plan(from, soon)) && mSetColors == mColorVersion;
+    mLate = !coverRings(mBoxes, plan(from, glm::dvec3(0.0)));
+    if (!covered && !mWork.valid()) begin(plan(from, soon * (kAhead / kSoon)));
+    showAround(from);
 }
 
 // Of the last pictures, which may stand still, or jump: none then.
@@ -151,11 +154,12 @@ void RingScenes::show(Set set, std::vector<RingBox> boxes) {
     mBoxes = std::move(boxes);
 }
 
-// What the eye has left of the set is not cast: rays start in the finest ring that is.
-void RingScenes::showAround(const glm::dvec3& eye) {
+// What one of the eyes has left of the set is not cast: rays start in the finest ring that is.
+void RingScenes::showAround(const Looking& from) {
     std::vector<RingBox> held;
     for (const auto& ring : mSet.rings->rings) held.push_back(ring->box);
-    const std::vector<RingBox> around = ringsAround(*mLevels, held, eye);
+    const std::vector<RingBox> around =
+        ringsAround(*mLevels, ringsAround(*mLevels, held, from.view.eye), from.other);
     if (around.size() == held.size()) {
         mShown = mSet;
         return;

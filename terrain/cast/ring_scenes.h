@@ -36,8 +36,9 @@ public:
     // there is cast meanwhile, from further and further away. Else lookFrom() waits for them.
     void mayBeLate(bool may);
 
-    // Chooses the rings for pictures of this view. Throws Error where levels are stored and can not be read.
-    void lookFrom(const EyeView& view);
+    // Chooses the rings for pictures of these views, which are alike but for the eyes' places. Throws Error
+    // where levels are stored and can not be read.
+    void lookFrom(const EyeView& left, const EyeView& right);
     // Whether what was chosen differs from the ground itself.
     bool any() const { return mShown.rings != nullptr; }
     const GroundRings& rings() const { return *mShown.rings; }                         // where any()
@@ -67,15 +68,20 @@ private:
         std::vector<std::shared_ptr<const Color>> colors;
     };
 
-    std::vector<RingBox> plan(const EyeView& view, const glm::dvec3& way);
+    // Two eyes, and what of their pictures chooses rings.
+    struct Looking {
+        const EyeView& view;
+        glm::dvec3 other;  // the second eye: world
+    };
+    std::vector<RingBox> plan(const Looking& from, const glm::dvec3& way);
     Set make(const std::vector<RingBox>& boxes, const Set& before, const PartColors& colors,
              int version) const;
     std::shared_ptr<const Color> colorOf(const RingBox& box, const PartColors& colors, int version) const;
-    void lookNow(const EyeView& view);
-    void lookLater(const EyeView& view);
+    void lookNow(const Looking& from);
+    void lookLater(const Looking& from);
     void begin(std::vector<RingBox> boxes);
     void show(Set set, std::vector<RingBox> boxes);
-    void showAround(const glm::dvec3& eye);
+    void showAround(const Looking& from);
     glm::dvec3 wayOf(const glm::dvec3& eye, double seconds);
     std::vector<CasterScene> dressed(const CasterScene& whole, const GroundFilter& filter) const;
 

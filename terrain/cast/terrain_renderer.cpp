@@ -170,9 +170,9 @@ const GroundRings* TerrainRenderer::rings() const {
     return mState->rings && mState->rings->any() ? &mState->rings->rings() : nullptr;
 }
 
-void TerrainRenderer::lookFrom(const EyeView& view) const {
+void TerrainRenderer::lookFrom(const EyeView& left, const EyeView& right) const {
     if (!mState->rings) return;
-    mState->rings->lookFrom(view);
+    mState->rings->lookFrom(left, right);
     mState->ringsChanged();
 }
 

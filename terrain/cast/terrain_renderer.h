@@ -49,7 +49,8 @@ public:
     };
     Detail ringDetail() const;
 
-    void lookFrom(const EyeView& view) const override;
+    using EyeRenderer::lookFrom;
+    void lookFrom(const EyeView& left, const EyeView& right) const override;
     int tileCount(const EyeView& view) const override;
     void renderTile(const EyeView& view, int tile, EyeImage& image) const override;
     void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,

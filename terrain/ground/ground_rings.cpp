@@ -24,14 +24,13 @@ struct Span {
 
 class Planner {
 public:
-    Planner(const GroundLevels& levels, const RingWish& wish)
-        : mLevels(levels),
-          mWish(wish),
-          mEye(levels.gridFromWorld(glm::dvec2(wish.eye))),
-          mWay(glm::dvec2(wish.way) / levels.spacing(0)) {
-        const double low = std::min(wish.eye.z, wish.eye.z + wish.way.z),
-                     high = std::max(wish.eye.z, wish.eye.z + wish.way.z);
-        mOver = std::max({0.0, low - levels.maxHeight(), wish.sinks ? 0.0 : levels.minHeight() - high});
+    Planner(const GroundLevels& levels, const RingWish& wish) : mLevels(levels), mWish(wish) {
+        const glm::dvec3 other = wish.other.value_or(wish.eye),
+                         low = glm::min(wish.eye, other) + glm::min(wish.way, glm::dvec3(0.0)),
+                         high = glm::max(wish.eye, other) + glm::max(wish.way, glm::dvec3(0.0));
+        mEye = levels.gridFromWorld(glm::dvec2(low));
+        mWay = glm::dvec2(high - low) / levels.spacing(0);
+        mOver = std::max({0.0, low.z - levels.maxHeight(), wish.sinks ? 0.0 : levels.minHeight() - high.z});
     }
 
     // Blocks of that level that must be finer; none where all may be of it.
@@ -84,8 +83,8 @@ private:
 
     const GroundLevels& mLevels;
     const RingWish& mWish;
-    glm::dvec2 mEye, mWay;  // grid of the ground
-    double mOver = 0;       // metres from the eye's height to the nearest of the ground's
+    glm::dvec2 mEye, mWay;  // grid of the ground: a corner of the box around all eyes, and its size
+    double mOver = 0;       // metres from the eyes' heights to the nearest of the ground's
 };
 
 // Around the span, in steps of several blocks: a box stays the same for a while as the eye moves.
@@ -112,9 +111,13 @@ std::vector<RingBox> planRings(const GroundLevels& levels, const RingWish& asked
     const int last = levels.count() - 1;
     if (!(asked.share > 0 && asked.pixelAngle > 0)) return {wholeOf(levels, 0)};
     RingWish wish = asked;
-    if (!levels.contains(glm::dvec2(wish.eye + wish.way))) wish.way = glm::dvec3(0.0);
+    const auto overGround = [&](const glm::dvec3& way) {
+        return levels.contains(glm::dvec2(wish.eye + way)) &&
+               levels.contains(glm::dvec2(wish.other.value_or(wish.eye) + way));
+    };
+    if (!overGround(wish.way)) wish.way = glm::dvec3(0.0);
     const Planner planner(levels, wish);
-    if (!levels.contains(glm::dvec2(wish.eye))) {
+    if (!overGround(glm::dvec3(0.0))) {
         for (int level = last; level > 0; --level)
             if (!planner.tooCoarse(level)) return {wholeOf(levels, level)};
         return {wholeOf(levels, 0)};

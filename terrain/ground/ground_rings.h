@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "terrain/ground/ground_levels.h"
@@ -23,10 +24,11 @@ struct RingWish {
     double share = 0.5;     // of that, which a level may be off; 0: the ground itself
     glm::dvec3 way{0.0};    // and for eyes along this way, from `eye`
     bool sinks = false;     // the ground is seen lower than it lies, over a round Earth
+    std::optional<glm::dvec3> other = std::nullopt;  // a second eye, which goes the same way
 };
 
-// Finest first. All but the last hold the place below the eye, and lie within the next, but for what that one
-// lacks at the ground's north and east; the last is all of its level. Where the eye is not over the ground
+// Finest first. All but the last hold the places below the eyes, and lie within the next, but for what that
+// one lacks at the ground's north and east; the last is all of its level. Where an eye is not over the ground
 // there is one. A level is taken for a block where its bound there is at most the share of what a pixel
 // covers at the block's nearest place; between boxes the surface has steps of that size.
 std::vector<RingBox> planRings(const GroundLevels& levels, const RingWish& wish);

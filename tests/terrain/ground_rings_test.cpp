@@ -122,6 +122,52 @@ TEST(GroundRings, AreKeptWhereTheyStay) {
     EXPECT_NE(first->rings.front(), second->rings.front());
 }
 
+// What is around one eye alone would leave the other one outside: rays begin inside all rings but the last.
+TEST(GroundRings, HoldBothEyes) {
+    const TerrainScene scene = test::makeScene(roughGround(1400, 1201));
+    TerrainRenderer renderer(scene);
+    renderer.takeCoarser(1);
+    const Lens lens{40, 30, 1.1, 1.0, 0.1};
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0, 1);
+    int apart = 0, nested = 0;
+    long long wrong = 0;
+    for (int k = 0; k < 24; ++k) {
+        const glm::dvec2 place = (glm::dvec2(unit(random), unit(random)) - 0.5) * 26000.,
+                         aside = 7000 * unit(random) * glm::dvec2(std::cos(k), std::sin(k));
+        const double height = 60 + 500 * unit(random);
+        const auto viewAt = [&](const glm::dvec2& at) {
+            return makeEyeView(poseFromAngles({at, scene.ground.heightAt(at) + height}, k, -0.2, 0), lens);
+        };
+        const EyeView left = viewAt(place), right = viewAt(place + aside);
+        renderer.lookFrom(left);
+        const auto alone = renderer.rings() ? renderer.rings()->rings.front()->ground : scene.ground;
+        apart += !alone.contains(glm::dvec2(right.eye));
+        renderer.lookFrom(left, right);
+        if (!renderer.rings()) continue;
+        nested += renderer.rings()->rings.size() > 1;
+        for (std::size_t n = 0; n + 1 < renderer.rings()->rings.size(); ++n)
+            for (const EyeView* const view : {&left, &right})
+                EXPECT_TRUE(renderer.rings()->rings[n]->ground.contains(glm::dvec2(view->eye))) << k;
+        for (const EyeView* const view : {&left, &right}) {
+            EyeImage image;
+            image.resize(view->width, view->height);
+            renderEye(renderer, *view, image);
+            for (int y = 0; y < view->height; ++y)
+                for (int x = 0; x < view->width; ++x) {
+                    const double got = image.viewDepth.at(x, y),
+                                 want = castPlainRings(*renderer.rings(), view->eye,
+                                                       view->rayDirection(x + 0.5, y + 0.5), view->nearDepth)
+                                            .hit.t;
+                    wrong += std::isfinite(want) ? std::abs(got - want) > 2e-6 * want : std::isfinite(got);
+                }
+        }
+    }
+    EXPECT_GT(apart, 5);
+    EXPECT_GT(nested, 5);
+    EXPECT_LE(wrong, 3);
+}
+
 class RingCaster : public testing::TestWithParam<bool> {};
 
 // Level, pitched, rolled and straight views, from over and beside the ground, and holes.
