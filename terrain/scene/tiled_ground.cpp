@@ -29,7 +29,7 @@ std::filesystem::path tilesPlace(std::uint64_t content) {
     return cacheFolder() / fmt::format("ground_{:016x}.tiles", content);
 }
 
-void checkRoom(const std::filesystem::path& place, const glm::ivec2& size) {
+void checkRoom(const std::filesystem::path& dem, const std::filesystem::path& place, const glm::ivec2& size) {
     const auto bytes = static_cast<double>(TileFilePlan(size).byteCount());
     std::filesystem::path folder = place.parent_path();
     std::error_code failed;
@@ -37,16 +37,16 @@ void checkRoom(const std::filesystem::path& place, const glm::ivec2& size) {
         folder = folder.parent_path();
     const std::filesystem::space_info room = std::filesystem::space(folder, failed);
     if (failed || bytes <= static_cast<double>(room.available)) return;
-    throw Error(place.parent_path().string(), "tiles of the ground",
-                fmt::format("need {} of disk, and {} are free", memoryText(bytes),
-                            memoryText(static_cast<double>(room.available))),
+    throw Error(dem.string(), "tiles of the ground",
+                fmt::format("need {} of disk, and {} are free in {}", memoryText(bytes),
+                            memoryText(static_cast<double>(room.available)), place.parent_path().string()),
                 "make room, or name another place for the cache with XDG_CACHE_HOME");
 }
 
 // Anew; twice where only all samples tell which of them are missing.
-void makeStore(DemRows& rows, const TileSource& source, const std::filesystem::path& place,
-               Progress& progress) {
-    checkRoom(place, source.size);
+void makeStore(const std::filesystem::path& dem, DemRows& rows, const TileSource& source,
+               const std::filesystem::path& place, Progress& progress) {
+    checkRoom(dem, place, source.size);
     checkMemory("tiles of the ground", bytesOfMaking(source.size, source.rows), "give more memory");
     writeFileAtomically(
         place,
@@ -98,7 +98,7 @@ bool standsIn(const SceneFile& file, const StorePlan& plan, const DemGrid& dem, 
     scene.standIn = {plan.place.string(), dem.spacing, [dem = file.dem](Progress& progress) {
                          DemRows rows(dem);
                          const StorePlan now = storeOf(rows);
-                         if (!storeThere(now)) makeStore(rows, now.source, now.place, progress);
+                         if (!storeThere(now)) makeStore(dem, rows, now.source, now.place, progress);
                      }};
     return true;
 }
@@ -140,7 +140,7 @@ DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& pr
     const bool made = !store;
     if (made && file.standInSide > 0 && standsIn(file, plan, dem, scene)) return dem;
     if (made) {
-        makeStore(rows, plan.source, plan.place, progress);
+        makeStore(file.dem, rows, plan.source, plan.place, progress);
         store = std::make_shared<TileStore>(plan.place, plan.source.content);
     }
     checkScaledHeights(file.dem.string(), store->low(), store->high(), file.verticalScale);
