@@ -24,7 +24,8 @@ constexpr double kLungLow = -1350, kLungHigh = 150;       // HU: the lung window
 constexpr const char* kStyle =
     "body{margin:0 auto;max-width:1100px;padding:16px;font:15px/1.5 system-ui,sans-serif;color:#1c1f24;"
     "background:#fff}.warn{border-left:4px solid #c2410c;padding:.3em .8em;background:#f6f7f9}"
-    "table{border-collapse:collapse;font-size:.85rem}th,td{padding:2px 10px 2px 0;text-align:left;"
+    "table{display:block;overflow-x:auto;border-collapse:collapse;font-size:.85rem}"
+    "th,td{padding:2px 10px 2px 0;text-align:left;"
     "border-bottom:1px solid #d9dde3}figure{display:inline-block;margin:0 12px 12px 0}"
     "figcaption{font-size:.85rem;color:#5b6470}img{display:block}";
 
