@@ -92,7 +92,7 @@ constexpr Reader kReaders[] = {
      }},
     {"bake", "light.bake", bake, mendBake},
     {"ground-light", "light.tlight", [](const fs::path& file) { loadTerrainLight(file, nullptr); }},
-    {"colon-cache", "stereonav/colon-v5-0000000000000001.bin", colonCache, mendColonCache},
+    {"colon-cache", "stereonav/colon-v6-0000000000000001.bin", colonCache, mendColonCache},
 };
 
 }  // namespace
