@@ -73,17 +73,14 @@ public:
     ColonPanoramaPicture(const ColonScene& colon, std::shared_ptr<const JoinedWall> wall, Progress& progress)
         : mWall(std::move(wall)),
           mSight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue),
-          mPanorama(colon.volume.field, colon.centreline, mSight, UnfoldSetting{}.pixel, progress),
-          mPicture(mPanorama.picture(colon.volume.look, progress)) {
+          mPanorama(colon.volume.field, colon.centreline, mSight, UnfoldSetting{}.pixel, progress) {
         checkMemory("panorama", static_cast<double>(sizeof(Shown)) * width() * height(),
                     "use the command unfold --panorama");
         mPlaces.resize(width(), height());
-        parallelFor(height(), [&](int y) {
-            if (progress.cancelled()) throw Cancelled();
-            for (int x = 0; x < width(); ++x)
-                if (const auto place = mPanorama.placeAt(x, y))
-                    mPlaces.at(x, y) = {place->wall, place->eye, true};
-        });
+        mPicture = mPanorama.picture(colon.volume.look, progress,
+                                     [this](int x, int y, const Panorama::Place& place) {
+                                         mPlaces.at(x, y) = {place.wall, place.eye, true};
+                                     });
     }
 
     int width() const override { return mPanorama.width(); }

@@ -39,12 +39,13 @@ bool startsAtRectum(const LumenProbe& probe, const std::vector<glm::dvec3>& poin
 }
 
 std::vector<glm::dvec3> linePoints(const LumenField& lumen, int segment, const DistanceVolume& distance,
-                                   double spacing, const std::function<void()>& poll) {
+                                   const CentrelineSetting& setting, const std::function<void()>& poll) {
     std::vector<glm::dvec3> rough;
-    for (const glm::ivec3& v : roughCentreline(lumen, segment, distance, poll))
+    for (const glm::ivec3& v : roughCentreline(lumen, segment, distance, setting.mostUneven, poll))
         rough.push_back(lumen.lumen.frame.worldFromVoxel(glm::dvec3(v)));
     const LumenProbe probe(lumen, distance, segment);
-    std::vector<glm::dvec3> points = resampleEvenly(probe, refineCentreline(probe, rough, poll), spacing);
+    std::vector<glm::dvec3> points =
+        resampleEvenly(probe, refineCentreline(probe, rough, poll), setting.spacing);
     if (!startsAtRectum(probe, points)) std::reverse(points.begin(), points.end());
     return points;
 }
@@ -68,7 +69,7 @@ Centreline findCentreline(const LumenField& lumen, const DistanceVolume& distanc
             progress.report(static_cast<double>(segment - 1) / count, "finding the centreline");
         };
         poll();
-        std::vector<glm::dvec3> piece = linePoints(lumen, segment, distance, setting.spacing, poll);
+        std::vector<glm::dvec3> piece = linePoints(lumen, segment, distance, setting, poll);
         if (!line.points.empty()) {  // goes on at the end that is nearer
             const glm::dvec3 last = line.points.back().position;
             if (glm::length(piece.back() - last) < glm::length(piece.front() - last))

@@ -24,6 +24,9 @@ struct Centreline {
 struct CentrelineSetting {
     double spacing = 0.001;  // metres between points
     bool reversed = false;   // the ends were taken for each other: the whole line the other way round
+    // A piece of more voxels is searched in blocks of two along all axes, also where one is sampled more
+    // coarsely: that takes as long as there are blocks.
+    std::size_t mostUneven = 50'000'000;
 };
 
 // distance: distanceToOutside(lumen.lumen). Every point of a segment lies inside it (by the mask alone when

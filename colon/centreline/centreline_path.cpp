@@ -19,17 +19,14 @@ using Node = VoxelGraph::Node;
 
 // Lumens of more voxels are coarsened.
 constexpr std::size_t kMostFineNodes = 400000;
-// Of lumens of more voxels blocks are of two along all axes: the search for the way takes as long as it has
-// nodes.
-constexpr std::size_t kMostUneven = 50'000'000;
 
 // A step costs (largest distance / distance)^2 a metre: twice as near to the wall, four times as dear.
 constexpr double kWallPower = 2.0;
 
 // Blocks of two voxels along the axes that are finely sampled, so that blocks are no longer than needed.
-glm::ivec3 blockOf(const glm::dvec3& spacing, std::size_t voxels) {
+glm::ivec3 blockOf(const glm::dvec3& spacing, std::size_t voxels, std::size_t mostUneven) {
     if (voxels <= kMostFineNodes) return glm::ivec3(1);
-    if (voxels > kMostUneven) return glm::ivec3(2);
+    if (voxels > mostUneven) return glm::ivec3(2);
     const double smallest = std::min({spacing.x, spacing.y, spacing.z});
     glm::ivec3 block(1);
     for (int axis = 0; axis < 3; ++axis)
@@ -126,9 +123,9 @@ std::vector<glm::ivec3> fineWay(const VoxelGraph& graph, const glm::ivec3& start
 }  // namespace
 
 std::vector<glm::ivec3> roughCentreline(const LumenField& lumen, int segment, const DistanceVolume& distance,
-                                        const std::function<void()>& poll) {
+                                        std::size_t mostUneven, const std::function<void()>& poll) {
     const LumenSegment& piece = lumen.segments[segment - 1];
-    const glm::ivec3 block = blockOf(lumen.lumen.frame.spacing, piece.voxels);
+    const glm::ivec3 block = blockOf(lumen.lumen.frame.spacing, piece.voxels, mostUneven);
     const VoxelGraph graph(lumen.lumen, static_cast<std::uint8_t>(segment), piece.first, piece.last, block);
     if (graph.nodeCount() == 0)
         throw Error("", "", "segment " + std::to_string(segment) + " of the lumen has no voxels",

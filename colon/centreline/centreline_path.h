@@ -11,8 +11,8 @@
 namespace stereonav {
 
 // Voxels, each a neighbour of the one before it (engine/volume/voxel_path.h), one or more; which end comes
-// first is not said. Throws Error when the piece has no voxel.
+// first is not said. mostUneven: CentrelineSetting's. Throws Error when the piece has no voxel.
 std::vector<glm::ivec3> roughCentreline(const LumenField& lumen, int segment, const DistanceVolume& distance,
-                                        const std::function<void()>& poll);
+                                        std::size_t mostUneven, const std::function<void()>& poll);
 
 }  // namespace stereonav

@@ -78,17 +78,7 @@ std::optional<Panorama::Ray> Panorama::rayOf(int x, int y) const {
     return ray;
 }
 
-glm::dvec3 Panorama::meets(const Ray& ray) const {
-    return ray.from.place + mSight.reach(ray.from.place, ray.way, kFarthest) * ray.way;
-}
-
-std::optional<Panorama::Place> Panorama::placeAt(int x, int y) const {
-    const auto ray = rayOf(x, y);
-    if (!ray) return std::nullopt;
-    return Place{meets(*ray), ray->from.place};
-}
-
-Plane<PackedColor> Panorama::picture(const VolumeLook& look, Progress& progress) const {
+Plane<PackedColor> Panorama::picture(const VolumeLook& look, Progress& progress, const Seen& seen) const {
     Plane<PackedColor> picture(mWidth, rows());
     const PackedColor white = packColor(glm::vec3(1)), black = packColor(glm::vec3(0));
     parallelFor(mWidth, [&](int x) {
@@ -98,11 +88,13 @@ Plane<PackedColor> Panorama::picture(const VolumeLook& look, Progress& progress)
             picture.at(x, y) = white;
             const auto ray = rayOf(x, y);
             if (!ray) continue;
-            const glm::dvec3 place = meets(*ray), voxel = mField.frame.voxelFromWorld(place);
+            const glm::dvec3& eye = ray->from.place;
+            const glm::dvec3 place = eye + mSight.reach(eye, ray->way, kFarthest) * ray->way,
+                             voxel = mField.frame.voxelFromWorld(place);
             const glm::dvec3 inside = glm::clamp(voxel, glm::dvec3(0), glm::dvec3(mField.frame.size - 1));
-            picture.at(x, y) =
-                packColor(glm::vec3(shadePlain(look, place, plainNormal(mField, inside), ray->from.place,
-                                               ray->from.place, glm::dvec3(look.surface))));
+            picture.at(x, y) = packColor(glm::vec3(
+                shadePlain(look, place, plainNormal(mField, inside), eye, eye, glm::dvec3(look.surface))));
+            if (seen) seen(x, y, {place, eye});
         }
         const int marks = static_cast<int>(std::floor(x * mPixel / 0.01 + 1e-9));
         const bool isMark = x == 0 || marks != static_cast<int>(std::floor((x - 1) * mPixel / 0.01 + 1e-9));

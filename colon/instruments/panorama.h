@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -34,21 +35,21 @@ public:
     Panorama(const GreyVolume& field, const Centreline& line, const LineOfSight& sight, double pixel,
              Progress& progress);
 
+    // A place of the wall in picture(), and the eye that sees it. World, metres.
+    struct Place {
+        glm::dvec3 wall{0.0}, eye{0.0};
+    };
+    using Seen = std::function<void(int x, int y, const Place& place)>;
+
     int width() const { return mWidth; }
     int height() const { return mHeight; }
     // Both strips, that from the rectum above, lit by the eye's own lamp; white where there is no eye.
     // Between them a mark each centimetre of the line, a longer one every ten.
-    Plane<PackedColor> picture(const VolumeLook& look, Progress& progress) const;
+    // seen: told what each pixel shows that shows something, from many threads; null for none.
+    Plane<PackedColor> picture(const VolumeLook& look, Progress& progress, const Seen& seen = nullptr) const;
 
     int rows() const { return 2 * mHeight + kGap; }  // of picture()
     double pixel() const { return mPixel; }          // metres along the line
-
-    // What a pixel of picture() shows, and the eye that sees it; nothing between the strips and where there
-    // is no eye. World, metres.
-    struct Place {
-        glm::dvec3 wall{0.0}, eye{0.0};
-    };
-    std::optional<Place> placeAt(int x, int y) const;
 
     // Whether the ring of some eye passes through a place (in the lumen, metres) with nothing between.
     bool shows(End from, const glm::dvec3& place) const { return eyeThatSees(from, place).has_value(); }
@@ -71,7 +72,6 @@ private:
         glm::dvec3 way{0.0};
     };
     std::optional<Ray> rayOf(int x, int y) const;
-    glm::dvec3 meets(const Ray& ray) const;
 
     double eyeAt(End from, int x) const;                                         // metres along the line
     std::optional<double> eyeThatSees(End from, const glm::dvec3& place) const;  // metres along the line

@@ -75,6 +75,9 @@ TEST_F(OfferedLine, APlaceOfThePanoramaIsFoundAgain) {
     EXPECT_GT(found, 0.8 * places);
     EXPECT_FALSE(both->placeAt(-1, 0));
     EXPECT_FALSE(both->placeAt(0, both->height()));
+    EXPECT_FALSE(both->placeAt(0, -1));
+    EXPECT_FALSE(both->placeAt(both->width(), 0));
+    EXPECT_FALSE(both->placeAt(both->width() / 2, both->height() / 2)) << "between the strips";
     EXPECT_TRUE(both->pixelsOf({1, 1, 1}, 0.02).empty());
     const auto red = [](const glm::dvec3&, const glm::vec3&) { return glm::vec3(1, 0, 0); };
     const Plane<PackedColor> plain = both->picture(nullptr), painted = both->picture(red);

@@ -90,12 +90,12 @@ struct Arc {
     double away(const glm::dvec3& p) const { return glm::length(p - nearest(p)); }
 };
 
-void expectArc(const glm::dvec3& spacing, std::size_t moreVoxelsThan) {
+void expectArc(const glm::dvec3& spacing, std::size_t moreVoxelsThan, const CentrelineSetting& setting = {}) {
     const Arc arc;
     const LumenField lumen = lumenOf([&](const glm::dvec3& p) { return arc.away(p) - arc.tube; },
                                      {-0.042, -0.0121, -0.042}, {0.042, 0.0121, 0.042}, spacing);
     ASSERT_GT(lumen.segments.at(0).voxels, moreVoxelsThan);
-    const Centreline line = lineOf(lumen);
+    const Centreline line = lineOf(lumen, setting);
     expectSound(lumen, line, 0.001);
     EXPECT_LT(farthest(line, [&](const glm::dvec3& p) { return arc.away(p); }), 0.001);
     EXPECT_NEAR(line.length(), 1.5 * kPi * arc.bend, 0.05 * 1.5 * kPi * arc.bend);
@@ -110,6 +110,13 @@ TEST(Centreline, OfATorusArcIsItsCircle) {
 TEST(Centreline, OfATorusArcOfManyVoxelsIsItsCircle) {
     expectArc(glm::dvec3(4e-4), 500000);
     expectArc({2.5e-4, 8e-4, 2.5e-4}, 500000);
+}
+
+// As lumens of very many voxels are searched: in blocks of two along the coarser axis too.
+TEST(Centreline, InBlocksThatAreLongAlongAnAxisIsItsCircle) {
+    CentrelineSetting even;
+    even.mostUneven = 1000;
+    expectArc({2.5e-4, 8e-4, 2.5e-4}, 500000, even);
 }
 
 // A winding axis y = A sin(w z), with bulges of the radius (haustra) where depth is not 0.

@@ -13,13 +13,18 @@
 namespace stereonav {
 namespace {
 
-// Large enough for a thread of its own: 8-bit noise, but for a first slice of two values and a last one of
-// zeros.
-RawStudy noiseOf64Megabytes() {
+// Large enough for a thread of its own.
+RawStudy zerosOf64Megabytes() {
     RawStudy raw;
     raw.type = SampleType::UInt8;
     raw.frame.size = {1024, 1024, 65};
     raw.bytes = LazyArray<unsigned char>(raw.frame.count());
+    return raw;
+}
+
+// 8-bit noise, but for a first slice of two values and a last one of zeros.
+RawStudy noiseOf64Megabytes() {
+    RawStudy raw = zerosOf64Megabytes();
     const std::size_t perSlice = std::size_t{1024} * 1024;
     std::uint32_t state = 1;
     for (std::size_t n = 0; n < raw.frame.count() - perSlice; ++n) {
@@ -45,8 +50,7 @@ TEST(StudyFacts, AreTheSameWhileSamplesCome) {
     setThreadCount(2);
     const RawStudy whole = noiseOf64Megabytes();
     const ValueFacts expected = factsOf(whole, {});
-    RawStudy coming = noiseOf64Megabytes();
-    std::memset(coming.bytes.data(), 0, coming.frame.count());
+    RawStudy coming = zerosOf64Megabytes();
     FactsBeside beside(coming);
     const std::size_t perSlice = std::size_t{1024} * 1024, block = 5 * perSlice / 2;  // ends within slices
     for (std::size_t at = 0; at < coming.frame.count(); at += block) {
@@ -65,10 +69,7 @@ TEST(StudyFacts, AreTheSameWhileSamplesCome) {
 TEST(StudyFacts, OfAReadingThatEndsEarlyAreLeft) {
     const int threads = threadCount();
     setThreadCount(2);
-    RawStudy raw;
-    raw.type = SampleType::UInt8;
-    raw.frame.size = {1024, 1024, 65};
-    raw.bytes = LazyArray<unsigned char>(raw.frame.count());
+    const RawStudy raw = zerosOf64Megabytes();
     {
         FactsBeside beside(raw);  // nothing comes
     }
@@ -81,10 +82,7 @@ TEST(StudyFacts, OfAReadingThatEndsEarlyAreLeft) {
 TEST(StudyFacts, StartNoThreadWhereThereIsOne) {
     const int threads = threadCount();
     setThreadCount(1);
-    RawStudy raw;
-    raw.type = SampleType::UInt8;
-    raw.frame.size = {1024, 1024, 65};
-    raw.bytes = LazyArray<unsigned char>(raw.frame.count());
+    const RawStudy raw = zerosOf64Megabytes();
     FactsBeside beside(raw);
     beside.come(raw.frame.count());
     EXPECT_TRUE(beside.take().empty());

@@ -23,6 +23,7 @@
 #include "terrain/paint/ground_view.h"
 #include "terrain/paint/track_painter.h"
 #include "terrain/survey/viewshed.h"
+#include "tests/support/analytic_scene.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav {
@@ -137,9 +138,7 @@ TEST(EarthBend, TheSeaEndsAtItsHorizon) {
                 const Lens lens{9, 301, 3 * dip, 1.0, 0.01 * height, fall};
                 const Pose pose = poseFromAngles({50, -90, height}, 0.7, 0, 0);
                 const EyeView view = makeStereoViews(pose, lens, {0.02 * height, height}).left;
-                EyeImage image;
-                image.resize(view.width, view.height);
-                renderEye(renderer, view, image);
+                const EyeImage image = test::castEye(renderer, view);
                 for (int y = 0; y < view.height; ++y) {
                     const glm::dvec3 ray = view.rayDirection(4.5, y + 0.5);
                     const double run = std::hypot(ray.x, ray.y), slope = ray.z / run;
@@ -233,8 +232,7 @@ EyeView someView(const Heightfield& ground, std::mt19937& random, int k, double 
 // Half of the pixels again, as holes of a picture that knows the rest.
 EyeImage castTwice(const TerrainRenderer& renderer, const EyeView& view, std::mt19937& random,
                    EyeImage& image) {
-    image.resize(view.width, view.height);
-    renderEye(renderer, view, image);
+    image = test::castEye(renderer, view);
     EyeImage again = image;
     std::vector<PixelIndex> holes;
     for (int y = 0; y < view.height; ++y)
@@ -342,9 +340,7 @@ TEST(EarthBend, PaintersSeeTheGroundItself) {
     const Pose pose = poseFromAngles({-4e4, -4e4, 3500}, 0.8, -0.03, 0);
     const Lens lens{160, 100, 0.3, 1.0, 1.0, kUsualFall};
     const EyeView view = makeStereoViews(pose, lens, {300, 3e4}).right;
-    EyeImage image;
-    image.resize(view.width, view.height);
-    renderEye(renderer, view, image);
+    const EyeImage image = test::castEye(renderer, view);
     const GroundView painted(scene.ground, view);
     int seen = 0, far = 0;
     for (int y = 0; y < view.height; ++y)
@@ -374,10 +370,8 @@ TEST(EarthBend, TracksLieOnTheGroundThatIsSeen) {
     const glm::dvec2 from(-8000, 1e4), to(9000, 1.2e4);
     const Lens lens{300, 160, 0.12, 1.0, 1.0, kUsualFall};
     const EyeView view = makeEyeView(poseFromAngles({0, -5.5e4, 4000}, 0, -0.065, 0), lens);
-    EyeImage image, drawn;
-    image.resize(view.width, view.height);
-    renderEye(renderer, view, image);
-    drawn = image;
+    const EyeImage image = test::castEye(renderer, view);
+    EyeImage drawn = image;
     TrackPainter(scene.ground, fog, {{from, to}}, {}).paint(view, drawn);
     int columns = 0;
     for (int x = 0; x < view.width; ++x) {
@@ -401,12 +395,7 @@ TEST(EarthBend, AirIsThatUpToThePlace) {
     TerrainScene scene = test::makeScene(groundOf(120, 120, glm::dvec2(2000), [](int, int) { return 20.0; }));
     const Lens lens{64, 48, 0.2, 1.0, 1.0, kUsualFall};
     const EyeView view = makeEyeView(poseFromAngles({0, -1.1e5, 9000}, 0, -0.12, 0), lens);
-    const auto cast = [&](SimdTarget target) {
-        EyeImage image;
-        image.resize(view.width, view.height);
-        renderEye(TerrainRenderer(scene, target), view, image);
-        return image;
-    };
+    const auto cast = [&](SimdTarget target) { return test::castEye(TerrainRenderer(scene, target), view); };
     const EyeImage clear = cast(SimdTarget::Plain);
     scene.look.physicalSky = true;
     const Fog fog(scene.look);
@@ -443,10 +432,8 @@ TEST(EarthBend, ContoursLieAtTheirHeights) {
     for (const double fall : {0.0, kUsualFall}) {
         const Lens lens{60, 200, 0.5, 1.0, 1.0, fall};
         const EyeView view = makeEyeView(poseFromAngles({0, -5.5e4, 4000}, 0, -0.2, 0), lens);
-        EyeImage image, lined;
-        image.resize(view.width, view.height);
-        renderEye(renderer, view, image);
-        lined = image;
+        const EyeImage image = test::castEye(renderer, view);
+        EyeImage lined = image;
         ContourPainter(scene.ground, fog, {500, 1}).paint(view, lined);
         int inked = 0;
         for (int y = 0; y < view.height; ++y) {

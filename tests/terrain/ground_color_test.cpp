@@ -59,6 +59,14 @@ double codeOf(int c, int r, int band) {
     return band == 0 ? 10 + 5 * c : band == 1 ? 20 + 9 * r : 200;
 }
 
+// Twice as fine as flatPlace(), with 7 more pixels west and 3 more north, 5 and 2 more east and south.
+RasterSpec widerPicture() {
+    RasterSpec spec = pictureSpec(7 + 40 + 5, 3 + 20 + 2);
+    spec.transform = {500000 - 7 * 15.0, 15, 0, 5000000 + 3 * 15.0, 0, -15};
+    spec.value = [](int c, int r, int band) { return codeOf(c - 7, r - 3, band); };
+    return spec;
+}
+
 void expectPixelForPixel(const GroundColor& color) {
     const auto& level = color.texture.level(0);
     ASSERT_EQ(level.width(), 40);
@@ -86,10 +94,7 @@ TEST(GroundColor, PlainImageCoversTheExtentPixelForPixel) {
 TEST(GroundColor, PlacedImageIsCutToTheGround) {
     const TempFolder folder;
     const Place place = flatPlace(folder);
-    // Twice as fine, with 7 more pixels west and 3 more north, 5 and 2 more east and south.
-    RasterSpec spec = pictureSpec(7 + 40 + 5, 3 + 20 + 2);
-    spec.transform = {500000 - 7 * 15.0, 15, 0, 5000000 + 3 * 15.0, 0, -15};
-    spec.value = [](int c, int r, int band) { return codeOf(c - 7, r - 3, band); };
+    const RasterSpec spec = widerPicture();
     const GroundColor color = lay(writeRaster(folder / "placed.tif", spec), place);
     EXPECT_EQ(color.source, "image placed.tif 52x25, by its georeference");
     expectPixelForPixel(color);
@@ -98,9 +103,7 @@ TEST(GroundColor, PlacedImageIsCutToTheGround) {
 TEST(GroundColor, PackagedImageIsAsTheSameInAGeoTiff) {
     const TempFolder folder;
     const Place place = flatPlace(folder);
-    RasterSpec spec = pictureSpec(7 + 40 + 5, 3 + 20 + 2);
-    spec.transform = {500000 - 7 * 15.0, 15, 0, 5000000 + 3 * 15.0, 0, -15};
-    spec.value = [](int c, int r, int band) { return codeOf(c - 7, r - 3, band); };
+    RasterSpec spec = widerPicture();
     spec.driver = "GPKG";
     spec.options = {"TILE_FORMAT=PNG"};
     const GroundColor color = lay(writeRaster(folder / "placed.gpkg", spec), place);
