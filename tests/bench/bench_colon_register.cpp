@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "colon/instruments/finding.h"
 #include "colon/instruments/registration.h"
 #include "colon/scene/colon_scene.h"
+#include "engine/base/error.h"
 
 namespace {
 
@@ -26,6 +28,20 @@ ColonScene made(std::uint64_t seed, int side, double bend, double inflation) {
     return loadColon(options, progress);
 }
 
+struct Pair {
+    ColonScene straight, bent;
+};
+
+// None where a colon comes out of the body that it is bent in: that is said.
+std::optional<Pair> pairOf(std::uint64_t seed, int side, double bend, double inflation) {
+    try {
+        return Pair{made(seed, side, 0, 1), made(seed, side, bend, inflation)};
+    } catch (const Error& error) {
+        fmt::print("seed {} bend {:g} inflation {:g}: left out: {}\n", seed, bend, inflation, error.what());
+        return std::nullopt;
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -35,7 +51,9 @@ int main(int argc, char** argv) {
         std::vector<double> errors, shares;
         for (int seed = 1; seed <= seeds; ++seed) {
             const auto n = static_cast<std::uint64_t>(seed);
-            const ColonScene a = made(n, side, 0, 1), b = made(n, side, bend, inflation);
+            const std::optional<Pair> pair = pairOf(n, side, bend, inflation);
+            if (!pair) continue;
+            const auto& [a, b] = *pair;
             const LineRegistration registration(a.centreline, b.centreline);
             for (std::size_t k = 0; k < std::min(a.polyps.size(), b.polyps.size()); ++k) {
                 const double first = alongLine(a.centreline, a.polyps[k].position);
@@ -49,6 +67,7 @@ int main(int argc, char** argv) {
                 seed, bend, inflation, 1e3 * a.centreline.length(), 1e3 * b.centreline.length(),
                 a.lumen.segments.size(), b.lumen.segments.size(), registration.cost());
         }
+        if (errors.empty()) continue;
         std::sort(errors.begin(), errors.end());
         std::sort(shares.begin(), shares.end());
         const auto mean = [](const std::vector<double>& all) {
