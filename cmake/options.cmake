@@ -3,6 +3,9 @@ add_library(stereonav_options INTERFACE)
 target_compile_options(stereonav_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wno-unknown-pragmas
   -ffp-contract=off -fno-math-errno -fno-trapping-math
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # false positives of g++ 12 on std::string operator+ (gcc bug 105651)
+if(NOT CMAKE_UNITY_BUILD_BATCH_SIZE)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)  # headers are half of a file's time; more would leave a core idle at the end
+endif()
 if(CMAKE_UNITY_BUILD)  # g++ takes a source that a unity source includes for a header
   target_compile_options(stereonav_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()

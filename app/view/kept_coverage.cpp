@@ -16,8 +16,8 @@ constexpr int kVersion = 1;
 constexpr const char* kMark = "stereonav_coverage";
 constexpr std::size_t kNumbers = 11;  // place, orientation (w, x, y, z), the window's sides
 
-bool isNumberWithin(const nlohmann::json& json, double most) {
-    return json.is_number() && std::abs(json.get<double>()) <= most;
+bool isNumberWithin(const nlohmann::json& value, double most) {
+    return value.is_number() && std::abs(value.get<double>()) <= most;
 }
 
 bool isEye(const nlohmann::json& row) {

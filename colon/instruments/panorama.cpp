@@ -15,17 +15,17 @@ namespace stereonav {
 namespace {
 
 constexpr double kWholeTurn = 2 * std::numbers::pi;
-constexpr double kFarthest = 0.2;       // metres that a ray goes
-constexpr double kNearLine = 0.09;      // metres of a place from eyes that may see it
-constexpr int kRays = 16, kEvery = 20;  // that the mean radius is taken from; frames between them
-constexpr int kLongMark = 10;           // pixels
+constexpr double kFarthest = 0.2;           // metres that a ray goes
+constexpr double kNearLine = 0.09;          // metres of a place from eyes that may see it
+constexpr int kRays = 16, kFrameStep = 20;  // that the mean radius is taken from; frames between them
+constexpr int kLongMark = 10;               // pixels
 constexpr int kWidest = 32768;
 constexpr int kOneTask = 512;  // vertices
 
 double meanRadius(const UnfoldingLine& line, const LineOfSight& sight) {
     double sum = 0;
     int count = 0;
-    for (std::size_t n = 0; n < line.frames().size(); n += kEvery) {
+    for (std::size_t n = 0; n < line.frames().size(); n += kFrameStep) {
         const UnfoldingLine::Frame& frame = line.frames()[n];
         for (int ray = 0; ray < kRays; ++ray) {
             const double turn = kWholeTurn * ray / kRays;

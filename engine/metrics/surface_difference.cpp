@@ -14,7 +14,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoPsnr = std::numeric_limits<double>::quiet_NaN();
 
 void checkSize(const EyeImage& full, int width, int height, const char* what) {
     if (full.width() != width || full.height() != height)
@@ -60,8 +60,9 @@ SurfaceDifference surfaceDifference(const EyeImage& full, const EyeImage& right,
         }
     const long long warped = difference.surfacePixels - difference.holePixels;
     difference.holesOfWarped_percent =
-        warped > 0 ? 100.0 * static_cast<double>(difference.holePixels) / static_cast<double>(warped) : kNone;
-    difference.psnr_db = kNone;
+        warped > 0 ? 100.0 * static_cast<double>(difference.holePixels) / static_cast<double>(warped)
+                   : kNoPsnr;
+    difference.psnr_db = kNoPsnr;
     if (compared > 0) {
         const double mean = squares / (3.0 * static_cast<double>(compared));
         difference.psnr_db =

@@ -5,6 +5,9 @@
 //   bench_large_ground FILE [MEMORY]          the whole program opening it, first and again, within that
 //                                             memory (2G); and the left eye over its tiles beside that over
 //                                             1,024 x 1,024 of its samples
+//   bench_large_ground changes FILE           how far two pictures of one view differ, made before and after
+//                                             the ground's rings change under a flight: what could be seen to
+//                                             pop
 // Tiles lie in the cache ($XDG_CACHE_HOME): an opening that finds none there makes them.
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -26,6 +29,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/image/eye_image.h"
+#include "engine/metrics/image_difference.h"
 #include "engine/render/eye_renderer.h"
 #include "terrain/built_in/noise.h"
 #include "terrain/cast/terrain_renderer.h"
@@ -41,6 +45,8 @@ namespace fs = std::filesystem;
 
 constexpr double kSpacing = 5;  // metres
 constexpr int kRuns = 5, kFew = 1024;
+constexpr double kFrame = 12;  // metres of a flight between two frames
+constexpr int kDescent = 250;  // frames of a descent
 
 // --- making
 
@@ -236,11 +242,89 @@ int measure(const char* file, const char* memory) {
     return 0;
 }
 
+// --- what changes where rings do
+
+class Changes {
+public:
+    explicit Changes(const TerrainScene& tiled) : mScene(tiled) {}
+
+    // Along a line of steps, the places of their eyes: x, y from the ground's middle, z over the ground.
+    void fly(const char* what, const glm::dvec3& from, const glm::dvec3& to, int steps, double pitch) {
+        std::vector<double> psnr;
+        double most = 0;
+        EyeView last = viewAt(from, to - from, pitch);
+        mRenderer.lookFrom(last);
+        for (int step = 1; step <= steps; ++step) {
+            const EyeView next =
+                viewAt(glm::mix(from, to, static_cast<double>(step) / steps), to - from, pitch);
+            const std::vector<RingBox> before = boxes();
+            mRenderer.lookFrom(next);
+            if (boxes() != before) {
+                const EyeImage after = cast(next);
+                mRenderer.lookFrom(last);
+                const EyeImage kept = cast(next);
+                const ImageDifference between = differenceOf(kept.color, after.color, mNoEdges);
+                psnr.push_back(between.psnr_db);
+                most = std::max(most, between.rgb_p99);
+                mRenderer.lookFrom(next);
+            }
+            last = next;
+        }
+        if (psnr.empty()) {
+            fmt::print("{}: rings never change in {} frames\n", what, steps);
+            return;
+        }
+        fmt::print(
+            "{}: rings change in {} of {} frames; before and after {:.1f} dB at half of them, {:.1f} at "
+            "worst; 99 of 100 pixels within {:.1f} of 255\n",
+            what, psnr.size(), steps, medianOf(psnr), *std::min_element(psnr.begin(), psnr.end()), most);
+    }
+
+private:
+    EyeView viewAt(const glm::dvec3& place, const glm::dvec3& way, double pitch) const {
+        Lens lens = mScene.lens;
+        lens.width = mNoEdges.width(), lens.height = mNoEdges.height();
+        const glm::dvec2 plan(place);
+        return makeEyeView(
+            poseFromAngles({plan, mScene.heightAt(plan) + place.z}, std::atan2(way.x, way.y), pitch, 0),
+            lens);
+    }
+    std::vector<RingBox> boxes() const {
+        std::vector<RingBox> all;
+        for (const auto& ring : mRenderer.rings()->rings) all.push_back(ring->box);
+        return all;
+    }
+    EyeImage cast(const EyeView& view) const {
+        EyeImage image{};
+        image.resize(view.width, view.height);
+        renderEye(mRenderer, view, image);
+        return image;
+    }
+
+    const TerrainScene& mScene;
+    TerrainRenderer mRenderer{mScene};
+    Plane<std::uint8_t> mNoEdges{1280, 720};
+};
+
+int measureChanges(const char* file) {
+    const TerrainScene tiled = loaded(file, GroundTiles::On);
+    Changes changes(tiled);
+    const double aside = 0.2 * tiled.ground.spacing().x * tiled.ground.width();
+    const glm::dvec3 start(-aside, -0.7 * aside, 300), end(start + glm::dvec3(5e3, 6e3, 0));
+    const int steps = static_cast<int>(glm::length(end - start) / kFrame);
+    changes.fly("flight 300 m over the ground", start, end, steps, -0.12);
+    changes.fly("descent from 100 km to 100 m", {-9e3, -9e3, 100e3}, {-8e3, -8e3, 100}, kDescent, -0.9);
+    return 0;
+}
+
 int bench(int argc, char** argv) {
     GDALAllRegister();
     if (argc == 5 && std::string(argv[1]) == "make") return make(argv[2], std::atoi(argv[3]), argv[4]);
+    if (argc == 3 && std::string(argv[1]) == "changes") return measureChanges(argv[2]);
     if (argc == 2 || argc == 3) return measure(argv[1], argc == 3 ? argv[2] : "2G");
-    fmt::print(stderr, "bench_large_ground make FILE SIDE DEM, or bench_large_ground FILE [MEMORY]\n");
+    fmt::print(stderr,
+               "bench_large_ground make FILE SIDE DEM, bench_large_ground changes FILE, or "
+               "bench_large_ground FILE [MEMORY]\n");
     return 1;
 }
 

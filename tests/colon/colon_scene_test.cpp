@@ -91,7 +91,8 @@ TEST_F(ColonSceneTest, TranslucentWallHasMoreCells) {
     EXPECT_FALSE(translucent.volume.look.transfer.empty());
 }
 
-TEST_F(ColonSceneTest, RealMaskOpensColdAndFromTheCache) {
+using ColonSceneFullSize = ColonSceneTest;
+TEST_F(ColonSceneFullSize, RealMaskOpensColdAndFromTheCache) {
     ColonOptions options;
     options.study = dataFile("colon/gca00020/large_intestine_mask_clean.nrrd");
     if (!fs::exists(options.study)) GTEST_SKIP() << options.study << " is not there";

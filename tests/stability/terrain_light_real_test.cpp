@@ -102,10 +102,10 @@ void expectTrue(const char* name, int stride, double rms, double bias) {
 
 // Bounds: half as much again as measured (0.094 and 0.002; 0.139 and -0.038, where samples are 120 m apart
 // and small ridges fall between them).
-TEST(TerrainLightReal, SaintHelensIsLitAsByPathTracing) {
+TEST(TerrainLightFullSize, SaintHelensIsLitAsByPathTracing) {
     expectTrue("SainteHelens.dem", 2, 0.14, 0.01);
 }
-TEST(TerrainLightReal, BigTujungaIsLitAsByPathTracing) {
+TEST(TerrainLightFullSize, BigTujungaIsLitAsByPathTracing) {
     expectTrue("srtm_bigtujunga30m_utm11.tif", 4, 0.21, 0.06);
 }
 
