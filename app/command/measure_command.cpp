@@ -40,12 +40,13 @@ void checkMeasureOptions(const MeasureOptions& options) {
 // Longitude and latitude, as the format asks for; of a ground that does not say where it lies its own metres.
 nlohmann::ordered_json geometryOf(const SurveyGround& survey, const WorldLine& line) {
     nlohmann::ordered_json places = nlohmann::ordered_json::array();
+    const GroundSamples samples = survey.samples();
     const auto add = [&](const glm::dvec2& world) {
         glm::dvec2 at = world;
         if (survey.earth)
             if (const auto earth = survey.earth->placeAt(world))
                 at = glm::dvec2(earth->longitude, earth->latitude) * (180 / std::numbers::pi);
-        const double height = survey.ground.heightAt(world);
+        const double height = samples.heightAt(world);
         places.push_back(std::isfinite(height) ? nlohmann::ordered_json{at.x, at.y, height}
                                                : nlohmann::ordered_json{at.x, at.y});
     };
@@ -120,15 +121,19 @@ int runMeasure(const MeasureOptions& options) {
     std::vector<WorldLine> lines = linesOnGround(survey, options.line);
     if (!options.area.empty()) lines.push_back(lineOnGround(survey, options.area, true, "--area"));
     checkNotRead({{"--csv", options.csv}, {"--geojson", options.geojson}});
+    const GroundSamples samples = survey.samples();
     std::vector<MeasuredLine> all;
-    for (const WorldLine& line : lines)
-        all.push_back({line, line.closed ? figuresOfArea(survey.ground, line.world, options.plane_m)
-                                         : figuresOfLine(survey.ground, line.world)});
+    for (const WorldLine& line : lines) {
+        bar.progress().report(double(all.size()) / double(lines.size()), "measuring");
+        all.push_back({line, line.closed ? figuresOfArea(samples, line.world, options.plane_m)
+                                         : figuresOfLine(samples, line.world)});
+    }
     if (!options.csv.empty()) writeTextFile(options.csv, csvOf(all));
     if (!options.geojson.empty()) writeTextFile(options.geojson, geoJsonOf(survey, all));
     bar.clear();
     result.add("scene", survey.name);
     result.add("crs", survey.crs);
+    result.add("sample_spacing_m", FactNumbers{samples.spacing().x, samples.spacing().y});
     tell(all, result);
     if (!options.csv.empty()) result.addFile("csv", options.csv);
     if (!options.geojson.empty()) result.addFile("geojson", options.geojson);

@@ -59,8 +59,9 @@ int runProfile(const ProfileOptions& options) {
                     line.closed ? "expected a line, found an area"
                                 : fmt::format("expected one line, found {}", lines.size()),
                     "leave the others out of the file");
-    const std::vector<LinePoint> points = groundLine(survey.ground, line.world);
-    const LineMeasure measure = measureLine(survey.ground, line.world);
+    const GroundSamples samples = survey.samples();
+    const std::vector<LinePoint> points = groundLine(samples, line.world);
+    const LineMeasure measure = measureLine(samples, line.world);
     if (!options.csv.empty()) writeTextFile(options.csv, tableOf(survey, points));
     if (!options.svg.empty())
         writeTextFile(options.svg, profileChart(points, line.name.empty() ? survey.name : line.name));
@@ -73,6 +74,7 @@ int runProfile(const ProfileOptions& options) {
     result.add("scene", survey.name);
     result.add("crs", survey.crs);
     result.add("name", line.name);
+    result.add("sample_spacing_m", FactNumbers{samples.spacing().x, samples.spacing().y});
     result.add("points", static_cast<std::int64_t>(points.size()));
     result.add("plan_m", measure.plan);
     result.add("along_m", measure.along);

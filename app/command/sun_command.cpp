@@ -11,6 +11,7 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
+#include "app/scene/survey_part.h"
 #include "app/scene/survey_sun.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -61,8 +62,10 @@ void writePicture(const std::string& file, const Plane<float>& hours, double mos
 
 void writeHours(const SunOptions& options, const SurveyGround& survey, const SunPlaceOnGround& place,
                 double time, Progress& progress, CommandResult& result) {
-    const HeightPyramid maxima(survey.ground);
-    const SightLines lines(survey.ground, maxima, 0);
+    progress.report(0, "reading ground");
+    const SurveyPart part(survey, glm::dvec2(0.0), 0);
+    const HeightPyramid maxima(part.ground());
+    const SightLines lines(part.ground(), maxima, 0);
     const Stopwatch watch;
     const Plane<float> hours = hoursOfSun(lines, sunsOfDay(place, time, 60 * options.step_min), 24, progress);
     const double time_ms = watch.elapsed_ms();
@@ -81,7 +84,7 @@ void writeHours(const SunOptions& options, const SurveyGround& survey, const Sun
         raster.description = "hours of sun";
         raster.unit = "h";
         writeFileAtomically(
-            options.out, [&](const std::filesystem::path& file) { writeGeoTiff(file, survey.grid, raster); });
+            options.out, [&](const std::filesystem::path& file) { writeGeoTiff(file, part.grid(), raster); });
         result.addFile("hours", options.out);
     }
     if (!options.picture.empty()) {
@@ -89,8 +92,9 @@ void writeHours(const SunOptions& options, const SurveyGround& survey, const Sun
         result.addFile("picture", options.picture);
     }
     const double mean = count > 0 ? sum / count : 0;
-    result.say(fmt::format("hours of sun: {:.2f} to {:.2f}, mean {:.2f}; {:.3g} s\n", least, most, mean,
-                           1e-3 * time_ms));
+    result.say(fmt::format("hours of sun: {:.2f} to {:.2f}, mean {:.2f}; {}, {:.3g} s\n", least, most, mean,
+                           part.words(), 1e-3 * time_ms));
+    for (Fact& fact : part.facts()) result.add(fact.key, std::move(fact.value));
     result.add("least_hours", least);
     result.add("most_hours", most);
     result.add("mean_hours", mean);

@@ -8,11 +8,12 @@
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
-#include "app/scene/survey_ground.h"
+#include "app/scene/survey_part.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
 #include "engine/math/earth_bend.h"
+#include "terrain/survey/ground_samples.h"
 #include "terrain/survey/viewshed.h"
 
 namespace stereonav {
@@ -46,10 +47,9 @@ void tellSight(const ViewshedOptions& options, const SurveyGround& survey, const
                CommandResult& result) {
     const glm::dvec2 place = survey.gridAt(options.to->reference, "--to");
     const double ground = survey.heightAt(place, "--to"), height = options.to->height_m.value_or(0);
-    const HeightPyramid maxima(survey.ground);
-    const SightLines lines(survey.ground, maxima, fallOf(options));
-    const Sight sight = lines.measure(eye, {place, ground + height});
-    const double distance = glm::length((place - glm::dvec2(eye)) * survey.ground.spacing());
+    const GroundSamples samples = survey.samples();
+    const Sight sight = sightOver(samples, fallOf(options), eye, {place, ground + height});
+    const double distance = glm::length((place - glm::dvec2(eye)) * samples.spacing());
     result.answer(fmt::format("{}: {} of distance, the line passes {} {} the ground at {} from the eye\n",
                               sight.seen ? "they see each other" : "they do not see each other",
                               lengthText(distance), lengthText(std::abs(sight.clearance)),
@@ -63,26 +63,30 @@ void tellSight(const ViewshedOptions& options, const SurveyGround& survey, const
 
 void writeShed(const ViewshedOptions& options, const SurveyGround& survey, const glm::dvec3& eye,
                double height, Progress& progress, CommandResult& result) {
+    const glm::dvec2 world = survey.samples().worldFromGrid(eye);
+    progress.report(0, "reading ground");
+    const SurveyPart part(survey, world, options.reach_m);
     ViewshedSetting setting;
-    setting.eye = eye;
+    setting.eye = part.ground().gridFromWorld(world);
     setting.eyeHeight = height;
     setting.targetHeight = options.targetHeight_m;
     setting.reach = options.reach_m;
     setting.fall = fallOf(options);
     const Stopwatch watch;
-    const Viewshed shed = viewshedOf(survey.ground, setting, progress);
+    const Viewshed shed = viewshedOf(part.ground(), setting, progress);
     const double time_ms = watch.elapsed_ms();
     WrittenRaster raster;
     raster.bytes = &shed.seen;
     raster.missing = static_cast<double>(Seen::NoGround);
     raster.description = "seen";
     writeFileAtomically(options.out,
-                        [&](const std::filesystem::path& file) { writeGeoTiff(file, survey.grid, raster); });
+                        [&](const std::filesystem::path& file) { writeGeoTiff(file, part.grid(), raster); });
     const double share = shed.samples > 0 ? 100.0 * shed.visible / shed.samples : 0;
-    const double area = shed.visible * survey.ground.spacing().x * survey.ground.spacing().y;
-    result.say(fmt::format("{}: {} of {} samples seen ({:.2f} %, {:.4g} km2), {:.3g} ms\n", options.out,
-                           shed.visible, shed.samples, share, area * 1e-6, time_ms));
+    const double area = shed.visible * part.ground().spacing().x * part.ground().spacing().y;
+    result.say(fmt::format("{}: {} of {} samples seen ({:.2f} %, {:.4g} km2), {}, {:.3g} ms\n", options.out,
+                           shed.visible, shed.samples, share, area * 1e-6, part.words(), time_ms));
     result.addFile("viewshed", options.out);
+    for (Fact& fact : part.facts()) result.add(fact.key, std::move(fact.value));
     result.add("samples", static_cast<std::int64_t>(shed.samples));
     result.add("seen_samples", static_cast<std::int64_t>(shed.visible));
     result.add("seen_percent", share);

@@ -9,7 +9,7 @@
 
 namespace stereonav {
 
-std::vector<GroundFigure> figuresOfLine(const Heightfield& ground, const std::vector<glm::dvec2>& world) {
+std::vector<GroundFigure> figuresOfLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world) {
     const LineMeasure m = measureLine(ground, world), e = errorsOfLine(ground, world);
     return {{"plan_m", "over the plan", "m", m.plan, 0},
             {"straight_m", "straight", "m", m.straight, e.straight},
@@ -21,9 +21,9 @@ std::vector<GroundFigure> figuresOfLine(const Heightfield& ground, const std::ve
             {"highest_m", "highest", "m", m.highest, e.highest}};
 }
 
-std::vector<GroundFigure> figuresOfArea(const Heightfield& ground, const std::vector<glm::dvec2>& world,
+std::vector<GroundFigure> figuresOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& world,
                                         const std::optional<double>& given) {
-    const double lowest = measureArea(ground, world, 0).lowest, plane = given.value_or(lowest);
+    const double plane = given ? *given : lowestInArea(ground, world);
     const AreaMeasure m = measureArea(ground, world, plane), e = errorsOfArea(ground, world, plane);
     return {{"area_m2", "area over the plan", "m2", m.plan, 0},
             {"surface_m2", "area along the ground", "m2", m.along, e.along},

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "terrain/ground/heightfield.h"
+#include "terrain/survey/ground_samples.h"
 
 namespace stereonav {
 
@@ -18,9 +18,9 @@ struct GroundFigure {
 };
 
 // world: as groundLine() takes it.
-std::vector<GroundFigure> figuresOfLine(const Heightfield& ground, const std::vector<glm::dvec2>& world);
+std::vector<GroundFigure> figuresOfLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world);
 // plane: metres; none: through the lowest ground inside.
-std::vector<GroundFigure> figuresOfArea(const Heightfield& ground, const std::vector<glm::dvec2>& world,
+std::vector<GroundFigure> figuresOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& world,
                                         const std::optional<double>& plane);
 
 // " +- 0.2", " (error not known)", or "" where there is none.

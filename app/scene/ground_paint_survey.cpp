@@ -12,6 +12,7 @@
 #include "app/options/option_numbers.h"
 #include "app/options/paint_words.h"
 #include "app/options/utc_text.h"
+#include "app/output/length_text.h"
 #include "app/scene/survey_sun.h"
 #include "engine/base/error.h"
 #include "engine/image/packed_color.h"
@@ -38,16 +39,25 @@ glm::vec3 hoursColor(std::size_t n) {
     return {channel(0), channel(1), channel(2)};
 }
 
+// Where that is coarser than the finest samples.
+std::string apart(const Heightfield& ground, const SurveyGround& survey) {
+    const double spacing = ground.spacing().x;
+    return spacing > survey.samples().spacing().x ? fmt::format(", by samples {} apart", lengthText(spacing))
+                                                  : "";
+}
+
 std::shared_ptr<const EyePainter> viewshedPainter(const TerrainScene& terrain, const Fog& fog,
                                                   const SurveyGround& survey, const std::string& place,
                                                   PaintLegend& legend, Progress& progress) {
     const std::vector<double> numbers = numbersIn("--paint", groundPlaceNumbers(), place).numbers;
+    const Heightfield& ground = terrain.ground;  // of ground in tiles the level in memory
+    const glm::dvec2 eye = survey.gridAt({numbers[0], numbers[1]}, "--paint");
+    survey.heightAt(eye, "--paint");
     ViewshedSetting setting;
-    setting.eye = survey.gridAt({numbers[0], numbers[1]}, "--paint");
-    survey.heightAt(setting.eye, "--paint");
+    setting.eye = ground.gridFromWorld(survey.samples().worldFromGrid(eye));
     setting.eyeHeight = numbers.size() > 2 ? numbers[2] : kUsualEyeHeight;
     setting.fall = terrain.lens.fall / terrain.verticalScale;
-    const Viewshed shed = viewshedOf(survey.ground, setting, progress);
+    const Viewshed shed = viewshedOf(ground, setting, progress);
     Plane<float> hidden(shed.seen.width(), shed.seen.height());
     for (int j = 0; j < hidden.height(); ++j)
         for (int i = 0; i < hidden.width(); ++i) {
@@ -55,8 +65,9 @@ std::shared_ptr<const EyePainter> viewshedPainter(const TerrainScene& terrain, c
             hidden.at(i, j) = seen == Seen::NoGround ? std::nanf("") : seen == Seen::Hidden ? 1.0f : 0.0f;
         }
     const double percent = shed.samples > 0 ? 100.0 * shed.visible / shed.samples : 0;
-    legend.legends.push_back({fmt::format("seen from {}", place),
-                              {{kHiddenColor, fmt::format("hidden; {:.1f} % is seen", percent)}}});
+    legend.legends.push_back(
+        {fmt::format("seen from {}", place),
+         {{kHiddenColor, fmt::format("hidden; {:.1f} % is seen{}", percent, apart(ground, survey))}}});
     return std::make_shared<RasterPainter>(
         terrain.ground, fog, std::move(hidden),
         std::vector<PaintStop>{{kHiddenColor, 0}, {kHiddenColor, kHiddenShare}});
@@ -65,15 +76,16 @@ std::shared_ptr<const EyePainter> viewshedPainter(const TerrainScene& terrain, c
 std::shared_ptr<const EyePainter> hoursPainter(const TerrainScene& terrain, const Fog& fog,
                                                const SurveyGround& survey, const std::string& day,
                                                PaintLegend& legend, Progress& progress) {
-    const HeightPyramid maxima(survey.ground);
-    const SightLines lines(survey.ground, maxima, 0);
+    const Heightfield& ground = terrain.ground;  // of ground in tiles the level in memory
+    const HeightPyramid maxima(ground);
+    const SightLines lines(ground, maxima, 0);
     const double time = secondsFromText(day).value_or(0);
     Plane<float> hours = hoursOfSun(lines, sunsOfDay(sunPlaceOf(survey), time, kSunStep), 24, progress);
     float most = 0;
     for (int j = 0; j < hours.height(); ++j)
         for (int i = 0; i < hours.width(); ++i) most = std::fmax(most, hours.at(i, j));
     std::vector<PaintStop> stops;
-    Legend part{"hours of sun on " + day, {}};
+    Legend part{"hours of sun on " + day + apart(ground, survey), {}};
     for (std::size_t n = 0; n < kHoursColors.size(); ++n) {
         stops.push_back({hoursColor(n), kHoursShare});
         part.entries.push_back(

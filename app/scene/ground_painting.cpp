@@ -212,7 +212,10 @@ void GroundPainting::work(Layer layer, long long number, const Wish& wish, Progr
 }
 
 const SurveyGround& GroundPainting::survey(Progress& progress) {
-    if (!mSurvey) mSurvey = std::make_unique<SurveyGround>(loadSurveyGround(mOptions, progress));
+    if (mSurvey) return *mSurvey;
+    SceneOptions options = mOptions;
+    if (mTerrain.tiled || mTerrain.standIn) options.tiles = TilesChoice::On;  // as the scene's
+    mSurvey = std::make_unique<SurveyGround>(loadSurveyGround(options, progress));
     return *mSurvey;
 }
 

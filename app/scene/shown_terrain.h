@@ -18,6 +18,7 @@
 namespace stereonav {
 
 class GroundPainting;
+class GroundSamples;
 
 // Over the ground, as its extent asks for. terrain: lives as long as the flight.
 std::unique_ptr<Flight> flightOver(const TerrainScene& terrain);
@@ -45,11 +46,16 @@ public:
     std::optional<glm::dvec2> worldAt(const PlaceOnEarth& place) const override;
     double northAt(const glm::dvec3& world) const override;
     Facts readPlace(const glm::dvec3& world) const override;
-    // In heights of the file, whatever they are exaggerated by; terrain_line.cpp.
+    // In heights of the file, whatever they are exaggerated by, at the finest samples; terrain_line.cpp. An
+    // area of more than kMostCoarseSamples of ground in tiles is measured at coarser ones, and that is said.
     MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed) const override;
     Facts sight(const glm::dvec3& from, const glm::dvec3& to, double height) const override;
 
 private:
+    // The finest samples, of which a part has so many; heights of the file.
+    GroundSamples samplesFor(double count) const;
+    void addSpacing(const GroundSamples& samples, Facts& facts) const;
+
     const TerrainScene& mTerrain;
     SceneBox mBox;
 };

@@ -6,10 +6,12 @@
 
 #include "app/scene/scene_loading.h"
 #include "app/scene/scene_type.h"
+#include "app/scene/terrain_loading.h"
 #include "engine/base/error.h"
 #include "terrain/built_in/built_in_terrain.h"
 #include "terrain/ground/nodata.h"
 #include "terrain/read/scene_file.h"
+#include "terrain/scene/tiled_ground.h"
 
 namespace stereonav {
 namespace {
@@ -22,10 +24,11 @@ public:
 };
 
 void placeInWorld(SurveyGround& survey) {
-    const glm::dvec2 spacing = survey.ground.spacing();
+    const GroundSamples samples = survey.samples();
+    const glm::dvec2 spacing = samples.spacing();
     Georeference& grid = survey.grid;
     grid = {};
-    grid.width = survey.ground.width(), grid.height = survey.ground.height();
+    grid.width = samples.width(), grid.height = samples.height();
     grid.transform = {-0.5 * grid.width * spacing.x, spacing.x, 0,
                       0.5 * grid.height * spacing.y, 0,         -spacing.y};
     survey.reference = std::make_unique<OwnPlaces>();
@@ -41,19 +44,24 @@ SurveyGround generated(const SceneFile& file, Progress& progress) {
     return survey;
 }
 
-// Heights, the maxima over blocks of them, what is seen, and the heights that a sweep has read
-// (survey/fan_sweep.h).
-double bytesOfSurvey(double samples) {
-    return (4 + 4 * 4.0 / 3 + 1 + 4) * samples;
+// Sets heights, in memory or in tiles, and gives what else is said of them.
+DemGrid readHeights(const SceneFile& file, SurveyGround& survey, Progress& progress) {
+    if (goesIntoTiles(file, bytesOfSurvey)) {
+        GroundInTiles tiled = readGroundInTiles(file, progress);
+        survey.tiles = std::make_shared<SurveyTiles>(std::move(tiled.levels));
+        return std::move(tiled.place);
+    }
+    DemGrid dem = readDem(file.dem, file.verticalScale, progress, bytesOfSurvey);
+    if (!file.openHoles) fillMissing(dem.heights, dem.width, dem.height, dem.spacing, progress);
+    survey.ground =
+        Heightfield(dem.width, dem.height, dem.spacing, std::move(dem.heights), file.dem.string());
+    return dem;
 }
 
 SurveyGround read(const SceneFile& file, Progress& progress) {
     SurveyGround survey;
-    DemGrid dem = readDem(file.dem, file.verticalScale, progress, bytesOfSurvey);
-    if (!file.openHoles) fillMissing(dem.heights, dem.width, dem.height, dem.spacing, progress);
+    const DemGrid dem = readHeights(file, survey, progress);
     survey.crs = dem.crs;
-    survey.ground =
-        Heightfield(dem.width, dem.height, dem.spacing, std::move(dem.heights), file.dem.string());
     if (!dem.georeferenced) {
         placeInWorld(survey);
         return survey;
@@ -70,12 +78,16 @@ SurveyGround read(const SceneFile& file, Progress& progress) {
 
 }  // namespace
 
+double bytesOfSurvey(double samples) {
+    return (4 + 4 * 4.0 / 3 + 1 + 4) * samples;
+}
+
 glm::dvec2 SurveyGround::gridAt(const glm::dvec2& place, const char* option) const {
     const auto world = reference->worldAt(place);
-    if (world && ground.contains(*world)) return ground.gridFromWorld(*world);
+    const GroundSamples all = samples();
+    if (world && all.contains(*world)) return all.gridFromWorld(*world);
     const auto corner = [&](double x, double y) {
-        return reference->referenceAt(
-            ground.worldFromGrid({x * (ground.width() - 1), y * (ground.height() - 1)}));
+        return reference->referenceAt(all.worldFromGrid({x * (all.width() - 1), y * (all.height() - 1)}));
     };
     const auto low = corner(0, 0), high = corner(1, 1);
     throw Error(
@@ -86,10 +98,11 @@ glm::dvec2 SurveyGround::gridAt(const glm::dvec2& place, const char* option) con
 }
 
 double SurveyGround::heightAt(const glm::dvec2& grid_, const char* option) const {
-    const double height = ground.heightAt(ground.worldFromGrid(grid_));
+    const GroundSamples all = samples();
+    const double height = all.heightAt(all.worldFromGrid(grid_));
     if (!std::isfinite(height))
         throw Error(option, "", "there is a hole in the ground",
-                    "leave out --open-holes, or choose another place");
+                    tiles ? "choose another place" : "leave out --open-holes, or choose another place");
     return height;
 }
 
@@ -102,6 +115,7 @@ SurveyGround loadSurveyGround(const SceneOptions& options, Progress& progress) {
     SceneFile file = sceneFileFromName(options.scene);
     if (options.verticalScale > 0) file.verticalScale = options.verticalScale;
     if (options.openHoles) file.openHoles = true;
+    file.tiles = tilesOf(options.tiles);
     SurveyGround survey = file.builtIn ? generated(file, progress) : read(file, progress);
     survey.name = options.scene.empty() ? "terrain" : options.scene;
     return survey;

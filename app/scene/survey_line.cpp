@@ -25,13 +25,14 @@ void checkPlaces(WorldLine& line, const std::string& where) {
 
 WorldLine trackOnGround(const SurveyGround& survey, const TrackLine& track, const std::string& file) {
     WorldLine line{track.name, track.closed, {}};
+    const GroundSamples samples = survey.samples();
     std::size_t off = 0;
     for (const glm::dvec2& degrees : track.degrees) {
         std::optional<glm::dvec2> world = degrees;
         if (survey.earth)
             world = survey.earth->worldAt(
                 {degrees.y * std::numbers::pi / 180, degrees.x * std::numbers::pi / 180});
-        if (!world || !survey.ground.contains(*world))
+        if (!world || !samples.contains(*world))
             ++off;
         else
             line.world.push_back(*world);
@@ -49,9 +50,10 @@ WorldLine trackOnGround(const SurveyGround& survey, const TrackLine& track, cons
 WorldLine flightOnGround(const SurveyGround& survey, const std::string& file) {
     WorldLine line;
     const RecordedPath path = readPath(file);
+    const GroundSamples samples = survey.samples();
     for (const PathSample& sample : path.samples()) line.world.emplace_back(sample.pose.position);
     for (const glm::dvec2& world : line.world)
-        if (!survey.ground.contains(world))
+        if (!samples.contains(world))
             throw Error(file, "",
                         fmt::format("the flight leaves the ground at {:.6g},{:.6g}", world.x, world.y),
                         "was it recorded over another one?");
@@ -69,7 +71,7 @@ WorldLine lineOnGround(const SurveyGround& survey, const std::vector<glm::dvec2>
                        const char* option) {
     WorldLine line{"", closed, {}};
     for (const glm::dvec2& place : places)
-        line.world.push_back(survey.ground.worldFromGrid(survey.gridAt(place, option)));
+        line.world.push_back(survey.samples().worldFromGrid(survey.gridAt(place, option)));
     checkPlaces(line, option);
     return line;
 }

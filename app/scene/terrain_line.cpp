@@ -3,12 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+#include <memory>
 
 #include "app/output/length_text.h"
 #include "app/scene/ground_figures.h"
 #include "app/scene/shown_terrain.h"
-#include "terrain/ground/height_pyramid.h"
+#include "engine/base/error.h"
+#include "terrain/scene/tiled_ground.h"
 #include "terrain/survey/ground_line.h"
+#include "terrain/survey/ground_samples.h"
 #include "terrain/survey/sight_line.h"
 
 namespace stereonav {
@@ -26,44 +31,75 @@ std::vector<T> thinned(const std::vector<T>& all) {
     return some;
 }
 
+void checkOnGround(const TerrainScene& terrain, const glm::dvec2& world) {
+    if (terrain.tiled ? terrain.tiled->levels->contains(world) : terrain.ground.contains(world)) return;
+    throw Error("", "a place of the line", "lies beside the ground", "choose another one");
+}
+
 }  // namespace
 
+GroundSamples TerrainSurvey::samplesFor(double count) const {
+    if (!mTerrain.tiled) return GroundSamples(mTerrain.ground).dividedBy(mTerrain.verticalScale);
+    const GroundLevels& levels = *mTerrain.tiled->levels;
+    int level = 0;
+    for (; count > kMostCoarseSamples && level + 1 < levels.count(); ++level) count /= 4;
+    return GroundSamples(std::make_shared<SurveyTiles>(mTerrain.tiled->levels, level))
+        .dividedBy(mTerrain.verticalScale);
+}
+
+// Where there are others that are finer or coarser.
+void TerrainSurvey::addSpacing(const GroundSamples& samples, Facts& facts) const {
+    if (!mTerrain.tiled && !mTerrain.standIn) return;
+    const glm::dvec2 finest = mTerrain.tiled ? mTerrain.tiled->levels->spacing(0) : mTerrain.standIn->spacing;
+    const double spacing = samples.spacing().x;
+    facts.push_back(factForAll(
+        "sample_spacing_m", spacing, "measured on",
+        fmt::format("samples {} apart{}", lengthText(spacing),
+                    spacing > finest.x ? ", the finest are " + lengthText(finest.x) : ", the finest"),
+        "m"));
+}
+
 MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bool closed) const {
-    const double scale = mTerrain.verticalScale;
     std::vector<glm::dvec2> world;
-    for (const glm::dvec3& place : places) world.emplace_back(place);
-    glm::dvec2 shift;
-    const Heightfield cut = cutGround(mTerrain.ground, world, scale, shift);
-    for (glm::dvec2& place : world) place -= shift;
+    glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const glm::dvec3& place : places) {
+        world.emplace_back(place);
+        checkOnGround(mTerrain, world.back());
+        low = glm::min(low, world.back()), high = glm::max(high, world.back());
+    }
+    const glm::dvec2 finest = mTerrain.tiled ? mTerrain.tiled->levels->spacing(0) : mTerrain.ground.spacing();
+    const glm::dvec2 sides = (high - low) / finest;
+    const GroundSamples ground = samplesFor(closed ? sides.x * sides.y : 0);
     MeasuredSurface measured;
     FactList list;
     for (const GroundFigure& figure :
-         closed ? figuresOfArea(cut, world, std::nullopt) : figuresOfLine(cut, world))
+         closed ? figuresOfArea(ground, world, std::nullopt) : figuresOfLine(ground, world))
         list.both(figure.key, figure.value, figure.label,
                   fmt::format("{:.1f} {}{}", figure.value, figure.unit, errorText(figure)), figure.unit);
     measured.facts = std::move(list.facts());
+    addSpacing(ground, measured.facts);
     if (closed) world.push_back(world.front());
-    for (const LinePoint& point : thinned(groundLine(cut, world))) {
-        measured.places.emplace_back(point.world + shift, scale * point.height);
+    bool known = false;
+    for (const LinePoint& point : thinned(groundLine(ground, world))) {
+        measured.places.emplace_back(point.world, mTerrain.verticalScale * point.height);
         measured.profile.emplace_back(point.distance, point.height);
+        known = known || std::isfinite(point.height);
     }
+    if (!known) throw Error("", "the ground there", "no height is known", "choose another place");
     return measured;
 }
 
 // As `viewshed --to` has it; over a round Earth where pictures are (--curvature).
 Facts TerrainSurvey::sight(const glm::dvec3& from, const glm::dvec3& to, double height) const {
-    glm::dvec2 shift;
-    const Heightfield cut =
-        cutGround(mTerrain.ground, {glm::dvec2(from), glm::dvec2(to)}, mTerrain.verticalScale, shift);
+    const GroundSamples ground = samplesFor(0);
     const auto above = [&](const glm::dvec3& place) {
-        const glm::dvec2 world = glm::dvec2(place) - shift;
-        return glm::dvec3(cut.gridFromWorld(world), cut.heightAt(world) + height);
+        const glm::dvec2 world(place);
+        checkOnGround(mTerrain, world);
+        return glm::dvec3(ground.gridFromWorld(world), ground.heightAt(world) + height);
     };
     const glm::dvec3 eye = above(from), target = above(to);
     if (!std::isfinite(eye.z) || !std::isfinite(target.z)) return {};
-    const HeightPyramid maxima(cut);
-    const Sight sight =
-        SightLines(cut, maxima, mTerrain.lens.fall / mTerrain.verticalScale).measure(eye, target);
+    const Sight sight = sightOver(ground, mTerrain.lens.fall / mTerrain.verticalScale, eye, target);
     FactList list;
     list.both(
         "sees", sight.seen, fmt::format("line of sight, {:.4g} m up", height),

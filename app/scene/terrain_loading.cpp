@@ -40,12 +40,6 @@ void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
                     "name one with --image, or leave it out");
 }
 
-GroundTiles tilesOf(TilesChoice choice) {
-    return choice == TilesChoice::Auto ? GroundTiles::Auto
-           : choice == TilesChoice::On ? GroundTiles::On
-                                       : GroundTiles::Off;
-}
-
 // The scene's file with what the options change.
 SceneFile describeTerrain(const SceneOptions& options) {
     SceneFile scene = sceneFileFromName(options.scene);
@@ -82,6 +76,12 @@ void refuseSunWithoutEffect(const SceneOptions& options, const TerrainScene& ter
 }
 
 }  // namespace
+
+GroundTiles tilesOf(TilesChoice choice) {
+    return choice == TilesChoice::Auto ? GroundTiles::Auto
+           : choice == TilesChoice::On ? GroundTiles::On
+                                       : GroundTiles::Off;
+}
 
 std::vector<NamedPlace> filesOfTerrain(const std::string& toml) {
     const SceneFile scene = readSceneFile(toml);

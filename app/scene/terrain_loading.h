@@ -6,6 +6,8 @@
 
 namespace stereonav {
 
+GroundTiles tilesOf(TilesChoice choice);
+
 // The files that a .toml scene names. Throws Error.
 std::vector<NamedPlace> filesOfTerrain(const std::string& toml);
 

@@ -72,17 +72,17 @@ float GroundLevels::errorBoundAt(int level, const glm::dvec2& world) const {
                       std::clamp(static_cast<int>(block.y), 0, last.y));
 }
 
+void GroundLevels::read(int level, const glm::ivec2& low, const glm::ivec2& size, float* heights) const {
+    if (stored()) return mRead(level, low, size, heights);
+    const LevelRows rows = rowsOf(level);
+    for (int j = 0; j < size.y; ++j)
+        std::copy_n(rows.row(low.y + j) + low.x, size.x, heights + static_cast<std::ptrdiff_t>(j) * size.x);
+}
+
 std::optional<Heightfield> GroundLevels::part(int level, const glm::ivec2& low,
                                               const glm::ivec2& size) const {
     std::vector<float> samples(static_cast<std::size_t>(size.x) * size.y);
-    if (stored()) {
-        mRead(level, low, size, samples.data());
-    } else {
-        const LevelRows rows = rowsOf(level);
-        for (int j = 0; j < size.y; ++j)
-            std::copy_n(rows.row(low.y + j) + low.x, size.x,
-                        samples.begin() + static_cast<std::ptrdiff_t>(j) * size.x);
-    }
+    read(level, low, size, samples.data());
     if (!Heightfield::anyCell(size.x, size.y, samples.data())) return std::nullopt;
     return Heightfield(size.x, size.y, spacing(level), std::move(samples), "a level of the ground",
                        mOrigin + glm::dvec2(low) * spacing(level));

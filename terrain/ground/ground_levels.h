@@ -55,6 +55,8 @@ public:
     // Samples low to low + size - 1 of a level. None where no cell of them is known. Throws Error where they
     // are stored and can not be read.
     std::optional<Heightfield> part(int level, const glm::ivec2& low, const glm::ivec2& size) const;
+    // The same as bare heights in rows of size.x, NaN where missing.
+    void read(int level, const glm::ivec2& low, const glm::ivec2& size, float* heights) const;
     std::size_t byteCount() const;  // in memory, beside the ground
 
 private:

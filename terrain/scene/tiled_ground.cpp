@@ -103,17 +103,29 @@ bool standsIn(const SceneFile& file, const StorePlan& plan, const DemGrid& dem, 
     return true;
 }
 
-// A share of the memory; the rest is for rings, pictures, and all else. More than some 16 million samples
-// would only take longer to open.
+// A share of the memory; the rest is for rings, pictures, and all else.
 int levelInMemory(const GroundLevels& levels) {
-    constexpr double kShare = 0.25, kMostSamples = 1 << 24, kHeightAndMaxima = 4 + 4 * 4.0 / 3;
+    constexpr double kShare = 0.25, kHeightAndMaxima = 4 + 4 * 4.0 / 3;
     const double most = kShare * availableMemory();
-    for (int level = 0; level + 1 < levels.count(); ++level) {
-        const double samples = double(levels.size(level).x) * levels.size(level).y;
-        if (samples <= kMostSamples && kHeightAndMaxima * samples + bytesOfTint(samples) <= most)
-            return level;
-    }
-    return levels.count() - 1;
+    int level = levelWithin(levels, kMostCoarseSamples);
+    const auto samples = [&] { return double(levels.size(level).x) * levels.size(level).y; };
+    while (level + 1 < levels.count() && kHeightAndMaxima * samples() + bytesOfTint(samples()) > most)
+        ++level;
+    return level;
+}
+
+// What is there, or made now.
+std::shared_ptr<const TileStore> storeOrMade(const std::filesystem::path& dem, DemRows& rows,
+                                             const StorePlan& plan, Progress& progress) {
+    if (auto store = storeThere(plan)) return store;
+    makeStore(dem, rows, plan.source, plan.place, progress);
+    return std::make_shared<TileStore>(plan.place, plan.source.content);
+}
+
+std::shared_ptr<const GroundLevels> levelsOf(const SceneFile& file, std::shared_ptr<const TileStore> store,
+                                             const glm::dvec2& spacing) {
+    checkScaledHeights(file.dem.string(), store->low(), store->high(), file.verticalScale);
+    return std::make_shared<GroundLevels>(storedLevels(std::move(store), spacing, file.verticalScale));
 }
 
 // More than readDem() takes, whatever the memory.
@@ -132,6 +144,19 @@ bool goesIntoTiles(const SceneFile& file, double (*bytesOfSamples)(double sample
     return isBeyondMemory(rows.place()) || bytesOfSamples(samples) > availableMemory();
 }
 
+int levelWithin(const GroundLevels& levels, double mostSamples) {
+    int level = 0;
+    while (level + 1 < levels.count() && double(levels.size(level).x) * levels.size(level).y > mostSamples)
+        ++level;
+    return level;
+}
+
+GroundInTiles readGroundInTiles(const SceneFile& file, Progress& progress) {
+    DemRows rows(file.dem);
+    return {rows.place(),
+            levelsOf(file, storeOrMade(file.dem, rows, storeOf(rows), progress), rows.place().spacing)};
+}
+
 DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& progress) {
     DemRows rows(file.dem);
     const StorePlan plan = storeOf(rows);
@@ -139,13 +164,9 @@ DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& pr
     std::shared_ptr<const TileStore> store = storeThere(plan);
     const bool made = !store;
     if (made && file.standInSide > 0 && standsIn(file, plan, dem, scene)) return dem;
-    if (made) {
-        makeStore(file.dem, rows, plan.source, plan.place, progress);
-        store = std::make_shared<TileStore>(plan.place, plan.source.content);
-    }
-    checkScaledHeights(file.dem.string(), store->low(), store->high(), file.verticalScale);
+    if (made) store = storeOrMade(file.dem, rows, plan, progress);
     TiledGround tiled;
-    tiled.levels = std::make_shared<GroundLevels>(storedLevels(store, dem.spacing, file.verticalScale));
+    tiled.levels = levelsOf(file, store, dem.spacing);
     tiled.level = levelInMemory(*tiled.levels);
     tiled.fine = std::make_shared<FineHeights>(tiled.levels);
     std::optional<Heightfield> ground =

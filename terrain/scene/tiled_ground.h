@@ -2,12 +2,15 @@
 // is first opened.
 #pragma once
 
+#include <memory>
+
 #include "engine/base/progress.h"
 #include "terrain/read/dem_reader.h"
 #include "terrain/read/scene_file.h"
 
 namespace stereonav {
 
+class GroundLevels;
 struct TerrainScene;
 
 // Whether the file's ground goes into tiles: where it was wished, or where it takes more memory than can be
@@ -20,5 +23,18 @@ bool goesIntoTiles(const SceneFile& file, double (*bytesOfSamples)(double sample
 // scene.standIn and scene.ground. Missing samples stay open. Gives what readDem() does, without heights.
 // Throws Error: as readDem() does, and where the cache has no room for the tiles; Cancelled.
 DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& progress);
+
+// The levels alone, for who needs no scene; tiles are made where they are not there yet.
+struct GroundInTiles {
+    DemGrid place;  // as readDem() gives it, without heights
+    std::shared_ptr<const GroundLevels> levels;
+};
+GroundInTiles readGroundInTiles(const SceneFile& file, Progress& progress);
+
+// The finest level that has at most so many samples; the coarsest where none has.
+int levelWithin(const GroundLevels& levels, double mostSamples);
+
+// Of a whole ground whose finest samples do not fit into memory: more would only take longer to open.
+constexpr double kMostCoarseSamples = 1 << 24;
 
 }  // namespace stereonav

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 
+#include "engine/base/parallel.h"
 #include "terrain/survey/ground_line.h"
 
 namespace stereonav {
@@ -40,7 +42,7 @@ struct Cell {
     double a, b, c, twist;
     glm::dvec2 spacing;
 
-    Cell(const Heightfield& ground, int column, int row) : spacing(ground.spacing()) {
+    Cell(const GroundSamples& ground, int column, int row) : spacing(ground.spacing()) {
         const int x = std::clamp(column, 0, ground.width() - 2), y = std::clamp(row, 0, ground.height() - 2);
         i = x, j = y;
         a = ground.sample(x, y), b = ground.sample(x + 1, y), c = ground.sample(x, y + 1);
@@ -95,70 +97,154 @@ glm::dvec2 volumeOver(const Cell& cell, const Triangle& t, double plane, int hal
            volumeOver(cell, {ab, bc, ca}, plane, halvings - 1);
 }
 
-void addCell(const Cell& cell, const Corners& part, double plane, AreaMeasure& sum) {
+// What a part of an area comes to, in grid units over the plan.
+struct PartSum {
+    double plan = 0, along = 0, above = 0, below = 0;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    bool known = true;
+
+    void add(const PartSum& other) {
+        plan += other.plan, along += other.along, above += other.above, below += other.below;
+        lowest = std::min(lowest, other.lowest), highest = std::max(highest, other.highest);
+        known = known && other.known;
+    }
+};
+
+void addHeights(const Cell& cell, const Corners& part, PartSum& sum) {
+    sum.known = sum.known && std::isfinite(cell.twist);
+    for (const glm::dvec2& corner : part) {
+        const double height = cell.height(corner);
+        sum.lowest = std::min(sum.lowest, height), sum.highest = std::max(sum.highest, height);
+    }
+}
+
+void addCell(const Cell& cell, const Corners& part, double plane, PartSum& sum) {
+    addHeights(cell, part, sum);
     for (std::size_t n = 2; n < part.size(); ++n) {
         const Triangle triangle{part[0], part[n - 1], part[n]};
         if (triangle.area() == 0) continue;
         sum.plan += triangle.area();
+        if (!std::isfinite(cell.twist)) continue;
         sum.along += surfaceOver(cell, triangle);
         const glm::dvec2 volume = volumeOver(cell, triangle, plane, kHalvings);
         sum.above += volume.x, sum.below += volume.y;
     }
-    for (const glm::dvec2& corner : part) {
-        sum.lowest = std::min(sum.lowest, cell.height(corner));
-        sum.highest = std::max(sum.highest, cell.height(corner));
+}
+
+// A row of cells of an outline: its border there, and how often it goes around the cells that no border
+// crosses.
+class CellRow {
+public:
+    CellRow(const Corners& outline, int row)
+        : mRow(row), mPart(clipped(clipped(outline, 1, row, true), 1, row + 1, false)) {
+        for (std::size_t n = 0; n < mPart.size(); ++n) {
+            const glm::dvec2 &here = mPart[n], &next = mPart[(n + 1) % mPart.size()];
+            const bool between = here.y != next.y || (here.y != row && here.y != row + 1);
+            if (between)
+                mEdges.push_back({std::min(here.x, next.x), std::max(here.x, next.x), here.y - next.y});
+        }
     }
+    // Calls each(column, part of that cell) from the west to the east.
+    template <typename Each>
+    void eachCell(const Each& each) const {
+        if (mEdges.empty()) return;
+        double low = mEdges.front().low, high = mEdges.front().high;
+        for (const Edge& edge : mEdges) low = std::min(low, edge.low), high = std::max(high, edge.high);
+        for (int i = static_cast<int>(std::floor(low)); i < std::ceil(high); ++i) {
+            if (const auto times = timesAround(i)) {
+                wholeCell(i, *times, each);
+                continue;
+            }
+            const Corners part = clipped(clipped(mPart, 0, i, true), 0, i + 1, false);
+            if (part.size() >= 3) each(i, part);
+        }
+    }
+
+private:
+    struct Edge {
+        double low, high, down;
+    };
+    // None where the border crosses the cell.
+    std::optional<int> timesAround(int i) const {
+        double times = 0;
+        for (const Edge& edge : mEdges) {
+            if (edge.low < i + 1 && edge.high > i) return std::nullopt;
+            if (edge.high <= i) times += edge.down;
+        }
+        return static_cast<int>(std::lround(times));
+    }
+    template <typename Each>
+    void wholeCell(int i, int times, const Each& each) const {
+        const double x = i, y = mRow;
+        Corners cell{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}};
+        if (times < 0) std::reverse(cell.begin(), cell.end());
+        for (int n = 0; n < std::abs(times); ++n) each(i, cell);
+    }
+
+    int mRow;
+    Corners mPart;
+    std::vector<Edge> mEdges;
+};
+
+// Calls each(cell, part of it, sum) for all cells of an outline. Rows are summed side by side, and their sums
+// in their order.
+template <typename Each>
+PartSum sumOver(const GroundSamples& ground, const Corners& outline, const Each& each) {
+    constexpr int kRows = SurveyTiles::kSide;  // at once, so that tiles which are read are worked off
+    const auto [south, north] = std::minmax_element(
+        outline.begin(), outline.end(), [](const glm::dvec2& a, const glm::dvec2& b) { return a.y < b.y; });
+    const int end = static_cast<int>(std::ceil(north->y));
+    PartSum sum;
+    for (int first = static_cast<int>(std::floor(south->y)); first < end; first += kRows) {
+        std::vector<PartSum> rows(static_cast<std::size_t>(std::min(kRows, end - first)));
+        parallelFor(static_cast<int>(rows.size()), [&](int n) {
+            const GroundSamples samples = ground;
+            CellRow(outline, first + n).eachCell([&](int i, const Corners& part) {
+                each(Cell(samples, i, first + n), part, rows[static_cast<std::size_t>(n)]);
+            });
+        });
+        for (const PartSum& row : rows) sum.add(row);
+    }
+    return sum;
+}
+
+Corners onGrid(const GroundSamples& ground, const std::vector<glm::dvec2>& world) {
+    Corners grid;
+    for (const glm::dvec2& corner : world) grid.push_back(ground.gridFromWorld(corner));
+    return grid;
 }
 
 }  // namespace
 
-AreaMeasure measureArea(const Heightfield& ground, const std::vector<glm::dvec2>& corners, double plane) {
-    Corners polygon;
-    for (const glm::dvec2& corner : corners) polygon.push_back(ground.gridFromWorld(corner));
-    AreaMeasure sum;
-    sum.lowest = std::numeric_limits<double>::infinity(), sum.highest = -sum.lowest;
-    bool known = true;
-    const auto border = [&](int axis, bool most) {
-        double value = polygon[0][axis];
-        for (const glm::dvec2& corner : polygon)
-            value = most ? std::max(value, corner[axis]) : std::min(value, corner[axis]);
-        return static_cast<int>(most ? std::ceil(value) : std::floor(value));
-    };
-    for (int j = border(1, false); j < border(1, true); ++j) {
-        const Corners row = clipped(clipped(polygon, 1, j, true), 1, j + 1, false);
-        if (row.size() < 3) continue;
-        Corners rest = row;
-        for (int i = border(0, false); i < border(0, true) && rest.size() >= 3; ++i) {
-            const Corners part = clipped(rest, 0, i + 1, false);
-            rest = clipped(rest, 0, i + 1, true);
-            if (part.size() < 3) continue;
-            const Cell cell(ground, i, j);
-            if (std::isfinite(cell.twist))
-                addCell(cell, part, plane, sum);
-            else
-                for (std::size_t n = 2; n < part.size(); ++n)
-                    sum.plan += Triangle{part[0], part[n - 1], part[n]}.area(), known = false;
-        }
-    }
+AreaMeasure measureArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane) {
+    const PartSum all = sumOver(
+        ground, onGrid(ground, corners),
+        [plane](const Cell& cell, const Corners& part, PartSum& sum) { addCell(cell, part, plane, sum); });
     // Clockwise or not is the same area.
-    const double sign = sum.plan < 0 ? -1 : 1, unit = sign * ground.spacing().x * ground.spacing().y;
-    for (double AreaMeasure::*figure :
-         {&AreaMeasure::plan, &AreaMeasure::along, &AreaMeasure::above, &AreaMeasure::below})
-        sum.*figure *= unit;
+    const double sign = all.plan < 0 ? -1 : 1, unit = sign * ground.spacing().x * ground.spacing().y;
+    AreaMeasure measure;
+    measure.plan = all.plan * unit, measure.along = all.along * unit;
+    measure.above = all.above * unit, measure.below = all.below * unit;
+    measure.lowest = all.lowest, measure.highest = all.highest;
     for (std::size_t n = 0; n < corners.size(); ++n)
-        sum.perimeter += glm::length(corners[(n + 1) % corners.size()] - corners[n]);
-    if (!known)
-        sum.along = sum.above = sum.below = sum.lowest = sum.highest =
+        measure.perimeter += glm::length(corners[(n + 1) % corners.size()] - corners[n]);
+    if (!all.known)
+        measure.along = measure.above = measure.below = measure.lowest = measure.highest =
             std::numeric_limits<double>::quiet_NaN();
-    return sum;
+    return measure;
 }
 
-AreaMeasure errorsOfArea(const Heightfield& ground, const std::vector<glm::dvec2>& corners, double plane) {
+double lowestInArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners) {
+    const PartSum all = sumOver(ground, onGrid(ground, corners), addHeights);
+    return all.known ? all.lowest : std::numeric_limits<double>::quiet_NaN();
+}
+
+AreaMeasure errorsOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane) {
     constexpr double AreaMeasure::*kFigures[] = {&AreaMeasure::along, &AreaMeasure::above,
                                                  &AreaMeasure::below, &AreaMeasure::lowest,
                                                  &AreaMeasure::highest};
     const std::vector<double> found =
-        errorsOfSpacing(ground, [&](const Heightfield& other, const glm::dvec2& shift) {
+        errorsOfSpacing(ground, [&](const GroundSamples& other, const glm::dvec2& shift) {
             std::vector<glm::dvec2> moved = corners;
             for (glm::dvec2& corner : moved) corner -= shift;
             const AreaMeasure measure = measureArea(other, moved, plane);

@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "terrain/ground/heightfield.h"
+#include "terrain/survey/ground_samples.h"
 
 namespace stereonav {
 
@@ -19,11 +19,15 @@ struct AreaMeasure {
 // corners: world, three or more, in order; the last is joined to the first. Where the border crosses itself
 // what it goes around twice counts twice. plane: metres, in the heights of the ground. Exact over the plan;
 // surfaces by a rule of fifth order in each cell, volumes exact but in cells that the plane cuts, which are
-// halved kHalvings times. What lies over a hole makes all but plan and perimeter NaN.
+// halved kHalvings times. What lies over a hole makes all but plan and perimeter NaN. Sums are made row by
+// row of cells from the south on, whatever the thread count and wherever the samples lie.
 constexpr int kHalvings = 6;
-AreaMeasure measureArea(const Heightfield& ground, const std::vector<glm::dvec2>& corners, double plane);
+AreaMeasure measureArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane);
+
+// Of that alone, which takes a tenth of the time; NaN over a hole.
+double lowestInArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners);
 
 // As errorsOfLine().
-AreaMeasure errorsOfArea(const Heightfield& ground, const std::vector<glm::dvec2>& corners, double plane);
+AreaMeasure errorsOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane);
 
 }  // namespace stereonav

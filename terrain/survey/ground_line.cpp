@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-
-#include "engine/base/error.h"
 
 namespace stereonav {
 namespace {
@@ -34,7 +31,7 @@ double curveLength(double length, double slope0, double slope1) {
 }
 
 // Cells beyond the border go on as the last one does, for thinned grounds.
-LinePiece pieceOf(const Heightfield& ground, const glm::dvec2& from, const glm::dvec2& to) {
+LinePiece pieceOf(const GroundSamples& ground, const glm::dvec2& from, const glm::dvec2& to) {
     const glm::dvec2 middle = 0.5 * (from + to);
     const int i = std::clamp(static_cast<int>(std::floor(middle.x)), 0, ground.width() - 2),
               j = std::clamp(static_cast<int>(std::floor(middle.y)), 0, ground.height() - 2);
@@ -71,7 +68,7 @@ std::vector<double> crossings(const glm::dvec2& from, const glm::dvec2& to) {
 
 // Calls piece(from, to, piece) for each in turn; grid units.
 template <typename Each>
-void eachPiece(const Heightfield& ground, const std::vector<glm::dvec2>& world, const Each& each) {
+void eachPiece(const GroundSamples& ground, const std::vector<glm::dvec2>& world, const Each& each) {
     for (std::size_t n = 1; n < world.size(); ++n) {
         const glm::dvec2 from = ground.gridFromWorld(world[n - 1]), to = ground.gridFromWorld(world[n]);
         if (from == to) continue;
@@ -95,7 +92,7 @@ glm::dvec2 climbOf(const LinePiece& piece) {
     return way(first) + way(second);
 }
 
-double heightOn(const Heightfield& ground, const glm::dvec2& world) {
+double heightOn(const GroundSamples& ground, const glm::dvec2& world) {
     const glm::dvec2 grid = ground.gridFromWorld(world);
     const LinePiece piece = pieceOf(ground, grid, grid + glm::dvec2(1e-9, 0));
     return piece.known ? piece.height0 : kNotKnown;
@@ -103,7 +100,7 @@ double heightOn(const Heightfield& ground, const glm::dvec2& world) {
 
 }  // namespace
 
-std::vector<LinePoint> groundLine(const Heightfield& ground, const std::vector<glm::dvec2>& world) {
+std::vector<LinePoint> groundLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world) {
     std::vector<LinePoint> points;
     eachPiece(ground, world, [&](const glm::dvec2& from, const glm::dvec2& to, const LinePiece& piece) {
         if (points.empty())
@@ -120,7 +117,7 @@ std::vector<LinePoint> groundLine(const Heightfield& ground, const std::vector<g
     return points;
 }
 
-LineMeasure measureLine(const Heightfield& ground, const std::vector<glm::dvec2>& world) {
+LineMeasure measureLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world) {
     LineMeasure all;
     all.lowest = std::numeric_limits<double>::infinity(), all.highest = -all.lowest;
     bool known = true;
@@ -144,51 +141,15 @@ LineMeasure measureLine(const Heightfield& ground, const std::vector<glm::dvec2>
     return all;
 }
 
-Heightfield cutGround(const Heightfield& ground, const std::vector<glm::dvec2>& world, double scale,
-                      glm::dvec2& shift) {
-    glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
-    for (const glm::dvec2& place : world) {
-        if (!ground.contains(place))
-            throw Error("", "a place of the line", "lies beside the ground", "choose another one");
-        low = glm::min(low, ground.gridFromWorld(place)), high = glm::max(high, ground.gridFromWorld(place));
-    }
-    const glm::ivec2 last(ground.width() - 1, ground.height() - 1);
-    const glm::ivec2 from = glm::clamp(glm::ivec2(glm::floor(low)) - 2, glm::ivec2(0), last - 1);
-    const glm::ivec2 to = glm::clamp(glm::ivec2(glm::ceil(high)) + 2, from + 1, last);
-    const glm::ivec2 size = to - from + 1;
-    std::vector<float> heights;
-    heights.reserve(static_cast<std::size_t>(size.x) * size.y);
-    for (int j = from.y; j <= to.y; ++j)
-        for (int i = from.x; i <= to.x; ++i)
-            heights.push_back(static_cast<float>(ground.sample(i, j) / scale));
-    shift = ground.worldFromGrid(glm::dvec2(from) + 0.5 * glm::dvec2(size - 1));
-    return Heightfield(size.x, size.y, ground.spacing(), std::move(heights), "the ground there");
-}
-
-Heightfield thinnedGround(const Heightfield& ground, int firstX, int firstY, glm::dvec2& shift) {
-    const int width = (ground.width() - firstX + 1) / 2, height = (ground.height() - firstY + 1) / 2;
-    std::vector<float> heights;
-    heights.reserve(static_cast<std::size_t>(width) * height);
-    for (int j = 0; j < height; ++j)
-        for (int i = 0; i < width; ++i) heights.push_back(ground.sample(firstX + 2 * i, firstY + 2 * j));
-    shift = ground.worldFromGrid(glm::dvec2(firstX, firstY) + glm::dvec2(width - 1, height - 1));
-    return Heightfield(width, height, 2.0 * ground.spacing(), std::move(heights), "every second sample");
-}
-
-std::vector<double> errorsOfSpacing(const Heightfield& ground, const FiguresOfGround& figures) {
+std::vector<double> errorsOfSpacing(const GroundSamples& ground, const FiguresOfGround& figures) {
     const std::vector<double> whole = figures(ground, glm::dvec2(0.0));
     if (ground.width() < 4 || ground.height() < 4) return std::vector<double>(whole.size(), kNotKnown);
     std::vector<double> most(whole.size(), 0.0);
     for (const int firstX : {0, 1})
         for (const int firstY : {0, 1}) {
-            std::vector<double> coarse(whole.size(), kNotKnown);
-            try {
-                glm::dvec2 shift;
-                const Heightfield thin = thinnedGround(ground, firstX, firstY, shift);
-                coarse = figures(thin, shift);
-            } catch (const Error&) {
-                // What is left of a ground that is mostly holes may be no ground.
-            }
+            glm::dvec2 shift;
+            const GroundSamples thin = ground.thinned(firstX, firstY, shift);
+            const std::vector<double> coarse = figures(thin, shift);
             for (std::size_t n = 0; n < whole.size(); ++n) {
                 const double change = std::abs(coarse[n] - whole[n]);
                 if (!(change <= most[n])) most[n] = change;  // no number stays one
@@ -197,12 +158,12 @@ std::vector<double> errorsOfSpacing(const Heightfield& ground, const FiguresOfGr
     return most;
 }
 
-LineMeasure errorsOfLine(const Heightfield& ground, const std::vector<glm::dvec2>& world) {
+LineMeasure errorsOfLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world) {
     constexpr double LineMeasure::*kFigures[] = {
         &LineMeasure::straight, &LineMeasure::along,  &LineMeasure::rise,   &LineMeasure::climb,
         &LineMeasure::descent,  &LineMeasure::lowest, &LineMeasure::highest};
     const std::vector<double> found =
-        errorsOfSpacing(ground, [&](const Heightfield& other, const glm::dvec2& shift) {
+        errorsOfSpacing(ground, [&](const GroundSamples& other, const glm::dvec2& shift) {
             std::vector<glm::dvec2> moved = world;
             for (glm::dvec2& place : moved) place -= shift;
             const LineMeasure measure = measureLine(other, moved);

@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "terrain/ground/heightfield.h"
+#include "terrain/survey/ground_samples.h"
 
 namespace stereonav {
 
@@ -18,7 +18,7 @@ struct LinePoint {
     double along = 0;       // metres along the ground; holes are crossed level
 };
 // world: two places or more, on the ground; those that repeat the one before are left out.
-std::vector<LinePoint> groundLine(const Heightfield& ground, const std::vector<glm::dvec2>& world);
+std::vector<LinePoint> groundLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world);
 
 // Metres. A value that a hole leaves open is NaN.
 struct LineMeasure {
@@ -29,26 +29,17 @@ struct LineMeasure {
     double climb = 0, descent = 0;
     double lowest = 0, highest = 0;
 };
-LineMeasure measureLine(const Heightfield& ground, const std::vector<glm::dvec2>& world);
+LineMeasure measureLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world);
 
 // By how much each figure changes most where every second sample is left out, over the four ways of doing so.
 // Half the spacing would change it by less wherever the ground is smoother than its samples are apart; it
 // says nothing of errors of the samples themselves. NaN where the ground has less than four samples a side.
 // figures: of a ground whose origin lies `shift` from that of the whole one, in its world; as many each time.
 using FiguresOfGround =
-    std::function<std::vector<double>(const Heightfield& ground, const glm::dvec2& shift)>;
-std::vector<double> errorsOfSpacing(const Heightfield& ground, const FiguresOfGround& figures);
+    std::function<std::vector<double>(const GroundSamples& ground, const glm::dvec2& shift)>;
+std::vector<double> errorsOfSpacing(const GroundSamples& ground, const FiguresOfGround& figures);
 
 // Each figure's, of the same fields.
-LineMeasure errorsOfLine(const Heightfield& ground, const std::vector<glm::dvec2>& world);
-
-// The part of a ground around these places of its world, two samples wider at each side, with its heights
-// divided by `scale`. shift: where its world's origin lies. Throws Error where a place lies off the ground,
-// or nothing is known there.
-Heightfield cutGround(const Heightfield& ground, const std::vector<glm::dvec2>& world, double scale,
-                      glm::dvec2& shift);
-
-// Every second sample from (firstX, firstY) on. shift: where its world's origin lies.
-Heightfield thinnedGround(const Heightfield& ground, int firstX, int firstY, glm::dvec2& shift);
+LineMeasure errorsOfLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world);
 
 }  // namespace stereonav

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "terrain/survey/ground_samples.h"
+
 namespace stereonav {
 namespace {
 
@@ -44,7 +46,8 @@ struct Rise {
     double most = -kInfinite, at = 0;
 };
 
-Rise riseInCell(const Heightfield& ground, const Line& line, int i, int j, double from, double to) {
+template <typename Ground>
+Rise riseInCell(const Ground& ground, const Line& line, int i, int j, double from, double to) {
     const double a = ground.sample(i, j), b = ground.sample(i + 1, j);
     const double c = ground.sample(i, j + 1), d = ground.sample(i + 1, j + 1);
     const double twist = a - b - c + d;
@@ -65,12 +68,20 @@ Rise riseInCell(const Heightfield& ground, const Line& line, int i, int j, doubl
     return rise;
 }
 
+// In the place of a HeightPyramid: every cell may be higher than any line.
+struct NoMaxima {
+    static int levelCount() { return 1; }
+    static double at(int, int, int) { return kInfinite; }
+};
+
 // The cells that the line crosses between two shares of it, over blocks of the maxima.
+template <typename Maxima>
 class Walk {
 public:
-    Walk(const SightLines& lines, const HeightPyramid& maxima, const Line& line, double from, double to)
+    template <typename Ground>
+    Walk(const Ground& ground, const Maxima& maxima, const Line& line, double from, double to)
         : mMaxima(maxima), mLine(line), mS(from), mTo(to) {
-        mLast[0] = lines.ground().width() - 2, mLast[1] = lines.ground().height() - 2;
+        mLast[0] = ground.width() - 2, mLast[1] = ground.height() - 2;
         for (const int axis : {0, 1}) mCell[axis] = cellAt(axis, 0, mLast[axis]);
     }
     // Comes to the next cell over which the line is less than `room` above the maxima (below 0: under them);
@@ -114,7 +125,7 @@ private:
         return mCell[across] >= 0 && mCell[across] <= mLast[across];
     }
 
-    const HeightPyramid& mMaxima;
+    const Maxima& mMaxima;
     const Line& mLine;
     double mS, mTo, mOut = 0, mOutX = 0, mOutY = 0;
     int mCell[2], mLast[2], mLevel = 0;
@@ -128,18 +139,34 @@ double roundingOf(double tallest, const Line& line) {
            (tallest + std::abs(line.height) + std::abs(line.rise) + line.bulge);
 }
 
+double tallestOf(double low, double high) {
+    return std::max(std::abs(low), std::abs(high));
+}
+
+template <typename Ground, typename Maxima>
+Sight measuredSight(const Ground& ground, const Maxima& maxima, double tallest, const Line& line) {
+    Rise worst;
+    Walk walk(ground, maxima, line, 0, 1);
+    while (walk.next(-worst.most)) {
+        const Rise rise = riseInCell(ground, line, walk.i(), walk.j(), walk.from(), walk.to());
+        if (rise.most > worst.most) worst = rise;
+    }
+    return {worst.most <= roundingOf(tallest, line), -worst.most,
+            worst.at * glm::length(line.step * ground.spacing())};
+}
+
 }  // namespace
 
 SightLines::SightLines(const Heightfield& ground, const HeightPyramid& maxima, double fall)
     : mGround(ground),
       mMaxima(maxima),
       mFall(fall),
-      mTallest(std::max(std::abs(double(ground.minHeight())), std::abs(double(ground.maxHeight())))) {}
+      mTallest(tallestOf(ground.minHeight(), ground.maxHeight())) {}
 
 bool SightLines::clear(const glm::dvec3& eye, const glm::dvec3& target, double from, double to) const {
     const Line line(eye, target, mGround.spacing(), mFall);
     const double grazing = roundingOf(mTallest, line);
-    Walk walk(*this, mMaxima, line, from, to);
+    Walk walk(mGround, mMaxima, line, from, to);
     while (walk.next(-grazing))
         if (riseInCell(mGround, line, walk.i(), walk.j(), walk.from(), walk.to()).most > grazing)
             return false;
@@ -157,15 +184,12 @@ double SightLines::grazing(const glm::dvec2& eye, double eyeHeight, double targe
 }
 
 Sight SightLines::measure(const glm::dvec3& eye, const glm::dvec3& target) const {
-    const Line line(eye, target, mGround.spacing(), mFall);
-    Rise worst;
-    Walk walk(*this, mMaxima, line, 0, 1);
-    while (walk.next(-worst.most)) {
-        const Rise rise = riseInCell(mGround, line, walk.i(), walk.j(), walk.from(), walk.to());
-        if (rise.most > worst.most) worst = rise;
-    }
-    return {worst.most <= roundingOf(mTallest, line), -worst.most,
-            worst.at * glm::length(line.step * mGround.spacing())};
+    return measuredSight(mGround, mMaxima, mTallest, Line(eye, target, mGround.spacing(), mFall));
+}
+
+Sight sightOver(const GroundSamples& ground, double fall, const glm::dvec3& eye, const glm::dvec3& target) {
+    return measuredSight(ground, NoMaxima(), tallestOf(ground.minHeight(), ground.maxHeight()),
+                         Line(eye, target, ground.spacing(), fall));
 }
 
 }  // namespace stereonav

@@ -12,12 +12,18 @@
 
 namespace stereonav {
 
+class GroundSamples;  // terrain/survey/ground_samples.h
+
 // A line of sight. Distances are metres over the plan.
 struct Sight {
     bool seen = false;
     double clearance = 0;  // metres from ground to line where it is least; below 0: hidden by so much
     double at = 0;         // distance from the eye of that place
 };
+
+// The line between two places, as SightLines::measure() has it, by a walk over all cells below it: for one
+// line, for which maxima are not worth making. Places as there.
+Sight sightOver(const GroundSamples& ground, double fall, const glm::dvec3& eye, const glm::dvec3& target);
 
 class SightLines {
 public:

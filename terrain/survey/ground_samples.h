@@ -1,0 +1,109 @@
+// The samples of a ground for what follows lines and outlines over it, wherever they lie: all in memory, or
+// in tiles on disk, which are read as they are reached.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "terrain/ground/ground_levels.h"
+#include "terrain/ground/heightfield.h"
+
+namespace stereonav {
+
+// Tiles of one level of a stored ground: those that were asked for last are kept, kMostBytes of them. From
+// any thread.
+class SurveyTiles {
+public:
+    static constexpr int kSide = 256;  // samples, as they lie on disk
+    static constexpr std::size_t kMostBytes = std::size_t(128) << 20;
+    using Tile = std::vector<float>;  // kSide * kSide, NaN where missing and beyond the ground
+
+    explicit SurveyTiles(std::shared_ptr<const GroundLevels> levels, int level = 0,
+                         std::size_t mostBytes = kMostBytes);
+
+    const GroundLevels& levels() const { return *mLevels; }
+    int level() const { return mLevel; }
+    // Throws Error where it can not be read.
+    std::shared_ptr<const Tile> tile(const glm::ivec2& number);
+    long long tilesRead() const { return mRead; }
+
+private:
+    struct Kept {
+        std::size_t place;  // in mPlaces
+        std::shared_ptr<const Tile> tile;
+    };
+    std::shared_ptr<const Tile> read(const glm::ivec2& number) const;
+
+    const std::shared_ptr<const GroundLevels> mLevels;
+    const int mLevel;
+    const std::size_t mMost;  // tiles
+    glm::ivec2 mTiles{0};
+    long long mRead = 0;
+    std::mutex mMutex;
+    std::list<Kept> mKept;                           // the newest first
+    std::vector<std::list<Kept>::iterator> mPlaces;  // by tile; mKept.end(): not kept
+};
+
+// World and grid as of Heightfield: figures of both kinds are equal to the last bit. One object is for one
+// thread; copies are cheap, and share the tiles.
+class GroundSamples {
+public:
+    // ground must outlive it.
+    GroundSamples(const Heightfield& ground);  // NOLINT: a ground is its samples
+    explicit GroundSamples(std::shared_ptr<SurveyTiles> tiles);
+
+    int width() const { return mSize.x; }  // samples, >= 2
+    int height() const { return mSize.y; }
+    glm::dvec2 spacing() const { return mSpacing; }  // metres
+    float minHeight() const { return mLow; }         // metres; of a thinned ground those of all of it
+    float maxHeight() const { return mHigh; }
+
+    glm::dvec2 gridFromWorld(const glm::dvec2& world) const { return (world - mOrigin) / mSpacing; }
+    glm::dvec2 worldFromGrid(const glm::dvec2& grid) const { return mOrigin + grid * mSpacing; }
+    bool contains(const glm::dvec2& world) const;
+
+    // Metres; NaN where it is missing. Throws Error where its tile can not be read.
+    float sample(int i, int j) const {
+        const glm::ivec2 at = mFirst + mStep * glm::ivec2(i, j);
+        const float height = mHeights ? mHeights[static_cast<std::size_t>(at.y) * mPitch + at.x] : stored(at);
+        return mScale == 1 ? height : static_cast<float>(height / mScale);
+    }
+    double heightAt(const glm::dvec2& world) const;  // as Heightfield::heightAt()
+
+    // Every second sample from (firstX, firstY) on, in a world whose origin lies `shift` from this one's.
+    // This ground has four samples or more each way.
+    GroundSamples thinned(int firstX, int firstY, glm::dvec2& shift) const;
+    // The same ground with its heights divided by that.
+    GroundSamples dividedBy(double scale) const;
+
+private:
+    struct Slot {
+        glm::ivec2 number{-1};
+        std::shared_ptr<const SurveyTiles::Tile> tile;
+    };
+    float stored(const glm::ivec2& at) const {
+        const glm::ivec2 number = at / SurveyTiles::kSide, in = at - number * SurveyTiles::kSide;
+        const Slot& slot = mSlots[static_cast<std::size_t>((number.y & 1) * 2 + (number.x & 1))];
+        return (slot.number == number
+                    ? *slot.tile
+                    : *tileOf(number))[static_cast<std::size_t>(in.y * SurveyTiles::kSide + in.x)];
+    }
+    const SurveyTiles::Tile* tileOf(const glm::ivec2& number) const;
+
+    glm::ivec2 mSize{0}, mFirst{0};
+    int mStep = 1;
+    glm::dvec2 mSpacing{1.0}, mOrigin{0.0};
+    double mScale = 1;
+    float mLow = 0, mHigh = 0;
+    const float* mHeights = nullptr;  // null: in tiles
+    int mPitch = 0;
+    std::shared_ptr<SurveyTiles> mTiles;
+    mutable std::array<Slot, 4> mSlots;  // by the tile's odd and even numbers: the four around any corner
+};
+
+}  // namespace stereonav
