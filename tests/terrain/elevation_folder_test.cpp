@@ -130,6 +130,40 @@ TEST_F(ElevationFolder, FindsWhatIsMissingInEachFile) {
     EXPECT_GT(low(GDT_Int16, none, none, -32768, 400, 60).first, 299) << "of a coarser file, mixed with none";
 }
 
+// A -9999 that no file names: of files that overlap, that are coarser, or that lie between the samples of
+// others; and where ground is that low, a height.
+TEST_F(ElevationFolder, AnUnnamedMissingValueIsMixedWithNothing) {
+    RasterSpec first = partSpec(0, 0, 40, 30), second = partSpec(20, 0, 40, 30);
+    const auto pits = [](int column) {
+        return [column](int c, int r, int) { return r % 7 == 3 && c > 15 ? -9999.0 : hillAt(column + c, r); };
+    };
+    first.value = pits(0);
+    const auto lowest = [&](const RasterSpec& over) {
+        write("a.tif", first), write("b.tif", over);
+        double least = 1e9;
+        for (const float h : read(parts()).heights)
+            if (std::isfinite(h)) least = std::min(least, double(h));
+        return least;
+    };
+    EXPECT_GE(lowest(second), 300) << "overlapping";
+    EXPECT_EQ(read(parts()).sourceMissing, 4 * 4) << "the second has the rest of what the first lacks";
+    second = partSpec(40, 0, 20, 15);
+    second.transform[1] = 60, second.transform[5] = -60;
+    second.value = [](int c, int r, int) { return c == 5 && r == 7 ? -9999.0 : 600.0; };
+    EXPECT_GE(lowest(second), 300) << "coarser";
+    EXPECT_GT(read(parts()).sourceMissing, 0);
+    second = partSpec(40, 0, 40, 30);
+    second.transform[0] += 11;
+    EXPECT_GE(lowest(second), 300) << "between";
+    second = partSpec(20, 0, 40, 30);
+    second.value = [](int c, int r, int) { return c == 0 ? -9500.0 : hillAt(20 + c, r); };
+    EXPECT_EQ(lowest(second), -9999) << "a deep sea";
+    DemRows rows(parts());
+    std::vector<float> heights(static_cast<std::size_t>(rows.place().width) * rows.place().height);
+    rows.read(0, rows.place().height, heights.data());
+    EXPECT_FALSE(rows.mustBeReadAgain());
+}
+
 TEST_F(ElevationFolder, TakesTheFinestSamplesOfAll) {
     RasterSpec coarse = partSpec(0, 0, 20, 20);
     coarse.transform = {500000, 60, 0, 5000000, 0, -60};

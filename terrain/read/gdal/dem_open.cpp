@@ -14,7 +14,9 @@
 
 #include "engine/base/error.h"
 #include "terrain/raster/elevation_folder.h"
+#include "terrain/read/gdal/folder_mix.h"
 #include "terrain/read/gdal/height_band.h"
+#include "terrain/read/gdal/height_convert.h"
 #include "terrain/read/gdal/program_words.h"
 #include "terrain/read/gdal/vrt_check.h"
 
@@ -91,12 +93,28 @@ std::string wrapped(const std::filesystem::path& file, GDALDataset& dataset, con
     return name;
 }
 
+// Once files are mixed nothing tells a -9999 that stands for a missing sample from a height, so it is said
+// before.
+bool customaryIsMissing(const std::vector<std::filesystem::path>& files, const std::vector<HeightBand>& bands,
+                        const std::vector<FilePlan>& plans, const GdalMessages& messages) {
+    const bool unnamed =
+        std::any_of(bands.begin(), bands.end(), [](const HeightBand& band) { return !band.nodata; });
+    if (!unnamed || !filesAreMixed(plans)) return false;
+    for (std::size_t n = 0; n < files.size(); ++n) {
+        const GdalDataset dataset = openRaster(files[n], messages, kExpected, kAdvice);
+        if (hasDeepGround(*dataset, bands[n])) return false;
+    }
+    return true;
+}
+
 GdalDataset openFolder(const std::filesystem::path& folder, const GdalMessages& messages) {
     const std::vector<std::filesystem::path> files = elevationFilesIn(folder);
     if (files.empty())
         throwMisfit(folder, "", "expected elevation files, found a folder without any", kAdvice);
     Common common;
     bool doubles = false;
+    std::vector<HeightBand> bands;
+    std::vector<FilePlan> plans;
     for (const std::filesystem::path& file : files) {
         const GdalDataset dataset = openRaster(file, messages, kExpected, kAdvice);
         checkStandsNorthUp(*dataset, file);
@@ -110,13 +128,17 @@ GdalDataset openFolder(const std::filesystem::path& folder, const GdalMessages& 
         } else {
             checkFits(*dataset, file, common);
         }
+        bands.push_back(heightBandOf(*dataset, file));
+        plans.emplace_back(*dataset);
         doubles |= needsDoubles(dataset->GetRasterBand(common.band.number)->GetRasterDataType());
     }
+    const bool customary = customaryIsMissing(files, bands, plans, messages);
     ProgramWords names;
-    for (const std::filesystem::path& file : files) {
-        const std::filesystem::path whole = std::filesystem::absolute(file);
+    for (std::size_t n = 0; n < files.size(); ++n) {
+        const std::filesystem::path whole = std::filesystem::absolute(files[n]);
         const GdalDataset dataset = openRaster(whole, messages, kExpected, kAdvice);
-        names.add(wrapped(whole, *dataset, heightBandOf(*dataset, file), doubles ? "Float64" : "Float32"));
+        if (customary && !bands[n].nodata) bands[n].nodata = kCustomaryMissing;
+        names.add(wrapped(whole, *dataset, bands[n], doubles ? "Float64" : "Float32"));
     }
     ProgramWords words;
     words.add("-strict").add("-resolution").add("highest").add("-r").add("bilinear");

@@ -11,8 +11,9 @@ namespace stereonav {
 // system, stand north up, and mean their numbers alike. The finest samples count; files that are coarser, or
 // not on the grid of the first, are resampled (bilinear). Where files overlap the one whose name comes last
 // counts, but for its missing samples; where there is none samples are missing. Missing is what each file
-// says, or its type's custom; a -9999 that a file does not name is found where it stands alone, not where it
-// was mixed with others. Throws Error named by the file that does not fit.
+// says, or its type's custom, or a -9999 that it does not name, where all heights lie far above that
+// (HeightSamples::findCustomary(); where files overlap or are resampled by some samples of each:
+// hasDeepGround()). Throws Error named by the file that does not fit.
 GdalDataset openDem(const std::filesystem::path& place, const GdalMessages& messages);
 
 // The dataset with at most so many samples, at least 2 each way, as a virtual raster over it: one sample of

@@ -121,6 +121,8 @@ public:
         std::sort(files.begin(), files.end());
         files.erase(std::unique(files.begin(), files.end()), files.end());
         Hash hash;
+        // Of a folder also how its files are mixed.
+        if (mDataset && !elevationFilesIn(mFile).empty()) hash.add(std::string_view("-9999 is not mixed"));
         for (const std::filesystem::path& file : files) {
             std::error_code code;
             hash.add(std::string_view(file.native()));

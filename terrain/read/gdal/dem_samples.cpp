@@ -134,9 +134,8 @@ void HeightSamples::readInto(const SampleWindow& window, GdalMessages& messages,
 }
 
 bool HeightSamples::findCustomary() {
-    constexpr double kFarBelow_m = 1000;
     if (!mTally.customary || mBand.nodata || mBand.masked ||
-        !(mTally.lowestOther > kCustomaryMissing + kFarBelow_m))
+        !(mTally.lowestOther > kCustomaryMissing + kFarBelowAll_m))
         return false;
     mCustomaryIsMissing = true;
     mMissing = "-9999, as is customary: the file names none, and no other height is near it";

@@ -13,6 +13,8 @@ namespace stereonav {
 
 // The value that often stands for missing samples where a file names none.
 constexpr double kCustomaryMissing = -9999;
+// By how much all heights lie over it where it does.
+constexpr double kFarBelowAll_m = 1000;
 
 // Of heights that are there, in metres. Counting some of them twice changes no answer that is drawn from it.
 struct HeightTally {

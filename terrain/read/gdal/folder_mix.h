@@ -1,0 +1,27 @@
+// How the files of a folder lie to each other, and what an unnamed -9999 of them is once they are mixed.
+#pragma once
+
+#include <vector>
+
+#include "terrain/read/gdal/gdal_session.h"
+#include "terrain/read/gdal/height_band.h"
+
+namespace stereonav {
+
+// Where a file's samples are, in its reference system; north up.
+struct FilePlan {
+    double west, north, east, south;  // outer borders
+    double width, height;             // of a sample
+
+    explicit FilePlan(GDALDataset& dataset);
+};
+
+// Whether samples of one file are resampled to lie among those of another, or take their place: files overlap
+// by more than half a sample, or are not on one grid.
+bool filesAreMixed(const std::vector<FilePlan>& plans);
+
+// Whether the file has ground so low that a -9999 may be a height there, as HeightSamples::findCustomary()
+// has it: by 64 x 64 of its samples, as nothing but reading all of it would tell more.
+bool hasDeepGround(GDALDataset& dataset, const HeightBand& band);
+
+}  // namespace stereonav
