@@ -9,8 +9,10 @@
 
 #include "app/scene/ground_figures.h"
 #include "app/scene/scene_loading.h"
+#include "app/scene/survey_part.h"
 #include "app/scene/terrain_loading.h"
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/scene/capabilities.h"
 #include "engine/scene/line_measurer.h"
 #include "engine/scene/place_reader.h"
@@ -210,6 +212,133 @@ TEST(TerrainSurvey, LevelGroundHasNoAspect) {
     EXPECT_EQ(placeNumber(level, "slope_degrees"), 0);
     EXPECT_TRUE(std::isnan(placeNumber(level, "aspect_degrees")));
     EXPECT_TRUE(scene->offered<PlaceReader>()->readPlace({20, -20, 5}).empty());
+}
+
+double bytesTaken() {
+    std::ifstream status("/proc/self/status");
+    double kilobytes = 0;
+    for (std::string word; status >> word;)
+        if (word == "RssAnon:") status >> kilobytes;
+    return 1024 * kilobytes;
+}
+
+// Tiles go there, and away with it.
+class CacheIn {
+public:
+    explicit CacheIn(const TemporaryFolder& folder) {
+        std::filesystem::create_directory(folder / "cache");
+        setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
+    }
+    ~CacheIn() {
+        limitMemory(0);
+        test::useOwnCache();
+    }
+};
+
+// Hills of 600 x 560 samples, 10 m apart.
+SceneOptions hillsIn(const TemporaryFolder& folder, TilesChoice tiles) {
+    const std::filesystem::path file = folder / "hills.asc";
+    std::ofstream out(file);
+    out << "ncols 600\nnrows 560\nxllcorner 4000\nyllcorner 7000\ncellsize 10\n";
+    for (int row = 0; row < 560; ++row)
+        for (int column = 0; column < 600; ++column)
+            out << std::floor(200 + 60 * std::sin(row / 21.) * std::cos(column / 17.)) << " ";
+    out.close();
+    SceneOptions options;
+    options.scene = file.string();
+    options.tiles = tiles;
+    return options;
+}
+
+SurveyGround surveyedHills(const TemporaryFolder& folder, TilesChoice tiles) {
+    Progress progress;
+    return loadSurveyGround(hillsIn(folder, tiles), progress);
+}
+
+// What the window measures, where every second sample is in memory.
+TEST(TerrainSurvey, MeasuresGroundInTilesAsGroundInMemory) {
+    const TemporaryFolder folder;
+    const CacheIn cache(folder);
+    Facts told[2];  // without, with tiles
+    for (const TilesChoice tiles : {TilesChoice::Off, TilesChoice::On}) {
+        SceneOptions options = hillsIn(folder, tiles);
+        if (tiles == TilesChoice::On) limitMemory(bytesTaken() + 60e6);
+        options.verticalScale = 2;
+        Progress progress;
+        const auto scene = loadTerrainScene(options, SimdTarget::Auto, progress);
+        limitMemory(0);
+        const bool tiled = tiles == TilesChoice::On;
+        EXPECT_EQ(scene->offered<const TerrainScene>()->ground.spacing().x, tiled ? 20 : 10);
+        const auto* const measurer = scene->offered<LineMeasurer>();
+        for (const bool closed : {false, true}) {
+            const std::vector<glm::dvec3> places{{-900, -700, 0}, {800, 300, 0}, {-100, 850, 0}};
+            for (const Fact& fact : measurer->measure(places, closed).facts)
+                if (fact.key == "sample_spacing_m") {
+                    EXPECT_EQ(std::get<double>(fact.value), tiled ? 10 : 0) << "said of tiles alone";
+                } else {
+                    told[tiled].push_back(fact);
+                }
+        }
+        for (const Fact& fact : measurer->sight({-900, -700, 0}, {800, 300, 0}, 2))
+            told[tiled].push_back(fact);
+        EXPECT_THROW(measurer->measure({{0, 0, 0}, {3001, 0, 0}}, false), Error);
+    }
+    ASSERT_EQ(told[0].size(), told[1].size());
+    ASSERT_GT(told[0].size(), 12u);
+    for (std::size_t n = 0; n < told[0].size(); ++n) {
+        const auto *a = std::get_if<double>(&told[0][n].value), *b = std::get_if<double>(&told[1][n].value);
+        ASSERT_EQ(!a, !b);
+        if (a) {
+            EXPECT_EQ(*a, *b) << told[0][n].key;
+        }
+        EXPECT_EQ(told[0][n].text, told[1][n].text);
+    }
+}
+
+// As much of it as there is room for, and each sample where it lies.
+TEST(SurveyPart, TakesTheFinestSamplesThatFit) {
+    const TemporaryFolder folder;
+    const CacheIn cache(folder);
+    const SurveyGround whole = surveyedHills(folder, TilesChoice::Off),
+                       tiled = surveyedHills(folder, TilesChoice::On);
+    ASSERT_TRUE(tiled.tiles && !whole.tiles);
+    const glm::dvec2 place(-900, 300);
+    EXPECT_EQ(&SurveyPart(whole, place, 400).ground(), &whole.ground);
+    struct Case {
+        double reach, memory;
+        int step;
+        const char* words;
+    };
+    // All of it takes 4.8 MB, and every second sample a quarter of that.
+    for (const Case& wanted :
+         {Case{400, 3e6, 1, "samples 10.0 m apart"}, Case{0, 0, 1, "samples 10.0 m apart"},
+          Case{0, 3e6, 2, "samples 20.0 m apart, the finest are 10.0 m"},
+          Case{2500, 3e6, 2, "samples 20.0 m apart, the finest are 10.0 m"}}) {
+        SCOPED_TRACE(wanted.words);
+        if (wanted.memory > 0) limitMemory(bytesTaken() + wanted.memory);
+        const SurveyPart part(tiled, place, wanted.reach);
+        limitMemory(0);
+        const Heightfield& ground = part.ground();
+        EXPECT_EQ(ground.spacing(), glm::dvec2(10 * wanted.step));
+        EXPECT_EQ(part.words(), wanted.words);
+        EXPECT_EQ(part.grid().width, ground.width());
+        EXPECT_EQ(part.grid().height, ground.height());
+        if (wanted.reach > 0) {
+            EXPECT_LE(ground.width(), 2 * wanted.reach / (10 * wanted.step) + 3);
+            EXPECT_TRUE(ground.contains(place - std::min(wanted.reach, 2000.0)));
+            EXPECT_TRUE(ground.contains(place + std::min(wanted.reach, 2400.0)));
+        } else {
+            EXPECT_EQ(ground.width(), 600 / wanted.step);
+        }
+        for (const glm::ivec2& at : {glm::ivec2(0), glm::ivec2(ground.width() - 1, ground.height() - 1)}) {
+            const glm::dvec2 world = ground.worldFromGrid(at),
+                             file = part.grid().fromPixel({at.x + 0.5, ground.height() - 0.5 - at.y});
+            EXPECT_NEAR(glm::distance(file, *tiled.reference->referenceAt(world)), 0, 1e-6);
+            if (wanted.step == 1) {
+                EXPECT_EQ(ground.sample(at.x, at.y), whole.ground.heightAt(world));
+            }
+        }
+    }
 }
 
 TEST(GroundFigures, TellErrorsWithoutExponents) {
