@@ -62,6 +62,30 @@ TEST_F(RealTerrain, AraratWithItsColour) {
                     (folder / "agri-small-winter.jpg").string()});
 }
 
+// Words and numbers as they are printed, and the whole profile.
+TEST_F(RealTerrain, InstrumentsOverTilesSayWhatTheySayOfGroundInMemory) {
+    if (data().empty()) GTEST_SKIP() << "no real data";
+    const std::string dem = (data() / "srtm_bigtujunga30m_utm11.tif").string();
+    const std::vector<std::vector<std::string>> asked{
+        {"measure", dem, "--line", "390000,3799000,396500,3801000,401000,3801500"},
+        {"measure", dem, "--area", "385000,3794000,390000,3796000,388000,3799000", "--plane", "900"},
+        {"profile", dem, "--line", "380000,3790000,410000,3806000", "--csv", "line.csv"},
+        {"viewshed", dem, "--from", "394268,3798272,20", "--to", "401000,3801500,2", "--curvature"}};
+    for (const auto& words : asked) {
+        std::string said[2], profile[2];
+        for (const bool tiled : {false, true}) {
+            std::vector<std::string> all = words;
+            all.insert(all.end(), {"--tiles", tiled ? "on" : "off", "--json"});
+            const Outcome outcome = run(all);
+            EXPECT_EQ(outcome.status, 0) << outcome.err;
+            said[tiled] = outcome.out, profile[tiled] = contentOf(place() / "line.csv");
+        }
+        EXPECT_EQ(said[0], said[1]);
+        EXPECT_EQ(profile[0], profile[1]);
+    }
+    EXPECT_GT(linesIn(contentOf(place() / "line.csv")), 1000);
+}
+
 TEST_F(RealTerrain, ATruncatedGeoTiffIsRefused) {
     if (data().empty()) GTEST_SKIP() << "no real data beside the project";
     const std::string whole = contentOf(data() / "srtm_bigtujunga30m_utm11.tif");
