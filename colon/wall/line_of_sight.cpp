@@ -48,7 +48,7 @@ double LineOfSight::reach(const glm::dvec3& from, const glm::dvec3& direction, d
         const glm::dvec3 voxel = start + way * perMetre;
         if (!contains(voxel)) return way;
         const glm::ivec3 cell = glm::min(glm::ivec3(voxel), frame.size - 2);
-        const std::uint8_t code = mCells.codes[mCells.layout.index(cell.x, cell.y, cell.z)];
+        const std::uint8_t code = mCells.code(cell);
         // Leaps are known where the region is; its other cells count as active.
         const double free = code > kCellNear ? (code - 1) * mCells.leapUnit : 0;
         if (code == kCellActive && valueIn(voxel) >= mIsovalue) return way;

@@ -87,7 +87,7 @@ STEREONAV_INLINE Composite compositePacket(const VolumeData& data, const VolumeV
     while (any(w.active)) {
         w.active = w.active & grid.inside(w.at);
         const I index = grid.index(w.at);
-        const I code = gatherByte(grid.data.codes, index, w.active);
+        const I code = grid.code(index, w.active);
         const M here = w.active & (code == I(0));
         if (any(here)) {
             const auto [word, known] = placesOf(grid.data, index, here);

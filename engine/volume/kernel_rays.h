@@ -102,6 +102,16 @@ struct Grid {
         const I low(15);
         return shiftLeft<12>(brick) | shiftLeft<8>(z & low) | shiftLeft<4>(y & low) | (x & low);
     }
+    // Codes of the cells with these indices. Cells of far bricks have none of their own: it is their group's.
+    STEREONAV_INLINE I code(I index, M m) const {
+        const I code = gatherByte(data.codes, index, m);
+        if (!data.farCodes) return code;
+        const M none = m & (code == I(0));
+        if (!any(none)) return code;
+        const I group = shiftLeft<6>(shiftRight<12>(index)) | (shiftRight<6>(index) & I(48)) |
+                        (shiftRight<4>(index) & I(12)) | (shiftRight<2>(index) & I(3));
+        return select(none, gatherByte(data.farCodes, group, none), code);
+    }
 };
 
 // View depths at which rays leave through the planes of their cells.
@@ -151,7 +161,7 @@ public:
         mWalk.active = andNot(mWalk.active, andNot(mMoving, in));
         mMoving = mMoving & in;
         const I index = mGrid.index(mWalk.at);
-        const I code = gatherByte(mGrid.data.codes, index, mMoving);
+        const I code = mGrid.code(index, mMoving);
         const M here = mMoving & (code == none);
         mParked.index = select(here, index, mParked.index);
         mParked.lanes = mParked.lanes | here;

@@ -12,8 +12,11 @@
 namespace stereonav {
 namespace {
 
-constexpr int kGroup = 4;         // cells along each side of a group
-constexpr int kLeapBlock = 256;   // cells along each side of a block: whole bricks and groups
+constexpr int kGroup = 4;        // cells along each side of a group
+constexpr int kLeapBlock = 256;  // cells along each side of a block: whole bricks and groups
+constexpr int kBrickSide = 16, kGroupsAcross = kBrickSide / kGroup;
+// Codes while they are made: 0 is what was not written, and takes no memory. No code is as large.
+constexpr std::uint8_t kActiveYet = kLargestCode;
 constexpr double kUnitShare = 4;  // distances are counted in quarters of the smallest spacing
 
 glm::ivec3 groupsOf(const glm::ivec3& cells) {
@@ -63,6 +66,7 @@ public:
         measureFar(flagAll());
         mDivisor = leapDivisor(std::max(largestFar(), reach()));
         mCells.leapUnit = mUnit * mDivisor;
+        codeFarBricks();
         const glm::ivec3 blocks = (mFrame.size + (kLeapBlock - 1)) / kLeapBlock;
         const int count = blocks.x * blocks.y * blocks.z;
         for (int n = 0; n < count; ++n) {
@@ -70,6 +74,7 @@ public:
             codeBlock(kLeapBlock *
                       glm::ivec3(n % blocks.x, n / blocks.x % blocks.y, n / (blocks.x * blocks.y)));
         }
+        settleActive();
     }
 
 private:
@@ -77,7 +82,7 @@ private:
 
     std::uint8_t* codesAt(int i, int j, int k) { return mCells.codes.data() + mCells.layout.index(i, j, k); }
 
-    // Codes that tell what is active and what not; the groups that hold something active.
+    // Codes that tell what is active, where something is; the groups that hold it.
     MaskVolume flagAll() {
         mCells.codes = LazyArray<std::uint8_t>(mCells.layout.count());
         VolumeFrame frame = mFrame;
@@ -93,10 +98,11 @@ private:
                     flagActive(mVolume, mSetting, j, k, size.x, everywhere.data(), active.data());
                     std::uint8_t* of = &groups.at(0, j / kGroup, group);
                     for (int i = 0; i < size.x; ++i) of[i / kGroup] |= active[i];
-                    for (int first = 0; first < size.x; first += 16) {
+                    for (int first = 0; first < size.x; first += kBrickSide) {
+                        const int count = std::min(kBrickSide, size.x - first);
+                        if (!anySet(&active[first], count)) continue;
                         std::uint8_t* codes = codesAt(first, j, k);
-                        for (int i = 0; i < std::min(16, size.x - first); ++i)
-                            codes[i] = active[first + i] ? kCellActive : kCellNear;
+                        for (int i = 0; i < count; ++i) codes[i] = active[first + i] ? kActiveYet : 0;
                     }
                 }
         });
@@ -122,6 +128,58 @@ private:
         return *std::max_element(largest.begin(), largest.end());
     }
 
+    std::uint8_t codeOf(int free, int largest) const {
+        return static_cast<std::uint8_t>(std::min(1 + free / mDivisor, largest));
+    }
+
+    // Calls use(brick) for every one, on all threads.
+    template <typename Use>
+    void forBricks(const Use& use) const {
+        const glm::ivec3 bricks = mCells.layout.bricks;
+        parallelFor(bricks.z, [&](int k) {
+            for (int j = 0; j < bricks.y; ++j)
+                for (int i = 0; i < bricks.x; ++i) use(glm::ivec3(i, j, k));
+        });
+    }
+
+    bool isFar(const glm::ivec3& brick) const {
+        const glm::ivec3 low = brick * kGroupsAcross, high = glm::min(low + kGroupsAcross, mGroups);
+        for (int k = low.z; k < high.z; ++k)
+            for (int j = low.y; j < high.y; ++j)
+                for (int i = low.x; i < high.x; ++i)
+                    if (mFar.at(i, j, k) < reach()) return false;
+        return true;
+    }
+
+    // Beyond the exact reach all cells of a group have one distance: bricks that lie there keep codes of
+    // their groups alone.
+    void codeFarBricks() {
+        mCells.farCodes = LazyArray<std::uint8_t>(mCells.layout.count() >> 6);
+        forBricks([&](const glm::ivec3& brick) {
+            if (!isFar(brick)) return;
+            const glm::ivec3 low = brick * kGroupsAcross, high = glm::min(low + kGroupsAcross, mGroups);
+            for (int k = low.z; k < high.z; ++k)
+                for (int j = low.y; j < high.y; ++j)
+                    for (int i = low.x; i < high.x; ++i)
+                        mCells.farCodes[farIndexOf(kGroup * glm::ivec3(i, j, k))] =
+                            codeOf(mFar.at(i, j, k), kLargestCode);
+        });
+    }
+
+    std::size_t farIndexOf(const glm::ivec3& cell) const {
+        return BrickLayout::farIndex(mCells.layout.index(cell.x, cell.y, cell.z));
+    }
+
+    void settleActive() {
+        forBricks([&](const glm::ivec3& brick) {
+            const glm::ivec3 low = brick * kBrickSide;
+            if (mCells.farCodes[farIndexOf(low)] != 0) return;
+            std::uint8_t* codes = codesAt(low.x, low.y, low.z);
+            for (int n = 0; n < kBrickSide * kBrickSide * kBrickSide; ++n)
+                if (codes[n] == kActiveYet) codes[n] = kCellActive;
+        });
+    }
+
     // Whether something active may be within the exact reach of the block.
     bool isNear(const glm::ivec3& first, const glm::ivec3& end) const {
         const glm::ivec3 low = first / kGroup, high = groupsOf(end);
@@ -144,7 +202,7 @@ private:
                 const std::uint8_t* codes = codesAt(i, y, z);
                 const int stop = std::min((i | 15) + 1, end);
                 for (std::uint8_t* out = row + (i - low.x + 1); i < stop; ++i)
-                    *out++ = *codes++ == kCellActive;
+                    *out++ = *codes++ == kActiveYet;
             }
         };
         return distanceToOutside(awayFrom(frame, setRow), false, mUnit, SimdTarget::Auto,
@@ -165,10 +223,14 @@ private:
                     near.empty() ? nullptr
                                  : near.values.data() + near.frame.index(0, j - low.y, k - low.z) - low.x;
                 for (int i = first.x; i < end.x; ++i) {
+                    if (i % kBrickSide == 0 && mCells.farCodes[farIndexOf({i, j, k})] != 0) {
+                        i += kBrickSide - 1;
+                        continue;
+                    }
                     std::uint8_t& code = *codesAt(i, j, k);
-                    if (code == kCellActive) continue;
+                    if (code == kActiveYet) continue;
                     const int free = std::max<int>(far[i / kGroup], here ? here[i] : reach());
-                    code = static_cast<std::uint8_t>(std::min(1 + free / mDivisor, kLargestCode));
+                    code = codeOf(free, kActiveYet - 1);
                 }
             }
         });

@@ -17,7 +17,8 @@ inline int leapDivisor(int largest) {
     return largest > most ? (largest + most - 1) / most : 1;
 }
 
-// Fills codes and leapUnit of cells that have frame and layout: 0 for the cells that hold surface. Besides
+// Fills codes, farCodes and leapUnit of cells that have frame and layout: 0 for the cells that hold surface.
+// Bricks beyond the exact reach of any surface get codes of their groups alone, a 64th of the memory. Besides
 // the codes it takes an eighth of a byte a cell, and 11 bytes for each cell of a block of 288^3.
 void codeLeapsByBlocks(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress,
                        SurfaceCells& cells);

@@ -25,6 +25,8 @@
 namespace stereonav {
 namespace {
 
+constexpr std::size_t kCellsOfBrick = 4096, kGroupsOfBrick = 64;
+
 // One flag a cell, in a volume of the cells' own frame.
 struct CellFlags {
     MaskVolume active;  // holds surface
@@ -148,6 +150,7 @@ SurfaceCells SurfaceCells::share() const {
     same.layout = layout;
     same.leapUnit = leapUnit;
     same.codes = codes.share();
+    same.farCodes = farCodes.share();
     same.bricks = bricks.share();
     same.places = places.share();
     same.records = records.share();
@@ -159,7 +162,11 @@ SurfaceCells SurfaceCells::share() const {
 }
 
 std::size_t SurfaceCells::bytesHeld() const {
-    return residentBytes(codes) + residentBytes(bricks) + residentBytes(places) +
+    // Pages that were read count as in use, also those of far bricks, which all are one page of zeros.
+    std::size_t far = 0;
+    for (std::size_t n = 0; n < farCodes.size(); n += kGroupsOfBrick) far += farCodes[n] != 0;
+    const std::size_t own = farCodes.empty() ? residentBytes(codes) : codes.size() - far * kCellsOfBrick;
+    return own + residentBytes(farCodes) + residentBytes(bricks) + residentBytes(places) +
            records.size() * sizeof(CellRecord) + normals.size() * sizeof(std::uint32_t);
 }
 
@@ -176,7 +183,7 @@ std::optional<CellRecord> SurfaceCells::record(const glm::ivec3& cell) const {
         if (places[n] == 0) return std::nullopt;
         return records[std::size_t{brick} + places[n] - 1];
     }
-    if (codes[n] != kCellActive) return std::nullopt;
+    if (code(cell) != kCellActive) return std::nullopt;
     CellRecord record{};
     const std::uint32_t* corners = normals.data() + std::size_t{brick & ~kDenseBrick} * kDenseCorners;
     for (int c = 0; c < 8; ++c) {
@@ -201,7 +208,9 @@ SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& se
         writeRecords(
             volume, setting,
             [&](const glm::ivec3& first, int count, std::uint8_t* active) {
-                const std::uint8_t* codes = &cells.codes[cells.layout.index(first.x, first.y, first.z)];
+                const std::size_t n = cells.layout.index(first.x, first.y, first.z);
+                if (cells.farCodes[BrickLayout::farIndex(n)] != 0) return;  // a far brick: as it comes, all 0
+                const std::uint8_t* codes = &cells.codes[n];
                 for (int i = 0; i < count; ++i) active[i] = codes[i] == kCellActive;
             },
             cells);

@@ -28,6 +28,10 @@ struct BrickLayout {
             (static_cast<std::size_t>(k >> 4) * bricks.y + (j >> 4)) * bricks.x + (i >> 4);
         return brick << 12 | (k & 15) << 8 | (j & 15) << 4 | (i & 15);
     }
+    // Of the group of 4^3 cells that a cell with this index is in, in bricks of 4^3 groups.
+    static std::size_t farIndex(std::size_t index) {
+        return index >> 12 << 6 | (index >> 6 & 48) | (index >> 4 & 12) | (index >> 2 & 3);
+    }
 };
 
 struct alignas(64) CellRecord {
@@ -54,7 +58,10 @@ struct SurfaceCells {
     VolumeFrame frame;  // of the voxels
     BrickLayout layout;
     double leapUnit = 0;            // metres; a quarter of the smallest spacing, more where leaps are long
-    LazyArray<std::uint8_t> codes;  // by layout. kCellActive without a record: outside the region
+    LazyArray<std::uint8_t> codes;  // by layout; see code(). kCellActive without a record: outside the region
+    // Codes of groups of 4^3 cells, 64 a brick by farIndex: of far bricks, whose cells have none of their own
+    // (0 in `codes`, where no memory is taken); 0 of all others. Empty: no brick is far.
+    LazyArray<std::uint8_t> farCodes;
     // Of each brick: the number of its first record; or, with kDenseBrick, its place among the dense ones.
     LazyArray<std::uint32_t> bricks;
     LazyArray<std::uint16_t> places;  // by layout: 1, 2, ... among its brick's records, 0 where there is none
@@ -65,7 +72,12 @@ struct SurfaceCells {
     std::size_t active = 0;          // cells with a record
     float isovalue = 0;              // the surface is where the trilinear value reaches it, in stored numbers
 
-    // What is kept of a cell, nothing where it is not active. The cell must lie in the volume.
+    // How far a ray may leap from a cell, or kCellActive. The cell must lie in the volume, as below.
+    std::uint8_t code(const glm::ivec3& cell) const {
+        const std::size_t n = layout.index(cell.x, cell.y, cell.z);
+        return codes[n] == 0 && !farCodes.empty() ? farCodes[BrickLayout::farIndex(n)] : codes[n];
+    }
+    // What is kept of a cell, nothing where it is not active.
     std::optional<CellRecord> record(const glm::ivec3& cell) const;
     // Its number in `records`; nothing where it has none there.
     std::optional<std::size_t> recordNumber(const glm::ivec3& cell) const;

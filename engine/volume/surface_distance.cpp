@@ -137,9 +137,7 @@ public:
     }
 
 private:
-    std::uint8_t codeOf(const glm::ivec3& cell) const {
-        return mCells.codes[mCells.layout.index(cell.x, cell.y, cell.z)];
-    }
+    std::uint8_t codeOf(const glm::ivec3& cell) const { return mCells.code(cell); }
 
     bool holdsSurface(const CellRecord& record) const {
         const auto [least, most] = std::minmax_element(std::begin(record.values), std::end(record.values));

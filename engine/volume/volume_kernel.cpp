@@ -55,7 +55,7 @@ STEREONAV_INLINE F castBeams(const Grid& grid, const VolumeView& view, F x, F y,
     while (any(moving)) {
         const Cells at = grid.cellsAt(r.direction, t);
         const M in = moving & grid.inside(at);
-        const I code = gatherByte(grid.data.codes, grid.index(at), in);
+        const I code = grid.code(grid.index(at), in);
         const F free = toFloat(code - I(1)) * unit;
         const F ahead = (free - radius * t) * slower;
         // Less than the smallest leap is not worth a look; less than the depth's rounding would never end.

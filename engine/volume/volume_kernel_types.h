@@ -11,12 +11,13 @@ namespace stereonav {
 // Layout as in surface_cells.h: bricks of 16^3 cells; records of 64 bytes, 16 words: 4 of values, 8 normals.
 struct CellData {
     const std::uint8_t* codes = nullptr;
+    const std::uint8_t* farCodes = nullptr;  // of groups of 4^3 cells, 64 a brick; null: no brick is far
     const std::uint32_t* records = nullptr;
     const std::uint32_t* bricks = nullptr;
     const std::uint16_t* places = nullptr;
     std::int32_t brickCount[2] = {};  // along x and y
     // The number of the first brick, so that cells of up to 2^20 bricks have indices of 32 bits with a sign:
-    // codes, bricks and places begin so many bricks before the pointers.
+    // codes, farCodes, bricks and places begin so many bricks before the pointers.
     std::int32_t firstBrick = 0;
     // Dense bricks: normals of corners (null: there are none), and the volume's values, which begin
     // firstVoxel voxels before the pointer.

@@ -39,6 +39,7 @@ CellData cellDataOf(const SurfaceCells& cells, bool leaping) {
     const std::size_t count = cells.layout.count(), before = count > (1ull << 31) - 64 ? 1ull << 31 : 0;
     d.firstBrick = -static_cast<std::int32_t>(before >> 12);
     d.codes = cells.codes.data() + before;
+    if (!cells.farCodes.empty()) d.farCodes = cells.farCodes.data() + (before >> 6);
     d.places = cells.places.data() + before;
     d.bricks = cells.bricks.data() + (before >> 12);
     d.records = reinterpret_cast<const std::uint32_t*>(cells.records.data());
@@ -222,7 +223,7 @@ struct VolumeRenderer::State {
                 const glm::dvec3 beside = voxel - glm::clamp(voxel, glm::dvec3(0.0), last);
                 return glm::length(beside * cells.frame.spacing);
             }
-        return (cells.codes[cells.layout.index(cell.x, cell.y, cell.z)] - 1) * cells.leapUnit;
+        return (cells.code(cell) - 1) * cells.leapUnit;
     }
 };
 

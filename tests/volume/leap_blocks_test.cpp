@@ -11,6 +11,7 @@
 #include "engine/camera/stereo_rig.h"
 #include "engine/render/eye_renderer.h"
 #include "engine/volume/surface_cells.h"
+#include "engine/volume/transfer_function.h"
 #include "engine/volume/volume_renderer.h"
 #include "test_volumes.h"
 
@@ -55,7 +56,7 @@ void expectLeapsBelow(const SurfaceCells& blocks, const SurfaceCells& once) {
         for (int j = 0; j < once.frame.size.y - 1; ++j)
             for (int i = 0; i < once.frame.size.x - 1; ++i) {
                 const std::size_t n = once.layout.index(i, j, k);
-                const int exact = once.codes[n], code = blocks.codes[n];
+                const int exact = once.codes[n], code = blocks.code({i, j, k});
                 ASSERT_EQ(exact == kCellActive, code == kCellActive);
                 if (exact == kCellActive) continue;
                 // Both are rounded down by less than a unit.
@@ -91,7 +92,8 @@ TEST(LeapBlocks, WithoutSurfaceLeapAsFarAsACodeCan) {
     frame.size = {40, 20, 30};
     const SurfaceCells cells = cellsOf(GreyVolume(frame), 100, true);
     EXPECT_EQ(cells.active, 0u);
-    EXPECT_EQ(cells.codes[cells.layout.index(20, 10, 15)], 255);
+    EXPECT_EQ(cells.code({20, 10, 15}), 255);
+    EXPECT_EQ(cells.code({38, 18, 28}), 255);
 }
 
 TEST(LeapBlocks, OfTwoVoxels) {
@@ -114,37 +116,100 @@ TEST(LeapBlocks, DoNotDependOnThreads) {
     const SurfaceCells other = cellsOf(volume, 100, true);
     setThreadCount(threads);
     EXPECT_EQ(std::memcmp(many.codes.data(), other.codes.data(), many.layout.count()), 0);
+    ASSERT_EQ(many.farCodes.size(), other.farCodes.size());
+    EXPECT_EQ(std::memcmp(many.farCodes.data(), other.farCodes.data(), many.farCodes.size()), 0);
     expectSameCells(many, other);
 }
 
-TEST(LeapBlocks, ShowTheSamePicture) {
+VolumeScene ballScene() {
     VolumeFrame frame;
     frame.size = {120, 60, 60};
     frame.spacing = glm::dvec3(1e-3);
     frame.origin = glm::dvec3(-0.06, -0.03, -0.03);
     VolumeScene scene;
     scene.field = balls(frame);
+    return scene;
+}
+
+EyeImage pictureOf(const VolumeScene& scene, SimdTarget target) {
     Lens lens;
     lens.width = 160;
     lens.height = 120;
     lens.nearDepth = 0.001;
     const EyeView view =
         makeStereoViews(poseFromAngles({0.01, -0.13, 0.01}, 0, 0, 0), lens, {0.004, 0.13}).left;
-    EyeImage pictures[2];
-    for (int n = 0; n < 2; ++n) {
-        scene.cells = cellsOf(scene.field, 100, n == 1);
-        const VolumeRenderer renderer(scene);
-        pictures[n].resize(view.width, view.height, renderer.viewDependence());
-        renderEye(renderer, view, pictures[n]);
-    }
+    const VolumeRenderer renderer(scene, {.target = target});
+    EyeImage picture;
+    picture.resize(view.width, view.height, renderer.viewDependence());
+    renderEye(renderer, view, picture);
+    return picture;
+}
+
+void expectSamePictures(const EyeImage& a, const EyeImage& b) {
     int hits = 0;
-    for (int y = 0; y < view.height; ++y)
-        for (int x = 0; x < view.width; ++x) {
-            ASSERT_EQ(pictures[0].viewDepth.at(x, y), pictures[1].viewDepth.at(x, y)) << x << " " << y;
-            ASSERT_EQ(pictures[0].color.at(x, y), pictures[1].color.at(x, y)) << x << " " << y;
-            hits += std::isfinite(pictures[0].viewDepth.at(x, y));
+    for (int y = 0; y < a.color.height(); ++y)
+        for (int x = 0; x < a.color.width(); ++x) {
+            ASSERT_EQ(a.viewDepth.at(x, y), b.viewDepth.at(x, y)) << x << " " << y;
+            ASSERT_EQ(a.color.at(x, y), b.color.at(x, y)) << x << " " << y;
+            hits += std::isfinite(a.viewDepth.at(x, y));
         }
     EXPECT_GT(hits, 200);
+}
+
+TEST(LeapBlocks, ShowTheSamePicture) {
+    VolumeScene scene = ballScene();
+    scene.cells = cellsOf(scene.field, 100, false);
+    const EyeImage once = pictureOf(scene, SimdTarget::Auto);
+    scene.cells = cellsOf(scene.field, 100, true);
+    expectSamePictures(once, pictureOf(scene, SimdTarget::Auto));
+}
+
+// The same codes, all of them the cells' own.
+SurfaceCells withOwnCodes(const SurfaceCells& cells) {
+    SurfaceCells own = cells.share();
+    own.codes = LazyArray<std::uint8_t>(cells.layout.count());
+    own.farCodes = {};
+    const glm::ivec3 size = cells.frame.size - 1;
+    for (int k = 0; k < size.z; ++k)
+        for (int j = 0; j < size.y; ++j)
+            for (int i = 0; i < size.x; ++i) own.codes[own.layout.index(i, j, k)] = cells.code({i, j, k});
+    return own;
+}
+
+// What far bricks are kept by is told by nothing that is made of them: surfaces, what is translucent, free
+// ways.
+TEST(LeapBlocks, FarBricksAreAsIfTheirCellsHadCodes) {
+    VolumeScene scene = ballScene();
+    const SurfaceCells blocks = cellsOf(scene.field, 100, true), own = withOwnCodes(blocks);
+    for (const bool translucent : {false, true})
+        for (const SimdTarget target : {SimdTarget::Auto, SimdTarget::Plain}) {
+            scene.look.transfer = {};
+            if (translucent)
+                scene.look.transfer =
+                    TransferFunction({{90, {1, 1, 1}, 0}, {300, {1, 0, 0}, 0.1}}, 1e-3, "test");
+            scene.cells = own.share();
+            const EyeImage expected = pictureOf(scene, target);
+            scene.cells = blocks.share();
+            expectSamePictures(expected, pictureOf(scene, target));
+        }
+    for (int i = 0; i <= 20; ++i) {
+        const glm::dvec3 at(-0.055 + 0.11 * i / 20, 0.001, 0.002);
+        EXPECT_EQ(freeDistance(blocks, at, 1, 1e-5), freeDistance(own, at, 1, 1e-5)) << i;
+    }
+}
+
+TEST(LeapBlocks, FarBricksTakeNoCodes) {
+    const VolumeScene scene = ballScene();
+    const SurfaceCells blocks = cellsOf(scene.field, 100, true), own = withOwnCodes(blocks);
+    std::size_t far = 0;
+    for (std::size_t n = 0; n < blocks.layout.count(); n += 4096) {
+        if (blocks.farCodes[BrickLayout::farIndex(n)] == 0) continue;
+        ++far;
+        for (std::size_t cell = n; cell < n + 4096; ++cell) ASSERT_EQ(blocks.codes[cell], 0);
+    }
+    EXPECT_GE(far, 16u);
+    EXPECT_LT(far, blocks.layout.count() / 4096 - 8);
+    EXPECT_GE(own.bytesHeld(), blocks.bytesHeld() + far * 4096 - blocks.farCodes.size());
 }
 
 }  // namespace
