@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "app/scene/scene_type.h"
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
 #include "app/scene/volume_paint.h"
@@ -20,6 +23,14 @@ void checkShading(const VolumeOptions& volume, const VolumeSide& side) {
             "--shading",
             std::string(nameOf(volume.shading)) + " expects a volume seen from outside, this one is a colon",
             "add --isosurface, or use lambert or phong");
+}
+
+// A folder may hold ground as well, which is not what is opened.
+void noteGround(const SceneOptions& options, std::vector<std::string>& notes) {
+    std::error_code code;
+    if (std::filesystem::is_directory(options.scene, code) && terrainType().owns(options.scene))
+        notes.emplace_back(
+            "left aside: elevation files in this folder; in one of their own they open as ground");
 }
 
 }  // namespace
@@ -51,6 +62,7 @@ LitVolume litVolumeOf(const SceneOptions& options, Progress& progress, bool keep
     ColonScene& colon = made.world->colon();
     VolumeLighting& light = made.light;
     checkShading(options.volume, made.world->side());
+    noteGround(options, colon.notes);
     light.sky = applyVolumeLight(options, colon, progress);
     applyAmbient(options.volume, nullptr, colon, progress);
     light.modulateSigma = applyModulation(options.volume, nullptr, std::nullopt, colon, progress);

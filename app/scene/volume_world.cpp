@@ -114,7 +114,9 @@ std::shared_ptr<const SliceStudy> VolumeWorld::readSlices(Progress& progress) co
     if (mOptions.study.empty()) {
         slices->grey = builtInColon(mOptions.builtIn, progress).grey;
     } else {
-        Study study = readStudy(mOptions.study, mOptions.reading, progress);
+        StudyOptions reading = mOptions.reading;
+        reading.key = 0;  // not asked for
+        Study study = readStudy(mOptions.study, reading, progress);
         slices->ofMask = study.isMask;
         slices->grey = study.isMask ? greyOf(study.mask) : std::move(study.grey);
     }

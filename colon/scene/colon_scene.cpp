@@ -55,9 +55,10 @@ LumenField lumenOfGrey(Study& study, const ColonOptions& options, std::vector<st
         notes.insert(notes.end(), saved.notes.begin(), saved.notes.end());
         if (saved.lumen) return std::move(*saved.lumen);
     }
-    LumenField lumen = options.keepsStudy
-                           ? segmentColon(study.grey, options.segmentation, progress)
-                           : segmentColon(std::move(study.grey), options.segmentation, progress);
+    LumenField lumen =
+        options.keepsStudy
+            ? segmentColon(study.grey, options.segmentation, progress, std::move(study.air))
+            : segmentColon(std::move(study.grey), options.segmentation, progress, std::move(study.air));
     if (keeps) notes.push_back(saveLumen(lumen.lumen, key));
     return lumen;
 }
@@ -264,10 +265,16 @@ ColonScene sharing(const ColonScene& scene) {
     return same;
 }
 
-Study readOrMake(const ColonOptions& options, std::vector<Polyp>& polyps, Progress& progress) {
+// key: the study's, as far as it is asked for.
+Study readOrMake(const ColonOptions& options, std::uint64_t key, std::vector<Polyp>& polyps,
+                 Progress& progress) {
     if (!options.study.empty()) {
         StudyOptions reading = options.reading;
-        if (options.isosurface) reading.working = surfaceWorking;
+        reading.key = key;
+        if (options.isosurface)
+            reading.working = surfaceWorking;
+        else
+            reading.airBelow = options.segmentation.air;
         return readStudy(options.study, reading, progress);
     }
     BuiltInColon colon = builtInColon(options.builtIn, progress);
@@ -275,7 +282,7 @@ Study readOrMake(const ColonOptions& options, std::vector<Polyp>& polyps, Progre
     Study study;
     study.format = "built in";
     study.grey = std::move(colon.grey);
-    study.key = builtInKey(options.builtIn);
+    study.key = key;
     return study;
 }
 }  // namespace
@@ -316,21 +323,21 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
     const bool builtIn = options.study.empty();
     const std::string name = nameOf(options);
     bool damaged = false;
-    std::uint64_t key = 0;
+    std::uint64_t key = 0, studysKey = 0;
     if (!options.isosurface && builtIn) refuseTurned(options);
     if (!options.isosurface && options.cache && !options.up) {
-        key = colonCacheKey(builtIn ? builtInKey(options.builtIn) : studyKey(options.study, options.reading),
-                            options);
+        studysKey = builtIn ? builtInKey(options.builtIn) : studyKey(options.study, options.reading);
+        key = colonCacheKey(studysKey, options);
         if (std::optional<FoundColon> kept = readColonCache(key, damaged)) {
             const bool reads = options.keepsStudy && !kept->ofMask;
             ColonScene scene = sceneOf(std::move(*kept), options, progress);
             scene.name = name;
-            if (reads) scene.study = readOrMake(options, scene.polyps, progress).grey;
+            if (reads) scene.study = readOrMake(options, 0, scene.polyps, progress).grey;
             return scene;
         }
     }
     std::vector<Polyp> polyps;
-    Study study = readOrMake(options, polyps, progress);
+    Study study = readOrMake(options, studysKey, polyps, progress);
     const bool foreign = !study.isMask && !looksLikeHounsfield(study.grey);
     if (options.isosurface || foreign) {
         if (foreign && !options.isosurface) refuseOfColons(options);

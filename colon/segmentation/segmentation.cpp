@@ -307,11 +307,11 @@ void noteFluid(std::size_t pools, const SegmentationSetting& setting, LumenField
         lumen.notes.push_back(fmt::format("took {} pool(s) of tagged fluid for lumen", pools));
 }
 
-LumenField segmentStudy(const GreyVolume& study, const SegmentationSetting& setting, const SliceDone& done,
-                        Progress& progress) {
+LumenField segmentStudy(const GreyVolume& study, const SegmentationSetting& setting,
+                        std::optional<VoxelRuns> known, const SliceDone& done, Progress& progress) {
     checkSetting(setting);
     progress.report(0, "looking for air");
-    AirPieces air = findAir(study, setting, progress);
+    AirPieces air = findAir(study, setting, std::move(known), progress);
     takeSeeds(study, setting, air);
     progress.report(0.4, "looking for tagged fluid");
     FluidPools fluid = findFluid(study, setting, air);
@@ -366,17 +366,19 @@ std::optional<LumenField> restoreLumen(const GreyVolume& study, MaskVolume lumen
     return found;
 }
 
-LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress) {
+LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress,
+                        std::optional<VoxelRuns> known) {
     return segmentStudy(
-        study, setting, [](int) {}, progress);
+        study, setting, std::move(known), [](int) {}, progress);
 }
 
-LumenField segmentColon(GreyVolume&& study, const SegmentationSetting& setting, Progress& progress) {
+LumenField segmentColon(GreyVolume&& study, const SegmentationSetting& setting, Progress& progress,
+                        std::optional<VoxelRuns> known) {
     const std::size_t perSlice = static_cast<std::size_t>(study.frame.size.x) * study.frame.size.y;
     const auto release = [&](int k) {
         if (k >= 0 && k < study.frame.size.z) study.values.release(perSlice * k, perSlice);
     };
-    return segmentStudy(study, setting, release, progress);
+    return segmentStudy(study, setting, std::move(known), release, progress);
 }
 
 }  // namespace stereonav

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/progress.h"
+#include "engine/volume/components.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav {
@@ -38,11 +39,14 @@ struct LumenField {
 };
 
 // From grey values. Tagged fluid becomes air in `field`, without a film between it and the air above, unless
-// it is left; it ties the air above it to the colon all the same.
+// it is left; it ties the air above it to the colon all the same. known: voxels below setting.air, where they
+// were looked for already.
 // Throws Error (no air, all air, seeds outside, nothing like a colon), Cancelled.
-LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress);
+LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress,
+                        std::optional<VoxelRuns> known = {});
 // The same of a study that nobody asks for behind it: its values go slice by slice as the field's come.
-LumenField segmentColon(GreyVolume&& study, const SegmentationSetting& setting, Progress& progress);
+LumenField segmentColon(GreyVolume&& study, const SegmentationSetting& setting, Progress& progress,
+                        std::optional<VoxelRuns> known = {});
 
 // The field and the segments of a lumen (numbered from 1) that was found in this study with this setting and
 // kept: what segmentColon gives, without judging any air again. Nothing where they do not fit together.

@@ -195,9 +195,10 @@ int voxelAxisOf(const VolumeFrame& frame, int worldAxis) {
     return best;
 }
 
-AirPieces findAir(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress) {
+AirPieces findAir(const GreyVolume& study, const SegmentationSetting& setting, std::optional<VoxelRuns> known,
+                  Progress& progress) {
     AirPieces air;
-    air.pieces.runs = runsBelow(study, storedOf(study, setting.air));
+    air.pieces.runs = known ? std::move(*known) : runsBelow(study, storedOf(study, setting.air));
     const std::size_t voxels = air.pieces.runs.voxelCount();
     if (voxels == 0)
         throw Error("", "study", fmt::format("no air: no voxel lies below {:g} HU", setting.air),

@@ -29,6 +29,8 @@ double storedOf(const GreyVolume& study, double hu);
 int voxelAxisOf(const VolumeFrame& frame, int worldAxis);
 
 // Throws Error when there is no air or nothing but air; Cancelled. With seeds no piece is Colon yet.
-AirPieces findAir(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress);
+// known: voxels below setting.air; nothing: they are looked for.
+AirPieces findAir(const GreyVolume& study, const SegmentationSetting& setting, std::optional<VoxelRuns> known,
+                  Progress& progress);
 
 }  // namespace stereonav

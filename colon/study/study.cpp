@@ -196,9 +196,9 @@ Study readStudy(const fs::path& path, const StudyOptions& options, Progress& pro
     study.format = file.format;
     study.description = file.description;
     study.notes = std::move(file.notes);
-    takeValues(std::move(file.raw), std::move(file.facts), path.string(), options, study);
+    takeValues(std::move(file.raw), std::move(file.looks), path.string(), options, study);
     progress.report(0.95, "computing the key");
-    study.key = studyKey(path, options);
+    study.key = options.key ? *options.key : studyKey(path, options);
     progress.report(1, "read " + path.filename().string());
     return study;
 }

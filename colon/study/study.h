@@ -14,6 +14,7 @@
 #include "engine/base/progress.h"
 #include "engine/image/packed_color.h"
 #include "engine/image/plane.h"
+#include "engine/volume/components.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav {
@@ -22,6 +23,10 @@ struct StudyOptions {
     std::string series;     // of a DICOM folder with several: its number in the list (1, 2, ...) or its UID
     bool resample = false;  // mend uneven or tilted slices onto an even upright grid
     std::optional<int> label;  // the one label of a mask with several
+    // Study::key where the caller has it, or does not ask for it: the files are not hashed then.
+    std::optional<std::uint64_t> key;
+    // HU: where values are below it is looked for while other slices are read (Study::air).
+    std::optional<double> airBelow;
     // Bytes that the caller will take beside the values of so many voxels: what does not fit with them is not
     // read. Empty: none.
     std::function<double(double voxels)> working;
@@ -33,6 +38,8 @@ struct Study {
     bool isMask = false;      // then `mask` is filled, else `grey`
     GreyVolume grey;          // HU for CT
     MaskVolume mask;
+    // Of `grey`: voxels below StudyOptions::airBelow. Nothing where values are not kept as the file has them.
+    std::optional<VoxelRuns> air;
     std::uint64_t key = 0;           // of the content and the options: equal studies have equal keys
     std::vector<std::string> notes;  // what was mended or assumed, one line each
 };

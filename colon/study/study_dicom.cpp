@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <mutex>
 
 #include "colon/study/picture_decoder.h"
+#include "colon/study/study_facts.h"
 #include "colon/study/study_parts.h"
 #include "engine/base/parallel.h"
 
@@ -74,9 +76,11 @@ std::vector<std::vector<const DicomSlice*>> byFile(const DicomSeries& series) {
     return groups;
 }
 
-// All slices; stops early where T is whole numbers and some value is not.
+// All slices; stops early where T is whole numbers and some value is not. use(k): slice k has come; called
+// from many threads.
 template <typename T>
-void takeSlices(const DicomSeries& series, RawStudy& raw, PixelCounts& counts, Progress& progress) {
+void takeSlices(const DicomSeries& series, RawStudy& raw, PixelCounts& counts, Progress& progress,
+                const std::function<void(int k)>& use) {
     const std::size_t slices = series.slices.size(), perSlice = raw.frame.count() / slices;
     const auto groups = byFile(series);
     std::size_t done = 0;
@@ -89,6 +93,7 @@ void takeSlices(const DicomSeries& series, RawStudy& raw, PixelCounts& counts, P
         decodeSlices(groups[n], decoder, [&](const DicomSlice& slice, const double* stored) {
             const auto k = static_cast<std::size_t>(&slice - series.slices.data());
             takeHu(slice, stored, reinterpret_cast<T*>(raw.bytes.data()) + perSlice * k, counts);
+            use(static_cast<int>(k));
             const std::lock_guard lock(reporting);
             progress.report(0.1 + 0.7 * static_cast<double>(++done) / static_cast<double>(slices),
                             fmt::format("reading {} slices", slices));
@@ -96,12 +101,23 @@ void takeSlices(const DicomSeries& series, RawStudy& raw, PixelCounts& counts, P
     });
 }
 
-// Voxels of padding. In 16 bits where that loses nothing, else again as fractions.
-std::size_t decodeAll(const DicomSeries& series, RawStudy& raw, Progress& progress) {
+// Voxels of padding. In 16 bits where that loses nothing, else again as fractions. Slices are looked at as
+// they come, while they are near.
+std::size_t decodeAll(const DicomSeries& series, RawStudy& raw, const StudyOptions& options,
+                      SliceLooks& looks, Progress& progress) {
     PixelCounts whole, fractions;
     raw.type = SampleType::Int16;
-    takeSlices<std::int16_t>(series, raw, whole, progress);
-    if (whole.fits) return whole.padding;
+    std::vector<SliceLook> slices(series.slices.size());
+    std::atomic<bool> many = false;
+    takeSlices<std::int16_t>(series, raw, whole, progress, [&](int k) {
+        SliceLook& look = slices[static_cast<std::size_t>(k)];
+        look = lookAtSlice(raw, k, many, options.airBelow);
+        if (look.facts.many) many = true;
+    });
+    if (whole.fits) {
+        for (SliceLook& look : slices) addLook(std::move(look), looks);
+        return whole.padding;
+    }
     const glm::ivec3 size = raw.frame.size;
     checkSize(series.slices.front().file.parent_path().string(),
               {static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y),
@@ -110,7 +126,7 @@ std::size_t decodeAll(const DicomSeries& series, RawStudy& raw, Progress& progre
                                   raw.frame.count()));  // beside the whole numbers, which are given back then
     raw.bytes = {};
     raw.type = SampleType::Float32;
-    takeSlices<float>(series, raw, fractions, progress);
+    takeSlices<float>(series, raw, fractions, progress, [](int) {});
     return fractions.padding;
 }
 
@@ -243,10 +259,14 @@ VolumeFile readDicom(const fs::path& place, const StudyOptions& options, Progres
     if (!first.placedBy.empty()) result.notes.push_back("frames placed by " + first.placedBy);
     if (first.table) result.notes.push_back("values by the file's table (modality LUT)");
     result.raw.frame = places.frame;
-    if (const std::size_t padded = decodeAll(series, result.raw, progress); padded > 0)
+    SliceLooks looks;
+    if (const std::size_t padded = decodeAll(series, result.raw, options, looks, progress); padded > 0)
         result.notes.push_back(
             fmt::format("{} voxels of padding or below {} HU were set to {} HU", padded, kLeastHu, kLeastHu));
-    if (places.upright) return result;
+    if (places.upright) {
+        result.looks = std::move(looks);
+        return result;
+    }
     result.raw = resampleSlices(result.raw, places, place.string());
     result.notes.push_back(
         fmt::format("resampled onto an even upright grid of {:.3f} mm steps: the largest gap was {:.2f} mm, "

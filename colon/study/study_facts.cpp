@@ -99,8 +99,6 @@ void merge(ValueFacts& into, const ValueFacts& part) {
     for (const double value : part.distinct) addDistinct(into, value);
 }
 
-// many: it is known already that too many values differ to be labels, which ones they are does not matter
-// then.
 ValueFacts factsOfSlice(const RawStudy& raw, int k, bool many) {
     ValueFacts facts;
     facts.many = many;
@@ -121,6 +119,11 @@ ValueFacts factsOfSlice(const RawStudy& raw, int k, bool many) {
     return facts;
 }
 
+SliceRuns airOfSlice(const RawStudy& raw, int k, double limit) {
+    const auto* samples = reinterpret_cast<const std::int16_t*>(raw.bytes.data());
+    return sliceRunsBelow(samples + raw.frame.index(0, 0, k), raw.frame.size, limit);
+}
+
 }  // namespace
 
 ValueFacts factsOf(const RawStudy& raw, std::vector<ValueFacts> slices) {
@@ -137,53 +140,75 @@ ValueFacts factsOf(const RawStudy& raw, std::vector<ValueFacts> slices) {
     return all;
 }
 
+bool showsAir(const RawStudy& raw) {
+    return raw.type == SampleType::Int16 && !raw.isScaled();
+}
+
+VoxelRuns airOf(const RawStudy& raw, double limit, std::vector<SliceRuns> slices) {
+    const glm::ivec3 size = raw.frame.size;
+    const int first = static_cast<int>(slices.size());
+    slices.resize(static_cast<std::size_t>(size.z));
+    parallelFor(size.z - first, [&](int n) {
+        slices[static_cast<std::size_t>(first + n)] = airOfSlice(raw, first + n, limit);
+    });
+    return joinedRuns(size, slices);
+}
+
+SliceLook lookAtSlice(const RawStudy& raw, int k, bool many, const std::optional<double>& airBelow) {
+    SliceLook look{factsOfSlice(raw, k, many), {}};
+    if (airBelow) look.air = airOfSlice(raw, k, *airBelow);
+    return look;
+}
+
+void addLook(SliceLook look, SliceLooks& looks) {
+    looks.facts.push_back(std::move(look.facts));
+    if (look.air) looks.air.push_back(std::move(*look.air));
+}
+
 struct FactsBeside::State {
     const RawStudy& raw;
+    const std::optional<double> airBelow;
     std::mutex guard;
     std::condition_variable changed;
     int there = 0;       // slices that have come
-    bool ended = false;  // no more will
-    bool dropped = false;
-    std::vector<ValueFacts> slices;
+    bool ended = false;  // no more is looked at
+    SliceLooks looks;
     std::thread thread;
 
-    explicit State(const RawStudy& study) : raw(study), thread([this] { run(); }) {}
+    State(const RawStudy& study, const std::optional<double>& air)
+        : raw(study), airBelow(air), thread([this] { run(); }) {}
 
     void run() {
         ValueFacts all;
-        for (;;) {
-            int until = 0;
+        for (int k = 0;; ++k) {
             {
                 std::unique_lock lock(guard);
-                const auto looked = static_cast<int>(slices.size());
-                changed.wait(lock, [&] { return there > looked || ended; });
-                if (dropped || there == looked) return;
-                until = there;
+                changed.wait(lock, [&] { return there > k || ended; });
+                if (ended) return;
             }
-            while (static_cast<int>(slices.size()) < until) {
-                slices.push_back(factsOfSlice(raw, static_cast<int>(slices.size()), all.many));
-                merge(all, slices.back());
-            }
+            SliceLook look = lookAtSlice(raw, k, all.many, airBelow);
+            merge(all, look.facts);
+            addLook(std::move(look), looks);
         }
     }
 
-    void end(bool drop) {
+    void end() {
         {
             const std::lock_guard lock(guard);
             ended = true;
-            dropped = drop;
         }
         changed.notify_one();
         if (thread.joinable()) thread.join();
     }
 };
 
-FactsBeside::FactsBeside(const RawStudy& raw) {
-    if (threadCount() > 1 && raw.bytes.size() >= kWorthAThread) mState = std::make_unique<State>(raw);
+FactsBeside::FactsBeside(const RawStudy& raw, const std::optional<double>& airBelow) {
+    if (threadCount() > 1 && raw.bytes.size() >= kWorthAThread)
+        mState = std::make_unique<State>(raw, airBelow);
 }
 
 FactsBeside::~FactsBeside() {
-    if (mState) mState->end(true);
+    if (mState) mState->end();
 }
 
 void FactsBeside::come(std::uint64_t bytes) {
@@ -197,10 +222,10 @@ void FactsBeside::come(std::uint64_t bytes) {
     mState->changed.notify_one();
 }
 
-std::vector<ValueFacts> FactsBeside::take() {
+SliceLooks FactsBeside::take() {
     if (!mState) return {};
-    mState->end(false);
-    return std::move(mState->slices);
+    mState->end();
+    return std::move(mState->looks);
 }
 
 }  // namespace stereonav

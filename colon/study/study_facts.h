@@ -1,10 +1,12 @@
-// What the values of a study are like: their range, how many differ, whether they are labels. Told slice by
-// slice, also while slices are still read and unpacked. Shared among colon/study/*.cpp only.
+// What the values of a study are like: their range, how many differ, whether they are labels; and where they
+// are those of air. Told slice by slice, also while slices are still read and unpacked. Shared among
+// colon/study/*.cpp only.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "colon/study/study_parts.h"
@@ -14,17 +16,31 @@ namespace stereonav {
 // Of all samples. slices: those of the first slices, as far as they are known already.
 ValueFacts factsOf(const RawStudy& raw, std::vector<ValueFacts> slices);
 
+// Whether values are kept as these samples are, so that air may be looked for among them.
+bool showsAir(const RawStudy& raw);
+// Runs of samples below `limit`. slices: those of the first slices, as factsOf's.
+VoxelRuns airOf(const RawStudy& raw, double limit, std::vector<SliceRuns> slices);
+
+struct SliceLook {
+    ValueFacts facts;
+    std::optional<SliceRuns> air;  // nothing where it is not asked for
+};
+// many: it is known already that too many values differ to be labels, which ones they are does not matter
+// then. airBelow: nothing unless showsAir.
+SliceLook lookAtSlice(const RawStudy& raw, int k, bool many, const std::optional<double>& airBelow);
+void addLook(SliceLook look, SliceLooks& looks);  // of the next slice
+
 // Looks at slices on a thread of its own as their samples come, in order. Small studies, and programs of one
 // thread, start none.
 class FactsBeside {
 public:
-    // raw must outlive it and keep its samples where they are.
-    explicit FactsBeside(const RawStudy& raw);
+    // raw must outlive it and keep its samples where they are. airBelow: as lookAtSlice.
+    explicit FactsBeside(const RawStudy& raw, const std::optional<double>& airBelow = {});
     ~FactsBeside();
     // So many bytes of samples have come; they do not change any more. Of the reading thread.
     void come(std::uint64_t bytes);
-    // What is known of the first slices, once all that came has been looked at.
-    std::vector<ValueFacts> take();
+    // What is known of the first slices. Those that came and were not looked at yet are left to all threads.
+    SliceLooks take();
 
 private:
     struct State;

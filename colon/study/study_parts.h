@@ -77,13 +77,18 @@ struct ValueFacts {
     std::vector<double> distinct;           // sorted
 };
 
+// What was told of a study's first slices, in their order, while others were read.
+struct SliceLooks {
+    std::vector<ValueFacts> facts;
+    std::vector<SliceRuns> air;  // of voxels below StudyOptions::airBelow; as many, or none
+};
+
 // --- study_volume.cpp
 struct VolumeFile {
     RawStudy raw;
     std::string format, description;
     std::vector<std::string> notes;
-    std::vector<ValueFacts>
-        facts;  // of the first slices, as far as they were looked at while others were read
+    SliceLooks looks;
 };
 // NRRD, NIfTI or MetaImage. Throws Error, Cancelled.
 VolumeFile readVolumeFile(const std::filesystem::path& file, const StudyOptions& options, Progress& progress);
@@ -161,10 +166,10 @@ void decodeSlices(const std::vector<const DicomSlice*>& slices, PictureDecoder& 
 RawStudy resampleSlices(const RawStudy& raw, const SlicePlaces& places, const std::string& file);
 
 // --- study_values.cpp
-// Fills mask or grey (which have the samples' frame), and the notes. slices: VolumeFile::facts. Values that
+// Fills mask or grey (which have the samples' frame), air, and the notes. looks: VolumeFile's. Values that
 // stay as they are take over the samples' memory, others come slice by slice, and the samples' memory goes.
 // Throws Error about labels and values that are not numbers.
-void takeValues(RawStudy raw, std::vector<ValueFacts> slices, const std::string& file,
-                const StudyOptions& options, Study& study);
+void takeValues(RawStudy raw, SliceLooks looks, const std::string& file, const StudyOptions& options,
+                Study& study);
 
 }  // namespace stereonav

@@ -178,9 +178,9 @@ void takeGrey(RawStudy& raw, const ValueFacts& facts, GreyVolume& grey) {
 
 }  // namespace
 
-void takeValues(RawStudy raw, std::vector<ValueFacts> slices, const std::string& file,
-                const StudyOptions& options, Study& study) {
-    const ValueFacts stored = factsOf(raw, std::move(slices));
+void takeValues(RawStudy raw, SliceLooks looks, const std::string& file, const StudyOptions& options,
+                Study& study) {
+    const ValueFacts stored = factsOf(raw, std::move(looks.facts));
     withSamples(raw, [&](const auto* samples) {
         using Sample = std::remove_cvref_t<decltype(*samples)>;
         if (stored.lowest > stored.highest)
@@ -195,6 +195,8 @@ void takeValues(RawStudy raw, std::vector<ValueFacts> slices, const std::string&
         const auto label = chosenLabel(file, facts, options);
         study.isMask = label.has_value();
         if (label) return takeMask<Sample>(raw, sampleOf(*label, facts, stored, raw), study.mask);
+        if (options.airBelow && showsAir(raw))
+            study.air = airOf(raw, *options.airBelow, std::move(looks.air));
         if (facts.notNumbers > 0)
             study.notes.push_back(
                 fmt::format("{} voxels that are not numbers were set to the least value, {:g}",

@@ -105,11 +105,11 @@ VolumeFile readVolumeFile(const fs::path& file, const StudyOptions& options, Pro
     const SlicePlaces places = placesOfGrid(file, result.raw.frame, options.resample);
     result.raw.bytes = LazyArray<unsigned char>(result.raw.frame.count() * bytesOf(header.type));
     const bool asTheyCome = places.upright && !header.place.turned;
-    FactsBeside facts(result.raw);
+    FactsBeside facts(result.raw, showsAir(result.raw) ? options.airBelow : std::nullopt);
     readSamples(file, header, result.raw.bytes.data(), progress, [&](std::uint64_t bytes) {
         if (asTheyCome) facts.come(bytes);
     });
-    result.facts = facts.take();
+    result.looks = facts.take();
     progress.report(0.7, "reading " + file.filename().string());
     if (!places.upright) {
         result.raw = resampleSlices(result.raw, places, file.string());

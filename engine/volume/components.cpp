@@ -74,6 +74,19 @@ int nextSet(const std::uint8_t* row, int i, int count) {
     return i;
 }
 
+// rowRuns(j, runs) appends those of row j.
+template <typename SliceRowRuns>
+SliceRuns sliceRunsOf(int rows, const SliceRowRuns& rowRuns) {
+    SliceRuns slice;
+    slice.ofRow.reserve(static_cast<std::size_t>(rows));
+    for (int j = 0; j < rows; ++j) {
+        const std::size_t before = slice.runs.size();
+        rowRuns(j, slice.runs);
+        slice.ofRow.push_back(static_cast<std::uint32_t>(slice.runs.size() - before));
+    }
+    return slice;
+}
+
 using RunSpan = std::span<const VoxelRun>;
 
 std::vector<VoxelRun> common(RunSpan a, RunSpan b) {
@@ -107,21 +120,31 @@ std::size_t VoxelRuns::voxelCount() const {
 }
 
 VoxelRuns collectRuns(const glm::ivec3& size, const RowRuns& rowRuns) {
+    std::vector<SliceRuns> slices(static_cast<std::size_t>(size.z));
+    parallelFor(size.z, [&](int k) {
+        slices[static_cast<std::size_t>(k)] =
+            sliceRunsOf(size.y, [&](int j, std::vector<VoxelRun>& runs) { rowRuns(j, k, runs); });
+    });
+    return joinedRuns(size, slices);
+}
+
+SliceRuns sliceRunsBelow(const std::int16_t* slice, const glm::ivec3& size, double limit) {
+    const auto in = [limit = static_cast<float>(limit)](std::int16_t v) { return v < limit; };
+    return sliceRunsOf(size.y, [&](int j, std::vector<VoxelRun>& runs) {
+        appendRuns(slice + static_cast<std::size_t>(j) * size.x, size.x, in, runs);
+    });
+}
+
+VoxelRuns joinedRuns(const glm::ivec3& size, const std::vector<SliceRuns>& slices) {
     VoxelRuns set;
     set.size = size;
-    set.rowStart.assign(static_cast<std::size_t>(size.y) * size.z + 1, 0);
-    std::vector<std::vector<VoxelRun>> slices(static_cast<std::size_t>(size.z));
-    parallelFor(size.z, [&](int k) {
-        auto& slice = slices[static_cast<std::size_t>(k)];
-        for (int j = 0; j < size.y; ++j) {
-            const std::size_t before = slice.size();
-            rowRuns(j, k, slice);
-            set.rowStart[set.rowNumber(j, k) + 1] = static_cast<std::uint32_t>(slice.size() - before);
-        }
-    });
-    std::partial_sum(set.rowStart.begin(), set.rowStart.end(), set.rowStart.begin());
+    set.rowStart.reserve(static_cast<std::size_t>(size.y) * size.z + 1);
+    set.rowStart.push_back(0);
+    for (const SliceRuns& slice : slices)
+        for (const std::uint32_t count : slice.ofRow) set.rowStart.push_back(set.rowStart.back() + count);
     set.runs.reserve(set.rowStart.back());
-    for (const auto& slice : slices) set.runs.insert(set.runs.end(), slice.begin(), slice.end());
+    for (const SliceRuns& slice : slices)
+        set.runs.insert(set.runs.end(), slice.runs.begin(), slice.runs.end());
     return set;
 }
 
@@ -138,10 +161,13 @@ VoxelRuns runsOf(const MaskVolume& mask) {
 }
 
 VoxelRuns runsBelow(const Volume<std::int16_t>& volume, double limit) {
-    return collectRuns(volume.frame.size, [&](int j, int k, std::vector<VoxelRun>& runs) {
-        const auto in = [limit = static_cast<float>(limit)](std::int16_t v) { return v < limit; };
-        appendRuns(volume.values.data() + volume.frame.index(0, j, k), volume.frame.size.x, in, runs);
+    const glm::ivec3 size = volume.frame.size;
+    std::vector<SliceRuns> slices(static_cast<std::size_t>(size.z));
+    parallelFor(size.z, [&](int k) {
+        slices[static_cast<std::size_t>(k)] =
+            sliceRunsBelow(volume.values.data() + volume.frame.index(0, 0, k), size, limit);
     });
+    return joinedRuns(size, slices);
 }
 
 VoxelRuns runsAbove(const Volume<std::int16_t>& volume, double limit) {

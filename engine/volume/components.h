@@ -36,6 +36,16 @@ struct VoxelRuns {
 using RowRuns = std::function<void(int j, int k, std::vector<VoxelRun>& runs)>;
 VoxelRuns collectRuns(const glm::ivec3& size, const RowRuns& rowRuns);
 
+// The same slice by slice, for who has not all of them yet.
+struct SliceRuns {
+    std::vector<VoxelRun> runs;
+    std::vector<std::uint32_t> ofRow;  // how many runs each row has
+};
+// Value < limit, in a slice of size.x * size.y values.
+SliceRuns sliceRunsBelow(const std::int16_t* slice, const glm::ivec3& size, double limit);
+// Of size.z slices.
+VoxelRuns joinedRuns(const glm::ivec3& size, const std::vector<SliceRuns>& slices);
+
 VoxelRuns runsOf(const MaskVolume& mask);                               // voxels not 0
 VoxelRuns runsBelow(const Volume<std::int16_t>& volume, double limit);  // value < limit
 VoxelRuns runsAbove(const Volume<std::int16_t>& volume, double limit);  // value > limit

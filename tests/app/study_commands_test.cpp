@@ -2,6 +2,7 @@
 // what can not be read is one line.
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "../support/dicom_files.h"
@@ -87,6 +88,20 @@ TEST_F(StudyCommands, OneDicomFileByName) {
     writeDicom(placeOf("series/one.dcm"), s);
     expectRefused({"info", placeOf("series/one.dcm").string()},
                   {"one.dcm", "2 or more slices, found 1", "give the folder"});
+}
+
+TEST_F(StudyCommands, SlicesBesideGroundAreOpenedAndSaySo) {
+    for (int k = 0; k < 3; ++k) {
+        DicomSpec s;
+        s.slice.position.z = 2 * k;
+        for (int n = 0; n < 30; ++n) s.slice.pixels.push_back(static_cast<std::uint16_t>(n * 40));
+        writeDicom(placeOf("mixed/" + std::to_string(k) + ".dcm"), s);
+    }
+    const std::vector<std::string> words{"info", placeOf("mixed").string(), "--isosurface", "--size",
+                                         "48x36"};
+    EXPECT_THAT(runWell(words).out, testing::Not(HasSubstr("left aside")));
+    std::ofstream(placeOf("mixed/relief.tif")) << "heights";
+    EXPECT_THAT(runWell(words).out, AllOf(HasSubstr("6 x 5 x 3"), HasSubstr("left aside: elevation files")));
 }
 
 TEST_F(StudyCommands, EverySeriesHasAPicture) {

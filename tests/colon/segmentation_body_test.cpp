@@ -132,7 +132,7 @@ class SegmentBody : public testing::TestWithParam<bool> {};  // on his back
 TEST_P(SegmentBody, EachPieceOfAirIsToldByItsPlace) {
     const GreyVolume scan = scanOf(GetParam(), glm::dmat3(1.0));
     Progress progress;
-    const AirPieces air = findAir(scan, {}, progress);
+    const AirPieces air = findAir(scan, {}, {}, progress);
     const auto kind = [&](const glm::dvec3& world) { return kindAt(air, scan.frame, world); };
     EXPECT_EQ(kind({0, -0.125, 0.1}), AirKind::Outside) << "above the patient";
     EXPECT_EQ(kind({0, 0.118, 0.1}), AirKind::Outside) << "between patient and table";
@@ -150,7 +150,7 @@ TEST_P(SegmentBody, EachPieceOfAirIsToldByItsPlace) {
 TEST_P(SegmentBody, BonesBesideTheColonAreNoFluid) {
     const GreyVolume scan = scanOf(GetParam(), glm::dmat3(1.0));
     Progress progress;
-    AirPieces air = findAir(scan, {}, progress);
+    AirPieces air = findAir(scan, {}, {}, progress);
     const FluidPools fluid = findFluid(scan, {}, air);
     ASSERT_EQ(fluid.pools.size(), 1u);
     EXPECT_EQ(fluid.up, GetParam() ? -1 : 1);

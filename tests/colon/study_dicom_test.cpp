@@ -83,6 +83,22 @@ TEST(StudyDicom, SlicesAreOrderedByPlaceAndInHu) {
     EXPECT_TRUE(looksLikeStudy(folder / "s"));
 }
 
+TEST(StudyDicom, AirIsLookedForAsSlicesCome) {
+    const TemporaryFolder folder;
+    writeSeries(folder / "s", {0, 1.5, 3, 4.5, 6});
+    StudyOptions options;
+    EXPECT_FALSE(read(folder / "s", options).air);
+    options.key = 7;
+    for (const double limit : {-2000.0, -1000.0, -900.0, 5000.0}) {
+        options.airBelow = limit;
+        const Study study = read(folder / "s", options);
+        EXPECT_EQ(study.key, 7u);
+        ASSERT_TRUE(study.air);
+        EXPECT_EQ(study.air->rowStart, runsBelow(study.grey, limit).rowStart) << limit;
+        EXPECT_EQ(study.air->voxelCount(), runsBelow(study.grey, limit).voxelCount()) << limit;
+    }
+}
+
 TEST(StudyDicom, SlicesAcrossThePatientKeepTheirOrientation) {
     const TemporaryFolder folder;
     SliceSpec s;

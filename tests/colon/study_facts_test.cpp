@@ -58,9 +58,10 @@ TEST(StudyFacts, AreTheSameWhileSamplesCome) {
         std::memcpy(coming.bytes.data() + at, whole.bytes.data() + at, count);
         beside.come(at + count);
     }
-    std::vector<ValueFacts> slices = beside.take();
-    EXPECT_EQ(slices.size(), 65u);
-    expectSameFacts(factsOf(coming, std::move(slices)), expected);
+    SliceLooks looks = beside.take();
+    EXPECT_LE(looks.facts.size(), 65u);
+    EXPECT_TRUE(looks.air.empty());
+    expectSameFacts(factsOf(coming, std::move(looks.facts)), expected);
     EXPECT_EQ(expected.lowest, 0);
     EXPECT_EQ(expected.highest, 202);
     setThreadCount(threads);
@@ -75,7 +76,7 @@ TEST(StudyFacts, OfAReadingThatEndsEarlyAreLeft) {
     }
     FactsBeside beside(raw);
     beside.come(3 * 1024 * 1024 + 1);
-    EXPECT_EQ(beside.take().size(), 3u);
+    EXPECT_LE(beside.take().facts.size(), 3u);
     setThreadCount(threads);
 }
 
@@ -85,8 +86,36 @@ TEST(StudyFacts, StartNoThreadWhereThereIsOne) {
     const RawStudy raw = zerosOf64Megabytes();
     FactsBeside beside(raw);
     beside.come(raw.frame.count());
-    EXPECT_TRUE(beside.take().empty());
+    EXPECT_TRUE(beside.take().facts.empty());
     setThreadCount(threads);
+}
+
+// However many of the first slices are known already.
+TEST(StudyFacts, AirIsThatOfTheWholeVolume) {
+    RawStudy raw;
+    raw.frame.size = {37, 5, 9};
+    raw.bytes = LazyArray<unsigned char>(raw.frame.count() * 2);
+    auto* samples = reinterpret_cast<std::int16_t*>(raw.bytes.data());
+    GreyVolume grey(raw.frame);
+    std::uint32_t state = 5;
+    for (std::size_t n = 0; n < raw.frame.count(); ++n) {
+        state = state * 1664525u + 1013904223u;
+        samples[n] = grey.values[n] = static_cast<std::int16_t>(-1000 + (state >> 24) * 2);
+    }
+    const VoxelRuns expected = runsBelow(grey, -700);
+    ASSERT_GT(expected.runs.size(), 100u);
+    for (const int known : {0, 4, 9}) {
+        SliceLooks looks;
+        for (int k = 0; k < known; ++k) addLook(lookAtSlice(raw, k, false, -700), looks);
+        const VoxelRuns air = airOf(raw, -700, std::move(looks.air));
+        EXPECT_EQ(air.size, expected.size);
+        EXPECT_EQ(air.rowStart, expected.rowStart);
+        ASSERT_EQ(air.runs.size(), expected.runs.size());
+        EXPECT_EQ(std::memcmp(air.runs.data(), expected.runs.data(), air.runs.size() * sizeof(VoxelRun)), 0);
+    }
+    EXPECT_TRUE(showsAir(raw));
+    raw.slope = 2;
+    EXPECT_FALSE(showsAir(raw));
 }
 
 // Pairs of neighbours by the plain rule, in rows longer than what is counted at once.
