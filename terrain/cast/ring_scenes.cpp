@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kMaxima = 4.0 / 3;       // of what the finest level of them takes, and of a texture's
 constexpr int kMargin = 8;                // samples around a part that its colours look at
-constexpr double kColored = 4 * kMaxima;  // bytes a sample
+constexpr double kColored = 4 * kMaxima;  // bytes a texel
 constexpr double kColoring = 24;          // and meanwhile
 constexpr double kOfFree = 0.6;           // of the memory that can be had, for rings
 
@@ -32,13 +32,16 @@ double samplesOf(const RingBox& box) {
 }
 
 // Held by rings, and those before them until these are there.
-double bytesOf(const std::vector<RingBox>& boxes, bool colored) {
-    double samples = 0, most = 0;
+double bytesOf(const std::vector<RingBox>& boxes, const PartColors& colors) {
+    double samples = 0, texels = 0, most = 0;
     for (const RingBox& box : boxes) {
         samples += samplesOf(box);
-        most = std::max(most, samplesOf(box));
+        if (!colors) continue;
+        const double own = colors.texels(samplesOf(box), box.level);
+        texels += own;
+        most = std::max(most, own);
     }
-    return 2 * (4 * (1 + kMaxima) + (colored ? kColored : 0)) * samples + (colored ? kColoring * most : 0);
+    return 2 * (4 * (1 + kMaxima) * samples + kColored * texels) + kColoring * most;
 }
 
 }  // namespace
@@ -83,7 +86,7 @@ std::vector<RingBox> RingScenes::plan(const Looking& from, const glm::dvec3& way
     std::vector<RingBox> boxes = planRings(*mLevels, wish);
     if (mLevels->stored()) {
         constexpr double kCoarser = 1.25, kMostShare = 1e6;
-        while (bytesOf(boxes, mColors != nullptr) > mBudget && wish.share < kMostShare) {
+        while (bytesOf(boxes, mColors) > mBudget && wish.share < kMostShare) {
             wish.share *= kCoarser;
             boxes = planRings(*mLevels, wish);
         }
@@ -202,7 +205,7 @@ std::shared_ptr<const RingScenes::Color> RingScenes::colorOf(const RingBox& box,
     const std::optional<Heightfield> part = mLevels->part(box.level, low, end - low);
     auto made = std::make_shared<Color>();
     made->first = glm::dvec2(box.low - low);
-    made->texture = colors(part.value());  // a ring has a cell at least
+    made->texture = colors.make(part.value());  // a ring has a cell at least
     made->version = version;
     return made;
 }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 
 #include "engine/base/progress.h"
@@ -12,6 +13,7 @@
 #include "terrain/read/dem_reader.h"
 #include "terrain/read/scene_file.h"
 #include "terrain/scene/ground_tint.h"
+#include "terrain/scene/laid_picture.h"
 
 namespace stereonav {
 
@@ -52,5 +54,22 @@ ColorTexture tintedPart(const Heightfield& part, const Heightfield& whole, const
 // Throws Error named by the image, among others where it does not overlap.
 GroundColor groundFromImage(const std::filesystem::path& image, const DemGrid& dem, const Heightfield& ground,
                             const TerrainLook& look, const TintPlace& tinted, Progress& progress);
+
+// What ground under a picture is coloured by, whole or in parts.
+struct PicturedGround {
+    std::shared_ptr<const LaidPicture> picture;
+    TerrainLook look;
+    TintPlace tint;          // where the picture does not cover it
+    bool perSample = false;  // its light is that of every sample: a part has a texel a sample at least
+};
+
+// The same, of at most so many texels a sample each way.
+GroundColor picturedGround(const Heightfield& ground, const PicturedGround& pictured, double mostDensity,
+                           Progress& progress);
+// Of a part of a ground, of any level: texels as fine as the picture's pixels, so many at most, or a texel a
+// sample where that is more. Tint alone beyond the picture. From any thread. Throws Error where the picture
+// can not be read.
+ColorTexture picturedPart(const Heightfield& part, const Heightfield& whole, const PicturedGround& pictured,
+                          double mostTexels);
 
 }  // namespace stereonav

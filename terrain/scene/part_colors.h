@@ -12,12 +12,20 @@ namespace stereonav {
 struct TerrainScene;
 
 // Of a part of the ground by its own samples; those within 8 of its edge are not as in the whole. From any
-// thread.
-using PartColors = std::function<ColorTexture(const Heightfield& part)>;
+// thread. Throws Error where a picture can not be read any more.
+struct PartColors {
+    std::function<ColorTexture(const Heightfield& part)> make;  // null: parts have no colours of their own
+    double texelsASample = 1;  // of the finest samples: what the picture has there
+    double mostTexels = 0;     // of a part; but one for each of its samples
+
+    explicit operator bool() const { return make != nullptr; }
+    // As many as a part of that level has at most.
+    double texels(double samples, int level) const;
+};
 
 // As the whole ground is coloured in that paint, under that sun; null where parts have no colours of their
-// own: the ground is not tiled, wears a picture, or light that was baked for the whole. scene must outlive
-// it, and not move.
+// own: the ground is not tiled, or wears light that was baked for the whole. scene must outlive it, and not
+// move.
 PartColors partColorsOf(const TerrainScene& scene, GroundPaint paint, const SunAngles& sun);
 // As it was loaded.
 PartColors partColorsOf(const TerrainScene& scene);

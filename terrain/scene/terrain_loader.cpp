@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
 #include <optional>
 
 #include "engine/base/error.h"
@@ -19,6 +21,7 @@
 #include "terrain/read/raster_file.h"
 #include "terrain/scene/ground_color.h"
 #include "terrain/scene/ground_recolor.h"
+#include "terrain/scene/ground_texture.h"
 #include "terrain/scene/landmark.h"
 #include "terrain/scene/scene_flight.h"
 #include "terrain/scene/terrain_illumination.h"
@@ -146,8 +149,14 @@ GroundColor colorOf(const SceneFile& file, const LoadedGround& loaded, TerrainSc
     if (!file.image.empty()) {
         TerrainLook look = file.look;
         if (litLater(file)) look.ambient = 1;
-        return groundFromImage(file.image, loaded.place, scene.ground, look, tintPlaceOf(file, scene),
-                               progress);
+        PicturedGround pictured{std::make_shared<const LaidPicture>(file.image, loaded.place), look,
+                                tintPlaceOf(file, scene), look.shadeImage || !file.light.empty()};
+        // A level in memory is what far ground is seen in: it has no more texels than were counted for it.
+        const bool level = scene.tiled || scene.standIn;
+        GroundColor color = picturedGround(
+            scene.ground, pictured, level ? kLitDensity : std::numeric_limits<double>::infinity(), progress);
+        if (scene.tiled) scene.pictured = std::move(pictured);
+        return color;
     }
     const GroundColorSource& source = scene.colorSource.emplace(colorSourceOf(file, loaded, scene));
     // Light that is worked out for the whole would take the place of finer parts' own.

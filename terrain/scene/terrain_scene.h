@@ -97,6 +97,7 @@ struct TerrainScene {
     // ground and look.
     std::optional<TintPlace> tint;
     std::optional<GroundColorSource> colorSource;  // none of a picture's
+    std::optional<PicturedGround> pictured;        // of a tiled ground, whose parts are coloured by it
     std::unique_ptr<EarthPlaces> earth;            // null where its file does not say where it lies
     Pose startPose;
     RecordedPath path;  // the scene's own flight

@@ -1,0 +1,37 @@
+// Baked light on the parts of a tiled ground that are finer than the samples it was baked at.
+#pragma once
+
+#include <vector>
+
+#include "engine/image/color_texture.h"
+#include "terrain/ground/heightfield.h"
+#include "terrain/light/terrain_light.h"
+#include "terrain/light/terrain_relight.h"
+#include "terrain/read/scene_file.h"
+
+namespace stereonav {
+
+// Of one place of the sun. What is baked is laid as a quotient over the plain light of the part's own samples:
+//     baked / plain at the baked samples, interpolated, times plain at the texel,
+// so that the finer relief keeps its shades, and ground that is no finer has the light that was baked. Does not
+// change: parts may be lit from any thread while the sun moves on.
+class PartLight {
+public:
+    // whole: what was baked, in the samples of the grid. shown: as TerrainRelight::Display.
+    PartLight(const Heightfield& whole, const LightGrid& grid, const GroundBrightness& brightness,
+              const TerrainLook& look, const TerrainRelight::Display& shown);
+
+    // colors: of the part, without light; they become lit.
+    void apply(const Heightfield& part, ColorTexture& colors) const;
+
+private:
+    glm::vec3 quotientAt(const glm::dvec2& grid) const;
+
+    LightGrid mGrid;
+    TerrainLook mLook;
+    float mShare;
+    glm::dvec2 mOrigin, mSpacing;    // of the whole
+    std::vector<float> mQuotients;  // three planes of the grid
+};
+
+}  // namespace stereonav

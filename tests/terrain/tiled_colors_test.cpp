@@ -1,0 +1,153 @@
+// Ground in tiles under a picture, and under baked light: near the eye as the same ground in memory.
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <glm/geometric.hpp>
+
+#include "engine/base/memory.h"
+#include "engine/camera/stereo_rig.h"
+#include "raster_files.h"
+#include "terrain/cast/terrain_renderer.h"
+#include "terrain/scene/laid_picture.h"
+#include "terrain/scene/part_colors.h"
+#include "terrain/scene/terrain_loader.h"
+#include "tests/support/own_cache.h"
+
+namespace stereonav::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+double bytesHeld() {
+    std::ifstream status("/proc/self/status");
+    double kilobytes = 0;
+    for (std::string word; status >> word;)
+        if (word == "RssAnon:") status >> kilobytes;
+    return 1024 * kilobytes;
+}
+
+// 10 m samples, of which every second or fourth is in memory, under a picture of 5 m pixels that leaves the
+// west out.
+class TiledColors : public testing::Test {
+protected:
+    TiledColors() {
+        const char* const before = std::getenv("XDG_CACHE_HOME");
+        mCacheBefore = before ? before : "";
+        setenv("XDG_CACHE_HOME", (mFolder / "cache").c_str(), 1);
+        fs::create_directories(mFolder / "cache");
+        RasterSpec dem;
+        dem.width = 600, dem.height = 500;
+        dem.transform = {400000, 10, 0, 5000000, 0, -10};
+        dem.value = [](int c, int r, int) {
+            return 800 + 150 * std::sin(c / 97.) * std::cos(r / 83.) +
+                   20 * std::sin(c / 7.) * std::sin(r / 9.) + 4 * std::sin(c * 1.7 + r);
+        };
+        mFile.dem = mFile.file = writeRaster(mFolder / "ground.tif", dem);
+        RasterSpec picture;
+        picture.type = GDT_Byte, picture.bands = 3;
+        picture.width = 1000, picture.height = 1000;
+        picture.transform = {401000, 5, 0, 5000000, 0, -5};
+        picture.value = [](int c, int r, int band) {
+            return 120 + 60 * ((c / 4 + r / 4) % 2) + 40 * std::sin(c / 60. + band) * std::cos(r / 40.);
+        };
+        mPicture = writeRaster(mFolder / "picture.tif", picture);
+    }
+    ~TiledColors() override {
+        limitMemory(0);
+        setenv("XDG_CACHE_HOME", mCacheBefore.c_str(), 1);
+    }
+
+    TerrainScene load(GroundTiles tiles) {
+        constexpr double kAllowed = 40e6;
+        limitMemory(tiles == GroundTiles::Off ? 0 : bytesHeld() + kAllowed);
+        SceneFile file = mFile;
+        file.tiles = tiles;
+        Progress progress;
+        TerrainScene scene = loadTerrain(file, progress);
+        scene.levelOfDetail = 0.5;
+        limitMemory(0);  // rings have what they need
+        return scene;
+    }
+
+    TempFolder mFolder;
+    SceneFile mFile;
+    fs::path mPicture;
+    std::string mCacheBefore;
+};
+
+EyeImage seenAt(const TerrainRenderer& renderer, const TerrainScene& scene, const glm::dvec2& place,
+                double heading) {
+    const EyeView view =
+        makeEyeView(poseFromAngles(glm::dvec3(place, scene.heightAt(place) + 60), heading, -0.3, 0),
+                    {240, 150, 1, 0.5, 0.5});
+    EyeImage image;
+    image.resize(view.width, view.height);
+    renderer.lookFrom(view);
+    renderEye(renderer, view, image);
+    return image;
+}
+
+double rmsOf(const EyeImage& a, const EyeImage& b) {
+    double sum = 0;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x) {
+            const glm::dvec3 off(glm::sqrt(unpackColor(a.color.at(x, y))) -
+                                 glm::sqrt(unpackColor(b.color.at(x, y))));
+            sum += glm::dot(off, off) / 3;
+        }
+    return std::sqrt(sum / (double(a.width()) * a.height()));
+}
+
+TEST_F(TiledColors, APictureIsAsSharpAsOverTheGroundInMemory) {
+    mFile.image = mPicture;
+    const TerrainScene whole = load(GroundTiles::Off), tiled = load(GroundTiles::On);
+    ASSERT_TRUE(tiled.tiled && tiled.pictured);
+    ASSERT_GE(tiled.tiled->level, 1) << tiled.report.tiles;
+    EXPECT_NEAR(tiled.pictured->picture->density(tiled.ground).x, 2.0 * (1 << tiled.tiled->level), 1e-3);
+    const TerrainRenderer fromMemory(whole);
+    TerrainRenderer fromTiles(tiled);
+    // Over the picture, over its western edge, and in the far corner.
+    for (const auto& [place, heading] : {std::pair{glm::dvec2(300, 200), 0.3},
+                                         {glm::dvec2(-2000, 300), 1.6},
+                                         {glm::dvec2(2800, -2300), -0.6}}) {
+        const EyeImage a = seenAt(fromMemory, whole, place, heading),
+                       b = seenAt(fromTiles, tiled, place, heading);
+        EXPECT_LT(rmsOf(a, b), 0.012) << place.x;
+        fromTiles.showColors(tiled.color, nullptr, {});
+        const EyeImage coarse = seenAt(fromTiles, tiled, place, heading);
+        fromTiles.showColors(tiled.color, nullptr, partColorsOf(tiled));
+        EXPECT_LT(rmsOf(a, b), 0.5 * rmsOf(a, coarse)) << place.x;
+    }
+}
+
+TEST_F(TiledColors, APictureThatCanNotBeReadLaterIsOneLine) {
+    mFile.image = mPicture;
+    const TerrainScene scene = load(GroundTiles::On);
+    const TerrainRenderer renderer(scene);
+    const auto fly = [&] { seenAt(renderer, scene, {300, 200}, 0.3); };
+    fs::rename(mPicture, mFolder / "elsewhere.tif");
+    EXPECT_THAT(errorOf(fly), AllOf(HasSubstr("picture.tif"), HasSubstr("there is no such file")));
+    RasterSpec other;
+    other.type = GDT_Byte, other.width = other.height = 20;
+    writeRaster(mPicture, other);
+    EXPECT_THAT(errorOf(fly), AllOf(HasSubstr("picture.tif"), HasSubstr("1000x1000"), HasSubstr("20x20")));
+    fs::rename(mFolder / "elsewhere.tif", mPicture);
+    fs::resize_file(mPicture, 40000);
+    EXPECT_THAT(errorOf(fly), HasSubstr("picture.tif"));
+}
+
+TEST_F(TiledColors, TexelsOfAPartAreThePicturesWithinALimit) {
+    PartColors colors;
+    EXPECT_EQ(colors.texels(1000, 0), 1000);
+    EXPECT_EQ(colors.texels(0, 3), 0);
+    colors.texelsASample = 4, colors.mostTexels = 1e5;
+    EXPECT_EQ(colors.texels(1000, 0), 4000);
+    EXPECT_EQ(colors.texels(1000, 2), 64000);
+    EXPECT_EQ(colors.texels(1000, 8), 1e5);
+    EXPECT_EQ(colors.texels(1e6, 0), 1e6) << "never less than one a sample is counted";
+    colors.texelsASample = 0.01;
+    EXPECT_EQ(colors.texels(1000, 0), 1000);
+}
+
+}  // namespace
+}  // namespace stereonav::test
