@@ -70,6 +70,7 @@ struct TerrainRenderer::State {
     const TerrainIllumination* light;      // null: the plain sun's
     std::unique_ptr<GroundDetail> detail;  // null: none
     std::unique_ptr<RingScenes> rings;     // null: the ground itself is cast
+    PartColors parts;                      // of tiled ground, under `light` without it
 
     State(const TerrainScene& terrain, SimdTarget wanted, const GroundFilter& read)
         : pyramid(terrain.ground),
@@ -93,6 +94,10 @@ struct TerrainRenderer::State {
             scene.air = fog.air()->data();
         else if (terrain.look.fogDistance > 0)
             scene.fog = {static_cast<float>(1 / terrain.look.fogDistance), {color.x, color.y, color.z}};
+    }
+
+    void colorParts(const TerrainScene& terrain) {
+        if (rings) rings->colorParts(light ? litParts(parts, terrain, *light) : parts);
     }
 
     void sunMoved(const TerrainLook& look) {
@@ -150,7 +155,8 @@ void TerrainRenderer::takeCoarser(double share) {
     mState->rings = std::make_unique<RingScenes>(mScene.tiled->levels, mScene.tiled->level,
                                                  share > 0 ? share : TerrainScene::kTiledShare);
     mState->rings->mayBeLate(mScene.ringsMayBeLate);
-    mState->rings->colorParts(partColorsOf(mScene));
+    mState->parts = partColorsOf(mScene);
+    mState->colorParts(mScene);
 }
 
 void TerrainRenderer::ringsMayBeLate(bool may) {
@@ -291,13 +297,15 @@ void TerrainRenderer::changeAir(const EyeView& from, const EyeView& view, int y,
 void TerrainRenderer::sunMoved() {
     mState->specular = specularOf(mScene, mState->light);
     mState->sunMoved(mScene.look);
+    if (mState->light && mState->parts) mState->colorParts(mScene);
     mState->ringsChanged();
 }
 
 void TerrainRenderer::showColors(const ColorTexture& lit, const TerrainIllumination* light,
                                  PartColors parts) {
-    if (mState->rings) mState->rings->colorParts(std::move(parts));
+    mState->parts = std::move(parts);
     mState->light = light;
+    if (!light || !mState->parts) mState->colorParts(mScene);  // else as the sun moves, below
     mState->scene.texture = mState->clear.texture = textureData(lit, mScene.ground.spacing(), mState->filter);
     sunMoved();
 }

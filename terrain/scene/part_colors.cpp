@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "engine/base/memory.h"
 #include "terrain/scene/terrain_illumination.h"
@@ -36,7 +37,7 @@ double PartColors::texels(double samples, int level) const {
 }
 
 PartColors partColorsOf(const TerrainScene& scene, GroundPaint paint, const SunAngles& sun) {
-    if (!scene.tiled || scene.illumination) return {};
+    if (!scene.tiled) return {};
     if (scene.pictured && paint == GroundPaint::None) return picturedParts(scene);
     if (!scene.colorSource) return {};
     PartColors colors;
@@ -49,6 +50,18 @@ PartColors partColorsOf(const TerrainScene& scene, GroundPaint paint, const SunA
 PartColors partColorsOf(const TerrainScene& scene) {
     const GroundPaint paint = scene.colorSource ? scene.colorSource->paint : GroundPaint::None;
     return partColorsOf(scene, paint, {scene.look.sunAzimuth, scene.look.sunElevation});
+}
+
+PartColors litParts(const PartColors& colors, const TerrainScene& scene, const TerrainIllumination& light) {
+    if (!colors) return {};
+    PartColors lit = colors;
+    lit.make = [make = colors.make, by = std::make_shared<const PartLight>(
+                                        light.partLight(scene.ground, scene.look))](const Heightfield& part) {
+        ColorTexture texture = make(part);
+        by->apply(part, texture);
+        return texture;
+    };
+    return lit;
 }
 
 }  // namespace stereonav

@@ -10,6 +10,7 @@
 namespace stereonav {
 
 struct TerrainScene;
+class TerrainIllumination;
 
 // Of a part of the ground by its own samples; those within 8 of its edge are not as in the whole. From any
 // thread. Throws Error where a picture can not be read any more.
@@ -24,10 +25,13 @@ struct PartColors {
 };
 
 // As the whole ground is coloured in that paint, under that sun; null where parts have no colours of their
-// own: the ground is not tiled, or wears light that was baked for the whole. scene must outlive it, and not
+// own: the ground is not tiled. Under baked light they are without light. scene must outlive it, and not
 // move.
 PartColors partColorsOf(const TerrainScene& scene, GroundPaint paint, const SunAngles& sun);
 // As it was loaded.
 PartColors partColorsOf(const TerrainScene& scene);
+
+// The same, lit by what was baked for the whole, as it was applied last. Does not change with it.
+PartColors litParts(const PartColors& colors, const TerrainScene& scene, const TerrainIllumination& light);
 
 }  // namespace stereonav

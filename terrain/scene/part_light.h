@@ -1,6 +1,8 @@
 // Baked light on the parts of a tiled ground that are finer than the samples it was baked at.
 #pragma once
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "engine/image/color_texture.h"
@@ -11,10 +13,11 @@
 
 namespace stereonav {
 
-// Of one place of the sun. What is baked is laid as a quotient over the plain light of the part's own samples:
+// Of one place of the sun. What is baked is laid as a quotient over the plain light of the part's own
+// samples:
 //     baked / plain at the baked samples, interpolated, times plain at the texel,
-// so that the finer relief keeps its shades, and ground that is no finer has the light that was baked. Does not
-// change: parts may be lit from any thread while the sun moves on.
+// so that the finer relief keeps its shades, and ground that is no finer has the light that was baked. Does
+// not change: parts may be lit from any thread while the sun moves on.
 class PartLight {
 public:
     // whole: what was baked, in the samples of the grid. shown: as TerrainRelight::Display.
@@ -30,7 +33,7 @@ private:
     LightGrid mGrid;
     TerrainLook mLook;
     float mShare;
-    glm::dvec2 mOrigin, mSpacing;    // of the whole
+    glm::dvec2 mOrigin, mSpacing;   // of the whole
     std::vector<float> mQuotients;  // three planes of the grid
 };
 

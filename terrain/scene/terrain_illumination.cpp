@@ -37,6 +37,10 @@ void TerrainIllumination::applyOver(const TerrainLook& look, const ColorTexture&
     mRelight.lightTexture(plain, quotient, {1.0f, mShare}, lit);
 }
 
+PartLight TerrainIllumination::partLight(const Heightfield& ground, const TerrainLook& look) const {
+    return {ground, light().grid, mBrightness, look, {exposureOf(sunAndSky(look, mSky)), mShare}};
+}
+
 std::size_t TerrainIllumination::byteCount() const {
     return mAlbedo.byteCount() + mRelight.light().byteCount() +
            (mBrightness.planes.size() + mBrightness.sunShown.size()) * sizeof(float);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "terrain/light/terrain_relight.h"
+#include "terrain/scene/part_light.h"
 
 namespace stereonav {
 
@@ -30,6 +31,9 @@ public:
     // of what lies around each.
     void applyOver(const TerrainLook& look, const ColorTexture& plain, const std::vector<float>& plainLight,
                    ColorTexture& lit);
+
+    // For parts of the ground that are finer than it: the light of the last apply().
+    PartLight partLight(const Heightfield& ground, const TerrainLook& look) const;
 
     // Of the last apply(): what the sun's highlights have of their strength, by colour, as the ground's own
     // light is shown: 1 with the sun 45 degrees high. It does not know of shadows.

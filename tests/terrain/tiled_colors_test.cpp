@@ -1,4 +1,5 @@
 // Ground in tiles under a picture, and under baked light: near the eye as the same ground in memory.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -8,8 +9,11 @@
 #include "engine/camera/stereo_rig.h"
 #include "raster_files.h"
 #include "terrain/cast/terrain_renderer.h"
+#include "terrain/light/terrain_light.h"
 #include "terrain/scene/laid_picture.h"
 #include "terrain/scene/part_colors.h"
+#include "terrain/scene/part_light.h"
+#include "terrain/scene/terrain_illumination.h"
 #include "terrain/scene/terrain_loader.h"
 #include "tests/support/own_cache.h"
 
@@ -134,6 +138,67 @@ TEST_F(TiledColors, APictureThatCanNotBeReadLaterIsOneLine) {
     fs::rename(mFolder / "elsewhere.tif", mPicture);
     fs::resize_file(mPicture, 40000);
     EXPECT_THAT(errorOf(fly), HasSubstr("picture.tif"));
+}
+
+// As if it was baked where nothing stands in the way of any light.
+TerrainLight openLight(const Heightfield& ground) {
+    TerrainLight light;
+    light.settings.kind = TerrainLightKind::Openness;
+    light.grid = LightGrid(ground, 1);
+    light.key = terrainLightKey(ground, light.settings);
+    light.openness.assign(light.grid.count(), 255);
+    return light;
+}
+
+// Of the whole ground at its own samples and of the level in memory, each with light of its own.
+TEST_F(TiledColors, BakedLightKeepsTheFineReliefAndFollowsTheSun) {
+    mFile.look.ambient = 0.3;
+    const fs::path ofWhole = mFolder / "whole.light", ofTiled = mFolder / "tiled.light";
+    saveTerrainLight(ofWhole, openLight(load(GroundTiles::Off).ground));
+    saveTerrainLight(ofTiled, openLight(load(GroundTiles::On).ground));
+    for (const bool pictured : {false, true}) {
+        if (pictured) mFile.image = mPicture;
+        mFile.light = ofWhole;
+        TerrainScene whole = load(GroundTiles::Off);
+        mFile.light = ofTiled;
+        TerrainScene tiled = load(GroundTiles::On);
+        ASSERT_TRUE(tiled.illumination && tiled.tiled);
+        ASSERT_GE(tiled.tiled->level, 1);
+        TerrainRenderer fromMemory(whole), fromTiles(tiled);
+        const double azimuth = pictured ? 1.1 : 5.4;  // neither is where it was
+        moveSun(whole, azimuth, 0.8);
+        moveSun(tiled, azimuth, 0.8);
+        fromMemory.sunMoved();
+        fromTiles.sunMoved();
+        const EyeImage truth = seenAt(fromMemory, whole, {300, 200}, 0.3),
+                       fine = seenAt(fromTiles, tiled, {300, 200}, 0.3);
+        fromTiles.showColors(tiled.color, tiled.illumination.get(), {});
+        const EyeImage coarse = seenAt(fromTiles, tiled, {300, 200}, 0.3);
+        EXPECT_LT(rmsOf(fine, truth), 0.7 * rmsOf(coarse, truth)) << pictured;
+    }
+}
+
+// A part of the same samples as what was baked has the light that was baked.
+TEST_F(TiledColors, APartThatIsNoFinerHasTheBakedLight) {
+    const TerrainScene scene = load(GroundTiles::Off);
+    const LightGrid grid(scene.ground, 1);
+    GroundBrightness brightness;
+    brightness.width = grid.width, brightness.height = grid.height;
+    for (int c = 0; c < 3; ++c)
+        for (std::size_t k = 0; k < grid.count(); ++k)
+            brightness.planes.push_back(0.1f + 0.3f * static_cast<float>(c) +
+                                        0.001f * static_cast<float>(k % 97));
+    const PartLight light(scene.ground, grid, brightness, scene.look, {0.8f, 0.5f});
+    Plane<PackedColor> gray(grid.width, grid.height);
+    for (int y = 0; y < gray.height(); ++y)
+        std::fill_n(gray.row(y), gray.width(), packColor(glm::vec3(0.4f)));
+    ColorTexture colors(gray, glm::dvec2(-0.5), glm::dvec2(1.0));
+    light.apply(scene.ground, colors);
+    for (const glm::ivec2 at : {glm::ivec2(0, 0), {70, 3}, {599, 499}, {301, 250}}) {
+        const glm::vec3 seen = unpackColor(colors.level(0).at(at.x, at.y)),
+                        baked = 0.8f * brightness.at(at.x, at.y);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], 0.4f * (1 + 0.5f * (baked[c] - 1)), 2e-3) << at.x;
+    }
 }
 
 TEST_F(TiledColors, TexelsOfAPartAreThePicturesWithinALimit) {
