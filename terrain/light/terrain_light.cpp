@@ -69,7 +69,7 @@ void checkMemoryOf(const Heightfield& ground, const LightGrid& grid, const Terra
                             grid.height, memoryText(needed), memoryText(there)),
                 fits(stride)
                     ? fmt::format("--resolution {:.3f} would fit", std::floor(1000.0 / stride) / 1000)
-                    : "no resolution would fit: bake a part of this ground");
+                    : "no resolution would fit: give --tiles on, or bake a part of this ground");
 }
 
 template <typename T>

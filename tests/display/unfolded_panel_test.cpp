@@ -121,7 +121,7 @@ protected:
         mInterface.reset();
     }
     void layOut() {
-        mInterface->layOut({}, 0.02, [&] {
+        mInterface->layOut(mPlaces, 0.02, [&] {
             ImGui::SetNextWindowPos({0, 0});
             ImGui::SetNextWindowSize({kBox, kBox});
             ImGui::Begin("flat", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
@@ -154,6 +154,7 @@ protected:
     ViewSession mSession{std::make_shared<OpenScene>(OpenScene{mScene, {}, {}, 0, false}), {}};
     FakePanelHost mHost{mSession};
     std::unique_ptr<Window> mWindow;
+    const InterfacePlaces mPlaces;
     std::unique_ptr<Interface> mInterface;
     std::unique_ptr<UnfoldedPanel> mPanel;
 };

@@ -40,7 +40,7 @@ Heightfield groundOf(int width, int height, const glm::dvec2& spacing,
 }
 
 // Hills of some hundred metres over many cells, and `rough` metres from one to the next.
-Heightfield hills(int side, double spacing, double rough = 120) {
+Heightfield wavyGround(int side, double spacing, double rough = 120) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> unit(0, 1);
     return groundOf(side, side, glm::dvec2(spacing, 0.9 * spacing), [&](int i, int j) {
@@ -70,7 +70,7 @@ double heightOver(const Heightfield& ground, const EarthBend& bend, const glm::d
 }
 
 TEST(EarthBend, ThePlainWalkMeetsTheLoweredGroundFirst) {
-    const Heightfield ground = hills(120, 1000);
+    const Heightfield ground = wavyGround(120, 1000);
     std::mt19937 random(4);
     std::uniform_real_distribution<double> unit(-1, 1);
     int met = 0, missed = 0;
@@ -102,7 +102,7 @@ TEST(EarthBend, ThePlainWalkMeetsTheLoweredGroundFirst) {
 
 // Level ground is the same with a bend of nothing, and rays straight up and down know of none.
 TEST(EarthBend, WhatDoesNotBendIsAsItWas) {
-    const Heightfield ground = hills(20, 1000);
+    const Heightfield ground = wavyGround(20, 1000);
     for (int k = 0; k < 200; ++k) {
         const glm::dvec3 eye(100 * k - 9000, 37 * k - 4000, 1500);
         const glm::dvec3 way(std::sin(k), std::cos(k), -0.2), straight(0, 0, k % 2 ? -1 : 1);
@@ -192,7 +192,7 @@ TEST(EarthBend, PicturesShowWhatTheViewshedSees) {
         }
 }
 
-struct Tally {
+struct BendTally {
     long long pixels = 0, wrong = 0, met = 0;
     std::string first;
     void add(double want, double got, double tolerance, int k) {
@@ -251,7 +251,7 @@ TEST_P(BentCaster, HitsWhatThePlainWalkHits) {
     for (const SimdTarget target : simdTargets()) {
         const TerrainRenderer renderer(scene, target);
         std::mt19937 random(31);
-        Tally tally;
+        BendTally tally;
         for (int k = 0; k < 80; ++k) {
             const double fall[] = {kUsualFall, 1e-5, 1e-4, 1e-3};
             const EyeView view = someView(scene.ground, random, k, fall[(k / 4) % 4]);
@@ -281,11 +281,11 @@ INSTANTIATE_TEST_SUITE_P(Kinds, BentCaster, testing::ValuesIn(test::groundKinds(
 // 2,000 km, which sink by 68 km to 270 km; also of two samples a side.
 TEST(EarthBend, HugeGroundIsCastAsThePlainWalkHasIt) {
     for (const int side : {2, 200}) {
-        const TerrainScene scene = test::makeScene(hills(side, 2e6 / (side - 1)));
+        const TerrainScene scene = test::makeScene(wavyGround(side, 2e6 / (side - 1)));
         for (const SimdTarget target : simdTargets()) {
             const TerrainRenderer renderer(scene, target);
             std::mt19937 random(3);
-            Tally tally;
+            BendTally tally;
             for (int k = 0; k < 24; ++k) {
                 const EyeView view = someView(scene.ground, random, k, kUsualFall);
                 EyeImage image;
@@ -305,12 +305,12 @@ TEST(EarthBend, HugeGroundIsCastAsThePlainWalkHasIt) {
 
 // From ring to ring the bend goes on around the same place.
 TEST(EarthBend, RingsAreCastAsThePlainWalkHasThem) {
-    const TerrainScene scene = test::makeScene(hills(1100, 90, 12));
+    const TerrainScene scene = test::makeScene(wavyGround(1100, 90, 12));
     for (const SimdTarget target : simdTargets()) {
         TerrainRenderer renderer(scene, target);
         renderer.takeCoarser(3);
         std::mt19937 random(3);
-        Tally tally;
+        BendTally tally;
         long long beyond = 0;
         for (int k = 0; k < 16; ++k) {
             const EyeView view = someView(scene.ground, random, k, k % 2 ? kUsualFall : 1e-6, 0.1);
@@ -335,7 +335,7 @@ TEST(EarthBend, RingsAreCastAsThePlainWalkHasThem) {
 
 // What is painted on the ground asks for the ground's own places and heights.
 TEST(EarthBend, PaintersSeeTheGroundItself) {
-    const TerrainScene scene = test::makeScene(hills(120, 1000));
+    const TerrainScene scene = test::makeScene(wavyGround(120, 1000));
     const TerrainRenderer renderer(scene);
     const Pose pose = poseFromAngles({-4e4, -4e4, 3500}, 0.8, -0.03, 0);
     const Lens lens{160, 100, 0.3, 1.0, 1.0, kUsualFall};

@@ -26,7 +26,7 @@ RasterSpec partSpec(int column, int row, int width, int height) {
     return spec;
 }
 
-DemGrid read(const std::filesystem::path& file) {
+DemGrid readAll(const std::filesystem::path& file) {
     Progress progress;
     return readDem(file, 1, progress);
 }
@@ -41,7 +41,7 @@ protected:
     std::filesystem::path parts() const { return mFolder / "parts"; }
     void write(const std::string& name, const RasterSpec& spec) { writeRaster(parts() / name, spec); }
     std::string refusal() {
-        return errorOf([&] { read(parts()); });
+        return errorOf([&] { readAll(parts()); });
     }
     // Of differing sizes; over: samples that they share with the next.
     void cut(int over, bool all = true) {
@@ -56,11 +56,11 @@ protected:
 };
 
 TEST_F(ElevationFolder, IsTheGroundThatWasCut) {
-    const DemGrid whole = read(writeRaster(mFolder / "whole.tif", partSpec(0, 0, kWidth, kHeight)));
+    const DemGrid whole = readAll(writeRaster(mFolder / "whole.tif", partSpec(0, 0, kWidth, kHeight)));
     for (const int over : {0, 5}) {
         cut(over);
         std::ofstream(parts() / "part_0_0.txt") << "no raster";
-        const DemGrid dem = read(parts());
+        const DemGrid dem = readAll(parts());
         EXPECT_EQ(elevationFilesIn(parts()).size(), 9u);
         EXPECT_EQ(dem.width, kWidth);
         EXPECT_EQ(dem.sourceOffset, whole.sourceOffset);
@@ -75,7 +75,7 @@ TEST_F(ElevationFolder, IsTheGroundThatWasCut) {
 
 TEST_F(ElevationFolder, LeavesOutWhatNoFileHas) {
     cut(0, false);
-    const DemGrid dem = read(parts());
+    const DemGrid dem = readAll(parts());
     EXPECT_EQ(dem.sourceMissing, 64 * 50);
     const auto at = [&](int c, int r) {
         return dem.heights[static_cast<std::size_t>(kHeight - 1 - r) * kWidth + c];
@@ -92,7 +92,7 @@ TEST_F(ElevationFolder, TakesTheLastWhereFilesOverlap) {
     over.value = [](int c, int r, int) { return c == 3 && r == 4 ? -1.0 : 77.0; };
     under.hasNodata = true, under.nodata = -32000;
     write("a.tif", under), write("b.tif", over);
-    const DemGrid dem = read(parts());
+    const DemGrid dem = readAll(parts());
     ASSERT_EQ(dem.width, 60);
     const auto at = [&](int c, int r) { return dem.heights[static_cast<std::size_t>(29 - r) * 60 + c]; };
     EXPECT_EQ(at(10, 4), hillAt(10, 4));
@@ -113,7 +113,7 @@ TEST_F(ElevationFolder, FindsWhatIsMissingInEachFile) {
         first.value = [holdsA](int c, int r, int) { return c == 5 && r == 7 ? holdsA : hillAt(c, r); };
         second.value = [holdsB](int c, int r, int) { return c == 9 && r == 3 ? holdsB : hillAt(40 + c, r); };
         write("a.tif", first), write("b.tif", second);
-        const DemGrid dem = read(parts());
+        const DemGrid dem = readAll(parts());
         double least = 1e9;
         for (const float h : dem.heights)
             if (std::isfinite(h)) least = std::min(least, double(h));
@@ -141,17 +141,17 @@ TEST_F(ElevationFolder, AnUnnamedMissingValueIsMixedWithNothing) {
     const auto lowest = [&](const RasterSpec& over) {
         write("a.tif", first), write("b.tif", over);
         double least = 1e9;
-        for (const float h : read(parts()).heights)
+        for (const float h : readAll(parts()).heights)
             if (std::isfinite(h)) least = std::min(least, double(h));
         return least;
     };
     EXPECT_GE(lowest(second), 300) << "overlapping";
-    EXPECT_EQ(read(parts()).sourceMissing, 4 * 4) << "the second has the rest of what the first lacks";
+    EXPECT_EQ(readAll(parts()).sourceMissing, 4 * 4) << "the second has the rest of what the first lacks";
     second = partSpec(40, 0, 20, 15);
     second.transform[1] = 60, second.transform[5] = -60;
     second.value = [](int c, int r, int) { return c == 5 && r == 7 ? -9999.0 : 600.0; };
     EXPECT_GE(lowest(second), 300) << "coarser";
-    EXPECT_GT(read(parts()).sourceMissing, 0);
+    EXPECT_GT(readAll(parts()).sourceMissing, 0);
     second = partSpec(40, 0, 40, 30);
     second.transform[0] += 11;
     EXPECT_GE(lowest(second), 300) << "between";
@@ -169,7 +169,7 @@ TEST_F(ElevationFolder, TakesTheFinestSamplesOfAll) {
     coarse.transform = {500000, 60, 0, 5000000, 0, -60};
     coarse.value = [](int c, int, int) { return 10.0 * c; };
     write("a.tif", coarse), write("b.tif", partSpec(40, 0, 40, 40));
-    const DemGrid dem = read(parts());
+    const DemGrid dem = readAll(parts());
     EXPECT_EQ(dem.spacing, glm::dvec2(30, 30));
     ASSERT_EQ(dem.width, 80);
     EXPECT_EQ(dem.heights[45], hillAt(45, 39));
