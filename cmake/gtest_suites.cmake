@@ -36,8 +36,8 @@ foreach(line IN LISTS lines)
     set(suite "${CMAKE_MATCH_1}")
     string(APPEND text "add_test([==[${suite}]==] [==[${program}]==] [==[--gtest_filter=${suite}.*]==])\n"
       "set_tests_properties([==[${suite}]==] PROPERTIES${properties_text})\n")
-    if(suite MATCHES "FullSize$")  # of whole real data, for minutes where it is slow: run once
-      string(APPEND text "set_property(TEST [==[${suite}]==] APPEND PROPERTY LABELS slow)\n")
+    if(suite MATCHES "FullSize$")  # of whole real data, for minutes where it is slow; in programs without a label
+      string(APPEND text "set_tests_properties([==[${suite}]==] PROPERTIES LABELS slow)\n")
     endif()
   endif()
 endforeach()
