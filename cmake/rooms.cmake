@@ -1,5 +1,6 @@
 # One folder is one target; its link line says whom it may know.
 include(GNUInstallDirs)
+include(CheckCXXCompilerFlag)
 
 # Sources of `folder` into `target`. A file *_kernel.cpp is compiled once for each instruction set,
 # with STEREONAV_ISA naming the namespace (plain, avx2, avx512); it is chosen at run time.
@@ -29,10 +30,16 @@ function(stereonav_kernels target)
   set(flags_avx2 -mavx2 -mfma)
   set(flags_avx512 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx512cd -mfma -mprefer-vector-width=512
     -Wno-uninitialized -Wno-maybe-uninitialized)  # false positives in g++ 12's own intrinsics (gcc bug 105593)
+  # g++ copies structs of several vectors with rep movs, which waits for each vector that was just stored.
+  set(copies -mmemcpy-strategy=vector_loop:-1:noalign)
+  check_cxx_compiler_flag(${copies} STEREONAV_COPIES_BY_VECTOR)
+  if(NOT STEREONAV_COPIES_BY_VECTOR)  # clang, arm64
+    set(copies "")
+  endif()
   foreach(isa plain avx2 avx512)
     add_library(${target}_${isa} OBJECT ${ARGN})
     target_link_libraries(${target}_${isa} PRIVATE stereonav_options)
-    target_compile_options(${target}_${isa} PRIVATE ${flags_${isa}})
+    target_compile_options(${target}_${isa} PRIVATE ${flags_${isa}} ${copies})
     target_compile_definitions(${target}_${isa} PRIVATE STEREONAV_ISA=${isa} STEREONAV_ISA_${isa}=1)
     set_target_properties(${target}_${isa} PROPERTIES UNITY_BUILD OFF)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_${isa}>)

@@ -148,7 +148,7 @@ private:
             const CoarserGround& beyond = scene->beyond;
             x = (x - beyond.originX) * beyond.scale;
             y = (y - beyond.originY) * beyond.scale;
-            rays = scaledRays(rays, beyond.scale);
+            scaleRays(rays, beyond.scale);
             scene = beyond.scene;
             const bool last = scene->beyond.scene == nullptr;
             const Eye<kBent> eye = makeEyeAt<kBent>(scene->ground, mView, x, y);
@@ -190,7 +190,9 @@ private:
         const Rays rays = raysOfRow(mView, mOffsets, a, q);
         const F start = coherentStart(rays, a, q, lanes);
         const I level = select(start > F(0.0f), I(0), I(kColdLevel < mScene.ground.levels ? kColdLevel : 0));
-        Hits hits = castPacket(mEye, rays, start, level, lanes);
+        const bool beyond =
+            mScene.beyond.scene != nullptr && startBeyond(mScene, start, borderExit(mEye, rays), lanes);
+        Hits hits = beyond ? noHits() : castPacket(mEye, rays, start, level, lanes);
         const I color = shadeThrough(mScene, mView, mEye, rays, start, lanes, hits);
         store(row + a, hits.free, lanes);
         put(a, q, count, lanes, hits.t, color);

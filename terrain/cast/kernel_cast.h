@@ -337,15 +337,20 @@ STEREONAV_INLINE void tryCells(const Eye<kBent>& eye, Walk<kBent>& w, M m, CellH
     leaveCell(eye, w, e, andNot(m, done));
 }
 
-// The last word on a packet's hits, once all its lanes are done.
-template <bool kBent>
-STEREONAV_INLINE Hits settle(const Eye<kBent>& eye, const Walk<kBent>& w, const CellHit& found) {
+STEREONAV_INLINE Hits noHits() {
     Hits hits;
     hits.t = infinity();
     hits.i = hits.j = I(0);
     hits.u = hits.v = F(0.0f);
     hits.approach = F(-1.0f);
     hits.free = F(0.0f);
+    return hits;
+}
+
+// The last word on a packet's hits, once all its lanes are done.
+template <bool kBent>
+STEREONAV_INLINE Hits settle(const Eye<kBent>& eye, const Walk<kBent>& w, const CellHit& found) {
+    Hits hits = noHits();
     if (any(found.hit | found.unsure)) {
         const M doubtful = found.unsure | refine(eye, w, found, found.hit, hits);
         if (any(doubtful)) castExactly(eye, w.rays, w.t, w.floor, doubtful, hits);

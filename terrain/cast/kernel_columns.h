@@ -117,18 +117,13 @@ private:
     }
 
     STEREONAV_INLINE Hits settled(CellHit& found) {
-        Hits hits;
-        hits.t = infinity();
-        hits.i = hits.j = I(0);
-        hits.u = hits.v = F(0.0f);
-        hits.approach = F(-1.0f);
-        hits.free = F(0.0f);
+        Hits hits = noHits();
         if (!any(found.hit | found.unsure)) return hits;
         found.h00 = mH00, found.h10 = mH10, found.h01 = mH01, found.h11 = mH11;
         found.curvature = mCurvature;
         const M doubtful = found.unsure | refine(mEye, mWalk, found, andNot(found.hit, mSunk), hits);
         if (any(doubtful)) castExactly(mEye, mWalk.rays, mWalk.t, mWalk.floor, doubtful, hits);
-        if (any(mSunk)) meetAt(mWalk, standingAt(mEye, mWalk, mSunk), mSunk, hits);
+        if (any(mSunk)) meetAt({mWalk.t, mWalk.i, mWalk.j}, standingAt(mEye, mWalk, mSunk), mSunk, hits);
         return hits;
     }
 

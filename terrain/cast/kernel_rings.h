@@ -11,10 +11,11 @@
 namespace stereonav::STEREONAV_ISA {
 
 // The same rays in grid units of the coarser ground: exact, since scales are powers of two.
-STEREONAV_INLINE Rays scaledRays(const Rays& rays, double scale) {
+STEREONAV_INLINE void scaleRays(Rays& rays, double scale) {
     const D d(scale);
     const F f(static_cast<float>(scale));
-    return {rays.exactX * d, rays.exactY * d, rays.exactZ, rays.x * f, rays.y * f, rays.z};
+    rays.exactX = rays.exactX * d, rays.exactY = rays.exactY * d;
+    rays.x = rays.x * f, rays.y = rays.y * f;
 }
 
 // Where the rays leave the ground. They come from inside it, or above its border.
@@ -57,8 +58,13 @@ STEREONAV_INLINE M sunk(const Eye<kBent>& eye, F height) {
     return height < F(0.0f) - eye.margin - eye.margin;
 }
 
-template <bool kBent>
-STEREONAV_INLINE void meetAt(const Walk<kBent>& w, const Standing& s, M m, Hits& hits) {
+// Where a walk stands.
+struct WalkPlace {
+    F t;
+    I i, j;
+};
+
+STEREONAV_INLINE void meetAt(const WalkPlace& w, const Standing& s, M m, Hits& hits) {
     hits.t = select(m, w.t, hits.t);
     hits.i = select(m, w.i, hits.i);
     hits.j = select(m, w.j, hits.j);
@@ -79,11 +85,17 @@ STEREONAV_INLINE Hits castEntering(const Eye<kBent>& eye, const Rays& rays, F bo
     if (!any(atBorder)) return walkOn(eye, w);
     const Standing standing = standingAt(eye, w, atBorder);
     const M below = atBorder & sunk(eye, standing.height);
-    const Walk<kBent> entry = w;
+    const WalkPlace entry{w.t, w.i, w.j};
     w.active = andNot(w.active, below);
     Hits hits = walkOn(eye, w);
     meetAt(entry, standing, below, hits);
     return hits;
+}
+
+// Whether all rays `lanes` start beyond the border at `exit`, known to be free until there, of a ground that
+// goes on: then it has nothing for them. So it is with most, as lower ones end further out.
+STEREONAV_INLINE bool startBeyond(const CasterScene& scene, F start, F exit, M lanes) {
+    return scene.beyond.scene != nullptr && !any(lanes & (start <= exit));
 }
 
 // For rays `lanes` that did not meet the ground `inner`: what they meet beyond it, and its colour, or the
@@ -100,9 +112,14 @@ inline void castBeyond(const CasterScene& inner, const CasterView& view, const E
         const CoarserGround& beyond = scene->beyond;
         x = (x - beyond.originX) * beyond.scale;
         y = (y - beyond.originY) * beyond.scale;
-        rays = scaledRays(rays, beyond.scale);
+        scaleRays(rays, beyond.scale);
         scene = beyond.scene;
         const Eye<kBent> eye = makeEyeAt<kBent>(scene->ground, view, x, y);
+        const F exit = borderExit(eye, rays);
+        if (startBeyond(*scene, start, exit, left)) {
+            border = max(border, exit);
+            continue;
+        }
         const Hits met = castEntering(eye, rays, border, start, left);
         const M here = left & (met.t < infinity());
         const M shaded = scene->beyond.scene != nullptr ? here : left;
@@ -110,7 +127,7 @@ inline void castBeyond(const CasterScene& inner, const CasterView& view, const E
         hits.t = select(here, met.t, hits.t);
         hits.free = select(left, met.free, hits.free);
         left = andNot(left, here);
-        border = max(border, borderExit(eye, rays));
+        border = max(border, exit);
     }
 }
 

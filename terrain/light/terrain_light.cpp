@@ -50,13 +50,14 @@ void checkSettings(const TerrainLightSettings& s) {
 }
 
 // Bytes held at once: three transfer fields or the two results, horizons, openness, Embree's vertices, and
-// what rays take beside them. Embree's own blocks take the last, however small the ground: 1,024 x 1,024
-// samples took 59 MB more than the rest says, 4,000 x 4,000 none (two threads).
+// what rays take beside them. Embree's own blocks count most with small grounds: 1,024 x 1,024
+// samples took 59 MB more than the rest says, 4,000 x 4,000 no more than that (two threads).
 double memoryOf(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {
     const double each = s.kind == TerrainLightKind::Openness
                             ? 1.0
                             : 1.0 + s.azimuths + 4 * sizeof(std::int16_t) * lightHarmonics(s.order);
-    return each * static_cast<double>(grid.count()) + 40.0 * ground.width() * ground.height() + 64e6;
+    const double samples = double(ground.width()) * ground.height();
+    return each * static_cast<double>(grid.count()) + 40 * samples + std::min(60 * samples, 60e6) + 8e6;
 }
 
 void checkMemoryOf(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {

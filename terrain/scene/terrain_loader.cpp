@@ -61,6 +61,7 @@ LoadedGround loadBuiltIn(const SceneFile& file, TerrainScene& scene, Progress& p
     place.width = place.height = built.size;
     place.transform = {0, built.spacing, 0, 0, 0, -built.spacing};
     loaded.place.grid = place;
+    loaded.place.spacing = scene.ground.spacing();
     if (file.verticalScale == 1.0) loaded.built = std::move(built);
     return loaded;
 }
