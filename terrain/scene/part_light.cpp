@@ -10,18 +10,6 @@
 #include "terrain/scene/ground_color.h"
 
 namespace stereonav {
-namespace {
-
-// What is darker counts as this: a quotient of two dark places says nothing.
-constexpr float kDarkestPlain = 0.05f;
-// Beyond it the quotient is that of the sun's edge at one sample alone.
-constexpr float kLargestQuotient = 2.5f;
-
-float plainAt(const GroundLight& light, const glm::dvec3& normal) {
-    return std::max(light.at(normal), kDarkestPlain);
-}
-
-}  // namespace
 
 PartLight::PartLight(const Heightfield& whole, const LightGrid& grid, const GroundBrightness& brightness,
                      const TerrainLook& look, const TerrainRelight::Display& shown)
@@ -34,11 +22,11 @@ PartLight::PartLight(const Heightfield& whole, const LightGrid& grid, const Grou
     const GroundLight light(look);
     parallelFor(grid.height, [&](int j) {
         for (int i = 0; i < grid.width; ++i) {
-            const float plain = plainAt(light, sampleNormal(whole, grid.column(i), grid.row(j)));
+            const float plain = light.at(sampleNormal(whole, grid.column(i), grid.row(j)));
             const std::size_t k = static_cast<std::size_t>(j) * grid.width + i;
             for (int c = 0; c < 3; ++c)
                 mQuotients[c * grid.count() + k] =
-                    std::min(shown.exposure * brightness.row(c, j)[i] / plain, kLargestQuotient);
+                    lightQuotient(shown.exposure * brightness.row(c, j)[i], plain);
         }
     });
 }
@@ -62,8 +50,8 @@ void PartLight::apply(const Heightfield& part, ColorTexture& colors) const {
     colors.refill([&](int y, PackedColor* row) {
         for (int x = 0; x < width; ++x) {
             const glm::dvec2 world = part.worldFromGrid(origin + (glm::dvec2(x, y) + 0.5) * perTexel);
-            const glm::vec3 baked =
-                quotientAt((world - mOrigin) / mSpacing) * plainAt(light, part.normalAt(world));
+            const glm::vec3 baked = quotientAt((world - mOrigin) / mSpacing) *
+                                    std::max(light.at(part.normalAt(world)), kDarkestPlainLight);
             row[x] = packColor(unpackColor(row[x]) * (1.0f + mShare * (baked - 1.0f)));
         }
     });

@@ -1,6 +1,7 @@
 // Baked light on the parts of a tiled ground that are finer than the samples it was baked at.
 #pragma once
 
+#include <algorithm>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -12,6 +13,13 @@
 #include "terrain/read/scene_file.h"
 
 namespace stereonav {
+
+// Of baked light over the plain light of the same place. What is darker counts as the first, since a quotient
+// of two dark places says nothing; beyond the second it is that of the sun's edge at one sample alone.
+constexpr float kDarkestPlainLight = 0.05f, kLargestLightQuotient = 2.5f;
+inline float lightQuotient(float baked, float plain) {
+    return std::min(baked / std::max(plain, kDarkestPlainLight), kLargestLightQuotient);
+}
 
 // Of one place of the sun. What is baked is laid as a quotient over the plain light of the part's own
 // samples:

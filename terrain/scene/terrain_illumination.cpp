@@ -24,15 +24,13 @@ void TerrainIllumination::applyOver(const TerrainLook& look, const ColorTexture&
     const SunAndSky now = sunAndSky(look, mSky);
     mRelight.relight(now, mBrightness, look.specular > 0);
     mHighlightLight = exposureOf(now) * now.sunThroughAir;
-    // A quotient beyond these is that of two dark places, or of the sun's edge at one sample alone.
-    constexpr float kDarkest = 0.05f, kLargest = 2.5f;
     GroundBrightness quotient = mBrightness;
     const float exposure = exposureOf(now);
     const std::size_t count = quotient.planeSize();
     for (int c = 0; c < 3; ++c)
         for (std::size_t k = 0; k < count; ++k) {
             float& q = quotient.planes[c * count + k];
-            q = std::min(exposure * q / std::max(plainLight[k], kDarkest), kLargest);
+            q = lightQuotient(exposure * q, plainLight[k]);
         }
     mRelight.lightTexture(plain, quotient, {1.0f, mShare}, lit);
 }

@@ -17,6 +17,7 @@
 #include "engine/scene/line_measurer.h"
 #include "engine/scene/place_reader.h"
 #include "tests/camera/temporary_folder.h"
+#include "tests/support/held_memory.h"
 #include "tests/support/own_cache.h"
 
 namespace stereonav {
@@ -214,14 +215,6 @@ TEST(TerrainSurvey, LevelGroundHasNoAspect) {
     EXPECT_TRUE(scene->offered<PlaceReader>()->readPlace({20, -20, 5}).empty());
 }
 
-double bytesTaken() {
-    std::ifstream status("/proc/self/status");
-    double kilobytes = 0;
-    for (std::string word; status >> word;)
-        if (word == "RssAnon:") status >> kilobytes;
-    return 1024 * kilobytes;
-}
-
 // Tiles go there, and away with it.
 class CacheIn {
 public:
@@ -262,7 +255,7 @@ TEST(TerrainSurvey, MeasuresGroundInTilesAsGroundInMemory) {
     Facts told[2];  // without, with tiles
     for (const TilesChoice tiles : {TilesChoice::Off, TilesChoice::On}) {
         SceneOptions options = hillsIn(folder, tiles);
-        if (tiles == TilesChoice::On) limitMemory(bytesTaken() + 60e6);
+        if (tiles == TilesChoice::On) limitMemory(test::bytesHeld() + 60e6);
         options.verticalScale = 2;
         Progress progress;
         const auto scene = loadTerrainScene(options, SimdTarget::Auto, progress);
@@ -315,7 +308,7 @@ TEST(SurveyPart, TakesTheFinestSamplesThatFit) {
           Case{0, 3e6, 2, "samples 20.0 m apart, the finest are 10.0 m"},
           Case{2500, 3e6, 2, "samples 20.0 m apart, the finest are 10.0 m"}}) {
         SCOPED_TRACE(wanted.words);
-        if (wanted.memory > 0) limitMemory(bytesTaken() + wanted.memory);
+        if (wanted.memory > 0) limitMemory(test::bytesHeld() + wanted.memory);
         const SurveyPart part(tiled, place, wanted.reach);
         limitMemory(0);
         const Heightfield& ground = part.ground();

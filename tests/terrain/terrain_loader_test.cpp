@@ -186,6 +186,28 @@ TEST(TerrainLoader, BuiltInTerrain) {
     EXPECT_DOUBLE_EQ(scene.color.gridPerTexel().x * scene.color.level(0).width(), 64);
 }
 
+// Texel for pixel, and none of it left to the tint.
+TEST(TerrainLoader, APictureCoversTheWholeBuiltInTerrain) {
+    const TempFolder folder;
+    RasterSpec picture;
+    picture.type = GDT_Byte, picture.bands = 3;
+    picture.width = 40, picture.height = 30;
+    picture.value = [](int c, int r, int) { return 10 + 5 * c + r; };
+    SceneFile file;
+    file.builtIn = true;
+    file.builtInSize = 65;
+    file.image = writeRaster(folder / "picture.tif", picture);
+    const TerrainScene scene = load(file);
+    const auto& texels = scene.color.level(0);
+    ASSERT_EQ(texels.width(), 40);
+    ASSERT_EQ(texels.height(), 30);
+    EXPECT_FALSE(scene.report.colorHoldsSun);
+    for (const glm::ivec2 at : {glm::ivec2(0, 0), {39, 29}, {12, 20}}) {
+        const double display = std::sqrt(unpackColor(texels.at(at.x, 29 - at.y)).x);
+        EXPECT_NEAR(display * 255, 10 + 5 * at.x + at.y, 12) << at.x;
+    }
+}
+
 TEST(TerrainLoader, ErrorsOfAnyFileComeThrough) {
     const TempFolder folder;
     const SceneFile good = sceneOf(writeRaster(folder / "hills.tif", hillSpec()));

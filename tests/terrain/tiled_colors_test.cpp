@@ -1,44 +1,25 @@
 // Ground in tiles under a picture, and under baked light: near the eye as the same ground in memory.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <glm/geometric.hpp>
 
-#include "engine/base/memory.h"
 #include "engine/camera/stereo_rig.h"
-#include "raster_files.h"
-#include "terrain/cast/terrain_renderer.h"
 #include "terrain/light/terrain_light.h"
 #include "terrain/scene/laid_picture.h"
 #include "terrain/scene/part_colors.h"
 #include "terrain/scene/part_light.h"
 #include "terrain/scene/terrain_illumination.h"
-#include "terrain/scene/terrain_loader.h"
-#include "tests/support/own_cache.h"
+#include "tiled_case.h"
 
 namespace stereonav::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-double bytesHeld() {
-    std::ifstream status("/proc/self/status");
-    double kilobytes = 0;
-    for (std::string word; status >> word;)
-        if (word == "RssAnon:") status >> kilobytes;
-    return 1024 * kilobytes;
-}
-
 // 10 m samples, of which every second or fourth is in memory, under a picture of 5 m pixels that leaves the
 // west out.
-class TiledColors : public testing::Test {
+class TiledColors : public TiledCase {
 protected:
     TiledColors() {
-        const char* const before = std::getenv("XDG_CACHE_HOME");
-        mCacheBefore = before ? before : "";
-        setenv("XDG_CACHE_HOME", (mFolder / "cache").c_str(), 1);
-        fs::create_directories(mFolder / "cache");
         RasterSpec dem;
         dem.width = 600, dem.height = 500;
         dem.transform = {400000, 10, 0, 5000000, 0, -10};
@@ -56,50 +37,21 @@ protected:
         };
         mPicture = writeRaster(mFolder / "picture.tif", picture);
     }
-    ~TiledColors() override {
-        limitMemory(0);
-        setenv("XDG_CACHE_HOME", mCacheBefore.c_str(), 1);
-    }
 
     TerrainScene load(GroundTiles tiles) {
-        constexpr double kAllowed = 40e6;
-        limitMemory(tiles == GroundTiles::Off ? 0 : bytesHeld() + kAllowed);
-        SceneFile file = mFile;
-        file.tiles = tiles;
-        Progress progress;
-        TerrainScene scene = loadTerrain(file, progress);
-        scene.levelOfDetail = 0.5;
+        TerrainScene scene = loadWithin(tiles, 40e6);
         limitMemory(0);  // rings have what they need
         return scene;
     }
 
-    TempFolder mFolder;
-    SceneFile mFile;
     fs::path mPicture;
-    std::string mCacheBefore;
 };
 
 EyeImage seenAt(const TerrainRenderer& renderer, const TerrainScene& scene, const glm::dvec2& place,
                 double heading) {
-    const EyeView view =
-        makeEyeView(poseFromAngles(glm::dvec3(place, scene.heightAt(place) + 60), heading, -0.3, 0),
-                    {240, 150, 1, 0.5, 0.5});
-    EyeImage image;
-    image.resize(view.width, view.height);
-    renderer.lookFrom(view);
-    renderEye(renderer, view, image);
-    return image;
-}
-
-double rmsOf(const EyeImage& a, const EyeImage& b) {
-    double sum = 0;
-    for (int y = 0; y < a.height(); ++y)
-        for (int x = 0; x < a.width(); ++x) {
-            const glm::dvec3 off(glm::sqrt(unpackColor(a.color.at(x, y))) -
-                                 glm::sqrt(unpackColor(b.color.at(x, y))));
-            sum += glm::dot(off, off) / 3;
-        }
-    return std::sqrt(sum / (double(a.width()) * a.height()));
+    return pictureOf(
+        renderer, makeEyeView(poseFromAngles(glm::dvec3(place, scene.heightAt(place) + 60), heading, -0.3, 0),
+                              {240, 150, 1, 0.5, 0.5}));
 }
 
 TEST_F(TiledColors, APictureIsAsSharpAsOverTheGroundInMemory) {
@@ -116,11 +68,11 @@ TEST_F(TiledColors, APictureIsAsSharpAsOverTheGroundInMemory) {
                                          {glm::dvec2(2800, -2300), -0.6}}) {
         const EyeImage a = seenAt(fromMemory, whole, place, heading),
                        b = seenAt(fromTiles, tiled, place, heading);
-        EXPECT_LT(rmsOf(a, b), 0.012) << place.x;
+        EXPECT_LT(rootMeanSquare(a, b), 0.012) << place.x;
         fromTiles.showColors(tiled.color, nullptr, {});
         const EyeImage coarse = seenAt(fromTiles, tiled, place, heading);
         fromTiles.showColors(tiled.color, nullptr, partColorsOf(tiled));
-        EXPECT_LT(rmsOf(a, b), 0.5 * rmsOf(a, coarse)) << place.x;
+        EXPECT_LT(rootMeanSquare(a, b), 0.5 * rootMeanSquare(a, coarse)) << place.x;
     }
 }
 
@@ -174,7 +126,7 @@ TEST_F(TiledColors, BakedLightKeepsTheFineReliefAndFollowsTheSun) {
                        fine = seenAt(fromTiles, tiled, {300, 200}, 0.3);
         fromTiles.showColors(tiled.color, tiled.illumination.get(), {});
         const EyeImage coarse = seenAt(fromTiles, tiled, {300, 200}, 0.3);
-        EXPECT_LT(rmsOf(fine, truth), 0.7 * rmsOf(coarse, truth)) << pictured;
+        EXPECT_LT(rootMeanSquare(fine, truth), 0.7 * rootMeanSquare(coarse, truth)) << pictured;
     }
 }
 

@@ -2,42 +2,26 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <thread>
 
 #include "engine/base/memory.h"
 #include "engine/camera/stereo_rig.h"
-#include "raster_files.h"
-#include "terrain/cast/terrain_renderer.h"
 #include "terrain/read/dem_rows.h"
 #include "terrain/scene/followed_track.h"
 #include "terrain/scene/ground_place.h"
 #include "terrain/scene/stand_in_ground.h"
-#include "terrain/scene/terrain_loader.h"
-#include "tests/support/own_cache.h"
+#include "tiled_case.h"
 
 namespace stereonav::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-double bytesTaken() {
-    std::ifstream status("/proc/self/status");
-    double kilobytes = 0;
-    for (std::string word; status >> word;)
-        if (word == "RssAnon:") status >> kilobytes;
-    return 1024 * kilobytes;
-}
-
 // The whole ground would take 63 MB: a quarter of what is allowed holds its next level.
-class TiledScene : public testing::Test {
+class TiledScene : public TiledCase {
 protected:
     TiledScene() {
-        const char* const before = std::getenv("XDG_CACHE_HOME");
-        mCacheBefore = before ? before : "";
-        setenv("XDG_CACHE_HOME", (mFolder / "cache").c_str(), 1);
         RasterSpec spec;
         spec.width = 1100, spec.height = 900;
         spec.transform = {400000, 10, 0, 5000000, 0, -10};
@@ -46,56 +30,20 @@ protected:
                    30 * std::sin(c / 7.) * std::sin(r / 9.) + 4 * std::sin(c * 1.7 + r);
         };
         mFile.dem = mFile.file = writeRaster(mFolder / "ground.tif", spec);
-        fs::create_directories(mFolder / "cache");
-    }
-    ~TiledScene() override {
-        limitMemory(0);
-        setenv("XDG_CACHE_HOME", mCacheBefore.c_str(), 1);
     }
 
-    TerrainScene load(GroundTiles tiles, double allowed = 180e6) {
-        limitMemory(tiles == GroundTiles::Off ? 0 : bytesTaken() + allowed);
-        SceneFile file = mFile;
-        file.tiles = tiles;
-        Progress progress;
-        TerrainScene scene = loadTerrain(file, progress);
-        scene.levelOfDetail = 0.5;
-        return scene;
-    }
+    TerrainScene load(GroundTiles tiles, double allowed = 180e6) { return loadWithin(tiles, allowed); }
     fs::path tilesFile() const {
         for (const auto& entry : fs::directory_iterator(mFolder / "cache" / "stereonav"))
             if (entry.path().extension() == ".tiles") return entry.path();
         return {};
     }
-
-    TempFolder mFolder;
-    SceneFile mFile;
-    std::string mCacheBefore;
 };
 
 EyeView viewAt(const TerrainScene& scene, const glm::dvec2& place, double heading, double over) {
     const Lens lens{320, 200, 1.0, 0.5, 0.5};
     return makeEyeView(poseFromAngles(glm::dvec3(place, scene.heightAt(place) + over), heading, -0.15, 0),
                        lens);
-}
-
-EyeImage pictureOf(const TerrainRenderer& renderer, const EyeView& view) {
-    EyeImage image;
-    image.resize(view.width, view.height);
-    renderer.lookFrom(view);
-    renderEye(renderer, view, image);
-    return image;
-}
-
-double rootMeanSquare(const EyeImage& a, const EyeImage& b) {
-    double sum = 0;
-    for (int y = 0; y < a.height(); ++y)
-        for (int x = 0; x < a.width(); ++x) {
-            const glm::dvec3 off(glm::sqrt(unpackColor(a.color.at(x, y))) -
-                                 glm::sqrt(unpackColor(b.color.at(x, y))));
-            sum += glm::dot(off, off) / 3;
-        }
-    return std::sqrt(sum / (double(a.width()) * a.height()));
 }
 
 TEST_F(TiledScene, IsTheGroundInMemoryNearTheEye) {
