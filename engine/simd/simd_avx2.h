@@ -218,15 +218,27 @@ STEREONAV_INLINE I gather(const std::uint32_t* base, I index, M m) {
 struct FPair {
     F first, second;
 };
-// base[index] and base[index + 1].
+// base[index] and base[index + 1], each two at once: half as many reads.
 STEREONAV_INLINE FPair gatherPair(const float* base, I index, M m) {
-    return {gather(base, index, m, F(0.0f)), gather(base + 1, index, m, F(0.0f))};
+    const auto half = [&](__m128i at, __m128i lanes) {
+        return _mm256_castpd_ps(
+            _mm256_mask_i32gather_pd(_mm256_setzero_pd(), reinterpret_cast<const double*>(base), at,
+                                     _mm256_castsi256_pd(_mm256_cvtepi32_epi64(lanes)), 4));
+    };
+    const __m256i lanes = _mm256_castps_si256(m.v);
+    const __m256 low = half(_mm256_castsi256_si128(index.v), _mm256_castsi256_si128(lanes));
+    const __m256 high = half(_mm256_extracti128_si256(index.v, 1), _mm256_extracti128_si256(lanes, 1));
+    const auto ordered = [](__m256 a) {
+        return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(a), 0xD8));
+    };
+    return {ordered(_mm256_shuffle_ps(low, high, 0x88)), ordered(_mm256_shuffle_ps(low, high, 0xDD))};
 }
 struct IPair {
     I first, second;
 };
 STEREONAV_INLINE IPair gatherPair(const std::uint32_t* base, I index, M m) {
-    return {gather(base, index, m), gather(base + 1, index, m)};
+    const FPair pair = gatherPair(reinterpret_cast<const float*>(base), index, m);
+    return {_mm256_castps_si256(pair.first.v), _mm256_castps_si256(pair.second.v)};
 }
 // base[index] of bytes; three more bytes behind each are read.
 STEREONAV_INLINE I gatherByte(const std::uint8_t* base, I index, M m) {

@@ -89,7 +89,7 @@ public:
           mView(view),
           mBand(band),
           mTarget(target),
-          mEye(makeEye<kBent>(scene.ground, view)),
+          mRings(scene, view),
           mOffsets(laneOffsets(view)),
           mRing(scratch + kMargin + kLanes),
           mPitch(view.lanes + 2 * (kMargin + kLanes)) {}
@@ -115,15 +115,15 @@ private:
             const int count = end - a < kLanes ? end - a : kLanes;
             const M lanes = firstLanes(count);
             const Rays rays = raysOfRow(mView, mOffsets, a, mBand.firstStep);
-            const M shaded = mScene.beyond.scene != nullptr ? maskFromBits(0) : lanes;
-            Columns<kBent> columns(mEye, rays, lanes);
+            const M shaded = mRings.count() > 1 ? maskFromBits(0) : lanes;
+            Columns<kBent> columns(mRings[0].eye, rays, lanes);
             for (int q = mBand.firstStep; q < mBand.endStep; ++q) {
                 const Hits hits = columns.cast(slopeOf(a, q), lanes);
                 const M colored = shaded | (hits.t < infinity());
                 put(a, q, count, lanes, hits.t,
                     any(colored) ? shadePacket(mScene, mView, columns.rays(), hits, lanes & colored) : I(0));
             }
-            if (mScene.beyond.scene != nullptr) columnsBeyond(a, lanes, rays);
+            if (mRings.count() > 1) columnsBeyond(a, lanes, rays);
         }
     }
 
@@ -140,19 +140,13 @@ private:
 
     // The columns' rays that met nothing, over each coarser ground in turn: again from the lowest up. What is
     // met is told by the depths that are stored. Columns are upright, lanes lie beside each other.
-    void columnsBeyond(int a, M lanes, Rays rays) {
-        const CasterScene* scene = &mScene;
-        double x = mEye.x, y = mEye.y;
-        F border = borderExit(mEye, rays);
-        while (scene->beyond.scene != nullptr) {
-            const CoarserGround& beyond = scene->beyond;
-            x = (x - beyond.originX) * beyond.scale;
-            y = (y - beyond.originY) * beyond.scale;
-            scaleRays(rays, beyond.scale);
-            scene = beyond.scene;
-            const bool last = scene->beyond.scene == nullptr;
-            const Eye<kBent> eye = makeEyeAt<kBent>(scene->ground, mView, x, y);
-            Columns<kBent> columns(eye, rays, lanes, border);
+    void columnsBeyond(int a, M lanes, const Rays& rays) {
+        const Inverses inverse = inversesOf(rays);
+        F border = borderExit(mRings[0], inverse);
+        for (int n = 1; n < mRings.count(); ++n) {
+            const Ring<kBent>& ring = mRings[n];
+            const bool last = n + 1 == mRings.count();
+            Columns<kBent> columns(ring.eye, scaled(rays, ring.scale), lanes, border);
             for (int q = mBand.firstStep; q < mBand.endStep; ++q) {
                 const std::int64_t row = mView.firstY + static_cast<std::int64_t>(q) * mView.stepY;
                 float* depth = mTarget.depth + row * mTarget.depthStride + mView.firstX + a;
@@ -162,10 +156,10 @@ private:
                 const Hits hits = columns.cast(slopeOf(a, q), left);
                 const M met = left & (hits.t < infinity()), shaded = last ? left : met;
                 if (!any(shaded)) continue;
-                store(color, shadePacket(*scene, mView, columns.rays(), hits, shaded), shaded);
+                store(color, shadePacket(*ring.scene, mView, columns.rays(), hits, shaded), shaded);
                 store(depth, hits.t, met);
             }
-            border = max(border, borderExit(eye, rays));
+            border = max(border, borderExit(ring, inverse));
         }
     }
 
@@ -189,11 +183,8 @@ private:
         const M lanes = firstLanes(count);
         const Rays rays = raysOfRow(mView, mOffsets, a, q);
         const F start = coherentStart(rays, a, q, lanes);
-        const I level = select(start > F(0.0f), I(0), I(kColdLevel < mScene.ground.levels ? kColdLevel : 0));
-        const bool beyond =
-            mScene.beyond.scene != nullptr && startBeyond(mScene, start, borderExit(mEye, rays), lanes);
-        Hits hits = beyond ? noHits() : castPacket(mEye, rays, start, level, lanes);
-        const I color = shadeThrough(mScene, mView, mEye, rays, start, lanes, hits);
+        Hits hits;
+        const I color = castThrough(mRings, mView, rays, start, lanes, hits);
         store(row + a, hits.free, lanes);
         put(a, q, count, lanes, hits.t, color);
     }
@@ -258,7 +249,7 @@ private:
     const CasterView& mView;
     const CasterBand& mBand;
     const CasterTarget& mTarget;
-    const Eye<kBent> mEye;
+    const Rings<kBent> mRings;
     const LaneOffsets mOffsets;
     float* const mRing;
     const std::int64_t mPitch;

@@ -93,9 +93,9 @@ STEREONAV_INLINE F curvatureOf(const Walk<kBent>& w, F twist) {
 template <bool kBent>
 STEREONAV_INLINE CellHit hitCell(const Eye<kBent>& eye, const Walk<kBent>& w, const BlockExit& e, M m) {
     CellHit c;
-    const I index = w.j * I(eye.ground.width) + w.i;
-    const FPair south = gatherPair(eye.ground.heights, index, m);
-    const FPair north = gatherPair(eye.ground.heights + eye.ground.width, index, m);
+    const I index = w.j * I(eye.ground->width) + w.i;
+    const FPair south = gatherPair(eye.ground->heights, index, m);
+    const FPair north = gatherPair(eye.ground->heights + eye.ground->width, index, m);
     c.h00 = south.first, c.h10 = south.second, c.h01 = north.first, c.h11 = north.second;
     const F du = c.h10 - c.h00, dv = c.h01 - c.h00, twist = (c.h11 - c.h01) - du;
     const F u = mulAdd(w.t, w.rays.x, eye.relativeX - toFloat(w.i - I(eye.baseI)));
@@ -192,7 +192,7 @@ inline void castExactly(const Eye<kBent>& eye, const Rays& rays, F from, F floor
     __builtin_memcpy(x, &rays.exactX, sizeof x);
     __builtin_memcpy(y, &rays.exactY, sizeof y);
     __builtin_memcpy(z, &rays.exactZ, sizeof z);
-    const GroundData& g = eye.ground;
+    const GroundData& g = *eye.ground;
     for (std::uint32_t left = bits(m); left != 0; left &= left - 1) {
         const int k = __builtin_ctz(left);
         const double fastest = __builtin_fmax(__builtin_fabs(x[k]), __builtin_fabs(y[k]));
@@ -268,7 +268,7 @@ STEREONAV_INLINE Walk<kBent> startWalk(const Eye<kBent>& eye, const Rays& rays, 
     t = max(t, F(eye.nearDepth));
     const F end = min(max(west, east), max(south, north));
     // Above all ground: a falling ray starts where it comes down to the highest sample.
-    w.over = (eye.height - F(eye.ground.maxHeight)) + (eye.rest - eye.margin);
+    w.over = (eye.height - F(eye.ground->maxHeight)) + (eye.rest - eye.margin);
     t = select(w.downward & (w.over > F(0.0f)), max(t, comesDown(w)), t);
     w.risen = hasRisenAt(w, min(t, F(kBent ? 1e12f : 1e30f)));
     if constexpr (kBent) w.risen = w.risen | (w.downward & staysAbove(w));
@@ -285,13 +285,13 @@ STEREONAV_INLINE Walk<kBent> startWalk(const Eye<kBent>& eye, const Rays& rays, 
 // hit: the latter are returned. Waiting for the last leaves the others idle where lanes differ much.
 template <bool patient, bool kBent>
 STEREONAV_INLINE M leap(const Eye<kBent>& eye, Walk<kBent>& w, M move) {
-    const I top(eye.ground.levels - 1);
+    const I top(eye.ground->levels - 1);
     M parked = maskFromBits(0);
     while (any(move)) {
         const I blockI = shiftRight(w.i, w.level), blockJ = shiftRight(w.j, w.level);
-        const I index = lookup16(eye.ground.maximaOffset, w.level) +
-                        blockJ * lookup16(eye.ground.maximaPitch, w.level) + blockI;
-        const F highest = gather(eye.ground.maxima, index, move, F(0.0f));
+        const I index = lookup16(eye.ground->maximaOffset, w.level) +
+                        blockJ * lookup16(eye.ground->maximaPitch, w.level) + blockI;
+        const F highest = gather(eye.ground->maxima, index, move, F(0.0f));
         const BlockExit e = blockExit(eye, w, blockI, blockJ, w.level);
         const F lowestAt = lowestUntil(w, e.t);
         const M near = move & (heightAt(w, lowestAt, eye.rest - eye.margin) <= highest - eye.height);
@@ -363,16 +363,18 @@ STEREONAV_INLINE Hits settle(const Eye<kBent>& eye, const Walk<kBent>& w, const 
 
 // The rest of a walk that was started.
 template <bool kBent>
-STEREONAV_INLINE Hits walkOn(const Eye<kBent>& eye, Walk<kBent> w) {
+STEREONAV_INLINE Hits walkOn(const Eye<kBent>& eye, Walk<kBent>& w) {
     const I level = w.level;
     CellHit found;
     found.hit = found.unsure = maskFromBits(0);
     found.t = infinity();
     found.approach = F(-1.0f);
     found.curvature = found.h00 = found.h10 = found.h01 = found.h11 = F(0.0f);
-    if (any(w.active & (level == I(0)))) {
-        tryCells(eye, w, w.active & (level == I(0)), found);
-        if (any(w.active)) tryCells(eye, w, w.active & (level == I(0)), found);
+    constexpr int kSure = 2, kOutright = 5;  // cells tried outright by all, and by the most of a packet
+    for (int cells = 0; cells < kOutright; ++cells) {
+        const M close = w.active & (level == I(0));
+        if (!any(close) || (cells >= kSure && __builtin_popcount(bits(close)) < kLanes / 2)) break;
+        tryCells(eye, w, close, found);
     }
     while (any(w.active)) {
         const M parked = leap<false>(eye, w, w.active);
@@ -382,11 +384,12 @@ STEREONAV_INLINE Hits walkOn(const Eye<kBent>& eye, Walk<kBent> w) {
 }
 
 // First hits of the rays `lanes` at or behind `start` (and the near distance). level: pyramid level to
-// begin with; 0 where the hit is thought to be close: then two cells are tried outright, which is all
-// that most rays need.
+// begin with; 0 where the hit is thought to be close: then two cells are tried outright, which is all that
+// most rays need, and some more while most of a packet do.
 template <bool kBent>
 STEREONAV_INLINE Hits castPacket(const Eye<kBent>& eye, const Rays& rays, F start, I level, M lanes) {
-    return walkOn(eye, startWalk(eye, rays, start, level, lanes));
+    Walk<kBent> w = startWalk(eye, rays, start, level, lanes);
+    return walkOn(eye, w);
 }
 
 }  // namespace stereonav::STEREONAV_ISA

@@ -78,9 +78,9 @@ private:
     // from the entry.
     STEREONAV_INLINE void enterCell(M m) {
         if (!any(m)) return;
-        const I index = mWalk.j * I(mEye.ground.width) + mWalk.i;
-        const FPair south = gatherPair(mEye.ground.heights, index, m);
-        const FPair north = gatherPair(mEye.ground.heights + mEye.ground.width, index, m);
+        const I index = mWalk.j * I(mEye.ground->width) + mWalk.i;
+        const FPair south = gatherPair(mEye.ground->heights, index, m);
+        const FPair north = gatherPair(mEye.ground->heights + mEye.ground->width, index, m);
         mH00 = select(m, south.first, mH00);
         mH10 = select(m, south.second, mH10);
         mH01 = select(m, north.first, mH01);

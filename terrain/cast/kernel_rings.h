@@ -10,23 +10,77 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// The same rays in grid units of the coarser ground: exact, since scales are powers of two.
-STEREONAV_INLINE void scaleRays(Rays& rays, double scale) {
+// The same rays in grid units of a coarser ground: exact, since scales are powers of two.
+STEREONAV_INLINE Rays scaled(Rays rays, double scale) {
     const D d(scale);
     const F f(static_cast<float>(scale));
     rays.exactX = rays.exactX * d, rays.exactY = rays.exactY * d;
     rays.x = rays.x * f, rays.y = rays.y * f;
+    return rays;
 }
 
-// Where the rays leave the ground. They come from inside it, or above its border.
+// A ground of a scene, the eye over it, and the way to its borders.
 template <bool kBent>
-STEREONAV_INLINE F borderExit(const Eye<kBent>& eye, const Rays& rays) {
-    const F inverseX = approxReciprocal(divisible(rays.x)), inverseY = approxReciprocal(divisible(rays.y));
-    const F west = (toFloat(I(-eye.baseI)) - eye.relativeX) * inverseX;
-    const F east = (toFloat(eye.lastI + I(1 - eye.baseI)) - eye.relativeX) * inverseX;
-    const F south = (toFloat(I(-eye.baseJ)) - eye.relativeY) * inverseY;
-    const F north = (toFloat(eye.lastJ + I(1 - eye.baseJ)) - eye.relativeY) * inverseY;
-    return min(max(west, east), max(south, north));
+struct Ring {
+    const CasterScene* scene;
+    double scale;                // its grid units for one of the first ground: a power of two
+    F west, east, south, north;  // grid units of the first ground
+    Eye<kBent> eye;
+};
+
+// All grounds of a scene, the first one first, as a view's eye has them. They are the same for all rays: made
+// once for many.
+template <bool kBent>
+class Rings {
+public:
+    STEREONAV_INLINE Rings(const CasterScene& first, const CasterView& view) {
+        double x = view.originX, y = view.originY, scale = 1;
+        for (const CasterScene* scene = &first;; scene = scene->beyond.scene) {
+            mRings[mCount++] = ringAt(*scene, view, x, y, scale);
+            const CoarserGround& beyond = scene->beyond;
+            if (beyond.scene == nullptr) break;
+            x = (x - beyond.originX) * beyond.scale;
+            y = (y - beyond.originY) * beyond.scale;
+            scale *= beyond.scale;
+        }
+    }
+
+    int count() const { return mCount; }
+    const Ring<kBent>& operator[](int n) const { return mRings[n]; }
+
+private:
+    static constexpr int kMost = 32;  // grids have fewer levels, and each ring is of another
+
+    STEREONAV_INLINE static Ring<kBent> ringAt(const CasterScene& scene, const CasterView& view, double x,
+                                               double y, double scale) {
+        const Eye<kBent> eye = makeEyeAt<kBent>(scene.ground, view, x, y);
+        const F units(static_cast<float>(1 / scale));
+        return {&scene,
+                scale,
+                (toFloat(I(-eye.baseI)) - eye.relativeX) * units,
+                (toFloat(eye.lastI + I(1 - eye.baseI)) - eye.relativeX) * units,
+                (toFloat(I(-eye.baseJ)) - eye.relativeY) * units,
+                (toFloat(eye.lastJ + I(1 - eye.baseJ)) - eye.relativeY) * units,
+                eye};
+    }
+
+    int mCount = 0;
+    Ring<kBent> mRings[kMost];
+};
+
+// Of rays of the first ground: what their ways to borders are divided by.
+struct Inverses {
+    F x, y;
+};
+STEREONAV_INLINE Inverses inversesOf(const Rays& rays) {
+    return {approxReciprocal(divisible(rays.x)), approxReciprocal(divisible(rays.y))};
+}
+
+// Where rays leave the ring. They come from inside it, or above its border.
+template <bool kBent>
+STEREONAV_INLINE F borderExit(const Ring<kBent>& ring, const Inverses& inverse) {
+    return min(max(ring.west * inverse.x, ring.east * inverse.x),
+               max(ring.south * inverse.y, ring.north * inverse.y));
 }
 
 // Of a ray where its walk stands.
@@ -39,9 +93,9 @@ struct Standing {
 template <bool kBent>
 STEREONAV_INLINE Standing standingAt(const Eye<kBent>& eye, const Walk<kBent>& w, M m) {
     Standing s;
-    const I index = w.j * I(eye.ground.width) + w.i;
-    const FPair south = gatherPair(eye.ground.heights, index, m);
-    const FPair north = gatherPair(eye.ground.heights + eye.ground.width, index, m);
+    const I index = w.j * I(eye.ground->width) + w.i;
+    const FPair south = gatherPair(eye.ground->heights, index, m);
+    const FPair north = gatherPair(eye.ground->heights + eye.ground->width, index, m);
     const F du = south.second - south.first, dv = north.first - south.first;
     const F twist = (north.second - north.first) - du;
     s.u = clamp(mulAdd(w.t, w.rays.x, eye.relativeX - toFloat(w.i - I(eye.baseI))), F(0.0f), F(1.0f));
@@ -78,7 +132,7 @@ STEREONAV_INLINE void meetAt(const WalkPlace& w, const Standing& s, M m, Hits& h
 template <bool kBent>
 STEREONAV_INLINE Hits castEntering(const Eye<kBent>& eye, const Rays& rays, F border, F start, M lanes) {
     const M entering = start <= border;
-    const I cold(kColdLevel < eye.ground.levels ? kColdLevel : 0);
+    const I cold(kColdLevel < eye.ground->levels ? kColdLevel : 0);
     Walk<kBent> w = startWalk(eye, rays, max(start, border), select(entering, cold, I(0)), lanes);
     w.floor = border;
     const M atBorder = w.active & entering & (w.t <= border);
@@ -92,57 +146,64 @@ STEREONAV_INLINE Hits castEntering(const Eye<kBent>& eye, const Rays& rays, F bo
     return hits;
 }
 
-// Whether all rays `lanes` start beyond the border at `exit`, known to be free until there, of a ground that
-// goes on: then it has nothing for them. So it is with most, as lower ones end further out.
-STEREONAV_INLINE bool startBeyond(const CasterScene& scene, F start, F exit, M lanes) {
-    return scene.beyond.scene != nullptr && !any(lanes & (start <= exit));
-}
-
-// For rays `lanes` that did not meet the ground `inner`: what they meet beyond it, and its colour, or the
-// sky's. start: as of castPacket.
+// For rays `lanes` that did not meet the first ground: what they meet beyond it, and its colour, or the
+// sky's. rays: of the first ground; start: as of castPacket.
 template <bool kBent>
-inline void castBeyond(const CasterScene& inner, const CasterView& view, const Eye<kBent>& innerEye,
-                       const Rays& innerRays, F start, M lanes, Hits& hits, I& color) {
-    const CasterScene* scene = &inner;
-    double x = innerEye.x, y = innerEye.y;
-    Rays rays = innerRays;
-    F border = borderExit(innerEye, rays);
+inline void castBeyond(const Rings<kBent>& rings, const CasterView& view, const Rays& rays, F start, M lanes,
+                       Hits& hits, I& color) {
+    const Inverses inverse = inversesOf(rays);
+    F border = borderExit(rings[0], inverse);
     M left = lanes;
-    while (scene->beyond.scene != nullptr && any(left)) {
-        const CoarserGround& beyond = scene->beyond;
-        x = (x - beyond.originX) * beyond.scale;
-        y = (y - beyond.originY) * beyond.scale;
-        scaleRays(rays, beyond.scale);
-        scene = beyond.scene;
-        const Eye<kBent> eye = makeEyeAt<kBent>(scene->ground, view, x, y);
-        const F exit = borderExit(eye, rays);
-        if (startBeyond(*scene, start, exit, left)) {
+    for (int n = 1; n < rings.count() && any(left); ++n) {
+        const Ring<kBent>& ring = rings[n];
+        const bool last = n + 1 == rings.count();
+        const F exit = borderExit(ring, inverse);
+        // A ring that all rays are known to be free in, up to its border, has nothing for them. So it is with
+        // most, as lower rays end further out.
+        if (!last && !any(left & (start <= exit))) {
             border = max(border, exit);
             continue;
         }
-        const Hits met = castEntering(eye, rays, border, start, left);
-        const M here = left & (met.t < infinity());
-        const M shaded = scene->beyond.scene != nullptr ? here : left;
-        if (any(shaded)) color = select(shaded, shadePacket(*scene, view, rays, met, shaded), color);
-        hits.t = select(here, met.t, hits.t);
-        hits.free = select(left, met.free, hits.free);
-        left = andNot(left, here);
+        const Rays here = scaled(rays, ring.scale);
+        const Hits found = castEntering(ring.eye, here, border, start, left);
+        const M met = left & (found.t < infinity());
+        const M shaded = last ? left : met;
+        if (any(shaded)) color = select(shaded, shadePacket(*ring.scene, view, here, found, shaded), color);
+        hits.t = select(met, found.t, hits.t);
+        hits.free = select(left, found.free, hits.free);
+        left = andNot(left, met);
         border = max(border, exit);
     }
 }
 
-// Colours of rays `lanes` that were cast at the scene's first ground; hits become those beyond it where they
-// met nothing there.
+// Colours of rays `lanes` that were cast at the first ground; hits become those beyond it where they met
+// nothing there.
 template <bool kBent>
-STEREONAV_INLINE I shadeThrough(const CasterScene& scene, const CasterView& view, const Eye<kBent>& eye,
-                                const Rays& rays, F start, M lanes, Hits& hits) {
-    if (scene.beyond.scene == nullptr) return shadePacket(scene, view, rays, hits, lanes);
+STEREONAV_INLINE I shadeThrough(const Rings<kBent>& rings, const CasterView& view, const Rays& rays, F start,
+                                M lanes, Hits& hits) {
+    if (rings.count() == 1) return shadePacket(*rings[0].scene, view, rays, hits, lanes);
     const M here = lanes & (hits.t < infinity());
     I color = I(0);
-    if (any(here)) color = shadePacket(scene, view, rays, hits, here);
+    if (any(here)) color = shadePacket(*rings[0].scene, view, rays, hits, here);
     const M left = andNot(lanes, here);
-    if (any(left)) castBeyond(scene, view, eye, rays, start, left, hits, color);
+    if (any(left)) castBeyond(rings, view, rays, start, left, hits, color);
     return color;
+}
+
+// First hits of the rays `lanes`, and their colours.
+template <bool kBent>
+STEREONAV_INLINE I castThrough(const Rings<kBent>& rings, const CasterView& view, const Rays& rays, F start,
+                               M lanes, Hits& hits) {
+    if (!any(lanes & (start < infinity()))) {  // lower rays have risen above all ground for good
+        hits = noHits();
+        hits.free = infinity();
+        return shadePacket(*rings[0].scene, view, rays, hits, lanes);
+    }
+    const Ring<kBent>& first = rings[0];
+    const I cold(kColdLevel < first.scene->ground.levels ? kColdLevel : 0);
+    const bool passed = rings.count() > 1 && !any(lanes & (start <= borderExit(first, inversesOf(rays))));
+    hits = passed ? noHits() : castPacket(first.eye, rays, start, select(start > F(0.0f), I(0), cold), lanes);
+    return shadeThrough(rings, view, rays, start, lanes, hits);
 }
 
 }  // namespace stereonav::STEREONAV_ISA

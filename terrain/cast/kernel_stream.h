@@ -14,11 +14,7 @@ class RayStream {
 public:
     STEREONAV_INLINE RayStream(const CasterScene& scene, const CasterView& view, const CasterBatch& batch,
                                const CasterTarget& target)
-        : mScene(scene),
-          mView(view),
-          mBatch(batch),
-          mTarget(target),
-          mEye(makeEye<kBent>(scene.ground, view)) {
+        : mScene(scene), mView(view), mBatch(batch), mTarget(target), mRings(scene, view) {
         for (int k = 0; k < kLanes; ++k) mPixel[k] = 0, mX[k] = mY[k] = mZ[k] = 0, mStart[k] = 0;
         mFound.hit = mFound.unsure = mTaken = mWalk.active = mWalk.risen = maskFromBits(0);
         mFound.t = mWalk.t = F(0.0f);
@@ -38,8 +34,8 @@ public:
                 take(~mWalk.active);
                 continue;
             }
-            const M parked = leap<false>(mEye, mWalk, mWalk.active);
-            if (any(parked)) tryCells(mEye, mWalk, parked, mFound);
+            const M parked = leap<false>(mRings[0].eye, mWalk, mWalk.active);
+            if (any(parked)) tryCells(mRings[0].eye, mWalk, parked, mFound);
         }
     }
 
@@ -66,7 +62,7 @@ private:
         const F start = loadF(mStart);
         const M known = start > F(0.0f);
         const I cold(kColdLevel < mScene.ground.levels ? kColdLevel : 0);
-        const Walk<kBent> next = startWalk(mEye, rays(), start, select(known, I(0), cold), fresh);
+        const Walk<kBent> next = startWalk(mRings[0].eye, rays(), start, select(known, I(0), cold), fresh);
         const Walk<kBent> old = mWalk;
         mWalk = next;
         mWalk.t = select(fresh, next.t, old.t);
@@ -77,7 +73,7 @@ private:
         mWalk.risen = (next.risen & fresh) | andNot(old.risen, fresh);
         mTaken = mTaken | fresh;
         const M close = mWalk.active & fresh & known;
-        if (any(close)) tryCells(mEye, mWalk, close, mFound);
+        if (any(close)) tryCells(mRings[0].eye, mWalk, close, mFound);
     }
 
     STEREONAV_INLINE Rays rays() const {
@@ -97,8 +93,8 @@ private:
         CellHit done = mFound;
         done.hit = done.hit & m;
         done.unsure = done.unsure & m;
-        Hits hits = settle(mEye, mWalk, done);
-        const I color = shadeThrough(mScene, mView, mEye, mWalk.rays, loadF(mStart), m, hits);
+        Hits hits = settle(mRings[0].eye, mWalk, done);
+        const I color = shadeThrough(mRings, mView, mWalk.rays, loadF(mStart), m, hits);
         alignas(64) float depth[kLanes];
         alignas(64) std::uint32_t packed[kLanes];
         store(depth, hits.t);
@@ -118,7 +114,7 @@ private:
     const CasterView& mView;
     const CasterBatch& mBatch;
     const CasterTarget& mTarget;
-    const Eye<kBent> mEye;
+    const Rings<kBent> mRings;
     Walk<kBent> mWalk;
     CellHit mFound;
     M mTaken;

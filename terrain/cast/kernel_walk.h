@@ -36,7 +36,7 @@ struct EyeBend<true> {
 // What is the same for all rays of a view.
 template <bool kBent>
 struct Eye {
-    const GroundData& ground;
+    const GroundData* ground;
     double x, y, z;    // grid, grid, metres
     int baseI, baseJ;  // grid cell that single-precision coordinates are relative to
     F relativeX, relativeY;
@@ -82,7 +82,7 @@ STEREONAV_INLINE Eye<kBent> makeEyeAt(const GroundData& ground, const CasterView
         // Its factor alone is off by 2^-22.
         largest += 4 * static_cast<float>(largestRise(ground, view.fall, x, y));
     }
-    return {ground,
+    return {&ground,
             x,
             y,
             view.originZ,
