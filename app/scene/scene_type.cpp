@@ -46,9 +46,9 @@ bool isBuiltIn(const std::string& name) {
 
 const SceneType& sceneTypeNamed(const std::string& name) {
     constexpr const char* kAdvice =
-        "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png), a CT study (a folder of "
-        "DICOM slices, .dcm, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), a mesh (.glb, .gltf), colon, cloud, "
-        "wax, or nothing for the built-in terrain";
+        "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png, or a folder of them), a CT "
+        "study (a folder of DICOM slices, .dcm, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), a mesh (.glb, "
+        ".gltf), colon, cloud, wax, or nothing for the built-in terrain";
     for (const SceneType* type : sceneTypes())
         if (std::find(type->builtIn.begin(), type->builtIn.end(), name) != type->builtIn.end()) return *type;
     std::error_code code;
@@ -57,7 +57,10 @@ const SceneType& sceneTypeNamed(const std::string& name) {
     refuseArchive(name);
     for (const SceneType* type : sceneTypes())
         if (type->owns && type->owns(name)) return *type;
-    throw Error(name, "", "expected a file or a folder of DICOM slices, found a folder without any", kAdvice);
+    throw Error(
+        name, "",
+        "expected a file, or a folder of DICOM slices or elevation models, found a folder without any",
+        kAdvice);
 }
 
 }  // namespace stereonav

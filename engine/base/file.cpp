@@ -142,8 +142,14 @@ void intoStream(const fs::path& place, const Put& put) {
 void checkFolder(const fs::path& path, const fs::path& target) {
     std::error_code code;
     const fs::path folder = folderOf(target);
-    if (folder == cacheFolder() && fs::create_directories(folder, code))
-        fs::permissions(folder, fs::perms::owner_all, code);  // what lies there tells of patients
+    if (folder == cacheFolder()) {
+        if (fs::create_directories(folder, code))
+            fs::permissions(folder, fs::perms::owner_all, code);  // what lies there tells of patients
+        else if (code)
+            throw Error(path.string(), "",
+                        "can not be written: its folder can not be made (" + code.message() + ")",
+                        "name another place for the cache with XDG_CACHE_HOME");
+    }
     if (!fs::exists(folder, code))
         throw Error(path.string(), "", "can not be written: there is no folder \"" + folder.string() + "\"",
                     "make it, or name another place");

@@ -23,6 +23,7 @@
 namespace stereonav {
 namespace {
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
 
 template <typename Call>
@@ -85,6 +86,9 @@ TEST_F(FileTest, TheCachesFolderAloneIsMade) {
     EXPECT_EQ(readTextFile(cacheFolder() / "a.bin"), "x");
     EXPECT_EQ(fs::status(cacheFolder()).permissions(), fs::perms::owner_all) << "others can look in";
     EXPECT_THROW(writeTextFile(cacheFolder() / "below/a.bin", "x"), Error);
+    setenv("XDG_CACHE_HOME", (cacheFolder() / "a.bin").c_str(), 1);
+    EXPECT_THAT(messageOf([&] { writeTextFile(cacheFolder() / "b.bin", "x"); }),
+                AllOf(HasSubstr("its folder can not be made"), HasSubstr("XDG_CACHE_HOME")));
     before ? setenv("XDG_CACHE_HOME", kept.c_str(), 1) : unsetenv("XDG_CACHE_HOME");
 }
 
