@@ -7,6 +7,7 @@
 
 #include "app/command/comparison_report.h"
 #include "app/command/narrowed_eyes.h"
+#include "app/command/scene_facts.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
@@ -130,6 +131,7 @@ ComparisonReport describe(const CompareOptions& options, const Scene& scene, int
     report.repeats = options.repeats;
     report.truthRays = options.truthRays;
     report.stereo = scene.stereo;
+    report.curvature = factOfCurvature(scene);
     report.least = scene.stereo.separation;
     return report;
 }

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "app/command/facts_json.h"
 #include "engine/metrics/error_plot.h"
 
 namespace stereonav {
@@ -116,6 +117,7 @@ std::string jsonOf(const ComparisonReport& report) {
     json["separation_m"] = report.stereo.separation;
     json["least_separation_m"] = report.least;
     json["zero_parallax_m"] = report.stereo.zeroParallax;
+    if (report.curvature) json.update(jsonOf(Facts{*report.curvature}));
     json["methods"] = nlohmann::ordered_json::array();
     for (const MethodFigures& method : report.methods) {
         nlohmann::ordered_json entry;

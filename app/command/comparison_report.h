@@ -2,11 +2,13 @@
 // nothing there.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/camera/stereo_rig.h"
 #include "engine/metrics/method_comparison.h"
+#include "engine/scene/facts.h"
 
 namespace stereonav {
 
@@ -17,6 +19,7 @@ struct ComparisonReport {
     int truthRays = 0;  // a pixel of the finer truths
     int edgeRays = 0;   // added at the edges of both eyes
     StereoSetting stereo;
+    std::optional<Fact> curvature;  // of ground over a round Earth (scene_facts.h)
     double least = 0;  // separation among the frames, metres: eyes come together where a lumen is narrow
     std::vector<MethodFigures> methods;  // medians over the frames
 };

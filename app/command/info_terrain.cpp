@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/command/scene_facts.h"
+#include "engine/math/earth_bend.h"
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/scene/landmark.h"
 #include "terrain/scene/terrain_illumination.h"
@@ -58,6 +59,16 @@ std::string verticalText(const TerrainReport& report) {
 
 }  // namespace
 
+std::optional<Fact> factOfCurvature(const Scene& scene) {
+    const auto* terrain = scene.offered<const TerrainScene>();
+    if (!terrain || !terrain->refraction) return std::nullopt;
+    FactList list;
+    list.json("sinks_by", "distance^2 (1 - refraction) / (2 radius)");
+    list.json("radius_m", kEarthRadius, "m");
+    list.json("refraction", *terrain->refraction);
+    return factForJson("curvature", std::move(list.facts()));
+}
+
 Facts factsOfTerrain(const Scene& scene) {
     const TerrainScene& terrain = *scene.offered<const TerrainScene>();
     const TerrainReport& report = terrain.report;
@@ -87,6 +98,11 @@ Facts factsOfTerrain(const Scene& scene) {
     list.json("vertical_scale", terrain.verticalScale);
     if (terrain.verticalScale != 1)
         list.text("exaggerated", fmt::format("{:.6g} times", terrain.verticalScale));
+    if (std::optional<Fact> curvature = factOfCurvature(scene)) {
+        list.facts().push_back(std::move(*curvature));
+        list.text("round Earth", fmt::format("radius {:.0f} km, refraction {:.6g}", kEarthRadius / 1000,
+                                             *terrain.refraction));
+    }
     list.json("source_offset", FactNumbers{report.sourceOffset.x, report.sourceOffset.y});
     wherePresent("placed_by", report.placedBy, "placed by");
     wherePresent("band", report.band, "band");

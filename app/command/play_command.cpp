@@ -7,6 +7,7 @@
 #include "app/command/paint_notes.h"
 #include "app/command/play_frames.h"
 #include "app/command/quality.h"
+#include "app/command/scene_facts.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -201,6 +202,7 @@ int runPlay(const PlayOptions& options) {
     tellPaintNotes(scene, result);
     tellOfFlight(result, options, flight, sink);
     result.add("scene", scene.name);
+    if (std::optional<Fact> earth = factOfCurvature(scene)) result.add(earth->key, std::move(earth->value));
     if (options.hash) {
         const std::string text = fmt::format("{:016x}", sink.hash());
         result.answer("hash " + text + "\n");

@@ -3,6 +3,7 @@
 
 #include "app/command/paint_notes.h"
 #include "app/command/quality.h"
+#include "app/command/scene_facts.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -104,6 +105,7 @@ int runRender(const RenderOptions& options) {
     bar.clear();
     tellPaintNotes(scene, result);
     result.add("scene", scene.name);
+    if (std::optional<Fact> earth = factOfCurvature(scene)) result.add(earth->key, std::move(earth->value));
     result.addFile("picture", options.out);
     result.add("size", FactIntegers{options.size.width, options.size.height});
     result.add("separation_m", frame.stereo().separation);

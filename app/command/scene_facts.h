@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ Facts factsOfTerrain(const Scene& scene);  // of one that offers const TerrainSc
 Facts factsOfVolume(const Scene& scene);   // of one that offers const ColonScene
 // Of one that offers MediumScene: makes a frame at the start pose, for what the sweep then holds.
 Facts factsOfMedium(const Scene& scene);
+
+// "curvature", of ground over a round Earth: how it sinks, the Earth's radius and the refraction. None of
+// other scenes.
+std::optional<Fact> factOfCurvature(const Scene& scene);
 
 // What holds how much memory; nothing that the scene does not have is named.
 struct Held {

@@ -1,6 +1,7 @@
 // Options: how ground is seen, what is drawn on it, and tracks over it that are flown.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/usual_words.h"
 
 namespace stereonav {
 using namespace command;
@@ -23,19 +24,25 @@ std::vector<Option> groundPaintOptions() {
         {.key = "curvature",
          .value = flagValue(),
          .help = "ground far away is seen lower, as the Earth is round, less what air bends light by",
-         .commands = kRender | kPlay | kCompare | kView,
+         .commands = kInfo | kRender | kPlay | kCompare | kReport | kView,
          .scenes = kTerrain,
-         .take = [](OptionTargets& to, const OptionValue&) { to.scene->curvature = true; }},
+         .rules = {{[](const Asked& asked) { return asked.has("papers"); },
+                    "expected without --papers, which has scenes of its own", kLeaveItOut}},
+         .take = [](OptionTargets& to,
+                    const OptionValue&) { (to.report ? to.report->curvature : to.scene->curvature) = true; }},
         {.key = "refraction",
          .value = numberValue({0, 1, false, true}),
          .help = "share of the curvature that light follows",
          .advice = "0.13 is usual by day, 0 leaves it out",
          .fallback = "0.13",
-         .commands = kRender | kPlay | kCompare | kView,
+         .commands = kInfo | kRender | kPlay | kCompare | kReport | kView,
          .scenes = kTerrain,
          .rules = {{[](const Asked& asked) { return !asked.has("curvature"); },
                     "has an effect with --curvature alone", "add it, or leave this out"}},
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->refraction = value.number(); }},
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 (to.report ? to.report->refraction : to.scene->refraction) = value.number();
+             }},
         {.key = "tracks",
          .value = fileValue(),
          .help = "a GPX or GeoJSON file whose tracks, lines, borders and places are drawn on the ground",

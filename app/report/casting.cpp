@@ -38,8 +38,7 @@ WayChart stepChart(ReportRun& run, const ReportScene& scene) {
     WayChart chart;
     chart.id = "casting/" + scene.id;
     chart.title = "Distance of samples, " + scene.title;
-    chart.setting = fmt::format("{}, {} frames",
-                                run.settingOf(scene.loaded().lens.width, scene.loaded().lens.height), frames);
+    chart.setting = fmt::format("{}, {} frames", run.settingOf(scene.loaded()), frames);
     chart.text = fmt::format(
         "Left eye; distance in the smallest spacing of voxels; error against samples 1/16 of it apart, {} "
         "repeats.",
@@ -139,7 +138,7 @@ WayChart terrainChart(ReportRun& run, const ReportScene& scene) {
     WayChart chart;
     chart.id = "casting/" + scene.id;
     chart.title = "Exact hits against stepping, " + scene.title;
-    chart.setting = run.settingOf(lens.width, lens.height);
+    chart.setting = run.settingOf(s, lens);
     chart.text =
         "Nanoseconds a ray from the start pose. Stepped: the casting of Wan et al. 2004 in plain code, steps "
         "in sample "
@@ -152,7 +151,7 @@ WayChart terrainChart(ReportRun& run, const ReportScene& scene) {
     chart.errorUnit = "%";
     const int repeats = run.pick(3, 7);
     const auto exactHit = [&](const glm::dvec3& d) {
-        return castPlain(ground, view.eye, d, view.nearDepth).t;
+        return castPlain(ground, view.eye, d, view.nearDepth, view.bend()).t;
     };
     const Depths exact = castDepths(view, exactHit);
     const auto times = [&](const auto& work) {
@@ -178,7 +177,7 @@ WayChart terrainChart(ReportRun& run, const ReportScene& scene) {
         Depths depths;
         const std::vector<double> ns = times([&] {
             depths = castDepths(view, [&](const glm::dvec3& d) {
-                return castEquidistant(ground, view.eye, d, view.nearDepth, metres);
+                return castEquidistant(ground, view.eye, d, view.nearDepth, metres, view.bend());
             });
             return depths.ms;
         });

@@ -86,8 +86,7 @@ WayChart edgeChart(ReportRun& run, const ReportScene& scene) {
     WayChart chart;
     chart.id = "edges/" + scene.id;
     chart.title = "Rays at edges, " + scene.title;
-    chart.setting =
-        fmt::format("{}, {} frames", run.settingOf(loaded.lens.width, loaded.lens.height), poses.size());
+    chart.setting = fmt::format("{}, {} frames", run.settingOf(loaded), poses.size());
     chart.text = fmt::format(
         "Both eyes by the default way, against {} rays in each pixel of each eye; {} repeats. Rays are added "
         "where "

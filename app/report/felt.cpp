@@ -111,8 +111,7 @@ void chart(ReportRun& run, ReportSection& section, const ReportScene& scene, dou
     times.run(run, "times, " + scene.title, run.pick(1, 6), 0.3 * seconds);
     WayChart frame;
     frame.title = scene.title;
-    frame.setting = fmt::format(
-        "{}, {} frames", run.settingOf(scene.loaded().lens.width, scene.loaded().lens.height), felt.frames());
+    frame.setting = fmt::format("{}, {} frames", run.settingOf(scene.loaded()), felt.frames());
     frame.text = fmt::format(
         "Against {} rays a pixel. Eyes 1/30 of the zero-parallax distance apart; times are the mean frame's "
         "of "

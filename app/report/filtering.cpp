@@ -94,8 +94,7 @@ WayChart filteringChart(ReportRun& run, const ReportScene& scene) {
     WayChart chart;
     chart.id = "filtering/" + scene.id;
     chart.title = "Filtering the ground, " + scene.title;
-    chart.setting =
-        fmt::format("{}, {} frames", run.settingOf(loaded.lens.width, loaded.lens.height), poses.size());
+    chart.setting = fmt::format("{}, {} frames", run.settingOf(loaded), poses.size());
     chart.text = fmt::format(
         "Left eye, mean frame of the flight, {} repeats, against {} rays a pixel that read the finest level: "
         "edges of the ground's shape are in the error too, which one ray a pixel can not have right.",

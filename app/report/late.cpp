@@ -103,9 +103,7 @@ private:
 void chartLate(ReportRun& run, ReportSection& section, const ReportScene& scene, bool soft, double seconds) {
     LateTrial trial(run, scene, soft);
     trial.run(run.pick(1, 4), seconds);
-    const Lens& lens = scene.loaded().lens;
-    const std::string setting =
-        fmt::format("{}, {} moments", run.settingOf(lens.width, lens.height), trial.moments());
+    const std::string setting = fmt::format("{}, {} moments", run.settingOf(scene.loaded()), trial.moments());
     LineChart chart{{scene.title,
                      "age of the picture, ms",
                      "PSNR, dB",

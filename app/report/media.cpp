@@ -123,8 +123,7 @@ public:
     }
 
     std::string setting() const {
-        return fmt::format("{}, {} frames", mRun.settingOf(mScene.lens.width, mScene.lens.height),
-                           mViews.size());
+        return fmt::format("{}, {} frames", mRun.settingOf(mScene), mViews.size());
     }
     int truthSlices() const { return mFinest.slices; }
     const SweepSetting& own() const { return mOwn; }

@@ -70,9 +70,7 @@ WayChart dialChart(ReportRun& run, const ReportScene& scene, double seconds) {
     WayChart chart;
     chart.id = "quality/" + scene.id;
     chart.title = "The quality dial, " + scene.title;
-    chart.setting =
-        fmt::format("{}, {} frames", run.settingOf(scene.loaded().lens.width, scene.loaded().lens.height),
-                    trial.frames());
+    chart.setting = fmt::format("{}, {} frames", run.settingOf(scene.loaded()), trial.frames());
     chart.text = fmt::format(
         "Ways of warping as they are, and what is picked and refined for --quality and --target-psnr by "
         "frames of the same flight measured before; {} repeats, error against the full right cast. The bound "
@@ -127,8 +125,7 @@ WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
     WayChart chart;
     chart.id = "resolution/" + scene.id;
     chart.title = "Smaller pictures, " + scene.title;
-    chart.setting = fmt::format(
-        "{}, {} frames", run.settingOf(scene.loaded().lens.width, scene.loaded().lens.height), poses.size());
+    chart.setting = fmt::format("{}, {} frames", run.settingOf(scene.loaded()), poses.size());
     chart.text = fmt::format(
         "Both eyes by the default way in a share of the picture's sides, enlarged bilinearly, as --target-ms "
         "makes them where nothing else is fast enough; {} repeats, against both eyes cast in full.",

@@ -99,6 +99,9 @@ void describeRun(ReportRun& run) {
     report.machine = machineFacts();
     report.machine.emplace_back("kind of run", run.quick() ? "quick: fewer frames and repeats" : "full");
     report.machine.emplace_back("seed", std::to_string(run.options().seed));
+    if (run.options().curvature)
+        report.machine.emplace_back("round Earth",
+                                    fmt::format("refraction {:.6g}", run.options().refraction));
     const std::string noise =
         noiseWarning(loadAverage(), static_cast<int>(std::thread::hardware_concurrency()));
     if (!noise.empty()) report.warnings.push_back(noise);
@@ -140,6 +143,12 @@ int runReport(const ReportOptions& options) {
     // what can not be read is told before minutes are spent
     if (!options.stability.empty()) stabilitySection(readTextFile(options.stability), options.stability);
     const std::vector<Part> parts = partsOf(options);
+    const auto any = [&](bool Part::*what) {
+        return std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.*what; });
+    };
+    if (options.curvature && !any(&Part::surfaces))
+        throw Error("--curvature", "", "none of these parts shows ground",
+                    "leave it out, or add one that does, such as right-eye, to --parts");
     const PaperData checked(options.data);
     for (const char* name : {"report.csv", "papers.csv", "report.json", "index.html"})
         checkNotRead({{"--out", (fs::path(options.out) / name).string()}});
@@ -148,9 +157,6 @@ int runReport(const ReportOptions& options) {
     ReportRun run(options, bar.progress());
     if (options.threads > 0) setThreadCount(options.threads);
     describeRun(run);
-    const auto any = [&](bool Part::*what) {
-        return std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.*what; });
-    };
     if (!options.papers) loadReportScenes(run, any(&Part::surfaces), any(&Part::media));
     measureAll(run, parts);
     Report& report = run.report();

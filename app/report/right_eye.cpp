@@ -17,9 +17,7 @@ WayChart chartOf(ReportRun& run, const ReportScene& scene, const RightEyeTrial& 
     WayChart chart;
     chart.id = "right_eye/" + scene.id;
     chart.title = "Right eye, " + scene.title;
-    chart.setting =
-        fmt::format("{}, {} frames", run.settingOf(scene.loaded().lens.width, scene.loaded().lens.height),
-                    trial.frames());
+    chart.setting = fmt::format("{}, {} frames", run.settingOf(scene.loaded()), trial.frames());
     chart.text = fmt::format(
         "Eyes 1/30 of the zero-parallax distance apart; the mean frame of the scene's flight, {} repeats. "
         "Error "
@@ -65,7 +63,6 @@ WayChart separationsOf(ReportRun& run, const ReportScene& scene, double seconds)
     const std::vector<int> parts =
         run.brief() ? std::vector<int>{240, 30, 8} : std::vector<int>{1000, 240, 120, 60, 30, 15, 8, 4};
     WayChart chart;
-    const Lens& lens = scene.loaded().lens;
     int least = 1 << 30, most = 0;  // frames
     for (const int part : parts) {
         StereoSetting stereo = scene.loaded().stereo;
@@ -83,7 +80,7 @@ WayChart separationsOf(ReportRun& run, const ReportScene& scene, double seconds)
     }
     chart.id = "separation/" + scene.id;
     chart.title = "Separations, " + scene.title;
-    chart.setting = fmt::format("{}, {} to {} frames", run.settingOf(lens.width, lens.height), least, most);
+    chart.setting = fmt::format("{}, {} to {} frames", run.settingOf(scene.loaded()), least, most);
     chart.text =
         "The default way with the eyes from 1/1000 to 1/4 of the zero-parallax distance apart; the ring "
         "marks 1/30, "

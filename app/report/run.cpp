@@ -47,6 +47,11 @@ void loadWithGlass(ReportRun& run, const std::string& id, SceneOptions options) 
     loadOne(run, id + " translucent", id + ", translucent", options);
 }
 
+bool isOneOf(const std::string& name, SceneSet types) {
+    const std::string scene = sceneOptionsOf(name).scene;
+    return (sceneTypeNamed(scene).optionsFor(scene) & types) != 0;
+}
+
 // A name's last part, and a number where it was taken.
 std::string idOf(const std::string& name, const std::vector<ReportScene>& scenes) {
     const std::filesystem::path path(name);
@@ -98,9 +103,25 @@ std::string ReportRun::settingOf(int width, int height) const {
     return fmt::format("{}x{}, {} thread{}", width, height, threads, threads == 1 ? "" : "s");
 }
 
+std::string ReportRun::settingOf(const Scene& scene, const Lens& lens) const {
+    const TerrainScene* terrain = terrainOf(scene);
+    return settingOf(lens.width, lens.height) +
+           (terrain && terrain->refraction ? fmt::format(", refraction {:.6g}", *terrain->refraction) : "");
+}
+
 bool isStudy(const std::string& name) {
-    const std::string scene = sceneOptionsOf(name).scene;
-    return (sceneTypeNamed(scene).optionsFor(scene) & scene_type::kStudies) != 0;
+    return isOneOf(name, scene_type::kStudies);
+}
+
+SceneOptions sceneOptionsFor(const ReportOptions& report, const std::string& name) {
+    SceneOptions options = sceneOptionsOf(name);
+    options.threads = report.threads;  // the same for all
+    if (report.up && isStudy(name)) options.volume.up = report.up;
+    if (report.curvature && isOneOf(name, scene_type::kTerrain) && !shownAs(options).swept) {
+        options.curvature = true;
+        options.refraction = report.refraction;
+    }
+    return options;
 }
 
 void loadReportScenes(ReportRun& run, bool surfaces, bool media) {
@@ -109,9 +130,7 @@ void loadReportScenes(ReportRun& run, bool surfaces, bool media) {
     for (const std::string& name : run.options().scenes)
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     for (const std::string& name : names) {
-        SceneOptions options = sceneOptionsOf(name);
-        options.threads = run.options().threads;  // the same for all
-        if (run.options().up && isStudy(name)) options.volume.up = run.options().up;
+        const SceneOptions options = sceneOptionsFor(run.options(), name);
         const bool medium = shownAs(options).swept;
         const std::string id = idOf(name, medium ? run.media() : run.scenes());
         if (medium && media) loadOne(run, id, id, options);

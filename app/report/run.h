@@ -75,6 +75,9 @@ public:
 
     // "500x400, 2 threads": what all figures of that size share.
     std::string settingOf(int width, int height) const;
+    // The same of a scene as the lens shows it, "..., refraction 0.13" where its Earth is round.
+    std::string settingOf(const Scene& scene, const Lens& lens) const;
+    std::string settingOf(const Scene& scene) const { return settingOf(scene, scene.lens); }
 
 private:
     const ReportOptions& mOptions;
@@ -92,6 +95,9 @@ private:
 // The built-in scenes and those that were named, each with its colon's wall opaque and translucent; of media
 // the cloud, in a full run, and those that were named. A scene that is named twice, or built in, comes once.
 void loadReportScenes(ReportRun& run, bool surfaces, bool media);
+
+// What a scene of that name is loaded by: as `compare` shows it, but for what the report says of all such.
+SceneOptions sceneOptionsFor(const ReportOptions& report, const std::string& name);
 
 // From files: not the built-in colon. Throws Error for a name of nothing.
 bool isStudy(const std::string& name);

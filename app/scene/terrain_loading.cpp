@@ -105,7 +105,10 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
     terrain.ringsMayBeLate = terrain.tiled && options.detailLater;
     terrain.levelOfDetail = options.levelOfDetail;
     // Raised heights sink as much more: what hides what stays as it is.
-    if (options.curvature) terrain.lens.fall = curvatureFall(options.refraction) * terrain.verticalScale;
+    if (options.curvature) {
+        terrain.refraction = options.refraction;
+        terrain.lens.fall = curvatureFall(options.refraction) * terrain.verticalScale;
+    }
     return terrain;
 }
 

@@ -10,13 +10,14 @@
 namespace stereonav {
 namespace {
 
-// The part of the ray over the ground's extent, and for a rising ray below its highest sample.
+// The part of the ray over the ground's extent; of a rising one below the highest sample, of a straight one
+// that falls above the lowest.
 struct Part {
     double begin, end;
 };
 
-Part overGround(const Heightfield& ground, const glm::dvec3& origin, const glm::dvec3& direction,
-                double tMin) {
+Part overGround(const Heightfield& ground, const glm::dvec3& origin, const glm::dvec3& direction, double tMin,
+                const EarthBend& bend) {
     Part part{tMin, kInfinity};
     const glm::dvec2 low = ground.originWorld();
     const glm::dvec2 high = ground.worldFromGrid({ground.width() - 1, ground.height() - 1});
@@ -31,19 +32,20 @@ Part overGround(const Heightfield& ground, const glm::dvec3& origin, const glm::
         part.end = std::min(part.end, std::max(a, b));
     }
     if (direction.z > 0) part.end = std::min(part.end, (ground.maxHeight() - origin.z) / direction.z);
-    if (direction.z < 0) part.end = std::min(part.end, (ground.minHeight() - origin.z) / direction.z + 1);
+    if (direction.z < 0 && bend.fall == 0)
+        part.end = std::min(part.end, (ground.minHeight() - origin.z) / direction.z + 1);
     return part;
 }
 
 }  // namespace
 
 double castEquidistant(const Heightfield& ground, const glm::dvec3& origin, const glm::dvec3& direction,
-                       double tMin, double step) {
-    const Part part = overGround(ground, origin, direction, tMin);
+                       double tMin, double step, const EarthBend& bend) {
+    const Part part = overGround(ground, origin, direction, tMin, bend);
     for (double k = std::ceil((part.begin - tMin) / step);; ++k) {
         const double t = tMin + k * step;
         if (!(t <= part.end + step)) return kInfinity;
-        const glm::dvec3 p = origin + t * direction;
+        const glm::dvec3 p = bend.placeOf(origin + t * direction);
         if (ground.contains(glm::dvec2(p)) && p.z <= ground.heightAt(glm::dvec2(p))) return t;
     }
 }

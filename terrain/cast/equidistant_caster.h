@@ -5,13 +5,15 @@
 
 #include <glm/vec3.hpp>
 
+#include "engine/math/earth_bend.h"
 #include "terrain/ground/heightfield.h"
 
 namespace stereonav {
 
 // First parameter tMin + k * step at which origin + t * direction (world) lies on or below the ground,
 // infinite when the ray leaves the ground's extent first. step: in units of t, > 0.
+// bend: of the ground, as the ray sees it.
 double castEquidistant(const Heightfield& ground, const glm::dvec3& origin, const glm::dvec3& direction,
-                       double tMin, double step);
+                       double tMin, double step, const EarthBend& bend = {});
 
 }  // namespace stereonav

@@ -104,6 +104,8 @@ struct TerrainScene {
     StereoSetting stereo;
     bool eyesGiven = false;  // by the scene's file, or an option
     Lens lens;               // width and height are the caller's to set
+    // Of a round Earth, which the lens's fall is of: the share of its curvature that light follows.
+    std::optional<double> refraction;
     double clearance = 2.0;  // metres kept above the ground
     TerrainReport report;
 };

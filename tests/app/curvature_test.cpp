@@ -1,12 +1,15 @@
 // `--curvature` through the real program: the sea's horizon in a picture, each command that has the option,
 // and what is refused.
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "tests/app/program.h"
 
 namespace stereonav::test {
 namespace {
+
+using Json = nlohmann::json;
 
 class Curvature : public ProgramTest {
 protected:
@@ -79,6 +82,30 @@ TEST_F(Curvature, EveryCommandThatHasItShowsIt) {
                                   "--methods", "linear", "--json", "-", "--quiet"});
     ASSERT_EQ(compared.status, 0) << compared.err;
     EXPECT_NE(compared.out.find("psnr"), std::string::npos);
+    EXPECT_EQ(Json::parse(compared.out).at("curvature").at("refraction"), 0.13);
+}
+
+TEST_F(Curvature, IsNamedByWhatUsesIt) {
+    const std::string dem = hills();
+    const auto factsOf = [&](std::vector<std::string> words) {
+        const Outcome outcome = run(words);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return Json::parse(outcome.out);
+    };
+    const std::vector<std::string> render{"render", dem, "--out", "a.png", "--size", "16x12", "--json"},
+        play{"play", dem, "--frames", "1", "--size", "16x12", "--hash", "--json"},
+        info{"info", dem, "--json"};
+    for (const std::vector<std::string>& level : {render, play, info}) {
+        std::vector<std::string> round = level;
+        round.insert(round.end(), {"--curvature", "--refraction", "0.2"});
+        const bool inTerrain = level.front() == "info";
+        const Json before = factsOf(level), after = factsOf(round);
+        const Json& facts = inTerrain ? after.at("terrain") : after;
+        EXPECT_FALSE((inTerrain ? before.at("terrain") : before).contains("curvature")) << level.front();
+        ASSERT_TRUE(facts.contains("curvature")) << level.front();
+        EXPECT_EQ(facts.at("curvature").at("refraction"), 0.2);
+        EXPECT_EQ(facts.at("curvature").at("radius_m"), 6371008.8);
+    }
 }
 
 TEST_F(Curvature, WhatDoesNotKnowOfItIsRefused) {

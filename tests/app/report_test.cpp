@@ -90,7 +90,8 @@ TEST_F(Report, ChartsTheDialSmallerPicturesAndFilters) {
 TEST_F(Report, HasAScenesOwnChartAndAFullCastWithoutError) {
     const std::string scene =
         input("flat.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 30\n1 2 3\n2 3 4\n3 4 9\n");
-    const Outcome outcome = report({"--parts", "right-eye", "--scene", scene});
+    const Outcome outcome =
+        report({"--parts", "right-eye", "--scene", scene, "--curvature", "--refraction", "0.25"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const Json json = Json::parse(contentOf(place() / "report/report.json"));
     int found = 0;
@@ -99,8 +100,12 @@ TEST_F(Report, HasAScenesOwnChartAndAFullCastWithoutError) {
         if (!id.starts_with("right_eye/") || !id.ends_with("/full/error")) continue;
         EXPECT_EQ(figure.at("median"), 0.0) << id;
         found += id == "right_eye/flat.asc/full/error";
+        const std::string setting = figure.at("setting");
+        EXPECT_EQ(setting.find("refraction 0.25") != std::string::npos, !id.starts_with("right_eye/colon"))
+            << id << " " << setting;
     }
     EXPECT_EQ(found, 1);
+    EXPECT_EQ(json.at("machine").at("round Earth"), "refraction 0.25");
 }
 
 TEST_F(Report, MeasuresANamedMediumInStereoAndABuiltInSceneOnce) {
@@ -196,6 +201,7 @@ TEST_F(Report, SaysInOneLineWhatIsWrong) {
         {{"--compare", text}, "text.json"},
         {{"--compare", "/nowhere/old.json"}, "/nowhere/old.json"},
         {{"--parts", "nonsense"}, "there is no part \"nonsense\""},
+        {{"--parts", "light", "--curvature"}, "none of these parts shows ground"},
         {{"--scene", "/nowhere/scene.tif"}, "/nowhere/scene.tif"},
         {{"--parts", "stability", "--stability", row}, "row.jsonl:2"},
         {{"--out", "/proc/nowhere"}, "--out"},

@@ -53,6 +53,26 @@ TEST(EquidistantCaster, ErrorShrinksWithTheStep) {
     }
 }
 
+// Rays that look down come up again over level ground.
+TEST(EquidistantCaster, SeesGroundOverARoundEarthWhereTheExactHitDoes) {
+    const Heightfield ground = test::makeGround("smooth", 97, 83, 1);
+    const EarthBend bend{glm::dvec2(0), 2e-4};
+    int met = 0, otherwise = 0;
+    for (int k = 0; k < 200; ++k) {
+        const glm::dvec3 origin(0, 0, 400), direction(std::sin(0.1 * k), std::cos(0.1 * k), -0.6 - 0.002 * k);
+        const GroundHit exact = castPlain(ground, origin, direction, 0.1, bend),
+                        level = castPlain(ground, origin, direction, 0.1);
+        const double t = castEquidistant(ground, origin, direction, 0.1, 0.25, bend);
+        otherwise += std::isfinite(level.t) && !(std::abs(level.t - exact.t) < 1);
+        if (!std::isfinite(exact.t) || !std::isfinite(t)) continue;
+        EXPECT_GE(t, exact.t - 1e-9);
+        EXPECT_LE(t, exact.t + 1);
+        ++met;
+    }
+    EXPECT_GT(met, 100);
+    EXPECT_GT(otherwise, 100);
+}
+
 TEST(EquidistantCaster, StepsOverASpikeThatTheExactHitFinds) {
     std::vector<float> heights(21 * 21, 0.0f);
     heights[10 * 21 + 10] = 100;
