@@ -41,7 +41,7 @@ void joinOthers(int argc, char** argv) {
     std::string words;
     for (int n = 1; n < argc; ++n) words += std::string(argv[n]) + '\n';
     joinRun(words);
-    // The report measures on one process alone, which has the machine for itself.
+    // The report takes times on one process alone, which then has the machine for itself.
     const int threads = peersOfThisRun().threads();
     if (threads > 0 && std::string_view(argv[1]) != "report") setThreadCount(threads);
     if (!peersOfThisRun().first() && !std::freopen("/dev/null", "w", stdout))

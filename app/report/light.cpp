@@ -71,16 +71,16 @@ std::vector<double> lightOf(const LightSubject& subject, const Baked& baked) {
     return subject.onlyLit(light);
 }
 
-LightSubject makeSubject(ReportRun& run) {
+// most: bricks of the surface to measure on, about.
+LightSubject makeSubject(std::uint64_t seed, int most) {
     LightSubject subject;
-    subject.seed = run.options().seed;
+    subject.seed = seed;
     Progress quiet;
     const auto all = wantedBricks(
         subject.volume, subject.volume.frame,
         {static_cast<float>(kBlockSurface), static_cast<float>(kBlockSurface), nullptr, false}, quiet);
     subject.allBricks = all;
-    const std::size_t every =
-        std::max<std::size_t>(1, all.size() / static_cast<std::size_t>(run.pick(6, 24)));
+    const std::size_t every = std::max<std::size_t>(1, all.size() / static_cast<std::size_t>(most));
     const TexelLayout layout(subject.volume.frame.size);
     for (std::size_t n = 0; n < all.size(); n += every) {
         subject.bricks.push_back(all[n]);
@@ -90,14 +90,20 @@ LightSubject makeSubject(ReportRun& run) {
     return subject;
 }
 
+struct LightTruthOrder {
+    std::uint64_t seed;
+    int bricks, run, samples;
+};
+
 // The mean of runs that nothing measured shares a seed with.
-void findTruth(ReportRun& run, LightSubject& subject) {
+void findTruth(ReportRun& run, LightSubject& subject, int bricks) {
     const int runs = run.pick(4, 8), samples = run.pick(512, 2048);
+    std::vector<UntimedPiece> pieces;
+    for (int n = 0; n < runs; ++n)
+        pieces.push_back(pieceOf(Untimed::LightTruth, LightTruthOrder{subject.seed, bricks, n, samples}));
     std::vector<double> sum;
-    for (int n = 0; n < runs; ++n) {
-        run.tell("light, the truth");
-        const Baked baked =
-            bakeIrradiance(subject, subject.lighter(false, static_cast<std::uint64_t>(n)), samples);
+    for (const PeerBytes& piece : run.untimed().all(pieces)) {
+        const Baked baked{ByteReader(piece).getArray<TexelSum>(), 0};
         for (std::size_t k = 0; k < baked.sums.size(); ++k) subject.lit[k] = baked.sums[k].samples > 0;
         const std::vector<double> light = lightOf(subject, baked);
         sum.resize(light.size());
@@ -187,6 +193,17 @@ WayChart transferChart(ReportRun& run, const LightSubject& subject) {
 
 }  // namespace
 
+PeerBytes makeLightTruth(ReportRun& run, ByteReader& order) {
+    const auto asked = order.get<LightTruthOrder>();
+    run.tell("light, the truth");
+    const auto subject =
+        run.untimed().kept<LightSubject>(fmt::format("light {} {}", asked.seed, asked.bricks),
+                                         [&] { return makeSubject(asked.seed, asked.bricks); });
+    const TexelLighter lighter = subject->lighter(false, static_cast<std::uint64_t>(asked.run));
+    const Baked baked = bakeIrradiance(*subject, lighter, asked.samples);
+    return ByteWriter().putArray(std::span<const TexelSum>(baked.sums)).take();
+}
+
 MeasuredTransfer bakeTransfer(const LightSubject& subject, const TexelLighter& lighter, int order,
                               int samples) {
     const std::size_t numbers = static_cast<std::size_t>(harmonicsCount(order));
@@ -225,8 +242,9 @@ WayChart lightChart(ReportRun& run, const LightSubject& subject, const char* id,
 }
 
 void reportLight(ReportRun& run, double) {
-    LightSubject subject = makeSubject(run);
-    findTruth(run, subject);
+    const int bricks = run.pick(6, 24);
+    LightSubject subject = makeSubject(run.options().seed, bricks);
+    findTruth(run, subject, bricks);
     ReportSection section{"light", "Precomputed light", "", {}};
     addChart(run.report(), section, irradianceChart(run, subject));
     addChart(run.report(), section, transferChart(run, subject));

@@ -11,6 +11,7 @@
 #include "engine/medium/model/built_in_media.h"
 #include "engine/medium/model/medium_transfer.h"
 #include "engine/medium/paths/delta_tracking.h"
+#include "engine/medium/paths/delta_tracking_bounds.h"
 #include "engine/medium/sweep/medium_sweep.h"
 #include "engine/metrics/image_difference.h"
 
@@ -46,6 +47,45 @@ MediumSubject subjectOf(const std::string& name, Medium medium, int size) {
     subject.view = makeEyeView(pose, lens);
     subject.look.light.direction = glm::normalize(pose.forward() + 0.5 * pose.right() - 0.6 * pose.up());
     return subject;
+}
+
+MediumSubject subjectNamed(const std::string& name, int size) {
+    return name == "wax"
+               ? subjectOf(name, Medium(makeWaxField(), withoutSurface("wax")), size)
+               : subjectOf(name, Medium(makeCloudField(), withoutSurface("cloud"), cloudPerturbation()),
+                           size);
+}
+
+// What pieces of a subject's truths are made from; wax: or cloud.
+struct MediumOrder {
+    bool wax;
+    int size;
+};
+struct TrackedOrder {
+    MediumOrder subject;
+    MediumModel model;
+    TrackingSetting tracking;
+    PictureRows rows;
+};
+struct SlicesOrder {
+    MediumOrder subject;
+    int slices;
+};
+
+// With what its paths need.
+struct TrackedSubject {
+    MediumSubject subject;
+    ExtinctionBounds bounds;
+};
+
+std::shared_ptr<TrackedSubject> keptSubject(ReportRun& run, const MediumOrder& order) {
+    const std::string name = order.wax ? "wax" : "cloud";
+    run.tell("volume light, the truth of " + name);
+    return run.untimed().kept<TrackedSubject>(fmt::format("medium {} {}", name, order.size), [&] {
+        MediumSubject subject = subjectNamed(name, order.size);
+        ExtinctionBounds bounds = makeExtinctionBounds(subject.medium, 0);
+        return TrackedSubject{std::move(subject), std::move(bounds)};
+    });
 }
 
 // Over black.
@@ -134,15 +174,64 @@ double truthNoise(const TrackedPicture& tracked) {
     return std::sqrt(sum / std::max(1, tracked.variance.width() * tracked.variance.height()));
 }
 
-void againstPaths(ReportRun& run, ReportSection& section, const MediumSubject& subject, MediumModel model) {
+struct PathTruth {
+    MediumModel model;
+    TrackingSetting tracking;
+    TrackedPicture picture;
+};
+struct MediumTruths {
+    std::vector<PathTruth> paths;
+    int slices = 0;
+    Plane<glm::vec4> manySlices;
+};
+
+// Of all subjects at once, so that no process waits for another's.
+std::vector<MediumTruths> truthsOf(ReportRun& run, const std::vector<MediumSubject>& subjects) {
+    constexpr int kRows = 8;  // in a piece
+    std::vector<MediumTruths> truths(subjects.size());
+    std::vector<UntimedPiece> pieces;
+    for (std::size_t n = 0; n < subjects.size(); ++n) {
+        const EyeView& view = subjects[n].view;
+        const MediumOrder order{subjects[n].name == "wax", view.height};
+        truths[n].slices = run.pick(2048, 8192);
+        pieces.push_back(pieceOf(Untimed::ManySlices, SlicesOrder{order, truths[n].slices}));
+        for (const MediumModel model : {MediumModel::Direct, MediumModel::Indirect}) {
+            TrackingSetting tracking;
+            tracking.samples = run.pick(64, 512);
+            tracking.mostScatters = model == MediumModel::Direct ? 1 : 64;
+            tracking.seed = static_cast<std::uint32_t>(run.options().seed);
+            truths[n].paths.push_back(
+                {model, tracking, {{view.width, view.height}, {view.width, view.height}}});
+            for (int y = 0; y < view.height; y += kRows)
+                pieces.push_back(
+                    pieceOf(Untimed::TrackedRows,
+                            TrackedOrder{order, model, tracking, {y, std::min(view.height, y + kRows)}}));
+        }
+    }
+    const std::vector<PeerBytes> made = run.untimed().all(pieces);
+    auto piece = made.begin();
+    for (std::size_t n = 0; n < subjects.size(); ++n) {
+        const EyeView& view = subjects[n].view;
+        truths[n].manySlices = Plane<glm::vec4>(view.width, view.height);
+        ByteReader slices(*piece++);
+        getRows(slices, 0, view.height, truths[n].manySlices);
+        for (PathTruth& truth : truths[n].paths)
+            for (int y = 0; y < view.height; y += kRows) {
+                ByteReader reader(*piece++);
+                const int end = std::min(view.height, y + kRows);
+                getRows(reader, y, end, truth.picture.light);
+                getRows(reader, y, end, truth.picture.variance);
+            }
+    }
+    return truths;
+}
+
+void againstPaths(ReportRun& run, ReportSection& section, const MediumSubject& subject,
+                  const PathTruth& truth) {
+    const MediumModel model = truth.model;
+    const TrackedPicture& tracked = truth.picture;
     MediumLook look = subject.look;
     look.model = model;
-    TrackingSetting tracking;
-    tracking.samples = run.pick(64, 512);
-    tracking.mostScatters = model == MediumModel::Direct ? 1 : 64;
-    tracking.seed = static_cast<std::uint32_t>(run.options().seed);
-    run.tell("volume light, the truth of " + subject.name);
-    const TrackedPicture tracked = trackPicture(subject.medium, look, subject.view, tracking);
     WayChart chart = sweepChart(run, subject, look, shown(tracked.light));
     const std::string words = model == MediumModel::Direct ? "direct light" : "direct and indirect light";
     chart.id = fmt::format("medium/{}/{}", subject.name, nameOf(model));
@@ -152,8 +241,8 @@ void againstPaths(ReportRun& run, ReportSection& section, const MediumSubject& s
         "whose own standard "
         "error is {} in linear light. The model is an approximation: more slices come nearer to the model, "
         "not to the truth.",
-        words, subject.name, model == MediumModel::Direct ? "scattered once" : "all orders", tracking.samples,
-        numberText(truthNoise(tracked)));
+        words, subject.name, model == MediumModel::Direct ? "scattered once" : "all orders",
+        truth.tracking.samples, numberText(truthNoise(tracked)));
     if (model == MediumModel::Indirect)
         chart.why =
             "The cone is a matter of the medium and of the light's way: what is best here need not be best "
@@ -161,40 +250,61 @@ void againstPaths(ReportRun& run, ReportSection& section, const MediumSubject& s
     addChart(run.report(), section, std::move(chart));
 }
 
-void againstManySlices(ReportRun& run, ReportSection& section, const MediumSubject& subject) {
-    SweepSetting finest;
-    finest.slices = run.pick(2048, 8192);
-    finest.shadingWidth = 0;
-    MediumPicture picture;
-    run.tell("volume light, many slices of " + subject.name);
-    MediumSweep sweep(subject.medium);
-    sweep.render(subject.look, finest, {&subject.view, 1}, subject.view.head, 0, {&picture, 1});
-    WayChart chart = sweepChart(run, subject, subject.look, shown(picture.light));
+void againstManySlices(ReportRun& run, ReportSection& section, const MediumSubject& subject,
+                       const MediumTruths& truth) {
+    WayChart chart = sweepChart(run, subject, subject.look, shown(truth.manySlices));
     std::erase_if(chart.points, [](const WayPoint& p) {
         return !p.way.isDefault && p.way.name.find("slices") == std::string::npos;
     });
     chart.id = fmt::format("medium/{}/slices", subject.name);
     chart.title = fmt::format("Volume light, {}, slices", subject.name);
-    chart.text = fmt::format("Direct and indirect light against the same model in {} slices.", finest.slices);
+    chart.text = fmt::format("Direct and indirect light against the same model in {} slices.", truth.slices);
     addChart(run.report(), section, std::move(chart));
 }
 
 }  // namespace
+
+PeerBytes makeTrackedRows(ReportRun& run, ByteReader& order) {
+    const auto asked = order.get<TrackedOrder>();
+    const auto kept = keptSubject(run, asked.subject);
+    const MediumSubject& subject = kept->subject;
+    MediumLook look = subject.look;
+    look.model = asked.model;
+    const TrackedPicture tracked =
+        trackRows(subject.medium, kept->bounds, look, subject.view, asked.tracking, 0, asked.rows);
+    ByteWriter writer;
+    putRows(writer, asked.rows.first, asked.rows.end, tracked.light);
+    putRows(writer, asked.rows.first, asked.rows.end, tracked.variance);
+    return writer.take();
+}
+
+PeerBytes makeManySlices(ReportRun& run, ByteReader& order) {
+    const auto asked = order.get<SlicesOrder>();
+    const auto kept = keptSubject(run, asked.subject);
+    const MediumSubject& subject = kept->subject;
+    SweepSetting finest;
+    finest.slices = asked.slices;
+    finest.shadingWidth = 0;
+    MediumPicture picture;
+    MediumSweep sweep(subject.medium);
+    sweep.render(subject.look, finest, {&subject.view, 1}, subject.view.head, 0, {&picture, 1});
+    ByteWriter writer;
+    putRows(writer, 0, picture.light.height(), picture.light);
+    return writer.take();
+}
 
 void reportMedium(ReportRun& run, double) {
     ReportSection section{
         "volume-light", "Volume light", "Light swept through translucent media, slice by slice.", {}};
     const int size = run.pick(48, 128);
     std::vector<MediumSubject> subjects;
-    subjects.push_back(
-        subjectOf("cloud", Medium(makeCloudField(), withoutSurface("cloud"), cloudPerturbation()), size));
-    if (!run.brief())
-        subjects.push_back(subjectOf("wax", Medium(makeWaxField(), withoutSurface("wax")), size));
-    for (const MediumSubject& subject : subjects) {
+    subjects.push_back(subjectNamed("cloud", size));
+    if (!run.brief()) subjects.push_back(subjectNamed("wax", size));
+    const std::vector<MediumTruths> truths = truthsOf(run, subjects);
+    for (std::size_t n = 0; n < subjects.size(); ++n) {
         run.checkTime();
-        againstPaths(run, section, subject, MediumModel::Direct);
-        againstPaths(run, section, subject, MediumModel::Indirect);
-        againstManySlices(run, section, subject);
+        for (const PathTruth& truth : truths[n].paths) againstPaths(run, section, subjects[n], truth);
+        againstManySlices(run, section, subjects[n], truths[n]);
     }
     run.checkTime();
     addChart(run.report(), section, shadingWidthChart(run));

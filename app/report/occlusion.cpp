@@ -22,17 +22,25 @@ struct Texels {
     std::vector<double> truth;  // obscurance
 };
 
+// Of some of the block's texels.
+struct OpennessOrder {
+    double radius;
+    std::size_t texels, first, end;
+};
+
 Texels tracedTexels(ReportRun& run, const GreyVolume& volume, double radius) {
+    constexpr std::size_t kTexels = 100;  // in a piece
     Texels texels;
-    for (const glm::ivec3& at :
-         surfaceVoxels(volume, kBlockSurface, static_cast<std::size_t>(run.pick(400, 1500))))
-        texels.at.push_back(at);
-    texels.truth.resize(texels.at.size());
-    run.tell("ambient occlusion, the truth");
-    parallelFor(static_cast<int>(texels.at.size()), [&](int n) {
-        const auto k = static_cast<std::size_t>(n);
-        texels.truth[k] = traceOpenness(volume, texels.at[k], radius, kTruthDirections).obscurance;
-    });
+    texels.at = surfaceVoxels(volume, kBlockSurface, static_cast<std::size_t>(run.pick(400, 1500)));
+    const std::size_t count = texels.at.size();
+    std::vector<UntimedPiece> pieces;
+    for (std::size_t n = 0; n < count; n += kTexels)
+        pieces.push_back(
+            pieceOf(Untimed::Openness, OpennessOrder{radius, count, n, std::min(count, n + kTexels)}));
+    for (const PeerBytes& piece : run.untimed().all(pieces)) {
+        const std::vector<double> some = ByteReader(piece).getArray<double>();
+        texels.truth.insert(texels.truth.end(), some.begin(), some.end());
+    }
     return texels;
 }
 
@@ -118,7 +126,29 @@ WayChart chartOf(ReportRun& run, const GreyVolume& volume, int radius) {
     return chart;
 }
 
+struct KeptTexels {
+    GreyVolume volume;
+    std::vector<glm::ivec3> at;
+};
+
 }  // namespace
+
+PeerBytes makeOpenness(ReportRun& run, ByteReader& order) {
+    const auto asked = order.get<OpennessOrder>();
+    run.tell("ambient occlusion, the truth");
+    const auto kept = run.untimed().kept<KeptTexels>(fmt::format("openness {}", asked.texels), [&] {
+        KeptTexels texels{blockWithHoles(), {}};
+        texels.at = surfaceVoxels(texels.volume, kBlockSurface, asked.texels);
+        return texels;
+    });
+    std::vector<double> truth(asked.end - asked.first);
+    parallelFor(static_cast<int>(truth.size()), [&](int n) {
+        const auto k = static_cast<std::size_t>(n);
+        truth[k] =
+            traceOpenness(kept->volume, kept->at[asked.first + k], asked.radius, kTruthDirections).obscurance;
+    });
+    return ByteWriter().putArray(std::span<const double>(truth)).take();
+}
 
 void reportOcclusion(ReportRun& run, double) {
     ReportSection section{"occlusion", "Ambient occlusion", "", {}};

@@ -40,20 +40,71 @@ EyeView closeView(const VolumeFrame& frame, int width, int height) {
     return view;
 }
 
+VolumeScene blockScene() {
+    VolumeScene scene;
+    scene.field = blockWithHoles();
+    Progress quiet;
+    const auto surface = static_cast<float>(kBlockSurface);
+    scene.cells = findSurfaceCells(scene.field, {surface, surface, surface, nullptr}, quiet);
+    scene.look.specular = 0;
+    return scene;
+}
+
+// Milliseconds.
+double castBlock(const VolumeScene& scene, const EyeView& view, EyeImage& image) {
+    const VolumeRenderer renderer(scene);
+    image.resize(view.width, view.height, renderer.viewDependence());
+    const Stopwatch watch;
+    renderEye(renderer, view, image);
+    return watch.elapsed_ms();
+}
+
+// Luminance at the pixels that show a surface, row by row.
+template <typename LightAt>
+std::vector<double> overPixels(const Plane<float>& depths, const LightAt& lightAt) {
+    std::vector<double> light;
+    for (int y = 0; y < depths.height(); ++y)
+        for (int x = 0; x < depths.width(); ++x)
+            if (depths.at(x, y) < kMissDepth) light.push_back(luminance(glm::dvec3(lightAt(x, y))));
+    return light;
+}
+
+// Paths of a stream from what the pixels show, as luminance; ms: of tracing.
+std::vector<double> pathLight(const VolumeScene& scene, const LightSetup& setup, std::uint64_t seed,
+                              const EyeView& view, const Plane<float>& depths, std::uint32_t stream,
+                              int samples, Progress& progress, double& ms) {
+    TexelSampling sampling;
+    sampling.seed = 1000 * seed + kFirstSeed;
+    const PixelPaths paths(scene, setup, sampling);
+    Plane<TexelSum> sums;
+    const Stopwatch watch;
+    paths.add(view, depths, stream, samples, sums, progress);
+    ms = watch.elapsed_ms();
+    return overPixels(depths, [&](int x, int y) { return sums.at(x, y).mean; });
+}
+
+// Of rows of a picture of the block.
+struct PixelTruthOrder {
+    std::uint64_t seed;
+    std::uint32_t stream;
+    int width, height, samples, firstRow, rows;
+};
+struct SeenBlock {
+    VolumeScene scene = blockScene();
+    LightSetup setup = clearSkyLight();
+    EyeView view;
+    EyeImage image;
+};
+
 class PixelSubject {
 public:
-    explicit PixelSubject(ReportRun& run) : mRun(run), mSetup(clearSkyLight()) {
-        mScene.field = blockWithHoles();
-        Progress quiet;
-        const auto surface = static_cast<float>(kBlockSurface);
-        mScene.cells = findSurfaceCells(mScene.field, {surface, surface, surface, nullptr}, quiet);
-        mScene.look.specular = 0;
+    explicit PixelSubject(ReportRun& run) : mRun(run), mSetup(clearSkyLight()), mScene(blockScene()) {
         mView = closeView(mScene.field.frame, run.pick(64, 96), run.pick(48, 72));
         cast(mImage);
         mTruthSamples = run.pick(512, 2048);
         // Two halves with noise of their own: their difference is twice the error of their mean.
-        const std::vector<double> a = traced(kTruthStream, mTruthSamples, mTruthHalf_ms),
-                                  b = traced(kTruthStream + 1, mTruthSamples, mTruthHalf_ms);
+        const std::vector<std::vector<double>> halves = truths();
+        const std::vector<double>&a = halves[0], &b = halves[1];
         for (std::size_t n = 0; n < a.size(); ++n) mTruth.push_back(0.5 * (a[n] + b[n]));
         mTruthError = 0.5 * relativeRms(a, b);
     }
@@ -131,37 +182,35 @@ private:
 
     int repeats() const { return mRun.pick(15, 40); }
 
-    double cast(EyeImage& image) const {
-        const VolumeRenderer renderer(mScene);
-        image.resize(mView.width, mView.height, renderer.viewDependence());
-        const Stopwatch watch;
-        renderEye(renderer, mView, image);
-        return watch.elapsed_ms();
-    }
+    double cast(EyeImage& image) const { return castBlock(mScene, mView, image); }
 
-    // Luminance at the pixels that show a surface, row by row.
-    template <typename LightAt>
-    std::vector<double> overPixels(const LightAt& lightAt) const {
-        std::vector<double> light;
-        for (int y = 0; y < mView.height; ++y)
-            for (int x = 0; x < mView.width; ++x)
-                if (mImage.viewDepth.at(x, y) < kMissDepth)
-                    light.push_back(luminance(glm::dvec3(lightAt(x, y))));
-        return light;
+    // Of both halves, row by row.
+    std::vector<std::vector<double>> truths() const {
+        constexpr int kRows = 6;  // in a piece
+        std::vector<UntimedPiece> pieces;
+        for (const std::uint32_t stream : {kTruthStream, kTruthStream + 1})
+            for (int y = 0; y < mView.height; y += kRows)
+                pieces.push_back(
+                    pieceOf(Untimed::PixelTruth,
+                            PixelTruthOrder{mRun.options().seed, stream, mView.width, mView.height,
+                                            mTruthSamples, y, std::min(kRows, mView.height - y)}));
+        const std::vector<PeerBytes> made = mRun.untimed().all(pieces);
+        std::vector<std::vector<double>> halves(2);
+        for (std::size_t n = 0; n < made.size(); ++n) {
+            const std::vector<double> rows = ByteReader(made[n]).getArray<double>();
+            std::vector<double>& half = halves[2 * n / made.size()];
+            half.insert(half.end(), rows.begin(), rows.end());
+        }
+        return halves;
     }
+    // Timed.
     std::vector<double> traced(std::uint32_t stream, int samples, double& ms) const {
-        TexelSampling sampling;
-        sampling.seed = 1000 * mRun.options().seed + kFirstSeed;
-        const PixelPaths paths(mScene, mSetup, sampling);
-        Plane<TexelSum> sums;
         Progress telling([this](double, const std::string&) { mRun.tell("light, paths from every pixel"); });
-        const Stopwatch watch;
-        paths.add(mView, mImage.viewDepth, stream, samples, sums, telling);
-        ms = watch.elapsed_ms();
-        return overPixels([&](int x, int y) { return sums.at(x, y).mean; });
+        return pathLight(mScene, mSetup, mRun.options().seed, mView, mImage.viewDepth, stream, samples,
+                         telling, ms);
     }
     std::vector<double> lightLookedUp(const IlluminationVolume& light, Lookup lookup) const {
-        return overPixels([&](int x, int y) {
+        return overPixels(mImage.viewDepth, [&](int x, int y) {
             const glm::dvec3 world =
                 mView.pointAt(x + 0.5, y + 0.5, static_cast<double>(mImage.viewDepth.at(x, y)));
             return lookup == Lookup::NearestIsovalue
@@ -209,7 +258,7 @@ private:
     EyeImage mImage;  // depths
     std::vector<double> mTruth;
     int mTruthSamples = 0;
-    double mTruthError = 0, mTruthHalf_ms = 0;
+    double mTruthError = 0;
 };
 
 WayChart pictureChart(const PixelSubject& subject, const char* id, const char* title) {
@@ -234,6 +283,28 @@ void add(WayChart& chart, WayPoint point, const std::string& name, const std::st
 }
 
 }  // namespace
+
+PeerBytes makePixelTruth(ReportRun& run, ByteReader& order) {
+    const auto asked = order.get<PixelTruthOrder>();
+    const std::string words = "light, paths from every pixel";
+    run.tell(words);
+    const auto seen =
+        run.untimed().kept<SeenBlock>(fmt::format("pixels {}x{}", asked.width, asked.height), [&] {
+            SeenBlock block;
+            block.view = closeView(block.scene.field.frame, asked.width, asked.height);
+            castBlock(block.scene, block.view, block.image);
+            return block;
+        });
+    Plane<float> depths = seen->image.viewDepth;  // of other rows: nothing
+    for (int y = 0; y < depths.height(); ++y)
+        if (y < asked.firstRow || y >= asked.firstRow + asked.rows)
+            std::fill_n(depths.row(y), depths.width(), kMissDepth);
+    Progress telling([&](double, const std::string&) { run.tell(words); });
+    double ms = 0;
+    const std::vector<double> light = pathLight(seen->scene, seen->setup, asked.seed, seen->view, depths,
+                                                asked.stream, asked.samples, telling, ms);
+    return ByteWriter().putArray(std::span<const double>(light)).take();
+}
 
 void addPixelCharts(ReportRun& run, ReportSection& section) {
     run.tell("light, paths from every pixel");

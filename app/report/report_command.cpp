@@ -70,23 +70,33 @@ std::vector<Part> partsOf(const ReportOptions& options) {
     return parts;
 }
 
+std::string untimedText() {
+    const int processes = peersOfThisRun().count();
+    return fmt::format(
+        "Untimed: of it, work that no time is taken of, by {}. Processor: of all threads together{}.",
+        processes == 1 ? "one process" : fmt::format("{} processes, which rest otherwise", processes),
+        processes == 1 ? "" : " of the first process");
+}
+
 void measureAll(ReportRun& run, const std::vector<Part>& parts) {
     double all = 1e-9;
     for (const Part& part : parts) all += part.weight;
     double left = all;
     ReportTable times{"Where this run's own time went",
-                      "Processor: of all threads together.",
-                      {"part", "planned s", "taken s", "processor s"},
-                      {{"loading", "", fmt::format("{:.1f}", run.elapsed_s()), ""}}};
+                      untimedText(),
+                      {"part", "planned s", "taken s", "untimed s", "processor s"},
+                      {{"loading", "", fmt::format("{:.1f}", run.elapsed_s()), "", ""}}};
     for (const Part& part : parts) {
         run.feelMood();
-        const double seconds = run.share_s(part.weight, std::max(left, 1e-9)), before = run.elapsed_s();
+        const double seconds = run.share_s(part.weight, std::max(left, 1e-9)), before = run.elapsed_s(),
+                     untimed = run.untimed().taken_s();
         const std::clock_t processor = std::clock();
         run.begin(part.id, seconds, run.whole_s() * part.weight / all);
         part.measure(run, seconds);
         left -= part.weight;
         times.rows.push_back(
             {part.id, fmt::format("{:.1f}", seconds), fmt::format("{:.1f}", run.elapsed_s() - before),
+             fmt::format("{:.1f}", run.untimed().taken_s() - untimed),
              fmt::format("{:.1f}", static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC)});
     }
     run.feelMood();
@@ -107,13 +117,22 @@ void describeRun(ReportRun& run) {
     if (!noise.empty()) report.warnings.push_back(noise);
 }
 
-// All at the end, each in one go: a report that is stopped leaves nothing.
+// All at the end, each in one go: a report of one process that is stopped leaves nothing.
 void writeReport(const Report& report, const fs::path& folder) {
     makeOutputFolder(folder);
     writeTextFile(folder / "report.csv", figuresCsv(report));
     if (!report.papers.empty()) writeTextFile(folder / "papers.csv", papersCsv(report.papers));
     writeTextFile(folder / "report.json", figuresJson(report));
     writeTextFile(folder / "index.html", pageOf(report));
+}
+
+// Of several processes, where one is lost: hours of theirs are in it.
+void keepWhatIsDone(ReportRun& run, const fs::path& folder) {
+    Report& report = run.report();
+    run.dropPart();
+    if (report.sections.empty()) return;
+    report.warnings.push_back("This run ended early: parts are missing.");
+    writeReport(report, folder);
 }
 
 void tellOf(CommandResult& result, const ReportOptions& options, const Report& report, double seconds) {
@@ -128,12 +147,21 @@ void tellOf(CommandResult& result, const ReportOptions& options, const Report& r
     result.add("warnings", report.warnings);
 }
 
+// Of a process that is not the first. Times are only true while nobody else computes: the first one takes
+// them, and the others sleep until it wants what none is taken of.
+int helpWithReport(const ReportOptions& options) {
+    const int share = peersOfThisRun().threads();
+    if (options.threads > 0 || share > 0) setThreadCount(options.threads > 0 ? options.threads : share);
+    Progress quiet;
+    ReportRun run(options, quiet);
+    run.untimed().serve();
+    return 0;
+}
+
 }  // namespace
 
 int runReport(const ReportOptions& options) {
-    // Nearly all parts take times and errors from the same pictures, and times are only true while nobody
-    // else computes: the first of several processes measures, the others sleep.
-    if (!peersOfThisRun().first()) return 0;
+    if (!peersOfThisRun().first()) return helpWithReport(options);
     checkOutputFolder("--out", options.out);
     std::optional<EarlierReport> earlier;
     if (!options.compare.empty()) earlier = readEarlierReport(options.compare);
@@ -158,7 +186,12 @@ int runReport(const ReportOptions& options) {
     if (options.threads > 0) setThreadCount(options.threads);
     describeRun(run);
     if (!options.papers) loadReportScenes(run, any(&Part::surfaces), any(&Part::media));
-    measureAll(run, parts);
+    try {
+        measureAll(run, parts);
+    } catch (...) {
+        if (!peersOfThisRun().alone()) keepWhatIsDone(run, options.out);
+        throw;
+    }
     Report& report = run.report();
     if (!run.hurriedParts().empty())
         report.warnings.push_back(

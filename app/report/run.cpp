@@ -83,9 +83,16 @@ double ReportRun::share_s(double weight, double weights) const {
 void ReportRun::begin(const std::string& part, double seconds, double planned) {
     constexpr double kBehind = 0.5;
     mPart = part;
+    mFiguresBefore = mReport.figures.size();
+    mSectionsBefore = mReport.sections.size();
     mPartEnd_s = elapsed_s() + seconds;
     mBehind = !quick() && seconds < kBehind * planned;
     if (mBehind) mHurried.push_back(part);
+}
+
+void ReportRun::dropPart() {
+    mReport.figures.resize(mFiguresBefore);
+    mReport.sections.resize(mSectionsBefore);
 }
 
 void ReportRun::checkTime() {

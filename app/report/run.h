@@ -7,6 +7,7 @@
 
 #include "app/report/model.h"
 #include "app/report/mood.h"
+#include "app/report/untimed.h"
 #include "app/scene/scene_loading.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/progress.h"
@@ -57,6 +58,8 @@ public:
     int pick(int whenBrief, int whenFull) const { return brief() ? whenBrief : whenFull; }
     // Begins a part that `seconds` are left for, of `planned`.
     void begin(const std::string& part, double seconds, double planned);
+    // Takes back what the part at hand has found, which is not done.
+    void dropPart();
     // Between charts: from here on the part is brief where its time is up.
     void checkTime();
     double elapsed_s() const { return mWatch.elapsed_ms() / 1000; }
@@ -68,6 +71,9 @@ public:
     const std::vector<std::string>& hurriedParts() const { return mHurried; }
     // Tells what is done now. Throws Cancelled.
     void tell(const std::string& what);
+
+    // What all processes of the run make together.
+    UntimedWork& untimed() { return mUntimed; }
 
     // Does the fixed work that the machine's mood is told by.
     void feelMood() { mMood_ms.push_back(fixedWork_ms()); }
@@ -87,9 +93,11 @@ private:
     std::vector<double> mMood_ms;
     bool mBehind = false;
     double mPartEnd_s = 0;  // of the part at hand
+    std::size_t mFiguresBefore = 0, mSectionsBefore = 0;
     std::string mPart;
     std::vector<std::string> mHurried;  // parts that were behind
     std::vector<ReportScene> mScenes, mMedia;
+    UntimedWork mUntimed{*this};
 };
 
 // The built-in scenes and those that were named, each with its colon's wall opaque and translucent; of media

@@ -20,14 +20,57 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSunAzimuth = 120, kSunElevation = 25;  // degrees: shadows, and light that bounces into them
 
-// The generated terrain in small, path-traced at places all over it.
+glm::vec3 skyAbove(const glm::dvec3& direction) {
+    return gradientSky(glm::vec3(direction));
+}
+
+// The generated terrain in small, under a sun and a sky.
+struct LitGroundSample {
+    Heightfield ground;
+    SunAndSky light;
+    float scale = 1;  // of the sky's radiance
+};
+
+LitGroundSample groundSample(int side) {
+    Progress quiet;
+    const BuiltInTerrain built = generateBuiltInTerrain(1, side, quiet, std::nullopt);
+    LitGroundSample sample;
+    sample.ground =
+        Heightfield(built.size, built.size, glm::dvec2(built.spacing), built.heights, "generated");
+    TerrainLook look;
+    look.sunAzimuth = kSunAzimuth * kDegree;
+    look.sunElevation = kSunElevation * kDegree;
+    const SkyRadiance sky = skyRadiance(skyAbove);
+    sample.light = sunAndSky(look, sky);
+    sample.scale = sample.light.sky.level.y / sky.level.y;
+    return sample;
+}
+
+// On the grid; evenly spread (Roberts 2018).
+glm::dvec2 tracedPlace(const Heightfield& ground, int n) {
+    const glm::dvec2 last(ground.width() - 1, ground.height() - 1);
+    return glm::dvec2(std::fmod(0.5 + n * 0.75487766624669276, 1.0),
+                      std::fmod(0.5 + n * 0.56984029099805327, 1.0)) *
+           last;
+}
+
+// Of places of the ground, from `first` on.
+struct GroundTruthOrder {
+    std::uint64_t seed;
+    int side, first, count, paths;
+};
+struct TracedPlace {
+    double light = 0, variance = 0;
+};
+
+// Path-traced at places all over it.
 class GroundSubject {
 public:
     explicit GroundSubject(ReportRun& run) : mRun(run) {
         run.tell("terrain's light");
-        Progress quiet;
-        const BuiltInTerrain built = generateBuiltInTerrain(1, run.pick(81, 161), quiet, std::nullopt);
-        mGround = Heightfield(built.size, built.size, glm::dvec2(built.spacing), built.heights, "generated");
+        LitGroundSample sample = groundSample(side());
+        mGround = std::move(sample.ground);
+        mLight = sample.light;
         trace();
     }
 
@@ -58,41 +101,23 @@ public:
     double truthNoise_percent() const { return 100 * std::sqrt(mVariance) / mMean; }
 
 private:
+    int side() const { return mRun.pick(81, 161); }
+
     void trace() {
-        const auto gradient = [](const glm::dvec3& d) { return gradientSky(glm::vec3(d)); };
-        TerrainLook look;
-        look.sunAzimuth = kSunAzimuth * kDegree;
-        look.sunElevation = kSunElevation * kDegree;
-        const SkyRadiance sky = skyRadiance(gradient);
-        mLight = sunAndSky(look, sky);
-        const float scale = mLight.sky.level.y / sky.level.y;
-        const glm::dvec2 last(mGround.width() - 1, mGround.height() - 1);
-        for (int n = 0; n < mRun.pick(100, 400); ++n)  // evenly spread (Roberts 2018)
-            mPlaces.push_back(glm::dvec2(std::fmod(0.5 + n * 0.75487766624669276, 1.0),
-                                         std::fmod(0.5 + n * 0.56984029099805327, 1.0)) *
-                              last);
-        mTruth.resize(mPlaces.size());
-        std::vector<double> variances(mPlaces.size());
-        const GroundRays rays(mGround);
-        const TerrainLightSettings usual;
-        mRun.tell("terrain's light, the truth");
-        parallelFor(static_cast<int>(mPlaces.size()), [&](int n) {
-            const auto k = static_cast<std::size_t>(n);
-            PathLightSetting setting;
-            setting.albedo = usual.albedo;
-            setting.bounces = usual.bounces;
-            setting.paths = mRun.pick(512, 4096);
-            setting.seed = mRun.options().seed + 7919 * static_cast<std::uint64_t>(n);
-            const PathLight path = tracePathLight(
-                rays, mGround.worldFromGrid(mPlaces[k]), mLight,
-                [&](const glm::dvec3& d) { return scale * gradient(d); }, setting);
-            mTruth[k] = luminance(glm::dvec3(path.mean));
-            variances[k] = path.variance;
-        });
-        for (std::size_t n = 0; n < mPlaces.size(); ++n) {
-            mMean += mTruth[n] / static_cast<double>(mPlaces.size());
-            mVariance += variances[n] / static_cast<double>(mPlaces.size());
-        }
+        constexpr int kPlaces = 25;  // in a piece
+        std::vector<UntimedPiece> pieces;
+        const int count = mRun.pick(100, 400);
+        for (int n = 0; n < count; n += kPlaces)
+            pieces.push_back(pieceOf(Untimed::GroundTruth,
+                                     GroundTruthOrder{mRun.options().seed, side(), n,
+                                                      std::min(kPlaces, count - n), mRun.pick(512, 4096)}));
+        for (const PeerBytes& piece : mRun.untimed().all(pieces))
+            for (const TracedPlace& place : ByteReader(piece).getArray<TracedPlace>()) {
+                mPlaces.push_back(tracedPlace(mGround, static_cast<int>(mPlaces.size())));
+                mTruth.push_back(place.light);
+                mMean += place.light / count;
+                mVariance += place.variance / count;
+            }
     }
 
     double brightnessAt(const TerrainLight& light, const GroundBrightness& brightness,
@@ -127,6 +152,29 @@ private:
 };
 
 }  // namespace
+
+PeerBytes makeGroundTruth(ReportRun& run, ByteReader& order) {
+    const auto asked = order.get<GroundTruthOrder>();
+    run.tell("terrain's light, the truth");
+    const auto sample = run.untimed().kept<LitGroundSample>(fmt::format("ground {}", asked.side),
+                                                            [&] { return groundSample(asked.side); });
+    const GroundRays rays(sample->ground);
+    const TerrainLightSettings usual;
+    std::vector<TracedPlace> places(static_cast<std::size_t>(asked.count));
+    parallelFor(asked.count, [&](int k) {
+        const int n = asked.first + k;
+        PathLightSetting setting;
+        setting.albedo = usual.albedo;
+        setting.bounces = usual.bounces;
+        setting.paths = asked.paths;
+        setting.seed = asked.seed + 7919 * static_cast<std::uint64_t>(n);
+        const PathLight path = tracePathLight(
+            rays, sample->ground.worldFromGrid(tracedPlace(sample->ground, n)), sample->light,
+            [&](const glm::dvec3& d) { return sample->scale * skyAbove(d); }, setting);
+        places[static_cast<std::size_t>(k)] = {luminance(glm::dvec3(path.mean)), path.variance};
+    });
+    return ByteWriter().putArray(std::span<const TracedPlace>(places)).take();
+}
 
 WayChart terrainLightChart(ReportRun& run) {
     GroundSubject subject(run);

@@ -70,8 +70,21 @@ together 2 coverage tube.nrrd --no-cache --quiet --patch 5 --out two.csv --json 
 cmp one.csv two.csv
 sed 's/one\.csv/two.csv/' one.json | cmp - two.json
 
+# Of a report what is no time; the setting of a time too, for nobody measures with fewer cores.
+report() {
+  echo "report --quick --minutes 0.01 --parts occlusion --quiet --out $1"
+}
+# shellcheck disable=SC2046
+"$program" $(report one)
+# shellcheck disable=SC2046
+together 3 $(report three)
+for run in one three; do sed '/,time,/s/,time,.*/,time/' $run/report.csv > $run.csv; done
+grep -q 'occlusion/radius 5/gaussian/error' one.csv || fail "expected errors of occlusion, got $(cat one.csv)"
+cmp one.csv three.csv
+
 # An error that all find, and one that the first alone finds.
-for options in "play none.tif --hash" "play --frames 0..100000 --hash" "play --size 64x48 --out none/deep"; do
+for options in "play none.tif --hash" "play --frames 0..100000 --hash" "play --size 64x48 --out none/deep" \
+  "report --parts late --scene none.tif --out page"; do
   status=0
   # shellcheck disable=SC2086
   together 3 $options > out 2> err || status=$?

@@ -365,6 +365,29 @@ TEST(DeltaTracking, DoesNotDependOnTheThreadCount) {
     EXPECT_GT(lit, 10);
 }
 
+TEST(DeltaTracking, RowsAreThoseOfTheWholePicture) {
+    const Medium medium = randomMedium(someNoise());
+    const MediumLook look = litLook({0.5, 0.2, -0.8}, MediumModel::Indirect);
+    const EyeView view = wideView();
+    TrackingSetting setting;
+    setting.samples = 2;
+    const ExtinctionBounds bounds = makeExtinctionBounds(medium, 0);
+    const TrackedPicture whole = trackPicture(medium, look, view, setting);
+    const int middle = view.height / 2 - 1;
+    int lit = 0;
+    for (const PictureRows& rows : {PictureRows{0, middle}, PictureRows{middle, view.height + 3}}) {
+        const TrackedPicture part = trackRows(medium, bounds, look, view, setting, 0, rows);
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x) {
+                const bool in = y >= rows.first && y < rows.end;
+                ASSERT_EQ(part.light.at(x, y), in ? whole.light.at(x, y) : glm::vec4(0)) << x << ' ' << y;
+                ASSERT_EQ(part.variance.at(x, y), in ? whole.variance.at(x, y) : glm::vec3(0));
+                lit += in && whole.light.at(x, y).x > 0;
+            }
+    }
+    EXPECT_GT(lit, 10);
+}
+
 TEST(DeltaTracking, EmptyMediumShowsTheBackground) {
     const Estimate seen = track(Medium(), litLook(kDownward), narrowView(kDownward), 2, 8);
     EXPECT_EQ(seen.light, glm::dvec3(0.0));

@@ -3,6 +3,7 @@
 // colours are right as well (balance heuristic over the three: Wilkie et al. 2014).
 #include "engine/medium/paths/delta_tracking.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <string>
 
@@ -180,21 +181,30 @@ TrackedPicture trackPicture(const Medium& medium, const MediumLook& look, const 
     checkSetting(medium, look, setting);
     ExtinctionBounds bounds = makeExtinctionBounds(medium, time);
     if (setting.majorantFactor > 0) bounds = coarseBounds(bounds, setting.majorantFactor);
+    return trackRows(medium, bounds, look, view, setting, time, {0, view.height});
+}
+
+TrackedPicture trackRows(const Medium& medium, const ExtinctionBounds& bounds, const MediumLook& look,
+                         const EyeView& view, const TrackingSetting& setting, double time,
+                         const PictureRows& rows) {
+    checkSetting(medium, look, setting);
     const TrackedMedium tracked{medium, bounds, time};
     const PathTracker paths(tracked, look, view, setting);
     TrackedPicture picture{Plane<glm::vec4>(view.width, view.height),
                            Plane<glm::vec3>(view.width, view.height)};
-    parallelFor(view.height, [&](int y) {
+    const int first = std::max(0, rows.first), end = std::min(view.height, rows.end);
+    parallelFor(std::max(0, end - first), [&](int row) {
+        const int y = first + row;
         for (int x = 0; x < view.width; ++x) {
             const glm::dvec3 way = view.rayDirection(x + 0.5, y + 0.5);
-            const double first = view.nearDepth * glm::length(way);
+            const double nearest = view.nearDepth * glm::length(way);
             const WorldRay ray{view.eye, glm::normalize(way)};
             PixelSums sums;
             for (int n = 0; n < setting.samples; ++n) {
                 PathRandom random(static_cast<std::uint64_t>(y) * view.width + x, n, setting.seed);
-                const glm::vec3 light = paths.follow(ray, first, random);
+                const glm::vec3 light = paths.follow(ray, nearest, random);
                 const double last = std::numeric_limits<double>::infinity();
-                sums.add(light, transmittance(tracked, ray, first, last, random));
+                sums.add(light, transmittance(tracked, ray, nearest, last, random));
             }
             picture.light.at(x, y) = sums.mean(setting.samples);
             picture.variance.at(x, y) = sums.variance(setting.samples);

@@ -12,6 +12,8 @@
 
 namespace stereonav {
 
+struct ExtinctionBounds;
+
 struct TrackingSetting {
     int samples = 64;       // paths a pixel
     int mostScatters = 64;  // 1: single scattering, what the model calls direct light; paths end there
@@ -36,5 +38,14 @@ struct TrackedPicture {
 // Light enters as radiance * 4 pi across its way (see MediumLight::radiance).
 TrackedPicture trackPicture(const Medium& medium, const MediumLook& look, const EyeView& view,
                             const TrackingSetting& setting, double time = 0);
+
+// Of the picture its rows from `first` to before `end` alone, as trackPicture gives them; the others stay 0.
+// bounds: of the medium at that time (delta_tracking_bounds.h), made once for who traces it in parts.
+struct PictureRows {
+    int first = 0, end = 0;
+};
+TrackedPicture trackRows(const Medium& medium, const ExtinctionBounds& bounds, const MediumLook& look,
+                         const EyeView& view, const TrackingSetting& setting, double time,
+                         const PictureRows& rows);
 
 }  // namespace stereonav

@@ -1,0 +1,68 @@
+#include "app/report/untimed.h"
+
+#include "app/report/papers/trial.h"
+#include "app/report/run.h"
+#include "engine/base/parallel.h"
+#include "engine/base/stopwatch.h"
+
+namespace stereonav {
+namespace {
+
+using MakePiece = PeerBytes (*)(ReportRun& run, ByteReader& order);
+
+MakePiece makerOf(Untimed what) {
+    switch (what) {
+        case Untimed::LightTruth:
+            return makeLightTruth;
+        case Untimed::PixelTruth:
+            return makePixelTruth;
+        case Untimed::GroundTruth:
+            return makeGroundTruth;
+        case Untimed::TrackedRows:
+            return makeTrackedRows;
+        case Untimed::ManySlices:
+            return makeManySlices;
+        case Untimed::Openness:
+            break;
+    }
+    return makeOpenness;
+}
+
+}  // namespace
+
+UntimedWork::UntimedWork(ReportRun& run) : mRun(run) {
+    if (peersOfThisRun().first()) mDealer.emplace(peersOfThisRun());
+}
+
+PeerBytes UntimedWork::make(std::span<const std::byte> piece) {
+    ByteReader reader(piece);
+    const MakePiece maker = makerOf(reader.get<Untimed>());
+    return maker(mRun, reader);
+}
+
+std::vector<PeerBytes> UntimedWork::all(const std::vector<UntimedPiece>& pieces) {
+    const Stopwatch watch;
+    const ThreadsBack back;
+    // Times are taken on all cores; here they are shared with the other processes of this machine.
+    const int share = peersOfThisRun().threads();
+    if (share > 0 && share < threadCount()) setThreadCount(share);
+    std::vector<PeerBytes> results(pieces.size());
+    PieceWork work;
+    work.count = pieces.size();
+    work.order = [&](std::size_t n) {
+        return ByteWriter().put(pieces[n].what).putAll(std::span<const std::byte>(pieces[n].order)).take();
+    };
+    work.make = [&](std::size_t, std::span<const std::byte> piece) { return make(piece); };
+    work.take = [&](std::size_t n, std::span<const std::byte> result) {
+        results[n].assign(result.begin(), result.end());
+    };
+    mDealer.value().deal(work);
+    mTaken_s += watch.elapsed_ms() / 1000;
+    return results;
+}
+
+void UntimedWork::serve() {
+    peersOfThisRun().serve([&](std::size_t, std::span<const std::byte> piece) { return make(piece); });
+}
+
+}  // namespace stereonav
