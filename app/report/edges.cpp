@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "app/report/both_eyes.h"
+#include "app/report/fine_pictures.h"
 #include "engine/frame/refined_frames.h"
-#include "engine/metrics/supersampled_picture.h"
 
 namespace stereonav {
 namespace {
@@ -69,13 +69,17 @@ WayChart edgeChart(ReportRun& run, const ReportScene& scene) {
     const auto count = static_cast<double>(poses.size());
     std::vector<BothEyes> eyes(ways.size(), {static_cast<std::size_t>(repeats), count});
     RefinedFrames refined;
+    std::vector<FineView> eyesOfAll;
     for (const Pose& pose : poses) {
         const StereoViews views = makeStereoViews(pose, loaded.lens, chartedEyes(loaded));
-        const std::string what = "rays at edges, " + scene.title;
-        run.tell(what);
-        Progress telling([&](double, const std::string&) { run.tell(what); });
-        const Plane<PackedColor> left = renderSupersampled(frames, views.left, 0, factor, telling),
-                                 right = renderSupersampled(frames, views.right, 0, factor, telling);
+        eyesOfAll.push_back({views.left});
+        eyesOfAll.push_back({views.right});
+    }
+    const std::vector<Plane<PackedColor>> truths = finePictures(run, scene, eyesOfAll, factor);
+    const std::string what = "rays at edges, " + scene.title;
+    for (std::size_t p = 0; p < poses.size(); ++p) {
+        const StereoViews views = makeStereoViews(poses[p], loaded.lens, chartedEyes(loaded));
+        const Plane<PackedColor>&left = truths[2 * p], &right = truths[2 * p + 1];
         for (int r = 0; r < repeats; ++r)
             for (std::size_t n = 0; n < ways.size(); ++n) {
                 run.tell(what);

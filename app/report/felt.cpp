@@ -6,38 +6,84 @@
 #include <cmath>
 
 #include "app/report/felt_errors.h"
+#include "app/report/fine_pictures.h"
 #include "app/report/trial.h"
 #include "engine/image/image_file.h"
 #include "engine/metrics/butteraugli.h"
 #include "engine/metrics/image_difference.h"
-#include "engine/metrics/supersampled_picture.h"
 
 namespace stereonav {
 namespace {
+
+// In brief: methods with their own settings alone.
+std::vector<Variant> feltVariants(const Scene& scene, bool brief) {
+    std::vector<Variant> variants = rightEyeVariants(scene);
+    if (brief) std::erase_if(variants, [](const Variant& v) { return !v.detail.empty(); });
+    return variants;
+}
+
+// A frame of the flight, and the one that follows it.
+struct FeltTimes {
+    double time, nextTime;
+    StereoViews views, next;
+};
+
+FeltTimes feltTimes(const Scene& scene, double time) {
+    const auto viewsAt = [&](double at) {
+        return makeStereoViews(scene.path.at(scene.path.startTime() + at), scene.lens, chartedEyes(scene));
+    };
+    return {time, time + kNextFrame_s, viewsAt(time), viewsAt(time + kNextFrame_s)};
+}
+
+// What all ways are made from and held against there.
+struct FeltMoment {
+    EyePair exact, exactNext;
+    FeltTruth truth;  // its pictures come with the order
+};
+
+FeltMoment momentAt(const ReportScene& scene, const FeltTimes& times) {
+    FeltMoment moment;
+    FrameMaker& frames = scene.frames();
+    const StereoViews& views = times.views;
+    frames.make(views, times.time, {frames.exactMethod(), {}}, moment.exact);
+    frames.make(times.next, times.nextTime, {frames.exactMethod(), {}}, moment.exactNext);
+    const Plane<float>&left = moment.exact.left.viewDepth, &right = moment.exact.right.viewDepth;
+    moment.truth.columns = columnsInRightEye(views, left, right);
+    EyeImage made;
+    scene.rightFromLeft().makeRight(views, moment.exact.left, {frames.defaultMethod(), {}}, made);
+    moment.truth.edges = edgeMask(scene.rightFromLeft().holes().mask, right, views.parallaxScale, 2);
+    return moment;
+}
+
+// One way at one moment; behind it come the truths of the left eye, the right one, and the right one next.
+struct FeltOrder {
+    std::size_t scene, variant;
+    double time;
+    bool brief, pictures;
+};
 
 // Frames of one scene's flight, each with the one that follows it.
 class FeltTrial {
 public:
     FeltTrial(ReportRun& run, const ReportScene& scene, const std::vector<Variant>& variants)
         : mRun(run),
+          mReportScene(scene),
           mScene(scene.loaded()),
-          mMaker(scene.frames()),
-          mRightMaker(scene.rightFromLeft()),
-          mWhat("what is felt, " + scene.title),
           mVariants(variants),
           mErrors(variants.size()),
-          mFactor(run.pick(2, 8)) {}
+          mFactor(run.pick(2, 8)),
+          mBrief(run.brief()) {}
 
     // As many as `seconds` allow, one at least: in the middle of as many parts of the flight.
     void run(int frames, double seconds) {
         const Stopwatch watch;
-        for (int n = 0; n < frames; ++n) {
-            frame(n, frames);
-            // the first one is the same for any number of them
-            const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
-            if (n == 0) frames = std::clamp(static_cast<int>(affordable), 1, frames);
-        }
-        mFrames = frames;
+        measure({0}, frames);
+        // the first one is the same for any number of them
+        const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
+        mFrames = std::clamp(static_cast<int>(affordable), 1, frames);
+        std::vector<int> others;
+        for (int n = 1; n < mFrames; ++n) others.push_back(n);
+        measure(others, mFrames);
     }
 
     const std::vector<FeltErrors>& errors() const { return mErrors; }
@@ -47,64 +93,55 @@ public:
 
 private:
     // The first is in the middle of the flight.
-    double shareOf(int n, int frames) const {
-        return (0.5 + static_cast<double>((n + frames / 2) % frames)) / frames;
+    double timeOf(int n, int frames) const {
+        const double share = (0.5 + static_cast<double>((n + frames / 2) % frames)) / frames;
+        return std::max(0.0, share * (mScene.path.duration() - kNextFrame_s));
     }
 
-    StereoViews viewsAt(double time) const {
-        return makeStereoViews(mScene.path.at(mScene.path.startTime() + time), mScene.lens,
-                               chartedEyes(mScene));
-    }
-
-    Plane<PackedColor> truthOf(const EyeView& view, double time) {
-        Progress quiet([&](double, const std::string&) { mRun.tell(mWhat); });
-        return renderSupersampled(mMaker, view, time, mFactor, quiet);
-    }
-
-    void frame(int n, int frames) {
-        mRun.tell(mWhat);
-        const double time = std::max(0.0, shareOf(n, frames) * (mScene.path.duration() - kNextFrame_s)),
-                     nextTime = time + kNextFrame_s;
-        const StereoViews views = viewsAt(time), next = viewsAt(nextTime);
-        EyePair exact, exactNext;
-        mMaker.make(views, time, {mMaker.exactMethod(), {}}, exact);
-        mMaker.make(next, nextTime, {mMaker.exactMethod(), {}}, exactNext);
-        FeltTruth truth{truthOf(views.left, time),
-                        truthOf(views.right, time),
-                        truthOf(next.right, nextTime),
-                        columnsInRightEye(views, exact.left.viewDepth, exact.right.viewDepth),
-                        {}};
-        EyeImage right, rightNext;
-        mRightMaker.makeRight(views, exact.left, {mMaker.defaultMethod(), {}}, right);
-        truth.edges = edgeMask(mRightMaker.holes().mask, exact.right.viewDepth, views.parallaxScale, 2);
-        for (std::size_t k = 0; k < mVariants.size(); ++k) {
-            mRun.tell(mWhat);
-            mRightMaker.makeRight(views, exact.left, wayOf(mVariants[k].setting), right);
-            mRightMaker.makeRight(next, exactNext.left, wayOf(mVariants[k].setting), rightNext);
-            const Plane<float> map = mErrors[k].add(truth, {exact.left.color, right.color}, rightNext.color);
-            if (n > 0 || !mVariants[k].isDefault) continue;
-            mPictures = {
-                {"right eye, the default way", encodeColorImage(right.color, ".png")},
-                {"the truth", encodeColorImage(truth.right, ".png")},
-                {"Butteraugli: black 0, grey 1, white 2 and more", encodeColorImage(pictureOf(map), ".png")}};
+    void measure(const std::vector<int>& some, int frames) {
+        std::vector<FineView> eyes;
+        for (const int n : some) {
+            const FeltTimes times = feltTimes(mScene, timeOf(n, frames));
+            eyes.push_back({times.views.left, times.time});
+            eyes.push_back({times.views.right, times.time});
+            eyes.push_back({times.next.right, times.nextTime});
         }
+        const std::vector<Plane<PackedColor>> truths = finePictures(mRun, mReportScene, eyes, mFactor);
+        std::vector<UntimedPiece> pieces;
+        for (std::size_t n = 0; n < some.size(); ++n)
+            for (std::size_t k = 0; k < mVariants.size(); ++k) {
+                ByteWriter order;
+                order.put(FeltOrder{mRun.indexOf(mReportScene), k, timeOf(some[n], frames), mBrief,
+                                    some[n] == 0 && mVariants[k].isDefault});
+                for (std::size_t p = 3 * n; p < 3 * n + 3; ++p)
+                    putRows(order, 0, truths[p].height(), truths[p]);
+                pieces.push_back({Untimed::FeltWay, order.take()});
+            }
+        const std::vector<PeerBytes> made = mRun.untimed().all(pieces);
+        for (std::size_t n = 0; n < made.size(); ++n) take(made[n], mErrors[n % mVariants.size()], truths);
+    }
+
+    void take(const PeerBytes& piece, FeltErrors& errors, const std::vector<Plane<PackedColor>>& truths) {
+        ByteReader reader(piece);
+        errors.add(reader.get<FeltErrors>());
+        if (reader.left() == 0) return;
+        mPictures = {{"right eye, the default way", reader.getArray<unsigned char>()},
+                     {"the truth", encodeColorImage(truths[1], ".png")},
+                     {"Butteraugli: black 0, grey 1, white 2 and more", reader.getArray<unsigned char>()}};
     }
 
     ReportRun& mRun;
+    const ReportScene& mReportScene;
     const Scene& mScene;
-    FrameMaker& mMaker;
-    RightFromLeft& mRightMaker;
-    std::string mWhat;
     const std::vector<Variant>& mVariants;
     std::vector<FeltErrors> mErrors;
     std::vector<ReportPicture> mPictures;  // of the first frame, by the default way
     int mFactor, mFrames = 0;
+    bool mBrief;
 };
 
 void chart(ReportRun& run, ReportSection& section, const ReportScene& scene, double seconds) {
-    std::vector<Variant> variants = rightEyeVariants(scene.loaded());
-    if (run.brief())  // methods with their own settings alone
-        std::erase_if(variants, [](const Variant& v) { return !v.detail.empty(); });
+    const std::vector<Variant> variants = feltVariants(scene.loaded(), run.brief());
     FeltTrial felt(run, scene, variants);
     felt.run(run.pick(1, 4), 0.6 * seconds);
     RightEyeTrial times(scene, chartedEyes(scene.loaded()), variants);
@@ -129,6 +166,34 @@ void chart(ReportRun& run, ReportSection& section, const ReportScene& scene, dou
 }
 
 }  // namespace
+
+PeerBytes makeFeltWay(ReportRun& run, ByteReader& order) {
+    const auto asked = order.get<FeltOrder>();
+    const ReportScene& scene = run.castScene(asked.scene);
+    run.tell("what is felt, " + scene.title);
+    const FeltTimes times = feltTimes(scene.loaded(), asked.time);
+    const StereoViews& views = times.views;
+    const auto moment = run.untimed().kept<FeltMoment>(fmt::format("felt {} {}", asked.scene, asked.time),
+                                                       [&] { return momentAt(scene, times); });
+    FeltTruth& truth = moment->truth;
+    for (Plane<PackedColor>* picture : {&truth.left, &truth.right, &truth.rightNext}) {
+        picture->resize(views.right.width, views.right.height);
+        getRows(order, 0, views.right.height, *picture);
+    }
+    const WarpSetting setting = feltVariants(scene.loaded(), asked.brief).at(asked.variant).setting;
+    EyeImage right, rightNext;
+    scene.rightFromLeft().makeRight(views, moment->exact.left, wayOf(setting), right);
+    scene.rightFromLeft().makeRight(times.next, moment->exactNext.left, wayOf(setting), rightNext);
+    FeltErrors errors;
+    const Plane<float> map = errors.add(truth, {moment->exact.left.color, right.color}, rightNext.color);
+    ByteWriter writer;
+    writer.put(errors);
+    if (asked.pictures) {
+        writer.putArray(std::span<const unsigned char>(encodeColorImage(right.color, ".png")));
+        writer.putArray(std::span<const unsigned char>(encodeColorImage(pictureOf(map), ".png")));
+    }
+    return writer.take();
+}
 
 void reportFelt(ReportRun& run, double seconds) {
     ReportSection section{"felt",

@@ -39,6 +39,19 @@ Plane<float> FeltErrors::add(const FeltTruth& truth, const TwoEyes& eyes,
     return std::move(map.distances);
 }
 
+void FeltErrors::add(const FeltErrors& others) {
+    mFrames += others.mFrames;
+    for (const auto squares : {&FeltErrors::mFlicker, &FeltErrors::mRivalry, &FeltErrors::mEdgeRivalry,
+                               &FeltErrors::mRight, &FeltErrors::mLeft})
+        (this->*squares).add(others.*squares);
+    mButteraugli += others.mButteraugli;
+    mMost = std::max(mMost, others.mMost);
+    mEdges += others.mEdges;
+    mWithEdges += others.mWithEdges;
+    mFlat += others.mFlat;
+    mWithFlat += others.mWithFlat;
+}
+
 std::vector<std::pair<std::string, double>> FeltErrors::others() const {
     return {{"RMS against the truth", rms(mRight)},
             {"left eye's", rms(mLeft)},

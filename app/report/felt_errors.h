@@ -26,6 +26,9 @@ public:
     // map of the right eye.
     Plane<float> add(const FeltTruth& truth, const TwoEyes& eyes, const Plane<PackedColor>& rightNext);
 
+    // Those of other frames.
+    void add(const FeltErrors& others);
+
     // Root mean squares in sRGB levels, over all frames.
     double flicker() const { return rms(mFlicker); }
     double rivalry() const { return rms(mRivalry); }
@@ -39,6 +42,10 @@ private:
         double sum = 0;
         int frames = 0;
         void add(double psnr_db);
+        void add(const Squares& others) {
+            sum += others.sum;
+            frames += others.frames;
+        }
     };
     static double rms(const Squares& squares);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/report/fine_pictures.h"
 #include "app/report/trial.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/metrics/supersampled_picture.h"
@@ -70,23 +71,23 @@ WayChart filteringChart(ReportRun& run, const ReportScene& scene) {
     Progress progress([&](double, const std::string&) { run.tell("filtering, " + scene.title); });
     std::vector<FilterWay> ways = waysOf(loaded);
     for (FilterWay& way : ways) way.ms.assign(static_cast<std::size_t>(repeats), 0.0);
-    TerrainRenderer unfiltered(*terrainOf(loaded), loaded.simd, {false, 0});
-    unfiltered.takeCoarser(0);
     const std::vector<Pose> poses =
         loaded.path.samples().empty() ? std::vector<Pose>{loaded.startPose} : loaded.path.frames(frames);
     const auto count = static_cast<double>(poses.size());
+    std::vector<FineView> views;
+    for (const Pose& pose : poses) views.push_back({makeEyeView(pose, loaded.lens)});
+    const std::vector<Plane<PackedColor>> truths = finestGround(run, scene, views, truthFactor);
     EyeImage image;
-    for (const Pose& pose : poses) {
-        const EyeView view = makeEyeView(pose, loaded.lens);
+    for (std::size_t n = 0; n < views.size(); ++n) {
+        const EyeView& view = views[n].view;
         image.resize(view.width, view.height, rendererOf(loaded).viewDependence());
         for (const FilterWay& way : ways)
             way.renderer->lookFrom(view);  // untimed: rings last for many frames
-        const Plane<PackedColor> truth = renderSupersampled(unfiltered, view, truthFactor, progress);
         for (int r = 0; r < repeats; ++r)
             for (FilterWay& way : ways) {
                 way.ms[static_cast<std::size_t>(r)] += cast(way, view, progress, image) / count;
                 if (r > 0) continue;
-                const double rms = rmsOfPsnr(psnrOf(truth, image.color));
+                const double rms = rmsOfPsnr(psnrOf(truths[n], image.color));
                 way.squares += rms * rms / count;
                 way.worst = std::max(way.worst, rms);
             }

@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::array<double, 6> kAges_ms{16, 33, 66, 133, 266, 400};
 
+constexpr double kPicturedAge_ms = 133;
+
 struct LateWay {
     const char *id, *name;
     double speed;  // times the flight's own
@@ -28,25 +30,35 @@ constexpr std::array<LateWay, 5> kLateWays{{{"half", "half the speed", 0.5, true
                                             {"moved", "own speed, moved alone", 1, true, false},
                                             {"turned", "own speed, turned alone", 1, false, true}}};
 
+constexpr std::size_t kPictured = 1;  // of the ways: own speed
+
+// One way at one moment: frames from each age, warped to now. Of run.scenes(), or of its media.
+struct LateOrder {
+    bool medium, soft, pictures;
+    std::size_t scene;
+    double time;  // of the flight
+    EyeView now;
+    std::array<EyeView, kAges_ms.size()> then;
+};
+struct LateWaySquares {
+    std::array<double, kAges_ms.size()> of;  // by age
+};
+
 // One eye: each is warped by itself, from its own depths.
 class LateTrial {
 public:
     LateTrial(ReportRun& run, const ReportScene& scene, bool soft)
-        : mRun(run),
-          mScene(scene.loaded()),
-          mFrames(scene.frames()),
-          mWhat("late warp, " + scene.title),
-          mSoft(soft) {}
+        : mRun(run), mReportScene(scene), mScene(scene.loaded()), mSoft(soft) {}
 
     // As many moments as `seconds` allow, one at least.
     void run(int moments, double seconds) {
         const Stopwatch watch;
-        for (int n = 0; n < moments; ++n) {
-            moment((0.5 + (n + moments / 2) % moments) / moments);
-            const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
-            if (n == 0) moments = std::clamp(static_cast<int>(affordable), 1, moments);
-        }
-        mMoments = moments;
+        measure({0}, moments);
+        const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
+        mMoments = std::clamp(static_cast<int>(affordable), 1, moments);
+        std::vector<int> others;
+        for (int n = 1; n < mMoments; ++n) others.push_back(n);
+        measure(others, mMoments);
     }
 
     int moments() const { return mMoments; }
@@ -60,41 +72,53 @@ public:
 private:
     EyeView viewAt(const Pose& pose) const { return mScene.viewsAt(pose).left; }
 
-    void moment(double share) {
+    // n-th of so many.
+    LateOrder orderOf(const LateWay& way, int n, int moments) const {
+        const double share = (0.5 + (n + moments / 2) % moments) / moments;
         const RecordedPath& path = mScene.path;
         const double longest = 2 * kAges_ms.back() / 1000;
         const double time =
             std::min(longest + share * std::max(path.duration() - longest, 0.0), path.duration());
         const Pose now = path.at(path.startTime() + time);
-        EyePair truth, cast;
-        mRun.tell(mWhat);
-        mFrames.makeOne(viewAt(now), 0, truth);
-        for (std::size_t w = 0; w < kLateWays.size(); ++w)
-            for (std::size_t a = 0; a < kAges_ms.size(); ++a) {
-                mRun.tell(mWhat);
-                const LateWay& way = kLateWays[w];
-                const Pose then =
-                    path.at(path.startTime() + std::max(time - way.speed * kAges_ms[a] / 1000, 0.0));
-                Pose from = now;
-                if (way.moves) from.position = then.position;
-                if (way.turns) from.orientation = then.orientation;
-                mFrames.makeOne(viewAt(from), 0, cast);
-                mEye.prepare(cast.left.viewDepth, viewAt(from), mScene.simd, mSoft);
-                mEye.warp(cast.left.color, viewAt(now), mWarped, nullptr, true);
-                mSquares[w][a] += std::pow(10, -0.1 * psnrOf(truth.left.color, mWarped));
-                if (mPictures.empty() && way.speed == 1 && kAges_ms[a] == 133)
-                    mPictures = {{"cast 133 ms ago and warped to now", encodeColorImage(mWarped, ".png")},
-                                 {"cast now", encodeColorImage(truth.left.color, ".png")}};
-            }
+        LateOrder order{mScene.offered<RayCast>() == nullptr,
+                        mSoft,
+                        &way == &kLateWays[kPictured] && n == 0,
+                        mRun.indexOf(mReportScene),
+                        time,
+                        viewAt(now),
+                        {}};
+        for (std::size_t a = 0; a < kAges_ms.size(); ++a) {
+            const Pose then =
+                path.at(path.startTime() + std::max(time - way.speed * kAges_ms[a] / 1000, 0.0));
+            Pose from = now;
+            if (way.moves) from.position = then.position;
+            if (way.turns) from.orientation = then.orientation;
+            order.then[a] = viewAt(from);
+        }
+        return order;
+    }
+
+    void measure(const std::vector<int>& some, int moments) {
+        std::vector<UntimedPiece> pieces;
+        for (const int n : some)
+            for (const LateWay& way : kLateWays)
+                pieces.push_back(pieceOf(Untimed::LateWay, orderOf(way, n, moments)));
+        const std::vector<PeerBytes> made = mRun.untimed().all(pieces);
+        for (std::size_t n = 0; n < made.size(); ++n) {
+            ByteReader reader(made[n]);
+            const auto squares = reader.get<LateWaySquares>();
+            for (std::size_t a = 0; a < kAges_ms.size(); ++a)
+                mSquares[n % kLateWays.size()][a] += squares.of[a];
+            if (reader.left() == 0) continue;
+            mPictures = {{"cast 133 ms ago and warped to now", reader.getArray<unsigned char>()},
+                         {"cast now", reader.getArray<unsigned char>()}};
+        }
     }
 
     ReportRun& mRun;
+    const ReportScene& mReportScene;
     const Scene& mScene;
-    FrameMaker& mFrames;
-    std::string mWhat;
     bool mSoft;
-    LateEye mEye;
-    Plane<PackedColor> mWarped;
     std::array<std::array<double, kAges_ms.size()>, kLateWays.size()> mSquares{};
     std::vector<ReportPicture> mPictures;
     int mMoments = 0;
@@ -135,6 +159,35 @@ void chartLate(ReportRun& run, ReportSection& section, const ReportScene& scene,
 }
 
 }  // namespace
+
+PeerBytes makeLateWay(ReportRun& run, ByteReader& order) {
+    const auto asked = order.get<LateOrder>();
+    const ReportScene& scene = asked.medium ? run.medium(asked.scene) : run.castScene(asked.scene);
+    run.tell("late warp, " + scene.title);
+    const auto truth = run.untimed().kept<EyePair>(
+        fmt::format("late {} {} {} {}", asked.medium, asked.scene, asked.time, asked.now.width), [&] {
+            EyePair made;
+            scene.frames().makeOne(asked.now, 0, made);
+            return made;
+        });
+    EyePair cast;
+    LateEye eye;
+    Plane<PackedColor> warped, pictured;
+    LateWaySquares squares{};
+    for (std::size_t a = 0; a < kAges_ms.size(); ++a) {
+        scene.frames().makeOne(asked.then[a], 0, cast);
+        eye.prepare(cast.left.viewDepth, asked.then[a], scene.loaded().simd, asked.soft);
+        eye.warp(cast.left.color, asked.now, warped, nullptr, true);
+        squares.of[a] = std::pow(10, -0.1 * psnrOf(truth->left.color, warped));
+        if (asked.pictures && kAges_ms[a] == kPicturedAge_ms) pictured = warped;
+    }
+    ByteWriter writer;
+    writer.put(squares);
+    if (asked.pictures)
+        for (const Plane<PackedColor>* picture : {&pictured, &truth->left.color})
+            writer.putArray(std::span<const unsigned char>(encodeColorImage(*picture, ".png")));
+    return writer.take();
+}
 
 void reportLate(ReportRun& run, double seconds) {
     ReportSection section{

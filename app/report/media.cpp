@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "app/report/felt_errors.h"
 #include "app/report/run.h"
@@ -49,11 +50,31 @@ double squareOf(const EyeImage& truth, const EyeImage& image) {
     return psnr >= kIdenticalPsnr_db ? 0.0 : 255.0 * 255.0 * std::pow(10.0, -psnr / 10);
 }
 
+// Both eyes of a frame, or the left one alone, each by a sweep of its own. Of a scene of run.media().
+struct SweptOrder {
+    std::size_t scene;
+    SweepSetting sweep;
+    StereoViews views;
+    double time;
+    bool leftAlone;
+};
+
+void putEye(ByteWriter& writer, const EyeImage& eye) {
+    putRows(writer, 0, eye.height(), eye.color);
+    putRows(writer, 0, eye.height(), eye.viewDepth);
+}
+void getEye(ByteReader& reader, const EyeView& view, EyeImage& eye) {
+    eye.resize(view.width, view.height);
+    getRows(reader, 0, view.height, eye.color);
+    getRows(reader, 0, view.height, eye.viewDepth);
+}
+
 // Frames of one medium: their views, and what both eyes ought to see.
 class PairTrial {
 public:
     PairTrial(ReportRun& run, ReportScene& scene, int frames, double share)
         : mRun(run),
+          mIndex(run.indexOf(scene)),
           mScene(*scene.scene),
           mTitle(scene.title),
           mOwn(scene.loaded().offered<MediumScene>()->sweep) {
@@ -61,13 +82,36 @@ public:
         mScene.lens.height = run.pick(80, 256);
         mScene.stereo.separation = mScene.stereo.zeroParallax * share;
         for (const Pose& pose : mScene.path.frames(frames)) mViews.push_back(mScene.viewsAt(pose));
-        SweepSetting finest = mOwn;
-        finest.shadingWidth = 0;
-        finest.slices = run.pick(512, 2048);
-        mTruths.resize(mViews.size());
-        for (std::size_t n = 0; n < mViews.size(); ++n)
-            sweep(finest, kTwoSweepsMethod, mViews[n], 0, mTruths[n]);
-        mFinest = finest;
+        mNext = mScene.viewsAt(mScene.path.at(mScene.path.startTime() + kNextFrame_s));
+        mFinest = mOwn;
+        mFinest.shadingWidth = 0;
+        mFinest.slices = run.pick(512, 2048);
+    }
+
+    // Of all that are measured of a medium at once, so that no process waits for another's.
+    static void findTruths(ReportRun& run, std::vector<PairTrial>& trials) {
+        std::vector<UntimedPiece> pieces;
+        for (const PairTrial& trial : trials)
+            for (const StereoViews& views : trial.mViews)
+                pieces.push_back(
+                    pieceOf(Untimed::SweptTruth, SweptOrder{trial.mIndex, trial.mFinest, views, 0, false}));
+        // the right eye of the frame that follows the first one's
+        const PairTrial& first = trials.front();
+        StereoViews next = first.mNext;
+        next.left = next.right;
+        pieces.push_back(
+            pieceOf(Untimed::SweptTruth, SweptOrder{first.mIndex, first.mFinest, next, kNextFrame_s, true}));
+        const std::vector<PeerBytes> made = run.untimed().all(pieces);
+        auto piece = made.begin();
+        for (PairTrial& trial : trials)
+            for (const StereoViews& views : trial.mViews) {
+                ByteReader reader(*piece++);
+                EyePair& truth = trial.mTruths.emplace_back();
+                getEye(reader, views.left, truth.left);
+                getEye(reader, views.right, truth.right);
+            }
+        ByteReader reader(*piece);
+        getEye(reader, next.left, trials.front().mNextTruth);
     }
 
     // All ways one after another in each repeat, so that the machine's moods meet all alike.
@@ -94,18 +138,16 @@ public:
 
     // Of the first frame, as pointsOf() made it last, and the one that follows it.
     std::vector<FeltErrors> feltErrors(const std::vector<PairWay>& ways) {
-        const StereoViews &views = mViews[0],
-                          next = mScene.viewsAt(mScene.path.at(mScene.path.startTime() + kNextFrame_s));
+        const StereoViews& views = mViews[0];
         EyePair nextFrame;
-        with(mFinest, [&] { mScene.frames().makeOne(next.right, kNextFrame_s, nextFrame); });
         const EyePair& exact = mTruths[0];
         const Plane<std::uint8_t> none(views.left.width, views.left.height);
-        const FeltTruth truth{exact.left.color, exact.right.color, nextFrame.left.color,
+        const FeltTruth truth{exact.left.color, exact.right.color, mNextTruth.color,
                               columnsInRightEye(views, exact.left.viewDepth, exact.right.viewDepth),
                               edgeMask(none, exact.right.viewDepth, views.parallaxScale, 2)};
         std::vector<FeltErrors> errors(ways.size());
         for (std::size_t k = 0; k < ways.size(); ++k) {
-            sweep(ways[k].sweep, ways[k].method, next, kNextFrame_s, nextFrame);
+            sweep(ways[k].sweep, ways[k].method, mNext, kNextFrame_s, nextFrame);
             errors[k].add(truth, {mFirst[k].left, mFirst[k].right}, nextFrame.right.color);
         }
         return errors;
@@ -158,10 +200,13 @@ private:
     }
 
     ReportRun& mRun;
+    std::size_t mIndex;
     Scene& mScene;
     std::string mTitle;
     SweepSetting mOwn, mFinest;  // mFinest: of truths
     std::vector<StereoViews> mViews;
+    StereoViews mNext;  // of the frame after the first
+    EyeImage mNextTruth;
     std::vector<EyePair> mTruths;
     EyePair mFrame;
     std::vector<Pictures> mFirst;  // of the first frame, by ways
@@ -204,15 +249,15 @@ void addWaysCharts(ReportRun& run, ReportSection& section, const ReportScene& sc
     addFeltCharts(run, section, scene.id, felt, points, trial.feltErrors(ways));
 }
 
-WayChart separationsChart(ReportRun& run, ReportScene& scene) {
-    WayChart chart;
-    for (const int part : run.brief() ? std::vector<int>{8} : std::vector<int>{1000, 120, 30, 8, 4}) {
-        PairTrial trial(run, scene, 1, 1.0 / part);
-        if (chart.points.empty()) chart = emptyChart(trial);
-        const PairWay way{fmt::format("1/{}", part),
-                          fmt::format("eyes 1/{} of the zero-parallax distance apart", part), kSweepMethod,
-                          trial.own(), part == 30};
-        chart.points.push_back(trial.pointsOf({way}, run.pick(2, 3)).front());
+// trials: of these parts of the zero-parallax distance.
+WayChart separationsChart(ReportRun& run, const ReportScene& scene, const std::vector<int>& parts,
+                          std::span<PairTrial> trials) {
+    WayChart chart = emptyChart(trials.front());
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+        const PairWay way{fmt::format("1/{}", parts[n]),
+                          fmt::format("eyes 1/{} of the zero-parallax distance apart", parts[n]),
+                          kSweepMethod, trials[n].own(), parts[n] == 30};
+        chart.points.push_back(trials[n].pointsOf({way}, run.pick(2, 3)).front());
     }
     chart.id = "pair-separation/" + scene.id;
     chart.title = "Separations, " + scene.title;
@@ -226,14 +271,37 @@ WayChart separationsChart(ReportRun& run, ReportScene& scene) {
 
 }  // namespace
 
+PeerBytes makeSweptTruth(ReportRun& run, ByteReader& order) {
+    const auto asked = order.get<SweptOrder>();
+    ReportScene& scene = run.medium(asked.scene);
+    run.tell("volume light in stereo, the truth of " + scene.title);
+    MediumScene& medium = *scene.scene->offered<MediumScene>();
+    const SweepSetting own = medium.sweep;
+    medium.sweep = asked.sweep;
+    EyePair frame;
+    if (asked.leftAlone)
+        scene.frames().makeOne(asked.views.left, asked.time, frame);
+    else
+        scene.frames().make(asked.views, asked.time, {kTwoSweepsMethod, {}}, frame);
+    medium.sweep = own;
+    ByteWriter writer;
+    putEye(writer, frame.left);
+    if (!asked.leftAlone) putEye(writer, frame.right);
+    return writer.take();
+}
+
 void reportPairs(ReportRun& run, ReportSection& section) {
-    constexpr double kShare = 1.0 / 30;
     for (ReportScene& scene : run.media()) {
         run.checkTime();
-        PairTrial trial(run, scene, run.pick(1, 3), kShare);
-        addWaysCharts(run, section, scene, trial, run.pick(2, 3));
-        section.blocks.emplace_back(trial.pictures());
-        addChart(run.report(), section, separationsChart(run, scene));
+        const std::vector<int> parts =
+            run.brief() ? std::vector<int>{8} : std::vector<int>{1000, 120, 30, 8, 4};
+        std::vector<PairTrial> trials;
+        trials.emplace_back(run, scene, run.pick(1, 3), 1.0 / 30);
+        for (const int part : parts) trials.emplace_back(run, scene, 1, 1.0 / part);
+        PairTrial::findTruths(run, trials);
+        addWaysCharts(run, section, scene, trials.front(), run.pick(2, 3));
+        section.blocks.emplace_back(trials.front().pictures());
+        addChart(run.report(), section, separationsChart(run, scene, parts, std::span(trials).subspan(1)));
     }
 }
 

@@ -72,6 +72,21 @@ ReportRun::ReportRun(const ReportOptions& options, Progress& progress)
     mReport.quick = options.quick;
 }
 
+ReportScene& ReportRun::castScene(std::size_t index) {
+    if (mScenes.empty()) loadReportScenes(*this, true, false);
+    return mScenes.at(index);
+}
+
+ReportScene& ReportRun::medium(std::size_t index) {
+    if (mMedia.empty()) loadReportScenes(*this, false, true);
+    return mMedia.at(index);
+}
+
+std::size_t ReportRun::indexOf(const ReportScene& scene) const {
+    const std::vector<ReportScene>& list = scene.loaded().offered<RayCast>() ? mScenes : mMedia;
+    return static_cast<std::size_t>(&scene - list.data());
+}
+
 double ReportRun::whole_s() const {
     return mOptions.minutes ? 60 * *mOptions.minutes : quick() ? kQuickReport_s : kFullReport_s;
 }

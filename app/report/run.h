@@ -53,6 +53,12 @@ public:
     std::vector<ReportScene>& scenes() { return mScenes; }  // whose rays are cast
     std::vector<ReportScene>& media() { return mMedia; }    // that are swept
 
+    // By their places in these lists, which all processes of a run have alike: those that do not measure load
+    // theirs once a piece of work needs them.
+    ReportScene& castScene(std::size_t index);
+    ReportScene& medium(std::size_t index);
+    std::size_t indexOf(const ReportScene& scene) const;
+
     // Less is measured in a quick run, and in parts of a full one that begin behind their time.
     bool brief() const { return quick() || mBehind; }
     int pick(int whenBrief, int whenFull) const { return brief() ? whenBrief : whenFull; }

@@ -23,9 +23,17 @@ MakePiece makerOf(Untimed what) {
         case Untimed::ManySlices:
             return makeManySlices;
         case Untimed::Openness:
+            return makeOpenness;
+        case Untimed::FinePicture:
+            return makeFinePicture;
+        case Untimed::FeltWay:
+            return makeFeltWay;
+        case Untimed::LateWay:
+            return makeLateWay;
+        case Untimed::SweptTruth:
             break;
     }
-    return makeOpenness;
+    return makeSweptTruth;
 }
 
 }  // namespace

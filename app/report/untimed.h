@@ -16,7 +16,18 @@ namespace stereonav {
 
 class ReportRun;
 
-enum class Untimed : int { LightTruth, PixelTruth, GroundTruth, TrackedRows, ManySlices, Openness };
+enum class Untimed : int {
+    LightTruth,
+    PixelTruth,
+    GroundTruth,
+    TrackedRows,
+    ManySlices,
+    Openness,
+    FinePicture,
+    FeltWay,
+    LateWay,
+    SweptTruth
+};
 
 struct UntimedPiece {
     Untimed what;
@@ -46,6 +57,10 @@ PeerBytes makeGroundTruth(ReportRun& run, ByteReader& order);
 PeerBytes makeTrackedRows(ReportRun& run, ByteReader& order);
 PeerBytes makeManySlices(ReportRun& run, ByteReader& order);
 PeerBytes makeOpenness(ReportRun& run, ByteReader& order);
+PeerBytes makeFinePicture(ReportRun& run, ByteReader& order);
+PeerBytes makeFeltWay(ReportRun& run, ByteReader& order);
+PeerBytes makeLateWay(ReportRun& run, ByteReader& order);
+PeerBytes makeSweptTruth(ReportRun& run, ByteReader& order);
 
 class UntimedWork {
 public:
@@ -64,13 +79,21 @@ public:
     std::shared_ptr<T> kept(const std::string& key, const Make& make) {
         if (mKey != key) {
             mKept.reset();
-            mKept = std::make_shared<T>(make());
+            mKept = sharedOf<T>(make());
             mKey = key;
         }
         return std::static_pointer_cast<T>(mKept);
     }
 
 private:
+    template <typename T>
+    static std::shared_ptr<T> sharedOf(std::shared_ptr<T> made) {
+        return made;
+    }
+    template <typename T>
+    static std::shared_ptr<T> sharedOf(T made) {
+        return std::make_shared<T>(std::move(made));
+    }
     PeerBytes make(std::span<const std::byte> piece);
 
     ReportRun& mRun;
