@@ -24,12 +24,24 @@ EyeView viewOf(const ReportScene& scene, int frame, int frames) {
     return makeEyeView(pose, s.lens);
 }
 
-void cast(const VolumeScene& volume, double step, const EyeView& view, EyeImage& image) {
-    VolumeCasting casting;
-    casting.stepVoxels = step;
-    const VolumeRenderer renderer(volume, casting);
-    image.resize(view.width, view.height, renderer.viewDependence());
-    renderEye(renderer, view, image);
+// The left eye of a frame, by the finest step.
+struct StepTruthOrder {
+    std::size_t scene;
+    int frame, frames;
+};
+
+std::vector<Plane<PackedColor>> stepTruths(ReportRun& run, const ReportScene& scene, int frames) {
+    std::vector<UntimedPiece> pieces;
+    for (int n = 0; n < frames; ++n)
+        pieces.push_back(pieceOf(Untimed::StepTruth, StepTruthOrder{run.indexOf(scene), n, frames}));
+    std::vector<Plane<PackedColor>> truths;
+    for (const PeerBytes& piece : run.untimed().all(pieces)) {
+        const Lens& lens = scene.loaded().lens;
+        truths.emplace_back(lens.width, lens.height);
+        ByteReader reader(piece);
+        getRows(reader, 0, lens.height, truths.back());
+    }
+    return truths;
 }
 
 WayChart stepChart(ReportRun& run, const ReportScene& scene) {
@@ -47,6 +59,7 @@ WayChart stepChart(ReportRun& run, const ReportScene& scene) {
     chart.timeUnit = "ms";
     chart.errorLabel = "RMS error, 8-bit levels";
     chart.errorUnit = "levels";
+    const std::vector<Plane<PackedColor>> truths = stepTruths(run, scene, frames);
     for (const double step : {0.125, 0.25, kDefaultStep, 1.0, 2.0, 4.0}) {
         std::vector<double> ms(static_cast<std::size_t>(repeats));
         double squares = 0, worst = 0;
@@ -56,15 +69,14 @@ WayChart stepChart(ReportRun& run, const ReportScene& scene) {
         for (int frame = 0; frame < frames; ++frame) {
             run.tell("casting, " + scene.title);
             const EyeView view = viewOf(scene, frame, frames);
-            EyeImage image, truth;
+            EyeImage image;
             image.resize(view.width, view.height, renderer.viewDependence());
             for (double& time : ms) {
                 const Stopwatch watch;
                 renderEye(renderer, view, image);
                 time += watch.elapsed_ms() / frames;
             }
-            cast(volume, kFinestStep, view, truth);
-            const double psnr = psnrOf(truth.color, image.color);
+            const double psnr = psnrOf(truths[static_cast<std::size_t>(frame)], image.color);
             const double rms = psnr >= kIdenticalPsnr_db ? 0.0 : 255 * std::pow(10.0, -psnr / 20);
             squares += rms * rms / frames;
             worst = std::max(worst, rms);
@@ -215,6 +227,22 @@ void addLeaping(ReportRun& run, ReportTable& table, const ReportScene& scene) {
 }
 
 }  // namespace
+
+PeerBytes makeStepTruth(ReportRun& run, ByteReader& order) {
+    const auto asked = order.get<StepTruthOrder>();
+    const ReportScene& scene = run.castScene(asked.scene);
+    run.tell("casting, the truth of " + scene.title);
+    const EyeView view = viewOf(scene, asked.frame, asked.frames);
+    VolumeCasting casting;
+    casting.stepVoxels = kFinestStep;
+    const VolumeRenderer renderer(colonOf(scene.loaded())->volume, casting);
+    EyeImage image;
+    image.resize(view.width, view.height, renderer.viewDependence());
+    renderEye(renderer, view, image);
+    ByteWriter writer;
+    putRows(writer, 0, view.height, image.color);
+    return writer.take();
+}
 
 void reportCasting(ReportRun& run, double) {
     ReportSection section{"casting", "Casting rays", "", {}};

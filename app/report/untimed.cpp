@@ -31,9 +31,11 @@ MakePiece makerOf(Untimed what) {
         case Untimed::LateWay:
             return makeLateWay;
         case Untimed::SweptTruth:
+            return makeSweptTruth;
+        case Untimed::StepTruth:
             break;
     }
-    return makeSweptTruth;
+    return makeStepTruth;
 }
 
 }  // namespace

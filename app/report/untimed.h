@@ -26,7 +26,8 @@ enum class Untimed : int {
     FinePicture,
     FeltWay,
     LateWay,
-    SweptTruth
+    SweptTruth,
+    StepTruth,
 };
 
 struct UntimedPiece {
@@ -61,6 +62,7 @@ PeerBytes makeFinePicture(ReportRun& run, ByteReader& order);
 PeerBytes makeFeltWay(ReportRun& run, ByteReader& order);
 PeerBytes makeLateWay(ReportRun& run, ByteReader& order);
 PeerBytes makeSweptTruth(ReportRun& run, ByteReader& order);
+PeerBytes makeStepTruth(ReportRun& run, ByteReader& order);
 
 class UntimedWork {
 public:
