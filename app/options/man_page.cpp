@@ -46,8 +46,8 @@ constexpr std::array kStatuses{
           "An error, told in one line on standard error with the file, the place, what was expected and what "
           "to do; no result was written. Also a stop by SIGINT, SIGTERM or SIGHUP, at the latest after a "
           "second (a "
-          "bake keeps what is done and goes on from there when it is started again), and a report with "
-          "--compare that finds something worse."},
+          "bake keeps what is done and goes on from there when it is started again; a report of several "
+          "processes has the parts that are done), and a report with --compare that finds something worse."},
     Entry{"128 + N, in a shell",
           "The program was ended by signal N, which it does not catch: 131 by SIGQUIT, 137 by "
           "SIGKILL (also of a system that is out of memory), 141 by SIGPIPE (who read standard output has "
