@@ -187,7 +187,7 @@ struct MediumTruths {
 
 // Of all subjects at once, so that no process waits for another's.
 std::vector<MediumTruths> truthsOf(ReportRun& run, const std::vector<MediumSubject>& subjects) {
-    constexpr int kRows = 8;  // in a piece
+    constexpr int kRows = 4;  // in a piece
     std::vector<MediumTruths> truths(subjects.size());
     std::vector<UntimedPiece> pieces;
     for (std::size_t n = 0; n < subjects.size(); ++n) {

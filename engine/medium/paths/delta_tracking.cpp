@@ -193,15 +193,17 @@ TrackedPicture trackRows(const Medium& medium, const ExtinctionBounds& bounds, c
     TrackedPicture picture{Plane<glm::vec4>(view.width, view.height),
                            Plane<glm::vec3>(view.width, view.height)};
     const int first = std::max(0, rows.first), end = std::min(view.height, rows.end);
-    parallelFor(std::max(0, end - first), [&](int row) {
-        const int y = first + row;
-        for (int x = 0; x < view.width; ++x) {
+    constexpr int kPixels = 8;  // of a row: few, for paths of some pixels take far longer than others
+    const int blocks = (view.width + kPixels - 1) / kPixels;
+    parallelFor(std::max(0, end - first) * blocks, [&](int n) {
+        const int y = first + n / blocks, begin = n % blocks * kPixels;
+        for (int x = begin; x < std::min(view.width, begin + kPixels); ++x) {
             const glm::dvec3 way = view.rayDirection(x + 0.5, y + 0.5);
             const double nearest = view.nearDepth * glm::length(way);
             const WorldRay ray{view.eye, glm::normalize(way)};
             PixelSums sums;
-            for (int n = 0; n < setting.samples; ++n) {
-                PathRandom random(static_cast<std::uint64_t>(y) * view.width + x, n, setting.seed);
+            for (int k = 0; k < setting.samples; ++k) {
+                PathRandom random(static_cast<std::uint64_t>(y) * view.width + x, k, setting.seed);
                 const glm::vec3 light = paths.follow(ray, nearest, random);
                 const double last = std::numeric_limits<double>::infinity();
                 sums.add(light, transmittance(tracked, ray, nearest, last, random));
