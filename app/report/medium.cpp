@@ -185,44 +185,37 @@ struct MediumTruths {
     Plane<glm::vec4> manySlices;
 };
 
-// Of all subjects at once, so that no process waits for another's.
-std::vector<MediumTruths> truthsOf(ReportRun& run, const std::vector<MediumSubject>& subjects) {
+// All of a subject's at once, so that no process waits for another's.
+MediumTruths truthsOf(ReportRun& run, const MediumSubject& subject) {
     constexpr int kRows = 4;  // in a piece
-    std::vector<MediumTruths> truths(subjects.size());
-    std::vector<UntimedPiece> pieces;
-    for (std::size_t n = 0; n < subjects.size(); ++n) {
-        const EyeView& view = subjects[n].view;
-        const MediumOrder order{subjects[n].name == "wax", view.height};
-        truths[n].slices = run.pick(2048, 8192);
-        pieces.push_back(pieceOf(Untimed::ManySlices, SlicesOrder{order, truths[n].slices}));
-        for (const MediumModel model : {MediumModel::Direct, MediumModel::Indirect}) {
-            TrackingSetting tracking;
-            tracking.samples = run.pick(64, 512);
-            tracking.mostScatters = model == MediumModel::Direct ? 1 : 64;
-            tracking.seed = static_cast<std::uint32_t>(run.options().seed);
-            truths[n].paths.push_back(
-                {model, tracking, {{view.width, view.height}, {view.width, view.height}}});
-            for (int y = 0; y < view.height; y += kRows)
-                pieces.push_back(
-                    pieceOf(Untimed::TrackedRows,
-                            TrackedOrder{order, model, tracking, {y, std::min(view.height, y + kRows)}}));
-        }
+    const EyeView& view = subject.view;
+    const MediumOrder order{subject.name == "wax", view.height};
+    MediumTruths truths;
+    truths.slices = run.pick(2048, 8192);
+    std::vector<UntimedPiece> pieces{pieceOf(Untimed::ManySlices, SlicesOrder{order, truths.slices})};
+    for (const MediumModel model : {MediumModel::Direct, MediumModel::Indirect}) {
+        TrackingSetting tracking;
+        tracking.samples = run.pick(64, 512);
+        tracking.mostScatters = model == MediumModel::Direct ? 1 : 64;
+        tracking.seed = static_cast<std::uint32_t>(run.options().seed);
+        truths.paths.push_back({model, tracking, {{view.width, view.height}, {view.width, view.height}}});
+        for (int y = 0; y < view.height; y += kRows)
+            pieces.push_back(
+                pieceOf(Untimed::TrackedRows,
+                        TrackedOrder{order, model, tracking, {y, std::min(view.height, y + kRows)}}));
     }
     const std::vector<PeerBytes> made = run.untimed().all(pieces);
     auto piece = made.begin();
-    for (std::size_t n = 0; n < subjects.size(); ++n) {
-        const EyeView& view = subjects[n].view;
-        truths[n].manySlices = Plane<glm::vec4>(view.width, view.height);
-        ByteReader slices(*piece++);
-        getRows(slices, 0, view.height, truths[n].manySlices);
-        for (PathTruth& truth : truths[n].paths)
-            for (int y = 0; y < view.height; y += kRows) {
-                ByteReader reader(*piece++);
-                const int end = std::min(view.height, y + kRows);
-                getRows(reader, y, end, truth.picture.light);
-                getRows(reader, y, end, truth.picture.variance);
-            }
-    }
+    truths.manySlices = Plane<glm::vec4>(view.width, view.height);
+    ByteReader slices(*piece++);
+    getRows(slices, 0, view.height, truths.manySlices);
+    for (PathTruth& truth : truths.paths)
+        for (int y = 0; y < view.height; y += kRows) {
+            ByteReader reader(*piece++);
+            const int end = std::min(view.height, y + kRows);
+            getRows(reader, y, end, truth.picture.light);
+            getRows(reader, y, end, truth.picture.variance);
+        }
     return truths;
 }
 
@@ -300,11 +293,11 @@ void reportMedium(ReportRun& run, double) {
     std::vector<MediumSubject> subjects;
     subjects.push_back(subjectNamed("cloud", size));
     if (!run.brief()) subjects.push_back(subjectNamed("wax", size));
-    const std::vector<MediumTruths> truths = truthsOf(run, subjects);
-    for (std::size_t n = 0; n < subjects.size(); ++n) {
-        run.checkTime();
-        for (const PathTruth& truth : truths[n].paths) againstPaths(run, section, subjects[n], truth);
-        againstManySlices(run, section, subjects[n], truths[n]);
+    for (const MediumSubject& subject : subjects) {
+        run.checkTime();  // before its truths, which take longest
+        const MediumTruths truths = truthsOf(run, subject);
+        for (const PathTruth& truth : truths.paths) againstPaths(run, section, subject, truth);
+        againstManySlices(run, section, subject, truths);
     }
     run.checkTime();
     addChart(run.report(), section, shadingWidthChart(run));
