@@ -75,6 +75,13 @@ long long countMissing(const std::vector<float>& heights) {
     return std::count_if(heights.begin(), heights.end(), [](float h) { return !std::isfinite(h); });
 }
 
+void guessMissing(std::vector<float>& heights, int width, int height) {
+    if (countMissing(heights) == static_cast<long long>(heights.size())) return;
+    FillLevel finest{width, height, std::move(heights)};
+    fillFromPyramid(finest);
+    heights = std::move(finest.values);
+}
+
 long long fillMissing(std::vector<float>& heights, int width, int height, const glm::dvec2& spacing,
                       Progress& progress) {
     const auto missingCount = static_cast<std::size_t>(countMissing(heights));
@@ -88,9 +95,7 @@ long long fillMissing(std::vector<float>& heights, int width, int height, const 
     missing.reserve(missingCount);
     for (std::size_t k = 0; k < heights.size(); ++k)
         if (!std::isfinite(heights[k])) missing.push_back(k);
-    FillLevel finest{width, height, std::move(heights)};
-    fillFromPyramid(finest);
-    heights = std::move(finest.values);
+    guessMissing(heights, width, height);
     if (missing.size() <= kMostSolved) solveMembrane(missing, heights, width, height, spacing, progress);
     return static_cast<long long>(missing.size());
 }

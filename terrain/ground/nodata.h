@@ -17,4 +17,8 @@ long long countMissing(const std::vector<float>& heights);
 long long fillMissing(std::vector<float>& heights, int width, int height, const glm::dvec2& spacing,
                       Progress& progress);
 
+// What fillMissing() begins with: averages of the known samples around, the wider the farther these are.
+// Smooth, but it does not continue ramps. A grid without a finite sample is left alone.
+void guessMissing(std::vector<float>& heights, int width, int height);
+
 }  // namespace stereonav

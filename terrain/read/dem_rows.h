@@ -4,11 +4,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "terrain/read/dem_reader.h"
 
 namespace stereonav {
+
+// Replaces each NaN of a grid by what fits the numbers around (terrain/ground/nodata.h).
+using FillBetween = std::function<void(std::vector<float>& values, int width, int height)>;
 
 // To one thread at a time. At most 2^20 samples a side and 2^40 in all.
 //
@@ -30,6 +35,8 @@ public:
         virtual bool mustBeReadAgain() = 0;
         virtual void checkHeights(double verticalScale) const = 0;
         virtual std::uint64_t identity() const = 0;
+        virtual bool isPacked() const = 0;
+        virtual bool readSpread(double time_ms, double most_ms, const FillBetween& fill) = 0;
     };
 
     // Opens it and reads no sample, but for the one tile of a GSI elevation tile. Throws Error as readDem()
@@ -63,6 +70,19 @@ public:
     // samples are missing, or heights times the vertical scale leave their range, as readDem() says it. Of
     // ground that is resampled only samples around those of the grid count.
     void checkHeights(double verticalScale) const { mReader->checkHeights(verticalScale); }
+
+    // Of a reader of a few samples: whether they lie in compressed blocks, of which each row takes many, and
+    // there are no overviews.
+    bool isPacked() const { return mReader->isPacked(); }
+
+    // Of such a reader: decodes blocks of the file spread evenly over it, as many as that time gives, and
+    // from then on read() gives what they hold and what `fill` puts between them. It is missing where most of
+    // what was read nearby is. False where blocks are too large or too slow for the fewest of them (most_ms),
+    // all samples are read, or the format is decoded from its beginning: then nothing is changed. Throws as
+    // read() does.
+    bool readSpread(double time_ms, double most_ms, const FillBetween& fill) {
+        return mReader->readSpread(time_ms, most_ms, fill);
+    }
 
     // Names the content: path, size and time of change of each file that it is made of, overviews and the
     // sources of virtual rasters among them.

@@ -7,15 +7,17 @@
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/base/stopwatch.h"
+#include "terrain/ground/nodata.h"
 #include "terrain/read/dem_rows.h"
 
 namespace stereonav {
 namespace {
 
 constexpr int kFewest = 8;  // every eighth row first, and where there is time those between, three times
-constexpr double kTime_ms = 1500;
+constexpr double kTime_ms = 1500, kMuchMore = 3;
 
-// Some rows of a ground, spread over all of it: every eighth, fourth, second or all, as there is time.
+// Some rows of a ground, spread over all of it: every eighth, fourth, second or all, as there is time. All of
+// them where the file decodes some blocks instead.
 class SomeRows {
 public:
     explicit SomeRows(DemRows& rows)
@@ -26,20 +28,10 @@ public:
 
     // False where it would take too long for the fewest.
     bool read() {
-        const Stopwatch watch;
-        int count = 0;
-        for (int row = 0; row < mHeight; row += kFewest) {
-            readRow(row);
-            ++count;
-            if (isSlow(watch.elapsed_ms(), count)) return false;
-        }
-        for (mStep = kFewest; mStep > 1; mStep /= 2) {
-            // As many again as there are so far.
-            if (2 * watch.elapsed_ms() > kTime_ms) break;
-            for (int row = mStep / 2; row < mHeight; row += mStep) readRow(row);
-        }
-        if (mRows.mustBeReadAgain())
-            for (int row = 0; row < mHeight; row += mStep) readRow(row);
+        if (!mRows.isPacked() && readInSteps()) return true;
+        if (!mRows.readSpread(kTime_ms, kMuchMore * kTime_ms, guessMissing)) return false;
+        mStep = 1;
+        mRows.read(0, mHeight, mHeights.data());
         return true;
     }
 
@@ -56,9 +48,26 @@ public:
     }
 
 private:
+    bool readInSteps() {
+        const Stopwatch watch;
+        int count = 0;
+        for (int row = 0; row < mHeight; row += kFewest) {
+            readRow(row);
+            ++count;
+            if (isSlow(watch.elapsed_ms(), count)) return false;
+        }
+        for (mStep = kFewest; mStep > 1; mStep /= 2) {
+            // As many again as there are so far.
+            if (2 * watch.elapsed_ms() > kTime_ms) break;
+            for (int row = mStep / 2; row < mHeight; row += mStep) readRow(row);
+        }
+        if (mRows.mustBeReadAgain())
+            for (int row = 0; row < mHeight; row += mStep) readRow(row);
+        return true;
+    }
     // After some patience: the first rows wait for more than a row.
     bool isSlow(double passed_ms, int count) const {
-        constexpr double kPatience_ms = 400, kMuchMore = 3;
+        constexpr double kPatience_ms = 400;
         const double rows = (mHeight - 1.0) / kFewest + 1;
         return passed_ms > kPatience_ms && passed_ms / count * rows > kMuchMore * kTime_ms;
     }

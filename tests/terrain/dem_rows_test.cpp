@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "terrain/ground/nodata.h"
 #include "tests/terrain/gdal_reading.h"
 #include "tests/terrain/raster_files.h"
 
@@ -255,6 +256,81 @@ TEST(DemRows, FindsTheRowsOfText) {
                     DemRows(cut).read(0, 1, row.data());
                 }),
                 HasSubstr("cut off"));
+}
+
+// 40 x 30 blocks of 16 x 16, the west of which are missing, in a fifth of the samples each way.
+RasterSpec packedGround() {
+    RasterSpec spec;
+    spec.width = 640, spec.height = 480;
+    spec.transform = {400000, 10, 0, 5000000, 0, -10};
+    spec.hasNodata = true, spec.nodata = -32768;
+    spec.value = [](int c, int r, int) { return c < 320 ? -32768. : 800 + 0.5 * c - 0.25 * r; };
+    spec.options = {"COMPRESS=DEFLATE", "TILED=YES", "BLOCKXSIZE=16", "BLOCKYSIZE=16"};
+    return spec;
+}
+constexpr long long kFewSamples = 128 * 96;
+constexpr double kNoTime = 0, kAllTime = 1e9;
+
+TEST(DemRows, SomeBlocksOfAPackedFileStandForAll) {
+    const TempFolder folder;
+    const auto file = writeRaster(folder / "packed.tif", packedGround());
+    DemRows rows(file, kFewSamples);
+    ASSERT_EQ(rows.place().width, 128);
+    ASSERT_TRUE(rows.isPacked());
+    ASSERT_TRUE(rows.readSpread(kNoTime, kAllTime, guessMissing));
+    const std::vector<float> few = allRows(rows, 96);
+    EXPECT_FALSE(rows.mustBeReadAgain());
+    EXPECT_NO_THROW(rows.checkHeights(1));
+    DemRows every(file, kFewSamples), plain(file, kFewSamples);
+    ASSERT_TRUE(every.readSpread(kAllTime, kAllTime, guessMissing));
+    const std::vector<float> all = allRows(plain, 96);
+    EXPECT_TRUE(sameBits(allRows(every, 7), all)) << "all blocks are read: there is nothing between";
+    // The fewest blocks lie 8 apart at most: 128 samples of the file. Half of that from any to the next.
+    int same = 0;
+    for (int j = 0; j < 96; ++j)
+        for (int i = 0; i < 128; ++i) {
+            const std::size_t at = static_cast<std::size_t>(j) * 128 + i;
+            same += few[at] == all[at];
+            if (i < 64 - 26) {
+                EXPECT_TRUE(std::isnan(few[at])) << i << " " << j;
+            } else if (i >= 64 + 26) {
+                EXPECT_NEAR(few[at], all[at], (0.5 + 0.25) * 128) << i << " " << j;
+            }
+        }
+    EXPECT_LT(same, 128 * 96 / 4);
+}
+
+TEST(DemRows, StripsAndUnnamedMissingSamplesAreSpreadToo) {
+    const TempFolder folder;
+    RasterSpec spec = packedGround();
+    spec.hasNodata = false;
+    spec.value = [](int c, int, int) { return c < 320 ? -9999. : 800 + 0.5 * c; };
+    spec.options = {"COMPRESS=LZW", "BLOCKYSIZE=2"};
+    DemRows rows(writeRaster(folder / "strips.tif", spec), kFewSamples);
+    ASSERT_TRUE(rows.readSpread(kNoTime, kAllTime, guessMissing));
+    const std::vector<float> heights = allRows(rows, 96);
+    for (int j = 0; j < 96; ++j)
+        for (int i = 0; i < 128; ++i) {
+            const float height = heights[static_cast<std::size_t>(j) * 128 + i];
+            if (i < 62) {
+                EXPECT_TRUE(std::isnan(height)) << i << " " << j;
+            } else if (i > 66) {
+                EXPECT_NEAR(height, 800 + 0.5 * 5 * (i + 0.5), 4) << i << " " << j;
+            }
+        }
+    EXPECT_THAT(rows.place().missingValue, HasSubstr("-9999"));
+}
+
+TEST(DemRows, WhatIsNotPackedOrTooSlowIsNotSpread) {
+    const TempFolder folder;
+    RasterSpec spec = packedGround();
+    const auto packed = writeRaster(folder / "packed.tif", spec);
+    EXPECT_FALSE(DemRows(packed).isPacked()) << "all samples are read";
+    DemRows slow(packed, kFewSamples), untouched(packed, kFewSamples);
+    EXPECT_FALSE(slow.readSpread(kNoTime, -1, guessMissing));
+    EXPECT_TRUE(sameBits(allRows(slow, 96), allRows(untouched, 96)));
+    spec.options = {};
+    EXPECT_FALSE(DemRows(writeRaster(folder / "open.tif", spec), kFewSamples).isPacked());
 }
 
 TEST(DemRows, TheIdentityFollowsTheFilesOfAVirtualRaster) {

@@ -14,6 +14,7 @@
 #include "terrain/read/gdal/dem_placement.h"
 #include "terrain/read/gdal/dem_resample_rows.h"
 #include "terrain/read/gdal/dem_samples.h"
+#include "terrain/read/gdal/spread_blocks.h"
 #include "terrain/read/gdal/vrt_check.h"
 #include "terrain/read/height_limits.h"
 
@@ -44,10 +45,9 @@ public:
         mDem.band = mSamples->band().chosen, mDem.heightUnit = mSamples->band().unit;
         mDem.missingValue = mSamples->missing();
         if (!mPlacement.asTheyAre)
-            mResampled = std::make_unique<ResampledRows>(mDem.source, mDem.grid, file,
-                                                         [this](const SampleWindow& window, float* samples) {
-                                                             mSamples->read(window, *mMessages, samples);
-                                                         });
+            mResampled = std::make_unique<ResampledRows>(
+                mDem.source, mDem.grid, file,
+                [this](const SampleWindow& window, float* samples) { readSource(window, samples); });
     }
 
     const DemGrid& place() const override { return mDem; }
@@ -86,12 +86,12 @@ public:
         if (mResampled)
             mResampled->read(fromNorth, rows, heights);
         else
-            mSamples->read({0, mPlacement.southFirst ? first : fromNorth, width, rows}, messages, heights);
+            readSource({0, mPlacement.southFirst ? first : fromNorth, width, rows}, heights);
         orient(heights, rows);
     }
 
     bool mustBeReadAgain() override {
-        if (!mSamples || mFoundCustomary) return false;
+        if (!mSamples || mFoundCustomary || !mSpread.empty()) return false;
         mFoundCustomary = mSamples->findCustomary();
         mDem.missingValue = mSamples->missing();
         return mFoundCustomary;
@@ -99,10 +99,30 @@ public:
 
     void checkHeights(double verticalScale) const override {
         if (!mSamples) return;
-        mSamples->checkPrecision();
-        if (mSamples->allMissing())
+        const HeightSamples& samples = mUnthinned ? *mUnthinned : *mSamples;
+        samples.checkPrecision();
+        if (samples.allMissing())
             throwAllMissing(mFile, 1ll * mDem.source.width * mDem.source.height, mDem.missingValue);
-        checkScaledHeights(mFile.string(), mSamples->tally().low, mSamples->tally().high, verticalScale);
+        checkScaledHeights(mFile.string(), samples.tally().low, samples.tally().high, verticalScale);
+    }
+
+    bool isPacked() const override {
+        if (!mThinnedFrom) return false;
+        GDALRasterBand& band = *mThinnedFrom->GetRasterBand(mSamples->band().number);
+        return band.GetOverviewCount() == 0 &&
+               mThinnedFrom->GetMetadataItem("COMPRESSION", "IMAGE_STRUCTURE");
+    }
+
+    bool readSpread(double time_ms, double most_ms, const FillBetween& fill) override {
+        if (!mThinnedFrom || !hasBlocksAnywhere(*mThinnedFrom)) return false;
+        GdalMessages messages;
+        auto unthinned = std::make_unique<HeightSamples>(*mThinnedFrom, mFile);
+        mSpread = readSpreadBlocks(*unthinned, messages, {mSamples->width(), mSamples->height()}, time_ms,
+                                   most_ms, fill);
+        if (mSpread.empty()) return false;
+        mUnthinned = std::move(unthinned);
+        mDem.missingValue = mUnthinned->missing();
+        return true;
     }
 
     std::uint64_t identity() const override {
@@ -142,6 +162,14 @@ private:
         mDem.sourceMissing = mDem.outside = 0;
     }
 
+    // Of the raster whose rows are read: all of it, or thinned.
+    void readSource(const SampleWindow& window, float* heights) {
+        if (mSpread.empty()) return mSamples->read(window, *mMessages, heights);
+        const auto pitch = static_cast<std::size_t>(mSamples->width());
+        for (int row = window.y; row < window.y + window.height; ++row, heights += window.width)
+            std::copy_n(&mSpread[static_cast<std::size_t>(row) * pitch + window.x], window.width, heights);
+    }
+
     // Text is read from its beginning on. Where its rows lie GDAL finds out as they are first read: in their
     // order one after the other, else by a call within a call for each row before.
     void findRows() {
@@ -175,6 +203,8 @@ private:
     std::unique_ptr<ResampledRows> mResampled;  // null where samples stay as they are
     GdalMessages* mMessages = nullptr;          // of the call that reads
     std::vector<float> mWhole;
+    std::unique_ptr<HeightSamples> mUnthinned;  // null but where some of its blocks were read,
+    std::vector<float> mSpread;                 // into these, thinned
     bool mFoundCustomary = false, mRowsFound = false;
 };
 
