@@ -124,8 +124,11 @@ int runMeasure(const MeasureOptions& options) {
     const GroundSamples samples = survey.samples();
     std::vector<MeasuredLine> all;
     for (const WorldLine& line : lines) {
-        bar.progress().report(double(all.size()) / double(lines.size()), "measuring");
-        all.push_back({line, line.closed ? figuresOfArea(samples, line.world, options.plane_m)
+        const auto told = [&](double share) {
+            bar.progress().report((double(all.size()) + share) / double(lines.size()), "measuring");
+        };
+        told(0);
+        all.push_back({line, line.closed ? figuresOfArea(samples, line.world, options.plane_m, told)
                                          : figuresOfLine(samples, line.world)});
     }
     if (!options.csv.empty()) writeTextFile(options.csv, csvOf(all));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "terrain/survey/ground_area.h"
 #include "terrain/survey/ground_samples.h"
 
 namespace stereonav {
@@ -21,7 +22,7 @@ struct GroundFigure {
 std::vector<GroundFigure> figuresOfLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world);
 // plane: metres; none: through the lowest ground inside.
 std::vector<GroundFigure> figuresOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& world,
-                                        const std::optional<double>& plane);
+                                        const std::optional<double>& plane, const ShareDone& done = {});
 
 // " +- 0.2", " (error not known)", or "" where there is none.
 std::string errorText(const GroundFigure& figure);

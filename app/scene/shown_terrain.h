@@ -48,7 +48,8 @@ public:
     Facts readPlace(const glm::dvec3& world) const override;
     // In heights of the file, whatever they are exaggerated by, at the finest samples; terrain_line.cpp. An
     // area of more than kMostCoarseSamples of ground in tiles is measured at coarser ones, and that is said.
-    MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed) const override;
+    MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed,
+                            Progress& progress) const override;
     Facts sight(const glm::dvec3& from, const glm::dvec3& to, double height) const override;
 
 private:

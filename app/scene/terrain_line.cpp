@@ -59,7 +59,8 @@ void TerrainSurvey::addSpacing(const GroundSamples& samples, Facts& facts) const
         "m"));
 }
 
-MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bool closed) const {
+MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bool closed,
+                                       Progress& progress) const {
     std::vector<glm::dvec2> world;
     glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const glm::dvec3& place : places) {
@@ -73,7 +74,9 @@ MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bo
     MeasuredSurface measured;
     FactList list;
     for (const GroundFigure& figure :
-         closed ? figuresOfArea(ground, world, std::nullopt) : figuresOfLine(ground, world))
+         closed ? figuresOfArea(ground, world, std::nullopt,
+                                [&](double share) { progress.report(share, "measuring"); })
+                : figuresOfLine(ground, world))
         list.both(figure.key, figure.value, figure.label,
                   fmt::format("{:.1f} {}{}", figure.value, figure.unit, errorText(figure)), figure.unit);
     measured.facts = std::move(list.facts());

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -84,7 +83,7 @@ void MeasuredLine::replaceScene(std::shared_ptr<const Scene> scene) {
         for (glm::dvec3& place : mPlaces) place = onGround(*terrain, place);
     mMeasured.reset();
     mProblem.clear();
-    mDue = mPlaces.size() > 1;
+    measureAgain();
 }
 
 bool MeasuredLine::add(const glm::dvec3& place) {
@@ -130,11 +129,17 @@ bool MeasuredLine::take(const std::vector<glm::dvec3>& places, bool closed) {
 void MeasuredLine::setEyeHeight(double height) {
     if (height == mEyeHeight) return;
     mEyeHeight = height;
+    measureAgain();
+}
+
+// What is under way is of what was before: it ends soon.
+void MeasuredLine::measureAgain() {
     mDue = mPlaces.size() > 1;
+    mWork.cancel();
 }
 
 void MeasuredLine::changed() {
-    mDue = mPlaces.size() > 1;
+    measureAgain();
     mProblem.clear();
     if (!mDue) mMeasured.reset();
     write();
@@ -157,10 +162,10 @@ void MeasuredLine::write() {
 }
 
 MeasuredLine::Outcome MeasuredLine::outcomeOf(const Scene& scene, const std::vector<glm::dvec3>& places,
-                                              bool closed, double eyeHeight) {
+                                              bool closed, double eyeHeight, Progress& progress) {
     try {
         if (const auto* const measurer = scene.offered<LineMeasurer>()) {
-            Outcome outcome{measurer->measure(places, closed), ""};
+            Outcome outcome{measurer->measure(places, closed, progress), ""};
             if (closed) return outcome;
             for (Fact& fact : measurer->sight(places[places.size() - 2], places.back(), eyeHeight))
                 outcome.measured.facts.push_back(std::move(fact));
@@ -174,23 +179,20 @@ MeasuredLine::Outcome MeasuredLine::outcomeOf(const Scene& scene, const std::vec
 
 bool MeasuredLine::poll() {
     bool isNew = false;
-    if (mWork.valid() && mWork.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-        Outcome outcome = mWork.get();
+    if (std::optional<Outcome> outcome = mWork.take()) {
         isNew = true;
         if (!mDue && mPlaces.size() > 1) {  // else something newer is wanted
-            mProblem = outcome.problem;
+            mProblem = outcome->problem;
             mMeasured.reset();
-            if (mProblem.empty()) mMeasured = std::move(outcome.measured);
+            if (mProblem.empty()) mMeasured = std::move(outcome->measured);
         }
     }
-    if (!mDue || mWork.valid() || !mScene) return isNew;
+    if (!mDue || mWork.busy() || !mScene) return isNew;
     mDue = false;
-    mWork = std::async(std::launch::async, [scene = mScene, places = mPlaces, wake = mWake,
-                                            closed = mClosed && mPlaces.size() > 2, height = mEyeHeight] {
-        Outcome outcome = outcomeOf(*scene, places, closed, height);
-        wake();
-        return outcome;
-    });
+    mWork.start(
+        [scene = mScene, places = mPlaces, closed = mClosed && mPlaces.size() > 2, height = mEyeHeight](
+            Progress& progress) { return outcomeOf(*scene, places, closed, height, progress); },
+        mWake);
     return isNew;
 }
 

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <future>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/view/beside_work.h"
 #include "engine/scene/line_measurer.h"
 #include "engine/scene/scene.h"
 
@@ -45,7 +45,9 @@ public:
 
     // Looks whether the last measuring is done, and begins the next. True: there is something new.
     bool poll();
-    bool busy() const { return mWork.valid() || mDue; }
+    bool busy() const { return mWork.busy() || mDue; }
+    // Of the measuring that is under way, 0 to 1. Any change ends it, and begins another.
+    double fraction() const { return mWork.fraction(); }
     // Of the places that there were when it began. Null: there is none. problem(): why.
     const MeasuredSurface* measured() const { return mMeasured ? &*mMeasured : nullptr; }
     const std::string& problem() const { return mProblem; }
@@ -56,7 +58,8 @@ private:
         std::string problem;
     };
     static Outcome outcomeOf(const Scene& scene, const std::vector<glm::dvec3>& places, bool closed,
-                             double eyeHeight);
+                             double eyeHeight, Progress& progress);
+    void measureAgain();
     void changed();
     void write();
 
@@ -68,7 +71,7 @@ private:
     double mEyeHeight = 2;
     std::optional<MeasuredSurface> mMeasured;
     std::string mProblem;
-    std::future<Outcome> mWork;  // last: it is waited for at the end
+    BesideWork<Outcome> mWork;  // last: it is ended, and waited for, first
 };
 
 // Where the line of a scene is kept whose places are kept in that file (Bookmarks::file()); "" for "".

@@ -13,7 +13,7 @@ void Viewer::openInstruments() {
 }
 
 void Viewer::followInstruments() {
-    if (mMeasured.poll()) mLayoutDue = true;
+    if (mMeasured.poll() || mMeasured.busy()) mLayoutDue = true;
     followCoverage();
     if (mFindings.poll(mSession->study()) || mFindings.busy()) mLayoutDue = true;
 }

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "engine/base/progress.h"
 #include "engine/scene/facts.h"
 
 namespace stereonav {
@@ -23,7 +24,12 @@ public:
     virtual ~LineMeasurer() = default;
     // places: world, two or more that differ, on or near the surface; closed: the border of an area, three or
     // more. May take seconds; from any thread. Throws Error where nothing can be measured there, Cancelled.
-    virtual MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed) const = 0;
+    virtual MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed,
+                                    Progress& progress) const = 0;
+    MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed) const {
+        Progress progress;
+        return measure(places, closed, progress);
+    }
     // Whether two places see each other from so high above the surface, metres; none where that is not known.
     // As measure().
     virtual Facts sight(const glm::dvec3& /*from*/, const glm::dvec3& /*to*/, double /*height*/) const {

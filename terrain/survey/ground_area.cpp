@@ -189,13 +189,16 @@ private:
 // Calls each(cell, part of it, sum) for all cells of an outline. Rows are summed side by side, and their sums
 // in their order.
 template <typename Each>
-PartSum sumOver(const GroundSamples& ground, const Corners& outline, const Each& each) {
+PartSum sumOver(const GroundSamples& ground, const Corners& outline, const Each& each,
+                const ShareDone& done) {
     constexpr int kRows = SurveyTiles::kSide;  // at once, so that tiles which are read are worked off
     const auto [south, north] = std::minmax_element(
         outline.begin(), outline.end(), [](const glm::dvec2& a, const glm::dvec2& b) { return a.y < b.y; });
     const int end = static_cast<int>(std::ceil(north->y));
+    const int begin = static_cast<int>(std::floor(south->y));
     PartSum sum;
-    for (int first = static_cast<int>(std::floor(south->y)); first < end; first += kRows) {
+    for (int first = begin; first < end; first += kRows) {
+        if (done) done(double(first - begin) / (end - begin));
         std::vector<PartSum> rows(static_cast<std::size_t>(std::min(kRows, end - first)));
         parallelFor(static_cast<int>(rows.size()), [&](int n) {
             const GroundSamples samples = ground;
@@ -216,10 +219,12 @@ Corners onGrid(const GroundSamples& ground, const std::vector<glm::dvec2>& world
 
 }  // namespace
 
-AreaMeasure measureArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane) {
+AreaMeasure measureArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane,
+                        const ShareDone& done) {
     const PartSum all = sumOver(
         ground, onGrid(ground, corners),
-        [plane](const Cell& cell, const Corners& part, PartSum& sum) { addCell(cell, part, plane, sum); });
+        [plane](const Cell& cell, const Corners& part, PartSum& sum) { addCell(cell, part, plane, sum); },
+        done);
     // Clockwise or not is the same area.
     const double sign = all.plan < 0 ? -1 : 1, unit = sign * ground.spacing().x * ground.spacing().y;
     AreaMeasure measure;
@@ -234,12 +239,16 @@ AreaMeasure measureArea(const GroundSamples& ground, const std::vector<glm::dvec
     return measure;
 }
 
-double lowestInArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners) {
-    const PartSum all = sumOver(ground, onGrid(ground, corners), addHeights);
+double lowestInArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners,
+                    const ShareDone& done) {
+    const PartSum all = sumOver(ground, onGrid(ground, corners), addHeights, done);
     return all.known ? all.lowest : std::numeric_limits<double>::quiet_NaN();
 }
 
-AreaMeasure errorsOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane) {
+AreaMeasure errorsOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane,
+                         const ShareDone& done) {
+    // All samples are measured once, and a quarter of them four times.
+    double before = 0;
     constexpr double AreaMeasure::*kFigures[] = {&AreaMeasure::along, &AreaMeasure::above,
                                                  &AreaMeasure::below, &AreaMeasure::lowest,
                                                  &AreaMeasure::highest};
@@ -247,7 +256,11 @@ AreaMeasure errorsOfArea(const GroundSamples& ground, const std::vector<glm::dve
         errorsOfSpacing(ground, [&](const GroundSamples& other, const glm::dvec2& shift) {
             std::vector<glm::dvec2> moved = corners;
             for (glm::dvec2& corner : moved) corner -= shift;
-            const AreaMeasure measure = measureArea(other, moved, plane);
+            const double part = before == 0 ? 0.5 : 0.125, from = before;
+            before += part;
+            const AreaMeasure measure =
+                measureArea(other, moved, plane,
+                            done ? ShareDone([&](double share) { done(from + part * share); }) : done);
             std::vector<double> values;
             for (const auto figure : kFigures) values.push_back(measure.*figure);
             return values;

@@ -1,12 +1,17 @@
 // Areas over the ground: over the plan, along the ground, and volumes over and under a level plane.
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <vector>
 
 #include "terrain/survey/ground_samples.h"
 
 namespace stereonav {
+
+// Is told now and then how much of the work is done, 0 to 1, on the thread that asked; what it throws ends
+// it.
+using ShareDone = std::function<void(double share)>;
 
 struct AreaMeasure {
     double plan = 0;                 // square metres
@@ -22,12 +27,15 @@ struct AreaMeasure {
 // halved kHalvings times. What lies over a hole makes all but plan and perimeter NaN. Sums are made row by
 // row of cells from the south on, whatever the thread count and wherever the samples lie.
 constexpr int kHalvings = 6;
-AreaMeasure measureArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane);
+AreaMeasure measureArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane,
+                        const ShareDone& done = {});
 
 // Of that alone, which takes a tenth of the time; NaN over a hole.
-double lowestInArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners);
+double lowestInArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners,
+                    const ShareDone& done = {});
 
 // As errorsOfLine().
-AreaMeasure errorsOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane);
+AreaMeasure errorsOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane,
+                         const ShareDone& done = {});
 
 }  // namespace stereonav

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -26,7 +27,10 @@ public:
     CountingScene() { offer<LineMeasurer>(*this); }
     FrameMaker& frames() const override { throw Error("", "", "no frames", ""); }
     std::unique_ptr<Flight> makeFlight() const override { return nullptr; }
-    MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed) const override {
+    MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed,
+                            Progress& progress) const override {
+        progress.report(0.5, "measuring");
+        while (places.size() == 5 && closed) progress.report(0.25, "measuring, which does not end by itself");
         if (places.size() == 4) throw Error("", "the line", "has four places", "take three");
         MeasuredSurface measured;
         measured.facts = {factForJson("places", static_cast<std::int64_t>(places.size())),
@@ -103,6 +107,23 @@ TEST(MeasuredLine, IsMeasuredBesideTheWindowEachTimeItChanges) {
     EXPECT_FALSE(line.closed());
     line.removeLast();
     EXPECT_TRUE(line.places().empty());
+}
+
+TEST(MeasuredLine, LongMeasuringTellsItsShareAndEndsWithAnyChange) {
+    std::optional<MeasuredLine> line(std::in_place, [] {});
+    line->open(std::make_shared<CountingScene>(), "");
+    ASSERT_TRUE(line->take({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 1, 0}, {0, 5, 0}}, true));
+    while (line->poll() || line->fraction() != 0.25)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_TRUE(line->busy());
+    line->setClosed(false);
+    waitFor(*line);
+    ASSERT_TRUE(line->measured());
+    EXPECT_EQ(placesSaid(*line), 5);
+    EXPECT_EQ(line->problem(), "");
+    line->setClosed(true);
+    line->poll();
+    line.reset();  // ends it as well
 }
 
 TEST(MeasuredLine, IsKeptAsItIsMade) {

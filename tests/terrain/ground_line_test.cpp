@@ -164,6 +164,24 @@ TEST(GroundArea, DentsAndManyCornersAreCutRight) {
 }
 
 // The cap of a sphere over a level plane: its volume and its area, within the errors that are told.
+TEST(GroundArea, TellsHowMuchIsDoneAndEndsWhereThatThrows) {
+    const Heightfield level(6, 1200, glm::dvec2(1), std::vector<float>(6 * 1200, 7.0f), "level");
+    const std::vector<glm::dvec2> corners{{-2, -590}, {2, -590}, {2, 590}, {-2, 590}};
+    std::vector<double> shares;
+    const AreaMeasure told = errorsOfArea(level, corners, 0, [&](double share) { shares.push_back(share); });
+    EXPECT_EQ(told.above, errorsOfArea(level, corners, 0).above);
+    ASSERT_GT(shares.size(), 10u);
+    EXPECT_EQ(shares.front(), 0);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_GT(shares.back(), 0.9);
+    EXPECT_LT(shares.back(), 1);
+    const auto stop = [](double share) {
+        if (share > 0.4) throw Cancelled();
+    };
+    EXPECT_THROW(measureArea(level, corners, 0, stop), Cancelled);
+    EXPECT_THROW(lowestInArea(level, corners, stop), Cancelled);
+}
+
 TEST(GroundArea, ACapIsWithinItsErrors) {
     constexpr double kRadius = 1000, kLevel = 900, kTall = kRadius - kLevel;
     const Heightfield sphere =

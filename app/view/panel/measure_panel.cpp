@@ -109,7 +109,8 @@ void drawMeasurePanel(PanelHost& host) {
     if (line->places().size() < 2)
         return quietText(
             host, empty ? "Two places and more are measured." : "One place: another one makes a line.");
-    if (line->busy()) quietText(host, "measuring");
+    if (line->busy())
+        quietText(host, fmt::format("measuring, {:.0f} %: any change ends it", 100 * line->fraction()));
     const MeasuredSurface* const measured = line->measured();
     if (!measured) return;
     factTable(host, "measured", measured->facts);
