@@ -192,9 +192,9 @@ ColonScene sceneOf(FoundColon found, const ColonOptions& options, Progress& prog
     const GreyVolume& field = scene.volume.field;
     const double wall = scene.lumen.isovalue * field.scale + field.offset;
     scene.volume.look.transfer = wallTransfer(options, wall, scene.volume.look.surface);
-    scene.distance = distanceToOutside(scene.lumen.lumen);
     progress.report(0.9, "preparing the wall");
     scene.volume.cells = wallCells(scene, progress);
+    scene.distance = distanceToOutside(scene.lumen.lumen);
     placeViewer(scene, options);
     return scene;
 }

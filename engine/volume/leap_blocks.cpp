@@ -1,6 +1,7 @@
 #include "engine/volume/leap_blocks.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <vector>
@@ -15,8 +16,9 @@ namespace {
 constexpr int kGroup = 4;        // cells along each side of a group
 constexpr int kLeapBlock = 256;  // cells along each side of a block: whole bricks and groups
 constexpr int kBrickSide = 16, kGroupsAcross = kBrickSide / kGroup;
-// Codes while they are made: 0 is what was not written, and takes no memory. No code is as large.
-constexpr std::uint8_t kActiveYet = kLargestCode;
+// Codes while they are made: 0 is what was not written, and takes no memory. No code is as large as that of
+// active cells; those of a region that are not active have one, until theirs is known.
+constexpr std::uint8_t kActiveYet = kLargestCode, kInsideYet = kCellNear;
 constexpr double kUnitShare = 4;  // distances are counted in quarters of the smallest spacing
 
 glm::ivec3 groupsOf(const glm::ivec3& cells) {
@@ -74,35 +76,51 @@ public:
             codeBlock(kLeapBlock *
                       glm::ivec3(n % blocks.x, n / blocks.x % blocks.y, n / (blocks.x * blocks.y)));
         }
-        settleActive();
     }
 
 private:
+    // What is not in the region was not written.
+    bool endsLeaps(std::uint8_t code) const {
+        return code == kActiveYet || (code == 0 && mSetting.region != nullptr);
+    }
+
     static int reach() { return static_cast<int>(kExactReach * kUnitShare); }  // units
 
     std::uint8_t* codesAt(int i, int j, int k) { return mCells.codes.data() + mCells.layout.index(i, j, k); }
 
-    // Codes that tell what is active, where something is; the groups that hold it.
+    // Codes that tell what is active or in the region, where something is; the groups that hold what leaps
+    // end at: what is active, and what is not in the region.
     MaskVolume flagAll() {
         mCells.codes = LazyArray<std::uint8_t>(mCells.layout.count());
         VolumeFrame frame = mFrame;
         frame.size = mGroups;
         frame.spacing *= static_cast<double>(kGroup);
         MaskVolume groups(frame);
+        mInside = MaskVolume(frame);
         const glm::ivec3 size = mFrame.size;
-        const std::vector<std::uint8_t> everywhere(static_cast<std::size_t>(size.x), 1);
         parallelFor(mGroups.z, [&](int group) {
-            std::vector<std::uint8_t> active(static_cast<std::size_t>(size.x));
+            std::vector<std::uint8_t> active(static_cast<std::size_t>(size.x)), inside(active.size(), 1);
             for (int k = group * kGroup; k < std::min((group + 1) * kGroup, size.z); ++k)
                 for (int j = 0; j < size.y; ++j) {
-                    flagActive(mVolume, mSetting, j, k, size.x, everywhere.data(), active.data());
                     std::uint8_t* of = &groups.at(0, j / kGroup, group);
-                    for (int i = 0; i < size.x; ++i) of[i / kGroup] |= active[i];
+                    if (mSetting.region && !flagRegion(*mSetting.region, j, k, size.x, inside.data())) {
+                        std::fill_n(of, mGroups.x, std::uint8_t{1});
+                        continue;
+                    }
+                    flagActive(mVolume, mSetting, j, k, size.x, inside.data(), active.data());
+                    std::uint8_t* anyInside = &mInside.at(0, j / kGroup, group);
+                    for (int i = 0; i < size.x; ++i) {
+                        of[i / kGroup] |= active[i] | !inside[i];
+                        anyInside[i / kGroup] |= inside[i];
+                    }
+                    const std::uint8_t* written = mSetting.region ? inside.data() : active.data();
+                    const std::uint8_t otherwise = mSetting.region ? kInsideYet : 0;
                     for (int first = 0; first < size.x; first += kBrickSide) {
-                        const int count = std::min(kBrickSide, size.x - first);
-                        if (!anySet(&active[first], count)) continue;
+                        const int end = std::min(first + kBrickSide, size.x);
+                        if (!anySet(written + first, end - first)) continue;
                         std::uint8_t* codes = codesAt(first, j, k);
-                        for (int i = 0; i < count; ++i) codes[i] = active[first + i] ? kActiveYet : 0;
+                        for (int i = first; i < end; ++i, ++codes)
+                            if (written[i]) *codes = active[i] ? kActiveYet : otherwise;
                     }
                 }
         });
@@ -142,21 +160,37 @@ private:
         });
     }
 
-    bool isFar(const glm::ivec3& brick) const {
-        const glm::ivec3 low = brick * kGroupsAcross, high = glm::min(low + kGroupsAcross, mGroups);
+    // Whether holds(i, j, k) of any group with a cell in the box.
+    template <typename Holds>
+    bool anyGroup(const glm::ivec3& first, const glm::ivec3& end, const Holds& holds) const {
+        const glm::ivec3 low = first / kGroup, high = glm::min(groupsOf(end), mGroups);
         for (int k = low.z; k < high.z; ++k)
             for (int j = low.y; j < high.y; ++j)
                 for (int i = low.x; i < high.x; ++i)
-                    if (mFar.at(i, j, k) < reach()) return false;
-        return true;
+                    if (holds(i, j, k)) return true;
+        return false;
+    }
+
+    // Whether something that ends leaps may be within the exact reach of the box.
+    bool isNear(const glm::ivec3& first, const glm::ivec3& end) const {
+        return anyGroup(first, end, [&](int i, int j, int k) { return mFar.at(i, j, k) < reach(); });
+    }
+
+    bool isInside(const glm::ivec3& first, const glm::ivec3& end) const {
+        return anyGroup(first, end, [&](int i, int j, int k) { return mInside.at(i, j, k) != 0; });
     }
 
     // Beyond the exact reach all cells of a group have one distance: bricks that lie there keep codes of
     // their groups alone.
     void codeFarBricks() {
         mCells.farCodes = LazyArray<std::uint8_t>(mCells.layout.count() >> 6);
+        std::atomic<std::size_t> coded = 0;
         forBricks([&](const glm::ivec3& brick) {
-            if (!isFar(brick)) return;
+            const glm::ivec3 first = brick * kBrickSide;
+            if (isNear(first, first + kBrickSide)) {
+                if (isInside(first, first + kBrickSide)) ++coded;
+                return;
+            }
             const glm::ivec3 low = brick * kGroupsAcross, high = glm::min(low + kGroupsAcross, mGroups);
             for (int k = low.z; k < high.z; ++k)
                 for (int j = low.y; j < high.y; ++j)
@@ -164,30 +198,11 @@ private:
                         mCells.farCodes[farIndexOf(kGroup * glm::ivec3(i, j, k))] =
                             codeOf(mFar.at(i, j, k), kLargestCode);
         });
+        mCells.codedBricks = coded;
     }
 
     std::size_t farIndexOf(const glm::ivec3& cell) const {
         return BrickLayout::farIndex(mCells.layout.index(cell.x, cell.y, cell.z));
-    }
-
-    void settleActive() {
-        forBricks([&](const glm::ivec3& brick) {
-            const glm::ivec3 low = brick * kBrickSide;
-            if (mCells.farCodes[farIndexOf(low)] != 0) return;
-            std::uint8_t* codes = codesAt(low.x, low.y, low.z);
-            for (int n = 0; n < kBrickSide * kBrickSide * kBrickSide; ++n)
-                if (codes[n] == kActiveYet) codes[n] = kCellActive;
-        });
-    }
-
-    // Whether something active may be within the exact reach of the block.
-    bool isNear(const glm::ivec3& first, const glm::ivec3& end) const {
-        const glm::ivec3 low = first / kGroup, high = groupsOf(end);
-        for (int k = low.z; k < high.z; ++k)
-            for (int j = low.y; j < high.y; ++j)
-                for (int i = low.x; i < high.x; ++i)
-                    if (mFar.at(i, j, k) < reach()) return true;
-        return false;
     }
 
     // Distances in the block, and as far around it as they reach: up to there they are exact.
@@ -201,8 +216,7 @@ private:
             for (int i = std::max(low.x - 1, 0); i < end;) {
                 const std::uint8_t* codes = codesAt(i, y, z);
                 const int stop = std::min((i | 15) + 1, end);
-                for (std::uint8_t* out = row + (i - low.x + 1); i < stop; ++i)
-                    *out++ = *codes++ == kActiveYet;
+                for (std::uint8_t* out = row + (i - low.x + 1); i < stop; ++i) *out++ = endsLeaps(*codes++);
             }
         };
         return distanceToOutside(awayFrom(frame, setRow), false, mUnit, SimdTarget::Auto,
@@ -211,6 +225,7 @@ private:
 
     void codeBlock(const glm::ivec3& first) {
         const glm::ivec3 end = glm::min(first + kLeapBlock, mFrame.size);
+        if (!isInside(first, end)) return;
         const glm::ivec3 around(glm::ceil(kExactReach * mSmallest / mFrame.spacing));
         const glm::ivec3 low = glm::max(first - around, 0), high = glm::min(end + around, mFrame.size);
         DistanceVolume near;
@@ -228,7 +243,7 @@ private:
                         continue;
                     }
                     std::uint8_t& code = *codesAt(i, j, k);
-                    if (code == kActiveYet) continue;
+                    if (endsLeaps(code)) continue;
                     const int free = std::max<int>(far[i / kGroup], here ? here[i] : reach());
                     code = codeOf(free, kActiveYet - 1);
                 }
@@ -243,6 +258,7 @@ private:
     glm::ivec3 mGroups;
     double mSmallest = 1, mUnit = 1;  // metres
     DistanceVolume mFar;              // of groups
+    MaskVolume mInside;               // groups with a cell of the region
     int mDivisor = 1;
 };
 
@@ -251,6 +267,29 @@ private:
 void codeLeapsByBlocks(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress,
                        SurfaceCells& cells) {
     LeapBlocks(volume, setting, cells).run(progress);
+}
+
+bool isMarkedActive(std::uint8_t code) {
+    return code == kActiveYet;
+}
+
+void settleCodes(const SurfaceSetting& setting, SurfaceCells& cells) {
+    const glm::ivec3 bricks = cells.layout.bricks;
+    parallelFor(bricks.z, [&](int k) {
+        const std::size_t layer = static_cast<std::size_t>(bricks.x) * bricks.y;
+        for (std::size_t brick = layer * k; brick < layer * (k + 1); ++brick) {
+            const std::size_t first = brick * kCellsOfBrick;
+            if (cells.farCodes[BrickLayout::farIndex(first)] != 0) {
+                if (!setting.region) continue;  // nothing was written
+                std::fill_n(&cells.codes[first], kCellsOfBrick, std::uint8_t{0});
+                cells.codes.release(first, kCellsOfBrick);
+                continue;
+            }
+            std::uint8_t* codes = &cells.codes[first];
+            for (std::size_t n = 0; n < kCellsOfBrick; ++n)
+                if (codes[n] == kActiveYet) codes[n] = kCellActive;
+        }
+    });
 }
 
 }  // namespace stereonav

@@ -17,10 +17,18 @@ inline int leapDivisor(int largest) {
     return largest > most ? (largest + most - 1) / most : 1;
 }
 
-// Fills codes, farCodes and leapUnit of cells that have frame and layout: 0 for the cells that hold surface.
-// Bricks beyond the exact reach of any surface get codes of their groups alone, a 64th of the memory. Besides
-// the codes it takes an eighth of a byte a cell, and 11 bytes for each cell of a block of 288^3.
+constexpr std::size_t kCellsOfBrick = 4096;
+
+// Fills codes, farCodes and leapUnit of cells that have frame and layout. Bricks beyond the exact reach of
+// any surface get codes of their groups alone, a 64th of the memory. With a region, leaps end at its border,
+// and what is not in it is not written. Besides the codes it takes an eighth of a byte a cell, and 11 bytes
+// for each cell of a block of 288^3. What is active is marked for isMarkedActive() until settleCodes().
 void codeLeapsByBlocks(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress,
                        SurfaceCells& cells);
+
+bool isMarkedActive(std::uint8_t code);
+
+// Gives active cells kCellActive, and the memory of codes back that far bricks took.
+void settleCodes(const SurfaceSetting& setting, SurfaceCells& cells);
 
 }  // namespace stereonav

@@ -25,8 +25,6 @@
 namespace stereonav {
 namespace {
 
-constexpr std::size_t kCellsOfBrick = 4096, kGroupsOfBrick = 64;
-
 // One flag a cell, in a volume of the cells' own frame.
 struct CellFlags {
     MaskVolume active;  // holds surface
@@ -151,6 +149,7 @@ SurfaceCells SurfaceCells::share() const {
     same.leapUnit = leapUnit;
     same.codes = codes.share();
     same.farCodes = farCodes.share();
+    same.codedBricks = codedBricks;
     same.bricks = bricks.share();
     same.places = places.share();
     same.records = records.share();
@@ -162,10 +161,9 @@ SurfaceCells SurfaceCells::share() const {
 }
 
 std::size_t SurfaceCells::bytesHeld() const {
-    // Pages that were read count as in use, also those of far bricks, which all are one page of zeros.
-    std::size_t far = 0;
-    for (std::size_t n = 0; n < farCodes.size(); n += kGroupsOfBrick) far += farCodes[n] != 0;
-    const std::size_t own = farCodes.empty() ? residentBytes(codes) : codes.size() - far * kCellsOfBrick;
+    // Pages that were read count as in use, also those that nothing was written to, which all are one page
+    // of zeros.
+    const std::size_t own = farCodes.empty() ? residentBytes(codes) : codedBricks * kCellsOfBrick;
     return own + residentBytes(farCodes) + residentBytes(bricks) + residentBytes(places) +
            records.size() * sizeof(CellRecord) + normals.size() * sizeof(std::uint32_t);
 }
@@ -202,7 +200,9 @@ SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& se
     checkSize(volume.frame, cells.layout);
     const VolumeFrame frame = cellFrameOf(volume.frame);
     progress.report(0.0, "finding the surface");
-    if (!setting.region && frame.count() > setting.atOnce) {
+    const std::size_t mostAtOnce =
+        setting.region ? SurfaceSetting::kRegionAtOnce : SurfaceSetting::kCellsAtOnce;
+    if (frame.count() > setting.atOnce.value_or(mostAtOnce)) {
         codeLeapsByBlocks(volume, setting, progress, cells);
         progress.report(0.7, "storing what rays need");
         writeRecords(
@@ -211,9 +211,10 @@ SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& se
                 const std::size_t n = cells.layout.index(first.x, first.y, first.z);
                 if (cells.farCodes[BrickLayout::farIndex(n)] != 0) return;  // a far brick: as it comes, all 0
                 const std::uint8_t* codes = &cells.codes[n];
-                for (int i = 0; i < count; ++i) active[i] = codes[i] == kCellActive;
+                for (int i = 0; i < count; ++i) active[i] = isMarkedActive(codes[i]);
             },
             cells);
+        settleCodes(setting, cells);
     } else {
         const MaskVolume flags = codeLeapsAtOnce(volume, setting, frame, progress, cells);
         progress.report(0.7, "storing what rays need");

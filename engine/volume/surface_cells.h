@@ -62,6 +62,7 @@ struct SurfaceCells {
     // Codes of groups of 4^3 cells, 64 a brick by farIndex: of far bricks, whose cells have none of their own
     // (0 in `codes`, where no memory is taken); 0 of all others. Empty: no brick is far.
     LazyArray<std::uint8_t> farCodes;
+    std::size_t codedBricks = 0;  // bricks that have codes of their own, where some are far
     // Of each brick: the number of its first record; or, with kDenseBrick, its place among the dense ones.
     LazyArray<std::uint32_t> bricks;
     LazyArray<std::uint16_t> places;  // by layout: 1, 2, ... among its brick's records, 0 where there is none
@@ -93,10 +94,12 @@ struct SurfaceSetting {
     // If given (same frame as the volume): cells without a corner inside do not count, and leaps are
     // known only in cells with one.
     const MaskVolume* region = nullptr;
-    // Without a region, leaps of more cells than these are measured in blocks: in a byte or so a cell instead
-    // of eight, and no leap beyond 16 of the smallest spacing is as long as it may be (leap_blocks.h).
-    std::size_t atOnce = kCellsAtOnce;
-    static constexpr std::size_t kCellsAtOnce = std::size_t{1} << 25;
+    // Leaps of more cells than these are measured in blocks: in a byte or so a cell instead of eight, and no
+    // leap beyond 16 of the smallest spacing is as long as it may be (leap_blocks.h). Of a region the memory
+    // is that of the cells around it and rays take long leaps, so only the largest are measured so. Left
+    // out: kCellsAtOnce, or kRegionAtOnce with a region.
+    std::optional<std::size_t> atOnce = std::nullopt;
+    static constexpr std::size_t kCellsAtOnce = std::size_t{1} << 25, kRegionAtOnce = std::size_t{1} << 28;
     // Without a region, bricks with so many active cells are dense ones.
     std::uint32_t denseFrom = kDenseFrom;
     static constexpr std::uint32_t kDenseFrom = 640, kNeverDense = 4097;

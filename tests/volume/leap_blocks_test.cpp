@@ -23,9 +23,10 @@ using test::slantedFrame;
 
 constexpr double kReach = 16, kGroupSide = 4;  // of leap_blocks.h
 
-SurfaceCells cellsOf(const GreyVolume& volume, float isovalue, bool blocks) {
+SurfaceCells cellsOf(const GreyVolume& volume, float isovalue, bool blocks,
+                     const MaskVolume* region = nullptr) {
     Progress progress;
-    SurfaceSetting setting{isovalue, isovalue, isovalue, nullptr};
+    SurfaceSetting setting{isovalue, isovalue, isovalue, region};
     if (blocks) setting.atOnce = 0;
     return findSurfaceCells(volume, setting, progress);
 }
@@ -85,6 +86,39 @@ TEST(LeapBlocks, OfUnevenSpacing) {
     const SurfaceCells once = cellsOf(volume, 50, false), blocks = cellsOf(volume, 50, true);
     expectSameCells(blocks, once);
     expectLeapsBelow(blocks, once);
+}
+
+// Rays start in the region and end at its wall: what lies behind the wall has neither codes nor records.
+TEST(LeapBlocks, KeepToARegion) {
+    VolumeFrame frame;
+    frame.size = {300, 96, 99};
+    frame.spacing = glm::dvec3(0.7e-3);
+    const glm::dvec3 middle(150, 48, 48);
+    // Two hollows, of which the region is one; the other comes near to it.
+    const GreyVolume volume = greyVolume(frame, [&](const glm::dvec3& v) {
+        const glm::dvec3 way = (v - middle) / glm::dvec3(130, 44, 46);
+        const double other = glm::distance(v, glm::dvec3(287, 48, 48)) - 4;
+        return 100 + 500 * std::min(glm::length(way) - 1, 0.02 * other);
+    });
+    MaskVolume region(frame);
+    for (int k = 0; k < frame.size.z; ++k)
+        for (int j = 0; j < frame.size.y; ++j)
+            for (int i = 0; i < 282; ++i) region.at(i, j, k) = volume.at(i, j, k) < 100;
+    const SurfaceCells once = cellsOf(volume, 100, false, &region),
+                       blocks = cellsOf(volume, 100, true, &region);
+    expectSameCells(blocks, once);
+    expectLeapsBelow(blocks, once);
+    std::size_t far = 0;
+    for (std::size_t n = 0; n < blocks.layout.count(); n += 4096) {
+        if (blocks.farCodes[BrickLayout::farIndex(n)] == 0) continue;
+        ++far;
+        for (std::size_t cell = n; cell < n + 4096; ++cell) ASSERT_EQ(blocks.codes[cell], 0);
+    }
+    EXPECT_GT(far, 8u);
+    for (const double x : {21.0, 40.0, 150.0, 222.0, 278.0}) {
+        const glm::dvec3 at = frame.worldFromVoxel({x, 48.2, 48.1});
+        EXPECT_NEAR(freeDistance(blocks, at, 1, 1e-6), freeDistance(once, at, 1, 1e-6), 2e-6) << x;
+    }
 }
 
 TEST(LeapBlocks, WithoutSurfaceLeapAsFarAsACodeCan) {
