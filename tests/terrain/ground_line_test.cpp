@@ -163,7 +163,6 @@ TEST(GroundArea, DentsAndManyCornersAreCutRight) {
     EXPECT_NEAR(measureArea(level, star, 0).plan, shoelace, 1e-6);
 }
 
-// The cap of a sphere over a level plane: its volume and its area, within the errors that are told.
 TEST(GroundArea, TellsHowMuchIsDoneAndEndsWhereThatThrows) {
     const Heightfield level(6, 1200, glm::dvec2(1), std::vector<float>(6 * 1200, 7.0f), "level");
     const std::vector<glm::dvec2> corners{{-2, -590}, {2, -590}, {2, 590}, {-2, 590}};
@@ -182,6 +181,7 @@ TEST(GroundArea, TellsHowMuchIsDoneAndEndsWhereThatThrows) {
     EXPECT_THROW(lowestInArea(level, corners, stop), Cancelled);
 }
 
+// The cap of a sphere over a level plane: its volume and its area, within the errors that are told.
 TEST(GroundArea, ACapIsWithinItsErrors) {
     constexpr double kRadius = 1000, kLevel = 900, kTall = kRadius - kLevel;
     const Heightfield sphere =
