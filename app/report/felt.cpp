@@ -76,14 +76,8 @@ public:
 
     // As many as `seconds` allow, one at least: in the middle of as many parts of the flight.
     void run(int frames, double seconds) {
-        const Stopwatch watch;
-        measure({0}, frames);
-        // the first one is the same for any number of them
-        const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
-        mFrames = std::clamp(static_cast<int>(affordable), 1, frames);
-        std::vector<int> others;
-        for (int n = 1; n < mFrames; ++n) others.push_back(n);
-        measure(others, mFrames);
+        mFrames = measureWhatFits(frames, seconds,
+                                  [this](const std::vector<int>& some, int of) { measure(some, of); });
     }
 
     const std::vector<FeltErrors>& errors() const { return mErrors; }

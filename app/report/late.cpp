@@ -52,13 +52,8 @@ public:
 
     // As many moments as `seconds` allow, one at least.
     void run(int moments, double seconds) {
-        const Stopwatch watch;
-        measure({0}, moments);
-        const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
-        mMoments = std::clamp(static_cast<int>(affordable), 1, moments);
-        std::vector<int> others;
-        for (int n = 1; n < mMoments; ++n) others.push_back(n);
-        measure(others, mMoments);
+        mMoments = measureWhatFits(moments, seconds,
+                                   [this](const std::vector<int>& some, int of) { measure(some, of); });
     }
 
     int moments() const { return mMoments; }

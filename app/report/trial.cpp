@@ -61,6 +61,19 @@ double rmsOfPsnr(double psnr_db) {
     return psnr_db >= kIdenticalPsnr_db ? 0.0 : 255 * std::pow(10.0, -psnr_db / 20);
 }
 
+int measureWhatFits(int most, double seconds,
+                    const std::function<void(const std::vector<int>& some, int of)>& measure) {
+    const Stopwatch watch;
+    measure({0}, most);
+    // The first one is the same for any number of them.
+    const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
+    const int count = static_cast<int>(std::clamp(affordable, 1.0, std::max(1.0, double(most))));
+    std::vector<int> others;
+    for (int n = 1; n < count; ++n) others.push_back(n);
+    measure(others, count);
+    return count;
+}
+
 RightEyeTrial::RightEyeTrial(const ReportScene& scene, const StereoSetting& stereo,
                              std::vector<Variant> variants)
     : mScene(scene.loaded()),

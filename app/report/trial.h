@@ -2,6 +2,7 @@
 // What the report's charts of the right eye and of the quality dial are made of.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,11 @@ StereoSetting chartedEyes(const Scene& scene);
 
 // Root mean square error in 8-bit levels.
 double rmsOfPsnr(double psnr_db);
+
+// Of `most` places of a flight as many as `seconds` allow, one at least, and how many. measure: these of so
+// many. The first is measured for itself, and tells how long one takes.
+int measureWhatFits(int most, double seconds,
+                    const std::function<void(const std::vector<int>& some, int of)>& measure);
 
 // Runs variants over frames, one after another in each repeat, so that the machine's moods meet all alike.
 class RightEyeTrial {

@@ -9,7 +9,7 @@
 namespace stereonav {
 
 std::vector<GroundFigure> figuresOfLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world) {
-    const LineMeasure m = measureLine(ground, world), e = errorsOfLine(ground, world);
+    const LineMeasure m = measureLine(ground, world), e = errorsOfLine(ground, world, m);
     return {{"plan_m", "over the plan", "m", m.plan, 0},
             {"straight_m", "straight", "m", m.straight, e.straight},
             {"along_m", "along the ground", "m", m.along, e.along},
@@ -22,13 +22,13 @@ std::vector<GroundFigure> figuresOfLine(const GroundSamples& ground, const std::
 
 std::vector<GroundFigure> figuresOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& world,
                                         const std::optional<double>& given, const ShareDone& done) {
-    // Measuring takes ten times as long as finding the lowest, and its errors twice as long as that.
+    // Measuring takes ten times as long as finding the lowest, and its errors as long again.
     const auto between = [&done](double from, double to) {
         return done ? ShareDone([&done, from, to](double share) { done(from + (to - from) * share); }) : done;
     };
-    const double plane = given ? *given : lowestInArea(ground, world, between(0, 0.04));
-    const AreaMeasure m = measureArea(ground, world, plane, between(0.04, 0.36)),
-                      e = errorsOfArea(ground, world, plane, between(0.36, 1));
+    const double plane = given ? *given : lowestInArea(ground, world, between(0, 0.05));
+    const AreaMeasure m = measureArea(ground, world, plane, between(0.05, 0.52)),
+                      e = errorsOfArea(ground, world, plane, m, between(0.52, 1));
     return {{"area_m2", "area over the plan", "m2", m.plan, 0},
             {"surface_m2", "area along the ground", "m2", m.along, e.along},
             {"perimeter_m", "border over the plan", "m", m.perimeter, 0},

@@ -96,7 +96,7 @@ private:
         frame.size = mGroups;
         frame.spacing *= static_cast<double>(kGroup);
         MaskVolume groups(frame);
-        mInside = MaskVolume(frame);
+        if (mSetting.region) mInside = MaskVolume(frame);
         const glm::ivec3 size = mFrame.size;
         parallelFor(mGroups.z, [&](int group) {
             std::vector<std::uint8_t> active(static_cast<std::size_t>(size.x)), inside(active.size(), 1);
@@ -108,10 +108,10 @@ private:
                         continue;
                     }
                     flagActive(mVolume, mSetting, j, k, size.x, inside.data(), active.data());
-                    std::uint8_t* anyInside = &mInside.at(0, j / kGroup, group);
-                    for (int i = 0; i < size.x; ++i) {
-                        of[i / kGroup] |= active[i] | !inside[i];
-                        anyInside[i / kGroup] |= inside[i];
+                    for (int i = 0; i < size.x; ++i) of[i / kGroup] |= active[i] | !inside[i];
+                    if (mSetting.region) {
+                        std::uint8_t* anyInside = &mInside.at(0, j / kGroup, group);
+                        for (int i = 0; i < size.x; ++i) anyInside[i / kGroup] |= inside[i];
                     }
                     const std::uint8_t* written = mSetting.region ? inside.data() : active.data();
                     const std::uint8_t otherwise = mSetting.region ? kInsideYet : 0;
@@ -177,7 +177,8 @@ private:
     }
 
     bool isInside(const glm::ivec3& first, const glm::ivec3& end) const {
-        return anyGroup(first, end, [&](int i, int j, int k) { return mInside.at(i, j, k) != 0; });
+        return !mSetting.region ||
+               anyGroup(first, end, [&](int i, int j, int k) { return mInside.at(i, j, k) != 0; });
     }
 
     // Beyond the exact reach all cells of a group have one distance: bricks that lie there keep codes of
@@ -258,7 +259,7 @@ private:
     glm::ivec3 mGroups;
     double mSmallest = 1, mUnit = 1;  // metres
     DistanceVolume mFar;              // of groups
-    MaskVolume mInside;               // groups with a cell of the region
+    MaskVolume mInside;               // groups with a cell of the region, where there is one
     int mDivisor = 1;
 };
 

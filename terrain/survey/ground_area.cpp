@@ -246,24 +246,25 @@ double lowestInArea(const GroundSamples& ground, const std::vector<glm::dvec2>& 
 }
 
 AreaMeasure errorsOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane,
-                         const ShareDone& done) {
-    // All samples are measured once, and a quarter of them four times.
-    double before = 0;
+                         const AreaMeasure& measured, const ShareDone& done) {
     constexpr double AreaMeasure::*kFigures[] = {&AreaMeasure::along, &AreaMeasure::above,
                                                  &AreaMeasure::below, &AreaMeasure::lowest,
                                                  &AreaMeasure::highest};
+    const auto valuesOf = [&](const AreaMeasure& measure) {
+        std::vector<double> values;
+        for (const auto figure : kFigures) values.push_back(measure.*figure);
+        return values;
+    };
+    constexpr double kPart = 0.25;  // each of the four thinned grounds
+    double before = 0;
     const std::vector<double> found =
-        errorsOfSpacing(ground, [&](const GroundSamples& other, const glm::dvec2& shift) {
+        errorsOfSpacing(ground, valuesOf(measured), [&](const GroundSamples& other, const glm::dvec2& shift) {
             std::vector<glm::dvec2> moved = corners;
             for (glm::dvec2& corner : moved) corner -= shift;
-            const double part = before == 0 ? 0.5 : 0.125, from = before;
-            before += part;
-            const AreaMeasure measure =
-                measureArea(other, moved, plane,
-                            done ? ShareDone([&](double share) { done(from + part * share); }) : done);
-            std::vector<double> values;
-            for (const auto figure : kFigures) values.push_back(measure.*figure);
-            return values;
+            ShareDone part;
+            if (done) part = [&done, before](double share) { done(before + kPart * share); };
+            before += kPart;
+            return valuesOf(measureArea(other, moved, plane, part));
         });
     AreaMeasure errors;
     for (std::size_t n = 0; n < found.size(); ++n) errors.*kFigures[n] = found[n];

@@ -34,8 +34,8 @@ AreaMeasure measureArea(const GroundSamples& ground, const std::vector<glm::dvec
 double lowestInArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners,
                     const ShareDone& done = {});
 
-// As errorsOfLine().
+// As errorsOfLine(). measured: what measureArea() gives over that plane.
 AreaMeasure errorsOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane,
-                         const ShareDone& done = {});
+                         const AreaMeasure& measured, const ShareDone& done = {});
 
 }  // namespace stereonav

@@ -141,8 +141,8 @@ LineMeasure measureLine(const GroundSamples& ground, const std::vector<glm::dvec
     return all;
 }
 
-std::vector<double> errorsOfSpacing(const GroundSamples& ground, const FiguresOfGround& figures) {
-    const std::vector<double> whole = figures(ground, glm::dvec2(0.0));
+std::vector<double> errorsOfSpacing(const GroundSamples& ground, const std::vector<double>& whole,
+                                    const FiguresOfGround& figures) {
     if (ground.width() < 4 || ground.height() < 4) return std::vector<double>(whole.size(), kNotKnown);
     std::vector<double> most(whole.size(), 0.0);
     for (const int firstX : {0, 1})
@@ -158,18 +158,21 @@ std::vector<double> errorsOfSpacing(const GroundSamples& ground, const FiguresOf
     return most;
 }
 
-LineMeasure errorsOfLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world) {
+LineMeasure errorsOfLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world,
+                         const LineMeasure& measured) {
     constexpr double LineMeasure::*kFigures[] = {
         &LineMeasure::straight, &LineMeasure::along,  &LineMeasure::rise,   &LineMeasure::climb,
         &LineMeasure::descent,  &LineMeasure::lowest, &LineMeasure::highest};
+    const auto valuesOf = [&](const LineMeasure& measure) {
+        std::vector<double> values;
+        for (const auto figure : kFigures) values.push_back(measure.*figure);
+        return values;
+    };
     const std::vector<double> found =
-        errorsOfSpacing(ground, [&](const GroundSamples& other, const glm::dvec2& shift) {
+        errorsOfSpacing(ground, valuesOf(measured), [&](const GroundSamples& other, const glm::dvec2& shift) {
             std::vector<glm::dvec2> moved = world;
             for (glm::dvec2& place : moved) place -= shift;
-            const LineMeasure measure = measureLine(other, moved);
-            std::vector<double> values;
-            for (const auto figure : kFigures) values.push_back(measure.*figure);
-            return values;
+            return valuesOf(measureLine(other, moved));
         });
     LineMeasure errors;
     for (std::size_t n = 0; n < found.size(); ++n) errors.*kFigures[n] = found[n];

@@ -34,12 +34,15 @@ LineMeasure measureLine(const GroundSamples& ground, const std::vector<glm::dvec
 // By how much each figure changes most where every second sample is left out, over the four ways of doing so.
 // Half the spacing would change it by less wherever the ground is smoother than its samples are apart; it
 // says nothing of errors of the samples themselves. NaN where the ground has less than four samples a side.
-// figures: of a ground whose origin lies `shift` from that of the whole one, in its world; as many each time.
+// whole: the figures of all samples. figures: of a ground whose origin lies `shift` from that of the whole
+// one, in its world; as many each time.
 using FiguresOfGround =
     std::function<std::vector<double>(const GroundSamples& ground, const glm::dvec2& shift)>;
-std::vector<double> errorsOfSpacing(const GroundSamples& ground, const FiguresOfGround& figures);
+std::vector<double> errorsOfSpacing(const GroundSamples& ground, const std::vector<double>& whole,
+                                    const FiguresOfGround& figures);
 
-// Each figure's, of the same fields.
-LineMeasure errorsOfLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world);
+// Each figure's, of the same fields. measured: what measureLine() gives.
+LineMeasure errorsOfLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world,
+                         const LineMeasure& measured);
 
 }  // namespace stereonav

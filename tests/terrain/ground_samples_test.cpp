@@ -90,7 +90,8 @@ TEST_F(SamplesInTiles, LinesAreThoseInMemoryAndReadEachTileOnce) {
     for (const Places& line : {across, throughHole}) {
         const GroundSamples tiled = inTiles();
         expectSame(measureLine(tiled, line), measureLine(mGround, line));
-        expectSame(errorsOfLine(tiled, line), errorsOfLine(mGround, line));
+        expectSame(errorsOfLine(tiled, line, measureLine(tiled, line)),
+                   errorsOfLine(mGround, line, measureLine(mGround, line)));
         const auto points = groundLine(tiled, line), known = groundLine(mGround, line);
         ASSERT_EQ(points.size(), known.size());
         for (std::size_t n = 0; n < points.size(); ++n) {
@@ -103,7 +104,8 @@ TEST_F(SamplesInTiles, LinesAreThoseInMemoryAndReadEachTileOnce) {
     }
     // Room for one tile alone: read again and again, and the same.
     const GroundSamples poor = inTiles(1);
-    expectSame(errorsOfLine(poor, across), errorsOfLine(mGround, across));
+    expectSame(errorsOfLine(poor, across, measureLine(poor, across)),
+               errorsOfLine(mGround, across, measureLine(mGround, across)));
     EXPECT_GT(mostReads(), 1);
 }
 
@@ -111,12 +113,13 @@ TEST_F(SamplesInTiles, AreasAreThoseInMemoryWhateverTheThreads) {
     const Places dented{{-330, -300}, {100, -230}, {10, 0}, {320, 301.5}, {-260, 301.5}, {-110, 0}};
     const Places overHole{{560, -700}, {660, -700}, {660, -560}};
     for (const Places& area : {dented, overHole}) {
-        const AreaMeasure known = measureArea(mGround, area, 310), errors = errorsOfArea(mGround, area, 310);
+        const AreaMeasure known = measureArea(mGround, area, 310),
+                          errors = errorsOfArea(mGround, area, 310, known);
         for (const int threads : {1, 3}) {
             setThreadCount(threads);
             const GroundSamples tiled = inTiles();
             expectSame(measureArea(tiled, area, 310), known);
-            expectSame(errorsOfArea(tiled, area, 310), errors);
+            expectSame(errorsOfArea(tiled, area, 310, measureArea(tiled, area, 310)), errors);
         }
         const double lowest = lowestInArea(inTiles(), area);
         EXPECT_EQ(std::memcmp(&lowest, &known.lowest, sizeof lowest), 0);

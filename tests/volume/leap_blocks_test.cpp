@@ -49,6 +49,15 @@ void expectSameCells(const SurfaceCells& blocks, const SurfaceCells& once) {
     EXPECT_EQ(std::memcmp(blocks.bricks.data(), once.bricks.data(), once.bricks.size() * 4), 0);
 }
 
+// Their cells have no codes.
+void countFarBricks(const SurfaceCells& blocks, std::size_t& far) {
+    for (std::size_t n = 0; n < blocks.layout.count(); n += 4096) {
+        if (blocks.farCodes[BrickLayout::farIndex(n)] == 0) continue;
+        ++far;
+        for (std::size_t cell = n; cell < n + 4096; ++cell) ASSERT_EQ(blocks.codes[cell], 0);
+    }
+}
+
 void expectLeapsBelow(const SurfaceCells& blocks, const SurfaceCells& once) {
     const glm::dvec3& s = once.frame.spacing;
     const double smallest = std::min({s.x, s.y, s.z}), group = 2 * kGroupSide * glm::length(s);
@@ -109,11 +118,7 @@ TEST(LeapBlocks, KeepToARegion) {
     expectSameCells(blocks, once);
     expectLeapsBelow(blocks, once);
     std::size_t far = 0;
-    for (std::size_t n = 0; n < blocks.layout.count(); n += 4096) {
-        if (blocks.farCodes[BrickLayout::farIndex(n)] == 0) continue;
-        ++far;
-        for (std::size_t cell = n; cell < n + 4096; ++cell) ASSERT_EQ(blocks.codes[cell], 0);
-    }
+    countFarBricks(blocks, far);
     EXPECT_GT(far, 8u);
     for (const double x : {21.0, 40.0, 150.0, 222.0, 278.0}) {
         const glm::dvec3 at = frame.worldFromVoxel({x, 48.2, 48.1});
@@ -236,11 +241,7 @@ TEST(LeapBlocks, FarBricksTakeNoCodes) {
     const VolumeScene scene = ballScene();
     const SurfaceCells blocks = cellsOf(scene.field, 100, true), own = withOwnCodes(blocks);
     std::size_t far = 0;
-    for (std::size_t n = 0; n < blocks.layout.count(); n += 4096) {
-        if (blocks.farCodes[BrickLayout::farIndex(n)] == 0) continue;
-        ++far;
-        for (std::size_t cell = n; cell < n + 4096; ++cell) ASSERT_EQ(blocks.codes[cell], 0);
-    }
+    countFarBricks(blocks, far);
     EXPECT_GE(far, 16u);
     EXPECT_LT(far, blocks.layout.count() / 4096 - 8);
     EXPECT_GE(own.bytesHeld(), blocks.bytesHeld() + far * 4096 - blocks.farCodes.size());
