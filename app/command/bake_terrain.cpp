@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/command/bake_finer.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -30,7 +32,8 @@ TerrainLightSettings settingsOf(const BakeOptions& options) {
     TerrainLightSettings settings;
     settings.kind =
         options.what == BakeKind::Openness ? TerrainLightKind::Openness : TerrainLightKind::Transfer;
-    if (options.resolution) settings.stride = static_cast<int>(std::lround(1 / *options.resolution));
+    if (options.resolution)
+        settings.stride = std::max(1, static_cast<int>(std::lround(1 / *options.resolution)));
     // Rays go in packets.
     constexpr int kPacket = RayPacket::kSize;
     if (options.samples) settings.rays = (*options.samples + kPacket - 1) / kPacket * kPacket;
@@ -40,26 +43,28 @@ TerrainLightSettings settingsOf(const BakeOptions& options) {
     return settings;
 }
 
-// Whether the file holds the same bake already.
-bool holds(const std::filesystem::path& file, const Heightfield& ground, const TerrainLightSettings& settings,
-           bool quiet) {
-    if (!std::filesystem::exists(file)) return false;
+// What the file holds, where it is the same bake.
+std::optional<TerrainLight> lightBefore(const std::filesystem::path& file, const Heightfield& ground,
+                                        const TerrainLightSettings& settings, bool quiet) {
+    if (!std::filesystem::exists(file)) return std::nullopt;
     if (!isTerrainLight(file))
         throw Error(file.string(), "", "there is something else than a terrain's light in this place",
                     "choose another with --out");
     try {
-        return loadTerrainLight(file, nullptr).key == terrainLightKey(ground, settings);
+        TerrainLight light = loadTerrainLight(file, nullptr);
+        if (light.key == terrainLightKey(ground, settings)) return light;
     } catch (const Error& error) {
         if (!quiet) std::fprintf(stderr, "stereonav: %s: made anew\n", error.what());
-        return false;
     }
+    return std::nullopt;
 }
 
 // What the first process finds, to all of them.
-bool bakedBefore(Peers& peers, bool found) {
+template <typename T>
+T asTheFirst(Peers& peers, T found) {
     if (peers.alone()) return found;
-    if (!peers.first()) return ByteReader(peers.hear()).get<char>() != 0;
-    peers.tellAll(ByteWriter().put(found ? char{1} : char{0}).take());
+    if (!peers.first()) return ByteReader(peers.hear()).get<T>();
+    peers.tellAll(ByteWriter().put(found).take());
     return found;
 }
 
@@ -77,42 +82,8 @@ std::optional<TerrainLight> bakeOrKeep(const Heightfield& ground, const TerrainL
     }
 }
 
-}  // namespace
-
-int bakeTerrain(const BakeOptions& options) {
-    const TerrainLightSettings settings = settingsOf(options);
-    Peers& peers = peersOfThisRun();
-    if (peers.first() && !options.out.empty()) checkOutputToReadAgain("--out", options.out);
-    CommandResult result("bake", options.telling, {});
-    ProgressBar bar(peers.first() && !options.telling.quiet);
-    SceneOptions unlit = options.scene;
-    unlit.light = {};
-    checkSceneOptions(unlit);
-    const TerrainScene terrain = terrainOf(unlit, bar.progress());
-    const Heightfield& ground = terrain.ground;
-    const std::filesystem::path file =
-        options.out.empty() ? terrainLightCache(ground) : std::filesystem::path(options.out);
-    result.add("scene", options.scene.scene.empty() ? "terrain" : options.scene.scene);
-    result.add("what", std::string(options.what == BakeKind::Openness ? "openness" : "transfer"));
-    if (!peers.first()) {
-        if (!bakedBefore(peers, false)) bakeTerrainLight(ground, settings, bar.progress(), true, &peers);
-        return 0;
-    }
-    if (bakedBefore(peers, holds(file, ground, settings, options.telling.quiet))) {
-        bar.clear();
-        result.say(file.string() + ": baked before\n");
-        result.addFile("light", file);
-        result.add("baked_before", true);
-        result.finish();
-        return 0;
-    }
-    const Stopwatch watch;
-    const std::optional<TerrainLight> baked = bakeOrKeep(ground, settings, bar);
-    if (!baked) return 1;
-    const TerrainLight& light = *baked;
-    const double seconds = watch.elapsed_ms() / 1000;
-    saveTerrainLight(file, light);
-    bar.clear();
+void tellBaked(const TerrainLight& light, const std::filesystem::path& file, double seconds,
+               CommandResult& result) {
     const double samples = static_cast<double>(light.grid.count());
     const double bytes = static_cast<double>(light.byteCount()), rate = samples / std::max(seconds, 1e-9);
     result.say(fmt::format(
@@ -124,7 +95,54 @@ int bakeTerrain(const BakeOptions& options) {
     result.add("light_bytes", static_cast<std::int64_t>(light.byteCount()));
     result.add("time_s", seconds);
     result.add("samples_per_s", rate);
-    result.finish();
+}
+
+}  // namespace
+
+int bakeTerrain(const BakeOptions& options) {
+    TerrainLightSettings settings = settingsOf(options);
+    Peers& peers = peersOfThisRun();
+    if (peers.first() && !options.out.empty()) checkOutputToReadAgain("--out", options.out);
+    CommandResult result("bake", options.telling, {});
+    ProgressBar bar(peers.first() && !options.telling.quiet);
+    SceneOptions unlit = options.scene;
+    unlit.light = {};
+    checkSceneOptions(unlit);
+    const TerrainScene terrain = terrainOf(unlit, bar.progress());
+    const Heightfield& ground = terrain.ground;
+    const int finer = finerLevels(options, terrain);
+    // Near the eye the finer light is seen: that in memory may be as coarse as it takes to fit.
+    if (finer > 0) settings.stride = asTheFirst(peers, strideWithinMemory(ground, settings).value_or(1));
+    const std::filesystem::path file =
+        options.out.empty() ? terrainLightCache(ground) : std::filesystem::path(options.out);
+    result.add("scene", options.scene.scene.empty() ? "terrain" : options.scene.scene);
+    result.add("what", std::string(options.what == BakeKind::Openness ? "openness" : "transfer"));
+    std::optional<TerrainLight> light;
+    if (peers.first()) {
+        if (finer > 0) checkFinerPlace(file);
+        light = lightBefore(file, ground, settings, options.telling.quiet);
+    }
+    if (!asTheFirst<char>(peers, light.has_value())) {
+        const Stopwatch watch;
+        if (peers.first()) {
+            light = bakeOrKeep(ground, settings, bar);
+            if (!light) return 1;
+            const double seconds = watch.elapsed_ms() / 1000;
+            saveTerrainLight(file, *light);
+            removeFiner(file);
+            bar.clear();
+            tellBaked(*light, file, seconds, result);
+        } else {
+            bakeTerrainLight(ground, settings, bar.progress(), true, &peers);
+        }
+    } else if (peers.first()) {
+        bar.clear();
+        result.say(file.string() + ": baked before\n");
+        result.addFile("light", file);
+        result.add("baked_before", true);
+    }
+    if (finer > 0 && !bakeFiner(terrain, std::move(light), settings, finer, file, bar, result)) return 1;
+    if (peers.first()) result.finish();
     return 0;
 }
 

@@ -332,9 +332,10 @@ struct BakeOptions {
     std::optional<BakeKind> what;  // none: of volumes irradiance, of terrains transfer
     std::optional<int> samples;    // at most one of these three
     std::optional<double> error, minutes;
-    std::optional<double> resolution;  // texels a voxel, or baked samples a height sample, along each axis
-    std::string probe;                 // a picture all around
-    std::optional<glm::vec3> sky;      // light from everywhere
+    // Texels a voxel, or baked samples a height sample in memory, along each axis.
+    std::optional<double> resolution;
+    std::string probe;             // a picture all around
+    std::optional<glm::vec3> sky;  // light from everywhere
     std::vector<LampsAsked> lights;
     std::optional<int> bounces, order;
     std::optional<glm::dvec3> albedo;

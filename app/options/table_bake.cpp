@@ -54,9 +54,13 @@ bool beyondOnGround(const Asked& asked, const char* key, const NumberRange& rang
 }
 
 std::vector<OptionRule> resolutionRules() {
-    return {{[](const Asked& asked) { return beyondOnGround(asked, "resolution", within(0.001, 1)); },
-             "expected 0.001 to 1 for a terrain, got {resolution}",
-             "1 bakes every height sample, 0.5 every second one each way"},
+    return {{[](const Asked& asked) {
+                 const double finer = asked.given.number("resolution");
+                 return beyondOnGround(asked, "resolution", within(0.001, 1)) && finer != 2 && finer != 4 &&
+                        finer != 8;
+             },
+             "expected 0.001 to 1, or 2, 4 or 8, for a terrain, got {resolution}",
+             "1 bakes every height sample in memory, 0.5 every second one each way, 2 also those between"},
             {[](const Asked& asked) {
                  return asked.shows(kVolumes) && !within(0.125, 8).holds(asked.given.number("resolution"));
              },
@@ -185,8 +189,10 @@ std::vector<Option> bakeGoals() {
 std::vector<Option> bakedPlaces() {
     return {
         {.key = "resolution",
-         .value = numberValue(within(0.001, 8, "texels a voxel")),
-         .help = "along each axis; of a terrain baked samples a height sample, at most 1",
+         .value = numberValue(within(0.001, 8)),
+         .help = "texels a voxel along each axis; of a terrain baked samples a height sample in memory: at "
+                 "most 1, "
+                 "or 2, 4, 8 where finer ones are in tiles",
          .advice = "use 0.5, 1 or 2",
          .fallback = "1",
          .commands = kBake,

@@ -19,7 +19,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kMaxima = 4.0 / 3;       // of what the finest level of them takes, and of a texture's
 constexpr int kMargin = 8;                // samples around a part that its colours look at
 constexpr double kColored = 4 * kMaxima;  // bytes a texel
-constexpr double kColoring = 24;          // and meanwhile
 constexpr double kOfFree = 0.6;           // of the memory that can be had, for rings
 
 double bytesBeside(const Heightfield& ground) {
@@ -41,7 +40,7 @@ double bytesOf(const std::vector<RingBox>& boxes, const PartColors& colors) {
         texels += own;
         most = std::max(most, own);
     }
-    return 2 * (4 * (1 + kMaxima) * samples + kColored * texels) + kColoring * most;
+    return 2 * (4 * (1 + kMaxima) * samples + kColored * texels) + colors.bytesMeanwhile * most;
 }
 
 }  // namespace

@@ -210,18 +210,63 @@ GroundRays::GroundRays(const Heightfield& ground) : mGround(ground) {
 
 GroundRays::~GroundRays() = default;
 
-std::uint32_t GroundRays::occluded(const RayPacket& rays, std::uint32_t active) const {
+GroundRays::GroundRays(const Heightfield& part, const GroundRays& whole, const glm::dvec2& offset)
+    : GroundRays(part) {
+    mWhole = &whole;
+    mOffset = offset;
+}
+
+std::uint32_t GroundRays::occludedHere(const RayPacket& rays, std::uint32_t active) const {
     RTCScene scene = mState->scene.get();
     if (mState->packet == 16) return occludedBy<16, RTCRay16>(scene, rays, active, rtcOccluded16);
     if (mState->packet == 8) return occludedBy<8, RTCRay8>(scene, rays, active, rtcOccluded8);
     return occludedBy<4, RTCRay4>(scene, rays, active, rtcOccluded4);
 }
 
-void GroundRays::intersect(RayPacket& rays, std::uint32_t active) const {
+void GroundRays::intersectHere(RayPacket& rays, std::uint32_t active) const {
     RTCScene scene = mState->scene.get();
     if (mState->packet == 16) return intersectBy<16, RTCRayHit16>(scene, rays, active, rtcIntersect16);
     if (mState->packet == 8) return intersectBy<8, RTCRayHit8>(scene, rays, active, rtcIntersect8);
     intersectBy<4, RTCRayHit4>(scene, rays, active, rtcIntersect4);
+}
+
+// A ray that stands still over the plan never leaves.
+RayPacket GroundRays::beyond(const RayPacket& rays) const {
+    RayPacket packet = rays;
+    const glm::dvec2 low = mGround.originWorld(),
+                     high = mGround.worldFromGrid({mGround.width() - 1, mGround.height() - 1});
+    const auto wayTo = [](double from, double direction, double below, double above) {
+        if (direction == 0) return std::numeric_limits<double>::infinity();
+        return ((direction > 0 ? above : below) - from) / direction;
+    };
+    const double up = mCentreHeight - mWhole->mCentreHeight;
+    for (int k = 0; k < RayPacket::kSize; ++k) {
+        const double way = std::min(wayTo(rays.originX[k], rays.directionX[k], low.x, high.x),
+                                    wayTo(rays.originY[k], rays.directionY[k], low.y, high.y));
+        packet.nearest[k] = std::max(rays.nearest[k], static_cast<float>(way));
+        packet.originX[k] = static_cast<float>(rays.originX[k] + mOffset.x);
+        packet.originY[k] = static_cast<float>(rays.originY[k] + mOffset.y);
+        packet.originZ[k] = static_cast<float>(rays.originZ[k] + up);
+    }
+    return packet;
+}
+
+std::uint32_t GroundRays::occluded(const RayPacket& rays, std::uint32_t active) const {
+    const std::uint32_t here = occludedHere(rays, active), left = active & ~here;
+    return mWhole && left ? here | mWhole->occluded(beyond(rays), left) : here;
+}
+
+void GroundRays::intersect(RayPacket& rays, std::uint32_t active) const {
+    intersectHere(rays, active);
+    if (!mWhole) return;
+    std::uint32_t left = 0;
+    for (int k = 0; k < RayPacket::kSize; ++k)
+        if (active >> k & 1 && !std::isfinite(rays.distance[k])) left |= 1u << k;
+    if (left == 0) return;
+    RayPacket on = beyond(rays);
+    mWhole->intersect(on, left);
+    for (int k = 0; k < RayPacket::kSize; ++k)
+        if (left >> k & 1) rays.distance[k] = on.distance[k];
 }
 
 double GroundRays::heightAt(const glm::dvec2& world) const {

@@ -23,6 +23,9 @@ class GroundRays {
 public:
     // ground must outlive this. Throws Error where there are more samples than the mesh can index.
     explicit GroundRays(const Heightfield& ground);
+    // Of a part of a larger ground, at finer samples: rays that leave it go on over the whole. offset:
+    // metres, from the part's world to the whole's. Both must outlive this.
+    GroundRays(const Heightfield& part, const GroundRays& whole, const glm::dvec2& offset);
     ~GroundRays();
 
     // `active`: bit k for ray k. Returns the bits of those that meet the ground. From any thread.
@@ -45,10 +48,17 @@ private:
     // grid: direction in grid units, within the cell to the sample's west or east, south or north.
     double slopeInCell(int i, int j, const glm::dvec2& grid, bool west, bool south) const;
 
+    // The same rays over the whole ground, from where they leave this part.
+    RayPacket beyond(const RayPacket& rays) const;
+    std::uint32_t occludedHere(const RayPacket& rays, std::uint32_t active) const;
+    void intersectHere(RayPacket& rays, std::uint32_t active) const;
+
     struct State;
     const Heightfield& mGround;
     double mCentreHeight, mLift;
     std::unique_ptr<State> mState;
+    const GroundRays* mWhole = nullptr;  // null: this is no part
+    glm::dvec2 mOffset{0.0};             // to its world
 };
 
 }  // namespace stereonav

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 
 #include "engine/base/error.h"
@@ -19,8 +20,8 @@
 #include "engine/base/stop.h"
 #include "engine/light/skies/spherical_harmonics.h"
 #include "engine/peers/piece_dealer.h"
+#include "terrain/light/light_rows.h"
 #include "terrain/light/terrain_bake_part.h"
-#include "terrain/light/terrain_transfer.h"
 
 namespace stereonav {
 namespace {
@@ -28,7 +29,6 @@ namespace {
 constexpr int kBakeVersion = 1;  // of what is baked: a change gives other keys
 constexpr int kBand = 16;        // rows between two looks at the progress
 constexpr int kLargestStride = 1000;
-constexpr int kLookAt = 64;                     // samples of a row between two looks at the wish to stop
 constexpr std::uint64_t kKeepBytes = 32 << 20;  // done and not kept yet: what a stop has to write at most
 
 void checkRange(const char* name, double value, double low, double high, int step = 1) {
@@ -60,27 +60,27 @@ double memoryOf(const Heightfield& ground, const LightGrid& grid, const TerrainL
     return each * static_cast<double>(grid.count()) + 40 * samples + std::min(60 * samples, 60e6) + 8e6;
 }
 
+std::optional<int> strideFrom(int first, const Heightfield& ground, const TerrainLightSettings& s,
+                              double bytes) {
+    for (int stride = first; stride <= kLargestStride; ++stride)
+        if (memoryOf(ground, LightGrid(ground, stride), s) <= bytes) return stride;
+    return std::nullopt;
+}
+
 void checkMemoryOf(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {
     const double needed = memoryOf(ground, grid, s), there = availableMemoryFor(needed);
     if (needed <= there) return;
-    const auto fits = [&](int stride) { return memoryOf(ground, LightGrid(ground, stride), s) <= there; };
-    int stride = grid.stride;
-    while (stride < kLargestStride && !fits(stride)) ++stride;
+    const std::optional<int> stride = strideFrom(grid.stride, ground, s, there);
     throw Error("", "",
                 fmt::format("light for {}x{} samples needs {} of memory, and {} can be had", grid.width,
                             grid.height, memoryText(needed), memoryText(there)),
-                fits(stride)
-                    ? fmt::format("--resolution {:.3f} would fit", std::floor(1000.0 / stride) / 1000)
-                    : "no resolution would fit: give --tiles on, or bake a part of this ground");
+                stride ? fmt::format("--resolution {:.3f} would fit", std::floor(1000.0 / *stride) / 1000)
+                       : "no resolution would fit: give --tiles on, or bake a part of this ground");
 }
 
 template <typename T>
 std::span<std::byte> bytesOf(std::vector<T>& values, std::size_t first, std::size_t count) {
     return std::as_writable_bytes(std::span(values).subspan(first, count));
-}
-
-std::int16_t quantized(float value) {
-    return static_cast<std::int16_t>(std::lround(std::clamp(value, -32767.0f, 32767.0f)));
 }
 
 Hash hashOf(const Heightfield& ground) {
@@ -315,73 +315,37 @@ private:
         return static_cast<std::uint64_t>(mGrid.width) * each;
     }
 
-    bool known(int i, int j) const { return std::isfinite(mGround.sample(mGrid.column(i), mGrid.row(j))); }
-    std::size_t sampleAt(int i, int j) const { return static_cast<std::size_t>(j) * mGrid.width + i; }
+    std::size_t firstOf(int j) const { return static_cast<std::size_t>(j) * mGrid.width; }
     void bakeDirect(const GroundRays& rays, double to) {
         const SkyTransfer sky(mSettings.order, mSettings.azimuths);
-        const auto wish = [this] { lookAtWish(); };
         eachRow(0, to, "casting rays for the horizon", [&](int j) {
-            // Openness needs the horizons of this row alone.
-            const std::size_t width = static_cast<std::size_t>(mGrid.width);
-            std::vector<std::uint8_t> own(isTransfer() ? 0 : width * mSettings.azimuths);
-            std::uint8_t* const horizon = own.empty() ? &mLight.horizon[sampleAt(0, j)] : own.data();
-            const std::size_t plane = own.empty() ? mGrid.count() : width;
-            bakeHorizonRow(rays, mGrid, j, mSettings.azimuths, horizon, plane, wish);
-            SkyWedges wedges(mSettings.azimuths);
-            float direct[kMaxHarmonics];
-            for (int i = 0; i < mGrid.width; ++i) {
-                if (i % kLookAt == 0) lookAtWish();
-                if (!known(i, j)) continue;
-                wedges.set(sampleNormal(mGround, mGrid.column(i), mGrid.row(j)), horizon + i, plane);
-                mLight.openness[sampleAt(i, j)] =
-                    static_cast<std::uint8_t>(std::lround(255 * wedges.openness()));
-                if (!isTransfer()) continue;
-                sky.direct(wedges, direct);
-                for (int k = 0; k < mCount; ++k)
-                    mDirect[sampleAt(i, j) * mCount + k] = quantized(direct[k] / mUnit[k]);
+            // Openness needs the horizons of a row alone.
+            DirectRow row{&mLight.openness[firstOf(j)]};
+            if (isTransfer()) {
+                row.horizon = &mLight.horizon[firstOf(j)];
+                row.planeSize = mGrid.count();
+                row.transfer = &mDirect[firstOf(j) * mCount];
             }
+            bakeDirectRow(rays, mGrid, j, mSettings.azimuths, isTransfer() ? &sky : nullptr, row,
+                          [this] { lookAtWish(); });
         });
     }
 
     void bakeBounce(const GroundRays& rays, int bounce) {
         const double from = 0.5 + 0.45 * bounce / mSettings.bounces, to = from + 0.45 / mSettings.bounces;
+        const SentLight sent{mGround, mGrid, mTotal};
+        const GatherSetting setting{mSettings.rays, mSettings.albedo, mSettings.seed, mCount};
         eachRow(from, to, "casting rays for bounced light", [&](int j) {
-            SkyWedges wedges(mSettings.azimuths);
-            float bounced[kMaxHarmonics];
-            const GatherSetting setting{mSettings.rays, mSettings.albedo, mSettings.seed, mCount};
-            for (int i = 0; i < mGrid.width; ++i) {
-                if (i % kLookAt == 0) lookAtWish();
-                if (!known(i, j)) continue;
-                wedges.set(sampleNormal(mGround, mGrid.column(i), mGrid.row(j)),
-                           &mLight.horizon[sampleAt(i, j)], mGrid.count());
-                gatherBounce(rays, mGrid, i, j, wedges, mTotal, setting, bounced);
-                const std::size_t at = sampleAt(i, j) * mCount;
-                for (int k = 0; k < mCount; ++k)
-                    mNext[at + k] = quantized(static_cast<float>(mDirect[at + k]) + bounced[k]);
-            }
+            const std::size_t at = firstOf(j) * mCount;
+            const BounceRow row{&mLight.horizon[firstOf(j)], mGrid.count(), &mDirect[at], &mNext[at]};
+            bakeBounceRow(rays, mGrid, j, mSettings.azimuths, firstOf(j), sent, setting, row,
+                          [this] { lookAtWish(); });
         });
     }
 
     void intoPlanes() {
         mProgress.report(0.95, "packing");
-        mLight.full.resize(mTotal.size());
-        mLight.bounced.resize(mTotal.size());
-        parallelFor(mGrid.height, [&](int j) {
-            for (int i = 0; i < mGrid.width; ++i)
-                for (int k = 0; k < mCount; ++k) {
-                    const std::size_t from = sampleAt(i, j) * mCount + k,
-                                      to = k * mGrid.count() + sampleAt(i, j);
-                    mLight.full[to] = mTotal[from];
-                    mLight.bounced[to] = static_cast<std::int16_t>(
-                        std::clamp(int{mTotal[from]} - int{mDirect[from]}, -32767, 32767));
-                }
-        });
-    }
-
-    static std::vector<float> units() {
-        std::vector<float> all;
-        for (int k = 0; k < kMaxHarmonics; ++k) all.push_back(static_cast<float>(transferUnit(k)));
-        return all;
+        packTransfer(mDirect, mTotal, mLight);
     }
 
     const Heightfield& mGround;
@@ -389,7 +353,6 @@ private:
     Progress& mProgress;
     const LightGrid mGrid;
     const int mCount = lightHarmonics(mSettings.order);
-    const std::vector<float> mUnit = units();
     TerrainLight mLight;
     TransferField mDirect, mTotal, mNext;
     Peers* const mPeers;  // null: alone
@@ -438,6 +401,10 @@ std::uint64_t terrainLightKey(const Heightfield& ground, const TerrainLightSetti
                                      std::int64_t{s.stride}, static_cast<std::int64_t>(s.seed)})
         hash.add(value);
     return hash.add(s.albedo).value();
+}
+
+std::optional<int> strideWithinMemory(const Heightfield& ground, const TerrainLightSettings& settings) {
+    return strideFrom(1, ground, settings, availableMemory());
 }
 
 TerrainLight bakeTerrainLight(const Heightfield& ground, const TerrainLightSettings& settings,

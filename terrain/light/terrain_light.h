@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "engine/base/progress.h"
@@ -48,13 +49,17 @@ struct TerrainLightSettings {
 
 // Where the baked samples lie among the heightfield's: every stride-th, and the last.
 struct LightGrid {
-    int groundWidth = 0, groundHeight = 0, stride = 1;
+    glm::ivec2 first{0};  // of the heightfield's samples, that the grid begins at
+    int groundWidth = 0, groundHeight = 0, stride = 1;  // samples from there on
     int width = 0, height = 0;
 
     LightGrid() = default;
     LightGrid(const Heightfield& ground, int step);
-    int column(int i) const { return at(i, groundWidth); }
-    int row(int j) const { return at(j, groundHeight); }
+    // Each sample of a part of a heightfield.
+    LightGrid(const glm::ivec2& low, const glm::ivec2& size)
+        : first(low), groundWidth(size.x), groundHeight(size.y), width(size.x), height(size.y) {}
+    int column(int i) const { return first.x + at(i, groundWidth); }
+    int row(int j) const { return first.y + at(j, groundHeight); }
     std::size_t count() const { return static_cast<std::size_t>(width) * height; }
 
     // The baked sample at or before a grid coordinate, and the share of the next.
@@ -62,8 +67,8 @@ struct LightGrid {
         int index;
         float next;
     };
-    Place placeX(double grid) const { return place(grid, groundWidth, width); }
-    Place placeY(double grid) const { return place(grid, groundHeight, height); }
+    Place placeX(double grid) const { return place(grid - first.x, groundWidth, width); }
+    Place placeY(double grid) const { return place(grid - first.y, groundHeight, height); }
 
 private:
     int at(int k, int samples) const {
@@ -107,6 +112,9 @@ std::uint64_t terrainLightKey(const Heightfield& ground, const TerrainLightSetti
 
 // Where the light of this ground is kept between runs, whatever its settings: the last one baked.
 std::filesystem::path terrainLightCache(const Heightfield& ground);
+
+// The smallest stride whose bake fits into memory; none where even large ones do not.
+std::optional<int> strideWithinMemory(const Heightfield& ground, const TerrainLightSettings& settings);
 
 // Throws Error for settings outside their ranges and where the memory would not suffice; Cancelled. The
 // result does not depend on the thread count. keeps: where it is cancelled what is done is kept in the cache,

@@ -193,15 +193,15 @@ void SkyTransfer::direct(const SkyWedges& wedges, float* transfer) const {
     }
 }
 
-void gatherBounce(const GroundRays& rays, const LightGrid& grid, int i, int j, const SkyWedges& wedges,
-                  const TransferField& field, const GatherSetting& setting, float* transfer) {
+void gatherBounce(const GroundRays& rays, const glm::ivec2& sample, std::uint64_t number,
+                  const SkyWedges& wedges, const SentLight& sent, const GatherSetting& setting,
+                  float* transfer) {
     std::fill_n(transfer, setting.count, 0.0f);
     const Heightfield& ground = rays.ground();
-    const std::size_t sample = static_cast<std::size_t>(j) * grid.width + i;
-    GroundDirections directions(wedges, mixed(setting.seed) ^ sample, setting.rays);
+    GroundDirections directions(wedges, mixed(setting.seed) ^ number, setting.rays);
     if (!(directions.total() > 0)) return;
-    const glm::dvec2 world = ground.worldFromGrid({grid.column(i), grid.row(j)});
-    const double height = ground.sample(grid.column(i), grid.row(j)) - rays.centreHeight() + rays.lift();
+    const glm::dvec2 world = ground.worldFromGrid(sample);
+    const double height = ground.sample(sample.x, sample.y) - rays.centreHeight() + rays.lift();
     double weights = 0;
     float sum[kMaxHarmonics] = {};
     for (int first = 0; first < setting.rays; first += RayPacket::kSize) {
@@ -224,8 +224,8 @@ void gatherBounce(const GroundRays& rays, const LightGrid& grid, int i, int j, c
             const double t = packet.distance[k];
             if (!std::isfinite(t) || !(weight[k] > 0)) continue;
             const glm::dvec2 hit = world + t * glm::dvec2(packet.directionX[k], packet.directionY[k]);
-            addField(grid, ground.gridFromWorld(hit), field, setting.count, static_cast<float>(weight[k]),
-                     sum);
+            addField(sent.grid, sent.ground.gridFromWorld(hit + sent.offset), sent.field, setting.count,
+                     static_cast<float>(weight[k]), sum);
         }
     }
     if (!(weights > 0)) return;

@@ -66,8 +66,18 @@ struct GatherSetting {
     int count = 10;  // coefficients
 };
 
-// What the ground around sample (i, j) sends it when it sends out `field`: count values added to nothing.
-void gatherBounce(const GroundRays& rays, const LightGrid& grid, int i, int j, const SkyWedges& wedges,
-                  const TransferField& field, const GatherSetting& setting, float* transfer);
+// What ground sends out, known at the samples of a grid of it.
+struct SentLight {
+    const Heightfield& ground;
+    const LightGrid& grid;
+    const TransferField& field;
+    glm::dvec2 offset{0.0};  // metres, from the world of who is lit to its own
+};
+
+// What the ground around a sample of rays.ground() sends it: count values. number: of the sample, which its
+// rays are chosen by.
+void gatherBounce(const GroundRays& rays, const glm::ivec2& sample, std::uint64_t number,
+                  const SkyWedges& wedges, const SentLight& sent, const GatherSetting& setting,
+                  float* transfer);
 
 }  // namespace stereonav

@@ -55,8 +55,9 @@ PartColors partColorsOf(const TerrainScene& scene) {
 PartColors litParts(const PartColors& colors, const TerrainScene& scene, const TerrainIllumination& light) {
     if (!colors) return {};
     PartColors lit = colors;
-    lit.make = [make = colors.make, by = std::make_shared<const PartLight>(
-                                        light.partLight(scene.ground, scene.look))](const Heightfield& part) {
+    const auto by = std::make_shared<const PartLight>(light.partLight(scene.ground, scene.look));
+    lit.bytesMeanwhile += by->bytesASample();
+    lit.make = [make = colors.make, by](const Heightfield& part) {
         ColorTexture texture = make(part);
         by->apply(part, texture);
         return texture;

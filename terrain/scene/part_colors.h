@@ -16,8 +16,9 @@ class TerrainIllumination;
 // thread. Throws Error where a picture can not be read any more.
 struct PartColors {
     std::function<ColorTexture(const Heightfield& part)> make;  // null: parts have no colours of their own
-    double texelsASample = 1;  // of the finest samples: what the picture has there
-    double mostTexels = 0;     // of a part; but one for each of its samples
+    double texelsASample = 1;    // of the finest samples: what the picture has there
+    double mostTexels = 0;       // of a part; but one for each of its samples
+    double bytesMeanwhile = 24;  // a texel, while a part is made
 
     explicit operator bool() const { return make != nullptr; }
     // As many as a part of that level has at most.

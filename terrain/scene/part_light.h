@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/image/color_texture.h"
+#include "engine/image/plane.h"
 #include "terrain/ground/heightfield.h"
 #include "terrain/light/terrain_light.h"
 #include "terrain/light/terrain_relight.h"
 #include "terrain/read/scene_file.h"
+#include "terrain/scene/fine_light.h"
 
 namespace stereonav {
 
@@ -32,17 +36,33 @@ public:
     PartLight(const Heightfield& whole, const LightGrid& grid, const GroundBrightness& brightness,
               const TerrainLook& look, const TerrainRelight::Display& shown);
 
-    // colors: of the part, without light; they become lit.
+    // Light at finer samples under the same sun and sky, which is shown in place of the other where it is.
+    void takeFiner(std::shared_ptr<const FineLight> fine, const SunAndSky& now);
+
+    // colors: of the part, without light; they become lit. Throws Error where finer light can not be read.
     void apply(const Heightfield& part, ColorTexture& colors) const;
+    // Bytes for each sample of a part that it takes meanwhile.
+    double bytesASample() const { return mFine ? sizeof(glm::vec3) : 0; }
 
 private:
-    glm::vec3 quotientAt(const glm::dvec2& grid) const;
+    // Quotients at samples of a level, from `low` on.
+    struct FineQuotients {
+        int level = 0;
+        glm::ivec2 low{0};
+        Plane<glm::vec3> quotients;
+    };
+    glm::vec3 quotientAt(const glm::dvec2& world) const;
+    glm::vec3 quotientAt(const FineQuotients& fine, const glm::dvec2& world) const;
+    std::optional<FineQuotients> finerOver(const Heightfield& part, const ColorTexture& colors) const;
+    void takeTile(const LightTiles::Tile& tile, FineQuotients& fine) const;
 
     LightGrid mGrid;
     TerrainLook mLook;
-    float mShare;
-    glm::dvec2 mOrigin, mSpacing;   // of the whole
-    std::vector<float> mQuotients;  // three planes of the grid
+    TerrainRelight::Display mShown;
+    glm::dvec2 mOrigin, mSpacing;            // of the whole
+    std::vector<float> mQuotients;           // three planes of the grid
+    std::shared_ptr<const FineLight> mFine;  // null: there is none
+    SunAndSky mNow;                          // that it is under
 };
 
 }  // namespace stereonav

@@ -36,7 +36,10 @@ void TerrainIllumination::applyOver(const TerrainLook& look, const ColorTexture&
 }
 
 PartLight TerrainIllumination::partLight(const Heightfield& ground, const TerrainLook& look) const {
-    return {ground, light().grid, mBrightness, look, {exposureOf(sunAndSky(look, mSky)), mShare}};
+    const SunAndSky now = sunAndSky(look, mSky);
+    PartLight part(ground, light().grid, mBrightness, look, {exposureOf(now), mShare});
+    if (mFine) part.takeFiner(mFine, now);
+    return part;
 }
 
 std::size_t TerrainIllumination::byteCount() const {

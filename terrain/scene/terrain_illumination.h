@@ -1,6 +1,8 @@
 // A terrain under baked light: what its scene keeps beside the lit texture so that the sun can move.
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "terrain/light/terrain_relight.h"
@@ -32,6 +34,9 @@ public:
     void applyOver(const TerrainLook& look, const ColorTexture& plain, const std::vector<float>& plainLight,
                    ColorTexture& lit);
 
+    // Light that was baked at finer samples, as a part of this: for parts of the ground. Null: there is none.
+    void takeFiner(std::shared_ptr<const FineLight> fine) { mFine = std::move(fine); }
+    const FineLight* finer() const { return mFine.get(); }
     // For parts of the ground that are finer than it: the light of the last apply().
     PartLight partLight(const Heightfield& ground, const TerrainLook& look) const;
 
@@ -54,6 +59,7 @@ private:
     GroundBrightness mBrightness;
     glm::vec3 mHighlightLight{1.0f};
     float mShare;
+    std::shared_ptr<const FineLight> mFine;
 };
 
 // Turns the sun (radians, clockwise from north; above the horizon) of a scene under baked light: its ground

@@ -15,6 +15,7 @@
 #include "terrain/built_in/built_in_terrain.h"
 #include "terrain/ground/nodata.h"
 #include "terrain/light/atmosphere.h"
+#include "terrain/light/fine_bake.h"
 #include "terrain/light/sky_source.h"
 #include "terrain/read/dem_reader.h"
 #include "terrain/read/height_limits.h"
@@ -175,6 +176,16 @@ void loadColor(const SceneFile& file, const LoadedGround& loaded, TerrainScene& 
     if (litLater(file)) leaveOutLit(scene.report.colorSource);
 }
 
+// Null where none was baked. Throws Error where it does not go with that light.
+std::shared_ptr<const FineLight> finerLight(const std::filesystem::path& place, const TerrainLight& light,
+                                            const TerrainScene& scene) {
+    const std::filesystem::path finer = fineLightPlace(place);
+    std::error_code code;
+    if (!scene.tiled || scene.tiled->level == 0 || !std::filesystem::exists(finer, code)) return nullptr;
+    const FineLightShape shape = fineLightShape(*scene.tiled->levels, scene.tiled->level, light, 1);
+    return std::make_shared<const FineLight>(scene.tiled->levels, LightTiles(finer, shape), SimdTarget::Auto);
+}
+
 void loadLight(const SceneFile& file, TerrainScene& scene, Progress& progress) {
     progress.report(0.9, "reading baked light");
     const std::filesystem::path place = file.light == "auto" ? terrainLightCache(scene.ground) : file.light;
@@ -182,13 +193,19 @@ void loadLight(const SceneFile& file, TerrainScene& scene, Progress& progress) {
         throw Error(file.file.string(), "light", "none was baked for this ground yet",
                     "bake it with stereonav bake, with the same --vertical-scale and --open-holes");
     TerrainLight light = loadTerrainLight(place, &scene.ground);
+    const std::shared_ptr<const FineLight> finer = finerLight(place, light, scene);
     const bool photo = !file.image.empty() && !file.look.shadeImage;
     const bool transfer = light.settings.kind == TerrainLightKind::Transfer;
     scene.report.lightSource = fmt::format("{} {}x{}, {}", place.filename().string(), light.grid.width,
                                            light.grid.height, transfer ? "transfer" : "openness");
+    if (finer)
+        scene.report.lightSource +=
+            fmt::format(", and tiles of up to {}x{}", finer->size(finer->shape().finest).x,
+                        finer->size(finer->shape().finest).y);
     scene.illumination =
         std::make_unique<TerrainIllumination>(scene.ground, scene.color, scene.sky, std::move(light),
                                               photo ? TerrainIllumination::kPhotoShare : 1.0f);
+    scene.illumination->takeFiner(finer);
     scene.illumination->apply(scene.look, scene.color);
 }
 

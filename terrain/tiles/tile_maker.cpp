@@ -1,10 +1,6 @@
 #include "terrain/tiles/tile_maker.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -14,6 +10,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/base/placed_file.h"
 #include "terrain/ground/level_step.h"
 #include "terrain/tiles/tile_file.h"
 
@@ -23,42 +20,25 @@ namespace {
 // The file, open to be written at any place.
 class TileWriter {
 public:
-    TileWriter(const std::filesystem::path& file, std::uint64_t bytes) : mFile(file) {
-        mDescriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-        if (mDescriptor < 0) fail(errno);
-        // All of its room at once: a full disk shows before the work is done.
-        const int failed = posix_fallocate(mDescriptor, 0, static_cast<off_t>(bytes));
-        if (failed == EOPNOTSUPP || failed == EINVAL) {
-            if (ftruncate(mDescriptor, static_cast<off_t>(bytes)) != 0) fail(errno);
-        } else if (failed != 0) {
-            close(mDescriptor);
-            fail(failed);
-        }
+    TileWriter(const std::filesystem::path& file, std::uint64_t bytes)
+        : mName(file.string()), mOut(file, PlacedFile::For::Writing) {
+        check(mOut.error());
+        check(mOut.reserve(bytes));
     }
-    ~TileWriter() {
-        if (mDescriptor >= 0) close(mDescriptor);
-    }
-    TileWriter(const TileWriter&) = delete;
-    TileWriter& operator=(const TileWriter&) = delete;
 
     void write(std::uint64_t at, const void* data, std::size_t bytes) const {
-        const char* from = static_cast<const char*>(data);
-        while (bytes > 0) {
-            const ssize_t put = pwrite(mDescriptor, from, bytes, static_cast<off_t>(at));
-            if (put < 0 && errno == EINTR) continue;
-            if (put <= 0) fail(put < 0 ? errno : ENOSPC);
-            from += put, at += static_cast<std::uint64_t>(put), bytes -= static_cast<std::size_t>(put);
-        }
+        check(mOut.write(at, data, bytes));
     }
 
 private:
-    [[noreturn]] void fail(int number) const {
-        throw Error(mFile.string(), "tiles", std::string("cannot be written: ") + std::strerror(number),
-                    "make room, or give another folder");
+    void check(int number) const {
+        if (number != 0)
+            throw Error(mName, "tiles", std::string("cannot be written: ") + std::strerror(number),
+                        "make room, or give another folder");
     }
 
-    std::filesystem::path mFile;
-    int mDescriptor = -1;
+    std::string mName;
+    PlacedFile mOut;
 };
 
 // One level while it is made: rows that are still needed, and what the index will hold.

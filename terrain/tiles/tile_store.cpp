@@ -1,11 +1,8 @@
 #include "terrain/tiles/tile_store.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 
 #include "engine/base/error.h"
@@ -17,28 +14,15 @@ namespace {
 constexpr std::uint64_t kHeadBytes = sizeof(TileFileHead);
 constexpr const char* kMakeAgain = "remove the file: it is made again";
 
-// All bytes, or false.
-bool readAt(int descriptor, std::uint64_t at, void* to, std::size_t bytes) {
-    auto* out = static_cast<char*>(to);
-    while (bytes > 0) {
-        const ssize_t got = pread(descriptor, out, bytes, static_cast<off_t>(at));
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return false;
-        out += got, at += static_cast<std::uint64_t>(got), bytes -= static_cast<std::size_t>(got);
-    }
-    return true;
-}
-
 }  // namespace
 
-TileStore::TileStore(const std::filesystem::path& file, std::uint64_t content) : mFile(file) {
+TileStore::TileStore(const std::filesystem::path& file, std::uint64_t content)
+    : mFile(file), mIn(file, PlacedFile::For::Reading) {
     const auto refuse = [&](const std::string& problem) {
-        if (mDescriptor >= 0) close(mDescriptor);
         throw Error(file.string(), "tiles", problem, kMakeAgain);
     };
-    mDescriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (mDescriptor < 0) refuse(std::string("cannot be opened: ") + std::strerror(errno));
-    if (!readAt(mDescriptor, 0, &mHead, sizeof mHead) || mHead.magic != TileFileHead().magic ||
+    if (mIn.error() != 0) refuse(std::string("cannot be opened: ") + std::strerror(mIn.error()));
+    if (!mIn.read(0, &mHead, sizeof mHead) || mHead.magic != TileFileHead().magic ||
         mHead.check != checkOf(mHead) || mHead.width < 2 || mHead.height < 2)
         refuse("expected a store of tiles, found something else");
     if (mHead.content != content) refuse("the tiles are of other heights");
@@ -48,7 +32,7 @@ TileStore::TileStore(const std::filesystem::path& file, std::uint64_t content) :
     if (failed || bytes != mPlan.byteCount())
         refuse(fmt::format("expected {} bytes, got {}", mPlan.byteCount(), failed ? 0 : bytes));
     std::vector<char> index(mPlan.indexEnd() - sizeof mHead);
-    if (!readAt(mDescriptor, sizeof mHead, index.data(), index.size()) ||
+    if (!mIn.read(sizeof mHead, index.data(), index.size()) ||
         checkOf(index.data(), index.size()) != mHead.indexCheck)
         refuse("the index of the tiles is damaged");
     for (const TileFilePlan::Level& level : mPlan.levels()) {
@@ -61,15 +45,11 @@ TileStore::TileStore(const std::filesystem::path& file, std::uint64_t content) :
     }
 }
 
-TileStore::~TileStore() {
-    if (mDescriptor >= 0) close(mDescriptor);
-}
-
 void TileStore::readTile(int level, const glm::ivec2& tile, float* heights) const {
     const TileFilePlan::Level& of = mPlan.levels()[level];
     const std::size_t number = static_cast<std::size_t>(tile.y) * of.tiles.x + tile.x;
     const auto place = [&] { return fmt::format("tile {}, {} of level {}", tile.x, tile.y, level); };
-    if (!readAt(mDescriptor, of.data + kTileBytes * number, heights, kTileBytes))
+    if (!mIn.read(of.data + kTileBytes * number, heights, kTileBytes))
         throw Error(mFile.string(), place(), "cannot be read", kMakeAgain);
     if (checkOf(heights, kTileBytes) != mChecks[level][number])
         throw Error(mFile.string(), place(), "is damaged", kMakeAgain);

@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "engine/base/placed_file.h"
 #include "terrain/tiles/tile_file.h"
 
 namespace stereonav {
@@ -17,9 +18,6 @@ public:
     // content: names what the heights must be of. Throws Error named by the file where it is of something
     // else, is cut off, or its index is damaged.
     TileStore(const std::filesystem::path& file, std::uint64_t content);
-    ~TileStore();
-    TileStore(const TileStore&) = delete;
-    TileStore& operator=(const TileStore&) = delete;
 
     int levels() const { return static_cast<int>(mPlan.levels().size()); }
     glm::ivec2 size(int level) const { return mPlan.levels()[level].size; }
@@ -40,7 +38,7 @@ private:
     void readTile(int level, const glm::ivec2& tile, float* heights) const;
 
     std::filesystem::path mFile;
-    int mDescriptor = -1;
+    PlacedFile mIn;
     TileFileHead mHead;
     TileFilePlan mPlan{glm::ivec2(2)};
     std::vector<std::vector<float>> mBounds;

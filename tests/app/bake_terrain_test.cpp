@@ -67,7 +67,10 @@ TEST_F(BakeTerrain, RefusesWhatMakesNoSense) {
     expectRefused({"bake", scene, "--what", "irradiance"}, {"--what", "transfer or openness"});
     expectRefused({"bake", scene, "--error", "0.1"}, {"--error", "terrain"});
     expectRefused({"bake", scene, "--isovalues", "1,2"}, {"--isovalues", "terrain"});
-    expectRefused({"bake", scene, "--resolution", "2"}, {"--resolution", "0.001 to 1"});
+    expectRefused({"bake", scene, "--resolution", "3"}, {"--resolution", "0.001 to 1, or 2, 4 or 8"});
+    expectRefused({"bake", scene, "--resolution", "16"}, {"--resolution", "0.001 to 8"});
+    for (const std::string tiles : {"on", "off"})
+        expectRefused({"bake", scene, "--resolution", "2", "--tiles", tiles}, {"--resolution", "in memory"});
     expectRefused({"bake", scene, "--bounces", "9"}, {"--bounces", "0 to 8"});
     expectRefused({"bake", scene, "--bounces", "5"}, {"--bounces", "0 to 4"});
     expectRefused({"bake", scene, "--albedo", "1.5"}, {"--albedo"});

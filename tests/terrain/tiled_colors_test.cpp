@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "engine/camera/stereo_rig.h"
+#include "engine/peers/peers.h"
+#include "terrain/light/fine_bake.h"
 #include "terrain/light/terrain_light.h"
 #include "terrain/scene/laid_picture.h"
 #include "terrain/scene/part_colors.h"
@@ -127,6 +129,57 @@ TEST_F(TiledColors, BakedLightKeepsTheFineReliefAndFollowsTheSun) {
         fromTiles.showColors(tiled.color, tiled.illumination.get(), {});
         const EyeImage coarse = seenAt(fromTiles, tiled, {300, 200}, 0.3);
         EXPECT_LT(rootMeanSquare(fine, truth), 0.7 * rootMeanSquare(coarse, truth)) << pictured;
+    }
+}
+
+// Tiles of the finest samples: what is seen in them is nearer to the light of the
+// ground in memory than the light of the level is, in both eyes and as the sun moves.
+TEST_F(TiledColors, LightBakedAtFinerSamplesIsSeenNearTheEye) {
+    RasterSpec dem;
+    dem.width = 280, dem.height = 200;
+    dem.transform = {400000, 10, 0, 5000000, 0, -10};
+    dem.value = [](int c, int r, int) {
+        return 800 + 60 * std::sin(c / 11.) * std::sin(r / 9.) + 9 * std::sin(c * 0.9 + r * 0.4);
+    };
+    mFile.dem = mFile.file = writeRaster(mFolder / "small.tif", dem);
+    const auto loaded = [&](GroundTiles tiles) {
+        TerrainScene scene = loadWithin(tiles, 8e6);
+        limitMemory(0);
+        return scene;
+    };
+    TerrainLightSettings settings;
+    settings.order = 1, settings.bounces = 0, settings.azimuths = 8;
+    Progress quiet;
+    const fs::path ofWhole = mFolder / "whole.light", ofTiled = mFolder / "tiled.light";
+    saveTerrainLight(ofWhole, bakeTerrainLight(loaded(GroundTiles::Off).ground, settings, quiet));
+    {
+        const TerrainScene scene = loaded(GroundTiles::On);
+        ASSERT_TRUE(scene.tiled);
+        ASSERT_GE(scene.tiled->level, 1) << scene.report.tiles;
+        const TerrainLight light = bakeTerrainLight(scene.ground, settings, quiet);
+        saveTerrainLight(ofTiled, light);
+        Peers alone;
+        bakeFineLight(FineBake(*scene.tiled->levels, scene.ground, light), fineLightPlace(ofTiled),
+                      fineLightShape(*scene.tiled->levels, scene.tiled->level, light, 3), quiet, alone);
+    }
+    mFile.light = ofWhole;
+    TerrainScene whole = loaded(GroundTiles::Off);
+    mFile.light = ofTiled;
+    TerrainScene tiled = loaded(GroundTiles::On);
+    EXPECT_THAT(tiled.report.lightSource, HasSubstr("tiles of up to 280x200"));
+    fs::rename(fineLightPlace(ofTiled), mFolder / "away");
+    TerrainScene coarse = loaded(GroundTiles::On);
+    TerrainRenderer fromWhole(whole), fromTiles(tiled), fromCoarse(coarse);
+    for (const double azimuth : {1.1, 5.4}) {
+        const auto seen = [&](TerrainScene& scene, TerrainRenderer& renderer, double x) {
+            moveSun(scene, azimuth, 0.35);
+            renderer.sunMoved();
+            return seenAt(renderer, scene, {x, 200}, 0.3);
+        };
+        for (const double x : {300.0, 340.0}) {
+            const EyeImage truth = seen(whole, fromWhole, x), fine = seen(tiled, fromTiles, x);
+            EXPECT_LT(rootMeanSquare(fine, truth), 0.5 * rootMeanSquare(seen(coarse, fromCoarse, x), truth));
+        }
     }
 }
 

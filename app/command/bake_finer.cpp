@@ -1,0 +1,124 @@
+#include "app/command/bake_finer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <span>
+
+#include "engine/base/error.h"
+#include "engine/base/memory.h"
+#include "engine/base/stopwatch.h"
+#include "engine/peers/peers.h"
+#include "terrain/light/fine_bake.h"
+#include "terrain/light/light_tiles.h"
+
+namespace stereonav {
+namespace {
+
+// What the others bake by: the first one's light, but for what only pictures need.
+TerrainLight lightToGoOnFrom(std::optional<TerrainLight> light, const TerrainLightSettings& settings,
+                             const Heightfield& ground, Peers& peers) {
+    TerrainLight kept;
+    kept.settings = settings;
+    kept.grid = LightGrid(ground, settings.stride);
+    kept.key = terrainLightKey(ground, settings);
+    if (light) kept.full = std::move(light->full);
+    if (peers.alone() || settings.kind == TerrainLightKind::Openness) return kept;
+    kept.full.resize(kept.grid.count() * lightHarmonics(settings.order));
+    constexpr std::size_t kAtOnce = 32 << 20;
+    for (std::size_t from = 0; from < kept.full.size(); from += kAtOnce) {
+        const std::span<std::int16_t> part =
+            std::span(kept.full).subspan(from, std::min(kAtOnce, kept.full.size() - from));
+        if (peers.first())
+            peers.tellAll(ByteWriter().putAll(std::span<const std::int16_t>(part)).take());
+        else
+            ByteReader(peers.hear()).getAll(part);
+    }
+    return kept;
+}
+
+// Whether the same bake is there already. Of the first process; the others hear of it.
+bool isThere(const std::filesystem::path& place, const FineLightShape& shape, Peers& peers) {
+    if (!peers.first()) return ByteReader(peers.hear()).get<char>() != 0;
+    bool there = false;
+    try {
+        there = isFineLight(place) && LightTiles(place, shape).shape().finest <= shape.finest;
+    } catch (const Error&) {
+        // Of other light, or damaged: made anew.
+    }
+    if (!peers.alone()) peers.tellAll(ByteWriter().put(there ? char{1} : char{0}).take());
+    return there;
+}
+
+}  // namespace
+
+int finerLevels(const BakeOptions& options, const TerrainScene& terrain) {
+    const double resolution = options.resolution.value_or(1);
+    if (resolution <= 1) return 0;
+    const int finer = static_cast<int>(std::lround(std::log2(resolution)));
+    const int there = terrain.tiled ? terrain.tiled->level : 0;
+    if (finer <= there) return finer;
+    throw Error(
+        "--resolution", "",
+        there == 0
+            ? fmt::format("expected at most 1, got {}: all samples of this ground are in memory", resolution)
+            : fmt::format("expected at most {}, got {}: there are no finer samples in tiles", 1 << there,
+                          resolution),
+        there == 0 ? "leave it out" : "give a smaller one");
+}
+
+void checkFinerPlace(const std::filesystem::path& light) {
+    const std::filesystem::path place = fineLightPlace(light);
+    if (std::filesystem::exists(place) && !isFineLight(place))
+        throw Error(place.string(), "", "there is something else than light at finer samples in this place",
+                    "choose another with --out");
+}
+
+void removeFiner(const std::filesystem::path& light) {
+    std::error_code code;
+    const std::filesystem::path place = fineLightPlace(light);
+    if (isFineLight(place)) std::filesystem::remove(place, code);
+}
+
+bool bakeFiner(const TerrainScene& terrain, std::optional<TerrainLight> light,
+               const TerrainLightSettings& settings, int finer, const std::filesystem::path& file,
+               ProgressBar& bar, CommandResult& result) {
+    Peers& peers = peersOfThisRun();
+    const std::filesystem::path place = fineLightPlace(file);
+    const GroundLevels& levels = *terrain.tiled->levels;
+    const TerrainLight from = lightToGoOnFrom(std::move(light), settings, terrain.ground, peers);
+    const FineLightShape shape = fineLightShape(levels, terrain.tiled->level, from, finer);
+    const Stopwatch watch;
+    const bool before = isThere(place, shape, peers);
+    if (!before) {
+        try {
+            bakeFineLight(FineBake(levels, terrain.ground, from), place, shape, bar.progress(), peers);
+        } catch (const Cancelled&) {
+            if (!peers.first()) throw;
+            bar.clear();
+            std::fprintf(stderr,
+                         "stereonav: stopped; what is done is kept, and the next run goes on from there\n");
+            return false;
+        }
+    }
+    if (!peers.first()) return true;
+    bar.clear();
+    const double seconds = watch.elapsed_ms() / 1000;
+    const LightTiles tiles(place, shape);
+    const glm::ivec2 size = tiles.size(tiles.shape().finest);
+    const std::string what = fmt::format("{} tiles of up to {}x{} samples, {}", tiles.count(), size.x, size.y,
+                                         memoryText(static_cast<double>(tiles.byteCount())));
+    result.say(before ? fmt::format("{}: baked before, {}\n", place.string(), what)
+                      : fmt::format("{}: {}, {:.1f} s\n", place.string(), what, seconds));
+    result.addFile("finer_light", place);
+    result.add("finer_baked_before", before);
+    result.add("finer_samples", FactIntegers{size.x, size.y});
+    result.add("finer_tiles", static_cast<std::int64_t>(tiles.count()));
+    result.add("finer_bytes", static_cast<std::int64_t>(tiles.byteCount()));
+    if (!before) result.add("finer_time_s", seconds);
+    return true;
+}
+
+}  // namespace stereonav

@@ -1,0 +1,56 @@
+// Light at finer samples than those of the ground in memory, tile by tile: of each tile the ground around it
+// at its own samples, and beyond that the ground in memory, whose light is also what bounces.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "engine/base/progress.h"
+#include "terrain/ground/ground_levels.h"
+#include "terrain/ground/ground_rays.h"
+#include "terrain/light/light_rows.h"
+#include "terrain/light/light_tiles.h"
+
+namespace stereonav {
+
+class Peers;
+
+class FineBake {
+public:
+    // ground: a level of levels, at whose samples `light` was baked (stride 1). Of the light settings, grid
+    // and, where it has bounces, `full` are read. levels and ground must outlive this. Throws Error where the
+    // memory would not suffice.
+    FineBake(const GroundLevels& levels, const Heightfield& ground, const TerrainLight& light);
+
+    // One tile's light, by all threads. Where the model differs from bakeTerrainLight(): rays go over the
+    // tile's own samples to 256 of them around it, then over those of `ground`; what is met sends out the
+    // light that `ground` has after all bounces, so that there is one more. None where no sample is known.
+    // each: called every few samples, as a tile takes seconds; may throw.
+    std::optional<TerrainLight> tile(int level, const glm::ivec2& low, const glm::ivec2& size,
+                                     const std::function<void()>& each) const;
+
+    // Bytes that it takes, and the rays over the ground.
+    static double memoryOf(const Heightfield& ground, const TerrainLightSettings& settings);
+
+private:
+    const GroundLevels& mLevels;
+    const Heightfield& mGround;
+    const TerrainLightSettings mSettings;
+    const LightGrid mGrid;
+    const int mCount;  // of harmonics
+    const GroundRays mWhole;
+    const SkyTransfer mSky;
+    TransferField mSent;  // of the ground
+};
+
+// What is baked for a ground whose light is `light`. finer: how many levels further than it, 1 or more, as
+// far as there are any.
+FineLightShape fineLightShape(const GroundLevels& levels, int level, const TerrainLight& light, int finer);
+
+// Makes LIGHT.fine in its place, or goes on where an earlier run was stopped. peers: all of them, who bake
+// tiles for the first, which alone writes. Throws Error, Cancelled (what is done is kept), PeerFailure.
+void bakeFineLight(const FineBake& bake, const std::filesystem::path& place, const FineLightShape& shape,
+                   Progress& progress, Peers& peers);
+
+}  // namespace stereonav

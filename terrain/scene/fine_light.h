@@ -1,0 +1,43 @@
+// Light that was baked at finer samples than those of the ground in memory, under a place of the sun.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "terrain/ground/ground_levels.h"
+#include "terrain/light/light_tiles.h"
+#include "terrain/light/terrain_relight.h"
+
+namespace stereonav {
+
+class FineLight {
+public:
+    // levels: of the ground that it was baked for.
+    FineLight(std::shared_ptr<const GroundLevels> levels, LightTiles tiles, SimdTarget target);
+
+    const GroundLevels& levels() const { return *mLevels; }
+    const FineLightShape& shape() const { return mTiles.shape(); }
+    std::uint64_t byteCount() const { return mTiles.byteCount(); }  // on disk
+    // Whose light is the nearest to a part with samples that far apart, metres; none where the ground in
+    // memory has them too.
+    std::optional<int> levelFor(double spacing) const;
+
+    // Of one tile: its ground with a sample around it where there is one, and the brightness of the tile's
+    // own samples, the first of which is `first` of the ground's. From any thread. Throws Error where it can
+    // not be read.
+    struct LitTile {
+        Heightfield ground;
+        glm::ivec2 first{0};
+        GroundBrightness brightness;
+    };
+    // None where no sample is known.
+    std::optional<LitTile> lit(const LightTiles::Tile& tile, const SunAndSky& now) const;
+    glm::ivec2 size(int level) const { return mTiles.size(level); }  // samples
+
+private:
+    std::shared_ptr<const GroundLevels> mLevels;
+    LightTiles mTiles;
+    SimdTarget mTarget;
+};
+
+}  // namespace stereonav
