@@ -281,29 +281,4 @@ double GroundRays::heightAt(const glm::dvec2& world) const {
     return (u + v - 1) * mGround.sample(i + 1, j + 1) + (1 - u) * north + (1 - v) * east;
 }
 
-// The direction as a sum of the two mesh edges beside it; the edges at a sample lead east, north, north-west,
-// west, south and south-east. A direction along the grid lies in two cells.
-double GroundRays::slopeBeside(int i, int j, const glm::dvec2& direction) const {
-    const glm::dvec2 g = direction / mGround.spacing();
-    double slope = -std::numeric_limits<double>::infinity();
-    for (const bool west : {false, true})
-        for (const bool south : {false, true})
-            if ((west ? g.x <= 0 : g.x >= 0) && (south ? g.y <= 0 : g.y >= 0))
-                slope = std::max(slope, slopeInCell(i, j, g, west, south));
-    return slope;
-}
-
-double GroundRays::slopeInCell(int i, int j, const glm::dvec2& g, bool west, bool south) const {
-    if (!cellKnown(mGround, i - west, j - south)) return -std::numeric_limits<double>::infinity();
-    const auto edge = [&](int di, int dj) {
-        return static_cast<double>(mGround.sample(i + di, j + dj)) - mGround.sample(i, j);
-    };
-    const double x = std::abs(g.x), y = std::abs(g.y);
-    if (west == south) return x * edge(west ? -1 : 1, 0) + y * edge(0, south ? -1 : 1);
-    // The cell's diagonal starts here.
-    const double diagonal = edge(west ? -1 : 1, south ? -1 : 1);
-    if (y >= x) return x * diagonal + (y - x) * edge(0, south ? -1 : 1);
-    return y * diagonal + (x - y) * edge(west ? -1 : 1, 0);
-}
-
 }  // namespace stereonav

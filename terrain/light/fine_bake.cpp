@@ -45,13 +45,14 @@ const Heightfield& checked(const Heightfield& ground, const TerrainLightSettings
 }  // namespace
 
 double FineBake::memoryOf(const Heightfield& ground, const TerrainLightSettings& settings) {
-    constexpr double kSide = kLightTileSide + 2 * kAround, kMesh = 100, kTwice = 2;
-    const double samples = double(ground.width()) * ground.height();
-    const double each = 1 + settings.azimuths + 6.0 * sizeof(std::int16_t) * lightHarmonics(settings.order);
-    const bool sends = settings.kind == TerrainLightKind::Transfer && settings.bounces > 0;
-    return 40 * samples + std::min(60 * samples, 60e6) +
-           (sends ? kTwice * sizeof(std::int16_t) * lightHarmonics(settings.order) * samples : 0) +
-           kMesh * kSide * kSide + kTwice * each * kLightTileSide * kLightTileSide;
+    constexpr double kSide = kLightTileSide + 2 * kAround, kMaxima = 4 * 4.0 / 3, kTwice = 2;
+    const double samples = double(ground.width()) * ground.height(), around = kSide * kSide;
+    const double transfer = sizeof(std::int16_t) * lightHarmonics(settings.order);
+    const double each = 1 + settings.azimuths + 6 * transfer;
+    double bytes = kMaxima * (samples + around) + kTwice * each * kLightTileSide * kLightTileSide;
+    if (settings.kind == TerrainLightKind::Transfer && settings.bounces > 0)
+        bytes += kTwice * transfer * samples + rayBytes(samples) + rayBytes(around);
+    return bytes;
 }
 
 FineBake::FineBake(const GroundLevels& levels, const Heightfield& ground, const TerrainLight& light)
@@ -62,7 +63,9 @@ FineBake::FineBake(const GroundLevels& levels, const Heightfield& ground, const 
       mCount(lightHarmonics(light.settings.order)),
       mWhole(ground),
       mSky(mSettings.order, mSettings.azimuths) {
-    if (mSettings.kind == TerrainLightKind::Transfer && mSettings.bounces > 0) mSent = sentBy(light, mCount);
+    if (mSettings.kind == TerrainLightKind::Openness || mSettings.bounces == 0) return;
+    mSent = sentBy(light, mCount);
+    mWholeRays.emplace(ground);
 }
 
 std::optional<TerrainLight> FineBake::tile(int level, const glm::ivec2& low, const glm::ivec2& size,
@@ -82,7 +85,7 @@ std::optional<TerrainLight> FineBake::tile(int level, const glm::ivec2& low, con
     if (!anyKnown(part, grid)) return std::nullopt;
     const glm::dvec2 offset =
         mLevels.originWorld() + glm::dvec2(from) * mLevels.spacing(level) - part.originWorld();
-    const GroundRays rays(part, mWhole, offset);
+    const GroundHorizon horizon(part, mWhole, offset);
     const auto width = static_cast<std::size_t>(grid.width);
     const bool transfer = mSettings.kind == TerrainLightKind::Transfer;
     light.openness.assign(grid.count(), 0);
@@ -98,11 +101,12 @@ std::optional<TerrainLight> FineBake::tile(int level, const glm::ivec2& low, con
             row.planeSize = grid.count();
             row.transfer = &direct[j * width * mCount];
         }
-        bakeDirectRow(rays, grid, j, mSettings.azimuths, transfer ? &mSky : nullptr, row, each);
+        bakeDirectRow(horizon, grid, j, mSettings.azimuths, transfer ? &mSky : nullptr, row, each);
     });
     if (!transfer) return light;
     TransferField total = direct;
     if (!mSent.empty()) {
+        const GroundRays rays(part, *mWholeRays, offset);
         const SentLight sent{mGround, mGrid, mSent, offset};
         const GatherSetting setting{mSettings.rays, mSettings.albedo, mSettings.seed, mCount};
         parallelFor(grid.height, [&](int j) {

@@ -39,7 +39,8 @@ private:
     const TerrainLightSettings mSettings;
     const LightGrid mGrid;
     const int mCount;  // of harmonics
-    const GroundRays mWhole;
+    const GroundHorizon mWhole;
+    std::optional<GroundRays> mWholeRays;  // where there are bounces
     const SkyTransfer mSky;
     TransferField mSent;  // of the ground
 };

@@ -22,20 +22,20 @@ bool known(const Heightfield& ground, const glm::ivec2& sample) {
 
 }  // namespace
 
-void bakeDirectRow(const GroundRays& rays, const LightGrid& grid, int row, int azimuths,
+void bakeDirectRow(const GroundHorizon& ground, const LightGrid& grid, int row, int azimuths,
                    const SkyTransfer* sky, const DirectRow& to, const std::function<void()>& each) {
     const auto width = static_cast<std::size_t>(grid.width);
     std::vector<std::uint8_t> own(to.horizon ? 0 : width * azimuths);
     std::uint8_t* const horizon = to.horizon ? to.horizon : own.data();
     const std::size_t plane = to.horizon ? to.planeSize : width;
-    bakeHorizonRow(rays, grid, row, azimuths, horizon, plane, each);
+    bakeHorizonRow(ground, grid, row, azimuths, horizon, plane, each);
     SkyWedges wedges(azimuths);
     float direct[kMaxHarmonics];
     for (int i = 0; i < grid.width; ++i) {
         if (i % kLookAt == 0) each();
         const glm::ivec2 sample(grid.column(i), grid.row(row));
-        if (!known(rays.ground(), sample)) continue;
-        wedges.set(sampleNormal(rays.ground(), sample.x, sample.y), horizon + i, plane);
+        if (!known(ground.ground(), sample)) continue;
+        wedges.set(sampleNormal(ground.ground(), sample.x, sample.y), horizon + i, plane);
         to.openness[i] = static_cast<std::uint8_t>(std::lround(255 * wedges.openness()));
         if (!sky) continue;
         sky->direct(wedges, direct);

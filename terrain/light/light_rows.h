@@ -17,7 +17,7 @@ struct DirectRow {
 };
 
 // sky: null for openness alone. each: called every few samples, as a row may take seconds; may throw.
-void bakeDirectRow(const GroundRays& rays, const LightGrid& grid, int row, int azimuths,
+void bakeDirectRow(const GroundHorizon& ground, const LightGrid& grid, int row, int azimuths,
                    const SkyTransfer* sky, const DirectRow& to, const std::function<void()>& each);
 
 // What a row has of horizons and direct transfer, and where the whole of it with another bounce goes.

@@ -1,12 +1,12 @@
 // The horizon of each baked sample: by azimuth, the elevation above which it sees the sky. Exact on the
-// mesh of ground_rays.h up to the byte's step.
+// mesh of ground_rays.h up to the byte's step (terrain/ground/ground_horizon.h).
 #pragma once
 
 #include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "terrain/ground/ground_rays.h"
+#include "terrain/ground/ground_horizon.h"
 #include "terrain/light/terrain_light.h"
 
 namespace stereonav {
@@ -18,9 +18,9 @@ glm::dvec2 azimuthDirection(double a, int azimuths);
 glm::dvec3 sampleNormal(const Heightfield& ground, int i, int j);
 
 // One row of baked samples: horizon[a * planeSize + i]. Samples in holes get 0.
-// each: called before every few samples, as a row may take seconds; may throw.
+// each: called before every few samples, as a row may take long; may throw.
 void bakeHorizonRow(
-    const GroundRays& rays, const LightGrid& grid, int row, int azimuths, std::uint8_t* horizon,
+    const GroundHorizon& ground, const LightGrid& grid, int row, int azimuths, std::uint8_t* horizon,
     std::size_t planeSize, const std::function<void()>& each = [] {});
 
 }  // namespace stereonav

@@ -49,15 +49,15 @@ void checkSettings(const TerrainLightSettings& s) {
     checkRange("albedo", s.albedo, 0, 1);
 }
 
-// Bytes held at once: three transfer fields or the two results, horizons, openness, Embree's vertices, and
-// what rays take beside them. Embree's own blocks count most with small grounds: 1,024 x 1,024
-// samples took 59 MB more than the rest says, 4,000 x 4,000 no more than that (two threads).
+// Bytes held at once: three transfer fields or the two results, horizons, openness, and either the maxima
+// that horizons are found by or, for bounces, what rays take.
 double memoryOf(const Heightfield& ground, const LightGrid& grid, const TerrainLightSettings& s) {
-    const double each = s.kind == TerrainLightKind::Openness
-                            ? 1.0
-                            : 1.0 + s.azimuths + 4 * sizeof(std::int16_t) * lightHarmonics(s.order);
-    const double samples = double(ground.width()) * ground.height();
-    return each * static_cast<double>(grid.count()) + 40 * samples + std::min(60 * samples, 60e6) + 8e6;
+    const bool transfer = s.kind == TerrainLightKind::Transfer;
+    const double each =
+        transfer ? 1.0 + s.azimuths + 4 * sizeof(std::int16_t) * lightHarmonics(s.order) : 1.0;
+    const double samples = double(ground.width()) * ground.height(), maxima = 4 * 4.0 / 3 * samples;
+    return each * static_cast<double>(grid.count()) +
+           (transfer && s.bounces > 0 ? rayBytes(samples) : maxima) + 8e6;
 }
 
 std::optional<int> strideFrom(int first, const Heightfield& ground, const TerrainLightSettings& s,
@@ -127,25 +127,20 @@ private:
     bool helps() const { return mPeers && !mPeers->first(); }
 
     TerrainLight bake() {
-        mProgress.report(0, "building the ground for rays");
-        const GroundRays rays(mGround);
         mLight.settings = mSettings;
         mLight.grid = mGrid;
         mLight.key = terrainLightKey(mGround, mSettings);
         goOn();
         if (mPeers) beginAlike();
         if (mDone.phase == 0) {
-            bakeDirect(rays, isTransfer() ? mSettings.bounces == 0 ? 0.9 : 0.5 : 1.0);
+            bakeDirect(isTransfer() ? mSettings.bounces == 0 ? 0.9 : 0.2 : 1.0);
             nextPhase();
         }
         if (!isTransfer()) {
             mProgress.report(1, "baked");
             return std::move(mLight);
         }
-        while (mDone.phase <= mSettings.bounces) {
-            bakeBounce(rays, mDone.phase - 1);
-            nextPhase();
-        }
+        if (mDone.phase <= mSettings.bounces) bakeBounces();
         mNext = {};
         if (helps()) return std::move(mLight);
         intoPlanes();
@@ -316,9 +311,11 @@ private:
     }
 
     std::size_t firstOf(int j) const { return static_cast<std::size_t>(j) * mGrid.width; }
-    void bakeDirect(const GroundRays& rays, double to) {
+    void bakeDirect(double to) {
+        mProgress.report(to * mDone.rows / mGrid.height, "maxima of the ground");
+        const GroundHorizon ground(mGround);
         const SkyTransfer sky(mSettings.order, mSettings.azimuths);
-        eachRow(0, to, "casting rays for the horizon", [&](int j) {
+        eachRow(0, to, "looking for horizons", [&](int j) {
             // Openness needs the horizons of a row alone.
             DirectRow row{&mLight.openness[firstOf(j)]};
             if (isTransfer()) {
@@ -326,13 +323,26 @@ private:
                 row.planeSize = mGrid.count();
                 row.transfer = &mDirect[firstOf(j) * mCount];
             }
-            bakeDirectRow(rays, mGrid, j, mSettings.azimuths, isTransfer() ? &sky : nullptr, row,
+            bakeDirectRow(ground, mGrid, j, mSettings.azimuths, isTransfer() ? &sky : nullptr, row,
                           [this] { lookAtWish(); });
         });
     }
 
+    // The job's share that is done after so many bounces.
+    double fromOf(double bounces) const { return 0.2 + 0.75 * bounces / mSettings.bounces; }
+
+    void bakeBounces() {
+        const double done = static_cast<double>(mDone.rows) / mGrid.height;
+        mProgress.report(fromOf(mDone.phase - 1 + done), "building the ground for rays");
+        const GroundRays rays(mGround);
+        while (mDone.phase <= mSettings.bounces) {
+            bakeBounce(rays, mDone.phase - 1);
+            nextPhase();
+        }
+    }
+
     void bakeBounce(const GroundRays& rays, int bounce) {
-        const double from = 0.5 + 0.45 * bounce / mSettings.bounces, to = from + 0.45 / mSettings.bounces;
+        const double from = fromOf(bounce), to = fromOf(bounce + 1);
         const SentLight sent{mGround, mGrid, mTotal};
         const GatherSetting setting{mSettings.rays, mSettings.albedo, mSettings.seed, mCount};
         eachRow(from, to, "casting rays for bounced light", [&](int j) {

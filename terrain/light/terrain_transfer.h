@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "terrain/ground/ground_rays.h"
 #include "terrain/light/terrain_horizon.h"
 
 namespace stereonav {

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
-#include "terrain/ground/ground_rays.h"
+#include "terrain/ground/ground_horizon.h"
 #include "terrain/light/terrain_horizon.h"
 #include "terrain/light/terrain_light.h"
 #include "tests/support/test_grounds.h"
@@ -163,16 +163,16 @@ TEST_F(TerrainBakePart, BandsAreReadAsFarAsTheyAreWhole) {
 // A row of a large ground takes longer than a stop may.
 TEST_F(TerrainBakePart, ARowCanBeLeft) {
     const Heightfield ground = test::makeGround("rough", 200, 9, 1);
-    const GroundRays rays(ground);
+    const GroundHorizon horizons(ground);
     const LightGrid grid(ground, 1);
     std::vector<std::uint8_t> horizon(8u * 200, 200);
     int asked = 0;
     const auto wish = [&] {
         if (++asked == 3) throw Cancelled();
     };
-    EXPECT_THROW(bakeHorizonRow(rays, grid, 4, 8, horizon.data(), 200, wish), Cancelled);
-    EXPECT_EQ(horizon[2 * RayPacket::kSize], 200) << "cast after the wish";
-    EXPECT_NE(horizon[2 * RayPacket::kSize - 1], 200);
+    EXPECT_THROW(bakeHorizonRow(horizons, grid, 4, 8, horizon.data(), 200, wish), Cancelled);
+    EXPECT_EQ(horizon[2 * 16], 200) << "looked at after the wish";
+    EXPECT_NE(horizon[2 * 16 - 1], 200);
 }
 
 }  // namespace
