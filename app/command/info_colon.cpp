@@ -25,7 +25,6 @@ std::vector<Held> heldBy(const ColonScene& colon) {
     };
     add("values", residentBytes(colon.volume.field.values));
     add("lumen", residentBytes(colon.lumen.lumen.values));
-    add("distances", residentBytes(colon.distance.values));
     add("cells", colon.volume.cells.bytesHeld());
     if (const auto& light = colon.volume.look.baked.light) add("illumination", light->bytesHeld());
     return held;

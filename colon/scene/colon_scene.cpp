@@ -17,6 +17,7 @@
 #include "colon/scene/transfer_presets.h"
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
+#include "engine/volume/distance_transform.h"
 
 namespace stereonav {
 namespace {
@@ -194,7 +195,6 @@ ColonScene sceneOf(FoundColon found, const ColonOptions& options, Progress& prog
     scene.volume.look.transfer = wallTransfer(options, wall, scene.volume.look.surface);
     progress.report(0.9, "preparing the wall");
     scene.volume.cells = wallCells(scene, progress);
-    scene.distance = distanceToOutside(scene.lumen.lumen);
     placeViewer(scene, options);
     return scene;
 }
@@ -252,8 +252,6 @@ ColonScene sharing(const ColonScene& scene) {
     same.valuesFound = scene.valuesFound;
     same.volume = {scene.volume.field.share(), scene.volume.cells.share(), scene.volume.look};
     same.lumen = sharing(scene.lumen);
-    static_cast<Volume<std::uint16_t>&>(same.distance) = scene.distance.share();
-    same.distance.unit = scene.distance.unit;
     same.centreline = scene.centreline;
     same.polyps = scene.polyps;
     same.startPose = scene.startPose;

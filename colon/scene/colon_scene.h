@@ -14,7 +14,6 @@
 #include "colon/study/study.h"
 #include "engine/camera/recorded_path.h"
 #include "engine/camera/stereo_rig.h"
-#include "engine/volume/distance_transform.h"
 #include "engine/volume/value_range.h"
 #include "engine/volume/volume_scene.h"
 #include "engine/volume/volume_up.h"
@@ -50,8 +49,7 @@ struct ColonScene {
     // was found, HU. The cache keeps no values far from the lumen, but these two.
     ValueSpan valuesFound;
     // Of a colon; empty for a volume seen from outside.
-    LumenField lumen;         // its `field` is moved into volume.field
-    DistanceVolume distance;  // to the lumen's outside
+    LumenField lumen;  // its `field` is moved into volume.field
     Centreline centreline;
     std::vector<Polyp> polyps;
 
