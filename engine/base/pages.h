@@ -15,4 +15,14 @@ std::size_t residentBytes(const LazyArray<T>& array) {
     return residentBytes(array.data(), array.size() * sizeof(T));
 }
 
+// Gives back the whole pages of this memory that hold nothing but zeros: it reads the same as before. Some
+// systems take a page for what was only read. Nobody may write to it meanwhile; reading is fine.
+void releaseZeroPages(const void* start, std::size_t bytes);
+
+// Of some elements.
+template <typename T>
+void releaseZeroPages(const LazyArray<T>& array, std::size_t first, std::size_t count) {
+    releaseZeroPages(array.data() + first, count * sizeof(T));
+}
+
 }  // namespace stereonav

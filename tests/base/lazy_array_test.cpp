@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "engine/base/pages.h"
 
@@ -41,6 +42,22 @@ TEST(LazyArray, GivesWholePagesBack) {
     EXPECT_EQ(array[kCount - 1], 7);
     array.release(0, 0);
     EXPECT_EQ(array[0], 7);
+}
+
+TEST(LazyArray, GivesPagesOfZerosBack) {
+    constexpr std::size_t kCount = 1 << 20, kSteps = 8, kStep = kCount / kSteps;
+    LazyArray<std::uint8_t> array(kCount);
+    std::fill_n(array.data(), kCount, std::uint8_t{7});
+    std::fill_n(&array[kStep], kStep * (kSteps - 1), std::uint8_t{0});
+    array[kCount - 1] = array[kCount / 2 + 1] = 9;
+    const std::vector<std::uint8_t> before(array.data(), array.data() + kCount);
+    releaseZeroPages(array, 1, 0);
+    releaseZeroPages(array, 1, 100);
+    releaseZeroPages(array, 1, kCount / 4);  // what lies beyond these elements stays
+    EXPECT_GT(residentBytes(array), 3 * kCount / 4);
+    releaseZeroPages(array, 0, kCount);
+    EXPECT_LT(residentBytes(array), kStep + kCount / 2);
+    EXPECT_TRUE(std::equal(before.begin(), before.end(), array.data()));
 }
 
 }  // namespace
