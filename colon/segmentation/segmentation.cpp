@@ -16,6 +16,7 @@
 #include "colon/segmentation/segmentation_air.h"
 #include "colon/segmentation/segmentation_fluid.h"
 #include "engine/base/error.h"
+#include "engine/base/pages.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -124,6 +125,11 @@ void markAir(const AirPieces& air, const LumenCrop& crop, MaskVolume& marks) {
     });
 }
 
+// Most of a slice was only read.
+void releaseUnmarked(const MaskVolume& marks, int k) {
+    releaseZeroPages(marks.values, marks.frame.index(0, 0, k), marks.frame.index(0, 0, 1));
+}
+
 // In the order of voxels.
 std::vector<glm::ivec3> markedBorder(const MaskVolume& marks) {
     const glm::ivec3 size = marks.frame.size;
@@ -139,6 +145,7 @@ std::vector<glm::ivec3> markedBorder(const MaskVolume& marks) {
                         break;
                     }
             }
+        releaseUnmarked(marks, slice + 1);
     });
     std::vector<glm::ivec3> border;
     for (const std::vector<glm::ivec3>& slice : slices)
@@ -179,6 +186,7 @@ void wallOff(const MaskVolume& marks, double wall, GreyVolume& field) {
                 for (const glm::ivec3& step : kNeighbours)
                     if (marks.at(glm::ivec3(i, j, k) + step) == kColon) field.at(i, j, k) = above;
             }
+        releaseUnmarked(marks, k);
     });
 }
 
@@ -192,6 +200,7 @@ Pieces markedPieces(const MaskVolume& marks) {
             if (i > first) runs.push_back({first, i});
             while (i < marks.frame.size.x && row[i] != kColon) ++i;
         }
+        if (j + 1 == marks.frame.size.y) releaseUnmarked(marks, k);
     });
     pieces.parts = connectedComponents(pieces.runs);
     return pieces;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/pages.h"
 #include "engine/base/parallel.h"
 #include "engine/simd/kernel_sets.h"
 #include "engine/simd/simd_target.h"
@@ -124,6 +125,8 @@ private:
         parallelFor(size.z, [&](int k) {
             for (int j = 0; j < size.y; ++j)
                 rowRange(j, k) = rangeOf(mMask.values.data() + mMask.frame.index(0, j, k), size.x);
+            releaseZeroPages(mMask.values, mMask.frame.index(0, 0, k),
+                             static_cast<std::size_t>(size.x) * size.y);
         });
         for (int k = 0; k < size.z; ++k)
             for (int j = 0; j < size.y; ++j) {

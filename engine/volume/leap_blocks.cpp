@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <vector>
 
+#include "engine/base/pages.h"
 #include "engine/base/parallel.h"
 #include "engine/volume/cell_rows.h"
 #include "engine/volume/distance_transform.h"
@@ -123,8 +124,26 @@ private:
                             if (written[i]) *codes = active[i] ? kActiveYet : otherwise;
                     }
                 }
+            if (mSetting.region) releaseSlices(*mSetting.region, group * kGroup, kGroup);
         });
         return groups;
+    }
+
+    // Most of a region's rows were only read.
+    static void releaseSlices(const MaskVolume& region, int first, int count) {
+        const std::size_t from = region.frame.index(0, 0, first),
+                          end = region.frame.index(0, 0, std::min(first + count, region.frame.size.z));
+        releaseZeroPages(region.values, from, end - from);
+    }
+
+    // So were codes around a block.
+    void releaseCodes(const glm::ivec3& first, const glm::ivec3& end) {
+        const glm::ivec3 low = first / kBrickSide, high = (end + (kBrickSide - 1)) / kBrickSide;
+        for (int k = low.z; k < high.z; ++k)
+            for (int j = low.y; j < high.y; ++j)
+                releaseZeroPages(mCells.codes,
+                                 mCells.layout.index(low.x * kBrickSide, j * kBrickSide, k * kBrickSide),
+                                 static_cast<std::size_t>(high.x - low.x) * kCellsOfBrick);
     }
 
     void measureFar(const MaskVolume& groups) {
@@ -250,6 +269,7 @@ private:
                 }
             }
         });
+        releaseCodes(glm::max(low - 1, 0), glm::min(high + 1, mFrame.size));
     }
 
     const GreyVolume& mVolume;
