@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
@@ -50,24 +51,23 @@ std::vector<float> nodeDistances(const VoxelGraph& graph, const DistanceVolume& 
     return deepest;
 }
 
-// At least 1, at the node farthest from the wall.
-std::vector<float> wallWeights(const std::vector<float>& distances) {
+// In the memory of the distances. At least 1, at the node farthest from the wall.
+std::vector<float> wallWeights(std::vector<float> distances) {
     float deepest = 0;
     for (const float d : distances) deepest = std::max(deepest, d);
-    std::vector<float> weights(distances.size(), 1.0f);
-    if (!(deepest > 0)) return weights;
-    for (std::size_t n = 0; n < distances.size(); ++n) {
-        const float share = std::max(distances[n] / deepest, 1e-3f);
-        weights[n] = std::clamp(static_cast<float>(std::pow(share, -kWallPower)), 1.0f, kLargestWeight);
+    for (float& d : distances) {
+        const float share = deepest > 0 ? std::max(d / deepest, 1e-3f) : 1.0f;
+        d = std::clamp(static_cast<float>(std::pow(share, -kWallPower)), 1.0f, kLargestWeight);
     }
-    return weights;
+    return distances;
 }
 
-std::vector<Node> farthestWay(const VoxelGraph& graph, const std::vector<float>& distances,
+std::vector<Node> farthestWay(const VoxelGraph& graph, std::vector<float> distances,
                               const std::function<void()>& poll) {
     const auto deepest = std::max_element(distances.begin(), distances.end()) - distances.begin();
     const Node end = findVoxelPaths(graph, {}, static_cast<Node>(deepest), VoxelPaths::kNone, poll).farthest;
-    const VoxelPaths ways = findVoxelPaths(graph, wallWeights(distances), end, VoxelPaths::kNone, poll);
+    const VoxelPaths ways =
+        findVoxelPaths(graph, wallWeights(std::move(distances)), end, VoxelPaths::kNone, poll);
     return ways.to(ways.farthest);
 }
 
@@ -108,14 +108,14 @@ glm::ivec3 deepestVoxel(const VoxelGraph& graph, Node node, const DistanceVolume
 }
 
 std::vector<glm::ivec3> fineWay(const VoxelGraph& graph, const glm::ivec3& start, const glm::ivec3& end,
-                                const std::vector<float>& distances, const std::function<void()>& poll) {
+                                std::vector<float> distances, const std::function<void()>& poll) {
     Node from = VoxelPaths::kNone, to = VoxelPaths::kNone;
     for (Node n = 0; n < graph.nodeCount(); ++n) {
         if (graph.blockVoxel(n) == start) from = n;
         if (graph.blockVoxel(n) == end) to = n;
     }
     std::vector<glm::ivec3> voxels;
-    for (const Node n : findVoxelPaths(graph, wallWeights(distances), from, to, poll).to(to))
+    for (const Node n : findVoxelPaths(graph, wallWeights(std::move(distances)), from, to, poll).to(to))
         voxels.push_back(graph.blockVoxel(n));
     return voxels;
 }

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/base/pages.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -132,6 +133,10 @@ void VoxelGraph::gatherPatterns(const MaskVolume& mask, std::uint8_t label) {
         const int end = std::min((slab + 1) * mBlock.z, mLast.z - mFirst.z + 1);
         for (int z = slab * mBlock.z; z < end; ++z)
             for (int y = 0; y <= mLast.y - mFirst.y; ++y) gatherRow(y, z);
+        if (end > slab * mBlock.z) {
+            const std::size_t from = mask.frame.index(0, 0, mFirst.z + slab * mBlock.z);
+            releaseZeroPages(mask.values, from, mask.frame.index(0, 0, mFirst.z + end) - from);
+        }
     });
 }
 
@@ -143,6 +148,7 @@ void VoxelGraph::numberNodes() {
         forEachNonzero(mPatterns.data(), z * slab, (z + 1) * slab,
                        [&](std::size_t cell) { count += kPieces[mPatterns[cell]].count; });
         firstOf[z + 1] = count;
+        releaseZeroPages(mPatterns, z * slab, slab);
     });
     for (int z = 0; z < mGrid.z; ++z) firstOf[z + 1] += firstOf[z];
     if (firstOf.back() >= std::numeric_limits<Node>::max() - 1)
@@ -159,6 +165,7 @@ void VoxelGraph::numberNodes() {
                 mParts[node] = part;
             }
         });
+        releaseZeroPages(mPatterns, z * slab, slab);
     });
 }
 
@@ -200,7 +207,9 @@ public:
     double width() const { return mWidth; }
     bool pop(Entry& entry) {
         if (mCount == 0) return false;
-        while (mRing[mLowest % mRing.size()].empty()) ++mLowest;
+        // Memory of buckets that are done is for those to come.
+        for (; mRing[mLowest % mRing.size()].empty(); ++mLowest)
+            std::vector<Entry>().swap(mRing[mLowest % mRing.size()]);
         std::vector<Entry>& bucket = mRing[mLowest % mRing.size()];
         entry = bucket.back();
         bucket.pop_back();
@@ -217,7 +226,7 @@ private:
 
 }  // namespace
 
-VoxelPaths findVoxelPaths(const VoxelGraph& graph, std::span<const float> weights, VoxelGraph::Node start,
+VoxelPaths findVoxelPaths(const VoxelGraph& graph, std::vector<float> weights, VoxelGraph::Node start,
                           VoxelGraph::Node end, const std::function<void()>& poll) {
     constexpr float kFar = std::numeric_limits<float>::infinity();
     VoxelPaths paths;
@@ -228,6 +237,7 @@ VoxelPaths findVoxelPaths(const VoxelGraph& graph, std::span<const float> weight
         paths.ways[n].weight = std::clamp(weights[n], 1.0f, kLargestWeight);
         dearest = std::max(dearest, paths.ways[n].weight);
     }
+    weights = {};
     BucketQueue queue(graph.shortestStep(), graph.longestStep() * dearest);
     paths.ways[start].cost = paths.ways[start].length = 0;
     queue.push(0, start);

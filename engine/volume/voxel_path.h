@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
 #include "engine/volume/volume.h"
@@ -98,10 +97,10 @@ struct VoxelPaths {
 
 // Dijkstra's algorithm with a circular queue of buckets (Dial 1969), on one thread: the same result always.
 // weights: cost a metre at each node, at least 1 and at most kLargestWeight, a step costs their mean; empty:
-// lengths alone. Stops once the cost of `end` is final (kNone: never). Calls `poll` now and then, which may
-// throw to end the search.
+// lengths alone; they go once they are taken over. Stops once the cost of `end` is final (kNone: never).
+// Calls `poll` now and then, which may throw to end the search.
 constexpr float kLargestWeight = 16384.0f;
-VoxelPaths findVoxelPaths(const VoxelGraph& graph, std::span<const float> weights, VoxelGraph::Node start,
+VoxelPaths findVoxelPaths(const VoxelGraph& graph, std::vector<float> weights, VoxelGraph::Node start,
                           VoxelGraph::Node end, const std::function<void()>& poll);
 
 template <typename Visit>
