@@ -15,6 +15,8 @@
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/memory.h"
+#include "engine/base/pages.h"
+#include "engine/base/parallel.h"
 
 namespace stereonav {
 namespace {
@@ -111,9 +113,11 @@ struct Bricks {
     explicit Bricks(const glm::ivec3& size)
         : counts((size + kBrick - 1) / kBrick),
           kept(static_cast<std::size_t>(counts.x) * counts.y * counts.z) {}
-    std::uint8_t& at(const glm::ivec3& b) {
-        return kept[(static_cast<std::size_t>(b.z) * counts.y + b.y) * counts.x + b.x];
+    std::size_t index(const glm::ivec3& b) const {
+        return (static_cast<std::size_t>(b.z) * counts.y + b.y) * counts.x + b.x;
     }
+    std::uint8_t& at(const glm::ivec3& b) { return kept[index(b)]; }
+    std::uint8_t at(const glm::ivec3& b) const { return kept[index(b)]; }
 };
 
 // Calls use(first value of a row, values) for the rows of the kept bricks.
@@ -134,12 +138,17 @@ void forKeptRows(const Bricks& bricks, const VolumeFrame& frame, const Use& use)
 
 Bricks bricksNear(const MaskVolume& lumen) {
     Bricks holding(lumen.frame.size), bricks(lumen.frame.size);
-    for (int k = 0; k < lumen.frame.size.z; ++k)
-        for (int j = 0; j < lumen.frame.size.y; ++j) {
-            const std::uint8_t* row = &lumen.values[lumen.frame.index(0, j, k)];
-            for (int i = 0; i < lumen.frame.size.x; ++i)
-                if (row[i]) holding.at({i / kBrick, j / kBrick, k / kBrick}) = 1;
-        }
+    parallelFor(holding.counts.z, [&](int layer) {
+        const int first = layer * kBrick, end = std::min(first + kBrick, lumen.frame.size.z);
+        for (int k = first; k < end; ++k)
+            for (int j = 0; j < lumen.frame.size.y; ++j) {
+                const std::uint8_t* row = &lumen.values[lumen.frame.index(0, j, k)];
+                for (int i = 0; i < lumen.frame.size.x; ++i)
+                    if (row[i]) holding.at({i / kBrick, j / kBrick, layer}) = 1;
+            }
+        releaseZeroPages(lumen.values, lumen.frame.index(0, 0, first),
+                         lumen.frame.index(0, 0, end) - lumen.frame.index(0, 0, first));
+    });
     glm::ivec3 b;
     for (b.z = 0; b.z < bricks.counts.z; ++b.z)
         for (b.y = 0; b.y < bricks.counts.y; ++b.y)
@@ -288,6 +297,24 @@ std::optional<FoundColon> readColonCache(std::uint64_t key, bool& damaged) {
     } catch (const Damaged&) {
         return std::nullopt;
     }
+}
+
+void dropFarValues(LumenField& lumen) {
+    const Bricks bricks = bricksNear(lumen.lumen);
+    const VolumeFrame& frame = lumen.field.frame;
+    parallelFor(bricks.counts.z, [&](int z) {
+        const int first = z * kBrick, end = std::min(first + kBrick, frame.size.z);
+        for (int k = first; k < end; ++k)
+            for (int j = 0; j < frame.size.y; ++j)
+                for (int x = 0; x < bricks.counts.x; ++x) {
+                    if (bricks.at({x, j / kBrick, z})) continue;
+                    const int i = x * kBrick;
+                    std::fill_n(&lumen.field.at(i, j, k), std::min(kBrick, frame.size.x - i),
+                                std::int16_t{0});
+                }
+        releaseZeroPages(lumen.field.values, frame.index(0, 0, first),
+                         frame.index(0, 0, end) - frame.index(0, 0, first));
+    });
 }
 
 bool writeColonCache(std::uint64_t key, const FoundColon& found) {

@@ -26,6 +26,9 @@ struct FoundColon {
 // Values of the field are kept at least this far from the lumen, voxels along each axis.
 constexpr int kKeptMargin = 8;
 
+// Makes the field what the cache would give back of it, and gives the memory of all other values back.
+void dropFarValues(LumenField& lumen);
+
 // Of everything that finding depends on: the study (its content's key) and the settings.
 std::uint64_t colonCacheKey(std::uint64_t study, const ColonOptions& options);
 

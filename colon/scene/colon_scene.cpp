@@ -87,6 +87,7 @@ FoundColon findColon(Study& study, const ColonOptions& options, Progress& progre
     study.mask = {};
     if (!options.keepsStudy) study.grey = {};
     found.values = wholeRangeOf(found.lumen.field);
+    dropFarValues(found.lumen);
     const DistanceVolume distance = distanceToOutside(found.lumen.lumen);
     found.centreline = findCentreline(found.lumen, distance, options.centreline, progress);
     return found;

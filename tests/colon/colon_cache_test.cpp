@@ -95,6 +95,21 @@ TEST_F(ColonCacheTest, GivesBackWhatWasKept) {
     EXPECT_GT(checked, 10000);
 }
 
+TEST_F(ColonCacheTest, FarValuesAreDroppedAsTheCacheDoes) {
+    FoundColon found = tube();
+    ASSERT_TRUE(writeColonCache(7, found));
+    bool damaged = true;
+    const auto kept = readColonCache(7, damaged);
+    ASSERT_TRUE(kept);
+    ASSERT_NE(found.lumen.field.at(36, 36, 49), 0);
+    dropFarValues(found.lumen);
+    EXPECT_EQ(found.lumen.field.at(36, 36, 49), 0);
+    for (std::size_t n = 0; n < found.lumen.field.frame.count(); ++n) {
+        ASSERT_EQ(found.lumen.field.values[n], kept->lumen.field.values[n]) << n;
+        ASSERT_EQ(found.lumen.lumen.values[n], kept->lumen.lumen.values[n]) << n;
+    }
+}
+
 TEST_F(ColonCacheTest, NothingKeptIsNotDamage) {
     bool damaged = true;
     EXPECT_FALSE(readColonCache(8, damaged));
