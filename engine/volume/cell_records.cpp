@@ -12,7 +12,6 @@
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
-#include "engine/base/pages.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -163,9 +162,6 @@ void writeRecords(const GreyVolume& volume, const SurfaceSetting& setting, const
     parallelFor(bricks, [&](int n) {
         std::uint8_t active[kBrickCells];
         counts[n] = flagBrick(size, brickAt(cells.layout, n), activeRow, active);
-        // What has no active cell is not looked at again; most of it may have been only read.
-        if (counts[n] == 0 && setting.region)
-            releaseZeroPages(cells.codes, std::size_t{kBrickCells} * n, kBrickCells);
     });
     cells.bricks = LazyArray<std::uint32_t>(counts.size());
     cells.places = LazyArray<std::uint16_t>(cells.layout.count());

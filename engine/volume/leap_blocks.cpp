@@ -136,16 +136,6 @@ private:
         releaseZeroPages(region.values, from, end - from);
     }
 
-    // So were codes around a block.
-    void releaseCodes(const glm::ivec3& first, const glm::ivec3& end) {
-        const glm::ivec3 low = first / kBrickSide, high = (end + (kBrickSide - 1)) / kBrickSide;
-        for (int k = low.z; k < high.z; ++k)
-            for (int j = low.y; j < high.y; ++j)
-                releaseZeroPages(mCells.codes,
-                                 mCells.layout.index(low.x * kBrickSide, j * kBrickSide, k * kBrickSide),
-                                 static_cast<std::size_t>(high.x - low.x) * kCellsOfBrick);
-    }
-
     void measureFar(const MaskVolume& groups) {
         const auto setRow = [&](int j, int k, std::uint8_t* row) {
             std::fill_n(row, mGroups.x + 2, std::uint8_t{0});
@@ -269,7 +259,6 @@ private:
                 }
             }
         });
-        releaseCodes(glm::max(low - 1, 0), glm::min(high + 1, mFrame.size));
     }
 
     const GreyVolume& mVolume;
@@ -310,6 +299,8 @@ void settleCodes(const SurfaceSetting& setting, SurfaceCells& cells) {
             for (std::size_t n = 0; n < kCellsOfBrick; ++n)
                 if (codes[n] == kActiveYet) codes[n] = kCellActive;
         }
+        // Codes outside a region were only read.
+        if (setting.region) releaseZeroPages(cells.codes, layer * k * kCellsOfBrick, layer * kCellsOfBrick);
     });
 }
 
