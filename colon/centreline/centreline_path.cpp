@@ -126,7 +126,7 @@ std::vector<glm::ivec3> roughCentreline(const LumenField& lumen, int segment, co
                                         std::size_t mostUneven, const std::function<void()>& poll) {
     const LumenSegment& piece = lumen.segments[segment - 1];
     const glm::ivec3 block = blockOf(lumen.lumen.frame.spacing, piece.voxels, mostUneven);
-    const VoxelGraph graph(lumen.lumen, static_cast<std::uint8_t>(segment), piece.first, piece.last, block);
+    VoxelGraph graph(lumen.lumen, static_cast<std::uint8_t>(segment), piece.first, piece.last, block);
     if (graph.nodeCount() == 0)
         throw Error("", "", "segment " + std::to_string(segment) + " of the lumen has no voxels",
                     "segment the study again");
@@ -137,9 +137,11 @@ std::vector<glm::ivec3> roughCentreline(const LumenField& lumen, int segment, co
         return voxels;
     }
     const Corridor corridor = corridorAround(lumen, segment, graph, way);
-    const VoxelGraph fine(corridor.mask, 1, corridor.first, corridor.last, glm::ivec3(1));
-    return fineWay(fine, deepestVoxel(graph, way.front(), distance),
-                   deepestVoxel(graph, way.back(), distance), nodeDistances(fine, distance), poll);
+    const glm::ivec3 start = deepestVoxel(graph, way.front(), distance),
+                     end = deepestVoxel(graph, way.back(), distance);
+    graph = VoxelGraph();  // its memory goes before that of the fine one is taken
+    graph = VoxelGraph(corridor.mask, 1, corridor.first, corridor.last, glm::ivec3(1));
+    return fineWay(graph, start, end, nodeDistances(graph, distance), poll);
 }
 
 }  // namespace stereonav

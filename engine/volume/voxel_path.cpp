@@ -76,6 +76,9 @@ VoxelGraph::VoxelGraph(const MaskVolume& mask, std::uint8_t label, const glm::iv
     mFull = 0;
     for (int n = 0; n < 8; ++n)
         if ((n & 1) < mBlock.x && (n >> 1 & 1) < mBlock.y && n >> 2 < mBlock.z) mFull |= 1 << n;
+    const std::size_t blocks = static_cast<std::size_t>(mGrid.x) * mGrid.y * mGrid.z;
+    if (blocks > std::numeric_limits<std::uint32_t>::max())
+        throw Error("", "", "the lumen has too many voxels to find a path in", "crop or resample the study");
     makeSteps(mask.frame.spacing);
     gatherPatterns(mask, label);
     numberNodes();
@@ -161,7 +164,7 @@ void VoxelGraph::numberNodes() {
         forEachNonzero(mPatterns.data(), z * slab, (z + 1) * slab, [&](std::size_t cell) {
             mFirstNode[cell] = static_cast<Node>(node + 1);
             for (std::uint8_t part = 0; part < kPieces[mPatterns[cell]].count; ++part, ++node) {
-                mCells[node] = cell;
+                mCells[node] = static_cast<std::uint32_t>(cell);
                 mParts[node] = part;
             }
         });
@@ -170,7 +173,7 @@ void VoxelGraph::numberNodes() {
 }
 
 glm::ivec3 VoxelGraph::blockVoxel(Node node) const {
-    const std::size_t cell = mCells[node], row = cell / mGrid.x;
+    const std::uint32_t cell = mCells[node], row = cell / mGrid.x;
     const glm::ivec3 at(static_cast<int>(cell % mGrid.x), static_cast<int>(row % mGrid.y),
                         static_cast<int>(row / mGrid.y));
     return mFirst + (at - 1) * mBlock;

@@ -21,6 +21,7 @@ class VoxelGraph {
 public:
     using Node = std::uint32_t;
 
+    VoxelGraph() = default;  // no nodes
     // The voxels of `mask` that equal `label`, looked for from voxel `first` to `last` (included; clipped to
     // the volume). block: 1 or 2 voxels to a node along each axis. Throws Error when there are too many.
     VoxelGraph(const MaskVolume& mask, std::uint8_t label, const glm::ivec3& first, const glm::ivec3& last,
@@ -69,7 +70,7 @@ private:
     std::array<std::vector<std::array<std::uint8_t, 2>>, kFaces> mFacePairs;
     LazyArray<std::uint8_t> mPatterns;  // of blocks: bit x + 2 y + 4 z where a voxel is inside
     LazyArray<Node> mFirstNode;         // of blocks: number of the first node + 1
-    std::vector<std::size_t> mCells;    // of nodes: the block
+    std::vector<std::uint32_t> mCells;  // of nodes: the block
     std::vector<std::uint8_t> mParts;   // of nodes: the piece of the block
 };
 
