@@ -150,7 +150,7 @@ void checkGround(const std::string& name, const TerrainLight& light, const Heigh
     throw Error(name, "",
                 fmt::format("the light was baked from other ground ({}x{} samples) than is shown ({}x{})",
                             light.grid.groundWidth, light.grid.groundHeight, ground.width(), ground.height()),
-                "bake it for this scene, with the same --vertical-scale and --open-holes");
+                "bake it for this scene, with the same --vertical-scale, --open-holes, --tiles and --memory");
 }
 
 }  // namespace

@@ -191,7 +191,8 @@ void loadLight(const SceneFile& file, TerrainScene& scene, Progress& progress) {
     const std::filesystem::path place = file.light == "auto" ? terrainLightCache(scene.ground) : file.light;
     if (file.light == "auto" && !std::filesystem::exists(place))
         throw Error(file.file.string(), "light", "none was baked for this ground yet",
-                    "bake it with stereonav bake, with the same --vertical-scale and --open-holes");
+                    "bake it with stereonav bake, with the same --vertical-scale, --open-holes, --tiles and "
+                    "--memory");
     TerrainLight light = loadTerrainLight(place, &scene.ground);
     const std::shared_ptr<const FineLight> finer = finerLight(place, light, scene);
     const bool photo = !file.image.empty() && !file.look.shadeImage;
