@@ -76,10 +76,10 @@ void checkFinerPlace(const std::filesystem::path& light) {
                     "choose another with --out");
 }
 
-void removeFiner(const std::filesystem::path& light) {
+void removeFinerOfOthers(const std::filesystem::path& light, std::uint64_t key) {
     std::error_code code;
     const std::filesystem::path place = fineLightPlace(light);
-    if (isFineLight(place)) std::filesystem::remove(place, code);
+    if (isFineLight(place) && !isFineLightOf(place, key)) std::filesystem::remove(place, code);
 }
 
 bool bakeFiner(const TerrainScene& terrain, std::optional<TerrainLight> light,

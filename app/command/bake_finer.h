@@ -2,6 +2,7 @@
 // (terrain/light/fine_bake.h).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -18,8 +19,8 @@ int finerLevels(const BakeOptions& options, const TerrainScene& terrain);
 
 // Throws Error where something else is in the way of what would lie beside that file.
 void checkFinerPlace(const std::filesystem::path& light);
-// Once other light lies there: what was finer than the one before.
-void removeFiner(const std::filesystem::path& light);
+// Once the light with that key lies there: what goes on from another.
+void removeFinerOfOthers(const std::filesystem::path& light, std::uint64_t key);
 
 // By all processes, of which the first has the light that lies in `file`. False where it was stopped; what is
 // done is kept. Throws Error.

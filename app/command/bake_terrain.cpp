@@ -129,7 +129,7 @@ int bakeTerrain(const BakeOptions& options) {
             if (!light) return 1;
             const double seconds = watch.elapsed_ms() / 1000;
             saveTerrainLight(file, *light);
-            removeFiner(file);
+            removeFinerOfOthers(file, light->key);
             bar.clear();
             tellBaked(*light, file, seconds, result);
         } else {

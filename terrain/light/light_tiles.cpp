@@ -46,10 +46,17 @@ std::size_t bytesASample(const TerrainLightSettings& settings) {
     return 1 + settings.azimuths + 2 * sizeof(std::int16_t) * lightHarmonics(settings.order);
 }
 
+// Zeros where there is less.
+Head headIn(const std::filesystem::path& file) {
+    Head head;
+    std::ifstream in(file, std::ios::binary);
+    if (!in.read(reinterpret_cast<char*>(&head), sizeof head)) return {};
+    return head;
+}
+
 // With the finest level that the file has, where it is such a file.
 FineLightShape asFineAs(const std::filesystem::path& file, FineLightShape shape) {
-    Head head;
-    std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(&head), sizeof head);
+    const Head head = headIn(file);
     if (head.magic == kFineMagic) shape.finest = std::clamp(head.finest, 0, shape.coarsest);
     return shape;
 }
@@ -71,10 +78,12 @@ std::filesystem::path fineLightPlace(const std::filesystem::path& light) {
 }
 
 bool isFineLight(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::array<char, 8> magic{};
-    in.read(magic.data(), magic.size());
-    return in && magic == kFineMagic;
+    return headIn(file).magic == kFineMagic;
+}
+
+bool isFineLightOf(const std::filesystem::path& file, std::uint64_t key) {
+    const Head head = headIn(file);
+    return head.magic == kFineMagic && head.key == key;
 }
 
 std::vector<std::byte> bytesOf(const TerrainLight& tile) {

@@ -35,6 +35,8 @@ struct FineLightShape {
 // Beside that light.
 std::filesystem::path fineLightPlace(const std::filesystem::path& light);
 bool isFineLight(const std::filesystem::path& file);  // begins as such a file does
+// Whether it goes on from the light with that key.
+bool isFineLightOf(const std::filesystem::path& file, std::uint64_t key);
 
 class LightTiles {
 public:

@@ -154,6 +154,8 @@ TEST_F(FineLightFile, HasWhatWasWritten) {
     writeAll();
     EXPECT_FALSE(fs::exists(part()));
     EXPECT_TRUE(isFineLight(place()));
+    EXPECT_TRUE(isFineLightOf(place(), mShape.key));
+    EXPECT_FALSE(isFineLightOf(place(), mShape.key + 1));
     FineLightShape any = mShape;
     any.finest = 1;
     const LightTiles tiles(place(), any);
