@@ -1,9 +1,9 @@
 // How steeply a ground rises as seen from its samples: what hides the sky, exact on the mesh of
 // ground_rays.h.
 //
-// A walk over the plan along the maxima of blocks of cells, as rays leap along them: a block whose maximum can
-// not be seen above what was found already is left out as a whole. Of a cell the mesh is met at its border and
-// its diagonal, between which it is straight: no other place of it can be steeper.
+// A walk over the plan along the maxima of blocks of cells, as rays leap along them: a block whose maximum
+// can not be seen above what was found already is left out as a whole. Of a cell the mesh is met at its
+// border and its diagonal, between which it is straight: no other place of it can be steeper.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -132,8 +132,8 @@ TEST_F(TiledColors, BakedLightKeepsTheFineReliefAndFollowsTheSun) {
     }
 }
 
-// Tiles of the finest samples: what is seen in them is nearer to the light of the
-// ground in memory than the light of the level is, in both eyes and as the sun moves.
+// Tiles of the finest samples: what is seen in them is nearer to the light of the ground in memory than the
+// light of the level is, in both eyes and as the sun moves.
 TEST_F(TiledColors, LightBakedAtFinerSamplesIsSeenNearTheEye) {
     RasterSpec dem;
     dem.width = 280, dem.height = 200;
@@ -142,34 +142,31 @@ TEST_F(TiledColors, LightBakedAtFinerSamplesIsSeenNearTheEye) {
         return 800 + 60 * std::sin(c / 11.) * std::sin(r / 9.) + 9 * std::sin(c * 0.9 + r * 0.4);
     };
     mFile.dem = mFile.file = writeRaster(mFolder / "small.tif", dem);
-    const auto loaded = [&](GroundTiles tiles) {
-        TerrainScene scene = loadWithin(tiles, 8e6);
-        limitMemory(0);
-        return scene;
-    };
+    mFile.colorsAlone = true;
     TerrainLightSettings settings;
     settings.order = 1, settings.bounces = 0, settings.azimuths = 8;
     Progress quiet;
-    const fs::path ofWhole = mFolder / "whole.light", ofTiled = mFolder / "tiled.light";
-    saveTerrainLight(ofWhole, bakeTerrainLight(loaded(GroundTiles::Off).ground, settings, quiet));
-    {
-        const TerrainScene scene = loaded(GroundTiles::On);
-        ASSERT_TRUE(scene.tiled);
-        ASSERT_GE(scene.tiled->level, 1) << scene.report.tiles;
-        const TerrainLight light = bakeTerrainLight(scene.ground, settings, quiet);
-        saveTerrainLight(ofTiled, light);
-        Peers alone;
-        bakeFineLight(FineBake(*scene.tiled->levels, scene.ground, light), fineLightPlace(ofTiled),
-                      fineLightShape(*scene.tiled->levels, scene.tiled->level, light, 3), quiet, alone);
-    }
-    mFile.light = ofWhole;
-    TerrainScene whole = loaded(GroundTiles::Off);
-    mFile.light = ofTiled;
-    TerrainScene tiled = loaded(GroundTiles::On);
-    EXPECT_THAT(tiled.report.lightSource, HasSubstr("tiles of up to 280x200"));
-    fs::rename(fineLightPlace(ofTiled), mFolder / "away");
-    TerrainScene coarse = loaded(GroundTiles::On);
-    TerrainRenderer fromWhole(whole), fromTiles(tiled), fromCoarse(coarse);
+    const auto light = [&](TerrainScene& scene) {
+        scene.illumination = std::make_unique<TerrainIllumination>(
+            scene.ground, scene.color, scene.sky, bakeTerrainLight(scene.ground, settings, quiet), 1.0f);
+        scene.illumination->apply(scene.look, scene.color);
+    };
+    TerrainScene whole = load(GroundTiles::Off), tiled = loadWithin(GroundTiles::On, 8e6);
+    // What the process holds shrinks and grows beside the scene.
+    for (double allowed = 6e6; tiled.tiled->level == 0 && allowed > 2e6; allowed -= 1e6)
+        tiled = loadWithin(GroundTiles::On, allowed);
+    limitMemory(0);
+    ASSERT_GE(tiled.tiled->level, 1) << tiled.report.tiles;
+    light(whole);
+    light(tiled);
+    const auto levels = tiled.tiled->levels;
+    const TerrainLight& baked = tiled.illumination->light();
+    const FineLightShape shape = fineLightShape(*levels, tiled.tiled->level, baked, 3);
+    const fs::path place = fineLightPlace(mFolder / "tiled.light");
+    Peers alone;
+    bakeFineLight(FineBake(*levels, tiled.ground, baked), place, shape, quiet, alone);
+    const auto finer = std::make_shared<const FineLight>(levels, LightTiles(place, shape), SimdTarget::Auto);
+    TerrainRenderer fromWhole(whole), fromTiles(tiled);
     for (const double azimuth : {1.1, 5.4}) {
         const auto seen = [&](TerrainScene& scene, TerrainRenderer& renderer, double x) {
             moveSun(scene, azimuth, 0.35);
@@ -177,8 +174,11 @@ TEST_F(TiledColors, LightBakedAtFinerSamplesIsSeenNearTheEye) {
             return seenAt(renderer, scene, {x, 200}, 0.3);
         };
         for (const double x : {300.0, 340.0}) {
-            const EyeImage truth = seen(whole, fromWhole, x), fine = seen(tiled, fromTiles, x);
-            EXPECT_LT(rootMeanSquare(fine, truth), 0.5 * rootMeanSquare(seen(coarse, fromCoarse, x), truth));
+            const EyeImage truth = seen(whole, fromWhole, x);
+            tiled.illumination->takeFiner(nullptr);
+            const EyeImage coarse = seen(tiled, fromTiles, x);
+            tiled.illumination->takeFiner(finer);
+            EXPECT_LT(rootMeanSquare(seen(tiled, fromTiles, x), truth), 0.5 * rootMeanSquare(coarse, truth));
         }
     }
 }
