@@ -39,17 +39,23 @@ TerrainLight lightToGoOnFrom(std::optional<TerrainLight> light, const TerrainLig
     return kept;
 }
 
-// Whether the same bake is there already. Of the first process; the others hear of it.
-bool isThere(const std::filesystem::path& place, const FineLightShape& shape, Peers& peers) {
-    if (!peers.first()) return ByteReader(peers.hear()).get<char>() != 0;
-    bool there = false;
+std::filesystem::path partOf(std::filesystem::path place) {
+    return place += ".part";
+}
+
+// Whether the same bake, or a finer one, is there already. Where some of its tiles are damaged it becomes the
+// one that is gone on from.
+bool isThere(const std::filesystem::path& place, const FineLightShape& shape) {
+    if (!isFineLight(place)) return false;
     try {
-        there = isFineLight(place) && LightTiles(place, shape).shape().finest <= shape.finest;
+        const LightTiles tiles(place, shape);
+        if (tiles.shape().finest > shape.finest) return false;
+        if (tiles.isWhole()) return true;
     } catch (const Error&) {
-        // Of other light, or damaged: made anew.
+        return false;  // of other light, or cut off: made anew
     }
-    if (!peers.alone()) peers.tellAll(ByteWriter().put(there ? char{1} : char{0}).take());
-    return there;
+    std::filesystem::rename(place, partOf(place));
+    return false;
 }
 
 }  // namespace
@@ -91,12 +97,13 @@ bool bakeFiner(const TerrainScene& terrain, std::optional<TerrainLight> light,
     const TerrainLight from = lightToGoOnFrom(std::move(light), settings, terrain.ground, peers);
     const FineLightShape shape = fineLightShape(levels, terrain.tiled->level, from, finer);
     const Stopwatch watch;
-    const bool before = isThere(place, shape, peers);
+    const bool before = asTheFirst<char>(peers, peers.first() && isThere(place, shape));
     if (!before) {
         try {
-            bakeFineLight(FineBake(levels, terrain.ground, from), place, shape, bar.progress(), peers);
+            bakeFineLight(FineBake(levels, terrain.ground, from), place, partOf(place), shape, bar.progress(),
+                          peers);
         } catch (const Cancelled&) {
-            if (!peers.first()) throw;
+            if (!peers.first() || !std::filesystem::exists(partOf(place))) throw;
             bar.clear();
             std::fprintf(stderr,
                          "stereonav: stopped; what is done is kept, and the next run goes on from there\n");

@@ -59,15 +59,6 @@ std::optional<TerrainLight> lightBefore(const std::filesystem::path& file, const
     return std::nullopt;
 }
 
-// What the first process finds, to all of them.
-template <typename T>
-T asTheFirst(Peers& peers, T found) {
-    if (peers.alone()) return found;
-    if (!peers.first()) return ByteReader(peers.hear()).get<T>();
-    peers.tellAll(ByteWriter().put(found).take());
-    return found;
-}
-
 // None where it was stopped and what is done is kept.
 std::optional<TerrainLight> bakeOrKeep(const Heightfield& ground, const TerrainLightSettings& settings,
                                        ProgressBar& bar) {

@@ -190,9 +190,8 @@ std::vector<Option> bakedPlaces() {
     return {
         {.key = "resolution",
          .value = numberValue(within(0.001, 8)),
-         .help = "texels a voxel along each axis; of a terrain baked samples a height sample in memory: at "
-                 "most 1, "
-                 "or 2, 4, 8 where finer ones are in tiles",
+         .help = "texels a voxel along each axis; of a terrain baked samples a height sample in memory: "
+                 "at most 1, or 2, 4, 8 where finer ones are in tiles",
          .advice = "use 0.5, 1 or 2",
          .fallback = "1",
          .commands = kBake,

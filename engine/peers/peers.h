@@ -78,6 +78,14 @@ private:
 
 // Of this process. Alone until joinRun() has found otherwise.
 Peers& peersOfThisRun();
+// What the first process finds, as all of them go on with it. T: of bytes alone.
+template <typename T>
+T asTheFirst(Peers& peers, const T& found) {
+    if (peers.alone()) return found;
+    if (!peers.first()) return ByteReader(peers.hear()).get<T>();
+    peers.tellAll(ByteWriter().put(found).take());
+    return found;
+}
 // Joins those that were started with this one, if any. greeting: as of Peers. Throws Error.
 void joinRun(const std::string& greeting);
 

@@ -131,8 +131,9 @@ FineLightShape fineLightShape(const GroundLevels& levels, int level, const Terra
     return shape;
 }
 
-void bakeFineLight(const FineBake& bake, const std::filesystem::path& place, const FineLightShape& shape,
-                   Progress& progress, Peers& peers) {
+void bakeFineLight(const FineBake& bake, const std::filesystem::path& place,
+                   const std::filesystem::path& part, const FineLightShape& shape, Progress& progress,
+                   Peers& peers) {
     const auto each = [&] {
         if (progress.cancelled()) throw Cancelled();
     };
@@ -149,8 +150,7 @@ void bakeFineLight(const FineBake& bake, const std::filesystem::path& place, con
             const auto order = ByteReader(bytes).get<Order>();
             return made(order.tile, order.size);
         });
-    std::filesystem::path part = place;
-    LightTiles tiles = LightTiles::begin(part += ".part", shape);
+    LightTiles tiles = LightTiles::begin(part, shape);
     std::vector<std::size_t> missing;
     for (std::size_t n = 0; n < tiles.count(); ++n)
         if (!tiles.has(n)) missing.push_back(n);

@@ -49,9 +49,11 @@ private:
 // far as there are any.
 FineLightShape fineLightShape(const GroundLevels& levels, int level, const TerrainLight& light, int finer);
 
-// Makes LIGHT.fine in its place, or goes on where an earlier run was stopped. peers: all of them, who bake
-// tiles for the first, which alone writes. Throws Error, Cancelled (what is done is kept), PeerFailure.
-void bakeFineLight(const FineBake& bake, const std::filesystem::path& place, const FineLightShape& shape,
-                   Progress& progress, Peers& peers);
+// Makes LIGHT.fine in its place from `part`, which an earlier run that was stopped may have left. peers: all
+// of them, who bake tiles for the first, which alone writes. Throws Error, Cancelled (what is done is kept),
+// PeerFailure.
+void bakeFineLight(const FineBake& bake, const std::filesystem::path& place,
+                   const std::filesystem::path& part, const FineLightShape& shape, Progress& progress,
+                   Peers& peers);
 
 }  // namespace stereonav

@@ -135,7 +135,13 @@ LightTiles LightTiles::begin(const std::filesystem::path& file, const FineLightS
     std::error_code failed;
     const bool there =
         std::filesystem::file_size(file, failed) == tiles.byteCount() && !failed && tiles.readIndex();
-    if (there) return tiles;
+    if (there) {
+        // After a power cut what was noted as written may not be.
+        for (std::size_t n = 0; n < tiles.count(); ++n)
+            if (tiles.has(n) && tiles.mChecks[n] != kNothing && tiles.bytesAt(n).empty())
+                tiles.mChecks[n] = kNotThere;
+        return tiles;
+    }
     tiles.mPlaced = PlacedFile(file, PlacedFile::For::Writing);
     tiles.checkWritten(tiles.mPlaced.error());
     const int full = tiles.mPlaced.reserve(tiles.byteCount());
@@ -181,15 +187,27 @@ glm::ivec2 LightTiles::sizeOf(const Tile& tile) const {
     return glm::min(size(tile.level) - tile.low(), glm::ivec2(kLightTileSide));
 }
 
+std::vector<std::byte> LightTiles::bytesAt(std::size_t n) const {
+    std::vector<std::byte> bytes(mAt[n + 1] - mAt[n]);
+    if (!mPlaced.read(mAt[n], bytes.data(), bytes.size()) ||
+        tileCheck(bytes.data(), bytes.size()) != mChecks[n])
+        return {};
+    return bytes;
+}
+
+bool LightTiles::isWhole() const {
+    for (std::size_t n = 0; n < count(); ++n)
+        if (mChecks[n] != kNothing && bytesAt(n).empty()) return false;
+    return true;
+}
+
 std::optional<TerrainLight> LightTiles::read(const Tile& tile) const {
     const std::size_t n = numberOf(tile);
     if (mChecks[n] == kNothing) return std::nullopt;
-    const auto place = [&] {
-        return fmt::format("tile {}, {} of level {}", tile.number.x, tile.number.y, tile.level);
-    };
-    std::vector<std::byte> bytes(mAt[n + 1] - mAt[n]);
-    if (!mPlaced.read(mAt[n], bytes.data(), bytes.size())) refuse(place(), "cannot be read");
-    if (tileCheck(bytes.data(), bytes.size()) != mChecks[n]) refuse(place(), "is damaged");
+    const std::vector<std::byte> bytes = bytesAt(n);
+    if (bytes.empty())
+        refuse(fmt::format("tile {}, {} of level {}", tile.number.x, tile.number.y, tile.level),
+               "cannot be read, or is damaged");
     TerrainLight light;
     light.settings = mShape.settings;
     light.settings.stride = 1;

@@ -43,8 +43,8 @@ public:
     // A whole one, as far as it goes: shape.finest is not looked at. Throws Error named by the file where it
     // is not whole, or of other light or other ground.
     LightTiles(const std::filesystem::path& file, const FineLightShape& shape);
-    // One that is being made: what an earlier run left of it, or none of its tiles. Throws Error where it can
-    // not be written.
+    // One that is being made: the undamaged tiles that an earlier run left of it, or none. Throws Error where
+    // it can not be written.
     static LightTiles begin(const std::filesystem::path& file, const FineLightShape& shape);
 
     const FineLightShape& shape() const { return mShape; }
@@ -64,6 +64,8 @@ public:
     // known. Throws Error named by the file where it is not there or is damaged.
     std::optional<TerrainLight> read(const Tile& tile) const;
 
+    bool isWhole() const;  // reads all tiles: whether they are undamaged
+
     // Of one that is being made.
     bool has(std::size_t n) const { return mChecks[n] != kNotThere; }
     // bytes: bytesOf() its light; none of a tile without a known sample. Throws Error.
@@ -81,6 +83,8 @@ private:
     };
     LightTiles(const std::filesystem::path& file, const FineLightShape& shape, PlacedFile::For what);
     bool readIndex();  // whether it is of this shape
+    // The bytes of a tile that is there; none where they can not be read, or are damaged.
+    std::vector<std::byte> bytesAt(std::size_t n) const;
     [[noreturn]] void refuse(const std::string& place, const std::string& problem) const;
     void checkWritten(int error) const;
 

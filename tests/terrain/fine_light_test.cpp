@@ -162,6 +162,7 @@ TEST_F(FineLightFile, HasWhatWasWritten) {
     EXPECT_EQ(tiles.shape().finest, 0) << "as far as the file goes";
     ASSERT_EQ(tiles.count(), 3u);
     EXPECT_EQ(tiles.size(1), glm::ivec2(151, 66));
+    EXPECT_TRUE(tiles.isWhole());
     for (std::size_t n = 0; n < tiles.count(); ++n) {
         const LightTiles::Tile tile = tiles.tile(n);
         EXPECT_EQ(tiles.numberOf(tile), n);
@@ -214,6 +215,13 @@ TEST_F(FineLightFile, WhatDoesNotFitIsOneLine) {
     EXPECT_THAT(errorOf([&] { tiles.read(tiles.tile(2)); }),
                 AllOf(HasSubstr("tile 1, 0"), HasSubstr("damaged")));
     EXPECT_TRUE(tiles.read(tiles.tile(1)));
+    EXPECT_FALSE(tiles.isWhole());
+    fs::copy_file(place(), part());
+    {
+        const LightTiles again = LightTiles::begin(part(), mShape);
+        EXPECT_TRUE(again.has(1));
+        EXPECT_FALSE(again.has(2)) << "it is baked again, and no other";
+    }
     fs::resize_file(place(), size - 1);
     EXPECT_THAT(problem(mShape), HasSubstr("cut off"));
     EXPECT_THAT(errorOf([&] { LightTiles::begin(mFolder / "none" / "a", mShape); }),
@@ -230,7 +238,7 @@ TEST_F(FineLightFile, AnyNumberOfProcessesMakesTheSameBytes) {
     EXPECT_EQ(shape.coarsest, 0);
     runAsPeers(3, [&](Peers& peers) {
         Progress quiet;
-        bakeFineLight(bake, place(), shape, quiet, peers);
+        bakeFineLight(bake, place(), part(), shape, quiet, peers);
     });
     const std::string three = fileBytes(place());
     fs::remove(place());
@@ -240,14 +248,14 @@ TEST_F(FineLightFile, AnyNumberOfProcessesMakesTheSameBytes) {
         if (done > 0) itself->cancel();
     });
     itself = &stopping;
-    EXPECT_THROW(bakeFineLight(bake, place(), shape, stopping, alone), Cancelled);
+    EXPECT_THROW(bakeFineLight(bake, place(), part(), shape, stopping, alone), Cancelled);
     EXPECT_FALSE(fs::exists(place()));
     EXPECT_TRUE(LightTiles::begin(part(), shape).has(0));
     double first = -1;
     Progress going([&](double done, const std::string&) {
         if (first < 0) first = done;
     });
-    bakeFineLight(bake, place(), shape, going, alone);
+    bakeFineLight(bake, place(), part(), shape, going, alone);
     EXPECT_EQ(first, 0.5);
     EXPECT_EQ(fileBytes(place()), three);
 }

@@ -164,7 +164,7 @@ TEST_F(TiledColors, LightBakedAtFinerSamplesIsSeenNearTheEye) {
     const FineLightShape shape = fineLightShape(*levels, tiled.tiled->level, baked, 3);
     const fs::path place = fineLightPlace(mFolder / "tiled.light");
     Peers alone;
-    bakeFineLight(FineBake(*levels, tiled.ground, baked), place, shape, quiet, alone);
+    bakeFineLight(FineBake(*levels, tiled.ground, baked), place, mFolder / "part", shape, quiet, alone);
     const auto finer = std::make_shared<const FineLight>(levels, LightTiles(place, shape), SimdTarget::Auto);
     TerrainRenderer fromWhole(whole), fromTiles(tiled);
     for (const double azimuth : {1.1, 5.4}) {
