@@ -1,16 +1,16 @@
 # Tells ctest of the suites of a GoogleTest program: one test a suite, which is one process. A process a test would
 # load the program's libraries some 2,000 times, which takes longer than most tests, and minutes with sanitizers.
 #
-# As a module: stereonav_discover_suites(target PROPERTIES name value ...).
+# As a module: stereonav_discover_suites(target PROPERTIES name value ... [LOCKS_DISPLAY suites]).
 # As a script (cmake -P), after each build of the program: writes the file that ctest includes.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   set(stereonav_suites_script ${CMAKE_CURRENT_LIST_FILE})
   function(stereonav_discover_suites target)
-    cmake_parse_arguments(ARG "" "" "PROPERTIES" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "PROPERTIES;LOCKS_DISPLAY" ${ARGN})
     set(file ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
     add_custom_command(TARGET ${target} POST_BUILD BYPRODUCTS ${file}
       COMMAND ${CMAKE_COMMAND} -D "program=$<TARGET_FILE:${target}>" -D "file=${file}"
-        -D "properties=${ARG_PROPERTIES}" -P ${stereonav_suites_script} VERBATIM)
+        -D "properties=${ARG_PROPERTIES}" -D "locks_display=${ARG_LOCKS_DISPLAY}" -P ${stereonav_suites_script} VERBATIM)
     # What ctest includes is there before the program is built, too.
     set(include ${CMAKE_CURRENT_BINARY_DIR}/${target}_tests.cmake)
     file(WRITE ${include} "if(EXISTS \"${file}\")\n  include(\"${file}\")\nelse()\n"
@@ -39,6 +39,13 @@ foreach(line IN LISTS lines)
     if(suite MATCHES "FullSize$")  # of whole real data, for minutes where it is slow; in programs without a label
       string(APPEND text "set_tests_properties([==[${suite}]==] PROPERTIES LABELS slow)\n")
     endif()
+    if(suite IN_LIST locks_display)
+      string(APPEND text "set_tests_properties([==[${suite}]==] PROPERTIES RESOURCE_LOCK display)\n")
+      list(REMOVE_ITEM locks_display ${suite})
+    endif()
   endif()
 endforeach()
+if(locks_display)
+  message(FATAL_ERROR "${program} has no suites ${locks_display}, which LOCKS_DISPLAY names")
+endif()
 file(WRITE ${file} "${text}")

@@ -11,9 +11,9 @@
 #include "engine/base/error.h"
 #include "engine/display/interface.h"
 #include "engine/nav/navigator.h"
-#include "tests/display/fake_frames.h"
-#include "tests/display/fake_panel_host.h"
-#include "tests/display/fake_scene.h"
+#include "tests/view/fake_frames.h"
+#include "tests/view/fake_panel_host.h"
+#include "tests/view/fake_scene.h"
 
 namespace stereonav {
 namespace {

@@ -353,7 +353,7 @@ TEST_F(TwoMonitors, TheProgramFillsTheOneThatIsMeant) {
     const std::string folder = "'" + mFolder.string() + "'";
     const int status =
         run("env HOME=" + folder + " XDG_CACHE_HOME=" + folder +
-            "/cache '" STEREONAV_SOURCE_DIR "/tests/display/drive_monitors.sh' '" STEREONAV_PROGRAM "' " +
+            "/cache '" STEREONAV_SOURCE_DIR "/tests/window/drive_monitors.sh' '" STEREONAV_PROGRAM "' " +
             folder);
     if (status == 77) GTEST_SKIP() << textOf("log");
     ASSERT_EQ(status, 0) << textOf("log") << textOf("problems.txt") << textOf("log.txt");

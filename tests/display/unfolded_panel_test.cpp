@@ -15,8 +15,8 @@
 #include "engine/nav/navigator.h"
 #include "engine/scene/capabilities.h"
 #include "engine/scene/surface_paint.h"
-#include "tests/display/fake_frames.h"
-#include "tests/display/fake_panel_host.h"
+#include "tests/view/fake_frames.h"
+#include "tests/view/fake_panel_host.h"
 
 namespace stereonav {
 namespace {

@@ -8,8 +8,7 @@
 namespace stereonav::test {
 
 inline void useOwnCache() {
-    const std::filesystem::path build = std::filesystem::path(STEREONAV_PROGRAM).parent_path().parent_path();
-    const std::filesystem::path cache = build / "test_cache";
+    const std::filesystem::path cache = STEREONAV_TEST_CACHE;
     std::error_code code;
     std::filesystem::create_directories(cache, code);
     setenv("XDG_CACHE_HOME", cache.c_str(), 1);

@@ -1,0 +1,210 @@
+// The line that is measured in the window: its places, what is kept of it, and figures that come from beside
+// it.
+#include "app/view/measured_line.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "engine/base/error.h"
+#include "tests/camera/temporary_folder.h"
+#include "tests/view/fake_frames.h"
+#include "tests/view/fake_scene.h"
+
+namespace stereonav {
+namespace {
+
+// Says how many places it was asked for; of four it can say nothing.
+class CountingScene final : public Scene, public LineMeasurer {
+public:
+    CountingScene() { offer<LineMeasurer>(*this); }
+    FrameMaker& frames() const override { throw Error("", "", "no frames", ""); }
+    std::unique_ptr<Flight> makeFlight() const override { return nullptr; }
+    MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed,
+                            Progress& progress) const override {
+        progress.report(0.5, "measuring");
+        while (places.size() == 5 && closed) progress.report(0.25, "measuring, which does not end by itself");
+        if (places.size() == 4) throw Error("", "the line", "has four places", "take three");
+        MeasuredSurface measured;
+        measured.facts = {factForJson("places", static_cast<std::int64_t>(places.size())),
+                          factForJson("closed", closed)};
+        return measured;
+    }
+};
+
+void waitFor(MeasuredLine& line) {
+    while (line.poll() || line.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+std::int64_t placesSaid(const MeasuredLine& line) {
+    return std::get<std::int64_t>(line.measured()->facts.at(0).value);
+}
+
+TEST(MeasuredLine, ALongLineIsTakenEvenlyThinned) {
+    MeasuredLine line([] {});
+    line.open(std::make_shared<CountingScene>(), "");
+    std::vector<glm::dvec3> places;
+    for (int n = 0; n < 2500; ++n) places.emplace_back(n, 0, 0);
+    EXPECT_TRUE(line.take(places, false));
+    ASSERT_EQ(line.places().size(), MeasuredLine::kMost);
+    EXPECT_EQ(line.places().front().x, 0);
+    EXPECT_EQ(line.places().back().x, 2499);
+    for (std::size_t n = 1; n < MeasuredLine::kMost; ++n)
+        EXPECT_NEAR(line.places()[n].x - line.places()[n - 1].x, 2499.0 / 999, 1);
+    EXPECT_FALSE(line.take({{5, 5, 5}}, false)) << "one place is no line";
+    EXPECT_FALSE(line.take({{5, 5, 5}, {5, 5, 5}}, false)) << "twice the same";
+    EXPECT_EQ(line.places().size(), MeasuredLine::kMost) << "and nothing is changed";
+    EXPECT_TRUE(line.take({{0, 0, 0}, {1, 0, 0}}, true));
+    EXPECT_FALSE(line.closed()) << "two places enclose nothing";
+    waitFor(line);
+    EXPECT_EQ(placesSaid(line), 2);
+}
+
+TEST(MeasuredLine, IsMeasuredBesideTheWindowEachTimeItChanges) {
+    std::atomic<int> woken = 0;
+    MeasuredLine line([&] { ++woken; });
+    line.open(std::make_shared<CountingScene>(), "");
+    EXPECT_FALSE(line.busy());
+    EXPECT_TRUE(line.add({1, 2, 3}));
+    EXPECT_FALSE(line.busy()) << "one place is no line";
+    EXPECT_FALSE(line.add({1, 2, 3})) << "twice the same";
+    EXPECT_TRUE(line.add({4, 2, 3}));
+    EXPECT_TRUE(line.busy());
+    waitFor(line);
+    ASSERT_TRUE(line.measured());
+    EXPECT_EQ(placesSaid(line), 2);
+    EXPECT_GE(woken, 1);
+    line.setClosed(true);
+    waitFor(line);
+    EXPECT_FALSE(std::get<bool>(line.measured()->facts.at(1).value)) << "two places enclose nothing";
+    line.add({4, 5, 3});
+    waitFor(line);
+    EXPECT_EQ(placesSaid(line), 3);
+    EXPECT_TRUE(std::get<bool>(line.measured()->facts.at(1).value));
+    // What fails says why, and the next change goes on.
+    line.add({9, 9, 9});
+    waitFor(line);
+    EXPECT_FALSE(line.measured());
+    EXPECT_NE(line.problem().find("has four places"), std::string::npos) << line.problem();
+    line.removeLast();
+    waitFor(line);
+    EXPECT_EQ(placesSaid(line), 3);
+    EXPECT_EQ(line.problem(), "");
+    // Changes that come while it is measured: the last one counts.
+    for (int n = 0; n < 20; ++n) line.add({n, 0, 0}), line.poll();
+    waitFor(line);
+    EXPECT_EQ(placesSaid(line), 23);
+    line.clear();
+    waitFor(line);
+    EXPECT_FALSE(line.measured());
+    EXPECT_FALSE(line.closed());
+    line.removeLast();
+    EXPECT_TRUE(line.places().empty());
+}
+
+TEST(MeasuredLine, LongMeasuringTellsItsShareAndEndsWithAnyChange) {
+    std::optional<MeasuredLine> line(std::in_place, [] {});
+    line->open(std::make_shared<CountingScene>(), "");
+    ASSERT_TRUE(line->take({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 1, 0}, {0, 5, 0}}, true));
+    while (line->poll() || line->fraction() != 0.25)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_TRUE(line->busy());
+    line->setClosed(false);
+    waitFor(*line);
+    ASSERT_TRUE(line->measured());
+    EXPECT_EQ(placesSaid(*line), 5);
+    EXPECT_EQ(line->problem(), "");
+    line->setClosed(true);
+    line->poll();
+    line.reset();  // ends it as well
+}
+
+TEST(MeasuredLine, IsKeptAsItIsMade) {
+    const TemporaryFolder folder;
+    const auto file = folder / "lines" / "one.json";
+    const auto scene = std::make_shared<CountingScene>();
+    {
+        MeasuredLine line([] {});
+        line.open(scene, file);
+        line.add({1.25, -2, 1e-7});
+        line.add({1e8, 0, 3});
+        line.setClosed(true);
+    }
+    MeasuredLine again([] {});
+    again.open(scene, file);
+    ASSERT_EQ(again.places().size(), 2U);
+    EXPECT_EQ(again.places()[0], glm::dvec3(1.25, -2, 1e-7));
+    EXPECT_EQ(again.places()[1], glm::dvec3(1e8, 0, 3));
+    EXPECT_TRUE(again.closed());
+    waitFor(again);
+    EXPECT_EQ(placesSaid(again), 2);
+    again.clear();
+    MeasuredLine none([] {});
+    none.open(scene, file);
+    EXPECT_TRUE(none.places().empty());
+    for (const char* damaged : {"{", "{\"stereonav_line\":2,\"closed\":false,\"places_m\":[]}",
+                                "{\"stereonav_line\":1,\"closed\":false,\"places_m\":[[1,2]]}",
+                                "{\"stereonav_line\":1,\"closed\":false,\"places_m\":[[1,2,1e300]]}",
+                                "{\"stereonav_line\":1,\"closed\":1,\"places_m\":[]}"}) {
+        std::ofstream(file) << damaged;
+        MeasuredLine line([] {});
+        line.open(scene, file);
+        EXPECT_TRUE(line.places().empty()) << damaged;
+        EXPECT_NE(line.problem(), "") << damaged;
+        EXPECT_FALSE(std::filesystem::exists(file)) << "set aside";
+    }
+    // Where nothing can be written the line goes on.
+    MeasuredLine line([] {});
+    std::ofstream(folder / "plain").put('x');
+    line.open(scene, folder / "plain" / "one.json");
+    line.add({1, 2, 3});
+    EXPECT_NE(line.problem(), "");
+    EXPECT_EQ(line.places().size(), 1U);
+}
+
+TEST(MeasuredLine, HasAsManyPlacesAsItMay) {
+    MeasuredLine line([] {});
+    line.open(nullptr, "");
+    for (std::size_t n = 0; n < MeasuredLine::kMost; ++n) EXPECT_TRUE(line.add({double(n), 0, 0}));
+    EXPECT_FALSE(line.add({-1, 0, 0}));
+    line.poll();
+    EXPECT_FALSE(line.measured());
+}
+
+TEST(MeasuredLine, WithoutAMeasurerIsMeasuredFromPlaceToPlace) {
+    FakeFrames frames;
+    FakeParts parts;
+    parts.frames = &frames;
+    MeasuredLine line([] {});
+    line.open(opened(parts)->scene, "");
+    line.add({0, 0, 0});
+    line.add({0, 0.003, 0.004});
+    line.add({0, 0, 0.004});
+    waitFor(line);
+    ASSERT_TRUE(line.measured());
+    const Facts& facts = line.measured()->facts;
+    EXPECT_NEAR(std::get<double>(facts.at(0).value), 0.008, 1e-15);
+    EXPECT_NEAR(std::get<double>(facts.at(1).value), 0.004, 1e-15) << "from end to end";
+    EXPECT_EQ(line.measured()->places.size(), 3U);
+    EXPECT_TRUE(line.measured()->profile.empty());
+    line.setClosed(true);
+    waitFor(line);
+    EXPECT_NEAR(std::get<double>(line.measured()->facts.at(0).value), 0.012, 1e-15);
+    EXPECT_EQ(line.measured()->places.size(), 4U);
+}
+
+TEST(MeasuredLine, LiesBesideThePlacesOfItsScene) {
+    EXPECT_EQ(measuredFile("/home/a/.local/share/stereonav/places/12.json"),
+              std::filesystem::path("/home/a/.local/share/stereonav/lines/12.json"));
+    EXPECT_EQ(measuredFile(""), std::filesystem::path());
+}
+
+}  // namespace
+}  // namespace stereonav

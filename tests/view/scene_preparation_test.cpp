@@ -1,0 +1,134 @@
+// What a coarser scene is shown for is prepared once, beside the window, and ended with the scene.
+#include "app/view/scene_preparation.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "engine/base/error.h"
+#include "engine/scene/capabilities.h"
+#include "tests/view/fake_frames.h"
+
+namespace stereonav {
+namespace {
+
+using Prepare = std::function<void(Progress&)>;
+
+class Coarse final : public Scene, StandIn {
+public:
+    Coarse(std::string tiles, Prepare prepare) : mTiles(std::move(tiles)), mPrepare(std::move(prepare)) {
+        if (mPrepare) offer<const StandIn>(*this);
+    }
+    FrameMaker& frames() const override { return mFrames; }
+    std::unique_ptr<Flight> makeFlight() const override { return nullptr; }
+    Facts describe() const override { return {}; }
+
+private:
+    const std::string& name() const override { return mTiles; }
+    std::string what() const override { return "making " + mTiles; }
+    void prepare(Progress& progress) const override { mPrepare(progress); }
+
+    std::string mTiles;
+    Prepare mPrepare;
+    mutable FakeFrames mFrames;
+};
+
+std::shared_ptr<const OpenScene> opened(const std::string& tiles, Prepare prepare) {
+    OpenScene open;
+    open.scene = std::make_shared<Coarse>(tiles, std::move(prepare));
+    return std::make_shared<const OpenScene>(std::move(open));
+}
+
+void untilCancelled(Progress& progress) {
+    for (;;) {
+        progress.report(0.25, "");
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+class Preparation : public testing::Test {
+protected:
+    // Takes as the window does, turn by turn, until something has come.
+    bool wait(const std::shared_ptr<const OpenScene>& shown) {
+        for (int k = 0; k < 20'000; ++k) {
+            mPreparation.follow(shown);
+            if (mPreparation.take()) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return false;
+    }
+
+    std::atomic<int> mWoken = 0;
+    ScenePreparation mPreparation{[this] { ++mWoken; }};
+};
+
+TEST_F(Preparation, HasNothingToDoForOtherScenes) {
+    const auto whole = opened("", nullptr);
+    mPreparation.follow(whole);
+    EXPECT_FALSE(mPreparation.work());
+    EXPECT_FALSE(mPreparation.take());
+}
+
+TEST_F(Preparation, IsDoneOnceForAScene) {
+    std::atomic<int> times = 0;
+    std::atomic<bool> go = false;
+    const auto shown = opened("a", [&](Progress& progress) {
+        ++times;
+        progress.report(0.5, "");
+        while (!go) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    });
+    mPreparation.follow(shown);
+    ASSERT_TRUE(mPreparation.work());
+    EXPECT_EQ(mPreparation.work()->what, "making a");
+    EXPECT_FALSE(mPreparation.take());
+    go = true;
+    EXPECT_TRUE(wait(shown));
+    EXPECT_EQ(mWoken, 1);
+    mPreparation.follow(shown);  // it is shown until the whole has been loaded
+    EXPECT_FALSE(mPreparation.work());
+    EXPECT_FALSE(mPreparation.take());
+    EXPECT_EQ(times, 1);
+}
+
+// The same ground under other settings is another scene that lacks the same.
+TEST_F(Preparation, GoesOnForASceneOfTheSameName) {
+    std::atomic<int> times = 0;
+    std::atomic<bool> go = false;
+    const auto work = [&](Progress&) {
+        ++times;
+        while (!go) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+    mPreparation.follow(opened("a", work));
+    const auto again = opened("a", work);
+    mPreparation.follow(again);
+    go = true;
+    EXPECT_TRUE(wait(again));
+    EXPECT_EQ(times, 1);
+}
+
+TEST_F(Preparation, IsDroppedWithItsScene) {
+    mPreparation.follow(opened("a", untilCancelled));
+    std::atomic<int> times = 0;
+    const auto other = opened("b", [&](Progress&) { ++times; });
+    EXPECT_TRUE(wait(other)) << "neither an error of the first, nor taken for the second";
+    EXPECT_EQ(times, 1);
+}
+
+TEST_F(Preparation, IsNotBegunAgainOnceCancelledOrFailed) {
+    const auto slow = opened("a", untilCancelled);
+    mPreparation.follow(slow);
+    mPreparation.cancel();
+    EXPECT_THROW(wait(slow), Cancelled);
+    mPreparation.follow(slow);
+    EXPECT_FALSE(mPreparation.work());
+    const auto bad = opened("b", [](Progress&) { throw Error("cache", "tiles", "no room", "make some"); });
+    EXPECT_THROW(wait(bad), Error);
+    mPreparation.follow(bad);
+    EXPECT_FALSE(mPreparation.work());
+}
+
+}  // namespace
+}  // namespace stereonav

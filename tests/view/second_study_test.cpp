@@ -1,0 +1,157 @@
+// Another study beside the flown one: nothing of it runs before it is asked for, its place is the matching
+// one, swapped it is there and back, and what is no study is refused while the first goes on.
+#include "app/view/second_study.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "engine/base/error.h"
+#include "engine/nav/navigator.h"
+#include "engine/scene/capabilities.h"
+#include "tests/view/fake_frames.h"
+
+namespace stereonav {
+namespace {
+
+// Shows one colour, whatever a ray does.
+class OneColor final : public EyeRenderer {
+public:
+    explicit OneColor(PackedColor color) : mColor(color) {}
+    int tileCount(const EyeView&) const override { return 1; }
+    void renderTile(const EyeView& view, int, EyeImage& image) const override {
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x) image.color.at(x, y) = mColor;
+    }
+    void renderPixels(const EyeView&, PixelRect, std::span<const PixelIndex>, EyeImage&) const override {}
+    bool mayHitBeyondEdge(const EyeView&, PixelRect, double, double) const override { return true; }
+
+private:
+    PackedColor mColor;
+};
+
+// The line is the x axis from 0 to `length`; places match by their share of it.
+class StraightLine final : public Scene, LineThrough, MatchingLine {
+public:
+    StraightLine(double length, PackedColor color, bool line = true) : mLength(length), mRenderer(color) {
+        name = "straight";
+        lens.verticalFov = 0.8;
+        mRays.renderer = &mRenderer;
+        offer(mRays);
+        if (!line) return;
+        offer<const LineThrough>(*this);
+        offer<const MatchingLine>(*this);
+    }
+    FrameMaker& frames() const override { return mFrames; }
+    std::unique_ptr<Flight> makeFlight() const override { return nullptr; }
+    PlaceOnLine placeOnLine(const glm::dvec3& world) const override {
+        return {std::clamp(world.x, 0.0, mLength), mLength};
+    }
+    std::shared_ptr<const LineMatch> matchWith(const Scene& other) const override {
+        struct Match final : LineMatch {
+            double factor = 1;
+            double toOther(double along) const override { return factor * along; }
+            double fromOther(double along) const override { return along / factor; }
+            double cost() const override { return 0.5; }
+        };
+        auto match = std::make_shared<Match>();
+        match->factor = other.offered<const LineThrough>()->placeOnLine({1e9, 0, 0}).along / mLength;
+        return match;
+    }
+    Pose poseOnLine(double along, bool back) const override {
+        Pose pose = poseFromAngles({along, 0, 0}, back ? -1.5707963 : 1.5707963, 0, 0);
+        return pose;
+    }
+
+private:
+    double mLength;
+    OneColor mRenderer;
+    RayCast mRays;
+    mutable FakeFrames mFrames;
+};
+
+std::shared_ptr<const OpenScene> straightLine(double length, PackedColor color, bool line = true) {
+    return std::make_shared<const OpenScene>(
+        OpenScene{std::make_shared<StraightLine>(length, color, line), {}, {}, 0, false});
+}
+
+// True when it is there; throws what poll() throws.
+bool waitForSecond(SecondStudy& second) {
+    for (int n = 0; n < 2000; ++n) {
+        if (second.poll()) return true;
+        if (!second.loading()) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
+TEST(SecondStudy, ShowsTheMatchingPlaceAndSwaps) {
+    const PackedColor red = packColor({1, 0, 0}), blue = packColor({0, 0, 1});
+    const auto first = straightLine(1, red), other = straightLine(2, blue);
+    SecondStudy second([] {});
+    EXPECT_FALSE(second.loading());
+    EXPECT_FALSE(second.drawing());
+    EXPECT_FALSE(second.matching(*first->scene, Pose{})) << "there is none";
+    second.open(first, [&](Progress&) { return *other; });
+    ASSERT_TRUE(waitForSecond(second));
+    EXPECT_FALSE(second.drawing()) << "no thread before a picture is asked for";
+    const Pose back = poseFromAngles({0.3, 0, 0}, -1.5, 0, 0);
+    const auto place = second.matching(*first->scene, back);
+    ASSERT_TRUE(place);
+    EXPECT_NEAR(place->along, 0.6, 1e-12);
+    EXPECT_NEAR(place->length, 2, 1e-12);
+    EXPECT_TRUE(place->back);
+    EXPECT_NEAR(second.poseAt(*place).position.x, 0.6, 1e-12);
+    second.look(*place, {32, 24});
+    for (int n = 0; n < 2000 && !second.picture(); ++n)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(second.picture());
+    EXPECT_EQ(second.picture()->color.width(), 32);
+    EXPECT_EQ(second.picture()->color.at(5, 5), blue);
+    EXPECT_EQ(second.picture()->of, *place);
+
+    const auto flown = second.swap(first);
+    EXPECT_EQ(flown->scene, other->scene);
+    EXPECT_EQ(second.other(), first);
+    EXPECT_FALSE(second.drawing());
+    const auto home = second.matching(*flown->scene, second.poseAt(*place));
+    ASSERT_TRUE(home);
+    EXPECT_NEAR(home->along, 0.6 / 2, 0.35) << "somewhere on it";
+    const auto there = second.matching(*flown->scene, poseFromAngles({0.6, 0, 0}, -1.5, 0, 0));
+    EXPECT_NEAR(there->along, 0.3, 1e-12) << "where it came from";
+    EXPECT_TRUE(there->back);
+}
+
+TEST(SecondStudy, RefusesWhatHasNoLineAndForgetsWhatIsNotWanted) {
+    const auto first = straightLine(1, 0);
+    SecondStudy second([] {});
+    second.open(first, [](Progress&) { return *straightLine(2, 0, false); });
+    try {
+        waitForSecond(second);
+        FAIL() << "it has no line";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("no colon was found"), std::string::npos) << error.what();
+    }
+    EXPECT_FALSE(second.other());
+    const SecondStudy::Load endless = [](Progress& progress) -> OpenScene {
+        while (true) {
+            progress.report(0.5, "reading");
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    };
+    second.open(first, endless);
+    second.cancel();
+    EXPECT_THROW(waitForSecond(second), Cancelled);
+    // Of another file: the end of the first is silent, and the second begins after it.
+    second.open(first, endless);
+    second.close();
+    EXPECT_NO_THROW(waitForSecond(second));
+    second.open(first, endless);
+    second.open(first, [](Progress&) { return *straightLine(2, 0); });
+    EXPECT_TRUE(waitForSecond(second));
+}
+
+}  // namespace
+}  // namespace stereonav

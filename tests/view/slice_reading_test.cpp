@@ -1,0 +1,64 @@
+// Slices that are read beside the window: cancelled, they can be read again; of another study, they are not
+// shown.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "app/view/loading.h"
+#include "engine/base/error.h"
+#include "tests/view/fake_scene.h"
+
+namespace stereonav {
+namespace {
+
+// Reads until it is cancelled, or at once.
+std::shared_ptr<const OpenScene> studyThatReads(bool forEver) {
+    FakeParts parts;
+    parts.readSlices = [forEver](Progress& progress) {
+        do {
+            progress.report(0.5, "reading");
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        } while (forEver);
+        return std::make_shared<const SliceStudy>();
+    };
+    return opened(parts);
+}
+
+// What take() gives in the end; throws what it throws.
+std::shared_ptr<const SliceStudy> outcomeOf(SliceReading& reading) {
+    std::shared_ptr<const SliceStudy> study;
+    while (!study && reading.busy()) {
+        study = reading.take();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return study;
+}
+
+TEST(SliceReading, IsCancelledAndBegunAgain) {
+    SliceReading reading;
+    reading.cancel();
+    reading.start(studyThatReads(true), [] {});
+    EXPECT_TRUE(reading.busy());
+    EXPECT_EQ(reading.take(), nullptr);
+    reading.cancel();
+    EXPECT_THROW(outcomeOf(reading), Cancelled);
+    EXPECT_FALSE(reading.busy());
+    reading.start(studyThatReads(false), [] {});
+    EXPECT_NE(outcomeOf(reading), nullptr);
+}
+
+TEST(SliceReading, OfTheStudyBeforeIsForgotten) {
+    for (const bool forEver : {true, false}) {
+        SliceReading reading;
+        reading.start(studyThatReads(forEver), [] {});
+        reading.abandon();
+        EXPECT_EQ(outcomeOf(reading), nullptr);
+        EXPECT_FALSE(reading.busy());
+        reading.start(studyThatReads(false), [] {});
+        EXPECT_NE(outcomeOf(reading), nullptr);
+    }
+}
+
+}  // namespace
+}  // namespace stereonav

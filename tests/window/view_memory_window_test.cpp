@@ -1,0 +1,46 @@
+// The memory that a window asks for is what it takes: no more than fits is refused, and none is taken that
+// was not asked for.
+#include <algorithm>
+
+#include "tests/window/window_test.h"
+
+namespace stereonav {
+namespace {
+
+class MemoryWindow : public WindowTest {
+protected:
+    void TearDown() override {
+        unsetenv("STEREONAV_MEMORY");
+        WindowTest::TearDown();
+    }
+    double most(const std::string& name) const {
+        std::ifstream in(mFolder / name);
+        double most = 0, taken = 0, bytes = 0;
+        while (in >> taken >> bytes) most = std::max(most, taken + bytes);
+        return most;
+    }
+};
+
+// 1280x720 pixels an eye, side by side, are more than the screen of 1280x1024 has: the window is smaller. 184
+// MB are predicted; of eyes of the size asked for it would be above 300.
+TEST_F(MemoryWindow, IsOfTheWindowThatIsThere) {
+    setenv("STEREONAV_MEMORY", "2.2e8", 1);
+    ASSERT_EQ(drive("drive_memory.sh", "1280x720 wax"), 0) << textOf("problems.txt") << textOf("log.txt");
+    EXPECT_EQ(textOf("status.txt"), "0\n") << textOf("log.txt");
+}
+
+// The libraries that draw in software, and the program, are 20 MB beside what it asks for.
+class MemoryOfScenes : public MemoryWindow, public testing::WithParamInterface<const char*> {};
+
+TEST_P(MemoryOfScenes, IsNoMoreThanWasAskedFor) {
+    ASSERT_EQ(drive("drive_memory.sh", std::string("600x500 ") + GetParam()), 0)
+        << textOf("problems.txt") << textOf("log.txt");
+    const double asked = most("asked.txt"), taken = std::stod("0" + textOf("taken.txt"));
+    EXPECT_GT(taken, 2e7);
+    EXPECT_LT(taken, asked + 2e7);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, MemoryOfScenes, testing::Values("wax --slices 64", "terrain"));
+
+}  // namespace
+}  // namespace stereonav
