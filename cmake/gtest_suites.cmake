@@ -20,6 +20,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
   return()
 endif()
 
+cmake_policy(VERSION 3.25)
 execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE listed RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "${program} could not list its tests: ${status}")
@@ -34,15 +35,21 @@ set(text "")
 foreach(line IN LISTS lines)
   if(line MATCHES "^([A-Za-z0-9_/]+)\\.")  # tests of a suite follow it, indented
     set(suite "${CMAKE_MATCH_1}")
-    string(APPEND text "add_test([==[${suite}]==] [==[${program}]==] [==[--gtest_filter=${suite}.*]==])\n"
+    string(CONCAT test "add_test([==[${suite}]==] [==[${program}]==] [==[--gtest_filter=${suite}.*]==])\n"
       "set_tests_properties([==[${suite}]==] PROPERTIES${properties_text})\n")
-    if(suite MATCHES "FullSize$")  # of whole real data, for minutes where it is slow; in programs without a label
-      string(APPEND text "set_tests_properties([==[${suite}]==] PROPERTIES LABELS slow)\n")
+    if(suite MATCHES "Nightly$")  # takes long, and its fault is found by others: `ctest -C Nightly`
+      string(APPEND test "set_tests_properties([==[${suite}]==] PROPERTIES LABELS [==[nightly;slow]==])\n")
+    elseif(suite MATCHES "FullSize$")  # of whole real data, for minutes where it is slow; in programs without a label
+      string(APPEND test "set_tests_properties([==[${suite}]==] PROPERTIES LABELS slow)\n")
     endif()
     if(suite IN_LIST locks_display)
-      string(APPEND text "set_tests_properties([==[${suite}]==] PROPERTIES RESOURCE_LOCK display)\n")
+      string(APPEND test "set_tests_properties([==[${suite}]==] PROPERTIES RESOURCE_LOCK display)\n")
       list(REMOVE_ITEM locks_display ${suite})
     endif()
+    if(suite MATCHES "Nightly$")
+      string(CONCAT test "if(CTEST_CONFIGURATION_TYPE STREQUAL \"Nightly\")\n" "${test}" "endif()\n")
+    endif()
+    string(APPEND text "${test}")
   endif()
 endforeach()
 if(locks_display)

@@ -5,6 +5,9 @@ add_library(program STATIC)
 add_dependencies(program stereonav_video)
 target_link_libraries(program PUBLIC engine_light engine_mesh engine_metrics engine_peers engine_scene
   engine_late engine_letters CLI11::CLI11 nlohmann_json::nlohmann_json)
+if(STEREONAV_SANITIZE)
+  target_compile_options(program PRIVATE ${STEREONAV_SELDOM_HOT})
+endif()
 
 set(left_out "")   # sources of app/ that need what is left out
 set(without "")    # its names; app/without/<name>.cpp stands in for it

@@ -75,7 +75,7 @@ Overlap overlapIn(const Segmented& s, const glm::ivec3& corner) {
     return sum;
 }
 
-TEST(BuiltInSegmentationFullSize, DiceAgainstTheTrueLumen) {
+TEST(BuiltInSegmentationNightly, DiceAgainstTheTrueLumen) {
     const Segmented& s = fullSize();
     const glm::ivec3 blocks = (s.colon.grey.frame.size + 7) / 8;
     std::vector<Overlap> layers(static_cast<std::size_t>(blocks.z));
@@ -148,7 +148,7 @@ glm::dvec3 anyAcross(const glm::dvec3& v) {
 }
 
 // Its top is where the wall lies along its axis, and it is as wide as it was made.
-TEST(BuiltInSegmentationFullSize, PolypsAreOnTheSegmentedWall) {
+TEST(BuiltInSegmentationNightly, PolypsAreOnTheSegmentedWall) {
     const Segmented& s = fullSize();
     ASSERT_EQ(s.anatomy.polyps().size(), s.colon.polyps.size());
     ASSERT_GE(s.anatomy.polyps().size(), 10u);

@@ -64,7 +64,7 @@ double distanceTo(const std::vector<glm::dvec3>& line, const glm::dvec3& p) {
     return least;
 }
 
-TEST(CentrelineFullSize, FollowsThePublishedPath) {
+TEST(CentrelineNightly, FollowsThePublishedPath) {
     if (!std::filesystem::exists(realColon())) GTEST_SKIP() << realColon() << " is not there";
     const Study study = realStudy();
     ASSERT_TRUE(study.isMask);

@@ -205,7 +205,7 @@ GreyVolume realScan(const MaskVolume& mask, const Pieces& low, std::uint32_t poo
     return test::scanned(truth, 0.0007, 20);
 }
 
-TEST(SegmentColonFullSize, FindsTheLumenOfRealAnatomy) {
+TEST(SegmentColonNightly, FindsTheLumenOfRealAnatomy) {
     if (!std::filesystem::exists(realMask())) GTEST_SKIP() << "real data absent: " << realMask();
     const MaskVolume mask = readRealMask();
     ASSERT_FALSE(mask.empty());

@@ -1,4 +1,4 @@
-// Every pair of what can be combined when a picture is drawn, and triples of light, look and method, drawn
+// Every pair of what can be combined when a picture is drawn (every triple with STEREONAV_ALL_TRIPLES), drawn
 // small and held against the plain kernels with the right eye cast in full (tests/combinations/bounds.h).
 #include <gtest/gtest.h>
 

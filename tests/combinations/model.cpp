@@ -411,13 +411,6 @@ std::vector<Tuple> wantedTuples(const Covering& covering, bool allTriples) {
             add({a, b});
             for (int c = b + 1; allTriples && c < count; ++c) add({a, b, c});
         }
-    if (allTriples) return tuples;
-    const Factor looks[]{Factor::Fog,        Factor::Highlight, Factor::Isovalue,
-                         Factor::Opacity,    Factor::Ambient,   Factor::Shading,
-                         Factor::Modulation, Factor::Medium,    Factor::Model};
-    for (const Factor look : looks)
-        for (const Factor method : {Factor::Method, Factor::Quality})
-            add({static_cast<int>(Factor::Light), static_cast<int>(look), static_cast<int>(method)});
     return tuples;
 }
 

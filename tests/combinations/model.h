@@ -78,7 +78,7 @@ bool showsMedium(const Row& row);
 constexpr std::uint64_t kCombinationsSeed = 1;
 Covering covering();  // under all rules
 Covering coveringUnder(const std::vector<Rule>& some);
-// Those of every pair of factors, and of triples of light, look and method; or of every triple.
+// Every pair of levels of two factors; with allTriples every triple of three, too.
 std::vector<Tuple> wantedTuples(const Covering& covering, bool allTriples);
 
 // "scene balls.nrrd, light transfer, ...": what is said.

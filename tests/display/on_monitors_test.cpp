@@ -351,10 +351,9 @@ TEST_F(TwoMonitors, HoldThemAll) {
 TEST_F(TwoMonitors, TheProgramFillsTheOneThatIsMeant) {
     if (std::system("command -v xdotool >/dev/null") != 0) GTEST_SKIP() << "xdotool is not installed";
     const std::string folder = "'" + mFolder.string() + "'";
-    const int status =
-        run("env HOME=" + folder + " XDG_CACHE_HOME=" + folder +
-            "/cache '" STEREONAV_SOURCE_DIR "/tests/window/drive_monitors.sh' '" STEREONAV_PROGRAM "' " +
-            folder);
+    const int status = run(
+        "env HOME=" + folder + " XDG_CACHE_HOME=" + folder +
+        "/cache '" STEREONAV_SOURCE_DIR "/tests/window/drive_monitors.sh' '" STEREONAV_PROGRAM "' " + folder);
     if (status == 77) GTEST_SKIP() << textOf("log");
     ASSERT_EQ(status, 0) << textOf("log") << textOf("problems.txt") << textOf("log.txt");
     EXPECT_EQ(textOf("status.txt"), "0\n");

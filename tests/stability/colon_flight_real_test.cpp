@@ -163,19 +163,19 @@ void steerRealAtRandom(const char* name, const FreeDistance& asked, int steps, i
     EXPECT_GT(leastFree, 0);
 }
 
-TEST(ColonFlightFullSize, RandomSteeringKeepsTheClearance) {
+TEST(ColonFlightNightly, RandomSteeringKeepsTheClearance) {
     if (!std::filesystem::exists(maskFile())) GTEST_SKIP() << maskFile() << " is absent";
     steerRealAtRandom("by a bound", anatomy().asked(), 100000 / kShareOfPath, 5);
 }
 
 // With the distances of the wall itself, which take longer, the eyes come as near as they may.
-TEST(ColonFlightFullSize, RandomSteeringByTheWallItselfKeepsTheClearance) {
+TEST(ColonFlightNightly, RandomSteeringByTheWallItselfKeepsTheClearance) {
     if (!std::filesystem::exists(maskFile())) GTEST_SKIP() << maskFile() << " is absent";
     const auto exact = [](const glm::dvec3& p, double upTo) { return anatomy().free(p, upTo, kTolerance); };
     steerRealAtRandom("by the wall", exact, 100 / kShareOfPath + 1, 1);
 }
 
-TEST(ColonFlightFullSize, GuidedFlightGoesThroughTheWholeColon) {
+TEST(ColonFlightNightly, GuidedFlightGoesThroughTheWholeColon) {
     if (!std::filesystem::exists(maskFile())) GTEST_SKIP() << maskFile() << " is absent";
     const Anatomy& a = anatomy();
     for (const double separation : {0.0, 0.004}) {
@@ -199,7 +199,7 @@ TEST(ColonFlightFullSize, GuidedFlightGoesThroughTheWholeColon) {
     }
 }
 
-TEST(ColonFlightFullSize, TheAutomaticFlightKeepsTheClearance) {
+TEST(ColonFlightNightly, TheAutomaticFlightKeepsTheClearance) {
     if (!std::filesystem::exists(maskFile())) GTEST_SKIP() << maskFile() << " is absent";
     const Anatomy& a = anatomy();
     for (const bool backwards : {false, true}) {
