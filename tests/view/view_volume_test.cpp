@@ -1,9 +1,12 @@
 // What the viewer does for volumes, without a window: eyes that follow the room, surfaces that move, slices
 // and seeds, scenes that take another's place.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <string>
 
 #include "app/output/length_text.h"
 #include "app/view/input.h"
@@ -59,9 +62,11 @@ protected:
         frame.size = {40, 50, 60};
         frame.spacing = glm::dvec3(0.001);
         mStudy->grey = GreyVolume(frame);
+        std::filesystem::create_directories(mFolder);
     }
+    ~ViewVolume() override { std::filesystem::remove_all(mFolder); }
     ViewSession session() {
-        return ViewSession(opened(*mScene), {OutputMode::SideBySide, std::nullopt, "."});
+        return ViewSession(opened(*mScene), {OutputMode::SideBySide, std::nullopt, mFolder});
     }
     ViewSession sessionWithSlices() {
         ViewSession s = session();
@@ -80,6 +85,8 @@ protected:
         return frame;
     }
 
+    std::filesystem::path mFolder =  // of flights that are recorded
+        std::filesystem::path(testing::TempDir()) / ("stereonav_volume_" + std::to_string(getpid()));
     double mClearance = 0.01;
     FakeFrames mFrames;
     std::shared_ptr<FakeParts> mScene = std::make_shared<FakeParts>();
@@ -232,7 +239,7 @@ TEST_F(ViewVolume, TranslucentAndBackKeepsTheSurface) {
 TEST_F(ViewVolume, TransferFunctionsTakeTurns) {
     mScene->surface->transfers = {"", "bone", "glass"};
     const auto open = opened(*mScene);
-    ViewSession s(open, {OutputMode::SideBySide, std::nullopt, "."});
+    ViewSession s(open, {OutputMode::SideBySide, std::nullopt, mFolder});
     s.act({ViewCommand::NextTransfer});
     auto change = s.takeSceneChange();
     EXPECT_EQ(change->surface.translucent, true) << "first as it would be";
